@@ -80,9 +80,8 @@ Material2d common_material(const Stock& stock) {
 }
 
 std::optional<std::pair<Vec2, Vec2>> dowel_places(const Stock& stock, const Material2d& material, double diameter) {
-  return pin_places(circumradius(stock.floor1), diameter, stock.wall, [&](const Vec2& place) {
-    return material.holds(place, 0.5 * diameter + stock.wall);
-  });
+  return pin_places(circumradius(stock.floor1), diameter, stock.wall,
+                    [&](const Vec2& place) { return material.holds(place, 0.5 * diameter + stock.wall); });
 }
 
 void place_dowels(Plates& plates, const Stock& stock) {
@@ -337,8 +336,8 @@ void note_small_features(Plates& plates, const Stock& stock) {
 // Sheets
 // ---------------------------------------------------------------------------------------------------------------
 
-/// The workshop's, or where a plate is larger the one that it takes, in whole mm: what is cut is the same, and somebody else may
-/// have a larger machine.
+/// The workshop's, or where a plate is larger the one that it takes, in whole mm: what is cut is the same, and somebody
+/// else may have a larger machine.
 void choose_sheet(Plates& plates, const Cut& cut, const std::vector<Vec2>& sizes, double gap) {
   const Vec2 workshop(cut.sheet_width, cut.sheet_height);
   plates.sheet = workshop;
@@ -347,13 +346,13 @@ void choose_sheet(Plates& plates, const Cut& cut, const std::vector<Vec2>& sizes
     const Vec2 needed = (sizes[i] + Vec2::Constant(2 * gap)).array().ceil().matrix();
     if ((needed.array() <= workshop.array()).all()) continue;
     plates.sheet = plates.sheet.cwiseMax(needed);
-    larger += fmt::format("{}{} takes {} x {} mm", larger.empty() ? "" : ", ", plates.layers[plates.placed[i].layer].name,
-                          rounded(needed.x()), rounded(needed.y()));
+    larger += fmt::format("{}{} takes {} x {} mm", larger.empty() ? "" : ", ",
+                          plates.layers[plates.placed[i].layer].name, rounded(needed.x()), rounded(needed.y()));
   }
   if (larger.empty()) return;
-  plates.notes.push_back(
-      fmt::format("a sheet of {} x {} mm (cut.sheet_width_mm, cut.sheet_height_mm) is too small, drawn is one of {} x {} mm: {}",
-                  rounded(workshop.x()), rounded(workshop.y()), rounded(plates.sheet.x()), rounded(plates.sheet.y()), larger));
+  plates.notes.push_back(fmt::format(
+      "a sheet of {} x {} mm (cut.sheet_width_mm, cut.sheet_height_mm) is too small, drawn is one of {} x {} mm: {}",
+      rounded(workshop.x()), rounded(workshop.y()), rounded(plates.sheet.x()), rounded(plates.sheet.y()), larger));
 }
 
 void lay_on_sheets(Plates& plates, const Cut& cut) {

@@ -121,12 +121,11 @@ std::string kit_manifest_json(const KitProduct& product, const std::vector<Outpu
   json["notes"] = product.plan.notes;
   json["checks"] = Json::array();
   for (const Check& check : product.checks) {
-    Json entry = {
-        {"name", check.name},
-        {"value", std::isfinite(check.value) ? Json(std::stod(rounded(check.value, 6))) : Json(nullptr)},
-        {"limit", check.limit},
-        {"unit", check.unit},
-        {"ok", check.ok}};
+    Json entry = {{"name", check.name},
+                  {"value", std::isfinite(check.value) ? Json(std::stod(rounded(check.value, 6))) : Json(nullptr)},
+                  {"limit", check.limit},
+                  {"unit", check.unit},
+                  {"ok", check.ok}};
     if (!check.where.empty()) entry["where"] = check.where;
     json["checks"].push_back(std::move(entry));
   }

@@ -1,5 +1,5 @@
-// Draco: vertices quantised on a grid over the bounding cube, or floats where no grid leaves the mesh a solid; connectivity
-// by edgebreaker.
+// Draco: vertices quantised on a grid over the bounding cube, or floats where no grid leaves the mesh a solid;
+// connectivity by edgebreaker.
 
 #include <draco/compression/encode.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>

@@ -56,8 +56,8 @@ void read_face(TextScanner& text, TriangleMesh& mesh, GreatestIndex& greatest) {
 }
 
 void put_line(fmt::memory_buffer& to, const Vec3& v) {
-  // Adding zero takes the sign off a negative one. Nine digits read back as the same float, and as a double lie so near to
-  // it that volumes agree with the STL's: of a pulley of 0.3 m the shortest such texts were 1e-7 of it off.
+  // Adding zero takes the sign off a negative one. Nine digits read back as the same float, and as a double lie so near
+  // to it that volumes agree with the STL's: of a pulley of 0.3 m the shortest such texts were 1e-7 of it off.
   fmt::format_to(std::back_inserter(to), "v {:.9g} {:.9g} {:.9g}\n", float(v.x()) + 0.0F, float(v.y()) + 0.0F,
                  float(v.z()) + 0.0F);
 }

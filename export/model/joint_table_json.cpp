@@ -91,8 +91,7 @@ bool names_output(const std::string& manifest, const std::string& name, const st
   const Json json = parse_foreign_json(manifest);
   if (!json.is_object() || !json.contains("outputs") || !json["outputs"].is_array()) return false;
   for (const Json& output : json["outputs"]) {
-    if (output.is_object() && output.value("file", Json()) == name &&
-        output.value("sha256", Json()) == sha256)
+    if (output.is_object() && output.value("file", Json()) == name && output.value("sha256", Json()) == sha256)
       return true;
   }
   return false;

@@ -436,7 +436,12 @@ std::string unknown_html(const Unknown& unknown) {
   PlotSeries course{"", Ink::third, {}};
   for (std::size_t i = 0; i < unknown.alpha.size(); ++i)
     course.points.emplace_back(degrees(unknown.alpha[i]), degrees(unknown.theta[i]));
-  Plot plot{"Without a name, by " + unknown.factor, {"motor angle α", "°", {}, {}, 1e-6}, {"largest there", "°", {}, {}, 1e-3}, {course}, {}, {}};
+  Plot plot{"Without a name, by " + unknown.factor,
+            {"motor angle α", "°", {}, {}, 1e-6},
+            {"largest there", "°", {}, {}, 1e-3},
+            {course},
+            {},
+            {}};
   plot.width = 560;
   plot.height = 220;
   return single(plot);

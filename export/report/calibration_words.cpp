@@ -105,9 +105,8 @@ NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_
 
 std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit) {
   const auto [name, unit] = name_and_unit(parameter.name, load_unit);
-  return name + " = " + readable_rounded(parameter.value) + unit +
-         " (95 %: " + readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high) + ")" +
-         (parameter.sense.empty() ? "" : ", " + parameter.sense);
+  return name + " = " + readable_rounded(parameter.value) + unit + " (95 %: " + readable_rounded(parameter.low) +
+         " … " + readable_rounded(parameter.high) + ")" + (parameter.sense.empty() ? "" : ", " + parameter.sense);
 }
 
 std::vector<std::string> rivals_of(const FoundEffect& effect) {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "export/report/derived.h"
 #include "base/output_list.h"
+#include "export/report/derived.h"
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/units.h"

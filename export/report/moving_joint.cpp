@@ -207,8 +207,7 @@ std::string moving(const Mechanism& mechanism, const SynthesisResult& synthesis,
   std::string html = "<div class=\"moving\">" + alpha_controls(synthesis) + load_controls(strokes);
   for (std::size_t i = 0; i < effects.size(); ++i) html += effect_controls(effects[i], i);
   html += "<div class=\"scenes\">";
-  for (const Figure& figure : moving_figures(mechanism, synthesis))
-    html += "<div>" + inline_svg(figure) + "</div>";
+  for (const Figure& figure : moving_figures(mechanism, synthesis)) html += "<div>" + inline_svg(figure) + "</div>";
   return html + "</div>" + numbers_list(!effects.empty(), mechanism.joint) +
          "<script type=\"application/json\" id=\"motion\">" + motion_json(mechanism, synthesis, strokes, effects) +
          "</script></div>";

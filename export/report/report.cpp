@@ -524,7 +524,8 @@ std::string files_table(const Product& product) {
 }
 
 std::string making(const Product& product) {
-  std::string html = html_list(steps(product), "ol") + tendon_table(product) + knot_table(product) + derived_table(product);
+  std::string html =
+      html_list(steps(product), "ol") + tendon_table(product) + knot_table(product) + derived_table(product);
   if (!product.pulley.layout.notes.empty())
     html += "<h3>Sizes chosen automatically</h3>" + html_list(product.pulley.layout.notes);
   return html + files_table(product);

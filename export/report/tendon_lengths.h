@@ -16,9 +16,9 @@ struct TendonLength {
   Vec2 joint_knot;           ///< C, in the frame of the mechanism, mm
   Vec3 pulley_knot;          ///< middle of the knot pocket, in the frame of the mesh, mm
   double between_knots = 0;  ///< along the tendon's centre line, mm
-  double cut = 0;            ///< between the knots, both knots, and a tail of 50 mm at each end to pull with; whole 5 mm
-  double lap_at_home = 0;    ///< on the groove between the anchor and where it leaves at home, rad
-  double spare_lap = 0;      ///< on the groove between the anchor and the last point of contact at full pay-out, rad
+  double cut = 0;          ///< between the knots, both knots, and a tail of 50 mm at each end to pull with; whole 5 mm
+  double lap_at_home = 0;  ///< on the groove between the anchor and where it leaves at home, rad
+  double spare_lap = 0;    ///< on the groove between the anchor and the last point of contact at full pay-out, rad
 };
 
 /// What a knot and the tail to pull it tight with take of a tendon, mm.

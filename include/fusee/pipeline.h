@@ -81,10 +81,9 @@ struct BuildResult {
   bool published = false;
 };
 
-/// Mechanism → checked pulley in every format. Infeasible designs and failed checks are values; InputError and OutputError
-/// as their names say.
-/// A build whose check failed is published only where there is no earlier run to lose, or with `force`.
-/// What is checked is what was written: every mesh and drawing is read back from the disk.
+/// Mechanism → checked pulley in every format. Infeasible designs and failed checks are values; InputError and
+/// OutputError as their names say. A build whose check failed is published only where there is no earlier run to lose,
+/// or with `force`. What is checked is what was written: every mesh and drawing is read back from the disk.
 BuildResult build(const MechanismFile& file, const BuildOptions& options);
 
 /// The files that build() leaves, in the order in which they are written.
@@ -97,7 +96,8 @@ AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options
 /// a possible design and a search that was stopped are values; InputError and OutputError as their names say.
 OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options = {});
 
-// Parts from anywhere --------------------------------------------------------------------------------------------------
+// Parts from anywhere
+// --------------------------------------------------------------------------------------------------
 
 /// A made part as a file holds it.
 using Part = std::variant<TriangleMesh, Drawing>;
@@ -109,8 +109,8 @@ Part read_made_part(const std::filesystem::path& path);
 std::vector<Check> check_part(const Part& part);
 
 struct PartSize {
-  std::optional<Vec3> extent;      ///< along x, y, z, mm; none where there is nothing
-  std::optional<double> volume;    ///< of a mesh that passed `checks`, mm³
+  std::optional<Vec3> extent;           ///< along x, y, z, mm; none where there is nothing
+  std::optional<double> volume;         ///< of a mesh that passed `checks`, mm³
   std::optional<std::size_t> contours;  ///< closed paths of a drawing
 };
 /// `checks`: what check_part() says of it.
@@ -127,9 +127,9 @@ RewindResult rewind_floors(const JointAsItIs& joint, const BodyLayout& layout, c
                            const Polygon& floor2);
 
 enum class PartPlace {
-  as_made,             ///< it fits where it lies, or nowhere clearly better
-  found,               ///< it was moved, and is wound where it was found
-  not_recognised,      ///< it fits nowhere: wound where it lies
+  as_made,         ///< it fits where it lies, or nowhere clearly better
+  found,           ///< it was moved, and is wound where it was found
+  not_recognised,  ///< it fits nowhere: wound where it lies
 };
 struct RewoundPart {
   RewindResult as_built;
@@ -139,12 +139,13 @@ struct RewoundPart {
   /// The only pulley that the file holds: its tendon alone was wound, and no slack is known.
   std::optional<Side> alone = std::nullopt;
 };
-/// As rewind_part(), but a mesh that was moved, turned about its axis or turned over since it was made is brought back first.
-/// InputError, too, for one that is mirrored or of another size.
+/// As rewind_part(), but a mesh that was moved, turned about its axis or turned over since it was made is brought back
+/// first. InputError, too, for one that is mirrored or of another size.
 RewoundPart rewind_moved_part(const JointAsItIs& joint, const Part& part);
 
-/// "theta_error" and "slack" against their limits. The slack of method = "paper" is known: it is reported as "theta_error_reported"
-/// and "slack_reported", held only against 180 deg and the joint's length.
-std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built, const AsBuiltLimits& limits);
+/// "theta_error" and "slack" against their limits. The slack of method = "paper" is known: it is reported as
+/// "theta_error_reported" and "slack_reported", held only against 180 deg and the joint's length.
+std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built,
+                                   const AsBuiltLimits& limits);
 
 }  // namespace fusee

@@ -19,7 +19,8 @@ namespace {
 constexpr double k_least_tension = 1e-6;
 
 bool path_exists(const TransmissionPoint& point) {
-  return std::isfinite(point.theta) && std::isfinite(point.t1.length) && std::isfinite(point.t2.length) && point.t1.p > 0 && point.t2.p > 0;
+  return std::isfinite(point.theta) && std::isfinite(point.t1.length) && std::isfinite(point.t2.length) &&
+         point.t1.p > 0 && point.t2.p > 0;
 }
 
 bool law_exists(const SynthesisResult& synthesis) {
@@ -30,7 +31,8 @@ bool law_exists(const SynthesisResult& synthesis) {
 
 std::vector<Condition> failed(const std::vector<Condition>& conditions) {
   std::vector<Condition> found;
-  std::copy_if(conditions.begin(), conditions.end(), std::back_inserter(found), [](const Condition& condition) { return !condition.ok; });
+  std::copy_if(conditions.begin(), conditions.end(), std::back_inserter(found),
+               [](const Condition& condition) { return !condition.ok; });
   return found;
 }
 
@@ -90,13 +92,16 @@ void summarise(AnalysisResult& result) {
       if (!result.lost_at) result.lost_at = alpha;
       continue;
     }
-    enlarge(result.largest_torque, std::max(std::abs(row.rising.motor_torque), std::abs(row.falling.motor_torque)), alpha);
+    enlarge(result.largest_torque, std::max(std::abs(row.rising.motor_torque), std::abs(row.falling.motor_torque)),
+            alpha);
     enlarge(result.hysteresis, std::abs(row.rising.theta - row.falling.theta), alpha);
   }
   result.largest_tension = tensions.anywhere;
   result.largest_at_joint = tensions.at_joint;
-  result.slack1 = ranges_where(result.rows, [](const AnalysisRow& row) { return held(row.rising) && is_slack(row.rising.t1); });
-  result.slack2 = ranges_where(result.rows, [](const AnalysisRow& row) { return held(row.rising) && is_slack(row.rising.t2); });
+  result.slack1 =
+      ranges_where(result.rows, [](const AnalysisRow& row) { return held(row.rising) && is_slack(row.rising.t1); });
+  result.slack2 =
+      ranges_where(result.rows, [](const AnalysisRow& row) { return held(row.rising) && is_slack(row.rising.t2); });
   result.untensioned = ranges_where(result.rows, [](const AnalysisRow& row) {
     return held(row.rising) && is_slack(row.rising.t1) && is_slack(row.rising.t2);
   });
@@ -180,7 +185,8 @@ LargestTensions largest_tensions(const Mechanism& mechanism, const std::vector<d
 std::optional<Strength> tendon_strength(const Tendon& tendon) {
   if (tendon.strength > 0) return with_knots(tendon.strength, tendon, "tendon.strength_N");
   for (const TendonType& type : tendon_types()) {
-    const bool same = std::abs(type.diameter - tendon.diameter) < 0.005 && std::abs(type.modulus / tendon.modulus - 1.0) < 0.01;
+    const bool same =
+        std::abs(type.diameter - tendon.diameter) < 0.005 && std::abs(type.modulus / tendon.modulus - 1.0) < 0.01;
     if (same) return with_knots(type.breaking_strength, tendon, type.name);
   }
   return std::nullopt;
@@ -203,16 +209,18 @@ std::optional<Strength> likely_strength(const Tendon& tendon) {
   }
   if (nearest == nullptr) return std::nullopt;
   const double thicker = tendon.diameter / nearest->diameter;
-  return with_knots(nearest->breaking_strength * thicker * thicker, tendon,
-                    "an estimate from " + nearest->name + " of the catalogue by its section; tendon.strength_N is not set");
+  return with_knots(
+      nearest->breaking_strength * thicker * thicker, tendon,
+      "an estimate from " + nearest->name + " of the catalogue by its section; tendon.strength_N is not set");
 }
 
 std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const Strength& strength) {
   const auto at = [](double alpha) { return "the tendon breaks at alpha = " + fixed(degrees(alpha), 1) + " deg: "; };
   Diagnostic breaks;
   if (largest.at_joint.value > strength.at_knot)
-    breaks.message = at(largest.at_joint.alpha) + rounded(largest.at_joint.value) + " N at its knot at C, and it bears " +
-                     rounded(strength.at_knot) + " N there (" + strength.source + ", tendon.knot_efficiency)";
+    breaks.message = at(largest.at_joint.alpha) + rounded(largest.at_joint.value) +
+                     " N at its knot at C, and it bears " + rounded(strength.at_knot) + " N there (" + strength.source +
+                     ", tendon.knot_efficiency)";
   else if (largest.anywhere.tension > strength.tension)
     breaks.message = at(largest.anywhere.alpha) + rounded(largest.anywhere.tension) + " N, and it bears " +
                      rounded(strength.tension) + " N (" + strength.source + ")";

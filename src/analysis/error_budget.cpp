@@ -30,7 +30,8 @@ void include(ErrorSource& source, double deviation, double alpha) {
 ErrorSource ignored(std::string name, std::string meaning, const Mechanism& mechanism, const MadePulleys& drawn) {
   ErrorSource source{std::move(name), std::move(meaning)};
   const RigidJoint joint(drawn, mechanism);
-  for (const double alpha : places_of(drawn.declared())) include(source, joint.at(alpha).theta - drawn.declared().theta(alpha), alpha);
+  for (const double alpha : places_of(drawn.declared()))
+    include(source, joint.at(alpha).theta - drawn.declared().theta(alpha), alpha);
   return source;
 }
 
@@ -58,18 +59,23 @@ ErrorSource thickness_ignored(const Mechanism& mechanism) {
 ErrorSource paper_stretch(const Mechanism& mechanism) {
   ErrorSource source{"stretch_paper", "stretch under the load, by [9]-[11]"};
   const Transmission declared(mechanism);
-  for (const double alpha : places_of(declared)) include(source, -paper_forces(mechanism, declared.at_alpha(alpha)).theta_error, alpha);
+  for (const double alpha : places_of(declared))
+    include(source, -paper_forces(mechanism, declared.at_alpha(alpha)).theta_error, alpha);
   return source;
 }
 
 /// Deviation of the full model: the mean of both directions, or half their difference.
-ErrorSource full_model(const char* name, const char* meaning, const Mechanism& mechanism, double rising_share, double falling_share) {
+ErrorSource full_model(const char* name, const char* meaning, const Mechanism& mechanism, double rising_share,
+                       double falling_share) {
   ErrorSource source{name, meaning};
   const Transmission declared(mechanism);
   for (const StrokePoint& point : settled_stroke(mechanism, places_of(declared))) {
-    if (point.rising.status == EquilibriumStatus::no_equilibrium || point.falling.status == EquilibriumStatus::no_equilibrium) continue;
+    if (point.rising.status == EquilibriumStatus::no_equilibrium ||
+        point.falling.status == EquilibriumStatus::no_equilibrium)
+      continue;
     const double theta = declared.theta(point.rising.alpha);
-    include(source, rising_share * (point.rising.theta - theta) + falling_share * (point.falling.theta - theta), point.rising.alpha);
+    include(source, rising_share * (point.rising.theta - theta) + falling_share * (point.falling.theta - theta),
+            point.rising.alpha);
   }
   return source;
 }
@@ -92,7 +98,8 @@ struct Spread {
 };
 
 /// Twice the standard deviation (95 %) about the declared law, over `samples` joints.
-Spread spread_of(const std::vector<double>& alphas, const RigidJoint& declared, int samples, const std::function<RigidJoint()>& sample) {
+Spread spread_of(const std::vector<double>& alphas, const RigidJoint& declared, int samples,
+                 const std::function<RigidJoint()>& sample) {
   const std::size_t count = alphas.size();
   Spread spread{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
   std::vector<RigidPoint> nominal;
@@ -121,14 +128,16 @@ std::size_t largest(const std::vector<double>& values) {
   return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
 }
 
-ToleranceEffect effect(std::string key, const std::vector<double>& alphas, const Spread& derived, const Spread& sampled) {
+ToleranceEffect effect(std::string key, const std::vector<double>& alphas, const Spread& derived,
+                       const Spread& sampled) {
   const std::size_t theta = largest(derived.theta);
   const std::size_t slack = largest(derived.slack);
   return {std::move(key),       derived.theta[theta], sampled.theta[theta], alphas[theta],
           derived.slack[slack], sampled.slack[slack], alphas[slack]};
 }
 
-Spread by_derivative(const std::vector<double>& alphas, const RigidJoint& joint, const Dimension& dimension, double tolerance) {
+Spread by_derivative(const std::vector<double>& alphas, const RigidJoint& joint, const Dimension& dimension,
+                     double tolerance) {
   Spread spread;
   for (const double alpha : alphas) {
     const RigidPoint rate = derivative(joint, dimension, alpha);
@@ -149,7 +158,8 @@ void add_squares(Spread& sum, const Spread& more) {
 }  // namespace
 
 std::vector<ErrorSource> error_sources(const Mechanism& mechanism) {
-  return {paper_stretch(mechanism), full_stretch(mechanism), friction(mechanism), pin_radius_ignored(mechanism), thickness_ignored(mechanism)};
+  return {paper_stretch(mechanism), full_stretch(mechanism), friction(mechanism), pin_radius_ignored(mechanism),
+          thickness_ignored(mechanism)};
 }
 
 std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options) {

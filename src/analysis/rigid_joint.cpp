@@ -6,7 +6,8 @@ namespace fusee {
 
 RigidJoint::RigidJoint(const MadePulleys& made, const Mechanism& mounted)
     : made_(made),
-      pins_{pin_place(mounted, Side::left, mounted.guide_pitch_radius()), pin_place(mounted, Side::right, mounted.guide_pitch_radius())} {
+      pins_{pin_place(mounted, Side::left, mounted.guide_pitch_radius()),
+            pin_place(mounted, Side::right, mounted.guide_pitch_radius())} {
   const std::array<LowerPath, 2> paths = lower(0.0);
   for (std::size_t i = 0; i < 2; ++i) home_[i] = upper_span(pins_[i], 0.0).length + below(i, paths[i]);
 }
@@ -27,9 +28,10 @@ RigidPoint RigidJoint::at(double alpha) const {
   return point;
 }
 
-// A tendon's path is the shortest one round pin and pulley: moving a part changes its length only by what the straight pieces pull
-// on that part, and growing a round part by the angle over which the tendon lies on it. With t_u from the pin to C and t_l from
-// the pulley to the pin: C gives t_u·dC, the pin (t_l − t_u)·dP, the pulley −t_l·dG, the pin's radius φ, the pitch curve ψ + α.
+// A tendon's path is the shortest one round pin and pulley: moving a part changes its length only by what the straight
+// pieces pull on that part, and growing a round part by the angle over which the tendon lies on it. With t_u from the
+// pin to C and t_l from the pulley to the pin: C gives t_u·dC, the pin (t_l − t_u)·dP, the pulley −t_l·dG, the pin's
+// radius φ, the pitch curve ψ + α.
 namespace {
 
 Vec2 upper_direction(const PinPlace& pin, double theta) { return turned_left(unit(upper_span(pin, theta).normal)); }
@@ -57,8 +59,12 @@ double by_pin(const PinPlace& pin, const LowerPath& lower, Side side, double the
   const double pulled = pin.mouth ? 0.0 : lower_direction(lower).x();
   return side == moved ? pulled - upper_direction(pin, theta).x() : 0.0;
 }
-double by_height(const PinPlace& pin, const LowerPath&, Side, double theta, double) { return upper_direction(pin, theta).y(); }
-double by_pulley_place(const PinPlace&, const LowerPath& lower, Side, double, double) { return lower_direction(lower).y(); }
+double by_height(const PinPlace& pin, const LowerPath&, Side, double theta, double) {
+  return upper_direction(pin, theta).y();
+}
+double by_pulley_place(const PinPlace&, const LowerPath& lower, Side, double, double) {
+  return lower_direction(lower).y();
+}
 /// Mouths stand further apart, in each tendon's image further out.
 double by_exit_across(const PinPlace&, const LowerPath& lower, Side, double, double) {
   return lower_direction(lower).x();
@@ -92,7 +98,9 @@ void alter_diameter(Alteration& joint, double by) {
   joint.offset += 0.5 * by;
 }
 
-RigidJoint joint_of(const MadePulleys& made, const Alteration& joint) { return {made.offset_by(joint.offset), joint.mounted}; }
+RigidJoint joint_of(const MadePulleys& made, const Alteration& joint) {
+  return {made.offset_by(joint.offset), joint.mounted};
+}
 
 }  // namespace
 

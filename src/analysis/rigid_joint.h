@@ -1,5 +1,6 @@
 /// \file
-/// Pulleys made for one mechanism in another, with tendons that do not stretch: the joint angle, the slack, and the derivatives of both.
+/// Pulleys made for one mechanism in another, with tendons that do not stretch: the joint angle, the slack, and the
+/// derivatives of both.
 #pragma once
 
 #include <string_view>

@@ -43,7 +43,8 @@ std::string read_output(const fs::path& path, std::size_t limit) {
   return bytes;
 }
 
-// Not by EVP, which reads its configuration and sets up all that it knows first: a millisecond, before anything is done.
+// Not by EVP, which reads its configuration and sets up all that it knows first: a millisecond, before anything is
+// done.
 std::string sha256(std::string_view bytes) {
   SHA256_CTX context;
   std::array<unsigned char, SHA256_DIGEST_LENGTH> digest;

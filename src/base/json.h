@@ -1,6 +1,6 @@
 /// \file
-/// Internal: JSON, as all of fusee writes and reads it. What nlohmann makes text with, and what it parses with, each file
-/// that asked for it compiled for itself: here once.
+/// Internal: JSON, as all of fusee writes and reads it. What nlohmann makes text with, and what it parses with, each
+/// file that asked for it compiled for itself: here once.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -23,8 +23,8 @@ Json angle_json(double angle);
 /// Of fusee's own text. Throws nlohmann's error where it is no JSON.
 Json parse_json(std::string_view text);
 
-/// Of text that anybody may have written: no object where it is no JSON, and without what nests deeper than anything that
-/// fusee writes.
+/// Of text that anybody may have written: no object where it is no JSON, and without what nests deeper than anything
+/// that fusee writes.
 Json parse_foreign_json(std::string_view text);
 
 }  // namespace fusee

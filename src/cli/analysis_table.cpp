@@ -75,19 +75,26 @@ bool held(const EquilibriumPoint& point) { return point.status != EquilibriumSta
 
 std::string_view name(EquilibriumStatus status) {
   switch (status) {
-    case EquilibriumStatus::held: return "held";
-    case EquilibriumStatus::loose: return "loose";
-    case EquilibriumStatus::no_equilibrium: break;
+    case EquilibriumStatus::held:
+      return "held";
+    case EquilibriumStatus::loose:
+      return "loose";
+    case EquilibriumStatus::no_equilibrium:
+      break;
   }
   return "no_equilibrium";
 }
 
 std::string_view name(PinContact contact) {
   switch (contact) {
-    case PinContact::stick: return "stick";
-    case PinContact::slip_up: return "slip_up";
-    case PinContact::slip_down: return "slip_down";
-    case PinContact::slack: break;
+    case PinContact::stick:
+      return "stick";
+    case PinContact::slip_up:
+      return "slip_up";
+    case PinContact::slip_down:
+      return "slip_down";
+    case PinContact::slack:
+      break;
   }
   return "slack";
 }
@@ -110,7 +117,8 @@ void for_each_column(const AnalysisRow& row, OnNumber number, OnWord word) {
     const EquilibriumPoint& point = row.*direction.point;
     word(direction.prefix + "status", name(point.status));
     for (const FullNumber& column : full_numbers()) {
-      number(direction.prefix + std::string(column.name), held(point) ? std::optional(column.value(point, row)) : std::nullopt);
+      number(direction.prefix + std::string(column.name),
+             held(point) ? std::optional(column.value(point, row)) : std::nullopt);
     }
     word(direction.prefix + "pin1", held(point) ? name(point.t1.contact) : "");
     word(direction.prefix + "pin2", held(point) ? name(point.t2.contact) : "");
@@ -135,7 +143,8 @@ std::vector<AnalysisRow> thinned(const std::vector<AnalysisRow>& rows, bool all)
 
 using Cells = std::vector<std::string>;
 
-std::string columns_of(const std::vector<std::string_view>& titles, const std::vector<AnalysisRow>& rows, Cells (*cells)(const AnalysisRow&)) {
+std::string columns_of(const std::vector<std::string_view>& titles, const std::vector<AnalysisRow>& rows,
+                       Cells (*cells)(const AnalysisRow&)) {
   std::vector<Column> columns;
   for (const std::string_view title : titles) columns.push_back({title, Align::right});
   std::vector<Cells> lines;
@@ -144,9 +153,14 @@ std::string columns_of(const std::vector<std::string_view>& titles, const std::v
 }
 
 Cells geometry_cells(const AnalysisRow& row) {
-  return {fixed(degrees(row.declared.alpha), 1),  fixed(degrees(row.declared.theta), 2), fixed(row.declared.t1.p, 3),
-          fixed(row.declared.t2.p, 3),            fixed(degrees(row.paper.gamma1), 2),   fixed(degrees(row.paper.gamma2), 2),
-          fixed(degrees(row.declared.t1.wrap), 2), fixed(degrees(row.paper.phi), 2)};
+  return {fixed(degrees(row.declared.alpha), 1),
+          fixed(degrees(row.declared.theta), 2),
+          fixed(row.declared.t1.p, 3),
+          fixed(row.declared.t2.p, 3),
+          fixed(degrees(row.paper.gamma1), 2),
+          fixed(degrees(row.paper.gamma2), 2),
+          fixed(degrees(row.declared.t1.wrap), 2),
+          fixed(degrees(row.paper.phi), 2)};
 }
 
 Cells force_cells(const AnalysisRow& row) {
@@ -213,7 +227,8 @@ Json stroke_json(const std::vector<AnalysisRow>& rows) {
   for (const AnalysisRow& row : rows) {
     Json object;
     for_each_column(
-        row, [&](const std::string& name, std::optional<double> value) { object[name] = value ? Json(*value) : Json(); },
+        row,
+        [&](const std::string& name, std::optional<double> value) { object[name] = value ? Json(*value) : Json(); },
         [&](const std::string& name, std::string_view word) { object[name] = word; });
     list.push_back(std::move(object));
   }

@@ -39,9 +39,12 @@ std::string tension_line(const AnalysisResult& result, const Mechanism& mechanis
 
 std::string strength_line(const AnalysisResult& result, const Mechanism& mechanism) {
   if (!result.strength) return line("tendon bears", "not known: set tendon.strength_N");
-  const std::string source = result.strength->source == "tendon.strength_N" ? result.strength->source : result.strength->source + " of the catalogue";
+  const std::string source = result.strength->source == "tendon.strength_N"
+                                 ? result.strength->source
+                                 : result.strength->source + " of the catalogue";
   std::string margin;
-  if (result.largest_tension.tension > 0) margin = ", " + rounded(result.strength->tension / result.largest_tension.tension, 3) + " times that";
+  if (result.largest_tension.tension > 0)
+    margin = ", " + rounded(result.strength->tension / result.largest_tension.tension, 3) + " times that";
   return line("tendon bears", rounded(result.strength->tension) + " N (" + source + ")" + margin) +
          line("", rounded(result.strength->at_knot) + " N at a knot (tendon.knot_efficiency)") +
          line("", (mechanism.joint.is_plain() ? "at C" : "at its end") + std::string(" it carries up to ") +
@@ -65,23 +68,30 @@ std::string slack_lines(const AnalysisResult& result) {
   std::string text;
   if (!result.slack1.empty()) text += line("tendon 1 slack", ranges_text(result.slack1));
   if (!result.slack2.empty()) text += line("tendon 2 slack", ranges_text(result.slack2));
-  if (result.taut_pretension) text += line("", "taut with tendon.pretension_N >= " + rounded(*result.taut_pretension, 3));
+  if (result.taut_pretension)
+    text += line("", "taut with tendon.pretension_N >= " + rounded(*result.taut_pretension, 3));
   return text;
 }
 
 std::string sources_table(const std::vector<ErrorSource>& sources) {
   std::vector<std::vector<std::string>> cells;
   for (const ErrorSource& source : sources) {
-    cells.push_back({source.meaning, fixed(degrees(source.least), 4), fixed(degrees(source.most), 4), fixed(degrees(source.worst_at), 1)});
+    cells.push_back({source.meaning, fixed(degrees(source.least), 4), fixed(degrees(source.most), 4),
+                     fixed(degrees(source.worst_at), 1)});
   }
-  return table({{"theta off the declared law by", Align::left}, {"from_deg", Align::right}, {"to_deg", Align::right}, {"at alpha", Align::right}}, cells);
+  return table({{"theta off the declared law by", Align::left},
+                {"from_deg", Align::right},
+                {"to_deg", Align::right},
+                {"at alpha", Align::right}},
+               cells);
 }
 
 std::string tolerances_table(const std::vector<ToleranceEffect>& effects) {
   std::vector<std::vector<std::string>> cells;
   for (const ToleranceEffect& effect : effects) {
-    cells.push_back({effect.key, fixed(degrees(effect.theta_by_derivative), 4), fixed(degrees(effect.theta_by_monte_carlo), 4),
-                     fixed(degrees(effect.theta_at), 1), fixed(effect.slack_by_derivative, 4), fixed(effect.slack_by_monte_carlo, 4)});
+    cells.push_back({effect.key, fixed(degrees(effect.theta_by_derivative), 4),
+                     fixed(degrees(effect.theta_by_monte_carlo), 4), fixed(degrees(effect.theta_at), 1),
+                     fixed(effect.slack_by_derivative, 4), fixed(effect.slack_by_monte_carlo, 4)});
   }
   return table({{"tolerance of", Align::left},
                 {"theta_deg", Align::right},
@@ -95,11 +105,13 @@ std::string tolerances_table(const std::vector<ToleranceEffect>& effects) {
 std::string summary(const AnalysisResult& result, const AnalysisOptions& options, const Mechanism& mechanism) {
   std::string text = "Summary\n" + tension_line(result, mechanism) + strength_line(result, mechanism) +
                      drum_lines(result) + slack_lines(result);
-  text += line("motor torque", "up to " + rounded(result.largest_torque.value) + " Nmm, " + alpha_text(result.largest_torque.alpha));
-  text += line("loop", "up to " + rounded(degrees(result.hysteresis.value), 3) + " deg between directions, " + alpha_text(result.hysteresis.alpha));
+  text += line("motor torque",
+               "up to " + rounded(result.largest_torque.value) + " Nmm, " + alpha_text(result.largest_torque.alpha));
+  text += line("loop", "up to " + rounded(degrees(result.hysteresis.value), 3) + " deg between directions, " +
+                           alpha_text(result.hysteresis.alpha));
   text += "\nError budget\n" + sources_table(result.sources);
-  text += "\nTolerances: each dimension within " + shortest(options.tolerance) + " mm (95 %), theta and slack within these\n" +
-          tolerances_table(result.tolerances);
+  text += "\nTolerances: each dimension within " + shortest(options.tolerance) +
+          " mm (95 %), theta and slack within these\n" + tolerances_table(result.tolerances);
   return text;
 }
 
@@ -121,9 +133,14 @@ Json summary_json(const AnalysisResult& result) {
                              {"tendon", most.tendon == Side::left ? 1 : 2},
                              {"place", most.below_pin ? "below_pin" : "above_pin"},
                              {"direction", most.rising ? "rising" : "falling"}};
-  json["largest_paper_Tb"] = {{"value_N", result.largest_paper_tension.value}, {"alpha_deg", degrees(result.largest_paper_tension.alpha)}};
-  json["strength"] = result.strength ? Json{{"value_N", result.strength->tension}, {"at_knot_N", result.strength->at_knot}, {"source", result.strength->source}} : Json();
-  json["largest_at_joint_knot"] = {{"value_N", result.largest_at_joint.value}, {"alpha_deg", degrees(result.largest_at_joint.alpha)}};
+  json["largest_paper_Tb"] = {{"value_N", result.largest_paper_tension.value},
+                              {"alpha_deg", degrees(result.largest_paper_tension.alpha)}};
+  json["strength"] = result.strength ? Json{{"value_N", result.strength->tension},
+                                            {"at_knot_N", result.strength->at_knot},
+                                            {"source", result.strength->source}}
+                                     : Json();
+  json["largest_at_joint_knot"] = {{"value_N", result.largest_at_joint.value},
+                                   {"alpha_deg", degrees(result.largest_at_joint.alpha)}};
   for (const DrumHold& hold : result.on_drum)
     json["on_drum"].push_back({{"tendon", hold.tendon == Side::left ? 1 : 2},
                                {"wrap_deg", degrees(hold.wrap)},
@@ -133,8 +150,10 @@ Json summary_json(const AnalysisResult& result) {
   json["slack1_alpha_deg"] = ranges_json(result.slack1);
   json["slack2_alpha_deg"] = ranges_json(result.slack2);
   json["taut_pretension_N"] = optional_json(result.taut_pretension);
-  json["largest_motor_torque"] = {{"value_Nmm", result.largest_torque.value}, {"alpha_deg", degrees(result.largest_torque.alpha)}};
-  json["hysteresis"] = {{"value_deg", degrees(result.hysteresis.value)}, {"alpha_deg", degrees(result.hysteresis.alpha)}};
+  json["largest_motor_torque"] = {{"value_Nmm", result.largest_torque.value},
+                                  {"alpha_deg", degrees(result.largest_torque.alpha)}};
+  json["hysteresis"] = {{"value_deg", degrees(result.hysteresis.value)},
+                        {"alpha_deg", degrees(result.hysteresis.alpha)}};
   return json;
 }
 
@@ -153,8 +172,14 @@ Json tolerances_json(const std::vector<ToleranceEffect>& effects) {
   Json list = Json::array();
   for (const ToleranceEffect& effect : effects) {
     list.push_back({{"key", effect.key},
-                    {"theta_deg", {{"derivative", degrees(effect.theta_by_derivative)}, {"monte_carlo", degrees(effect.theta_by_monte_carlo)}, {"alpha_deg", degrees(effect.theta_at)}}},
-                    {"slack2_mm", {{"derivative", effect.slack_by_derivative}, {"monte_carlo", effect.slack_by_monte_carlo}, {"alpha_deg", degrees(effect.slack_at)}}}});
+                    {"theta_deg",
+                     {{"derivative", degrees(effect.theta_by_derivative)},
+                      {"monte_carlo", degrees(effect.theta_by_monte_carlo)},
+                      {"alpha_deg", degrees(effect.theta_at)}}},
+                    {"slack2_mm",
+                     {{"derivative", effect.slack_by_derivative},
+                      {"monte_carlo", effect.slack_by_monte_carlo},
+                      {"alpha_deg", degrees(effect.slack_at)}}}});
   }
   return list;
 }
@@ -169,7 +194,9 @@ void add_findings(const AnalysisResult& result, const std::string& file, Reply& 
     if (severity == Severity::error) reply.exit = Exit::check_failed;
   };
   if (result.lost_at) {
-    say(Severity::error, "the load pulls the joint past its dead centre at " + alpha_text(*result.lost_at) + ": nothing balances it there",
+    say(Severity::error,
+        "the load pulls the joint past its dead centre at " + alpha_text(*result.lost_at) +
+            ": nothing balances it there",
         "a smaller [load], or stiffer tendons (tendon.diameter_mm, tendon.modulus_MPa)");
   }
   if (result.breaks_at) {
@@ -178,11 +205,14 @@ void add_findings(const AnalysisResult& result, const std::string& file, Reply& 
   }
   const bool declared_loose = result.largest_tension.tension < 1e-6;
   if (!result.untensioned.empty()) {
-    say(declared_loose ? Severity::warning : Severity::error, "both tendons are without tension, " + ranges_text(result.untensioned) + ": nothing holds the joint",
-        result.taut_pretension ? "tendon.pretension_N >= " + rounded(*result.taut_pretension, 3) + " keeps both taut" : "raise tendon.pretension_N");
+    say(declared_loose ? Severity::warning : Severity::error,
+        "both tendons are without tension, " + ranges_text(result.untensioned) + ": nothing holds the joint",
+        result.taut_pretension ? "tendon.pretension_N >= " + rounded(*result.taut_pretension, 3) + " keeps both taut"
+                               : "raise tendon.pretension_N");
   }
   for (const Condition& condition : result.obstacles) {
-    say(Severity::warning, "forces are known, but no such pulley can be made: " + condition.message, "'fusee build' says what would help");
+    say(Severity::warning, "forces are known, but no such pulley can be made: " + condition.message,
+        "'fusee build' says what would help");
   }
 }
 

@@ -61,7 +61,8 @@ void check_count(const Command& command, const std::vector<std::string>& given) 
   const std::string usage = "usage: fusee " + std::string(command.name) + " " + std::string(command.positionals);
   const bool open_ended = command.positionals.ends_with("...");
   if (given.size() > expected.size() && !open_ended) {
-    throw UsageError("'" + given[expected.size()] + "' is one argument too many for '" + std::string(command.name) + "'", usage);
+    throw UsageError(
+        "'" + given[expected.size()] + "' is one argument too many for '" + std::string(command.name) + "'", usage);
   }
   for (std::size_t i = given.size(); i < expected.size(); ++i) {
     if (expected[i][0] != '[') throw UsageError("'" + std::string(command.name) + "' needs " + expected[i], usage);

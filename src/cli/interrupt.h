@@ -16,8 +16,8 @@ class Interrupted : public std::runtime_error {
 void catch_interrupts(bool json);
 
 /// While one of these lives something stands on the disk that has to be removed: a signal is only noted, and
-/// stop_if_interrupted() throws Interrupted at the next step. What it ends with otherwise stands: a signal that comes when
-/// the files are in place would only say that they are not.
+/// stop_if_interrupted() throws Interrupted at the next step. What it ends with otherwise stands: a signal that comes
+/// when the files are in place would only say that they are not.
 class InterruptsDeferred {
  public:
   InterruptsDeferred();

@@ -62,7 +62,8 @@ Json to_json(const std::vector<Condition>& conditions) {
 Json to_json(const std::vector<Change>& advice) {
   Json list = Json::array();
   for (const Change& change : advice) {
-    Json entry{{"key", change.key}, {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"text", change.text}};
+    Json entry{
+        {"key", change.key}, {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"text", change.text}};
     if (!change.to_word.empty()) {
       entry["from"] = change.from_word;
       entry["to"] = change.to_word;

@@ -153,7 +153,8 @@ WindingRow SpiralCurve::at(double turn) const {
 
 double SpiralCurve::largest_rho(double turn) const {
   double rho = 0;
-  for (double t = into_turn(turn, begin()); t <= end() + k_same_column; t += k_two_pi) rho = std::max(rho, between(t).rho());
+  for (double t = into_turn(turn, begin()); t <= end() + k_same_column; t += k_two_pi)
+    rho = std::max(rho, between(t).rho());
   return rho;
 }
 

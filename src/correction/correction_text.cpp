@@ -62,8 +62,9 @@ std::string words_of(const Calibration& calibration, const Correction& correctio
   for (const FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
   if (calibration.effects.empty()) words += "# no effect was found that the declared file lacks\n";
   if (correction.by_curve > 0) {
-    words += "# compensation.csv covers by an empirical curve what has no name and depends on place and direction alone: " +
-             rounded(degrees(correction.by_curve), 2) + " deg rms\n";
+    words +=
+        "# compensation.csv covers by an empirical curve what has no name and depends on place and direction alone: " +
+        rounded(degrees(correction.by_curve), 2) + " deg rms\n";
   }
   if (correction.tied_at != 0) {
     words += "# tendons tied with the unloaded joint at home and the motor at " +
@@ -105,8 +106,8 @@ std::size_t below_header(const std::string& text) {
 
 // What is added stands in the table, words and numbers, so that deleting the table gives the declared file back byte
 // for byte.
-std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared, const Calibration& calibration,
-                           const Correction& correction) {
+std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared,
+                           const Calibration& calibration, const Correction& correction) {
   std::string text = without_earlier_words(std::string(declared_text));
   const std::vector<ValueEdit> edits = identified_edits(declared, correction.identified);
   if (edits.empty() && below_header(text) == std::string::npos)

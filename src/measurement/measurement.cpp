@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusee/base/text.h"
 #include "measurement/repair.h"
 #include "measurement/row_reader.h"
 #include "measurement/run_checks.h"
 #include "measurement/stretches.h"
 #include "measurement/strokes.h"
-#include "fusee/base/text.h"
 
 // From bytes to runs in three steps:
 //   1. Rows (row_reader): the file is read in bounded memory; a run too long to keep is thinned as it comes.
@@ -144,8 +144,14 @@ void refuse_copies(const std::vector<std::filesystem::path>& files, const std::v
 
 const std::vector<std::pair<std::string, std::string>>& column_roles() {
   static const std::vector<std::pair<std::string, std::string>> roles = {
-      {"alpha", "alpha_deg"},           {"theta", "theta_deg"},     {"time", "time_s"},         {"load", "load_N"},
-      {"temperature", "temperature_C"}, {"tension1", "tension1_N"}, {"tension2", "tension2_N"}, {"cycle", "cycle"},
+      {"alpha", "alpha_deg"},
+      {"theta", "theta_deg"},
+      {"time", "time_s"},
+      {"load", "load_N"},
+      {"temperature", "temperature_C"},
+      {"tension1", "tension1_N"},
+      {"tension2", "tension2_N"},
+      {"cycle", "cycle"},
       {std::string(k_motor_sensor_turned), "motor_sensor_turned_deg"},
       {std::string(k_joint_sensor_turned), "joint_sensor_turned_deg"}};
   return roles;

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <optional>
 
-#include "measurement/strokes.h"
-#include "transmission/declared_law.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "fusee/measurement/measurement.h"
 #include "fusee/transmission/transmission.h"
+#include "measurement/strokes.h"
+#include "transmission/declared_law.h"
 
 namespace fusee {
 namespace {

@@ -6,10 +6,10 @@
 #include <limits>
 #include <map>
 
-#include "measurement/row_reader.h"
-#include "measurement/strokes.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "measurement/row_reader.h"
+#include "measurement/strokes.h"
 
 namespace fusee {
 namespace {

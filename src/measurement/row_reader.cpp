@@ -241,9 +241,7 @@ class RowReader {
     }
   }
 
-  bool is_needed(const std::string& role) const {
-    return role == "alpha" || (role == "theta" && options_.needs_theta);
-  }
+  bool is_needed(const std::string& role) const { return role == "alpha" || (role == "theta" && options_.needs_theta); }
 
   bool has(const std::string& role) const {
     return std::any_of(columns_.begin(), columns_.end(), [&](const Column& column) { return column.role == role; });

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measurement/row_reader.h"
-#include "measurement/strokes.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "measurement/row_reader.h"
+#include "measurement/strokes.h"
 
 namespace fusee {
 namespace {

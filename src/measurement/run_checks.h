@@ -2,8 +2,8 @@
 /// Internal: whether anything can be concluded from runs, before any model is held against them.
 #pragma once
 
-#include "measurement/repair.h"
 #include "fusee/measurement/measurement.h"
+#include "measurement/repair.h"
 
 namespace fusee {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "measurement/stretches.h"
 #include "fusee/measurement/measurement.h"
+#include "measurement/stretches.h"
 
 namespace fusee {
 

@@ -593,27 +593,28 @@ void add_making(std::vector<Field>& table) {
   table.push_back(number<material, &Material::shrinkage, in_percent, from_percent>(
       {"material.shrinkage_percent", "", "0", "by how much a print comes out smaller; the mesh is made larger by it"},
       "%", -5, 10));
-  table.push_back(number<material, &Material::hole_compensation>(
-      {"material.hole_compensation_mm", "", "0.2",
-       "added to the diameter of holes and the bore, which print too small; of a round one, whose print is a polygon, to "
-       "that of the circle which its sides touch"},
-      "mm", -1, 2));
+  table.push_back(
+      number<material, &Material::hole_compensation>({"material.hole_compensation_mm", "", "0.2",
+                                                      "added to the diameter of holes and the bore, which print too "
+                                                      "small; of a round one, whose print is a polygon, to "
+                                                      "that of the circle which its sides touch"},
+                                                     "mm", -1, 2));
   table.push_back(number<material, &Material::elephant_foot>(
       {"material.elephant_foot_mm", "", "0.4",
        "chamfer at the edge that lies on the printer's bed, smaller on a thin lip; 0: none"},
       "mm", 0, 3));
   constexpr auto print = &Mechanism::print;
-  table.push_back(choice<print, &Print::parts>(
-      {"print.parts", "", "\"auto\"",
-       "one: P1 and P2 in one piece, with a cone under the middle flange where it stands out over P1; two: each printed "
-       "for itself and pinned together; auto: one, unless that cone would be high"}));
+  table.push_back(
+      choice<print, &Print::parts>({"print.parts", "", "\"auto\"",
+                                    "one: P1 and P2 in one piece, with a cone under the middle flange where it stands "
+                                    "out over P1; two: each printed "
+                                    "for itself and pinned together; auto: one, unless that cone would be high"}));
   table.push_back(number<print, &Print::overhang, degrees, radians>(
       {"print.overhang_deg", "", "45",
        "the flattest slope above the horizontal that a face looking down may have; 90 is upright"},
       "deg", 20, 75));
   table.push_back(boolean<print, &Print::supports>(
-      {"print.supports", "", "false",
-       "true: the printer makes supports, and the part is not shaped to need none"}));
+      {"print.supports", "", "false", "true: the printer makes supports, and the part is not shaped to need none"}));
   table.push_back(
       number<cut, &Cut::kerf>({"cut.kerf_mm", "", "0.2", "width of what the cutter takes away"}, "mm", 0, 10));
   table.push_back(number<cut, &Cut::plate>(

@@ -68,7 +68,8 @@ class MechanismReader {
  public:
   MechanismReader(const std::string& name, const std::filesystem::path& folder) : name_(name), folder_(folder) {}
 
-  DeclaredMechanism read(std::string_view text, const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings);
+  DeclaredMechanism read(std::string_view text, const std::vector<Setting>& settings,
+                         std::vector<Diagnostic>* warnings);
   KeyPlaces places() const;
 
  private:
@@ -120,7 +121,7 @@ class MechanismReader {
   std::map<std::string, Entry> entries_;                      ///< by dotted name
   /// --set of one number of two: on top of what the file says, or what it leaves out.
   std::vector<std::pair<NumberKey, Entry>> points_;
-  std::map<std::string, Place> tables_;                       ///< those that stand in the file
+  std::map<std::string, Place> tables_;  ///< those that stand in the file
   std::vector<Diagnostic> errors_;
   std::vector<Diagnostic> table_errors_;  ///< of the CSV: they stand behind those of the file
   std::vector<Diagnostic> warnings_;
@@ -709,7 +710,7 @@ void MechanismReader::finish(std::vector<Diagnostic>* warnings) {
 }
 
 DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector<Setting>& settings,
-                                std::vector<Diagnostic>* warnings) {
+                                        std::vector<Diagnostic>* warnings) {
   parse(text);
   mechanism_ = default_mechanism();
   flatten();
@@ -745,7 +746,8 @@ KeyPlaces MechanismReader::places() const {
 }  // namespace
 
 DeclaredMechanism parse_mechanism(std::string_view text, const std::string& name, const std::filesystem::path& folder,
-                          const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings, KeyPlaces* places) {
+                                  const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings,
+                                  KeyPlaces* places) {
   MechanismReader reader(name, folder);
   DeclaredMechanism mechanism = reader.read(text, settings, warnings);
   if (places != nullptr) *places = reader.places();

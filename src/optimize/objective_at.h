@@ -26,11 +26,11 @@ struct DesignNumbers {
   S rho;        ///< ρp
   S stiffness;  ///< A E of the tendon, N
   S theta_min, theta_max;
-  S to_B, to_D;         ///< c: from the pulley's axis to the pins, mm
-  S angle_B, angle_D;   ///< their directions in the right-hand image, rad
-  bool linear = false;  ///< law = linear: θ = α/ratio; else compensate
-  S half;               ///< of the tendon's diameter, mm
-  PinAngles least;      ///< what boxes know of the place that is looked at
+  S to_B, to_D;                                       ///< c: from the pulley's axis to the pins, mm
+  S angle_B, angle_D;                                 ///< their directions in the right-hand image, rad
+  bool linear = false;                                ///< law = linear: θ = α/ratio; else compensate
+  S half;                                             ///< of the tendon's diameter, mm
+  PinAngles least;                                    ///< what boxes know of the place that is looked at
   std::optional<WideNumbers<S>> wide = std::nullopt;  ///< where the joint is not the paper's
 };
 

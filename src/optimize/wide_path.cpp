@@ -112,8 +112,7 @@ WidePath<S> path_of(const TendonEnd<S>& end, const std::optional<S>& drum, const
   const WidePath<S> free = free_path(end, e, oe, rho, theta, of_free);
   domain.whole = domain.whole && of_free.whole;
   if (!of_free.possible) return on_drum;
-  return {joined(on_drum.normal, free.normal), joined(on_drum.arm, free.arm),
-          joined(on_drum.free, free.free)};
+  return {joined(on_drum.normal, free.normal), joined(on_drum.arm, free.arm), joined(on_drum.free, free.free)};
 }
 
 }  // namespace

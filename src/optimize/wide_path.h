@@ -43,8 +43,8 @@ WideFileNumbers<double> wide_file_numbers(const Mechanism& mechanism);
 /// A tendon's end in its right-hand image.
 template <typename S>
 struct TendonEnd {
-  S away;   ///< from O, mm
-  S twist;  ///< at home, clockwise from OC, rad
+  S away;                   ///< from O, mm
+  S twist;                  ///< at home, clockwise from OC, rad
   bool is_on_drum = false;  ///< on its pitch circle, in the whole box
 };
 
@@ -61,10 +61,11 @@ struct SheathNumbers {
 template <typename S>
 struct WideNumbers {
   TendonEnd<S> end1, end2;
-  std::optional<S> drum;     ///< ρ0, to the centre line of a tendon that lies on it
-  std::optional<S> turning;  ///< of idlers: friction of the bearing times its radius per the idler's, to the centre line
+  std::optional<S> drum;  ///< ρ0, to the centre line of a tendon that lies on it
+  std::optional<S>
+      turning;  ///< of idlers: friction of the bearing times its radius per the idler's, to the centre line
   std::optional<SheathNumbers<S>> sheath;
-  Domain domain;             ///< of the ends
+  Domain domain;  ///< of the ends
 };
 
 /// Clockwise from straight up, within ±180°.

@@ -238,7 +238,8 @@ struct Tables {
   std::future<std::string> profile, transmission;
 };
 Tables begin_tables(const Product& product) {
-  return {beside([&product] { return profile_csv(product); }), beside([&product] { return transmission_csv(product); })};
+  return {beside([&product] { return profile_csv(product); }),
+          beside([&product] { return transmission_csv(product); })};
 }
 
 /// What the looks found.

@@ -8,8 +8,8 @@
 namespace fusee {
 namespace {
 
-// While advice is searched for the curves are drawn no finer than this, mm, and the stroke needs no table: what is advised
-// is made with the tolerance that was asked for.
+// While advice is searched for the curves are drawn no finer than this, mm, and the stroke needs no table: what is
+// advised is made with the tolerance that was asked for.
 constexpr double k_trial_tolerance = 0.05;
 constexpr int k_trial_steps = 36;
 

@@ -1,5 +1,6 @@
 /// \file
-/// Internal: a mechanism's curves and body, as they will be made, or quickly while it is tried what would make it possible.
+/// Internal: a mechanism's curves and body, as they will be made, or quickly while it is tried what would make it
+/// possible.
 #pragma once
 
 #include <functional>

@@ -91,11 +91,13 @@ RightPart right_part(const JointAsItIs& joint) {
   const BodyLayout layout = resolve_layout(joint.mechanism, synthesis);
   const double half = 0.5 * joint.mechanism.tendon.diameter;
   return {layout,
-          {shrunk(parallel(synthesis.p1, -half), 1.0 / layout.scale), shrunk(parallel(synthesis.p2, -half), 1.0 / layout.scale)}};
+          {shrunk(parallel(synthesis.p1, -half), 1.0 / layout.scale),
+           shrunk(parallel(synthesis.p2, -half), 1.0 / layout.scale)}};
 }
 
 RewindResult rewind_mesh(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh) {
-  return rewind_drawn(joint, floor_in_section(mesh, layout.z_p1, layout.scale), floor_in_section(mesh, layout.z_p2, layout.scale));
+  return rewind_drawn(joint, floor_in_section(mesh, layout.z_p1, layout.scale),
+                      floor_in_section(mesh, layout.z_p2, layout.scale));
 }
 
 // ---- a part that somebody moved ------------------------------------------------------------------

@@ -53,9 +53,9 @@ std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism)
 
 /// How advice on several turns is tried.
 struct TurnsTrial {
-  double tolerance = 0;                         ///< that pulleys are made to, mm
-  std::function<bool(const Mechanism&)> made;   ///< the whole making
-  std::function<void()> between;                ///< called between looks; may be empty
+  double tolerance = 0;                        ///< that pulleys are made to, mm
+  std::function<bool(const Mechanism&)> made;  ///< the whole making
+  std::function<void()> between;               ///< called between looks; may be empty
 };
 /// What would make a refused one possible.
 Advice advice_for_several_turns(const Product& product, const TurnsTrial& trial);

@@ -148,7 +148,8 @@ struct Turn {
   const Dial* dial;
   double direction;
 
-  /// Downwards a number that cannot be negative is divided: a step of 100 % halves it, and none goes past all that is positive.
+  /// Downwards a number that cannot be negative is divided: a step of 100 % halves it, and none goes past all that is
+  /// positive.
   double at(double step) const {
     const double by = step * dial->scale;
     const bool divided = direction < 0 && dial->least >= 0 && dial->value > 0;
@@ -381,7 +382,8 @@ class Adviser {
         bool is_new = true;
         for (const Turn& turn : candidate.turns) {
           to.push_back(in_three_digits(turn.at(step), turn.direction)[digit]);
-          is_new = is_new && to.back() != turn.dial->value && to.back() >= turn.dial->least && to.back() <= turn.dial->most;
+          is_new =
+              is_new && to.back() != turn.dial->value && to.back() >= turn.dial->least && to.back() <= turn.dial->most;
         }
         if (!is_new || !judge_.obstacles(turned(candidate.turns, to)).empty()) continue;
         if (to == candidate.to) break;  // and the other rounding differs by too little to be worth a making
@@ -434,7 +436,9 @@ class Adviser {
     return made;
   }
 
-  static Change change(const Dial& dial, double to) { return {dial.key, dial.value, to, dial.unit, change_text(dial, to)}; }
+  static Change change(const Dial& dial, double to) {
+    return {dial.key, dial.value, to, dial.unit, change_text(dial, to)};
+  }
 
   const Mechanism& mechanism_;
   const Judge& judge_;

@@ -22,9 +22,9 @@ Vec2 way(double psi0, double psi1, double r0, double r1) {
 /// A radius of curvature at each knot, and how it answers to the two multipliers of the closure.
 struct Knots {
   std::vector<double> psi;
-  std::vector<Vec2> normal;    ///< unit(psi)
-  std::vector<Vec2> hat;       ///< way of a radius that is 1 at the knot and 0 at its neighbours
-  std::vector<double> rest;    ///< radius that the arc would like to have: the ends', then that of a curve about the axis
+  std::vector<Vec2> normal;  ///< unit(psi)
+  std::vector<Vec2> hat;     ///< way of a radius that is 1 at the knot and 0 at its neighbours
+  std::vector<double> rest;  ///< radius that the arc would like to have: the ends', then that of a curve about the axis
   std::vector<double> window;  ///< how freely the radius may leave it: nothing at the ends
   std::vector<double> least;
 
@@ -33,8 +33,8 @@ struct Knots {
   }
 };
 
-/// The share that an end's curvature still has at `turn` past it: 1 at the end, 0 after a sixth of a turn, or sooner where the
-/// end is so flat that a sixth of a turn of it would lead far away.
+/// The share that an end's curvature still has at `turn` past it: 1 at the end, 0 after a sixth of a turn, or sooner
+/// where the end is so flat that a sixth of a turn of it would lead far away.
 double share_of(const CurvePoint& end, double turn, double whole) {
   const double ramp = std::min(0.4 * whole, radians(60.0) * std::min(1.0, end.h / end.radius));
   const double way = std::min(1.0, turn / ramp);
@@ -84,9 +84,10 @@ Eigen::Matrix2d closure_slope(const Knots& knots, const Vec2& multipliers) {
 
 }  // namespace
 
-// The arc would like to leave its ends with their curvature and go round the axis between them: ρ0(ψ). Of all radii of curvature
-// ρ(ψ) ≥ ρ_least that close the curve, ∫ρ t dψ = V, the one nearest to ρ0, weighed by 1/window, is ρ = max(ρ_least, ρ0 + window · λ·t(ψ)): the multipliers λ of the two closure equations are found by Newton's method on a convex
-// dual. When no convex arc closes the curve they run away.
+// The arc would like to leave its ends with their curvature and go round the axis between them: ρ0(ψ). Of all radii of
+// curvature ρ(ψ) ≥ ρ_least that close the curve, ∫ρ t dψ = V, the one nearest to ρ0, weighed by 1/window, is ρ =
+// max(ρ_least, ρ0 + window · λ·t(ψ)): the multipliers λ of the two closure equations are found by Newton's method on a
+// convex dual. When no convex arc closes the curve they run away.
 std::optional<ClosingArc> ClosingArc::between(const CurvePoint& begin, const CurvePoint& end, double least_radius) {
   if (!(end.psi > begin.psi) || !(begin.radius > 0) || !(end.radius > 0)) return std::nullopt;
   const Knots knots = make_knots(begin, end, least_radius);
@@ -117,7 +118,8 @@ std::optional<ClosingArc> ClosingArc::between(const CurvePoint& begin, const Cur
   for (std::size_t i = 0; i < knots.psi.size(); ++i) {
     arc.radii_.push_back(knots.radius(i, multipliers));
     if (i > 0) {
-      arc.positions_.push_back(arc.positions_.back() + way(knots.psi[i - 1], knots.psi[i], arc.radii_[i - 1], arc.radii_[i]));
+      arc.positions_.push_back(arc.positions_.back() +
+                               way(knots.psi[i - 1], knots.psi[i], arc.radii_[i - 1], arc.radii_[i]));
     }
   }
   return arc;

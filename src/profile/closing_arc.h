@@ -1,5 +1,6 @@
 /// \file
-/// The rest of a pitch curve: from the end of the active arc round to its beginning, convex and with continuous curvature.
+/// The rest of a pitch curve: from the end of the active arc round to its beginning, convex and with continuous
+/// curvature.
 #pragma once
 
 #include <optional>
@@ -12,8 +13,8 @@ namespace fusee {
 /// Radius of curvature linear between equally spaced knots; position, support and tangent follow by exact integration.
 class ClosingArc {
  public:
-  /// From `begin` counter-clockwise to `end` (end.psi > begin.psi), nowhere bent more sharply than `least_radius` (or than the ends
-  /// themselves are). Null when no convex arc joins the two: their tangents meet on the wrong side.
+  /// From `begin` counter-clockwise to `end` (end.psi > begin.psi), nowhere bent more sharply than `least_radius` (or
+  /// than the ends themselves are). Null when no convex arc joins the two: their tangents meet on the wrong side.
   static std::optional<ClosingArc> between(const CurvePoint& begin, const CurvePoint& end, double least_radius);
 
   CurvePoint at(double psi) const;
@@ -33,8 +34,8 @@ class ClosingArc {
 
   double begin_ = 0;
   double step_ = 0;
-  std::vector<double> radii_;   ///< at the knots
-  std::vector<Vec2> positions_; ///< at the knots
+  std::vector<double> radii_;    ///< at the knots
+  std::vector<Vec2> positions_;  ///< at the knots
 };
 
 }  // namespace fusee

@@ -116,14 +116,16 @@ std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take
   std::vector<Probe> probes;
   probes.push_back({"take_off_advances_P" + number(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.dpsi; },
                     [=](const std::string& where, double) {
-                      return radius_name(side) + " changes so fast at " + where + " that the take-off point runs backwards";
+                      return radius_name(side) + " changes so fast at " + where +
+                             " that the take-off point runs backwards";
                     }});
   probes.push_back({"convex_floor_P" + number(side), "mm", k_least_floor_radius,
                     [=](const TakeOff& t) { return t.curve.radius - half; },
                     [=](const std::string& where, double value) {
                       return radius_name(side) + " turns inward at " + where + ": the groove floor " +
                              (value > 0 ? "bends there with a radius of only " : "is hollow there, with a radius of ") +
-                             rounded(std::abs(value), 3) + " mm, and must bulge with more than " + rounded(k_least_floor_radius) + " mm";
+                             rounded(std::abs(value), 3) + " mm, and must bulge with more than " +
+                             rounded(k_least_floor_radius) + " mm";
                     }});
   probes.push_back({"free_span_" + number(side), "mm", 0.0,
                     [=](const TakeOff& t) { return tendon(t).lower_reach - t.curve.dh; },
@@ -236,13 +238,14 @@ Condition closes(const Mechanism& mechanism, Side side, const SideAttempt& attem
   condition.unit = "mm";
   condition.ok = attempt.closing && condition.value > 0;
   if (attempt.closing && !condition.ok) {
-    condition.message = "the arc that closes P" + number(side) + " would pass the axis at " + rounded(-condition.value, 3) +
-                        " mm on the wrong side";
+    condition.message = "the arc that closes P" + number(side) + " would pass the axis at " +
+                        rounded(-condition.value, 3) + " mm on the wrong side";
   } else if (!condition.ok) {
-    condition.message = "the ends of P" + number(side) + "'s active arc (" + radius_name(side) + " " +
-                        rounded(attempt.samples.front().curve.h) + " and " + rounded(attempt.samples.back().curve.h) +
-                        " mm) cannot be joined by a convex arc over the " +
-                        rounded(360.0 - degrees(attempt.samples.back().curve.psi - attempt.samples.front().curve.psi), 3) + "° left";
+    condition.message =
+        "the ends of P" + number(side) + "'s active arc (" + radius_name(side) + " " +
+        rounded(attempt.samples.front().curve.h) + " and " + rounded(attempt.samples.back().curve.h) +
+        " mm) cannot be joined by a convex arc over the " +
+        rounded(360.0 - degrees(attempt.samples.back().curve.psi - attempt.samples.front().curve.psi), 3) + "° left";
   }
   return condition;
 }
@@ -260,8 +263,10 @@ Condition dead_centre(const Transmission& transmission) {
   condition.value = degrees(theta);
   condition.alpha = transmission.alpha(theta);
   if (!std::isfinite(condition.alpha)) condition.alpha = 0;  // C within a pin
-  condition.message = "tendon " + number(side) + " has no moment arm about the joint at θ = " + rounded(degrees(theta), 4) + "°, " +
-                      at_alpha_text(condition.alpha) + " (dead centre, or C runs into pin " + pin_name(side) + "): the range must end before it";
+  condition.message = "tendon " + number(side) +
+                      " has no moment arm about the joint at θ = " + rounded(degrees(theta), 4) + "°, " +
+                      at_alpha_text(condition.alpha) + " (dead centre, or C runs into pin " + pin_name(side) +
+                      "): the range must end before it";
   return condition;
 }
 
@@ -427,9 +432,10 @@ std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt
       return a.curve.radius < b.curve.radius;
     });
     if (tightest->curve.radius >= least) continue;
-    warnings.push_back("P" + number(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) + " mm at " +
-                       at_alpha_text(tightest->stroke.alpha) + "; this tendon wants " + rounded(least, 3) + " mm or more (tendon.bend_ratio, D/d = " +
-                       rounded(mechanism.tendon.bend_ratio, 3) + "): it will wear there");
+    warnings.push_back("P" + number(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) +
+                       " mm at " + at_alpha_text(tightest->stroke.alpha) + "; this tendon wants " + rounded(least, 3) +
+                       " mm or more (tendon.bend_ratio, D/d = " + rounded(mechanism.tendon.bend_ratio, 3) +
+                       "): it will wear there");
   }
   return warnings;
 }

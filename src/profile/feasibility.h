@@ -1,5 +1,6 @@
 /// \file
-/// Can the two pitch curves exist? Every condition on the law, the tendons' paths and the curves, tightest place included.
+/// Can the two pitch curves exist? Every condition on the law, the tendons' paths and the curves, tightest place
+/// included.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@ namespace fusee {
 /// One side of an attempt at a pulley. Index 0 of pairs is tendon 1, P1, pin B; index 1 tendon 2, P2, pin D.
 struct SideAttempt {
   TakeOffs take_offs;
-  std::vector<TakeOff> samples;  ///< by increasing joint angle of the image
+  std::vector<TakeOff> samples;       ///< by increasing joint angle of the image
   std::optional<ClosingArc> closing;  ///< method = "exact"
   std::vector<double> straight = {};  ///< ψ at which the active arc runs straight: a tendon leaves its drum there
 };
@@ -30,7 +31,8 @@ struct Attempt {
 /// many: the curves do not close, and may be as long as they like.
 enum class Turns { one, many };
 
-/// Looks at everything. Conditions that an earlier failure makes meaningless are left out. The attempt refers to `transmission`.
+/// Looks at everything. Conditions that an earlier failure makes meaningless are left out. The attempt refers to
+/// `transmission`.
 Attempt attempt(const Mechanism& mechanism, const Transmission& transmission, Turns turns = Turns::one);
 
 /// The first condition found that does not hold; null where all do. What costs least to see is looked at first: the

@@ -19,11 +19,13 @@ struct PolarPoint {
 double normal_of(const PolarPoint& point) { return point.angle - std::atan2(point.slope, point.r); }
 Vec2 position_of(const PolarPoint& point) { return point.r * unit(point.angle); }
 
-/// The radius halfway round the closing side: a cubic that meets both ends with their slopes, never beyond the larger of them.
+/// The radius halfway round the closing side: a cubic that meets both ends with their slopes, never beyond the larger
+/// of them.
 double closing_radius(const PolarPoint& begin, const PolarPoint& end, double u) {
   const double span = end.angle - begin.angle;
   const double v = 1.0 - u;
-  const double cubic = begin.r * v * v * (1 + 2 * u) + end.r * u * u * (3 - 2 * u) + span * u * v * (begin.slope * v - end.slope * u);
+  const double cubic =
+      begin.r * v * v * (1 + 2 * u) + end.r * u * u * (3 - 2 * u) + span * u * v * (begin.slope * v - end.slope * u);
   return std::clamp(cubic, 0.8 * std::min(begin.r, end.r), std::max(begin.r, end.r));
 }
 
@@ -88,7 +90,8 @@ Vec2 corner_of(const HalfPlane& a, const HalfPlane& b) {
   return (a.limit * -turned_left(b.normal) + b.limit * turned_left(a.normal)) / area;
 }
 
-/// A convex polygon with every edge moved inward: the half planes come sorted by direction, and those that a later one makes idle are dropped.
+/// A convex polygon with every edge moved inward: the half planes come sorted by direction, and those that a later one
+/// makes idle are dropped.
 Polygon shrunk(const Polygon& hull, double distance) {
   std::deque<HalfPlane> kept;
   for (HalfPlane plane : half_planes(hull)) {

@@ -6,10 +6,11 @@
 
 namespace fusee {
 
-/// The closed polar drawing as a string and a groove see it: hollows bridged, corners rounded to the tendon's own radius.
+/// The closed polar drawing as a string and a groove see it: hollows bridged, corners rounded to the tendon's own
+/// radius.
 ///
-/// r is drawn from the direction that the tendon's normal has at home. Between the ends of the stroke it is closed by a cubic in polar
-/// coordinates. The paper does not say where on the shaft its profile sits, nor how it is closed.
+/// r is drawn from the direction that the tendon's normal has at home. Between the ends of the stroke it is closed by a
+/// cubic in polar coordinates. The paper does not say where on the shaft its profile sits, nor how it is closed.
 class PolarCurve : public PitchCurve {
  public:
   PolarCurve(const Mechanism& mechanism, const TakeOffs& take_offs);

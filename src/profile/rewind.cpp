@@ -10,9 +10,9 @@
 #include "profile/string_above.h"
 #include "transmission/alpha_range.h"
 
-// The second route. Nothing here knows a support function, a derivative or an envelope: a string is laid round the corners of a
-// polygon, over a disc and to a point, its length is added up piece by piece, and the joint angle at which that length
-// is what it was at home is found by bisection.
+// The second route. Nothing here knows a support function, a derivative or an envelope: a string is laid round the
+// corners of a polygon, over a disc and to a point, its length is added up piece by piece, and the joint angle at which
+// that length is what it was at home is found by bisection.
 
 namespace fusee {
 namespace {
@@ -23,11 +23,13 @@ class String {
   String(const Mechanism& mechanism, const Polygon& floor, double hand)
       : corners_(convex_hull(floor)), hand_(hand), half_(0.5 * mechanism.tendon.diameter), above_(mechanism, hand) {
     const std::string name = pulley_name();
-    if (corners_.size() < 3) throw InputError("", "the groove floor of " + name + " is not a closed curve with an inside");
+    if (corners_.size() < 3)
+      throw InputError("", "the groove floor of " + name + " is not a closed curve with an inside");
     double along = 0;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const Vec2& next = corners_[(i + 1) % corners_.size()];
-      if (cross(corners_[i], next) <= 0) throw InputError("", "the groove floor of " + name + " does not surround the axis");
+      if (cross(corners_[i], next) <= 0)
+        throw InputError("", "the groove floor of " + name + " does not surround the axis");
       along_.push_back(along);
       along += (next - corners_[i]).norm();
       const double normal = direction(next - corners_[i]) - 0.5 * k_pi;
@@ -86,7 +88,8 @@ class String {
     // Two neighbours that each point to the other, by rounding: both are right.
   }
 
-  /// Counter-clockwise along the centre line on the pulley, full turns included: edges passed, and arcs of d/2 about the corners.
+  /// Counter-clockwise along the centre line on the pulley, full turns included: edges passed, and arcs of d/2 about
+  /// the corners.
   double wound() const {
     const double before = corner_ == 0 ? edge_normals_.back() - k_two_pi : edge_normals_[corner_ - 1];
     const double turns = std::round((normal_ - 0.5 * (before + edge_normals_[corner_])) / k_two_pi);
@@ -109,15 +112,17 @@ class String {
   bool started_ = false;
 };
 
-/// The joint angle at which the string is as long as at home. Its length grows with θ on the left and falls on the right,
-/// up to the dead centre: so the bracket starts narrow.
+/// The joint angle at which the string is as long as at home. Its length grows with θ on the left and falls on the
+/// right, up to the dead centre: so the bracket starts narrow.
 double taut_theta(const String& string, double alpha, double guess) {
   const auto growing = [&string](double theta) { return -string.hand() * string.excess(theta); };
   double reach = 0.005;
   while (!(growing(guess - reach) < 0 && growing(guess + reach) > 0)) {
     reach *= 2;
     if (reach > 0.7) {
-      throw InputError("", "no joint angle near the declared one makes " + string.name() + " taut at α = " + rounded(degrees(alpha), 4) + "°",
+      throw InputError("",
+                       "no joint angle near the declared one makes " + string.name() +
+                           " taut at α = " + rounded(degrees(alpha), 4) + "°",
                        "is this the pulley of this mechanism, in mm, its axis at the origin?");
     }
   }
@@ -133,7 +138,8 @@ double taut_theta(const String& string, double alpha, double guess) {
 Transmission law_without_dead_centre(const Mechanism& mechanism) {
   Transmission declared(mechanism);
   if (const auto dead = declared.dead_centre()) {
-    throw InputError("", "the declared law ends at a dead centre, θ = " + rounded(degrees(*dead), 4) + "°", "make the range smaller");
+    throw InputError("", "the declared law ends at a dead centre, θ = " + rounded(degrees(*dead), 4) + "°",
+                     "make the range smaller");
   }
   return declared;
 }

@@ -90,7 +90,9 @@ std::vector<double> kept_apart(std::vector<double> wanted) {
   return apart;
 }
 
-OutlinePoint outline_point(const CurvePoint& curve) { return {curve.psi, curve.position(), unit(curve.psi), curve.radius}; }
+OutlinePoint outline_point(const CurvePoint& curve) {
+  return {curve.psi, curve.position(), unit(curve.psi), curve.radius};
+}
 
 /// Of both curves in one direction.
 struct Pair {
@@ -112,8 +114,8 @@ std::size_t nearest(const std::vector<Pair>& points, double psi) {
   return wanted - (above - 1)->psi() < above_value - wanted ? index - 1 : index % points.size();
 }
 
-/// Beside the bridge over a hollow a drawn curve bends within a probe: chords there are halved until none has more sagitta, as
-/// an arc, than is allowed, or there are as many as a curve may have.
+/// Beside the bridge over a hollow a drawn curve bends within a probe: chords there are halved until none has more
+/// sagitta, as an arc, than is allowed, or there are as many as a curve may have.
 void halve_coarse_chords(std::vector<Pair>& points, const PitchCurve& left, const PitchCurve& right, double longest,
                          const SamplingOptions& options) {
   constexpr int k_halvings = 12;
@@ -139,9 +141,11 @@ void halve_coarse_chords(std::vector<Pair>& points, const PitchCurve& left, cons
 }  // namespace
 
 std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& asked) {
-  const std::array<double, 4> ends{right.active_begin(), right.active_end(), k_pi - left.active_end(), k_pi - left.active_begin()};
+  const std::array<double, 4> ends{right.active_begin(), right.active_end(), k_pi - left.active_end(),
+                                   k_pi - left.active_begin()};
   std::vector<double> wanted(ends.begin(), ends.end());
-  for (const double psi : right.straight_directions()) wanted.insert(wanted.end(), {psi - k_smallest_turn, psi + k_smallest_turn});
+  for (const double psi : right.straight_directions())
+    wanted.insert(wanted.end(), {psi - k_smallest_turn, psi + k_smallest_turn});
   for (const double psi : left.straight_directions()) {
     wanted.insert(wanted.end(), {k_pi - psi - k_smallest_turn, k_pi - psi + k_smallest_turn});
   }

@@ -1,5 +1,6 @@
 /// \file
-/// Both pitch curves, sampled at common directions of the normal so that no chord leaves its curve by more than a tolerance.
+/// Both pitch curves, sampled at common directions of the normal so that no chord leaves its curve by more than a
+/// tolerance.
 #pragma once
 
 #include <array>

@@ -13,9 +13,7 @@ namespace fusee {
 namespace {
 
 /// How far outward of a pitch curve the body's outermost parallel curve lies: the flange's lip, and a little more.
-double flange_reach(const Mechanism& mechanism) {
-  return mechanism.groove_depth() + mechanism.tendon.diameter;
-}
+double flange_reach(const Mechanism& mechanism) { return mechanism.groove_depth() + mechanism.tendon.diameter; }
 
 /// A chord that turns by δ is shorter than its arc by δ²/24 of it. On pulleys about as large as the joint's own drum
 /// that is so much of the joint's angle as well: over a wide range chords are shorter, for 0.0015° at its end. Joints
@@ -30,18 +28,21 @@ double largest_turn(const Mechanism& mechanism) {
 
 bool is_feasible(const Mechanism& mechanism) { return attempt(mechanism, Transmission(mechanism)).feasible(); }
 
-std::unique_ptr<PitchCurve> pitch_curve(const Mechanism& mechanism, const SideAttempt& side, std::vector<std::string>& warnings) {
+std::unique_ptr<PitchCurve> pitch_curve(const Mechanism& mechanism, const SideAttempt& side,
+                                        std::vector<std::string>& warnings) {
   if (mechanism.pulley.method == Method::exact)
     return std::make_unique<EnvelopeCurve>(side.take_offs, side.samples, *side.closing, side.straight);
   auto polar = std::make_unique<PolarCurve>(mechanism, side.take_offs);
   if (polar->deepest_hollow() > 0.01) {
-    warnings.push_back("the polar drawing of " + std::string(pulley_name(side.take_offs.side())) + " is hollow by up to " +
-                       rounded(polar->deepest_hollow(), 3) + " mm: the tendon bridges it, and the groove is made as the bridge");
+    warnings.push_back("the polar drawing of " + std::string(pulley_name(side.take_offs.side())) +
+                       " is hollow by up to " + rounded(polar->deepest_hollow(), 3) +
+                       " mm: the tendon bridges it, and the groove is made as the bridge");
   }
   return polar;
 }
 
-void draw(SynthesisResult& result, const Mechanism& mechanism, const Attempt& attempt, const SynthesisOptions& options) {
+void draw(SynthesisResult& result, const Mechanism& mechanism, const Attempt& attempt,
+          const SynthesisOptions& options) {
   result.warnings = bend_warnings(mechanism, attempt);
   const auto curve1 = pitch_curve(mechanism, *attempt.sides[0], result.warnings);
   const auto curve2 = pitch_curve(mechanism, *attempt.sides[1], result.warnings);
@@ -53,7 +54,8 @@ void draw(SynthesisResult& result, const Mechanism& mechanism, const Attempt& at
 }
 
 std::string stroke_text(const std::vector<TransmissionPoint>& stroke) {
-  const auto [low, high] = std::minmax_element(stroke.begin(), stroke.end(), [](const auto& a, const auto& b) { return a.t2.p < b.t2.p; });
+  const auto [low, high] =
+      std::minmax_element(stroke.begin(), stroke.end(), [](const auto& a, const auto& b) { return a.t2.p < b.t2.p; });
   return "α " + fixed(degrees(stroke.front().alpha), 2) + "° … " + fixed(degrees(stroke.back().alpha), 2) + "°, r2 " +
          fixed(low->t2.p, 3) + " … " + fixed(high->t2.p, 3) + " mm";
 }
@@ -107,9 +109,8 @@ std::optional<std::string> kept_to_one_turn(const Mechanism& mechanism) {
 }
 
 const TransmissionPoint* SynthesisResult::home() const {
-  const auto nearest = std::min_element(stroke.begin(), stroke.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.alpha) < std::abs(b.alpha);
-  });
+  const auto nearest = std::min_element(
+      stroke.begin(), stroke.end(), [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
   return nearest == stroke.end() ? nullptr : &*nearest;
 }
 

@@ -1,8 +1,8 @@
 /// \file
 /// method = "exact": where a tendon leaves its pulley, one point of the pitch curve for each place of the stroke.
 ///
-/// Everything in this room up to the sampled outline lives in the right-hand image of the tendon, in the pulley's frame: P1 is
-/// the mirror image (x → −x, α → −α, θ → −θ) of what is computed here for it.
+/// Everything in this room up to the sampled outline lives in the right-hand image of the tendon, in the pulley's
+/// frame: P1 is the mirror image (x → −x, α → −α, θ → −θ) of what is computed here for it.
 #pragma once
 
 #include "fusee/transmission/transmission.h"

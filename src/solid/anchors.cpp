@@ -17,8 +17,8 @@ constexpr std::array<double, 5> k_laps{1.6, 2.5, 4.0, 6.0, 9.0};
 constexpr double k_least_lap = 0.6;
 // The straight of a near tie-off is at most this many fillets long.
 constexpr double k_near_fillets = 6.0;
-// A channel begins no nearer to a point of the outline than this share of a chord: the body's edges run along the points'
-// normals, and where one lay in the wall of the mouth, the cut would come apart when it is rounded to floats.
+// A channel begins no nearer to a point of the outline than this share of a chord: the body's edges run along the
+// points' normals, and where one lay in the wall of the mouth, the cut would come apart when it is rounded to floats.
 constexpr double k_from_point = 0.15;
 // Between a channel and the floor that a tendon lies on.
 constexpr double k_floor_gap = 0.05;
@@ -122,7 +122,7 @@ class AnchorSearch {
     return std::any_of(ground_.active_floor().begin(), ground_.active_floor().end(), [&](const Vec2& point) {
       const bool is_far = ((low - point).array() > clear).any() || ((point - high).array() > clear).any();
       return !is_far && std::any_of(bars.begin(), bars.end(),
-                         [&](const Bar& bar) { return distance_to_segment(point, bar.a, bar.b) < clear; });
+                                    [&](const Bar& bar) { return distance_to_segment(point, bar.a, bar.b) < clear; });
     });
   }
 

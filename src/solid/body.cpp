@@ -210,8 +210,8 @@ FlangeRims flange_rims(const Outline& p1, const Outline& p2, double tendon_diame
     rims.lower = rims.lip1;
     rims.upper = rims.lip2;
     rims.under2 = rims.lip2;
-    rims.middle = grown_until_outside([&](double margin) { return around_both(p1, p2, lip, margin); }, rims.lip1, rims.lip2,
-                                      rims.outside);
+    rims.middle = grown_until_outside([&](double margin) { return around_both(p1, p2, lip, margin); }, rims.lip1,
+                                      rims.lip2, rims.outside);
     return rims;
   }
   const auto circle_around = [&p1, &rims](const Polygon& a, const Polygon& b) {

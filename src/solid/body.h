@@ -10,8 +10,8 @@
 
 namespace fusee {
 
-/// The flanges' outlines, sampled at the outlines' normals. Where these are so coarse that no rim of the same normals lies
-/// outside both lips, `outside` is false, and nothing is made of them.
+/// The flanges' outlines, sampled at the outlines' normals. Where these are so coarse that no rim of the same normals
+/// lies outside both lips, `outside` is false, and nothing is made of them.
 struct FlangeRims {
   Polygon lip1;  ///< of groove P1
   Polygon lip2;

@@ -102,11 +102,13 @@ class BodyAdviser {
     DeclaredMechanism changed(mechanism_);
     const std::string from = field.get_text(changed);
     const auto written = std::find(words.words.begin(), words.words.end(), from);
-    for (auto word = written == words.words.end() ? words.words.begin() : written + 1; word != words.words.end(); ++word) {
+    for (auto word = written == words.words.end() ? words.words.begin() : written + 1; word != words.words.end();
+         ++word) {
       field.set_text(changed, *word);
       if (*word == from || *word == refused_ || !helps(changed)) continue;
       const char* quote = field.kind == FieldKind::boolean ? "" : "\"";
-      changes.push_back({words.key, 0, 0, {}, fmt::format("{} = {}{}{}", words.key, quote, *word, quote), from, std::string(*word)});
+      changes.push_back(
+          {words.key, 0, 0, {}, fmt::format("{} = {}{}{}", words.key, quote, *word, quote), from, std::string(*word)});
       return;
     }
   }

@@ -239,7 +239,8 @@ std::optional<Surroundings> surroundings_of(const TriangleMesh& patch, const Tri
   constexpr double k_beside = 1e-4;
   const auto [point, normal] = place_in(patch);
   if (const auto inside = is_inside_seen_upwards(solid, point)) return Surroundings{*inside, *inside};
-  const auto below = is_inside_of(solid, point - k_beside * normal), above = is_inside_of(solid, point + k_beside * normal);
+  const auto below = is_inside_of(solid, point - k_beside * normal),
+             above = is_inside_of(solid, point + k_beside * normal);
   if (!below || !above) return std::nullopt;
   return Surroundings{*below, *above};
 }
@@ -253,9 +254,10 @@ struct Kept {
   std::vector<TriangleMesh> result, common;
 };
 
-// Of the second solid, only what lies wholly inside or outside is kept: where surfaces are one the first one's is taken.
-bool sort_patches(const std::vector<TriangleMesh>& patches, const TriangleMesh& solid, bool is_first, Operation operation,
-                  Kept& kept) {
+// Of the second solid, only what lies wholly inside or outside is kept: where surfaces are one the first one's is
+// taken.
+bool sort_patches(const std::vector<TriangleMesh>& patches, const TriangleMesh& solid, bool is_first,
+                  Operation operation, Kept& kept) {
   for (const TriangleMesh& patch : patches) {
     const std::optional<Surroundings> around = surroundings_of(patch, solid);
     if (!around) return false;

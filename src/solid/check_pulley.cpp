@@ -75,9 +75,10 @@ class GrooveGauge {
 
   // Of this groove: the channel with its mouth, the knot's pocket, the tail's slot with its screw.
   bool in_a_feature(const Vec2& point) const {
-    const auto within = [&point](const Vec2& centre, double radius) { return (point - centre).norm() < radius + k_beside; };
-    return at_a_mouth(point) ||
-           std::any_of(pulley_.anchors.begin(), pulley_.anchors.end(), [&](const Anchor& anchor) {
+    const auto within = [&point](const Vec2& centre, double radius) {
+      return (point - centre).norm() < radius + k_beside;
+    };
+    return at_a_mouth(point) || std::any_of(pulley_.anchors.begin(), pulley_.anchors.end(), [&](const Anchor& anchor) {
              if (anchor.side != outline_.side) return false;
              if (within(anchor.pocket, pocket_radius(anchor, layout_))) return true;
              return anchor.tail && (is_within(anchor.tail->outline(), point, k_beside) ||
@@ -230,7 +231,8 @@ std::vector<Check> check_body(const TriangleMesh& mesh, std::vector<Check> check
 std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism, const SynthesisResult& synthesis,
                                 const Pulley& pulley, double tolerance) {
   demand(pulley.made(), "check of a pulley that was not made");
-  std::vector<Check> checks = check_body(mesh, checks_of(mesh, pulley.mesh, pulley.mesh_checks), pulley.expected_euler, pulley.expected_volume);
+  std::vector<Check> checks =
+      check_body(mesh, checks_of(mesh, pulley.mesh, pulley.mesh_checks), pulley.expected_euler, pulley.expected_volume);
   if (!is_measurable(checks)) return checks;
   GrooveGauge(mesh, mechanism, synthesis.p1, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);
   GrooveGauge(mesh, mechanism, synthesis.p2, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);

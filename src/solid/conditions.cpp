@@ -53,7 +53,8 @@ class Conditions {
       return list_.taken();
     }
     add_pin("pin_clear_B", "B", {-mechanism_.guides.EB, mechanism_.pulley.EF}, "guides.EB_mm");
-    add_pin("pin_clear_D", "D", {mechanism_.guides.ED, mechanism_.pulley.EF - mechanism_.guides.D_below_B}, "guides.ED_mm");
+    add_pin("pin_clear_D", "D", {mechanism_.guides.ED, mechanism_.pulley.EF - mechanism_.guides.D_below_B},
+            "guides.ED_mm");
     add_drum();
     return list_.taken();
   }
@@ -159,9 +160,10 @@ class Conditions {
   }
 
   void add_anchor(const AnchorRoom& room) {
-    const std::string past = body_.wrap > 0 ? fmt::format(", {} deg or more past the arc that the tendon leaves from (body.wrap_deg)",
-                                                          rounded(degrees(body_.wrap)))
-                                            : "";
+    const std::string past =
+        body_.wrap > 0 ? fmt::format(", {} deg or more past the arc that the tendon leaves from (body.wrap_deg)",
+                                     rounded(degrees(body_.wrap)))
+                       : "";
     list_.add_least(fmt::format("anchor_{}", pulley_name(room.side)), 2.0 * room.room, 2.0 * room.least,
                     fmt::format("{}'s tie-off has room for a knot pocket of {} mm, at least {} mm are needed "
                                 "(body.knot_pocket_mm) behind walls of {} mm (body.min_wall_mm){}",

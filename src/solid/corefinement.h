@@ -14,7 +14,8 @@ struct Corefined {
   std::vector<TriangleMesh> first, second;
 };
 
-/// By CGAL's corefinement, exact inside. Neither may cross itself; both may have borders. Null where one is no manifold.
+/// By CGAL's corefinement, exact inside. Neither may cross itself; both may have borders. Null where one is no
+/// manifold.
 std::optional<Corefined> corefined(const TriangleMesh& a, const TriangleMesh& b);
 
 }  // namespace fusee

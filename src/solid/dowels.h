@@ -10,8 +10,8 @@
 
 namespace fusee {
 
-/// Two free places as far apart as can be within `reach` of the axis, at radii that differ by half a pin at least and not
-/// in line with the axis: no turning or flipping that leaves the bore in place maps them onto themselves.
+/// Two free places as far apart as can be within `reach` of the axis, at radii that differ by half a pin at least and
+/// not in line with the axis: no turning or flipping that leaves the bore in place maps them onto themselves.
 std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, double wall,
                                                 const std::function<bool(const Vec2&)>& is_free);
 

@@ -56,7 +56,8 @@ class HubChooser {
   }
 
   void take_plain() {
-    const double radius = body_.hub_diameter > 0 ? 0.5 * body_.hub_diameter : plain_hub_radius(layout_, layout_.min_wall);
+    const double radius =
+        body_.hub_diameter > 0 ? 0.5 * body_.hub_diameter : plain_hub_radius(layout_, layout_.min_wall);
     if (body_.hub_diameter > 0 || (radius <= limit_ && body_.bore != Bore::horn)) {
       layout_.hub_radius = radius;
       return;

@@ -17,7 +17,8 @@ struct Bar {
 double gap(const Bar& p, const Bar& q);
 /// By the even-odd rule; what lies on the edge may be either.
 bool is_inside(const Polygon& loop, const Vec2& point);
-/// How deep a point lies inside a convex polygon, negative outside, and that polygon's outward normal where it is nearest.
+/// How deep a point lies inside a convex polygon, negative outside, and that polygon's outward normal where it is
+/// nearest.
 struct Depth {
   double value = 0;
   Vec2 normal = Vec2::Zero();

@@ -500,9 +500,8 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
   pulley.expected_euler = pieces.front().euler;
   pulley.mesh_checks = std::move(pieces.front().checks);
   for (std::size_t k = 1; k < pieces.size(); ++k)
-    pulley.parts.push_back(
-        {k == 1 ? Side::left : Side::right, std::move(pieces[k].mesh), pieces[k].volume, pieces[k].euler,
-         std::move(pieces[k].checks)});
+    pulley.parts.push_back({k == 1 ? Side::left : Side::right, std::move(pieces[k].mesh), pieces[k].volume,
+                            pieces[k].euler, std::move(pieces[k].checks)});
   pulley.status = PulleyStatus::made;
   return rated;
 }

@@ -1,3 +1,5 @@
+#include "solid/section.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -7,7 +9,6 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/solid/mesh.h"
-#include "solid/section.h"
 
 namespace fusee {
 namespace {

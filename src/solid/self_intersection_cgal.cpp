@@ -187,8 +187,8 @@ double distance_from_axis(const Vec3& a, const Vec3& b) {
   return (from + place * along).norm();
 }
 
-/// Angle about the z axis, distance from it, height: the strips of a fine turned part consist of needles that point at the axis, whose
-/// boxes in x and y overlap by the thousand. The margins are far above the rounding.
+/// Angle about the z axis, distance from it, height: the strips of a fine turned part consist of needles that point at
+/// the axis, whose boxes in x and y overlap by the thousand. The margins are far above the rounding.
 Box3 polar_box(const std::array<Vec3, 3>& corners, const std::array<double, 3>& angles) {
   constexpr double margin = 1e-9;
   Box3 box = cartesian_box(corners);

@@ -16,7 +16,7 @@ struct Screw {
   double tapping;    ///< hole that the screw's thread is cut into
   double nut_width;  ///< across flats
   double nut_thickness;
-  double head;       ///< diameter of a pan head
+  double head;  ///< diameter of a pan head
 };
 
 /// "M2" … "M6"; null for any other name.

@@ -42,9 +42,10 @@ std::optional<Condition> too_far_out(Side side, double reach, double active_reac
   std::string message =
       active_reach > k_furthest
           ? fmt::format("{} would reach {} m from the axis", name, rounded(1e-3 * reach, 3))
-          : fmt::format("the arc that closes {} would reach {} m from the axis (its ends lie all but opposite each "
-                        "other)",
-                        name, rounded(1e-3 * reach, 3));
+          : fmt::format(
+                "the arc that closes {} would reach {} m from the axis (its ends lie all but opposite each "
+                "other)",
+                name, rounded(1e-3 * reach, 3));
   message += fmt::format(": at most {} m are made", 1e-3 * k_furthest);
   return beyond("furthest_" + name, reach, k_furthest, std::move(message));
 }

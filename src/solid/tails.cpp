@@ -170,9 +170,8 @@ Condition clamp_condition(const std::string& screw, Side side, bool placed) {
   condition.value = placed ? 1 : 0;
   condition.limit = 1;
   condition.unit = "1";
-  condition.message = fmt::format(
-      "{} has no room for clamp screw {} (body.clamp_screw) at the end of a tail's slot",
-      pulley_name(side), screw);
+  condition.message = fmt::format("{} has no room for clamp screw {} (body.clamp_screw) at the end of a tail's slot",
+                                  pulley_name(side), screw);
   return condition;
 }
 
@@ -186,7 +185,8 @@ std::vector<Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism, c
   const TailPlacer placer(plan, mechanism);
   for (PlannedAnchor& anchor : plan.anchors) {
     if (!anchor.wound_end) continue;
-    if (std::find(rejected.begin(), rejected.end(), Rejection{anchor.side, true, anchor.wrap(), true}) == rejected.end())
+    if (std::find(rejected.begin(), rejected.end(), Rejection{anchor.side, true, anchor.wrap(), true}) ==
+        rejected.end())
       anchor.tail = placer.place(anchor);
     if (clamps) conditions.push_back(clamp_condition(screw, anchor.side, anchor.tail.has_value()));
     if (!anchor.tail && !clamps) {

@@ -18,7 +18,8 @@ TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot&
 /// … and open to the face too: it is wider than the slot, which ends at its middle.
 TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot);
 
-/// Does the face that this pulley's pockets open on lie on the printer's bed, with nothing to support what hangs over it?
+/// Does the face that this pulley's pockets open on lie on the printer's bed, with nothing to support what hangs over
+/// it?
 bool on_bed(const BodyLayout& layout, Side side);
 
 /// From the groove's plane to a channel's floor.

@@ -37,9 +37,7 @@ struct RisingSide {
   bool looks_down;
 };
 
-bool before(const RisingSide& a, const RisingSide& b) {
-  return std::pair(a.low, a.high) < std::pair(b.low, b.high);
-}
+bool before(const RisingSide& a, const RisingSide& b) { return std::pair(a.low, a.high) < std::pair(b.low, b.high); }
 
 class Undersides {
  public:

@@ -19,7 +19,8 @@ struct LawValue {
 };
 
 /// An interpolating B-spline of degree five (less for fewer than six rows): its third derivative, which the
-/// curvature of the pulley contains, is still smooth. Beyond its ends it goes on with the end's value and slopes (Taylor).
+/// curvature of the pulley contains, is still smooth. Beyond its ends it goes on with the end's value and slopes
+/// (Taylor).
 struct Transmission::TableLaw {
  public:
   explicit TableLaw(const std::vector<LawRow>& rows);

@@ -77,7 +77,8 @@ double border(double good, double bad, Predicate holds) {
   return bad;
 }
 
-/// The root of a function that grows from `low` to `high`: Newton's steps, halved back into the bracket where they leave it.
+/// The root of a function that grows from `low` to `high`: Newton's steps, halved back into the bracket where they
+/// leave it.
 template <typename ValueAndSlope>
 double grown_to(double target, double low, double high, double start, ValueAndSlope evaluate) {
   double x = std::clamp(start, low, high);
@@ -105,8 +106,7 @@ Transmission& Transmission::operator=(const Transmission&) = default;
 Transmission& Transmission::operator=(Transmission&&) noexcept = default;
 Transmission::~Transmission() = default;
 
-Transmission::Transmission(const Mechanism& mechanism)
-    : Transmission(mechanism, mechanism.seen_pitch_radius()) {}
+Transmission::Transmission(const Mechanism& mechanism) : Transmission(mechanism, mechanism.seen_pitch_radius()) {}
 
 Transmission::Transmission(const Mechanism& mechanism, std::shared_ptr<const SlopedPaths> paths)
     : Transmission(mechanism) {
@@ -173,10 +173,12 @@ double Transmission::planar_alpha(double theta) const {
     case Law::compensate:
       // Tendon 1 is wound on a round pulley: what its upper span takes, P1 pays out.
       return (upper_span(left_, -theta).length - home_length_) / r1_;
-    case Law::linear: return theta * ratio_;
+    case Law::linear:
+      return theta * ratio_;
     case Law::torque:
       return torque_->alpha(theta);
-    case Law::table: break;
+    case Law::table:
+      break;
   }
   const double reach = table_->last_alpha() - table_->first_alpha();
   const double low = table_->first_alpha() - k_margin * reach;
@@ -192,8 +194,10 @@ double Transmission::planar_theta(double alpha) const {
     case Law::compensate:
     case Law::torque:
       break;
-    case Law::linear: return alpha / ratio_;
-    case Law::table: return table_->at(alpha).theta;
+    case Law::linear:
+      return alpha / ratio_;
+    case Law::table:
+      return table_->at(alpha).theta;
   }
   const double span = theta_max_ - theta_min_;
   const double stroke = alpha_max_ - alpha_min_;
@@ -223,7 +227,9 @@ TransmissionPoint Transmission::at(double alpha, double theta) const {
       point.d2g = -(arm1.d2m * point.g * point.g * point.g + 3.0 * arm1.dm * point.g * point.dg) / arm1.m;
       if (paths_ != nullptr) lengthen(point, paths_->q1.at(alpha), r1_);
       break;
-    case Law::linear: point.g = 1.0 / ratio_; break;
+    case Law::linear:
+      point.g = 1.0 / ratio_;
+      break;
     case Law::table:
     case Law::torque: {
       const LawValue value = torque_ ? torque_->at(theta) : table_->at(alpha);

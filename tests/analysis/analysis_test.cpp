@@ -23,7 +23,8 @@ TEST(Analysis, RowsCoverTheRangeAndHoldHome) {
   ASSERT_GE(result.rows.size(), 61u);
   EXPECT_NEAR(result.rows.front().declared.theta, radians(-30), 1e-12);
   EXPECT_NEAR(result.rows.back().declared.theta, radians(30), 1e-12);
-  EXPECT_TRUE(std::any_of(result.rows.begin(), result.rows.end(), [](const AnalysisRow& row) { return row.declared.alpha == 0; }));
+  EXPECT_TRUE(std::any_of(result.rows.begin(), result.rows.end(),
+                          [](const AnalysisRow& row) { return row.declared.alpha == 0; }));
   for (const AnalysisRow& row : result.rows) {
     EXPECT_EQ(row.rising.alpha, row.declared.alpha);
     EXPECT_EQ(row.falling.alpha, row.declared.alpha);
@@ -59,7 +60,8 @@ TEST(Analysis, FindsTheLargestTension) {
   const AnalysisResult result = analyse(mechanism, quick());
   double most = 0;
   for (const AnalysisRow& row : result.rows) {
-    most = std::max({most, row.rising.t2.upper, row.rising.t2.lower, row.falling.t2.upper, row.falling.t2.lower, row.rising.t1.lower});
+    most = std::max({most, row.rising.t2.upper, row.rising.t2.lower, row.falling.t2.upper, row.falling.t2.lower,
+                     row.rising.t1.lower});
   }
   EXPECT_EQ(result.largest_tension.tension, most);
   EXPECT_EQ(result.largest_tension.tendon, Side::right);
@@ -160,7 +162,8 @@ TEST(Analysis, SaysWhereALoadPullsTheJointAway) {
 TEST(Analysis, IsTheSameEachTime) {
   const AnalysisResult one = analyse(linear_wrist(), quick());
   const AnalysisResult two = analyse(linear_wrist(), quick());
-  for (std::size_t i = 0; i < one.tolerances.size(); ++i) EXPECT_EQ(one.tolerances[i].theta_by_monte_carlo, two.tolerances[i].theta_by_monte_carlo);
+  for (std::size_t i = 0; i < one.tolerances.size(); ++i)
+    EXPECT_EQ(one.tolerances[i].theta_by_monte_carlo, two.tolerances[i].theta_by_monte_carlo);
   AnalysisOptions other = quick();
   other.seed = 2;
   EXPECT_NE(analyse(linear_wrist(), other).tolerances[0].theta_by_monte_carlo, one.tolerances[0].theta_by_monte_carlo);

@@ -89,7 +89,8 @@ TEST(RigidJoint, ScalingAllLengthsChangesNothing) {
   // An exact null direction of the mechanism: by Euler, length times derivative over all lengths adds up to zero.
   const Mechanism m = unsymmetric();
   const Transmission transmission(m);
-  const double lengths[] = {m.joint.R, m.guides.EB, m.guides.ED, m.guides.OE, m.guides.radius, m.pulley.EF, m.tendon.diameter};
+  const double lengths[] = {m.joint.R,       m.guides.EB, m.guides.ED,      m.guides.OE,
+                            m.guides.radius, m.pulley.EF, m.tendon.diameter};
   const double alpha = transmission.alpha(0.4);
   // Its pulleys scale too, which no offset does: their part is what P1, round, gives for r1.
   double sum = 0;
@@ -156,8 +157,10 @@ TEST(Tolerances, BothRoadsAgree) {
     EXPECT_EQ(effects.back().key, "all");
     for (const ToleranceEffect& effect : effects) {
       // Twice a standard deviation of 2000 samples: ± 5 %.
-      EXPECT_NEAR(effect.theta_by_monte_carlo, effect.theta_by_derivative, 0.06 * effect.theta_by_derivative + 1e-12) << effect.key;
-      EXPECT_NEAR(effect.slack_by_monte_carlo, effect.slack_by_derivative, 0.06 * effect.slack_by_derivative + 1e-9) << effect.key;
+      EXPECT_NEAR(effect.theta_by_monte_carlo, effect.theta_by_derivative, 0.06 * effect.theta_by_derivative + 1e-12)
+          << effect.key;
+      EXPECT_NEAR(effect.slack_by_monte_carlo, effect.slack_by_derivative, 0.06 * effect.slack_by_derivative + 1e-9)
+          << effect.key;
     }
     EXPECT_GT(effects.back().theta_by_derivative, effects.front().theta_by_derivative);
   }

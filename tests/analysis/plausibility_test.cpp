@@ -259,7 +259,9 @@ TEST(Modulus, in_GPa) {
 
 TEST(Overload, beyond_a_declared_strength) {
   const std::vector<Setting> loaded = {{"load.tip_force_N", "50"}, {"tendon.strength_N", "60"}};
-  EXPECT_THAT(said(loaded), ElementsAre(AllOf(HasSubstr("it bears 30 N there (tendon.strength_N, tendon.knot_efficiency)"), HasSubstr("[load]"))));
+  EXPECT_THAT(said(loaded),
+              ElementsAre(AllOf(HasSubstr("it bears 30 N there (tendon.strength_N, tendon.knot_efficiency)"),
+                                HasSubstr("[load]"))));
   EXPECT_THAT(said({{"load.tip_force_N", "50"}, {"tendon.strength_N", "200"}}), IsEmpty());
 }
 

@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <iterator>
 
-#include "fusee/calibration/words.h"
-#include "fusee/joint/simulate.h"
 #include "fusee/base/text.h"
+#include "fusee/calibration/words.h"
 #include "fusee/correction/correction.h"
+#include "fusee/joint/simulate.h"
 #include "fusee/mechanism/file.h"
 #include "fusee/transmission/transmission.h"
 

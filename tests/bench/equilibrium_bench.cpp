@@ -78,6 +78,7 @@ int main() {
   Mechanism mounted = testing::forearm();
   mounted.guides.EB += 0.5;
   mounted.guides.radius += 0.3;
-  time_sweep("made for other pins", joint_model(MadePulleys(testing::forearm()), MountedMechanism{mounted}), testing::forearm(), 5.0);
+  time_sweep("made for other pins", joint_model(MadePulleys(testing::forearm()), MountedMechanism{mounted}),
+             testing::forearm(), 5.0);
   return 0;
 }

@@ -101,8 +101,8 @@ TEST(CalibrateVerb, ASlipIsSaidAndChangesNothingElse) {
   ASSERT_EQ(result.product.slips.size(), 1u);
   const std::string words = slip_words(result.product.slips.front());
   EXPECT_THAT(words, testing::StartsWith("guides.OE_mm = -14 in place of 14 would explain the data to 0.0"));
-  EXPECT_THAT(text_of("calibration.json"), testing::AllOf(HasSubstr("\"key\": \"guides.OE_mm\""), HasSubstr("\"would_be\": -14"),
-                                                          HasSubstr(words)));
+  EXPECT_THAT(text_of("calibration.json"),
+              testing::AllOf(HasSubstr("\"key\": \"guides.OE_mm\""), HasSubstr("\"would_be\": -14"), HasSubstr(words)));
   EXPECT_THAT(text_of("report.html"), HasSubstr(words));
   EXPECT_THAT(text_of("corrected.toml"), testing::AllOf(HasSubstr("OE_mm = 14"), Not(HasSubstr("OE_mm = -14"))));
   ASSERT_FALSE(result.product.file.warnings.empty());  // the same slip was seen in the file alone

@@ -18,9 +18,7 @@ std::string numbers(const Effect& effect) {
   return text;
 }
 
-std::string corrected_by(CorrectableBy what) {
-  return what == CorrectableBy::nothing ? "–" : std::string(word(what));
-}
+std::string corrected_by(CorrectableBy what) { return what == CorrectableBy::nothing ? "–" : std::string(word(what)); }
 
 /// As a joint with tendons has them; what a joint declared by a ratio has instead stands behind it.
 std::string catalogue_table() {
@@ -33,8 +31,8 @@ std::string catalogue_table() {
       if (numbers(*other) != shown) shown += "; ratio: " + numbers(*other);
       if (other->correctable_by != effect.correctable_by) by += "; ratio: " + corrected_by(other->correctable_by);
     }
-    text += "| " + std::string(word(effect.place)) + " | `" + effect.name + "` | " + effect.signature + " | " + shown + " | " + by +
-            " | " + effect.separating_run + " |\n";
+    text += "| " + std::string(word(effect.place)) + " | `" + effect.name + "` | " + effect.signature + " | " + shown +
+            " | " + by + " | " + effect.separating_run + " |\n";
   }
   return text;
 }
@@ -51,8 +49,7 @@ TEST(CalibrationPage, ItsCatalogueIsThatOfTheProgram) {
 
 TEST(CalibrationPage, TheCatalogueHoldsEveryNameThatWasPromised) {
   std::vector<std::string> names;
-  for (const Effect& effect : effects(JointKind::tendons))
-    names.push_back(effect.name);
+  for (const Effect& effect : effects(JointKind::tendons)) names.push_back(effect.name);
   for (const char* name : k_contract_effects) EXPECT_THAT(names, testing::Contains(name));
 }
 

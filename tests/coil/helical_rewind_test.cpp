@@ -116,8 +116,8 @@ struct RoundCapstan {
 TEST(HelicalRewind, IsAHelixAndALine) {
   const RoundCapstan joint;
   ASSERT_TRUE(joint.pulley.made) << joint.pulley.brief();
-  // Tolerances are what the polygon does: the take-off goes from corner to corner, 0.9 mm and 0.07 mm of height apart. A
-  // judge that leaves out corners, or lets the tendon rise with the floor alone, is 0.003° and 0.005 mm off.
+  // Tolerances are what the polygon does: the take-off goes from corner to corner, 0.9 mm and 0.07 mm of height apart.
+  // A judge that leaves out corners, or lets the tendon rise with the floor alone, is 0.003° and 0.005 mm off.
   for (const double aside : {0.0, 7.0}) {
     const double end1 = joint.take_off(joint.p1, 0) + aside, end2 = joint.take_off(joint.p2, 0) - aside;
     const TendonsLaid laid = tendons_laid(joint.pulley, joint.p1, joint.p2, end1, end2, false);

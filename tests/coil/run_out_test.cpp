@@ -64,8 +64,8 @@ double flattest_roof(const TriangleMesh& tool, const GrooveEnd& end) {
 // With a gable across the channel it was 37° on the sharpest bends, and the slicer put supports below it.
 TEST(RunOut, RoofsAreSteepHoweverTheChannelBendsAndWidens) {
   for (const Side side : {Side::left, Side::right}) {
-    for (const Sizes& wanted : {Sizes{0.6, 2.8, 0.6, 0}, Sizes{1.0, 2.8, 0.3, 0.3}, Sizes{0.45, 4, 0.3, 0.2},
-                                Sizes{0.8, 3.3, 0.4, 0.5}}) {
+    for (const Sizes& wanted :
+         {Sizes{0.6, 2.8, 0.6, 0}, Sizes{1.0, 2.8, 0.3, 0.3}, Sizes{0.45, 4, 0.3, 0.2}, Sizes{0.8, 3.3, 0.4, 0.5}}) {
       const GrooveEnd end = end_on(side);
       for (int variant = 0; variant < 3; ++variant) {
         const auto tool = run_out_tool(end, sizes_of(wanted), variant);

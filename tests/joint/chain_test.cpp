@@ -1,7 +1,8 @@
-// The full model against a second program that shares no equation with it but the declared law: geometry from coordinates, the tendon
-// on the pin as a chain of short springs over many points of friction, slipping by relaxation, what is wound as a pile of
-// short pieces (backward Euler instead of the trapezoid), the joint by false position. They agree to 1e-4 without friction, where only the
-// step differs, and to 2e-3 with it, where the chain slips bit by bit along the pin and the model all at once.
+// The full model against a second program that shares no equation with it but the declared law: geometry from
+// coordinates, the tendon on the pin as a chain of short springs over many points of friction, slipping by relaxation,
+// what is wound as a pile of short pieces (backward Euler instead of the trapezoid), the joint by false position. They
+// agree to 1e-4 without friction, where only the step differs, and to 2e-3 with it, where the chain slips bit by bit
+// along the pin and the model all at once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,8 +60,8 @@ Lower free_below(const Transmission& law, Side side, double image_alpha) {
   const Line here = line(image_alpha), before = line(image_alpha - step), after = line(image_alpha + step);
   const double turned_before = before.normal - step - here.normal, turned_after = after.normal + step - here.normal;
   // Both lines with the normals (cos, sin) of their turning: how far along the line in between they cross.
-  const double crossing = (std::cos(turned_before) * after.p - std::cos(turned_after) * before.p) /
-                          std::sin(turned_after - turned_before);
+  const double crossing =
+      (std::cos(turned_before) * after.p - std::cos(turned_after) * before.p) / std::sin(turned_after - turned_before);
   return {here.reach - crossing, here.normal};
 }
 
@@ -95,7 +96,9 @@ struct Piece {
   double material = 0;
 };
 
-double tension(const Piece& piece, double EA) { return std::max(0.0, EA * (piece.length - piece.material) / piece.material); }
+double tension(const Piece& piece, double EA) {
+  return std::max(0.0, EA * (piece.length - piece.material) / piece.material);
+}
 
 /// One tendon, in its right-hand image.
 class Chain {
@@ -134,7 +137,8 @@ class Chain {
     fit(pieces, first, last, upper, next_);
     if (winding_ > 0) pieces.front().length += winding_;
     relax(pieces, first, upper.normal);
-    const Pull result{tension(pieces.back(), given_.EA), tension(pieces.front(), given_.EA), tension(pieces.back(), given_.EA) * upper.arm};
+    const Pull result{tension(pieces.back(), given_.EA), tension(pieces.front(), given_.EA),
+                      tension(pieces.back(), given_.EA) * upper.arm};
     if (keep) {
       move_pile(result.lower);
       if (winding_ > 0) {
@@ -162,8 +166,10 @@ class Chain {
     return static_cast<std::size_t>(std::lower_bound(rim_.begin(), rim_.end(), normal) - rim_.begin());
   }
 
-  /// Points of friction that the tendon newly lies on split its end pieces; those that it left join them. Then the lengths as they are.
-  void fit(std::vector<Piece>& pieces, std::size_t& first, std::size_t& last, const UpperLine& upper, const Lower& lower) const {
+  /// Points of friction that the tendon newly lies on split its end pieces; those that it left join them. Then the
+  /// lengths as they are.
+  void fit(std::vector<Piece>& pieces, std::size_t& first, std::size_t& last, const UpperLine& upper,
+           const Lower& lower) const {
     const std::size_t new_first = index_above(lower.normal);
     const std::size_t new_last = index_above(upper.normal);
     while (last > new_last) {
@@ -183,14 +189,16 @@ class Chain {
       return part;
     };
     while (last < new_last) {
-      const double below = given_.rho * (rim_[last] - (last > first ? rim_[last - 1] : lower.normal)) + (last > first ? 0.0 : lower.reach);
+      const double below = given_.rho * (rim_[last] - (last > first ? rim_[last - 1] : lower.normal)) +
+                           (last > first ? 0.0 : lower.reach);
       const double above = upper.free + given_.rho * (upper.normal - rim_[last]);
       const Piece part = split(below / (below + above), pieces.size() - 1);
       pieces.insert(pieces.end() - 1, part);
       ++last;
     }
     while (first > new_first) {
-      const double above = given_.rho * ((first < last ? rim_[first] : upper.normal) - rim_[first - 1]) + (first < last ? 0.0 : upper.free);
+      const double above = given_.rho * ((first < last ? rim_[first] : upper.normal) - rim_[first - 1]) +
+                           (first < last ? 0.0 : upper.free);
       const double below = lower.reach + given_.rho * (rim_[first - 1] - lower.normal);
       const Piece part = split(below / (below + above), 0);
       pieces.insert(pieces.begin(), part);
@@ -273,17 +281,17 @@ class Chain {
 
   Given given_;
   double mu_;
-  std::vector<double> rim_;     ///< normals of the points of friction, fixed on the rim
-  std::vector<Piece> pieces_;   ///< from the pulley up
-  std::size_t first_, last_;    ///< rim points the tendon lies on
+  std::vector<double> rim_;    ///< normals of the points of friction, fixed on the rim
+  std::vector<Piece> pieces_;  ///< from the pulley up
+  std::size_t first_, last_;   ///< rim points the tendon lies on
   Lower lower_, next_;
   double alpha_ = 0, alpha_next_ = 0, winding_ = 0;
   std::vector<Laid> pile_;
   double pile_density_ = 1;
 };
 
-/// A tendon without friction on its pin, in its right-hand image: elements of equal material from the knot on, each with
-/// the strain that it has on the pulley; those past the take-off are the span.
+/// A tendon without friction on its pin, in its right-hand image: elements of equal material from the knot on, each
+/// with the strain that it has on the pulley; those past the take-off are the span.
 class Elements {
  public:
   Elements(const Mechanism& mechanism, Side side, double home_tension, int count)
@@ -298,7 +306,8 @@ class Elements {
 
   void turn(double image_alpha) {
     const std::size_t last = alphas_.size() - 1;
-    const double place = (image_alpha - alphas_.front()) / (alphas_.back() - alphas_.front()) * static_cast<double>(last);
+    const double place =
+        (image_alpha - alphas_.front()) / (alphas_.back() - alphas_.front()) * static_cast<double>(last);
     const std::size_t i = std::min(static_cast<std::size_t>(std::max(0.0, place)), last - 1);
     const double share = place - static_cast<double>(i);
     arc_now_ = arcs_[i] + share * (arcs_[i + 1] - arcs_[i]);
@@ -337,7 +346,8 @@ class Elements {
   }
 
  private:
-  /// Arc from the knot and turning of the normal, along the range: what comes over the pin (∫p dα) less what the lower line takes.
+  /// Arc from the knot and turning of the normal, along the range: what comes over the pin (∫p dα) less what the lower
+  /// line takes.
   void survey() {
     const bool right = given_.side == Side::right;
     const double from = right ? given_.law.alpha_min() : -given_.law.alpha_max();
@@ -413,7 +423,8 @@ std::vector<Simulated> simulate(const Mechanism& mechanism, const std::vector<Ro
   const Vec2 right_pin(mechanism.guides.ED, -mechanism.guides.OE);
   const double rho = mechanism.guide_pitch_radius();
   const double T1 = mechanism.tendon.pretension;
-  const double T2 = T1 * upper_line(mechanism.joint.R, 0, left_pin, rho).arm / upper_line(mechanism.joint.R, 0, right_pin, rho).arm;
+  const double T2 =
+      T1 * upper_line(mechanism.joint.R, 0, left_pin, rho).arm / upper_line(mechanism.joint.R, 0, right_pin, rho).arm;
   Tendon left(mechanism, Side::left, T1, points);
   Tendon right(mechanism, Side::right, T2, points);
   std::vector<Simulated> results;
@@ -465,7 +476,8 @@ struct Disagreement {
   double tension = 0;  ///< of any tension, as a part of the largest
 };
 
-Disagreement disagreement(const Mechanism& mechanism, const std::vector<Row>& rows, const std::vector<Simulated>& other) {
+Disagreement disagreement(const Mechanism& mechanism, const std::vector<Row>& rows,
+                          const std::vector<Simulated>& other) {
   JointMotion motion(joint_model(mechanism));
   const Transmission law(mechanism);
   double theta = 0;
@@ -476,8 +488,10 @@ Disagreement disagreement(const Mechanism& mechanism, const std::vector<Row>& ro
     const EquilibriumPoint at = motion.to({rows[i].alpha, 0.0, rows[i].load});
     theta = std::max(theta, std::abs(at.theta - other[i].theta));
     deviation = std::max(deviation, std::abs(at.theta - law.theta(rows[i].alpha)));
-    for (const auto& [ours, theirs] : {std::pair{at.t1.upper, other[i].t1.upper}, {at.t1.lower, other[i].t1.lower},
-                                       {at.t2.upper, other[i].t2.upper}, {at.t2.lower, other[i].t2.lower}}) {
+    for (const auto& [ours, theirs] : {std::pair{at.t1.upper, other[i].t1.upper},
+                                       {at.t1.lower, other[i].t1.lower},
+                                       {at.t2.upper, other[i].t2.upper},
+                                       {at.t2.lower, other[i].t2.lower}}) {
       off = std::max(off, std::abs(ours - theirs));
       most = std::max(most, ours);
     }

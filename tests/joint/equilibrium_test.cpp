@@ -1,8 +1,8 @@
-#include "fusee/transmission/load.h"
 #include "fusee/joint/equilibrium.h"
 
 #include <gtest/gtest.h>
 
+#include "fusee/transmission/load.h"
 #include "fusee/transmission/tension.h"
 #include "support/mechanisms.h"
 
@@ -232,13 +232,12 @@ TEST(Equilibrium, InAGrooveThatHoldsAllTendonKeepsTheStrainOfItsWinding) {
   // By the program that knew no other law (revision e00f5d6, its spans ended where the pulley is touched): α, θ, both
   // lower tensions.
   const Mechanism mechanism = held(with(forearm(), 30.0, 0.2, 2000.0));
-  constexpr double known[][4] = {
-      {0.69399114539754003, 0.15206748476903986, 18.21244269357458, 43.00670895234289},
-      {2.0819734361926203, 0.50124138588770351, 16.499896775795161, 42.502544547160888},
-      {0.6961126139620808, 0.16446985682664739, 30.914199778682587, 29.387527525903803},
-      {-2.075609030498998, -0.52862324871168798, 27.895995777617888, 26.989060547160314},
-      {2.0819734361926203, 0.49873870737563619, 15.54180723358683, 40.89269464327208},
-      {0.30000000000000004, 0.06564536743175188, 29.126368606886022, 28.048198794183818}};
+  constexpr double known[][4] = {{0.69399114539754003, 0.15206748476903986, 18.21244269357458, 43.00670895234289},
+                                 {2.0819734361926203, 0.50124138588770351, 16.499896775795161, 42.502544547160888},
+                                 {0.6961126139620808, 0.16446985682664739, 30.914199778682587, 29.387527525903803},
+                                 {-2.075609030498998, -0.52862324871168798, 27.895995777617888, 26.989060547160314},
+                                 {2.0819734361926203, 0.49873870737563619, 15.54180723358683, 40.89269464327208},
+                                 {0.30000000000000004, 0.06564536743175188, 29.126368606886022, 28.048198794183818}};
   const Transmission law(mechanism);
   JointMotion motion(joint_model(mechanism));
   double from = 0;
@@ -358,7 +357,8 @@ TEST(Equilibrium, OfAGrooveDoesNotDependOnTheStep) {
   const auto at_ends = [&](int steps) {
     const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, {12.0, steps, 3}));
     std::vector<double> theta;
-    for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(steps) / 10) theta.push_back(points[i].theta);
+    for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(steps) / 10)
+      theta.push_back(points[i].theta);
     return theta;
   };
   const std::vector<double> coarse = at_ends(120), fine = at_ends(480);
@@ -544,8 +544,9 @@ TEST(Equilibrium, IsNeverNaN) {
           seed = seed * 1664525u + 1013904223u;
           const double u = static_cast<double>(seed >> 8) / (1 << 24) - 0.5;
           const EquilibriumPoint at = motion.to({4.0 * u, 200.0 * std::sin(7.0 * i), 0.0});
-          for (const double value : {at.theta, at.t1.upper, at.t1.lower, at.t2.upper, at.t2.lower, at.t1.slack, at.t2.slack, at.t1.wrap,
-                                     at.motor_torque, at.stiffness, at.stiffness_stuck, at.stored, at.friction, at.groove_friction}) {
+          for (const double value :
+               {at.theta, at.t1.upper, at.t1.lower, at.t2.upper, at.t2.lower, at.t1.slack, at.t2.slack, at.t1.wrap,
+                at.motor_torque, at.stiffness, at.stiffness_stuck, at.stored, at.friction, at.groove_friction}) {
             ASSERT_TRUE(std::isfinite(value)) << "modulus " << modulus << " pretension " << pretension << " step " << i;
           }
         }
@@ -568,7 +569,8 @@ TEST(MadePulleys, MountedAsDeclaredFollowTheirLaw) {
     for (std::size_t i = 0; i < 2; ++i) {
       // Touched where lines of the pulley's own frame cross: as far along them as their distance changes per turning.
       const TendonPoint& tendon = i == 0 ? at.t1 : at.t2;
-      const double per_turn = tendon.dp / (mirror_sign(i == 0 ? Side::left : Side::right) + tendon.dp / tendon.lower_reach);
+      const double per_turn =
+          tendon.dp / (mirror_sign(i == 0 ? Side::left : Side::right) + tendon.dp / tendon.lower_reach);
       EXPECT_NEAR(paths[i].reach, tendon.lower_reach - per_turn, 1e-12);
       EXPECT_GT(std::abs(per_turn), 0.05);
     }

@@ -60,9 +60,11 @@ TEST(WoundProfile, SlidesAsFarAsTheCapstanLawLetsIt) {
     EXPECT_NEAR(pulled(profile, 3.0, pull), 20.0 / (1 + k_home) - sliding(pull, -friction, 2.0), 1e-7 * 20 * pull);
     // A little less: only what lies by the take-off lets go, up to where both bounds meet.
     const double less = pull * std::exp(-friction);
-    EXPECT_NEAR(pulled(profile, 3.0, less), sliding(pull, -friction, 0.5) - sliding(less, friction, 0.5), 1e-7 * 20 * pull);
+    EXPECT_NEAR(pulled(profile, 3.0, less), sliding(pull, -friction, 0.5) - sliding(less, friction, 0.5),
+                1e-7 * 20 * pull);
     // And pulled again as before, all is as it was.
-    EXPECT_NEAR(pulled(profile, 3.0, pull), sliding(less, friction, 0.5) - sliding(pull, -friction, 0.5), 1e-7 * 20 * pull);
+    EXPECT_NEAR(pulled(profile, 3.0, pull), sliding(less, friction, 0.5) - sliding(pull, -friction, 0.5),
+                1e-7 * 20 * pull);
     EXPECT_NEAR(pulled(profile, 3.0, pull), 0.0, 1e-13);
   }
 }
@@ -76,7 +78,8 @@ TEST(WoundProfile, LaysOnWhatFrictionHoldsAndPullsAtTheRest) {
   const double pull = k_home * std::exp(0.06);  // 0.3 rad
   const double where_it_was = k_home * std::exp(0.04);
   EXPECT_NEAR(pulled(profile, 1.1, pull),
-              2.0 / (1 + k_home) - sliding(where_it_was, -0.2, 0.2) - 0.5 * (1 / (1 + where_it_was) + 1 / (1 + pull)), 1e-11);
+              2.0 / (1 + k_home) - sliding(where_it_was, -0.2, 0.2) - 0.5 * (1 / (1 + where_it_was) + 1 / (1 + pull)),
+              1e-11);
 }
 
 TEST(WoundProfile, KnowsHowMuchMoreItGivesPerStrain) {
@@ -85,7 +88,8 @@ TEST(WoundProfile, KnowsHowMuchMoreItGivesPerStrain) {
   const double way[][2] = {{1.5, 5e-3}, {2.0, 3e-3}, {1.8, 6e-3}, {2.4, 4e-3}, {2.1, 4.5e-3}};
   double from[] = {1.0, k_home};
   for (const auto& [turn, strain] : way) {
-    for (int i = 1; i <= 50; ++i) pulled(profile, from[0] + (turn - from[0]) * i / 50, from[1] + (strain - from[1]) * i / 50);
+    for (int i = 1; i <= 50; ++i)
+      pulled(profile, from[0] + (turn - from[0]) * i / 50, from[1] + (strain - from[1]) * i / 50);
     from[0] = turn;
     from[1] = strain;
   }
@@ -93,7 +97,9 @@ TEST(WoundProfile, KnowsHowMuchMoreItGivesPerStrain) {
     const Turned turned = profile.turned_to(at(turn), 1.0);
     for (const double strain : {1e-4, 2e-3, 4.4e-3, 4.6e-3, 7e-3}) {
       const double step = 1e-4 * strain;
-      const double slope = (profile.slide(turned, strain + step, 1.0).freed - profile.slide(turned, strain - step, 1.0).freed) / (2 * step);
+      const double slope =
+          (profile.slide(turned, strain + step, 1.0).freed - profile.slide(turned, strain - step, 1.0).freed) /
+          (2 * step);
       const double length = profile.slide(turned, strain, 1.0).length;
       EXPECT_NEAR(length / ((1 + strain) * (1 + strain)), slope, 1e-4 * slope + 1e-6) << turn << " " << strain;
     }

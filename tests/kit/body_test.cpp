@@ -65,9 +65,11 @@ TEST(KitBody, TrimmedHolesTakeTheCircleThatIsWanted) {
 
 // Seen in a random design: two strokes of a digit grew into each other by the holes' compensation.
 TEST(KitBody, EngravedLinesStayApart) {
-  const SlabBody plate{{{0, 4, {{box({-10, -10}, {10, 10}, 1)},
-                                {slot({-2, 0}, {-0.46, 0}, 0.3), true},
-                                {slot({0.46, 0}, {2, 0}, 0.3), true}}}}};
+  const SlabBody plate{{{0,
+                         4,
+                         {{box({-10, -10}, {10, 10}, 1)},
+                          {slot({-2, 0}, {-0.46, 0}, 0.3), true},
+                          {slot({0.46, 0}, {2, 0}, 0.3), true}}}}};
   expect_solid(trimmed(plate, {1, 0.5, 0}));
 }
 

@@ -97,7 +97,8 @@ TEST(ProfileLaws, WantedTorquesRewindToTheirLaw) {
 TEST(ProfileLaws, WhatIsRefusedSaysWhy) {
   expect_law(400, [](const Mechanism& mechanism) {
     const SynthesisResult result = synthesise(mechanism, {.advice = false});
-    const auto failed = std::count_if(result.conditions.begin(), result.conditions.end(), [](const Condition& c) { return !c.ok; });
+    const auto failed =
+        std::count_if(result.conditions.begin(), result.conditions.end(), [](const Condition& c) { return !c.ok; });
     RC_ASSERT(result.made() == (failed == 0));
     for (const Condition& condition : result.conditions) {
       RC_ASSERT(condition.ok == condition.message.empty());
@@ -115,8 +116,10 @@ TEST(ProfileLaws, NoTendonTouchesTheClosingArc) {
     for (const TransmissionPoint& at : result.stroke) {
       const Vec2 normal1 = unit(at.t1.lower_normal + at.alpha);
       const Vec2 normal2 = unit(at.t2.lower_normal + at.alpha);
-      for (const OutlinePoint& point : result.p1.points) RC_ASSERT(point.position.dot(normal1) <= at.t1.p + 1e-9 * mechanism.joint.R);
-      for (const OutlinePoint& point : result.p2.points) RC_ASSERT(point.position.dot(normal2) <= at.t2.p + 1e-9 * mechanism.joint.R);
+      for (const OutlinePoint& point : result.p1.points)
+        RC_ASSERT(point.position.dot(normal1) <= at.t1.p + 1e-9 * mechanism.joint.R);
+      for (const OutlinePoint& point : result.p2.points)
+        RC_ASSERT(point.position.dot(normal2) <= at.t2.p + 1e-9 * mechanism.joint.R);
     }
     return true;
   });
@@ -128,7 +131,9 @@ double deepest_chord(const Outline& outline, const Outline& fine) {
   std::size_t corner = 0;
   for (const OutlinePoint& point : fine.points) {
     // Both run the same way round: the corner that supports this normal is never far from the last one's.
-    const auto reach = [&](std::size_t i) { return outline.points[i % outline.points.size()].position.dot(point.normal); };
+    const auto reach = [&](std::size_t i) {
+      return outline.points[i % outline.points.size()].position.dot(point.normal);
+    };
     while (reach(corner + 1) > reach(corner)) ++corner;
     while (corner > 0 && reach(corner - 1) > reach(corner)) --corner;
     deepest = std::max(deepest, point.position.dot(point.normal) - reach(corner));

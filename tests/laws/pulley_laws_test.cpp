@@ -11,14 +11,16 @@ namespace {
 
 using testing::expect_law;
 
-// Whatever is accepted gives a valid mesh, and strings wound on sections of that mesh give θ(α); whatever is refused says why.
+// Whatever is accepted gives a valid mesh, and strings wound on sections of that mesh give θ(α); whatever is refused
+// says why.
 TEST(PulleyLaws, WhatIsAcceptedIsAValidSolidThatRewinds) {
   expect_law(60, [](const Mechanism& mechanism) {
     const SynthesisResult synthesis = synthesise(mechanism, {.advice = false});
     if (!synthesis.made()) return false;
     const Pulley pulley = make_pulley(mechanism, synthesis);
     if (!pulley.made()) {
-      RC_ASSERT(std::any_of(pulley.conditions.begin(), pulley.conditions.end(), [](const Condition& c) { return !c.ok && !c.message.empty(); }));
+      RC_ASSERT(std::any_of(pulley.conditions.begin(), pulley.conditions.end(),
+                            [](const Condition& c) { return !c.ok && !c.message.empty(); }));
       return false;
     }
     for (const Check& check : check_pulley(pulley.mesh, mechanism, synthesis, pulley, 0.01)) {

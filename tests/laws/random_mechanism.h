@@ -124,8 +124,9 @@ inline Mechanism random_torque_mechanism() {
   return mechanism;
 }
 
-/// Checks `property(mechanism)` on random mechanisms, the same ones every time: `usual_cases` of them, or FUSEE_LAW_CASES.
-/// A property asserts with RC_ASSERT and returns whether the mechanism was possible; some of each kind must have been met.
+/// Checks `property(mechanism)` on random mechanisms, the same ones every time: `usual_cases` of them, or
+/// FUSEE_LAW_CASES. A property asserts with RC_ASSERT and returns whether the mechanism was possible; some of each kind
+/// must have been met.
 template <typename Property>
 void expect_law(int usual_cases, Property property, Mechanism (*draw)() = random_mechanism) {
   const char* wanted = std::getenv("FUSEE_LAW_CASES");

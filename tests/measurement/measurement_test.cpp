@@ -666,14 +666,16 @@ TEST(MeasurementAgainstDeclared, AMotionLostInNoiseAccusesNoColumn) {
 // ---- what drives a joint --------------------------------------------------------------------------------------------
 
 std::filesystem::path written(const std::string& text) {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("fusee-driving-" + std::to_string(::getpid()) + ".csv");
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("fusee-driving-" + std::to_string(::getpid()) + ".csv");
   std::ofstream(path) << text;
   return path;
 }
 
 TEST(Driving, NeedsNoTheta) {
   const DeclaredMechanism joint = testing::forearm();
-  for (const char* text : {"time_s,alpha_deg,load_N\n0,1,5\n1,2,\n2,3,6\n", "time_s,alpha_deg,load_N,theta_deg\n0,1,5,\n1,2,,\n2,3,6,\n"}) {
+  for (const char* text : {"time_s,alpha_deg,load_N\n0,1,5\n1,2,\n2,3,6\n",
+                           "time_s,alpha_deg,load_N,theta_deg\n0,1,5,\n1,2,,\n2,3,6,\n"}) {
     const Measurement log = read_driving(written(text), joint);
     ASSERT_THAT(log.runs, SizeIs(1));
     ASSERT_THAT(log.runs[0].samples, SizeIs(3));

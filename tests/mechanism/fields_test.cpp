@@ -77,7 +77,8 @@ TEST(NumberKeys, AreNumbersAndEndsOfRanges) {
   EXPECT_EQ(find_number_key("joint.length_mm")->get(mechanism), 100.0);
   find_number_key("joint.range_deg[1]")->set(mechanism, 20.0);
   EXPECT_NEAR(mechanism.joint.theta_max, radians(20.0), 1e-15);
-  for (const char* none : {"joint.range_deg", "joint.length_mm[0]", "pulley.law", "schema", "nothing", "joint.range_deg[2]"}) {
+  for (const char* none :
+       {"joint.range_deg", "joint.length_mm[0]", "pulley.law", "schema", "nothing", "joint.range_deg[2]"}) {
     EXPECT_FALSE(find_number_key(none)) << none;
   }
   for (const std::string& name : number_key_names()) EXPECT_TRUE(find_number_key(name)) << name;

@@ -272,7 +272,8 @@ TEST(Reader, BoreAndHorn) {
 }
 
 TEST(Reader, RatioStandsInPlaceOfTheMechanism) {
-  const DeclaredMechanism m = parse_mechanism("schema = 1\n[transmission]\nkind = \"ratio\"\nratio = -1.093\n", "f.toml");
+  const DeclaredMechanism m =
+      parse_mechanism("schema = 1\n[transmission]\nkind = \"ratio\"\nratio = -1.093\n", "f.toml");
   ASSERT_TRUE(m.transmission.has_value());
   EXPECT_EQ(m.transmission->ratio, -1.093);
   const std::vector<Diagnostic> both = errors_of(k_good_file + "[transmission]\nkind = \"ratio\"\nratio = 2\n");

@@ -159,7 +159,8 @@ TEST(Writer, AnglesThatNoFileGivesAreKeptToTheLastBits) {
 
 TEST(Writer, TheOptimizeTableReadsBack) {
   const std::string text = k_good_file +
-                           "[optimize]\nobjective = [\"max_tension\", \"footprint\"]\nvariables = [\"joint.length_mm\", \"joint.range_deg[1]\"]\n"
+                           "[optimize]\nobjective = [\"max_tension\", \"footprint\"]\nvariables = "
+                           "[\"joint.length_mm\", \"joint.range_deg[1]\"]\n"
                            "lower = [80, 20]\nupper = [120.5, 40]\ntied = [\"guides.EB_mm = guides.ED_mm\"]\n"
                            "constraints = [\"2 * (guides.EB_mm - 1) <= joint.length_mm / 2 + 3\"]\nfeasible = true\n";
   const DeclaredMechanism mechanism = parse_mechanism(text, "f.toml");

@@ -77,8 +77,7 @@ TEST(WidePath, OverABoxHoldsEveryPathInIt) {
     const std::optional<Jet> drum = Jet::variable(interval(pose.drum, half_drum), 1, 2);
     const Jet along(pose.along);
     const TendonEnd<Jet> end = tendon_end(Jet(hypot(across, along)), twist_of(across, along, domain), drum);
-    const WidePath<Jet> path =
-        wide_path(end, drum, Jet(pose.e), Jet(pose.oe), Jet(pose.rho), Jet(pose.theta), domain);
+    const WidePath<Jet> path = wide_path(end, drum, Jet(pose.e), Jet(pose.oe), Jet(pose.rho), Jet(pose.theta), domain);
     if (inside.empty()) continue;
     ASSERT_TRUE(domain.possible);
     about_lift_off += lying > 0 && lying < static_cast<int>(inside.size());
@@ -88,8 +87,8 @@ TEST(WidePath, OverABoxHoldsEveryPathInIt) {
         EXPECT_GE(value, jet.value.lower() - k_rounding);
         EXPECT_LE(value, jet.value.upper() + k_rounding);
         if (!domain.whole || !(middle.m > 0)) return;
-        const Interval along_box = jet.slope[0] * Interval(one.across - pose.across) +
-                                   jet.slope[1] * Interval(one.drum - pose.drum);
+        const Interval along_box =
+            jet.slope[0] * Interval(one.across - pose.across) + jet.slope[1] * Interval(one.drum - pose.drum);
         EXPECT_GE(value - at_middle, along_box.lower() - k_rounding);
         EXPECT_LE(value - at_middle, along_box.upper() + k_rounding);
         ++compared;

@@ -79,7 +79,8 @@ TEST_F(Build, InTwoPartsWritesEachAsItLiesOnThePrinter) {
   EXPECT_EQ(built.status, BuildStatus::done);
   EXPECT_THAT(names_in(options_.folder), IsSupersetOf({"pulley.stl", "pulley_p1.stl", "pulley_p2.stl"}));
   const std::string manifest = read_file(options_.folder / "manifest.json", 1 << 20);
-  EXPECT_THAT(words_of(manifest), HasSubstr(R"("print":[{"file":"pulley_p1.stl","part":"P1"},{"file":"pulley_p2.stl","part":"P2"}])"));
+  EXPECT_THAT(words_of(manifest),
+              HasSubstr(R"("print":[{"file":"pulley_p1.stl","part":"P1"},{"file":"pulley_p2.stl","part":"P2"}])"));
   // The 3mf holds both as they are, side by side.
   const auto bodies = bodies_of(std::get<TriangleMesh>(read_part(options_.folder / "pulley.3mf")));
   ASSERT_EQ(bodies.size(), 2u);
@@ -91,7 +92,8 @@ TEST_F(Build, InTwoPartsWritesEachAsItLiesOnThePrinter) {
     EXPECT_NEAR(bounds(part).low.z(), 0, 1e-5);
     volume += enclosed_volume(part);
   }
-  EXPECT_NEAR(enclosed_volume(std::get<TriangleMesh>(read_part(options_.folder / "pulley.stl"))), volume, 1e-6 * volume);
+  EXPECT_NEAR(enclosed_volume(std::get<TriangleMesh>(read_part(options_.folder / "pulley.stl"))), volume,
+              1e-6 * volume);
 }
 
 TEST_F(Build, InOnePartWritesNoOther) {
@@ -122,8 +124,9 @@ TEST_F(Build, HoldsOverhangsAgainstTheFilesLimit) {
     const BuildResult built = build(file_, options_);
     EXPECT_EQ(built.status, BuildStatus::done);
     for (const std::string name : {"p1_overhang", "p2_overhang"}) {
-      EXPECT_THAT(built.product.checks, Contains(::testing::AllOf(Field(&Check::name, name), Field(&Check::value, ::testing::Ge(overhang)),
-                                                                  Field(&Check::limit, ::testing::DoubleNear(overhang, 0.2)))));
+      EXPECT_THAT(built.product.checks,
+                  Contains(::testing::AllOf(Field(&Check::name, name), Field(&Check::value, ::testing::Ge(overhang)),
+                                            Field(&Check::limit, ::testing::DoubleNear(overhang, 0.2)))));
     }
   }
 }

@@ -62,7 +62,8 @@ TEST_F(MadePart, AsMadePasses) { EXPECT_THAT(failures(*mesh_), IsEmpty()); }
 TEST_F(MadePart, InsideOutGivesTheSameAngles) {
   TriangleMesh mesh = *mesh_;
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  EXPECT_NEAR(rewind_part({*mechanism_, {}}, mesh).max_theta_error, rewind_part({*mechanism_, {}}, *mesh_).max_theta_error, 1e-9);
+  EXPECT_NEAR(rewind_part({*mechanism_, {}}, mesh).max_theta_error,
+              rewind_part({*mechanism_, {}}, *mesh_).max_theta_error, 1e-9);
 }
 
 TEST_F(MadePart, PrintedTooSmallGivesWrongAngles) {
@@ -146,7 +147,8 @@ TEST_F(MadePart, MirroredOrInInchesIsRefusedWithWords) {
     return std::string("taken");
   };
   EXPECT_THAT(message(changed([](Vec3& v) { v.x() = -v.x(); })), ::testing::HasSubstr("mirror image"));
-  EXPECT_THAT(message(put(changed([](Vec3& v) { v.z() = -v.z(); }), false, 30, Vec3(9, 9, 9))), ::testing::HasSubstr("mirror image"));
+  EXPECT_THAT(message(put(changed([](Vec3& v) { v.z() = -v.z(); }), false, 30, Vec3(9, 9, 9))),
+              ::testing::HasSubstr("mirror image"));
   EXPECT_THAT(message(changed([](Vec3& v) { v /= 25.4; })), ::testing::HasSubstr("inches: scale it by 25.4"));
   EXPECT_THAT(message(changed([](Vec3& v) { v *= 1.1; })), ::testing::HasSubstr("1.1 times the size"));
   // Not every other size is a unit's.
@@ -222,7 +224,8 @@ TEST_F(MadePart, AsADrawingOfFloorsOrOfPitchCurvesGivesTheSameAngles) {
   Drawing floors, pitches;
   floors.paths = {path("P1_FLOOR", synthesis_->p1, floor), path("P2_FLOOR", synthesis_->p2, floor)};
   pitches.paths = {path("P1_PITCH", synthesis_->p1, 0), path("P2_PITCH", synthesis_->p2, 0)};
-  const RewindResult by_floors = rewind_part({*mechanism_, {}}, floors), by_pitches = rewind_part({*mechanism_, {}}, pitches);
+  const RewindResult by_floors = rewind_part({*mechanism_, {}}, floors),
+                     by_pitches = rewind_part({*mechanism_, {}}, pitches);
   EXPECT_LT(degrees(by_floors.max_theta_error), 0.005);
   // The tolerance of the polygons: 0.01 mm of tendon is 0.01° here.
   EXPECT_NEAR(degrees(by_floors.max_theta_error), degrees(by_pitches.max_theta_error), 0.005);

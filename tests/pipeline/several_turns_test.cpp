@@ -262,8 +262,7 @@ TEST(SeveralTurnsPrint, AreMadeForEveryPrinter) {
 TEST(SeveralTurnsWords, SayHowMuchLevelTendonsLeaveOut) {
   const auto note_of = [](const std::vector<Setting>& settings) {
     std::string text;
-    for (const Diagnostic& one : analyze(read_profile("wrist_turns", settings)).warnings)
-      text += one.message;
+    for (const Diagnostic& one : analyze(read_profile("wrist_turns", settings)).warnings) text += one.message;
     return text;
   };
   EXPECT_THAT(note_of({}),

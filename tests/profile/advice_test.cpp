@@ -14,7 +14,8 @@ namespace fusee {
 namespace {
 
 const Change* find(const std::vector<Change>& changes, const std::string& key) {
-  const auto found = std::find_if(changes.begin(), changes.end(), [&](const Change& change) { return change.key == key; });
+  const auto found =
+      std::find_if(changes.begin(), changes.end(), [&](const Change& change) { return change.key == key; });
   return found == changes.end() ? nullptr : &*found;
 }
 
@@ -55,8 +56,8 @@ TEST(NearestChanges, AreNoneWhereNothingHelps) {
 TEST(NearestChanges, LookAtMoreKeysOnRequest) {
   Mechanism mechanism = testing::forearm();
   mechanism.body.bore_diameter = 30.0;
-  const auto changes =
-      nearest_changes(mechanism, [](const Mechanism& m) { return m.body.bore_diameter <= 22.22; }, {"body.bore_diameter_mm"});
+  const auto changes = nearest_changes(mechanism, [](const Mechanism& m) { return m.body.bore_diameter <= 22.22; },
+                                       {"body.bore_diameter_mm"});
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_NEAR(changes[0].to, 22.2, 1e-9);
 }

@@ -13,7 +13,8 @@ namespace {
 using ::testing::HasSubstr;
 
 const Condition& failed(const SynthesisResult& result) {
-  const auto found = std::find_if(result.conditions.begin(), result.conditions.end(), [](const Condition& c) { return !c.ok; });
+  const auto found =
+      std::find_if(result.conditions.begin(), result.conditions.end(), [](const Condition& c) { return !c.ok; });
   EXPECT_NE(found, result.conditions.end()) << "everything holds";
   return *found;
 }
@@ -58,7 +59,8 @@ TEST(Feasibility, AHollowHasASizeAndNoSign) {
   mechanism.tendon.diameter = 0.01;
   const SynthesisResult result = synthesise(mechanism, {.advice = false});
   const double radius = failed(result).value;
-  EXPECT_THAT(failed(result).message, HasSubstr(radius > 0 ? "bends there with a radius of only " : "is hollow there, with a radius of "));
+  EXPECT_THAT(failed(result).message,
+              HasSubstr(radius > 0 ? "bends there with a radius of only " : "is hollow there, with a radius of "));
   EXPECT_THAT(failed(result).message, ::testing::Not(HasSubstr("-")));
 }
 
@@ -163,7 +165,8 @@ TEST(Feasibility, MoreThanOneTurn) {
   mechanism.pulley.r1 = 9.0;
   const SynthesisResult result = synthesise(mechanism);
   expect_refused(mechanism, "one_turn_P1", "more than one turn");
-  EXPECT_TRUE(std::any_of(result.advice.begin(), result.advice.end(), [](const Change& c) { return c.key == "pulley.r1_mm" && c.to > 9.0; }));
+  EXPECT_TRUE(std::any_of(result.advice.begin(), result.advice.end(),
+                          [](const Change& c) { return c.key == "pulley.r1_mm" && c.to > 9.0; }));
 }
 
 TEST(Feasibility, ThinnerThanItsTendon) {
@@ -177,8 +180,14 @@ TEST(Feasibility, TableThatFallsIsRefused) {
   Mechanism mechanism = testing::forearm();
   mechanism.pulley.law = Law::table;
   // The rows rise; the smooth curve through a steep pair and a wide gap overshoots.
-  for (const auto& [alpha, theta] : {std::pair{-1.0, -0.30}, {-0.95, -0.20}, {-0.90, -0.19}, {-0.2, -0.15}, {0.0, 0.0},
-                                     {0.2, 0.05}, {0.5, 0.1}, {1.0, 0.2}}) {
+  for (const auto& [alpha, theta] : {std::pair{-1.0, -0.30},
+                                     {-0.95, -0.20},
+                                     {-0.90, -0.19},
+                                     {-0.2, -0.15},
+                                     {0.0, 0.0},
+                                     {0.2, 0.05},
+                                     {0.5, 0.1},
+                                     {1.0, 0.2}}) {
     mechanism.pulley.rows.push_back({alpha, theta});
   }
   mechanism.joint.theta_min = -0.3;

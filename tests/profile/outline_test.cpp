@@ -27,7 +27,8 @@ TEST(Outline, ActiveArcMayWrapPastTheEnd) {
 TEST(Outline, ParallelCurvesAddATurnOfTheirDistance) {
   const SynthesisResult result = synthesise(testing::forearm());
   ASSERT_TRUE(result.made()) << result.brief();
-  // The polygon's parallel polygon: each edge grows by distance · 2 tan(turn/2) in the limit; the sum is near 2π · distance.
+  // The polygon's parallel polygon: each edge grows by distance · 2 tan(turn/2) in the limit; the sum is near 2π ·
+  // distance.
   const double grown = perimeter(parallel(result.p2, 3.0)) - perimeter(parallel(result.p2, 0.0));
   EXPECT_NEAR(grown, k_two_pi * 3.0, 0.003);
 }

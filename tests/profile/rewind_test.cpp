@@ -18,7 +18,8 @@ RewindResult wound(const Mechanism& mechanism, const SynthesisResult& made) {
   return rewind(mechanism, parallel(made.p1, -half), parallel(made.p2, -half));
 }
 
-// Two routes, one answer: the analytic envelope and a string wound on its polygon agree the better the finer the polygon.
+// Two routes, one answer: the analytic envelope and a string wound on its polygon agree the better the finer the
+// polygon.
 TEST(Rewind, StringOnTheEnvelopeGivesTheDeclaredLaw) {
   for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
     const SynthesisResult fine = synthesise(mechanism, {.tolerance = 1e-6});
@@ -52,7 +53,8 @@ TEST(Rewind, SeesAScaledAndATurnedPulley) {
   EXPECT_GT(degrees(rewind(forearm(), larger, parallel(made.p2, -0.5)).max_theta_error), 0.4);
   Polygon turned = parallel(made.p2, -0.5);
   const Vec2 by = unit(radians(3));
-  for (Vec2& point : turned) point = Vec2(by.x() * point.x() - by.y() * point.y(), by.y() * point.x() + by.x() * point.y());
+  for (Vec2& point : turned)
+    point = Vec2(by.x() * point.x() - by.y() * point.y(), by.y() * point.x() + by.x() * point.y());
   EXPECT_GT(rewind(forearm(), parallel(made.p1, -0.5), turned).max_slack, 0.05);
 }
 

@@ -66,7 +66,8 @@ TEST(Synthesis, RadiusOfCurvatureIsThatOfThePoints) {
   ASSERT_TRUE(result.made());
   const auto& points = result.p2.points;
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    const double mean = (points[i + 1].position - points[i - 1].position).norm() / (points[i + 1].psi - points[i - 1].psi);
+    const double mean =
+        (points[i + 1].position - points[i - 1].position).norm() / (points[i + 1].psi - points[i - 1].psi);
     EXPECT_NEAR(mean, points[i].curvature_radius, 0.02 * points[i].curvature_radius);
   }
 }
@@ -89,7 +90,8 @@ TEST(Synthesis, StrokeHoldsHomeAndBothEnds) {
   const SynthesisResult result = synthesise(unsymmetric());
   EXPECT_DOUBLE_EQ(result.stroke.front().theta, radians(-20));
   EXPECT_NEAR(result.stroke.back().theta, radians(32), 1e-12);
-  const auto home = std::count_if(result.stroke.begin(), result.stroke.end(), [](const auto& at) { return at.alpha == 0.0; });
+  const auto home =
+      std::count_if(result.stroke.begin(), result.stroke.end(), [](const auto& at) { return at.alpha == 0.0; });
   EXPECT_EQ(home, 1);
 }
 
@@ -104,7 +106,8 @@ TEST(Synthesis, OfTheMirroredJointIsTheMirroredPulley) {
   ASSERT_TRUE(image.made()) << image.brief();
   for (const OutlinePoint& point : result.p2.points) {
     const Vec2 mirrored_normal(-point.normal.x(), point.normal.y());
-    EXPECT_NEAR(distance_from(image.p1, std::atan2(mirrored_normal.y(), mirrored_normal.x())), point.position.dot(point.normal), 1e-4);
+    EXPECT_NEAR(distance_from(image.p1, std::atan2(mirrored_normal.y(), mirrored_normal.x())),
+                point.position.dot(point.normal), 1e-4);
   }
 }
 

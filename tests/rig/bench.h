@@ -29,24 +29,24 @@ struct SheathPiece {
 
 /// A tendon in its right-hand image: index 0 is tendon 1, seen in the mirror.
 struct BenchTendon {
-  Hull hull;  ///< its pulley, in the pulley's frame at home
+  Hull hull;           ///< its pulley, in the pulley's frame at home
   double held_at = 0;  ///< height of its end, or of the collar, where the pulley's groove climbs
   Circle pin;
-  Vec2 axis = Vec2::Zero();   ///< of the pulley
-  double sign = 1;            ///< of the image's angles
-  Vec2 end = Vec2::Zero();    ///< where it is tied, in the link at home
-  Hull drum;                  ///< with that end, in the link at home, upside down; empty: no drum
-  std::ptrdiff_t tied = 0;    ///< the corner of `drum` that the end is
-  std::ptrdiff_t over = 0;    ///< and the one at which the string to the pin leaves it
+  Vec2 axis = Vec2::Zero();         ///< of the pulley
+  double sign = 1;                  ///< of the image's angles
+  Vec2 end = Vec2::Zero();          ///< where it is tied, in the link at home
+  Hull drum;                        ///< with that end, in the link at home, upside down; empty: no drum
+  std::ptrdiff_t tied = 0;          ///< the corner of `drum` that the end is
+  std::ptrdiff_t over = 0;          ///< and the one at which the string to the pin leaves it
   std::vector<SheathPiece> sheath;  ///< from the mouth to the pin; empty: none
   Circle guide;                     ///< from which it comes to its pulley: the pin, or the sheath's mouth
-  double mark = 0;            ///< direction of the point of the pin's rim between the upper and the lower part
-  double upper = 0;           ///< unstretched length above the mark, mm
-  double lower = 0;           ///< below it, up to the pulley
-  double wound = 0;           ///< arc on the pulley
-  GrooveChain laid;           ///< what lies on it, up to the knot
-  std::ptrdiff_t corner = 0;  ///< at which it begins
-  double bristle = 0;         ///< −1…1: share of the friction in use; > 0 where tendon went down over the pin
+  double mark = 0;                  ///< direction of the point of the pin's rim between the upper and the lower part
+  double upper = 0;                 ///< unstretched length above the mark, mm
+  double lower = 0;                 ///< below it, up to the pulley
+  double wound = 0;                 ///< arc on the pulley
+  GrooveChain laid;                 ///< what lies on it, up to the knot
+  std::ptrdiff_t corner = 0;        ///< at which it begins
+  double bristle = 0;               ///< −1…1: share of the friction in use; > 0 where tendon went down over the pin
   double let_go = 0;
   double upper_tension = 0;  ///< N
   double lower_tension = 0;
@@ -87,7 +87,7 @@ class Bench {
   };
   /// A tendon at a trial θ.
   struct Trial {
-    double torque = 0;  ///< on the joint, towards its own side
+    double torque = 0;   ///< on the joint, towards its own side
     double slipped = 0;  ///< over the pin, down
     double to_span = 0;  ///< into the span to the pulley
     std::vector<SheathPiece> sheath;
@@ -135,7 +135,7 @@ class Bench {
   double weight_ = 0;  ///< times its lever, N·mm
   double tilt_ = 0;
   Spring spring_;
-  double step_ = 0;  ///< of θ, the last one
+  double step_ = 0;                                                                     ///< of θ, the last one
   Eigen::Matrix<double, 6, 6> towards_rest_ = Eigen::Matrix<double, 6, 6>::Identity();  ///< as found so far
   double theta_ = 0;
   std::array<BenchTendon, 2> tendons_;

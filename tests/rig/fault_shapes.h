@@ -50,9 +50,7 @@ inline double give(const MadeJoint& joint) {
 }
 
 /// What lags behind `x` by up to `width` to either side (play); `where` is its memory.
-inline double behind(double x, double width, double& where) {
-  return where = std::clamp(where, x - width, x + width);
-}
+inline double behind(double x, double width, double& where) { return where = std::clamp(where, x - width, x + width); }
 /// What follows `to` with a time constant, s; `where` is its memory.
 inline double followed(double to, double seconds, double constant, double& where) {
   return where = to + (where - to) * std::exp(-seconds / constant);

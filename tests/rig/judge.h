@@ -23,14 +23,14 @@ struct Covered {
 struct Judgement {
   std::string truth;
   CalibrationVerdict verdict = CalibrationVerdict::not_testable;
-  std::size_t named = 0;             ///< faults that have a name and are well seen
-  std::size_t held = 0;              ///< of these, in a reported group
-  std::size_t held_by_names = 0;     ///< of these, in a group that does not say that it may be nothing with a name
-  std::size_t beyond = 0;            ///< of `named`, not held though more than `detectable` says would have shown
-  std::size_t alone = 0;             ///< of these, named alone
-  std::size_t false_groups = 0;  ///< reported groups whose names are neither a fault nor the kin of one without a name
-  std::size_t false_names = 0;   ///< of these, that do not say that it may be nothing with a name
-  std::size_t wrong_alone = 0;       ///< of these, with a single member
+  std::size_t named = 0;          ///< faults that have a name and are well seen
+  std::size_t held = 0;           ///< of these, in a reported group
+  std::size_t held_by_names = 0;  ///< of these, in a group that does not say that it may be nothing with a name
+  std::size_t beyond = 0;         ///< of `named`, not held though more than `detectable` says would have shown
+  std::size_t alone = 0;          ///< of these, named alone
+  std::size_t false_groups = 0;   ///< reported groups whose names are neither a fault nor the kin of one without a name
+  std::size_t false_names = 0;    ///< of these, that do not say that it may be nothing with a name
+  std::size_t wrong_alone = 0;    ///< of these, with a single member
   std::vector<std::string> outside;  ///< faults without a name that are there
   bool nothing = false;              ///< a joint as declared, but perhaps for its groove's friction
   std::vector<Covered> numbers;

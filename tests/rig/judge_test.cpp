@@ -47,7 +47,8 @@ TEST(Judge, counts_what_was_found_and_what_was_not) {
   EXPECT_TRUE(one.outside.empty());
 }
 
-// The names in it are still false, and are counted as such by the older rate; it does not say that one of them is there.
+// The names in it are still false, and are counted as such by the older rate; it does not say that one of them is
+// there.
 TEST(Judge, a_group_that_may_be_nothing_with_a_name_blames_nobody) {
   const Judgement one = judge(with({"tendon_stretch", "backlash"}),
                               answer(CalibrationVerdict::confounded,

@@ -68,7 +68,7 @@ struct Hidden {
   std::array<double, 2> pin_outward{};  ///< each pin beyond that, mm; [0] is tendon 1's
   std::array<double, 2> pin_down{};
   double bearing_friction = 0;  ///< added to the coefficient of idlers' bearings
-  double frame_give = 0;  ///< pins move by this along the tendon's force on them, mm/N
+  double frame_give = 0;        ///< pins move by this along the tendon's force on them, mm/N
 
   // Joint.
   double joint_length = 0;       ///< added to OC, mm
@@ -76,7 +76,7 @@ struct Hidden {
   double drum_runout = 0;        ///< of the drum's centre off the joint's axis, mm
   double drum_runout_phase = 0;  ///< where that centre stands at home, from across (0) towards along (π/2)
   std::array<Vec2, 2> end_moved{Vec2::Zero(), Vec2::Zero()};  ///< of each tendon's own attachment: across, along, mm
-  double gravity = 0;            ///< weight times lever, N·mm
+  double gravity = 0;                                         ///< weight times lever, N·mm
   double gravity_direction = 0;  ///< of the pull; 0: from C to O at home, π/2: towards −θ
   double bearing = 0;            ///< dry friction of the joint's bearing once it moves, N·mm
 

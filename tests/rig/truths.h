@@ -50,7 +50,7 @@ enum class Protocol { full, single, random };
 
 struct CaseOptions {
   Protocol protocol = Protocol::full;
-  bool any_groove = false;  ///< the groove's friction is 0.05 … 0.5 while the file says 0.2
+  bool any_groove = false;           ///< the groove's friction is 0.05 … 0.5 while the file says 0.2
   const MadeJoint* joint = nullptr;  ///< this one, and none drawn at random; loads are those that its tendons bear
 };
 

@@ -264,7 +264,8 @@ TEST(BodyAdvice, AClampScrewWithoutRoomTakesAThickerFlangeOrNone) {
   ASSERT_FALSE(obstacles(mechanism).empty());
   const Advice advice = body_advice(mechanism);
   const auto has = [&advice](const char* key) {
-    return std::any_of(advice.alone.begin(), advice.alone.end(), [key](const Change& change) { return change.key == key; });
+    return std::any_of(advice.alone.begin(), advice.alone.end(),
+                       [key](const Change& change) { return change.key == key; });
   };
   EXPECT_TRUE(has("body.flange_thickness_mm"));
   EXPECT_TRUE(has("body.clamp_screw"));

@@ -29,7 +29,10 @@ DeclaredMechanism loaded_forearm() {
 
 struct Held {
   explicit Held(const DeclaredMechanism& declared)
-      : mechanism(declared), synthesis(synthesise(declared)), pulley(make_pulley(declared, synthesis)), holding(tendon_holding(declared, synthesis, pulley)) {}
+      : mechanism(declared),
+        synthesis(synthesise(declared)),
+        pulley(make_pulley(declared, synthesis)),
+        holding(tendon_holding(declared, synthesis, pulley)) {}
 
   DeclaredMechanism mechanism;
   SynthesisResult synthesis;
@@ -64,7 +67,8 @@ double left_at(const Held& held, Side side, double alpha, double tension, const 
   const std::size_t step = side == Side::left ? 1 : n - 1;
   for (std::size_t i = take_off; (outline.points[i].position - exit).norm() > 0.6; i = (i + step) % n) {
     const std::size_t j = (i + step) % n, k = (j + step) % n;
-    const Vec2 in = outline.points[j].position - outline.points[i].position, out = outline.points[k].position - outline.points[j].position;
+    const Vec2 in = outline.points[j].position - outline.points[i].position,
+               out = outline.points[k].position - outline.points[j].position;
     const double corner = std::abs(std::atan2(cross(in, out), in.dot(out)));
     // 2 T sin(corner/2) presses, and friction takes μ times that.
     tension -= 2.0 * tension * std::sin(0.5 * corner) * m.pulley.mu;
@@ -166,10 +170,12 @@ TEST_P(Profile, WrapsFurtherAndHoldsItsTendons) {
   ASSERT_TRUE(held.pulley.made()) << held.pulley.brief();
   EXPECT_TRUE(held.holding.warnings.empty());
   const bool thick = std::string(GetParam()) == "paper_optimum";
-  for (const KnotHold& knot : held.holding.knots) EXPECT_GE(degrees(knot.wrap_left), thick ? 19 : 35) << pulley_name(knot.side);
+  for (const KnotHold& knot : held.holding.knots)
+    EXPECT_GE(degrees(knot.wrap_left), thick ? 19 : 35) << pulley_name(knot.side);
 }
 INSTANTIATE_TEST_SUITE_P(All, Profile,
-                         ::testing::Values("finger", "forearm", "gripper", "linear_wrist", "paper_optimum", "unsymmetric", "wrist_exo"));
+                         ::testing::Values("finger", "forearm", "gripper", "linear_wrist", "paper_optimum",
+                                           "unsymmetric", "wrist_exo"));
 
 }  // namespace
 }  // namespace fusee

@@ -18,11 +18,11 @@ namespace {
 using testing::check_named;
 using testing::circle;
 using testing::failed;
+using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::plain_mechanism;
 using testing::pulley_of;
 using testing::SupportShape;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 // Heights are floats of scaled numbers.
 constexpr double k_flat = 1e-5;
@@ -60,12 +60,12 @@ Mechanism printed(Parts parts, double overhang = 45) {
   return mechanism;
 }
 
-// ---- slopes -----------------------------------------------------------------------------------------------------------
+// ---- slopes
+// -----------------------------------------------------------------------------------------------------------
 
 bool outside(const Outline& outline, double distance, const Vec2& point) {
-  return std::any_of(outline.points.begin(), outline.points.end(), [&](const OutlinePoint& at) {
-    return (point - at.position).dot(at.normal) > distance;
-  });
+  return std::any_of(outline.points.begin(), outline.points.end(),
+                     [&](const OutlinePoint& at) { return (point - at.position).dot(at.normal) > distance; });
 }
 
 // Of faces that look down from grooves, cones and rims, above the bed; 90° where there is none.
@@ -175,7 +175,8 @@ TEST(PrintShapes, SupportsGiveFlatCeilingsAndSymmetricGrooves) {
   }
 }
 
-// ---- seats ------------------------------------------------------------------------------------------------------------
+// ---- seats
+// ------------------------------------------------------------------------------------------------------------
 
 struct Seat {
   double below = 1e9;  ///< of the tendon's centre line from the wall, the part of it below the groove's plane
@@ -231,10 +232,9 @@ TEST(PrintShapes, TheHalfThatTheTendonLiesOnIsTheSameWithSupports) {
   mechanism.print.supports = true;
   const BodyLayout supported = resolve_layout(mechanism, shape);
   // P1 is printed turned over where it is printed for itself.
-  for (const auto& [half, same] : {std::pair{&whole.p1.below, &supported.p1.below},
-                                   std::pair{&whole.p2.below, &supported.p2.below},
-                                   std::pair{&apart.p1.above, &supported.p1.above},
-                                   std::pair{&apart.p2.below, &supported.p2.below}}) {
+  for (const auto& [half, same] :
+       {std::pair{&whole.p1.below, &supported.p1.below}, std::pair{&whole.p2.below, &supported.p2.below},
+        std::pair{&apart.p1.above, &supported.p1.above}, std::pair{&apart.p2.below, &supported.p2.below}}) {
     ASSERT_EQ(half->size(), same->size());
     for (std::size_t k = 0; k < half->size(); ++k) {
       EXPECT_EQ((*half)[k].offset, (*same)[k].offset);
@@ -243,7 +243,8 @@ TEST(PrintShapes, TheHalfThatTheTendonLiesOnIsTheSameWithSupports) {
   }
 }
 
-// ---- two parts --------------------------------------------------------------------------------------------------------
+// ---- two parts
+// --------------------------------------------------------------------------------------------------------
 
 Made two_parts() { return {printed(Parts::two), pulley_of(circle(20), circle(24, {2, 1}))}; }
 
@@ -374,7 +375,8 @@ TEST(TwoParts, PinsKeepClearOfTieOffs) {
   EXPECT_EQ(pin_holes(made.pulley.mesh, layout.z_p1 + 0.01, layout.dowels.hole_diameter).size(), 2u);
 }
 
-// ---- one or two -------------------------------------------------------------------------------------------------------
+// ---- one or two
+// -------------------------------------------------------------------------------------------------------
 
 // Flange 1 stands at 20 − d/2 + 2 d, the middle one 0.2 mm and the smooth maximum's share outside of both lips.
 double cone_over(double r1, double r2, double overhang) {

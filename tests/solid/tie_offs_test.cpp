@@ -17,10 +17,10 @@ namespace {
 using testing::check_named;
 using testing::circle;
 using testing::failed;
+using ::testing::HasSubstr;
 using testing::plain_mechanism;
 using testing::pulley_of;
 using testing::SupportShape;
-using ::testing::HasSubstr;
 
 const Outline& outline_of(const SynthesisResult& shape, Side side) { return side == Side::left ? shape.p1 : shape.p2; }
 
@@ -182,7 +182,9 @@ TEST(TieOffs, ALargePulleyHasNoSlotToTheFace) {
 
 // ---- tails ----------------------------------------------------------------------------------------------------------
 
-double beyond_pocket(const TailSlot& slot, const BodyLayout& layout) { return (slot.to - slot.from).norm() - layout.pocket_radius; }
+double beyond_pocket(const TailSlot& slot, const BodyLayout& layout) {
+  return (slot.to - slot.from).norm() - layout.pocket_radius;
+}
 
 // On P1's face, which lies on the bed where the part is one, a slot has a gable over it, which reaches deeper.
 Mechanism thick_flanged() {
@@ -195,7 +197,9 @@ TEST(Tails, OnTheBedHaveAGable) {
   const SynthesisResult shape = pulley_of(circle(20), circle(18));
   Mechanism apart = plain_mechanism();
   apart.print.parts = Parts::two;
-  const auto slot_of = [&](const Mechanism& mechanism) { return find(make_pulley(mechanism, shape), Side::left, true).tail; };
+  const auto slot_of = [&](const Mechanism& mechanism) {
+    return find(make_pulley(mechanism, shape), Side::left, true).tail;
+  };
   for (const Mechanism& mechanism : std::vector<Mechanism>{plain_mechanism(), thick_flanged()}) {
     ASSERT_TRUE(slot_of(mechanism).has_value());
     EXPECT_GT(slot_of(mechanism)->roof, 0);
@@ -204,8 +208,8 @@ TEST(Tails, OnTheBedHaveAGable) {
   EXPECT_EQ(slot_of(apart)->roof, 0);
 }
 
-// Where a slot and a channel's ceiling leave less than two layers between them, they lie beside each other: in a shallow
-// groove for a thick tendon they would meet.
+// Where a slot and a channel's ceiling leave less than two layers between them, they lie beside each other: in a
+// shallow groove for a thick tendon they would meet.
 TEST(Tails, LeaveTwoLayersOverChannels) {
   Mechanism mechanism = plain_mechanism();
   mechanism.tendon.diameter = 2.3;
@@ -259,7 +263,8 @@ TEST(Tails, AreCutAsLongAndDeepAsTheySay) {
     constexpr int k_slices = 2000;
     for (int k = 0; k < k_slices; ++k) {
       const double aside = half * (2.0 * (k + 0.5) / k_slices - 1.0);
-      volume += slot.roof * (1.0 - std::abs(aside) / half) * (length - std::sqrt(radius * radius - aside * aside)) * slot.width / k_slices;
+      volume += slot.roof * (1.0 - std::abs(aside) / half) * (length - std::sqrt(radius * radius - aside * aside)) *
+                slot.width / k_slices;
     }
   }
   for (const Anchor& anchor : without.anchors) EXPECT_FALSE(anchor.tail.has_value());
@@ -283,7 +288,8 @@ TEST(Tails, AClampScrewHasItsPilotAtTheEnd) {
     // A blind hole: in a section half-way down, not in the groove above the middle flange's top.
     const auto hole_at = [&](double z) {
       for (const Polygon& loop : section(pulley.mesh, z)) {
-        if (signed_area(loop) < 0 && std::abs(distance_to_edges(loop, slot.to) - 0.5 * slot.pilot_diameter) < 0.01) return true;
+        if (signed_area(loop) < 0 && std::abs(distance_to_edges(loop, slot.to) - 0.5 * slot.pilot_diameter) < 0.01)
+          return true;
       }
       return false;
     };

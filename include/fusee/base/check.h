@@ -8,10 +8,10 @@
 namespace fusee {
 
 struct Check {
-  std::string name;   ///< snake_case, stable: stands in manifest.json
-  double value = 0;   ///< what was measured
-  double limit = 0;   ///< what it is held against
-  std::string unit;   ///< "mm", "deg", "1" (a count or a plain number) …
+  std::string name;  ///< snake_case, stable: stands in manifest.json
+  double value = 0;  ///< what was measured
+  double limit = 0;  ///< what it is held against
+  std::string unit;  ///< "mm", "deg", "1" (a count or a plain number) …
   bool ok = false;
   std::string where;  ///< where the fault is, for a person ("facet 812 at (3.1, 4.2, 0.0) mm"); empty when ok
 };

@@ -17,9 +17,10 @@ struct CalibrationOptions {
   std::vector<std::string>
       hold_out;                  ///< names of runs kept for validation only; empty: whole runs are left out in turn
   bool look_for_effects = true;  ///< false: the file is known not to be of this joint (is_plainly_a_slip())
-  bool audit = true;  ///< simulate joints without what was found, and count how often it would be named
+  bool audit = true;             ///< simulate joints without what was found, and count how often it would be named
   std::vector<const Effect*> more_effects;  ///< beside those of the program; they must outlive the call
-  std::vector<std::string> without;         ///< names of effects that are left out of the catalogue: what if none knew of them?
+  std::vector<std::string>
+      without;  ///< names of effects that are left out of the catalogue: what if none knew of them?
   std::function<void(const std::string& what, double share)> progress;
 };
 
@@ -92,19 +93,19 @@ struct Candidate {
 
 /// A part of the error without a name: on what it depends, how large it is.
 struct Unknown {
-  std::string factor;    ///< "place", "direction", "load" …
-  double order = 0;      ///< of a harmonic: times a turn; else 0
-  double rms = 0;        ///< rad, over all rows in use
-  double evidence = 0;   ///< log of how many times less likely the data are without it
-  std::string words;     ///< on what it depends, and where in the chain such a thing can sit
+  std::string factor;   ///< "place", "direction", "load" …
+  double order = 0;     ///< of a harmonic: times a turn; else 0
+  double rms = 0;       ///< rad, over all rows in use
+  double evidence = 0;  ///< log of how many times less likely the data are without it
+  std::string words;    ///< on what it depends, and where in the chain such a thing can sit
   /// Its course over the seen span, rad: of what is in proportion to something at its largest, the motor on its way up
   /// and the load positive; none where place says nothing.
   std::vector<double> alpha;
   std::vector<double> theta;
 };
 
-/// What has no name and depends on place and direction alone, as a curve: for a table, and valid only where and as it was
-/// seen. rad
+/// What has no name and depends on place and direction alone, as a curve: for a table, and valid only where and as it
+/// was seen. rad
 struct EmpiricalCurve {
   bool used = false;          ///< data that it was not made from are nearer to the model with it, at every level
   std::string why;            ///< why not; "" of one that is used, and where nothing is without a name
@@ -148,9 +149,9 @@ struct Calibration {
   std::vector<std::string> held_out_runs;
   double rest_autocorrelation = 0;  ///< of the residual after all effects, row to row; 0: white
   double unexplained_rms = 0;
-  std::vector<Unknown> unknown;     ///< the largest first
-  std::vector<Unknown> instead;     ///< without a name, and as likely as names that were taken in its place
-  EmpiricalCurve curve;             ///< of what of it depends on place and direction alone
+  std::vector<Unknown> unknown;   ///< the largest first
+  std::vector<Unknown> instead;   ///< without a name, and as likely as names that were taken in its place
+  EmpiricalCurve curve;           ///< of what of it depends on place and direction alone
   std::string unexplained_where;  ///< where in α, which direction, load, harmonic
   std::vector<Detectable> detectable;
   std::vector<std::string> null_combinations;  ///< accepted effects and rivals that do as well, with their numbers

@@ -67,7 +67,7 @@ struct HelicalPulley {
   std::vector<Condition> conditions;  ///< all, those that hold too
   double expected_volume = 0;         ///< of the grid, less what was cut out of it, mm³
   int expected_euler = 0;
-  std::vector<Check> mesh_checks;  ///< check_mesh() of `mesh`
+  std::vector<Check> mesh_checks;           ///< check_mesh() of `mesh`
   std::shared_ptr<const HelicalPlan> plan;  ///< of one that is made
 
   std::string brief() const;

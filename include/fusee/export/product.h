@@ -37,7 +37,8 @@ struct Product {
   JointAsItIs joint;   ///< what was made, and what for
   SynthesisResult synthesis;
   Pulley pulley;
-  std::optional<BodyLayout> cut_layout;  ///< where it is known: of what is cut, which neither shrinks nor gets elephant's feet
+  std::optional<BodyLayout>
+      cut_layout;   ///< where it is known: of what is cut, which neither shrinks nor gets elephant's feet
   Holding holding;  ///< of its tendons
   RewindResult as_built;
   std::vector<Check> checks;

@@ -29,7 +29,7 @@ struct LowerPath {
   double normal = 0;  ///< direction of the line's outward normal
   double reach =
       0;  ///< from the pin's tangent point, or the sheath's mouth, to where the pulley is touched: the free span
-  double wound = 0;   ///< arc length that lies on the pulley, up to there, but for a constant
+  double wound = 0;  ///< arc length that lies on the pulley, up to there, but for a constant
 };
 
 /// Both pulleys as made for a mechanism, looked at from pins that may stand elsewhere. Cheap to copy; immutable.
@@ -85,8 +85,8 @@ struct JointModel {
   double alpha_least = 0;  ///< the range that the pulley was made for, rad: the knots lie beyond its ends …
   double alpha_most = 0;
   std::array<double, 2> knots_beyond = {k_knot_beyond, k_knot_beyond};  ///< … by so much, mm
-  double weight = 0;         ///< mass · g · lever, N·mm
-  double tilt = 0;           ///< θ at which the link points straight up, rad
+  double weight = 0;                                                    ///< mass · g · lever, N·mm
+  double tilt = 0;  ///< θ at which the link points straight up, rad
   Spring spring;
   double last_step = 1e-13;  ///< of the search for the equilibrium: how exactly θ is found, rad
   double theta_least = 0;    ///< between here and theta_most both tendons have a moment arm about O, rad

@@ -85,8 +85,7 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
 /// What drives a joint, logged or planned, for those who ask what the joint will do: one run, rows in order of time, α
 /// unwrapped, load and temperature without gaps. θ is NaN where there is none; strokes are not looked for. A torque is
 /// taken as a tip force, as in compare_with_declared(). InputError, also where no row holds α.
-Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared,
-                         MeasurementOptions options = {});
+Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared, MeasurementOptions options = {});
 
 /// One run from text; `name` stands in the messages. InputError. Notes and reasons go to `into`.
 Run parse_run(std::string_view text, const std::string& name, const MeasurementOptions& options, Measurement& into);

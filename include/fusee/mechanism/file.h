@@ -13,7 +13,8 @@
 
 namespace fusee {
 
-/// "table.key=value" from the command line; the value is TOML ("100", "[-20, 20]", "\"linear\""; a bare word is a string).
+/// "table.key=value" from the command line; the value is TOML ("100", "[-20, 20]", "\"linear\""; a bare word is a
+/// string).
 struct Setting {
   std::string key;
   std::string value;
@@ -26,7 +27,7 @@ using KeyPlaces = std::map<std::string, Place, std::less<>>;
 struct MechanismFile {
   DeclaredMechanism mechanism;
   std::string path;
-  std::string sha256;                  ///< of the file's bytes (settings are not in it)
+  std::string sha256;  ///< of the file's bytes (settings are not in it)
   std::vector<Diagnostic> warnings;
   KeyPlaces places;
 
@@ -39,14 +40,15 @@ struct MechanismFile {
 MechanismFile read_mechanism(const std::filesystem::path& path, const std::vector<Setting>& settings = {});
 
 /// The same from text; `name` stands in the messages, tables are looked for in `folder`.
-DeclaredMechanism parse_mechanism(std::string_view text, const std::string& name, const std::filesystem::path& folder = ".",
-                          const std::vector<Setting>& settings = {}, std::vector<Diagnostic>* warnings = nullptr,
-                          KeyPlaces* places = nullptr);
+DeclaredMechanism parse_mechanism(std::string_view text, const std::string& name,
+                                  const std::filesystem::path& folder = ".", const std::vector<Setting>& settings = {},
+                                  std::vector<Diagnostic>* warnings = nullptr, KeyPlaces* places = nullptr);
 
 /// A complete file with every key, its meaning, unit, range and default as a comment. parse(write(m)) == m.
 std::string write_mechanism(const DeclaredMechanism& mechanism);
 
-/// `fusee explain`: a key ("r1_mm", "pulley.r1_mm"), a table ("pulley") or "" for the list. InputError with the nearest key.
+/// `fusee explain`: a key ("r1_mm", "pulley.r1_mm"), a table ("pulley") or "" for the list. InputError with the nearest
+/// key.
 std::string explain(std::string_view key);
 /// The same for machines (JSON text).
 std::string explain_json(std::string_view key);

@@ -113,7 +113,7 @@ struct PulleyDrive {
   std::string torque_table;  ///< the CSV of law = torque, as written in the file; "": motor_torque everywhere
   std::vector<TorqueRow> torque_rows;  ///< its contents, by increasing θ
   Method method = Method::exact;
-  double mu = 0;             ///< friction between tendon and groove, effective
+  double mu = 0;  ///< friction between tendon and groove, effective
   WindingChoice winding = WindingChoice::automatic;
 
   bool operator==(const PulleyDrive&) const = default;
@@ -121,10 +121,10 @@ struct PulleyDrive {
 
 struct Tendon {
   double diameter = 0;
-  double modulus = 0;     ///< Young's modulus, MPa
-  double pretension = 0;  ///< of tendon 1 at home, N
-  double bend_ratio = 0;  ///< smallest D/d before a warning
-  double strength = 0;    ///< the tension at which it breaks without a knot, N; 0: not known
+  double modulus = 0;          ///< Young's modulus, MPa
+  double pretension = 0;       ///< of tendon 1 at home, N
+  double bend_ratio = 0;       ///< smallest D/d before a warning
+  double strength = 0;         ///< the tension at which it breaks without a knot, N; 0: not known
   double knot_efficiency = 1;  ///< share of it that is left at a knot
 
   bool operator==(const Tendon&) const = default;
@@ -177,30 +177,30 @@ enum class Tail { slot, none };
 /// The printed body. 0 stands for "automatic" where the field table says so; solid/layout.h resolves it.
 struct Body {
   Groove groove = Groove::u;
-  double groove_angle = 0;      ///< full angle between the walls, rad
-  double groove_depth = 0;      ///< lip above the floor; 0: 2 d, at least 0.8 mm
-  double seat_ratio = 0;        ///< seat radius of a U groove per tendon diameter
+  double groove_angle = 0;  ///< full angle between the walls, rad
+  double groove_depth = 0;  ///< lip above the floor; 0: 2 d, at least 0.8 mm
+  double seat_ratio = 0;    ///< seat radius of a U groove per tendon diameter
   Flange flange = Flange::follow;
   double flange_thickness = 0;  ///< at the lip
   double hub_diameter = 0;      ///< 0: from the bore and the set screw
   double hub_height = 0;        ///< above the top flange; 0: no hub. Without room for one it is left out
   Bore bore = Bore::round;
-  double bore_diameter = 0;  ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
-  double bore_flat = 0;      ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
+  double bore_diameter = 0;    ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
+  double bore_flat = 0;        ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
   std::string horn = "own";    ///< bore = horn: a name of catalogue.h; own: Mechanism::horn
   std::string shaft = "none";  ///< a name of catalogue.h; the reader gave bore, bore_diameter and bore_flat its numbers
-  std::string set_screw;     ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
+  std::string set_screw;       ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
   bool nut_trap = false;
-  double anchor_hole = 0;       ///< width of the tie-off channel; 0: d + 0.3 mm, at least 0.6 mm
-  double knot_pocket = 0;       ///< diameter; 0: 3.5 d, or what there is room for
-  double wrap = 0;              ///< least wrap between the active arc and a tie-off, rad; 0: as much as there is room for
-  Tail tail = Tail::slot;       ///< where the end of a tendon lies beyond its knot
-  std::string clamp_screw;      ///< over the tail: "none", "M2" … "M3"
+  double anchor_hole = 0;   ///< width of the tie-off channel; 0: d + 0.3 mm, at least 0.6 mm
+  double knot_pocket = 0;   ///< diameter; 0: 3.5 d, or what there is room for
+  double wrap = 0;          ///< least wrap between the active arc and a tie-off, rad; 0: as much as there is room for
+  Tail tail = Tail::slot;   ///< where the end of a tendon lies beyond its knot
+  std::string clamp_screw;  ///< over the tail: "none", "M2" … "M3"
   Marks marks = Marks::engraved;
   double mark_depth = 0;
-  double min_wall = 0;          ///< 0: 1.2 mm, thinner on small pulleys
-  double lead = 0;              ///< of helical grooves: least height from turn to turn; 0: what groove and rib need
-  double spare_turns = 1;       ///< of helical grooves, before and after what the range winds
+  double min_wall = 0;     ///< 0: 1.2 mm, thinner on small pulleys
+  double lead = 0;         ///< of helical grooves: least height from turn to turn; 0: what groove and rib need
+  double spare_turns = 1;  ///< of helical grooves, before and after what the range winds
 
   bool operator==(const Body&) const = default;
 };
@@ -274,7 +274,8 @@ struct RatioTransmission {
   bool operator==(const RatioTransmission&) const = default;
 };
 
-/// What was measured of the joint by hand: value and its standard uncertainty, in the file's unit; empty where nothing was.
+/// What was measured of the joint by hand: value and its standard uncertainty, in the file's unit; empty where nothing
+/// was.
 struct Prior {
   std::vector<double> EB, ED, OE, EF, guide_radius, length, radius_offset, pulley_scale, modulus;
   std::vector<double> drum_radius, attachment1_across, attachment1_along, attachment2_across, attachment2_along;
@@ -323,12 +324,15 @@ struct Mechanism {
   double drum_pitch_radius() const { return joint.drum_radius != 0 ? joint.drum_radius + 0.5 * tendon.diameter : 0.0; }
   /// The joint that the paper's formulas are of: one lever point, and pins above their pulley.
   bool is_papers() const { return joint.is_plain() && guides.kind == GuideKind::pin && !sheath.is_there(); }
-  /// From a groove's floor to its lip, "automatic" resolved: a slack tendon stays in, and a printer can make the lip. mm
-  double groove_depth() const { return body.groove_depth > 0 ? body.groove_depth : std::max(2.0 * tendon.diameter, 0.8); }
+  /// From a groove's floor to its lip, "automatic" resolved: a slack tendon stays in, and a printer can make the lip.
+  /// mm
+  double groove_depth() const {
+    return body.groove_depth > 0 ? body.groove_depth : std::max(2.0 * tendon.diameter, 0.8);
+  }
 };
 
-/// All that a file says: the mechanism as declared, what was found to be otherwise, and what is asked. What must work in
-/// the joint as it is goes through as_it_is() (joint/as_it_is.h), which alone reads `identified`.
+/// All that a file says: the mechanism as declared, what was found to be otherwise, and what is asked. What must work
+/// in the joint as it is goes through as_it_is() (joint/as_it_is.h), which alone reads `identified`.
 struct DeclaredMechanism : Mechanism {
   Optimization optimize;
   Imperfections identified;  ///< what fusee calibrate found; all zero: as declared

@@ -29,7 +29,7 @@ enum class KitEnding { done, no_pulley, no_kit, check_failed };
 struct KitResult {
   KitEnding ending = KitEnding::done;
   KitProduct product;
-  Advice advice;  ///< where parts would meet: what was seen to make room
+  Advice advice;                    ///< where parts would meet: what was seen to make room
   std::vector<OutputFile> outputs;  ///< manifest.json last; none where there is no pulley or no kit
   bool published = false;
 };

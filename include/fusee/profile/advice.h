@@ -14,11 +14,11 @@ struct Condition;
 
 /// The nearest value of one number of the file, or another word, with which every condition would hold.
 struct Change {
-  std::string key;   ///< "pulley.r1_mm"
-  double from = 0;   ///< in the file's unit
+  std::string key;  ///< "pulley.r1_mm"
+  double from = 0;  ///< in the file's unit
   double to = 0;
   std::string unit;
-  std::string text;  ///< "r1 ≤ 18.9 mm"
+  std::string text;            ///< "r1 ≤ 18.9 mm"
   std::string from_word = {};  ///< of a key that is no number: "M3"
   std::string to_word = {};
 };

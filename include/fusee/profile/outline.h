@@ -1,5 +1,6 @@
 /// \file
-/// A closed convex pitch curve, sampled: what the tendon's centre line lies on, in the pulley's frame at home, axis at the origin.
+/// A closed convex pitch curve, sampled: what the tendon's centre line lies on, in the pulley's frame at home, axis at
+/// the origin.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +12,19 @@
 namespace fusee {
 
 struct OutlinePoint {
-  double psi = 0;        ///< direction of the outward normal, rad, increasing along the curve
-  Vec2 position;         ///< mm
-  Vec2 normal;           ///< unit(psi)
+  double psi = 0;               ///< direction of the outward normal, rad, increasing along the curve
+  Vec2 position;                ///< mm
+  Vec2 normal;                  ///< unit(psi)
   double curvature_radius = 0;  ///< of the pitch curve, mm
 };
 
-/// Counter-clockwise, strictly convex, the axis inside. P1 and P2 of a pulley are sampled at the *same* psi values, so that
-/// point i of one and point i of the other (and of any parallel curve) have the same normal.
+/// Counter-clockwise, strictly convex, the axis inside. P1 and P2 of a pulley are sampled at the *same* psi values, so
+/// that point i of one and point i of the other (and of any parallel curve) have the same normal.
 ///
-/// The active arc is what tendons leave from within the range: from points[active_first] counter-clockwise (wrapping past the end of
-/// the vector) to points[active_last]: its exact ends, but for ends of P1 and P2 less than 0.1° apart, which share a point. The rest is the closing arc: no tendon in range touches it but
-/// for the short lap at the wound end that leads to the anchor.
+/// The active arc is what tendons leave from within the range: from points[active_first] counter-clockwise (wrapping
+/// past the end of the vector) to points[active_last]: its exact ends, but for ends of P1 and P2 less than 0.1° apart,
+/// which share a point. The rest is the closing arc: no tendon in range touches it but for the short lap at the wound
+/// end that leads to the anchor.
 struct Outline {
   Side side = Side::left;
   std::vector<OutlinePoint> points;
@@ -35,7 +37,8 @@ struct Outline {
   bool is_active(std::size_t i) const;
 };
 
-/// The parallel curve at `distance` (outward positive): point i moves along its normal. The groove floor is parallel(o, −d/2).
+/// The parallel curve at `distance` (outward positive): point i moves along its normal. The groove floor is parallel(o,
+/// −d/2).
 Polygon parallel(const Outline& outline, double distance);
 
 /// How far a convex curve through two points lies off their chord at most, mm: as an arc does (chord · turn / 8), but

@@ -1,6 +1,6 @@
 /// \file
-/// Winds two inextensible strings on any pair of groove floors, by polygon geometry alone, and finds the joint angle they give.
-/// Shares no equation with the synthesis: arc lengths on the polygon, tangents to discs, a root finder.
+/// Winds two inextensible strings on any pair of groove floors, by polygon geometry alone, and finds the joint angle
+/// they give. Shares no equation with the synthesis: arc lengths on the polygon, tangents to discs, a root finder.
 #pragma once
 
 #include <vector>
@@ -26,8 +26,8 @@ struct RewindResult {
   double max_slack_at = 0;        ///< α, rad
 };
 
-/// `floor1`, `floor2`: the groove floors in the pulley's frame at home, axis at the origin, mm; what is not convex is bridged by
-/// the string. Throws InputError when a floor does not surround the axis or swallows a pin.
+/// `floor1`, `floor2`: the groove floors in the pulley's frame at home, axis at the origin, mm; what is not convex is
+/// bridged by the string. Throws InputError when a floor does not surround the axis or swallows a pin.
 RewindResult rewind(const Mechanism& mechanism, const Polygon& floor1, const Polygon& floor2, int steps = 180);
 /// One string alone holds the joint, that of `side`; nothing is known of the other's slack, which is given as 0.
 RewindResult rewind_one(const Mechanism& mechanism, Side side, const Polygon& floor, int steps = 180);

@@ -13,7 +13,8 @@
 namespace fusee {
 
 struct SynthesisOptions {
-  /// Largest sagitta between the polygon and the curve, on the pitch curve and on every curve parallel to it up to the flange. mm
+  /// Largest sagitta between the polygon and the curve, on the pitch curve and on every curve parallel to it up to the
+  /// flange. mm
   double tolerance = 0.01;
   /// By how much the curves will be drawn further out before they are made (draw_for_making): the tolerance holds there
   /// too. mm
@@ -26,11 +27,11 @@ struct SynthesisOptions {
 
 /// A condition of feasibility that was looked at, whether it holds, and where it is tightest.
 struct Condition {
-  std::string name;     ///< "convex_floor", "tendon_on_pin_D", "one_turn" …
+  std::string name;  ///< "convex_floor", "tendon_on_pin_D", "one_turn" …
   bool ok = true;
-  double alpha = 0;     ///< where it is tightest, rad
-  double value = 0;     ///< there
-  double limit = 0;     ///< value must stay above (below) this
+  double alpha = 0;  ///< where it is tightest, rad
+  double value = 0;  ///< there
+  double limit = 0;  ///< value must stay above (below) this
   std::string unit;
   std::string message;  ///< for a person: what happens, where, by how much
 };

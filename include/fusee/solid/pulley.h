@@ -14,15 +14,15 @@ namespace fusee {
 
 /// Where a knot lies that is drawn against the outer face of its pulley.
 struct FaceSeat {
-  double radius = 0;  ///< of the countersink at the face, mm
-  double depth = 0;   ///< over which it narrows to the slot
-  double z = 0;       ///< of the face
+  double radius = 0;         ///< of the countersink at the face, mm
+  double depth = 0;          ///< over which it narrows to the slot
+  double z = 0;              ///< of the face
   Vec2 hole = Vec2::Zero();  ///< middle of the slot's round end, at the floor
   double length = 0;         ///< from there outwards to where the slot has left the flange
 };
 
-/// A straight slot in the face, from the knot's pocket outwards: the tail lies flush in it, under a screw's head at its end
-/// where one is asked for. mm
+/// A straight slot in the face, from the knot's pocket outwards: the tail lies flush in it, under a screw's head at its
+/// end where one is asked for. mm
 struct TailSlot {
   Vec2 from;
   Vec2 to;
@@ -50,13 +50,13 @@ struct ChannelBend {
 /// or through a slot of the outer flange to its face.
 struct Anchor {
   Side side = Side::left;
-  bool wound_end = true;       ///< the end that carries load; false: the spare one at the other end of the arc
-  Vec2 exit;                   ///< where the channel's centre line leaves the floor, mm
-  Polygon channel;             ///< outline of the channel in the groove's plane, or of the slot in the flange, ccw
-  Polygon mouth;               ///< the channel as it is cut, opened towards the groove, for a print without supports
-  Vec2 pocket;                 ///< centre of the knot pocket, or of the countersink
+  bool wound_end = true;  ///< the end that carries load; false: the spare one at the other end of the arc
+  Vec2 exit;              ///< where the channel's centre line leaves the floor, mm
+  Polygon channel;        ///< outline of the channel in the groove's plane, or of the slot in the flange, ccw
+  Polygon mouth;          ///< the channel as it is cut, opened towards the groove, for a print without supports
+  Vec2 pocket;            ///< centre of the knot pocket, or of the countersink
   std::optional<ChannelBend> bend = {};  ///< of a channel
-  std::optional<FaceSeat> seat = {};  ///< of a tie-off through the face
+  std::optional<FaceSeat> seat = {};     ///< of a tie-off through the face
   std::optional<TailSlot> tail = {};
 };
 
@@ -69,8 +69,8 @@ struct Mark {
 /// Of the knot pocket, or of the countersink, mm.
 double pocket_radius(const Anchor& anchor, const BodyLayout& layout);
 
-/// P1 or P2 where they are printed apart: as it lies on the printer, the face that meets the other at z = 0, the axis at
-/// the origin.
+/// P1 or P2 where they are printed apart: as it lies on the printer, the face that meets the other at z = 0, the axis
+/// at the origin.
 struct PrintedPart {
   Side side = Side::left;
   TriangleMesh mesh;           ///< coordinates are floats already
@@ -84,8 +84,8 @@ enum class PulleyStatus { made, impossible };
 struct Pulley {
   PulleyStatus status = PulleyStatus::impossible;
   BodyLayout layout;
-  TriangleMesh mesh;                  ///< the whole; coordinates are floats already
-  std::vector<PrintedPart> parts;     ///< P1 and P2 of a pulley in two parts; empty: the whole is printed as it stands
+  TriangleMesh mesh;               ///< the whole; coordinates are floats already
+  std::vector<PrintedPart> parts;  ///< P1 and P2 of a pulley in two parts; empty: the whole is printed as it stands
   std::vector<Anchor> anchors;
   std::vector<Mark> marks;            ///< engraved, or raised
   std::vector<Condition> conditions;  ///< walls, bore, pockets: all, those that hold too
@@ -118,8 +118,8 @@ bool is_written(const Mechanism& mechanism, std::string_view key);
 /// did not do.
 Advice body_advice(const Mechanism& mechanism, const Judge& judge = {obstacles}, Parts refused = Parts::automatic);
 
-/// What a mesh of this pulley must be, measured on `mesh` (usually one read back from a file): check_mesh, then Euler number, volume, deviation
-/// from the analytic surface within `tolerance`, smallest wall, groove depth and width.
+/// What a mesh of this pulley must be, measured on `mesh` (usually one read back from a file): check_mesh, then Euler
+/// number, volume, deviation from the analytic surface within `tolerance`, smallest wall, groove depth and width.
 std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism, const SynthesisResult& synthesis,
                                 const Pulley& pulley, double tolerance);
 /// The same of one part of two: check_mesh, Euler number and volume.

@@ -36,11 +36,11 @@ struct LowerGuide {
 
 /// Pin and pulley axis of one tendon in its right-hand image. mm.
 struct PinPlace {
-  double e;    ///< EB or ED: the pin stands at (e, −OE)
-  double oe;   ///< OE
-  double ef;   ///< EF: the pulley's axis stands at (0, −OE − EF)
-  double rho;  ///< ρp: pin radius to the tendon's centre line (0: a point)
-  double R;    ///< from O to the tendon's end: OC
+  double e;          ///< EB or ED: the pin stands at (e, −OE)
+  double oe;         ///< OE
+  double ef;         ///< EF: the pulley's axis stands at (0, −OE − EF)
+  double rho;        ///< ρp: pin radius to the tendon's centre line (0: a point)
+  double R;          ///< from O to the tendon's end: OC
   double twist = 0;  ///< that end's angle at home, clockwise from OC, rad
   double drum = 0;   ///< ρ0: drum radius to the tendon's centre line, R or less; 0: there is none
   bool at_C = true;  ///< the end is C, and moves with it
@@ -79,10 +79,10 @@ struct UpperSpan {
   double normal = 0;  ///< direction of the line's outward normal at the pin, rad
   /// free + ρp · normal: the tendon's length above any fixed point of the pin's rim, but for a constant. mm
   double length = 0;
-  double dnormal = 0;     ///< d normal/dθ
-  double d2normal = 0;    ///< d² normal/dθ²
-  double end_normal = 0;  ///< of the line at the tendon's end, rad: `normal` but for what lies on the drum
-  double on_drum = 0;     ///< angle over which the tendon lies on the drum, rad
+  double dnormal = 0;      ///< d normal/dθ
+  double d2normal = 0;     ///< d² normal/dθ²
+  double end_normal = 0;   ///< of the line at the tendon's end, rad: `normal` but for what lies on the drum
+  double on_drum = 0;      ///< angle over which the tendon lies on the drum, rad
   double behind_drum = 0;  ///< of `free`: straight, from there to the tendon's end
 };
 

@@ -127,7 +127,8 @@ TEST(Plates, AHornsRecessTakesItsCentreHoleWithIt) {
     EXPECT_NEAR(circumradius(layer.holes[0].points), 4.0, 1e-3) << "the boss";
     for (std::size_t i = 0; i < layer.holes.size(); ++i) {
       for (std::size_t j = 0; j < layer.holes.size(); ++j)
-        EXPECT_TRUE(i == j || !contains(layer.holes[i].points, layer.holes[j].points[0])) << layer.name << i << " " << j;
+        EXPECT_TRUE(i == j || !contains(layer.holes[i].points, layer.holes[j].points[0]))
+            << layer.name << i << " " << j;
     }
   }
 }
@@ -286,7 +287,8 @@ TEST(PlatesDxf, APlateLargerThanItsSheetIsSaidAndDrawnOnTheSheetItTakes) {
   Product product = egg();
   product.joint.mechanism.cut.sheet_width = 30;
   const Plates plates = make_plates(product);
-  EXPECT_THAT(plates.notes, Contains(::testing::AllOf(HasSubstr("a sheet of 30 x 200 mm"), HasSubstr("MIDDLE takes "))));
+  EXPECT_THAT(plates.notes,
+              Contains(::testing::AllOf(HasSubstr("a sheet of 30 x 200 mm"), HasSubstr("MIDDLE takes "))));
   EXPECT_GT(plates.sheet.x(), 30);
   EXPECT_EQ(plates.sheet.y(), 200);
   EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());

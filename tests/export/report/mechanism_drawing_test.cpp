@@ -72,7 +72,8 @@ TEST(PolarFigure, SaysHowFarThePolarDrawingIsOff) {
   // The exact profile's radius where the tendon leaves it is larger than the tendon's distance from the axis:
   // √(r2² + r2'²), and it stands as much further on.
   double most = 0;
-  for (const TransmissionPoint& point : synthesis.stroke) most = std::max(most, std::hypot(point.t2.p, point.t2.dp) - point.t2.p);
+  for (const TransmissionPoint& point : synthesis.stroke)
+    most = std::max(most, std::hypot(point.t2.p, point.t2.dp) - point.t2.p);
   EXPECT_GT(std::abs(said), 0.2 * most);
   EXPECT_LT(std::abs(said), 20 * most);
 }

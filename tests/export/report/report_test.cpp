@@ -65,7 +65,8 @@ Product sample(Mechanism mechanism = forearm()) {
   product.pulley.mesh = tube(60, 5);
   const Outline& p1 = product.synthesis.p1;
   const Vec2 exit = p1.points[p1.anchor_end()].position;
-  product.pulley.anchors = {{Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, {}, 0.6 * exit, {}, {}}};
+  product.pulley.anchors = {
+      {Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, {}, 0.6 * exit, {}, {}}};
   product.pulley.conditions = {{"wall_to_bore", true, 0, 3.1, 1.2, "mm", ""}};
   for (const TransmissionPoint& point : product.synthesis.stroke) {
     product.as_built.points.push_back(
