@@ -10,8 +10,8 @@ namespace fusee {
 Polygon rectangle(const Vec2& low, const Vec2& high) { return {low, {high.x(), low.y()}, high, {low.x(), high.y()}}; }
 
 Polygon circle_polygon(const Vec2& centre, double radius) {
-  constexpr double k_sagitta = 0.002;
-  const double step = 2 * std::acos(std::max(0.0, 1 - k_sagitta / std::max(radius, k_sagitta)));
+  constexpr double k_corner_sagitta = 0.002;
+  const double step = 2 * std::acos(std::max(0.0, 1 - k_corner_sagitta / std::max(radius, k_corner_sagitta)));
   const int corners = std::max(24, static_cast<int>(std::ceil(k_two_pi / step)));
   Polygon polygon;
   for (int i = 0; i < corners; ++i) polygon.push_back(centre + radius * unit(k_two_pi * i / corners));

@@ -409,7 +409,7 @@ std::vector<DiscHull> number_strokes(int number, const Vec2& middle, const Vec2&
   // Seven strokes a digit: top, upper left, upper right, middle, lower left, lower right, bottom.
   constexpr std::array<unsigned, 10> k_digits{0b1110111, 0b0010010, 0b1011101, 0b1011011, 0b0111010,
                                               0b1101011, 0b1101111, 0b1010010, 0b1111111, 0b1111011};
-  constexpr double k_half_width = 0.9, k_half_height = 1.8, k_short = 0.65, k_pitch = 3.0, k_radius = 0.3;
+  constexpr double k_half_width = 0.9, k_half_height = 1.8, k_short = 0.65, k_digit_pitch = 3.0, k_radius = 0.3;
   const double w = k_half_width - k_short, x = k_half_width, y = k_half_height;
   const std::array<std::pair<Vec2, Vec2>, 7> strokes{{{{-w, y}, {w, y}},
                                                       {{-x, k_short}, {-x, y - k_short}},
@@ -423,7 +423,7 @@ std::vector<DiscHull> number_strokes(int number, const Vec2& middle, const Vec2&
   std::vector<DiscHull> hulls;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const unsigned lit = text[i] == '-' ? 0b0001000U : k_digits[static_cast<std::size_t>(text[i] - '0')];
-    const double shift = k_pitch * (static_cast<double>(i) - 0.5 * static_cast<double>(text.size() - 1));
+    const double shift = k_digit_pitch * (static_cast<double>(i) - 0.5 * static_cast<double>(text.size() - 1));
     for (std::size_t k = 0; k < strokes.size(); ++k) {
       if ((lit >> (6 - k) & 1U) == 0) continue;
       const auto at = [&](const Vec2& p) { return Vec2(middle + (p.x() + shift) * right + p.y() * up); };

@@ -555,8 +555,8 @@ TEST_P(SeveralTurnsKit, SaysHowHighTheTendonsRun) {
     for (std::size_t k = 0; k < product.synthesis.stroke.size(); k += 5) {
       const auto [trace, row] = strung(product, side, k);
       const double off = lies.height(helix.spiral.rows[row].z);
-      const auto height = [&](std::size_t point) {
-        return end + (off - end) * planar(trace.free_path, point) / planar(trace.free_path, trace.free_path.size() - 1);
+      const auto height = [&, &path = trace.free_path](std::size_t point) {
+        return end + (off - end) * planar(path, point) / planar(path, path.size() - 1);
       };
       for (std::size_t point = 0; point < trace.free_path.size(); ++point) {
         const Vec2 at = trace.free_path[point];

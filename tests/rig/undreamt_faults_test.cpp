@@ -390,8 +390,8 @@ TEST(Undreamt, a_short_rod_leans) {
   // Crank and rod, 1 and 5 long, across at home or at −18 deg.
   for (const auto& [share, across] : {std::pair{0.5, 0.0}, {0.0, radians(-18.0)}}) {
     const Hidden hidden = with("slide_gauge_on_short_rod", 0.2, soft(), {1.0, 1.0, share});
-    const auto slide = [&](double theta) {
-      const double x = theta - across;
+    const auto slide = [at = across](double theta) {
+      const double x = theta - at;
       return std::sin(x) + std::sqrt(25.0 - std::pow(std::cos(x), 2)) - 5.0;
     };
     std::vector<double> none;

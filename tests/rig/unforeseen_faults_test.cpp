@@ -406,9 +406,9 @@ TEST(Unforeseen, a_hall_plate_is_clipped_at_its_peak) {
   // At home, and at −18 deg.
   for (const auto& [share, peak] : {std::pair{0.5, 0.0}, {0.0, radians(-18.0)}}) {
     const Hidden hidden = with("hall_plate_clipped", 0.1, soft(), {1.0, 1.0, share});
-    const auto shown = [&](double theta) {
-      const double from_peak = theta - peak;
-      return peak + std::atan2(std::min(std::cos(from_peak), 0.9), -std::sin(from_peak)) - 0.5 * k_pi;
+    const auto shown = [at = peak](double theta) {
+      const double from_peak = theta - at;
+      return at + std::atan2(std::min(std::cos(from_peak), 0.9), -std::sin(from_peak)) - 0.5 * k_pi;
     };
     std::vector<double> none;
     Moment now;

@@ -519,7 +519,7 @@ TEST(Unimagined, an_inclinometer_on_a_sloping_axle_shows_less) {
   // At home, and at −18 deg.
   for (const auto& [share, upright] : {std::pair{0.5, 0.0}, {0.0, radians(-18.0)}}) {
     const Hidden hidden = with("inclinometer_on_sloping_axle", 0.02, soft(), {1.0, 1.0, share});
-    const auto shown = [&](double theta) { return std::asin(0.98 * std::sin(theta - upright)); };
+    const auto shown = [at = upright](double theta) { return std::asin(0.98 * std::sin(theta - at)); };
     std::vector<double> none;
     Moment now;
     for (const double theta : {0.0, 0.3, -0.3, 0.52, -0.52}) {
