@@ -1,5 +1,6 @@
 #include "coil/helical_blank.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -16,10 +16,9 @@ namespace {
 constexpr double k_approach = radians(2.5);  // steps of α between home and the start of the sweep, and between far rows
 constexpr int k_loading = 8;                 // steps in which the load comes on
 constexpr int k_lag_steps = 4;               // between rows, where a late sensor shows what was there between them
-constexpr int k_dwell_rows = 10;
-constexpr double k_warm = 31.0;           // °C, when the session begins
-constexpr double k_cooling = 11.0;        // K, in the end
-constexpr double k_cooling_time = 150.0;  // s
+constexpr double k_warm = 31.0;              // °C, when the session begins
+constexpr double k_cooling = 11.0;           // K, in the end
+constexpr double k_cooling_time = 150.0;     // s
 
 double temperature_at(double time) { return k_warm - k_cooling * (1.0 - std::exp(-time / k_cooling_time)); }
 
