@@ -23,10 +23,9 @@ constexpr std::size_t k_cheaper = 5;
 constexpr std::size_t k_least_rows_a_block = 6;
 /// Of a held point, where a run holds so many that there is not enough for all.
 constexpr std::size_t k_rows_a_stand = 3;
-/// Stands within this part of what α spans repeat one another, …
-constexpr double k_one_stand = 0.02;
-/// … and ways whose ends are. Levels of a load that goes with the motion cut strokes into pieces, two of one level at
-/// two places: what differs between these is the joint's law, and no scatter (the jaw of profiles/calibration.md).
+/// Ways whose ends are within this part of what α spans repeat one another. Levels of a load that goes with the motion
+/// cut strokes into pieces, two of one level at two places: what differs between these is the joint's law, and no
+/// scatter (the jaw of profiles/calibration.md).
 constexpr double k_one_way = 0.1;
 
 /// Whole cycles, evenly spread, of so many strokes that enough rows of each are left; the ends of the others are

@@ -15,6 +15,9 @@
 
 namespace fusee {
 
+/// Held angles within this part of what α spans are one.
+inline constexpr double k_one_stand = 0.02;
+
 /// Rows that stand or fall together: a stroke, one level of load on it, a held motor angle, or so many short stands
 /// from one side under one load that there are enough rows.
 struct Block {

@@ -40,7 +40,7 @@ double price_of_play(double loose, double floor) {
 }
 
 LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loose, double floor) {
-  constexpr int k_most_turns = 40;
+  constexpr int k_most_rounds = 40;
   const Eigen::Index rows = residual.size();
   LooseRows result{0, Eigen::VectorXd::Zero(rows)};
   Eigen::VectorXd pushed(rows), anywhere(rows), weight(rows);  // densities, in those of noise at its height
@@ -57,7 +57,7 @@ LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loo
     return (1.0 - share) * pushed[i] / ((1.0 - share) * pushed[i] + share * anywhere[i]);
   };
   double share = 0.5;  // of those that rest anywhere: expectation and maximisation in turn
-  for (int round = 0; round < k_most_turns; ++round) {
+  for (int round = 0; round < k_most_rounds; ++round) {
     double sum = 0;
     for (Eigen::Index i = 0; i < rows; ++i) {
       if (loose[i] > 0) sum += 1.0 - surely_pushed(i, share);

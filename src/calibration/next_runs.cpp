@@ -16,7 +16,6 @@ constexpr std::size_t k_most_proposals = 4;
 constexpr double k_lever_load = 0.3;    // of the pretension, as a tip force
 constexpr double k_slow_stroke = 15.0;  // s, where no time was logged
 constexpr int k_rows_a_stroke = 60;
-constexpr double k_same_place = 0.02;  // of the seen span: as of blocks (evidence.cpp)
 /// Of a pace that is clearly another one.
 constexpr double k_faster = 5.0, k_slower = 0.1;
 
@@ -132,7 +131,7 @@ std::vector<Sides> held_points(const Measurement& measurement) {
       if (!stretch.held || is_first) continue;
       const double alpha = run.samples[stretch.first].alpha;
       auto point = std::find_if(points.begin(), points.end(), [&](const Sides& known) {
-        return std::abs(known.alpha - alpha) <= k_same_place * seen.size();
+        return std::abs(known.alpha - alpha) <= k_one_stand * seen.size();
       });
       if (point == points.end()) point = points.insert(points.end(), {alpha});
       const int direction = run.strokes[stretch.stroke].direction;
@@ -145,14 +144,12 @@ std::vector<Sides> held_points(const Measurement& measurement) {
 
 /// Where a run sweeps there and back; nothing where it does not.
 SeenSpan swept_both_ways(const Run& run) {
-  SeenSpan swept;
   const auto goes = [&](int direction) {
     return std::any_of(run.strokes.begin(), run.strokes.end(),
                        [&](const Stroke& stroke) { return !stroke.partial && stroke.direction == direction; });
   };
-  if (is_from_point_to_point(run) || !goes(1) || !goes(-1)) return swept;
-  for (const Sample& sample : run.samples) swept.take(sample.alpha);
-  return swept;
+  if (is_from_point_to_point(run) || !goes(1) || !goes(-1)) return {};
+  return seen_span(run.samples, &Sample::alpha);
 }
 
 }  // namespace

@@ -21,6 +21,12 @@ struct SeenSpan {
   double size() const { return most - least; }
 };
 
+inline SeenSpan seen_span(const std::vector<Sample>& samples, double Sample::*number) {
+  SeenSpan span;
+  for (const Sample& sample : samples) span.take(sample.*number);
+  return span;
+}
+
 /// Over all runs.
 inline SeenSpan seen_span(const Measurement& measurement, double Sample::*number) {
   SeenSpan span;

@@ -33,12 +33,6 @@ constexpr double k_piece_of_ramp = 0.3;
 /// Half the range of noise of 10⁶ rows, in spreads of a row.
 constexpr double k_beyond_noise = 5;
 
-SeenSpan seen_span_of(const std::vector<Sample>& samples, double Sample::*value) {
-  SeenSpan span;
-  for (const Sample& sample : samples) span.take(sample.*value);
-  return span;
-}
-
 double mean_of(const std::vector<Sample>& samples, double Sample::*value, const Hold& rows) {
   double sum = 0;
   for (std::size_t i = rows.first; i <= rows.last; ++i) sum += samples[i].*value;
@@ -73,14 +67,14 @@ void add_or_join(std::vector<Hold>& holds, const Hold& next, const std::vector<S
 
 /// What may be the step of the motor's sensor; 0 where steps are as wide as between held angles.
 double sensor_step(const std::vector<Sample>& samples, double quantum) {
-  return k_steps_of_a_sensor * quantum < seen_span_of(samples, &Sample::alpha).size() ? quantum : 0;
+  return k_steps_of_a_sensor * quantum < seen_span(samples, &Sample::alpha).size() ? quantum : 0;
 }
 
 std::vector<Hold> standing(const std::vector<Sample>& samples, double step, double noise) {
   double way = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) way += std::abs(samples[i].alpha - samples[i - 1].alpha);
   const double width =
-      std::max({k_wander * seen_span_of(samples, &Sample::alpha).size(), 1.5 * step, 2 * k_beyond_noise * noise});
+      std::max({k_wander * seen_span(samples, &Sample::alpha).size(), 1.5 * step, 2 * k_beyond_noise * noise});
   // What noise adds to the way is none: 2/√π of its spread from row to row.
   const double rows = static_cast<double>(samples.size());
   const double pace = way / rows - 1.13 * noise;
@@ -120,7 +114,7 @@ struct Levels {
 /// Nothing where the load never changes by more than a tenth of itself, or than its own noise.
 std::optional<Levels> levels_of(const Run& run) {
   if (!run.has_load || run.samples.empty()) return std::nullopt;
-  const SeenSpan span = seen_span_of(run.samples, &Sample::load);
+  const SeenSpan span = seen_span(run.samples, &Sample::load);
   const double largest = std::max(std::abs(span.least), std::abs(span.most));
   const double width = std::max(k_one_level * span.size(), 2 * k_beyond_noise * noise_of(run.samples, &Sample::load));
   if (span.size() <= 0.1 * largest || span.size() <= 1.5 * width) return std::nullopt;
@@ -178,7 +172,7 @@ LoadByPlace load_by_place(const Run& run, const Stroke& stroke, const SeenSpan& 
 
 /// Whether all strokes of a direction meet the same load at the same place: a spring, a weight on a link.
 bool is_bound_to_place(const Run& run, const Levels& levels) {
-  const SeenSpan alphas = seen_span_of(run.samples, &Sample::alpha);
+  const SeenSpan alphas = seen_span(run.samples, &Sample::alpha);
   std::array<std::optional<LoadByPlace>, 2> first;
   for (const Stroke& stroke : run.strokes) {
     const LoadByPlace loads = load_by_place(run, stroke, alphas);
@@ -278,7 +272,7 @@ std::vector<Hold> holds_in(const std::vector<Sample>& samples, double alpha_quan
 
 double quantum_beside(const std::vector<Hold>& holds, const std::vector<Sample>& samples, double Sample::*angle,
                       double quantum) {
-  return holds.empty() || k_steps_of_a_sensor * quantum < seen_span_of(samples, angle).size() ? quantum : 0;
+  return holds.empty() || k_steps_of_a_sensor * quantum < seen_span(samples, angle).size() ? quantum : 0;
 }
 
 std::vector<Sample> settled(std::vector<Sample> samples, const std::vector<Hold>& holds) {

@@ -106,6 +106,13 @@ TEST(Folds, SpeedIsAFactorToo) {
 
 // ---- held angles and levels of load ---------------------------------------------------------------------------------
 
+/// Of each block, with which others of its run it repeats.
+std::vector<std::size_t> repeats_in(const Evidence& evidence) {
+  std::vector<std::size_t> alike;
+  for (const Block& block : evidence.blocks) alike.push_back(block.alike);
+  return alike;
+}
+
 /// Held at both ends in turn, `rows` rows each; the loads of the visits in turn.
 Measurement held_at_ends(const std::vector<double>& loads, std::size_t rows) {
   Measurement measurement;
@@ -129,7 +136,7 @@ Measurement held_at_ends(const std::vector<double>& loads, std::size_t rows) {
   return measurement;
 }
 
-/// Four strokes of 60 rows there and back; the load in thirds of each as `levels` has them.
+/// Five strokes of 60 rows there and back; the load in thirds of each as `levels` has them.
 Measurement in_thirds(const std::array<double, 3>& levels) {
   Measurement measurement;
   fusee::Run& run = measurement.runs.emplace_back();
@@ -155,18 +162,14 @@ Measurement in_thirds(const std::array<double, 3>& levels) {
 
 TEST(Gather, PiecesOfOneLevelAtTwoPlacesAreNoRepeats) {
   const Evidence evidence = gather(joint(), in_thirds({5, 0, 5}), k_floor);
-  std::vector<std::size_t> alike;
-  for (const Block& block : evidence.blocks) alike.push_back(block.alike);
-  EXPECT_THAT(alike, ElementsAre(0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5));
+  EXPECT_THAT(repeats_in(evidence), ElementsAre(0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5));
 }
 
 TEST(Gather, HeldAnglesAreBlocks) {
   const Evidence evidence = gather(joint(), held_at_ends({0, 0, 0, 0, 5, 5, 5, 5}, 10), k_floor);
   // The first one's side is not known.
   EXPECT_THAT(strokes_of(evidence, 0), ElementsAre(1, 2, 3, 4, 5, 6, 7));
-  std::vector<std::size_t> alike;
-  for (const Block& block : evidence.blocks) alike.push_back(block.alike);
-  EXPECT_THAT(alike, ElementsAre(0, 1, 0, 2, 3, 2, 3));
+  EXPECT_THAT(repeats_in(evidence), ElementsAre(0, 1, 0, 2, 3, 2, 3));
   EXPECT_THAT(evidence.factors, ElementsAre("load"));
   EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(3, 4, 5, 6)));
 }
