@@ -33,6 +33,17 @@ double mean_load(const Measurement& measurement, const Mechanism& declared) {
   return count > 0 ? sum / count : declared.load.tip_force;
 }
 
+/// Upper bound of the motor's way after a reversal until the joint follows in full, rad of α. A cable's last contact
+/// holds twice the mean friction.
+double lost_motion(const Imperfections& found, const Mechanism& declared, double load) {
+  const RatioJointError& joint = found.ratio_joint;
+  const double play = 2 * (found.shaft.backlash + joint.slack);
+  if (!declared.transmission) return play;
+  const double held = 2 * joint.friction.at(load);
+  const double turned = 2 * joint.compliance * held + joint.waves.gained(load + held) - joint.waves.gained(load - held);
+  return play + std::abs(declared.transmission->ratio * turned);
+}
+
 /// What earlier calibrations found was part of the declared model this time, so far as a mechanism can have it; the
 /// rest was found anew.
 Imperfections composed(const DeclaredMechanism& declared, const Imperfections& found) {
@@ -279,7 +290,7 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
   if (correction.has_pulley)
     then =
         errors(measurement, law, predict(expected_joint(corrected), beyond_mechanism(found, kind_of(declared)), log));
-  const BothWays table = both_ways(measurement, then, 2 * (found.shaft.backlash + found.ratio_joint.slack));
+  const BothWays table = both_ways(measurement, then, lost_motion(found, declared, mean_load(measurement, declared)));
   // A ratio says nothing of where the joint's zero is: to stand there is no error.
   const double zero = declared.transmission ? found.sensor.zero : 0.0;
   correction.error_now = rms(measurement, now, zero);

@@ -27,7 +27,8 @@ constexpr double k_ratio = 2, k_noise = 0.02;
 
 /// Three cycles of ±60° of α under one load, twelve rows to the second.
 std::filesystem::path written(const HiddenCable& hidden, double load, std::mt19937& random) {
-  const auto path = std::filesystem::path(testing::TempDir()) / ("cable_" + std::to_string(int(10 * load)) + ".csv");
+  const std::string name = "cable_" + std::to_string(hidden.waves) + "_" + std::to_string(load) + ".csv";
+  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / name;
   std::ofstream file(path);
   file << "time_s,alpha_deg,theta_deg,load_N\n";
   testing::RubbedChain chain(hidden.turned, hidden.per_N * hidden.unloaded);

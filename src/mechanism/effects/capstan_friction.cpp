@@ -29,7 +29,7 @@ std::vector<EffectParameter> friction_of_cable() {
            .prior_unit = PriorUnit::of_largest_load,
            .shown = shown::as_is,
            .key = key::plain("friction_without_load", "", 0, 1e7,
-                             "and friction by the cables' pretension, in the unit of load")}};
+                             "friction by the pretension of its cables, in the unit of load")}};
 }
 
 }  // namespace

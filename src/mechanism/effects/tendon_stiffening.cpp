@@ -13,7 +13,7 @@ std::vector<EffectParameter> straightening_of_ratio() {
            .prior = radians(3.0),  // a cable of 0.5 m over a lever of 5 mm that is 0.05 % longer than straight
            .shown = shown::in_degrees,
            .key = key::in_degrees("straightened_deg", -360, 360,
-                                  "of a joint declared by a ratio: turned by load until the cable lies straight")},
+                                  "of a joint declared by a ratio: turned until the cable is pulled straight")},
           {.name = "straightened_per_load",
            .number = [](Imperfections& at) -> double& { return at.ratio_joint.waves.rate; },
            .least = 0,
@@ -22,7 +22,7 @@ std::vector<EffectParameter> straightening_of_ratio() {
            .prior = 4,  // at the largest load: four fifths of it
            .prior_unit = PriorUnit::at_largest_load,
            .shown = shown::as_is,
-           .key = key::plain("straightened_per_load", "", 0, 1e6, "half of that at a load of one over this")}};
+           .key = key::plain("straightened_per_load", "", 0, 1e6, "rate of straightening: half of it is reached at a load of 1 over this")}};
 }
 
 std::vector<EffectParameter> straightening_of_tendons() {
@@ -34,7 +34,7 @@ std::vector<EffectParameter> straightening_of_tendons() {
            .prior = 0.3,  // 0.1 % of 300 mm; a knot that draws tight
            .shown = shown::as_is,
            .key = key::plain("straightened_mm", "mm", 0, 1000,
-                             "of each tendon, given to its pull until it lies straight")},
+                             "each tendon lengthens by this until its waves are pulled straight")},
           {.name = "straightened_per_N",
            .number = [](Imperfections& at) -> double& { return at.tendon.waves.rate; },
            .least = 0,
@@ -42,7 +42,7 @@ std::vector<EffectParameter> straightening_of_tendons() {
            .step = 5e-3,
            .prior = 0.2,  // half of it at 5 N, a usual pretension
            .shown = shown::as_is,
-           .key = key::plain("straightened_per_N", "per_N", 0, 1000, "half of that at a pull of one over this")}};
+           .key = key::plain("straightened_per_N", "per_N", 0, 1000, "rate of straightening: half of it is reached at a pull of 1 over this")}};
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ Effect tendon_stiffening(JointKind kind) {
   effect.name = "tendon_stiffening";
   effect.place = ChainPlace::tendon;
   effect.rank = 6;
-  effect.signature = "gives much under a small load and little more under a large one; the same both ways";
+  effect.signature = "soft under a small load and stiffer under a large one; the same both ways";
   effect.separating_run = "run the same strokes at a tenth, a quarter, half and all of the load";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.load = true};
