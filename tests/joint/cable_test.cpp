@@ -146,8 +146,8 @@ TEST(WavyTendon, IsLongerByWhatItsWavesGive) {
     for (const EquilibriumPoint& point : points) {
       const TendonState& state = point.*tendon;
       if (state.upper == 0) continue;
-      EXPECT_NEAR(state.stretch - state.slack, strained * state.upper + given(state.upper) - given((home.*tendon).upper),
-                  1e-7);
+      EXPECT_NEAR(state.stretch - state.slack,
+                  strained * state.upper + given(state.upper) - given((home.*tendon).upper), 1e-7);
     }
   }
 }
@@ -174,9 +174,7 @@ TEST(WavyTendon, GivesBackItsWork) {
   EXPECT_LT(std::abs(missing(wavy(k_waves)) - missing(wavy({}))), 1e-3 * held);
 }
 
-TEST(WavyTendon, StandsAtHomeWhereItWasTied) {
-  EXPECT_NEAR(loaded(wavy(k_waves), 0, 3).back().theta, 0, 1e-12);
-}
+TEST(WavyTendon, StandsAtHomeWhereItWasTied) { EXPECT_NEAR(loaded(wavy(k_waves), 0, 3).back().theta, 0, 1e-12); }
 
 }  // namespace
 }  // namespace fusee

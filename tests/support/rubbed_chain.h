@@ -1,6 +1,6 @@
 /// \file
-/// A cable as a chain of springs with a dry contact at every node, relaxed node by node: it knows neither play operators
-/// nor mean angles.
+/// A cable as a chain of springs with a dry contact at every node, relaxed node by node: it knows neither play
+/// operators nor mean angles.
 #pragma once
 
 #include <algorithm>

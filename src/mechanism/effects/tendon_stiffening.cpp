@@ -22,7 +22,8 @@ std::vector<EffectParameter> straightening_of_ratio() {
            .prior = 4,  // at the largest load: four fifths of it
            .prior_unit = PriorUnit::at_largest_load,
            .shown = shown::as_is,
-           .key = key::plain("straightened_per_load", "", 0, 1e6, "rate of straightening: half of it is reached at a load of 1 over this")}};
+           .key = key::plain("straightened_per_load", "", 0, 1e6,
+                             "rate of straightening: half of it is reached at a load of 1 over this")}};
 }
 
 std::vector<EffectParameter> straightening_of_tendons() {
@@ -42,7 +43,8 @@ std::vector<EffectParameter> straightening_of_tendons() {
            .step = 5e-3,
            .prior = 0.2,  // half of it at 5 N, a usual pretension
            .shown = shown::as_is,
-           .key = key::plain("straightened_per_N", "per_N", 0, 1000, "rate of straightening: half of it is reached at a pull of 1 over this")}};
+           .key = key::plain("straightened_per_N", "per_N", 0, 1000,
+                             "rate of straightening: half of it is reached at a pull of 1 over this")}};
 }
 
 }  // namespace
