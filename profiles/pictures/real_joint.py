@@ -1,18 +1,15 @@
 #!/usr/bin/env python3
-"""Draws the residual of a real joint, from the declared ratio to what `fusee calibrate` makes of it.
+"""Draws the residual of a real joint, from its gain to a cable that stiffens and rubs along its way.
 
-    profiles/pictures/real_joint.py build/release/fusee RUNS [picture.svg]
+    profiles/pictures/real_joint.py RUNS [picture.svg]
 
 RUNS: a folder with run_*.csv or tool*.csv files (time_s, alpha_deg, theta_deg, tau_out_Nm). Every fourth run is held
-out; all figures and curves are of these. Prints a row of the table of profiles/real_joint.md for every step. Needs
-numpy. The data of the page are O'Neill, Stephens and Kowalewski's (Open Database License 1.0).
+out; all figures and curves are of these. Prints the table of profiles/real_joint.md. Knows the equations by itself:
+no program of this project. Needs numpy. The data of the page are O'Neill, Stephens and Kowalewski's (Open Database License 1.0).
 """
 
-import json
 import pathlib
-import subprocess
 import sys
-import tempfile
 
 import numpy as np
 
@@ -51,23 +48,57 @@ def least_squares(runs, held, steps):
     return {k: runs[k]["theta_deg"] - columns[k] @ numbers for k in held}
 
 
-def calibrated(program, paths, runs, held):
-    """What calibrate says, and residuals of the held-out runs by the corrected file."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        spec = folder / "jaw.toml"
-        spec.write_text(f'schema = 1\nname = "jaw"\n\n[transmission]\nkind = "ratio"\nratio = {RATIO}\n')
-        words = [program, "calibrate", spec, "-o", folder / "out", "--json", "--column", "load=tau_out_Nm"]
-        for k, path in enumerate(paths):
-            words += ["--hold-out", path] if k in held else [path]
-        said = json.loads(subprocess.run(words, capture_output=True, text=True, check=True).stdout)
-        residuals = {}
-        for k in held:
-            shown = folder / "shown.csv"
-            subprocess.run([program, "simulate", folder / "out" / "corrected.toml", paths[k], "--column",
-                            "load=tau_out_Nm", "-o", shown, "--force", "-q"], check=True)
-            residuals[k] = runs[k]["theta_deg"] - read(shown)["theta_deg"]
-        return said, residuals
+def cable(runs, numbers):
+    """[c1] to [c4] of profiles/physics.md, all runs at once: gain, compliance, straightened, its rate, friction without
+    load and share. deg and N m."""
+    gain, compliance, most, rate, unloaded, share = numbers
+    length = max(len(run) for run in runs)
+    padded = [[np.pad(run[name], (0, length - len(run)), "edge") for run in runs] for name in ("alpha_deg", "tau_out_Nm")]
+    driven, load = gain * np.array(padded[0]), np.array(padded[1])
+
+    def deflection(pull):
+        return compliance * pull + most * rate * pull / (1 + rate * np.abs(pull))
+
+    spread = (2 * np.arange(8) + 1) / 8
+    held = spread * (unloaded + share * np.abs(load))[..., None]
+    ends = driven[..., None] - deflection(load[..., None] + np.array([[1], [-1]])[:, None, None] * held[None])
+    low, high = ends.min(axis=0), ends.max(axis=0)
+    at, angles = 0.5 * (low[:, 0] + high[:, 0]), np.empty_like(driven)
+    for i in range(length):
+        at = np.minimum(np.maximum(at, low[:, i]), high[:, i])
+        angles[:, i] = at.mean(axis=1)
+    return [angles[k, :len(run)] for k, run in enumerate(runs)]
+
+
+def cable_fitted(runs, held):
+    """Residuals of the held-out runs, numbers by Levenberg and Marquardt."""
+    fitted = [k for k in range(len(runs)) if k not in held]
+
+    def off(log):
+        numbers = np.array([log[0], log[1], log[2], *np.exp(log[3:])])
+        angles = cable(runs, numbers)
+        zero = np.mean(np.concatenate([(runs[k]["theta_deg"] - angles[k])[SETTLING:] for k in fitted]))
+        return [run["theta_deg"] - angle - zero for run, angle in zip(runs, angles)], numbers
+
+    def column(log):
+        residuals, _ = off(log)
+        return np.concatenate([residuals[k][SETTLING:] for k in fitted])
+
+    at = np.array([1 / RATIO, -60, -2, np.log(50), np.log(0.006), np.log(0.12)])
+    steps, damping, here = np.array([1e-3, 0.1, 0.01, 1e-2, 1e-2, 1e-2]), 1e-2, column(at)
+    for _ in range(30):
+        slopes = np.column_stack([(column(at + step * unit) - here) / step for step, unit in zip(steps, np.eye(6))])
+        normal = slopes.T @ slopes
+        move = -np.linalg.solve(normal + damping * np.diag(np.diag(normal)), slopes.T @ here)
+        there = column(at + move)
+        gained = here @ here - there @ there
+        damping = damping / 5 if gained > 0 else damping * 10
+        if gained > 0:
+            at, here = at + move, there
+            if gained < 1e-5 * (here @ here):
+                break
+    residuals, numbers = off(at)
+    return {k: residuals[k] for k in held}, numbers
 
 
 def rms(residuals):
@@ -105,26 +136,23 @@ def picture(panels, runs):
     return "\n".join(out)
 
 
-def main(program, folder, target):
+def main(folder, target):
     paths = sorted(pathlib.Path(folder).glob("*.csv"))
     runs = [read(path) for path in paths]
     held = [k for k in range(len(runs)) if k % 4 == 2]
     panels = []
     for count in range(1, len(STEPS) + 1):
-        residuals = least_squares(runs, held, [step for _, step in STEPS[:count]])
-        panels.append((STEPS[count - 1][0], residuals))
-        print(f"| {STEPS[count - 1][0]} | least squares | {rms(residuals):.3f}° |")
-    said, residuals = calibrated(program, paths, runs, held)
-    names = ", ".join(f"`{effect['name']}`" for effect in said["effects"])
-    print(f"| {names} | `fusee calibrate` | {said['after']['held_out_rms_deg']:.3f}° |")
-    for effect in said["effects"]:
-        print(effect["name"], {k: v["value"] for k, v in effect["parameters"].items()}, "or", effect["group"])
-    panels = [panels[0], panels[-1], ("fusee calibrate", residuals)]
+        panels.append((STEPS[count - 1][0], least_squares(runs, held, [step for _, step in STEPS[:count]])))
+    residuals, numbers = cable_fitted(runs, held)
+    panels.append(("cable, [c1] to [c4]", residuals))
+    for title, residuals in panels:
+        print(f"| {title} | {rms(residuals):.3f}° |")
+    print("gain, compliance, straightened, rate, friction without load, share:", *np.round(numbers, 4))
     if target:
-        pathlib.Path(target).write_text(picture(panels, runs))
+        pathlib.Path(target).write_text(picture([panels[0], *panels[-2:]], runs))
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (3, 4):
+    if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2], sys.argv[3] if len(sys.argv) > 3 else None)
+    main(sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None)
