@@ -217,8 +217,7 @@ std::vector<double> Forward::geared(std::size_t index, const Imperfections& at, 
   };
   const BenchRow& first = run.rows.front();
   RubbingCable cable(at.ratio_joint, shaft_angle(0.0, motor) / ratio);
-  for (int i = 1; i < k_approach; ++i)
-    cable.to(pulley_at(first.alpha * i / k_approach, first) / ratio, load_of(first));
+  for (int i = 1; i < k_approach; ++i) cable.to(pulley_at(first.alpha * i / k_approach, first) / ratio, load_of(first));
   drift.hold(0, time_before(index));
   const BenchRow* last = &first;
   for (const BenchRow& row : run.rows) {

@@ -52,7 +52,8 @@ struct PulleyError {
 };
 
 /// A cable that does not lie straight is longer by the way that its waves take. A pull straightens them: it gains
-/// most · x/(1 + x) with x = rate · pull. Radians and units of load of a joint declared by a ratio; mm and N of a tendon.
+/// most · x/(1 + x) with x = rate · pull. Radians and units of load of a joint declared by a ratio; mm and N of a
+/// tendon.
 struct CableStiffening {
   double most = 0;  ///< gained under any pull, the waves gone
   double rate = 0;  ///< of straightening: half of it is gained at a pull of 1/rate
