@@ -7,7 +7,6 @@
 #include <array>
 
 #include "base/output_list.h"
-#include "base/staging.h"
 #include "fusee/base/diagnostics.h"
 
 namespace fusee {
@@ -39,7 +38,7 @@ std::string read_file(const fs::path& path, std::size_t limit) {
 std::string read_output(const fs::path& path, std::size_t limit) {
   std::string bytes;
   reserve_for(path, limit, bytes);
-  read_as_it_lies({path, limit}, [&bytes](std::string_view block) { bytes += block; });
+  read_from_disk({path, limit}, [&bytes](std::string_view block) { bytes += block; });
   return bytes;
 }
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/bundle.h"
+#include "base/leftovers.h"
 #include "base/staging.h"
 #include "cli/bundle_names.h"
 #include "cli/command.h"
@@ -140,16 +141,13 @@ void demand_free(const fs::path& folder) {
 /// In a folder beside `kept`, which gets its name; without one in the system's temporary folder.
 BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<fs::path>& kept) {
   std::error_code error;
-  const fs::path place = kept ? fs::weakly_canonical(fs::absolute(*kept), error) : fs::path();
-  const fs::path above = kept ? (place.has_filename() ? place.parent_path() : place.parent_path().parent_path())
-                              : fs::temp_directory_path();
+  fs::path place = kept ? fs::weakly_canonical(fs::absolute(*kept), error) : fs::temp_directory_path() / "fusee-replay";
+  if (!place.has_filename()) place = place.parent_path();
   MissingFolders missing;
-  missing.make(above);
-  remove_stale_stagings(above);
-  const Staging staging(above);
-  // In it, not it: who publishes into a folder takes a turn at the one above, and the staging folder is taken.
-  const fs::path folder = staging.path() / "run";
-  if (!fs::create_directory(folder, error)) fail_output("cannot make the folder", folder, error.value());
+  missing.make(place.parent_path());
+  remove_staged_leftovers(place);
+  const Staging staging(place, StagingSite::beside);
+  const fs::path& folder = staging.path();
   if (kept) unpack(bundle, folder);
   put_in_the_way(bundle, folder);
   BundledOutcome outcome = replayed(bundle, folder);

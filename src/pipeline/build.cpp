@@ -512,7 +512,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   shop.step("publishing");
   // pulley_p1.stl of an earlier run does not belong to a pulley in one piece.
   target.withdraw(output_names());
-  target.publish();
+  target.publish(result.product.file.warnings);
   result.published = true;
   return result;
 }

@@ -117,7 +117,7 @@ void publish(const Bench& bench, OutputFolder& folder) {
     if (bench.options.before_writing) bench.options.before_writing();
     folder.stage(output);
   }
-  folder.publish();
+  folder.publish(bench.result.product.file.warnings);
   bench.result.published = true;
 }
 

@@ -1,8 +1,12 @@
 """What a build leaves behind, in good times and in bad: whole files or none."""
 
+import fcntl
+import hashlib
 import math
 import os
+import pathlib
 import random
+import shutil
 import signal
 import struct
 import subprocess
@@ -323,6 +327,57 @@ class Streams(harness.Scratch):
     def test_names_that_are_no_text(self):
         done = self.fusee([b"build", b"\xff\xfe.toml", b"--json"])
         self.assertEqual(harness.json.loads(done.stdout)["exit"], 3)
+
+
+class Leftovers(harness.Scratch):
+    """Staging folders that nobody of ours made: 3999999 is no process."""
+
+    def tree(self):
+        return {str(path.relative_to(self.folder)): path.read_bytes() if path.is_file() else b"" for path in self.folder.rglob("*")}
+
+    def plant(self, folder, withdrawn, journal=None):
+        """A journal as fusee 0.1 left it, that lists files for removal with their right hashes."""
+        (self.folder / "doc").mkdir(exist_ok=True)
+        (self.folder / "doc/t").write_text("data")
+        leftover = self.folder / folder / ".fusee-3999999-x"
+        leftover.mkdir(parents=True)
+        outputs = [{"file": pathlib.Path(withdrawn).name, "sha256": hashlib.sha256(b"data").hexdigest()}]
+        text = harness.json.dumps({"tool": "fusee", "outputs": outputs, "withdrawn": [withdrawn]})
+        (leftover / ".publishing").write_text(text if journal is None else journal)
+
+    def test_reading_changes_nothing(self):
+        self.build("dl")
+        for withdrawn in ("../doc/t", str(self.folder / "doc/t")):
+            self.plant("dl", withdrawn)
+            before = self.tree()
+            self.expect("check dl/pulley.stl", 0)
+            self.expect("build arm.toml -o dl --dry-run", 0)
+            self.assertEqual(self.tree(), before)
+            shutil.rmtree(self.folder / "dl/.fusee-3999999-x")
+
+    def test_building_removes_nothing_elsewhere(self):
+        self.build("dl")
+        self.plant("dl", "../doc/t")
+        self.expect("build arm.toml -o dl", 0, "", "note: .*fusee-3999999-x is ignored")
+        self.assertEqual((self.folder / "doc/t").read_text(), "data")
+
+    def test_malformed_ones_are_ignored(self):
+        self.build("dl")
+        for journal in ("", "{", "[]", '{"tool":"fusee","outputs":[],"withdrawn":7}', "\0" * 100):
+            self.plant("dl", "t", journal)
+            self.expect("check dl/pulley.stl", 0, "valid", "^$")
+            self.expect("build arm.toml -o dl", 0)
+            shutil.rmtree(self.folder / "dl/.fusee-3999999-x")
+
+    def test_locks_of_others_hold_up_nothing(self):
+        for place in (".", "out"):
+            (self.folder / place).mkdir(exist_ok=True)
+            lock = os.open(self.folder / place, os.O_RDONLY)
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.addCleanup(os.close, lock)
+        started = time.monotonic()
+        self.build()
+        self.assertLess(time.monotonic() - started, 30)
 
 
 class Kill(harness.Scratch):
