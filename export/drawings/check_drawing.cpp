@@ -63,8 +63,7 @@ Paths contours_of(const Drawing& drawing) {
   return contours;
 }
 
-// Closed
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Closed ---------------------------------------------------------------------------------------------------------
 
 Check check_contours_closed(const Paths& contours) {
   std::size_t open = 0;
@@ -90,8 +89,7 @@ Check check_ends_meet(const Paths& contours) {
   return at_most("ends_meet", widest, k_joined, "mm", where);
 }
 
-// Lines and crossings
-// --------------------------------------------------------------------------------------------------
+// ---- Lines and crossings --------------------------------------------------------------------------------------------
 
 /// One edge of a path, from the lower end in (x, y) order to the upper.
 struct Edge {
@@ -346,8 +344,7 @@ CrossingChecks check_crossings(const Paths& contours) {
           exactly("no_crossing_contours", static_cast<double>(layers), 0, "1", mutual_where)};
 }
 
-// Sizes
-// ----------------------------------------------------------------------------------------------------------------
+// ---- Sizes ----------------------------------------------------------------------------------------------------------
 
 /// Least distance of two parallel lines that hold the polygon between them (rotating calipers on its hull).
 double least_width(const Polygon& polygon) {
@@ -380,8 +377,7 @@ Check check_smallest_feature(const Paths& contours) {
                   "narrow: " + place(*narrow, narrow->points.front()));
 }
 
-// Inside
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Inside ---------------------------------------------------------------------------------------------------------
 
 struct Framed {
   const DrawingPath* path;

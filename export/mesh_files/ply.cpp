@@ -173,8 +173,7 @@ Header read_header(const Source& source, TextScanner& text) {
   return header;
 }
 
-// Values: two sources of the same numbers
-// ------------------------------------------------------------------------------
+// ---- Values: two sources of the same numbers ------------------------------------------------------------------------
 
 class AsciiValues {
  public:

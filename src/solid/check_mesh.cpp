@@ -235,8 +235,7 @@ Check crossing_check(const TriangleMesh& mesh) {
   return exactly("self_intersections", 1, 0, "1", facet_at(mesh, f) + " crosses facet " + std::to_string(g));
 }
 
-// ---- what must hold before anything else can be asked
-// ----------------------------------------------------------------
+// ---- what must hold before anything else can be asked ---------------------------------------------------------------
 
 Check indices_check(const TriangleMesh& mesh) {
   Tally bad;
