@@ -66,7 +66,7 @@ std::string main_help() {
     code.resize(5, ' ');
     text += "  " + code + std::string(one.words) + "\n";
   }
-  text += "\n'fusee COMMAND --help' says more about a command.\n";
+  text += "\n'fusee help COMMAND' describes a command, with examples.\n";
   return text;
 }
 

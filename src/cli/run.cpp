@@ -53,21 +53,30 @@ Reply version_reply() {
   return reply;
 }
 
-/// For someone who types the name to see what happens.
-std::string what_to_type_next() {
+/// The overview, and what to type next in this folder.
+Reply overview_reply() {
   const std::string spec = mechanism_here();
-  return (spec.empty() ? "begin with 'fusee new forearm > arm.toml', then 'fusee build arm.toml'"
-                       : "'fusee build " + spec + "' makes its pulley") +
-         std::string("; 'fusee --help' lists the commands");
+  const std::string next = spec.empty() ? "Begin with 'fusee new forearm > arm.toml', then 'fusee build arm.toml'."
+                                        : "'fusee build " + spec + "' makes the pulley of " + spec + ".";
+  return help_reply(main_help() + next + "\n");
 }
 
 Reply without_command(const std::vector<std::string>& words) {
-  if (has_switch(words, "--help") || has_switch(words, "-h")) return help_reply(main_help());
   if (has_switch(words, "--version")) return version_reply();
-  throw UsageError("no command given", what_to_type_next());
+  return has_switch(words, "--help") || has_switch(words, "-h") ? help_reply(main_help()) : overview_reply();
 }
 
-Reply answer(std::vector<std::string> words, std::string& command_name, Console& console) {
+/// "help build" as "build --help".
+std::vector<std::string> without_help_command(std::vector<std::string> words) {
+  const auto at = find_command(words);
+  if (!at || words[*at] != "help") return words;
+  words.erase(words.begin() + static_cast<std::ptrdiff_t>(*at));
+  words.push_back("--help");
+  return words;
+}
+
+Reply answer(const std::vector<std::string>& given, std::string& command_name, Console& console) {
+  std::vector<std::string> words = without_help_command(given);
   const auto at = find_command(words);
   if (!at) return without_command(words);
   const Command& command = find_known_command(words[*at]);
