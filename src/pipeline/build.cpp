@@ -21,6 +21,7 @@
 #include "pipeline/agreement.h"
 #include "pipeline/design.h"
 #include "pipeline/several_turns.h"
+#include "pipeline/thin_walls.h"
 
 namespace fusee {
 namespace {
@@ -455,7 +456,10 @@ Advice advice_for(const Product& product, const BuildOptions& options) {
 }
 
 void write_and_check(Workshop& shop) {
-  write_texts(shop, write_and_check_parts(shop));
+  Tables tables = write_and_check_parts(shop);
+  Product& product = shop.result.product;
+  for (Diagnostic& thin : walls_below_a_line(product)) product.file.warnings.push_back(std::move(thin));
+  write_texts(shop, std::move(tables));
   shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }
 
