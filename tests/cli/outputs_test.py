@@ -12,7 +12,7 @@ import unittest
 import harness
 
 OUTPUTS = {"pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "pulley.scad", "profile.dxf", "plates.dxf",
-           "profile.csv", "transmission.csv", "report.html", "manifest.json"}
+           "profile.csv", "profile_p1.csv", "profile_p2.csv", "transmission.csv", "report.html", "manifest.json"}
 PARTS = {"pulley_p1.stl", "pulley_p2.stl"}  # of a pulley that is printed in two, as arm.toml's is
 
 
