@@ -14,7 +14,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_sagitta = 0.001;  // of sampled curves, mm
+constexpr double k_sagitta = 0.0007;  // of sampled curves, mm: 0.001 is promised
 constexpr double k_farthest = 1e7;   // mm from the origin
 constexpr std::size_t k_most_inserts = 200'000;
 constexpr std::size_t k_most_tags = 100'000'000;  // gone through while blocks are expanded
