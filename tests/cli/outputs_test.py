@@ -247,7 +247,9 @@ class NamesOfDots(harness.Scratch):
         for name in ("...", "..x", "x..", ".hidden"):
             self.assertEqual(set(self.build(name)), OUTPUTS | PARTS)
         for name in (".", "..", "x/.."):
-            self.expect(["analyze", "arm.toml", "-o", name, "--force"], 6, "^$")
+            self.expect(["analyze", "arm.toml", "-o", name, "--force"], 2, "^$", "ending")
+        (self.folder / "folder.csv").mkdir()
+        self.expect("analyze arm.toml -o folder.csv --force", 6, "^$")
         self.expect("analyze arm.toml -o .table.csv", 0)
         self.assertTrue((self.folder / ".table.csv").exists())
 
