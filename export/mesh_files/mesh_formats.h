@@ -39,7 +39,7 @@ bool is_binary_stl(std::string_view bytes);
 void demand_room(const Source& source, std::size_t offset, std::uint64_t count, std::size_t least_bytes,
                  const std::string& things);
 
-/// A polygon as a fan of triangles about its first corner.
+/// A polygon as a fan of triangles about its first corner. One of two corners is a line, one of one a point: no facet.
 void add_fan(TriangleMesh& mesh, std::span<const std::uint32_t> corners);
 
 }  // namespace fusee

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <system_error>
 
 namespace fusee {
@@ -18,6 +19,26 @@ std::string without_negative_zero(std::string text) {
     text.erase(0, 1);
   }
   return text;
+}
+
+void append_utf8(std::string& text, std::uint32_t point) {
+  const auto put = [&text](std::uint32_t byte) { text += static_cast<char>(byte); };
+  const auto follow = [&](int shift) { put(0x80 | ((point >> shift) & 0x3F)); };
+  if (point < 0x80) {
+    put(point);
+  } else if (point < 0x800) {
+    put(0xC0 | point >> 6);
+    follow(0);
+  } else if (point < 0x10000) {
+    put(0xE0 | point >> 12);
+    follow(6);
+    follow(0);
+  } else {
+    put(0xF0 | point >> 18);
+    follow(12);
+    follow(6);
+    follow(0);
+  }
 }
 
 }  // namespace
@@ -50,6 +71,29 @@ std::string rounded(double value, int digits) {
   }
   const int before_point = static_cast<int>(std::floor(std::log10(size))) + 1;
   return trimmed_fixed(value, std::max(0, digits - before_point));
+}
+
+std::optional<std::string> utf8_of_utf16(std::string_view bytes) {
+  const bool big_endian = bytes.starts_with("\xFE\xFF");
+  if (!big_endian && !bytes.starts_with("\xFF\xFE")) return std::nullopt;
+  const auto unit_at = [&](std::size_t at) -> std::uint32_t {
+    if (at + 1 >= bytes.size()) return 0;
+    const auto byte = [&](std::size_t k) { return std::uint32_t{static_cast<unsigned char>(bytes[k])}; };
+    return byte(big_endian ? at : at + 1) << 8 | byte(big_endian ? at + 1 : at);
+  };
+  std::string text;
+  for (std::size_t at = 2; at + 1 < bytes.size(); at += 2) {
+    std::uint32_t point = unit_at(at);
+    const std::uint32_t next = unit_at(at + 2);
+    if (point >= 0xD800 && point < 0xDC00 && next >= 0xDC00 && next < 0xE000) {
+      point = 0x10000 + ((point - 0xD800) << 10) + (next - 0xDC00);
+      at += 2;
+    } else if (point >= 0xD800 && point < 0xE000) {
+      point = 0xFFFD;
+    }
+    append_utf8(text, point);
+  }
+  return text;
 }
 
 std::size_t characters(std::string_view text) {

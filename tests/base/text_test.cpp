@@ -44,6 +44,16 @@ TEST(Text, RoundedKeepsItsDigitsAndNoZerosBehindThem) {
   EXPECT_EQ(rounded(-2.0), "-2");
 }
 
+TEST(Text, Utf16OfEitherOrderBecomesUtf8) {
+  using namespace std::string_literals;
+  EXPECT_EQ(utf8_of_utf16("\xFF\xFEs\0\xB0\0\xAC\x20"s), "s°€");
+  EXPECT_EQ(utf8_of_utf16("\xFE\xFF\0s\0\xB0\x20\xAC"s), "s°€");
+  EXPECT_EQ(utf8_of_utf16("\xFF\xFE\x3D\xD8\x00\xDE"s), "\xF0\x9F\x98\x80");
+  EXPECT_EQ(utf8_of_utf16("\xFF\xFE\x3D\xD8s\0"s), "\uFFFDs");
+  EXPECT_EQ(utf8_of_utf16("\xFF\xFEs\0x"s), "s");
+  EXPECT_EQ(utf8_of_utf16("solid"), std::nullopt);
+}
+
 TEST(Text, WrapsByCharactersAndKeepsLongWordsWhole) {
   EXPECT_EQ(wrapped("one two", "  - ", "    "), "  - one two\n");
   EXPECT_EQ(wrapped("", "  ", "  "), "  \n");

@@ -16,7 +16,7 @@ import unittest
 import harness
 
 OUTPUTS = {"pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "pulley.scad", "profile.dxf", "plates.dxf",
-           "profile.csv", "transmission.csv", "report.html", "manifest.json"}
+           "profile.csv", "profile_p1.csv", "profile_p2.csv", "transmission.csv", "report.html", "manifest.json"}
 PARTS = {"pulley_p1.stl", "pulley_p2.stl"}  # of a pulley that is printed in two, as arm.toml's is
 
 
@@ -251,7 +251,9 @@ class NamesOfDots(harness.Scratch):
         for name in ("...", "..x", "x..", ".hidden"):
             self.assertEqual(set(self.build(name)), OUTPUTS | PARTS)
         for name in (".", "..", "x/.."):
-            self.expect(["analyze", "arm.toml", "-o", name, "--force"], 6, "^$")
+            self.expect(["analyze", "arm.toml", "-o", name, "--force"], 2, "^$", "ending")
+        (self.folder / "folder.csv").mkdir()
+        self.expect("analyze arm.toml -o folder.csv --force", 6, "^$")
         self.expect("analyze arm.toml -o .table.csv", 0)
         self.assertTrue((self.folder / ".table.csv").exists())
 

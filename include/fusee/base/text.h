@@ -2,6 +2,7 @@
 /// Numbers to text, the same on every machine: no locale, no trailing noise, no negative zero.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,9 @@ std::string fixed(double value, int decimals);
 std::string trimmed_fixed(double value, int decimals);
 /// For messages: `digits` significant digits, no exponent between 1e-4 and 1e7 ("18.9", "0.0123").
 std::string rounded(double value, int digits = 4);
+/// The UTF-8 of a text that begins with UTF-16's byte-order mark, of either order; nothing of any other bytes. Half a
+/// surrogate pair becomes U+FFFD.
+std::optional<std::string> utf8_of_utf16(std::string_view bytes);
 /// Characters of UTF-8 text.
 std::size_t characters(std::string_view text);
 /// Words broken into lines of the terminal's usual width, each with its end: the first begins with `first`, the others
