@@ -1,5 +1,5 @@
 /// \file
-/// What actions have in common, for every list of faults. rad, mm, N.
+/// Shapes that actions of several lists of faults share. rad, mm, N.
 #pragma once
 
 #include <algorithm>

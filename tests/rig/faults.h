@@ -1,6 +1,6 @@
 /// \file
-/// Kinds of faults, in lists: those that calibration has a name for, those that it has none for, and held-out sets of
-/// the latter. rad, mm, N, s.
+/// Kinds of faults, in lists: effects of the catalogue, unmodelled faults, and held-out sets of the latter. rad, mm, N,
+/// s.
 ///
 /// A new held-out set is a file heldout_NN.cpp with one function, declared here, and a line in fault_lists().
 #pragma once
@@ -34,7 +34,7 @@ struct Draw : Character {
   double within(double low, double high) const { return low + (0.2 + 0.6 * share) * (high - low); }
 };
 
-/// Where in the joint's chain an action acts: the lists of Hidden.
+/// The place in the joint's chain at which an action acts: a list of Hidden.
 enum class Place {
   shaft,
   one_tendon,  ///< tendon 2, or tendon 1 where the character's sign is negative
@@ -55,8 +55,8 @@ struct Fault {
   double most = 0;   ///< nobody would build worse
   /// Null: `act` acts at `place` instead, with the numbers that `parameters` makes.
   void (*set)(Hidden&, double size, const Character&, const MadeJoint&) = nullptr;
-  /// Named effects that are, physically, nearly the same: to report one of them is no false positive where the fault
-  /// has no name, or none in the catalogue at hand.
+  /// Effects that are, physically, nearly the same: to report one of them is no false positive where the fault is
+  /// unmodelled, or left out of the catalogue.
   std::vector<std::string> kin = {};
   Numbers (*numbers)(const Hidden&, const MadeJoint&) = nullptr;  ///< what a report should say; null: not a number
   double least_seen = 3;                                          ///< in the noise's rms
@@ -81,21 +81,21 @@ Fault acting(const char* name, double first, double most, Place place, decltype(
              decltype(Fault::parameters) parameters, std::vector<std::string> kin = {});
 
 struct FaultList {
-  std::string split;  ///< "named", "wide", or the split of faults without a name
+  std::string split;  ///< "named", "wide", or a split of unmodelled faults
   std::vector<Fault> faults;
   std::string seed_word = split;  ///< random_truth() draws by it: a split that is renamed keeps its joints
 };
 
 /// Every effect of the catalogue by its name, in the order of the chain.
 std::vector<Fault> named_faults();
-/// The same for parts that only joints of the wider class have: drum, attachments, idlers, sheaths. A list of its own,
+/// Effects of parts that only joints of the wider class have: drum, attachments, idlers, sheaths. A list of its own,
 /// since random joints draw their faults from the other one.
 std::vector<Fault> wide_faults();
-/// Without a name: those that thresholds may be tuned on.
+/// Unmodelled faults that thresholds may be tuned on.
 std::vector<Fault> tuning_faults();
-/// Without a name, from held-out sets that are used up: those of joints that calibration once got wrong.
+/// Unmodelled faults of used-up held-out sets, on joints that calibration once got wrong.
 std::vector<Fault> regression_faults();
-/// Without a name, written by someone who knew neither the inference nor its results: run once, never tuned on.
+/// Unmodelled faults, written by someone who knew neither the inference nor its results: run once, never tuned on.
 std::vector<Fault> heldout_13_faults();
 
 /// The faults of several lists as one, in their order.

@@ -1,4 +1,4 @@
-// Faults without a name: each acts as described, by a table of examples; random ones by their statistics; and each list
+// Unmodelled faults: each acts as described, by a table of examples; random ones by their statistics; and each list
 // of Hidden at its place in the chain.
 #include "rig/faults.h"
 
@@ -51,7 +51,7 @@ constexpr Input alpha{[](Moment&m, double x) { m.alpha = x; }}, theta{[](Moment&
     }},
     tension{[](Moment&m, double x) { m.tension[m.side] = x; }};  // of the tendon that is acted on
 
-/// What changes its sign with the character's.
+/// The part of an example that changes sign with the character.
 enum class Sign { nothing, action, action_and_first_input };
 
 /// One after another, with one memory: inputs, and what acts as a multiple of `unit`. Everything else changes from row
@@ -209,7 +209,7 @@ TEST(FaultExamples, CoverEveryAction) {
   }
 }
 
-/// What acts on a tendon that pulls across, then along, at home and with these moments.
+/// The action on a tendon that pulls across, then along, after these moments.
 std::array<double, 2> across_and_along(const Hidden& hidden, const std::vector<Moment>& moments) {
   std::array<double, 2> acts{};
   for (const std::size_t axis : {0u, 1u}) {

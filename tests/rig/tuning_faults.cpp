@@ -1,5 +1,5 @@
-// Faults without a name that thresholds may be tuned on, and those of held-out sets that are used up whose joints stay
-// in the regression list of CMakeLists.txt.
+// Unmodelled faults that thresholds may be tuned on, and those of used-up held-out sets whose joints stay in the
+// regression list of CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
 
