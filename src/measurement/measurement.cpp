@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fusee/base/text.h"
+#include "measurement/clock.h"
 #include "measurement/repair.h"
 #include "measurement/row_reader.h"
 #include "measurement/run_checks.h"
@@ -11,7 +12,8 @@
 #include "measurement/strokes.h"
 
 // From bytes to runs in three steps:
-//   1. Rows (row_reader): the file is read in bounded memory; a run too long to keep is thinned as it comes.
+//   1. Rows (row_reader): the file is read in bounded memory; a run too long to keep is thinned as it comes. Bytes to
+//      records (csv_text), header to columns and their units (columns, units), cells to numbers (cells).
 //   2. Repair (repair): order in time, wrap-around, outliers; each said in a note.
 //   3. Strokes (strokes), and whether anything can be concluded from them at all (run_checks).
 
@@ -39,12 +41,6 @@ void say_what_was_read(const LoggedRows& rows, const std::string& name, const Sa
       std::to_string(rows.first_without_angle) + ": left out");
   if (2 * rows.without_angle > rows.rows)
     into.not_testable.push_back(name + ": more than half of the rows hold no angle");
-}
-
-/// "Nm" of "tau_out_Nm".
-std::string unit_of(const std::string& column) {
-  const std::size_t mark = column.rfind('_');
-  return mark == std::string::npos ? "" : column.substr(mark + 1);
 }
 
 void repair(Run& run, const Say& say) {
@@ -102,7 +98,7 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
     describe(run);
   }
   if (!is_unfilled(rows)) look_at_run(run, into, say);
-  if (run.has_load) into.load_unit = unit_of(rows.load_column);
+  if (run.has_load) into.load_unit = rows.load_unit;
   return run;
 }
 
@@ -184,12 +180,13 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
 
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const Mechanism& declared,
                              const MeasurementOptions& options) {
-  Measurement measurement = read_measurement(files, options);
+  Measurement measurement = read_measurement(files, expecting(declared, options));
   compare_with_declared(declared, measurement);
   return measurement;
 }
 
 Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared, MeasurementOptions options) {
+  options = expecting(declared, std::move(options));
   options.needs_theta = false;
   check_roles(options);
   Measurement measurement;
@@ -207,7 +204,7 @@ Measurement read_driving(const std::filesystem::path& file, const Mechanism& dec
   unwrap(run.samples, &Sample::alpha, "alpha", say);
   run.has_load = rows.has_load && fill_gaps(run.samples, &Sample::load, "load", say);
   run.has_temperature = rows.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", say);
-  if (run.has_load) measurement.load_unit = unit_of(rows.load_column);
+  if (run.has_load) measurement.load_unit = rows.load_unit;
   take_torques_as_forces(declared, measurement);
   return measurement;
 }
