@@ -13,6 +13,8 @@
 namespace fusee {
 
 constexpr double k_largest_deg = 1e7;
+/// s between rows beyond which nobody logs a moving joint.
+constexpr double k_longest_step = 2.0;
 
 /// What the values of a role measure.
 Quantity quantity_of(const std::string& role);

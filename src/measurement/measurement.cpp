@@ -5,6 +5,7 @@
 
 #include "fusee/base/text.h"
 #include "measurement/clock.h"
+#include "measurement/columns.h"
 #include "measurement/repair.h"
 #include "measurement/row_reader.h"
 #include "measurement/run_checks.h"
@@ -66,6 +67,16 @@ void describe(Run& run) {
   for (const Sample& sample : run.samples) run.mean_load += sample.load / static_cast<double>(run.samples.size());
 }
 
+/// A sweep whose rows lie minutes apart was logged in another unit.
+void say_implausible_steps(const Run& run, std::size_t stride, const Say& say) {
+  if (!run.has_time || run.samples.size() < 2 || is_from_point_to_point(run)) return;
+  const double span = run.samples.back().time - run.samples.front().time;
+  const double step = span / static_cast<double>((run.samples.size() - 1) * stride);
+  if (step > k_longest_step)
+    say("the rows lie " + rounded(step, 3) +
+        " s apart: if the times are in ms, let their column's name end in _ms, or give --unit time=ms");
+}
+
 /// Strokes, and what stands or falls together in them.
 void cut(Run& run, Measurement& into, double alpha_quantum) {
   std::vector<Hold> holds = holds_in(run.samples, alpha_quantum);
@@ -96,6 +107,7 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
     repair(run, say);
     cut(run, into, alpha_quantum);
     describe(run);
+    say_implausible_steps(run, rows.stride, say);
   }
   if (!is_unfilled(rows)) look_at_run(run, into, say);
   if (run.has_load) into.load_unit = rows.load_unit;

@@ -17,9 +17,6 @@ namespace {
 /// s since 1970: from 2000 to 2100.
 bool is_since_1970(double seconds) { return seconds > 9.4e8 && seconds < 4.2e9; }
 
-/// s between rows beyond which nobody logs a moving joint.
-constexpr double k_longest_step = 2.0;
-
 /// How far rows lie apart on the whole, whatever restarts there are between them.
 double mean_step(const std::vector<Sample>& samples) {
   double sum = 0, steps = 0;

@@ -206,6 +206,13 @@ TEST(LoggedTime, OfNoUnitIsFoundOrRefused) {
   EXPECT_THAT(found.notes, HasSubstr("time in ms since 1970"));
 }
 
+TEST(LoggedTime, OfImplausibleStepsIsReported) {
+  const Value millis = [](int row) { return whole(1000 * time_of(row)); };
+  const std::string text = table("time_s,alpha_deg,theta_deg", {millis, alpha(), theta()});
+  EXPECT_THAT(read(text).notes, HasSubstr("the rows lie 20 s apart: if the times are in ms"));
+  EXPECT_THAT(read(plain()).notes, ::testing::Not(HasSubstr("s apart")));
+}
+
 TEST(LoggedTime, IsReadFromTimeStamps) {
   const auto stamp = [](const std::string& before, double start, char mark, const std::string& after) {
     return Value([=](int row) {
