@@ -55,7 +55,7 @@ void conclude(const Bench& bench, const RunFiles& runs) {
   const DeclaredMechanism& declared = bench.file.mechanism;
   const DeclaredMechanism expected = expected_joint(declared);
   bench.step("reading the runs");
-  const Measurement as_read = read_measurement(runs.all, bench.options.columns);
+  const Measurement as_read = read_measurement(runs.all, expecting(expected, bench.options.columns));
   product.measurement = as_read;
   compare_with_declared(expected, product.measurement);
   CalibrationOptions options;

@@ -17,12 +17,27 @@
 
 namespace fusee {
 
-/// Separators: comma, semicolon, tab or blanks, whichever the header has. Lines end with LF, CR LF or CR. Angles are in
-/// degrees and time in s, unless the column's name ends in _rad, _ms or _us.
+/// A CSV text of RFC 4180: UTF-8, Latin-1 or UTF-16; lines end with LF, CR LF or CR; separators are comma, semicolon,
+/// tab or blanks. The header is the first line that names the angles. The unit of a column is, in this order: what an
+/// option says, what the column's name states ("theta_rad", "load [kg]"), or what its values show (with a note). An
+/// InputError where none of them decides.
 struct MeasurementOptions {
-  std::map<std::string, std::string> columns;  ///< role → column name: {"load", "tau_out_Nm"}
-  bool needs_theta = true;                     ///< false: what drove the joint is enough, as in read_driving()
+  std::map<std::string, std::string> columns;    ///< role → column name: {"load", "tau_out_Nm"}
+  bool needs_theta = true;                       ///< false: what drove the joint is enough, as in read_driving()
+  std::map<std::string, std::string> units;      ///< role → unit: {"time", "ms"}
+  std::map<std::string, double> ticks_per_turn;  ///< alpha, theta → counts a turn; negative where they fall
+  std::map<std::string, double> zero_ticks;      ///< alpha, theta → counts at home
+  double alpha_span = 0;  ///< how far the declared joint moves, rad; 0: not known. See expecting()
+  double theta_span = 0;
 };
+
+/// The options with the spans of a declared joint: they tell degrees from radians where no name states the unit.
+MeasurementOptions expecting(const Mechanism& declared, MeasurementOptions options);
+
+/// The name of a unit that a role can have, for options ("ms" for "msec"); "" for none.
+std::string unit_for(const std::string& role, const std::string& spelling);
+/// "s, ms, us, …": all of a role's units.
+std::string units_for(const std::string& role);
 
 /// One logged row. NaN where a column is absent.
 struct Sample {
@@ -33,6 +48,7 @@ struct Sample {
   double temperature = 0;  ///< °C
   double tension1 = 0;     ///< N
   double tension2 = 0;
+  bool after_break = false;  ///< the log began again here: what the joint did before it is not known
 };
 
 /// Samples in one direction of α, from one reversal (or the run's beginning) to the next.
@@ -68,7 +84,7 @@ struct Measurement {
   std::vector<Run> runs;
   double alpha_quantum = 0;  ///< step of the sensor, rad; 0 when it is finer than can be told
   double theta_quantum = 0;
-  std::string load_unit;                  ///< from the load column's name: "N", "Nm", "Nmm"; "" without one
+  std::string load_unit;                  ///< of the loads: "N", "Nm", "Nmm"; "" without any
   std::vector<std::string> notes;         ///< what was dropped, repaired or suspected, with file and line
   std::vector<std::string> not_testable;  ///< reasons why nothing can be concluded; empty when it can
 };
