@@ -67,8 +67,11 @@ void demand_room(const Source& source, std::size_t offset, std::uint64_t count, 
                            least_bytes, left));
 }
 
-void add_fan(TriangleMesh& mesh, std::span<const std::uint32_t> corners) {
+bool add_fan(TriangleMesh& mesh, std::span<const std::uint32_t> corners) {
+  const std::uint64_t vertices = std::uint64_t{*std::max_element(corners.begin(), corners.end())} + 1;
+  if (corners.size() > 2 * vertices) return false;
   for (std::size_t k = 2; k < corners.size(); ++k) mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+  return true;
 }
 
 TriangleMesh read_mesh(std::string_view bytes, const std::string& file_name) {
