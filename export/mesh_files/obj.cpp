@@ -58,7 +58,7 @@ void read_face(TextScanner& text, TriangleMesh& mesh, GreatestIndex& greatest) {
     corners.push_back(static_cast<std::uint32_t>(index));
   }
   if (corners.empty()) text.fail("a face of at least 1 corner");
-  add_fan(mesh, corners);
+  if (!add_fan(mesh, corners)) text.fail("a face that has a vertex at most twice");
 }
 
 void put_line(fmt::memory_buffer& to, const Vec3& v) {

@@ -333,7 +333,7 @@ class ElementReader {
       corners_.push_back(
           static_cast<std::uint32_t>(whole(values_, index, static_cast<double>(header_.vertices), "a vertex number")));
     }
-    add_fan(mesh_, corners_);
+    if (!add_fan(mesh_, corners_)) values_.fail("a face that has a vertex at most twice");
   }
 
   Values values_;

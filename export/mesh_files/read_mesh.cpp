@@ -88,8 +88,12 @@ TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
   return used;
 }
 
-void add_fan(TriangleMesh& mesh, std::span<const std::uint32_t> corners) {
+bool add_fan(TriangleMesh& mesh, std::span<const std::uint32_t> corners) {
+  if (corners.empty()) return true;
+  const std::uint64_t vertices = std::uint64_t{*std::max_element(corners.begin(), corners.end())} + 1;
+  if (corners.size() > 2 * vertices) return false;
   for (std::size_t k = 2; k < corners.size(); ++k) mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+  return true;
 }
 
 TriangleMesh read_mesh(std::string_view bytes, const std::string& file_name) {

@@ -134,7 +134,8 @@ std::string printable(std::string_view text) {
   std::string shown;
   for (const char c : text.substr(0, k_longest)) {
     const auto byte = static_cast<unsigned char>(c);
-    shown += byte >= 0x20 && byte < 0x7f ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
+    const bool plain = byte >= 0x20 && byte < 0x7f && c != '\\';
+    shown += plain ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
   }
   return text.size() > k_longest ? shown + "…" : shown;
 }

@@ -64,7 +64,8 @@ class TextScanner {
   int line_ = 0;
 };
 
-/// `text` fit for a message: short, and with what is not printable as \xNN.
+/// `text` fit for a message and for a line of a file: short, and with what is not printable as \xNN. A backslash is
+/// \x5c: at the end of a line it would carry an OBJ statement on to the next one.
 std::string printable(std::string_view text);
 
 }  // namespace fusee

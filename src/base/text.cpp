@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <system_error>
 
 namespace fusee {
@@ -41,7 +42,79 @@ void append_utf8(std::string& text, std::uint32_t point) {
   }
 }
 
+/// One character of UTF-8, taken off the front; none where no well-formed one stands there, and the longest beginning
+/// of one is taken, as JSON's writer does too. Overlong forms, surrogates and what lies beyond U+10FFFF are not well
+/// formed (Unicode 15, table 3-7).
+std::optional<char32_t> take_character(std::string_view& text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  const std::size_t size = lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
+  char32_t code = size < 2 ? lead : lead & (0x7F >> size);
+  std::size_t taken = 1;
+  unsigned char least = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
+  unsigned char most = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
+  for (; taken < size && taken < text.size(); ++taken) {
+    const auto byte = static_cast<unsigned char>(text[taken]);
+    if (byte < least || byte > most) break;
+    code = (code << 6) | (byte & 0x3F);
+    least = 0x80;
+    most = 0xBF;
+  }
+  text.remove_prefix(taken);
+  return taken == size ? std::optional(code) : std::nullopt;
+}
+
+bool is_fit(char32_t code) {
+  const auto within = [code](char32_t first, char32_t last) { return code >= first && code <= last; };
+  const bool control = code < 0x20 || within(0x7F, 0x9F) || within(0x2028, 0x2029);
+  const bool reorders = within(0x202A, 0x202E) || within(0x2066, 0x2069) || within(0x200E, 0x200F) || code == 0x061C;
+  const bool no_character = (code & 0xFFFE) == 0xFFFE || within(0xFDD0, 0xFDEF);
+  return !control && !reorders && !no_character;
+}
+
+/// Copies `text`, with what `unfit` makes of each character that is not fit, and none for bytes that are no character.
+template <class Unfit>
+std::string with_unfit(std::string_view text, const Unfit& unfit) {
+  std::string fit;
+  fit.reserve(text.size());
+  while (!text.empty()) {
+    const std::string_view before = text;
+    const std::optional<char32_t> code = take_character(text);
+    if (code && (is_fit(*code) || code == U'\n' || code == U'\t')) {
+      fit += before.substr(0, before.size() - text.size());
+    } else {
+      fit += unfit(code);
+    }
+  }
+  return fit;
+}
+
+constexpr std::string_view k_replacement = "\uFFFD";
+
 }  // namespace
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty())
+    if (!take_character(text)) return false;
+  return true;
+}
+
+std::string cleaned(std::string_view text) {
+  return with_unfit(text, [](std::optional<char32_t>) { return k_replacement; });
+}
+
+std::string cleaned_line(std::string_view text) {
+  std::string line = cleaned(text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  return line;
+}
+
+std::string unicode_escaped(std::string_view text) {
+  return with_unfit(text, [](std::optional<char32_t> code) {
+    const bool one_unit = code && *code < 0x10000;
+    return one_unit ? fmt::format("\\u{:04x}", static_cast<unsigned>(*code)) : std::string(k_replacement);
+  });
+}
 
 std::string shortest(double value) { return without_negative_zero(fmt::format("{}", value)); }
 

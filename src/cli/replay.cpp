@@ -32,13 +32,11 @@ constexpr std::size_t k_most_differences = 8;
 /// The files of a bundle in place of the disk.
 class Replaying : public FileAccess {
  public:
-  Replaying(const Bundle& bundle, fs::path here) : bundle_(bundle), here_(std::move(here)), names_(here_) {}
+  explicit Replaying(const Bundle& bundle) : bundle_(bundle), here_(working_folder()), names_(here_) {}
 
   void read(const ReadRequest& request, const TakeBlock& take) override;
   void will_write(const fs::path& place) override;
-  void wrote(const fs::path& name, std::string_view bytes) override {
-    outputs_.push_back({names_.inner(name), bytes.size(), sha256(bytes)});
-  }
+  void wrote(const fs::path& name, std::string_view bytes) override { outputs_.push_back(output_of(name, bytes)); }
   const std::vector<BundledOutput>& outputs() const { return outputs_; }
   const BundleNames& names() const { return names_; }
 
@@ -51,14 +49,16 @@ class Replaying : public FileAccess {
   std::vector<BundledOutput> outputs_;
 };
 
+/// By its path; else by its name alone, for a file that a packed file names beside itself or by a path of the machine
+/// on which it was packed. It was read before the files that the command line names after it.
 const BundledFile* Replaying::find(const fs::path& path) const {
-  const std::string near = seen_from(here_, path).string();
-  const std::string hidden = path.is_absolute() ? hidden_path(path) : std::string();
-  for (const BundledFile& file : bundle_.files) {
-    const auto is_it = [&](const std::string& asked) { return asked == near || (!hidden.empty() && asked == hidden); };
-    if (file.path == near || std::any_of(file.asked.begin(), file.asked.end(), is_it)) return &file;
-  }
-  return nullptr;
+  const fs::path seen = seen_from(here_, path);
+  const std::string near = seen == "." ? "." : tame(seen.string()), name = tame(path.filename().string());
+  const auto by_path = [&near](const BundledFile& file) { return file.path == near; };
+  const auto by_name = [&name](const BundledFile& file) { return fs::path(file.path).filename() == name; };
+  auto found = std::find_if(bundle_.files.begin(), bundle_.files.end(), by_path);
+  if (found == bundle_.files.end()) found = std::find_if(bundle_.files.begin(), bundle_.files.end(), by_name);
+  return found == bundle_.files.end() ? nullptr : &*found;
 }
 
 void Replaying::read(const ReadRequest& request, const TakeBlock& take) {
@@ -75,8 +75,7 @@ void Replaying::read(const ReadRequest& request, const TakeBlock& take) {
 }
 
 void Replaying::will_write(const fs::path& place) {
-  const fs::path near = seen_from(here_, place);
-  if (near.empty() || *near.begin() == "..")
+  if (leads_out(seen_from(here_, place)))
     throw OutputError(place.string() + " lies outside of the folder in which a bundle is replayed");
 }
 
@@ -84,8 +83,6 @@ void Replaying::will_write(const fs::path& place) {
 class Within {
  public:
   explicit Within(const fs::path& folder) {
-    std::error_code error;
-    before_ = fs::current_path(error);
     if (const char* temporary = ::getenv("TMPDIR")) temporary_ = temporary;
     if (::chdir(folder.c_str()) != 0) fail_output("cannot work in", folder, errno);
     ::setenv("TMPDIR", folder.c_str(), 1);
@@ -102,14 +99,14 @@ class Within {
   Within& operator=(const Within&) = delete;
 
  private:
-  fs::path before_;
+  fs::path before_ = working_folder();
   std::optional<std::string> temporary_;
 };
 
 BundledOutcome replayed(const Bundle& bundle, const fs::path& folder) {
   const Within within(folder);
   Console console;
-  Replaying access(bundle, fs::current_path());
+  Replaying access(bundle);
   const Ending ending = ending_of(bundle.words, console);
   stop_if_interrupted();
   return outcome_of(ending, access.outputs(), access.names());
@@ -141,7 +138,7 @@ void demand_free(const fs::path& folder) {
 /// In a folder beside `kept`, which gets its name; without one in the system's temporary folder.
 BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<fs::path>& kept) {
   std::error_code error;
-  fs::path place = kept ? fs::weakly_canonical(fs::absolute(*kept), error) : fs::temp_directory_path() / "fusee-replay";
+  fs::path place = kept ? fs::weakly_canonical(fs::absolute(*kept), error) : temporary_folder() / "fusee-replay";
   if (!place.has_filename()) place = place.parent_path();
   MissingFolders missing;
   missing.make(place.parent_path());
@@ -215,13 +212,16 @@ std::vector<Difference> differences_of(const BundledOutcome& then, const Bundled
 
 // ---- words ----------------------------------------------------------------------------------------------------------
 
+/// As a shell takes it.
 std::string command_line(const Bundle& bundle) {
   std::string line = "fusee";
   for (const std::string& word : bundle.words) {
+    std::string quoted;
+    for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
     const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$`()[]{}*?;&|<>#!~") == std::string::npos;
-    line += plain ? " " + word : " '" + word + "'";
+    line += plain ? " " + word : " '" + quoted + "'";
   }
-  return line;
+  return cleaned_line(line);
 }
 
 std::string files_text(const Bundle& bundle) {
@@ -229,7 +229,7 @@ std::string files_text(const Bundle& bundle) {
   for (const BundledFile& file : bundle.files)
     text += (text.empty() ? "" : ", ") + file.path +
             (file.failure ? " (" + file.failure->message + ")" : " (" + std::to_string(file.bytes.size()) + " B)");
-  return text.empty() ? "no file" : text;
+  return text.empty() ? "no file" : cleaned_line(text);
 }
 
 void say_version(const Bundle& bundle, Reply& reply) {
@@ -238,7 +238,8 @@ void say_version(const Bundle& bundle, Reply& reply) {
   const auto say = [&reply](Severity severity, const std::string& what, const std::string& then,
                             const std::string& now) {
     if (then != now)
-      reply.diagnostics.push_back(note(severity, "the bundle is of " + what + then + ", and this is " + what + now));
+      reply.diagnostics.push_back(
+          note(severity, cleaned_line("the bundle is of " + what + then + ", and this is " + what + now)));
   };
   say(Severity::warning, "fusee ", bundle.version, own.version);
   say(Severity::note, "a fusee built with ", bundle.built_with, own.built_with);
@@ -246,8 +247,9 @@ void say_version(const Bundle& bundle, Reply& reply) {
 }
 
 std::string summary(const Bundle& bundle, const BundledOutcome& now, const std::vector<Difference>& differences) {
-  std::string text = command_line(bundle) + "\n  packed by  fusee " + bundle.version + ", " + bundle.built_with + ", " +
-                     bundle.runs_on + "\n" + wrapped(files_text(bundle), "  read       ", "             ");
+  std::string text = command_line(bundle) + "\n  packed by  fusee " +
+                     cleaned_line(bundle.version + ", " + bundle.built_with + ", " + bundle.runs_on) + "\n" +
+                     wrapped(files_text(bundle), "  read       ", "             ");
   if (differences.empty())
     return text + "  the same   exit code " + std::to_string(now.exit) + ", " + std::to_string(now.messages.size()) +
            " messages, " + std::to_string(now.outputs.size()) + " outputs, " +

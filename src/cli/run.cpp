@@ -7,20 +7,24 @@
 #include <filesystem>
 #include <fstream>
 #include <new>
+#include <system_error>
 
 #include "cli/command.h"
 #include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/recording.h"
+#include "fusee/base/file_access.h"
 
 namespace fusee::cli {
 namespace {
 
 constexpr const char* k_version = FUSEE_VERSION;
 
-/// The first mechanism file of this folder by name; "" where there is none.
+/// The first mechanism file of this folder by name; "" where there is none. A bundle holds no folder: a run that is
+/// packed or replayed has none.
 std::string mechanism_here() {
   std::vector<std::string> names;
+  if (FileAccess::current() != nullptr) return "";
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator(".", failed)) {
     if (names.size() < 100 && entry.path().extension() == ".toml" && entry.is_regular_file(failed))
@@ -101,6 +105,11 @@ Reply bug(const std::string& what) {
                                 "please report it with what the same command writes with --bundle bug.zip"));
 }
 
+Reply out_of_memory() {
+  return failed(Exit::cannot_write, note(Severity::error, "not enough memory for this",
+                                         "end other programs, raise the limit (ulimit -v), or give it a smaller file"));
+}
+
 /// The one place where exceptions become exit codes.
 Reply guarded_answer(const std::vector<std::string>& words, std::string& command_name, Console& console) {
   try {
@@ -117,7 +126,9 @@ Reply guarded_answer(const std::vector<std::string>& words, std::string& command
   } catch (const Interrupted& error) {
     return failed(Exit::interrupted, note(Severity::error, error.what()));
   } catch (const std::bad_alloc&) {
-    return bug("out of memory");
+    return out_of_memory();
+  } catch (const std::system_error& error) {  // a thread whose stack found no room
+    return error.code() == std::errc::resource_unavailable_try_again ? out_of_memory() : bug(error.what());
   } catch (const std::exception& error) {
     return bug(error.what());
   } catch (...) {
@@ -149,7 +160,7 @@ const std::vector<Command>& commands() {
 Ending ending_of(const std::vector<std::string>& words, Console& console) {
   Ending ending;
   ending.reply = guarded_answer(words, ending.command, console);
-  ending.result = has_switch(words, "--json") ? document(ending.reply, ending.command) : ending.reply.text;
+  ending.json = has_switch(words, "--json");
   return ending;
 }
 
@@ -162,18 +173,18 @@ void add_not_packed(const OutputError& error, Reply& reply) {
 }
 
 Ending recorded_ending(std::vector<std::string> words, const std::string& bundle, Console& console) {
-  const bool json = has_switch(words, "--json");
   Ending ending;
+  ending.json = has_switch(words, "--json");
   try {
     Recording recording(bundle, words, has_switch(words, "--force"));
-    console.set_recorded();
     ending = ending_of(words, console);
     ending.reply.diagnostics.push_back(recording.pack(ending));
     ending.reply.fields["bundle"] = bundle;
   } catch (const OutputError& error) {
     add_not_packed(error, ending.reply);
+  } catch (const std::bad_alloc&) {
+    add_not_packed(OutputError("no bundle was written: not enough memory"), ending.reply);
   }
-  ending.result = json ? document(ending.reply, ending.command) : ending.reply.text;
   return ending;
 }
 
@@ -189,7 +200,7 @@ int run(const std::vector<std::string>& given) {
   const Reply& reply = ending.reply;
   for (const Diagnostic& diagnostic : reply.diagnostics) console.say(diagnostic);
   console.end_progress();
-  if (!write_result(ending.result)) {
+  if (!write_result(ending.result())) {
     console.say(
         note(Severity::error, std::string("the result could not be written to stdout: ") + std::strerror(errno)));
     return static_cast<int>(reply.exit == Exit::done ? Exit::cannot_write : reply.exit);

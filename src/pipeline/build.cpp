@@ -30,8 +30,10 @@ namespace {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "fusee-dry-run-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw OutputError("the temporary folder cannot be written: " + name);
+    std::string name = (temporary_folder() / "fusee-dry-run-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw OutputError("the temporary folder cannot be written: " + name,
+                        "set TMPDIR to a folder that you may write to");
     path_ = name;
   }
   ~TemporaryFolder() { remove(); }

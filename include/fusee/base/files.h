@@ -24,6 +24,9 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit);
 /// The same of what fusee itself wrote, now or earlier: no input.
 std::string read_output(const std::filesystem::path& path, std::size_t limit);
 
+/// The system's folder for temporary files. OutputError where TMPDIR names none.
+std::filesystem::path temporary_folder();
+
 /// SHA-256 of `bytes`, 64 lower-case hex digits.
 std::string sha256(std::string_view bytes);
 

@@ -39,6 +39,31 @@ TEST(Obj, NamesItsObjectAndWritesNineDigits) {
   EXPECT_THAT(text, HasSubstr("unit mm"));
 }
 
+TEST(Obj, ANameEndsItsLine) {
+  const TriangleMesh mesh = testing::torus();
+  for (const char* name : {"a \\", "\\", "a\\\n", "# \\"}) {
+    const std::string text = obj_text(mesh, name);
+    EXPECT_THAT(text, Not(HasSubstr("\\\n"))) << name;
+    EXPECT_EQ(read_mesh(text, "x.obj").vertices.size(), mesh.vertices.size()) << name;
+  }
+}
+
+TEST(Obj, AFaceHasAVertexAtMostTwice) {
+  EXPECT_EQ(read_mesh(std::string(k_square) + "f 1 2 3 4 4 3 2 1\n", "x.obj").triangles.size(), 6U);
+  std::string face = "f";
+  for (int i = 0; i < 5'000'000; ++i) face += i % 3 == 0 ? " 1" : i % 3 == 1 ? " 2" : " 3";
+  EXPECT_THAT(error_of(std::string(k_square) + face + "\n", "x.obj"), HasSubstr("x.obj:5:"));
+  EXPECT_THAT(error_of(std::string(k_square) + "f 1 2 3 1 2 3 1\n", "x.obj"),
+              HasSubstr("expected a face that has a vertex at most twice"));
+  EXPECT_THAT(error_of("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n7 0 1 2 0 1 2 0\n", "x.off"),
+              HasSubstr("expected a face that has a vertex at most twice"));
+  EXPECT_THAT(error_of("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+                       "7 0 1 2 0 1 2 0\n",
+                       "x.ply"),
+              HasSubstr("expected a face that has a vertex at most twice"));
+}
+
 TEST(ObjReader, FansPolygonsAndCountsNegativeIndicesFromTheEnd) {
   EXPECT_THAT(read_mesh(std::string(k_square) + "f 1 2 3 4\n", "x.obj").triangles,
               ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
