@@ -468,7 +468,7 @@ std::vector<Check> check_drawing(const Drawing& drawing) {
   Paths contours = contours_of(drawing);
   std::erase_if(contours, [&](const DrawingPath* path) { return duplicates.paths.count(path) > 0; });
   std::vector<Check> checks = {check_undrawn(drawing)};
-  // Where nothing could be drawn there is nothing to cut, and the entities are why.
+  // A drawing none of whose entities can be drawn has nothing to cut, and one fault.
   if (!contours.empty() || drawing.undrawn == 0) {
     checks.push_back(
         at_least("contours", static_cast<double>(contours.size()), 1, "1", "the drawing has no lines to cut"));

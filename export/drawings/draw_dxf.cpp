@@ -15,7 +15,7 @@ namespace fusee {
 namespace {
 
 constexpr double k_sagitta = 0.0007;  // of sampled curves, mm: 0.001 is promised
-constexpr double k_farthest = 1e7;   // mm from the origin
+constexpr double k_farthest = 1e7;    // mm from the origin
 constexpr std::size_t k_most_inserts = 200'000;
 constexpr std::size_t k_most_tags = 100'000'000;  // gone through while blocks are expanded
 constexpr int k_deepest_block = 16;
@@ -47,7 +47,7 @@ struct DxfInsert {
   }
 };
 
-/// What the values of an entity mean, before anything is drawn of it.
+/// Meaning of an entity's values, before anything is drawn.
 struct UnderstoodEntity {
   bool in_paper_space = false;
   std::string layer;

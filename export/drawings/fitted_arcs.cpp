@@ -8,7 +8,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_most_turn = 1.5;        // rad, of one biarc
+constexpr double k_most_turn = 1.5;          // rad, of one biarc
 constexpr std::size_t k_longest_span = 200;  // of an outline, for one biarc
 
 struct Knot {
@@ -105,12 +105,11 @@ class ArcFit {
 }  // namespace
 
 std::optional<RoundHole> circle_about_axis(const Polygon& points) {
-  constexpr double k_round = 1e-9;
+  constexpr double k_round = 1e-6;  // mm
   if (points.empty()) return std::nullopt;
   const double radius = points.front().norm();
-  const bool is_round = std::all_of(points.begin(), points.end(), [radius](const Vec2& point) {
-    return std::abs(point.norm() - radius) <= k_round * radius;
-  });
+  const bool is_round = std::all_of(points.begin(), points.end(),
+                                    [radius](const Vec2& point) { return std::abs(point.norm() - radius) <= k_round; });
   return is_round ? std::optional<RoundHole>({Vec2::Zero(), 2 * radius}) : std::nullopt;
 }
 

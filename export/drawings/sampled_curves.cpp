@@ -16,7 +16,7 @@ int arc_steps(double radius, double turn, double sagitta) {
   return static_cast<int>(std::clamp(steps, 2.0, static_cast<double>(k_most_steps)));
 }
 
-/// Where it is round, the diameter of the circle that it is an arc of.
+/// Diameter of the circle that the arc belongs to; nothing for an ellipse.
 std::optional<double> diameter_of(const EllipticArc& arc) {
   constexpr double k_round = 1e-9;
   const double radius = arc.u.norm();

@@ -24,7 +24,7 @@ std::uint64_t count(const TextScanner& text, std::string_view word, std::string_
   return static_cast<std::uint64_t>(value);
 }
 
-/// The number of edges, which nobody needs. It follows on the line of the faces' number or alone on the next one; some
+/// Skips the number of edges. It follows on the line of the faces' number or alone on the next one; some
 /// writers leave it out.
 void pass_edge_count(TextScanner& text) {
   if (!text.word().empty()) return;

@@ -25,7 +25,7 @@ constexpr std::size_t k_header_size = 80;
 constexpr std::size_t k_facets_start = 84;
 constexpr std::size_t k_facet_size = 50;
 
-/// Of an ASCII facet and what follows it.
+/// Words that end a normal: none of them can be part of it.
 constexpr auto k_keywords =
     std::to_array<std::string_view>({"facet", "loop", "vertex", "endloop", "endfacet", "solid", "endsolid"});
 

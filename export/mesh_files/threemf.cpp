@@ -212,7 +212,7 @@ ModelPart& ThreemfReader::part(const std::string& path) {
   return *slot;
 }
 
-/// What a required extension describes is part of the object: without it the mesh would be another body, or none.
+/// A required extension describes a part of the object: without it the mesh would be another body, or none.
 void ThreemfReader::refuse_unknown_extensions(const ModelPart& part, const pugi::xml_node& model) const {
   const Source required{model.attribute("requiredextensions").value(), source_.name};
   TextScanner words(required);

@@ -310,7 +310,7 @@ Command analyze_command() {
           "what makes the joint miss its angle. At the ends of the range the motion turns\n"
           "back: there both directions show the same state.",
           {{"-o,--out", "FILE",
-            "write to FILE what its ending says: the plots as .svg,\n.png or .pdf, a page as .html, the table as .csv "
+            "write to FILE what its ending says: the plots as\n.svg, .png or .pdf, a page as .html, the table as\n.csv "
             "or .json"},
            {"--csv", "", "the table as CSV on stdout"},
            {"--steps", "N", "steps of the table (default 60)"},

@@ -227,7 +227,8 @@ Check facets_check(const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles.size();
   std::string where = "there are no facets";
   if (count > 0)
-    where = std::to_string(count) + (count == 1 ? " facet encloses" : " facets enclose") + " no solid: it takes 4";
+    where = std::to_string(count) + (count == 1 ? " facet encloses" : " facets enclose") +
+            " no solid: at least 4 are required";
   return at_least("facets", static_cast<double>(count), 4, "1", where);
 }
 

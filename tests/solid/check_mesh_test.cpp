@@ -182,7 +182,7 @@ TEST(CheckMesh, NothingAtAll) {
 TEST(CheckMesh, ASingleFacet) {
   const auto checks = check_mesh({{{0, 0, 0}, {10, 0, 0}, {0, 10, 0}}, {{0, 1, 2}}});
   EXPECT_EQ(failed(checks), "facets");
-  EXPECT_EQ(check_named(checks, "facets").where, "1 facet encloses no solid: it takes 4");
+  EXPECT_EQ(check_named(checks, "facets").where, "1 facet encloses no solid: at least 4 are required");
 }
 
 TEST(CheckMesh, IndicesOutOfRange) {

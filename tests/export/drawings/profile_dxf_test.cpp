@@ -70,7 +70,7 @@ TEST(ProfileDxf, AnotherPulleyIsAFewArcsWithCommonTangents) {
   }
 }
 
-// Where normals belong to no smooth curve, the outline's own edges are drawn.
+// Normals that belong to no smooth curve leave the outline's own edges.
 TEST(ProfileDxf, EdgesThatNoArcFitsStayStraight) {
   Outline outline = egg().synthesis.p2;
   for (OutlinePoint& point : outline.points) point.normal = -point.normal;

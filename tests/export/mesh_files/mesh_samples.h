@@ -57,7 +57,7 @@ inline std::string error_of(std::string_view bytes, const std::string& name) {
   return {};
 }
 
-/// The same text for an old Macintosh: lines end with \r alone.
+/// Text as an old Macintosh has it: lines end with \r alone.
 inline std::string with_cr(std::string_view text) {
   std::string changed;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -80,7 +80,7 @@ TEST(PlyReader, WordsCountAndLinesDoNot) {
     EXPECT_THAT(mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
     EXPECT_EQ(mesh.vertices[2], Vec3(1, 1, 2));
   }
-  // Where each row has its line, a value too many at its end is passed over.
+  // A value too many at a row's end is passed over if each row has its line.
   EXPECT_EQ(read_mesh(head + "0 0 0 1 77\n1 0 0 1 77\n1 1 2 1 77\n3 0 1 2 77\n", "x.ply").vertices[2], Vec3(1, 1, 2));
 }
 

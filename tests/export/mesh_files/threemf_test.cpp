@@ -157,7 +157,7 @@ TEST(ThreemfReader, ReadsPrefixedNames) {
   EXPECT_TRUE(std::isinf(mesh.vertices[0].z()));
 }
 
-// What a required extension adds is part of the object: a lattice of beams without its beams is no part at all.
+// A lattice of beams without its beams is no part at all.
 TEST(ThreemfReader, RefusesARequiredExtensionThatItDoesNotRead) {
   const std::string object = "<object id='1'>" + k_triangle + "</object>", item = "<item objectid='1'/>";
   const std::string beams = "xmlns:b='http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02'";
