@@ -92,6 +92,21 @@ void cut(Run& run, Measurement& into, double alpha_quantum) {
   run.stretches = cut_stretches(run, holds);
 }
 
+/// N·mm in a unit of torque; 0 for N.
+double torque_of(const std::string& unit) { return unit == "Nm" ? 1000.0 : unit == "Nmm" ? 1.0 : 0.0; }
+
+/// The loads of all runs are in one unit, that of the first.
+void take_load_unit(const std::string& unit, Run& run, Measurement& into) {
+  if (into.load_unit.empty()) into.load_unit = unit;
+  if (into.load_unit == unit) return;
+  if (torque_of(unit) == 0 || torque_of(into.load_unit) == 0)
+    throw InputError(run.name, "holds loads in " + unit + ", and a run before it in " + into.load_unit,
+                     "log forces in all runs, or torques in all");
+  const double factor = torque_of(unit) / torque_of(into.load_unit);
+  for (Sample& sample : run.samples) sample.load *= factor;
+  run.mean_load *= factor;
+}
+
 Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
   const Say say = [&](const std::string& words) { into.notes.push_back(name + ": " + words); };
   say_what_was_read(rows, name, say, into);
@@ -110,7 +125,7 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
     say_implausible_steps(run, rows.stride, say);
   }
   if (!is_unfilled(rows)) look_at_run(run, into, say);
-  if (run.has_load) into.load_unit = rows.load_unit;
+  if (run.has_load) take_load_unit(rows.load_unit, run, into);
   return run;
 }
 

@@ -1,5 +1,6 @@
 #include "measurement/units.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -114,6 +115,12 @@ std::size_t last_word(std::string_view name) {
   return std::string_view::npos;
 }
 
+bool is_letters(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+  });
+}
+
 std::string base_of(std::string_view text) {
   while (!text.empty() && std::string_view(" _.-:").find(text.back()) != std::string_view::npos) text.remove_suffix(1);
   return lower(trimmed(text));
@@ -173,7 +180,9 @@ ColumnName parse_column_name(std::string_view name, Quantity quantity) {
   }
   parsed.base = lower(name);
   const std::size_t at = last_word(name);
-  if (at != std::string_view::npos && name[at - 1] == '_') parsed.unknown_unit = name.substr(at);
+  if (at == std::string_view::npos || name[at - 1] != '_' || !is_letters(name.substr(at))) return parsed;
+  parsed.base = base_of(name.substr(0, at));
+  parsed.unknown_unit = name.substr(at);
   return parsed;
 }
 
