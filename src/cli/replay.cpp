@@ -79,32 +79,14 @@ void Replaying::will_write(const fs::path& place) {
     throw OutputError(place.string() + " lies outside of the folder in which a bundle is replayed");
 }
 
-/// The process stands in `folder` while it lives, and has its temporary files there.
-class Within {
- public:
-  explicit Within(const fs::path& folder) {
-    if (const char* temporary = ::getenv("TMPDIR")) temporary_ = temporary;
-    if (::chdir(folder.c_str()) != 0) fail_output("cannot work in", folder, errno);
-    ::setenv("TMPDIR", folder.c_str(), 1);
-  }
-  ~Within() {
-    if (!before_.empty() && ::chdir(before_.c_str()) != 0) before_.clear();
-    if (temporary_) {
-      ::setenv("TMPDIR", temporary_->c_str(), 1);
-    } else {
-      ::unsetenv("TMPDIR");
-    }
-  }
-  Within(const Within&) = delete;
-  Within& operator=(const Within&) = delete;
-
- private:
-  fs::path before_ = working_folder();
-  std::optional<std::string> temporary_;
-};
+/// The process stands in `folder` from here on, and has its temporary files there.
+void enter(const fs::path& folder) {
+  if (::chdir(folder.c_str()) != 0) fail_output("cannot work in", folder, errno);
+  ::setenv("TMPDIR", folder.c_str(), 1);
+}
 
 BundledOutcome replayed(const Bundle& bundle, const fs::path& folder) {
-  const Within within(folder);
+  enter(folder);
   Console console;
   Replaying access(bundle);
   const Ending ending = ending_of(bundle.words, console);
@@ -138,7 +120,8 @@ void demand_free(const fs::path& folder) {
 /// In a folder beside `kept`, which gets its name; without one in the system's temporary folder.
 BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<fs::path>& kept) {
   std::error_code error;
-  fs::path place = kept ? fs::weakly_canonical(fs::absolute(*kept), error) : temporary_folder() / "fusee-replay";
+  fs::path place = kept ? fs::weakly_canonical(fs::absolute(*kept, error), error)
+                        : fs::absolute(temporary_folder() / "fusee-replay");
   if (!place.has_filename()) place = place.parent_path();
   MissingFolders missing;
   missing.make(place.parent_path());
@@ -149,8 +132,8 @@ BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<
   put_in_the_way(bundle, folder);
   BundledOutcome outcome = replayed(bundle, folder);
   if (!kept) return outcome;
-  demand_free(*kept);
-  if (::rename(folder.c_str(), place.c_str()) != 0) fail_output("cannot write", *kept, errno);
+  demand_free(place);
+  if (::rename(folder.c_str(), place.c_str()) != 0) fail_output("cannot write", place, errno);
   return outcome;
 }
 
