@@ -5,12 +5,13 @@
 #include <optional>
 
 #include "fusee/base/units.h"
+#include "fusee/transmission/load.h"
 #include "measurement/words.h"
 
 namespace fusee {
 namespace {
 
-constexpr double k_kg = 9.80665;          // N, standard gravity
+constexpr double k_kg = k_gravity;        // N
 constexpr double k_lb = 4.4482216152605;  // N
 constexpr double k_inch = 25.4;           // mm
 

@@ -248,7 +248,7 @@ class Calibrate(harness.Scratch):
         self.assertAlmostEqual(lash(rad), expected, delta=1e-3)
         counts = "counts.csv --ticks-per-turn alpha=65536 --zero-ticks alpha=100 --ticks-per-turn theta=-65536 --zero-ticks theta=7"
         self.assertAlmostEqual(lash(counts), expected, delta=0.01)
-        self.expect(f"calibrate joint.toml {counts} --dry-run --no-audit", 0, err="time in ms; .*alpha in counts of 65536 a turn, 100 at home")
+        self.expect(f"calibrate joint.toml {counts} --dry-run --no-audit", 0, err="alpha in counts of 65536 a turn, 100 at home; .*time in ms")
         self.expect("calibrate joint.toml rad.csv --column alpha=motor --column time=t --column 'theta=joint [mrad]'", 3, err="as s, the rows lie 20 s apart")
 
     def test_how_a_log_is_read_is_refused_in_words(self):
