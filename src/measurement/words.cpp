@@ -1,5 +1,7 @@
 #include "measurement/words.h"
 
+#include "fusee/base/text.h"
+
 namespace fusee {
 namespace {
 
@@ -51,18 +53,6 @@ std::string shown(std::string_view text) {
     i += length == 0 ? 1 : length;
   }
   return "\"" + words + (i < text.size() ? "…\"" : "\"");
-}
-
-bool is_utf8(std::string_view bytes) {
-  unsigned char all = 0;
-  for (const char c : bytes) all |= static_cast<unsigned char>(c);
-  if (all < 0x80) return true;
-  for (std::size_t i = 0; i < bytes.size();) {
-    const std::size_t length = character_length(bytes, i);
-    if (length == 0) return false;
-    i += length;
-  }
-  return true;
 }
 
 std::string to_utf8(std::string_view bytes) {

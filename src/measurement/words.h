@@ -15,6 +15,5 @@ std::string lower(std::string_view text);
 std::string shown(std::string_view text);
 /// Latin-1 becomes UTF-8; what is UTF-8 stays.
 std::string to_utf8(std::string_view bytes);
-bool is_utf8(std::string_view bytes);
 
 }  // namespace fusee
