@@ -52,7 +52,7 @@ TEST(Judge, counts_what_was_found_and_what_was_not) {
 TEST(Judge, a_group_that_may_be_nothing_with_a_name_blames_nobody) {
   const Judgement one = judge(with({"tendon_stretch", "backlash"}),
                               answer(CalibrationVerdict::confounded,
-                                     {{"tendon_stretch", "nameless"}, {"sensor_lag", "nameless"}, {"backlash"}}));
+                                     {{"tendon_stretch", "unmodelled"}, {"sensor_lag", "unmodelled"}, {"backlash"}}));
   EXPECT_EQ(one.held, 2u);
   EXPECT_EQ(one.held_by_names, 1u);
   EXPECT_EQ(one.alone, 1u);
