@@ -7,6 +7,7 @@
 #include "export/report/svg.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "fusee/calibration/words.h"
 #include "fusee/export/calibration.h"
 
 namespace fusee {
@@ -59,14 +60,12 @@ std::string audit_words(const FoundEffect& effect) {
          ", these runs would have named it in " + std::to_string(effect.audit.named) + ".";
 }
 
-std::string nameless_words(const FoundEffect& effect) {
-  if (effect.group.empty() || effect.group.back() != k_nameless) return "";
-  const Nameless& rival = effect.nameless;
+std::string unmodelled_words(const FoundEffect& effect) {
+  if (effect.group.empty() || effect.group.back() != k_unmodelled) return "";
+  const Unmodelled& rival = effect.unmodelled;
   const std::string in_its_place = (rival.words.empty() ? "a smooth curve" : rival.words) +
-                                   " in its place, with which the data are " +
-                                   (rival.behind < 0 ? rounded(-rival.behind, 2) + " nats likelier"
-                                                     : "only " + rounded(rival.behind, 2) + " nats less likely");
-  return "Or something without a name that does the same: " + (rival.doubt.empty() ? in_its_place : rival.doubt) +
+                                   " in its place; odds for the named cause " + odds(rival.behind);
+  return "Or an unmodelled cause that does the same: " + (rival.doubt.empty() ? in_its_place : rival.doubt) +
          (rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".");
 }
 

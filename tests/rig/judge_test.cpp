@@ -52,7 +52,7 @@ TEST(Judge, CountsFoundAndMissed) {
 TEST(Judge, UnmodelledGroupIsNoFalsePositive) {
   const Judgement one = judge(with({"tendon_stretch", "backlash"}),
                               answer(CalibrationVerdict::confounded,
-                                     {{"tendon_stretch", "nameless"}, {"sensor_lag", "nameless"}, {"backlash"}}));
+                                     {{"tendon_stretch", "unmodelled"}, {"sensor_lag", "unmodelled"}, {"backlash"}}));
   EXPECT_EQ(one.held, 2u);
   EXPECT_EQ(one.held_by_names, 1u);
   EXPECT_EQ(one.alone, 1u);

@@ -130,6 +130,15 @@ void compare_with_declared(const Mechanism& declared, Measurement& measurement);
 /// Its last step: the tendons' elastic model takes N across OC.
 void take_torques_as_forces(const Mechanism& declared, Measurement& measurement);
 
+/// Noise of repeats at one level of load and speed.
+struct NoiseLevel {
+  double load = 0;                ///< as Sample
+  double speed = 0;               ///< rad/s; 0 without time
+  double rms = 0;                 ///< scatter between repeats, rad
+  double degrees_of_freedom = 0;  ///< as NoiseFloor
+  double largest_at = 0;          ///< α about which repeats differ most, rad
+};
+
 /// Scatter of θ between repeats at the same α, direction, load and speed, before any fit. Repeats within a run, or
 /// where there are none, of runs that repeat one another: as far as they agree. What differs between two runs smoothly
 /// is no noise, something was changed between them. Single wild rows do not count.
@@ -139,6 +148,10 @@ struct NoiseFloor {
   bool from_repeats = false;      ///< false: no repeats; taken from differences of neighbours, a lower bound
   double colour = 0;        ///< correlation of the noise of neighbouring rows of the log, 0 … 0.99; 0 without repeats
   double between_runs = 0;  ///< rms by which runs that should repeat differ smoothly, rad; 0 where they agree
+  /// rms of neighbouring rows about one another, from third differences, and of the sensors' own steps, rad: what of
+  /// the noise a single stroke shows. 0: too few rows.
+  double within_stroke = 0;
+  std::vector<NoiseLevel> levels;  ///< of repeats within runs, by load and speed; none without enough of them
 
   /// As many independent rows' worth in the mean of `rows` rows, of which each is the `every`-th of the log.
   double effective_rows(double rows, double every = 1) const;

@@ -12,7 +12,7 @@
 namespace fusee {
 
 /// Of every accepted effect, in their order.
-std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers, const Selection& selection);
+std::vector<Unmodelled> unmodelled_rivals(const Evidence& evidence, Workers& workers, const Selection& selection);
 
 /// What stays beside all effects.
 struct Left {
@@ -21,6 +21,6 @@ struct Left {
 };
 
 /// Groups that may hold nothing with a name say so. `effects`: what was found of the selection's best, in its order.
-void take_nameless(const Left& left, const Selection& selection, std::vector<FoundEffect>& effects);
+void take_unmodelled(const Left& left, const Selection& selection, std::vector<FoundEffect>& effects);
 
 }  // namespace fusee

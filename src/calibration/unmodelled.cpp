@@ -1,4 +1,4 @@
-#include "calibration/nameless.h"
+#include "calibration/unmodelled.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +14,7 @@
 #include "calibration/thresholds.h"
 #include "calibration/unnamed_effects.h"
 #include "fusee/base/text.h"
+#include "fusee/calibration/words.h"
 
 // The discrepancy is smooth: a kink, a jump, a lump or a wave of many periods costs it many columns, and a name that
 // bends at about the same place is cheaper though it is not there. So shapes with few numbers stand here beside the
@@ -420,16 +421,16 @@ bool may_be_loose(const std::vector<std::string>& group, const EffectSet& catalo
 double least_ahead(const Effect& effect, const std::vector<std::string>& group, const EffectSet& catalogue) {
   if (is_told_by_time(effect)) return k_thresholds.ahead_by_time;
   if (may_be_loose(group, catalogue)) return k_thresholds.ahead_with_play;
-  return group.size() == 1 ? k_thresholds.ahead_of_nameless : k_thresholds.ahead_in_a_group;
+  return group.size() == 1 ? k_thresholds.ahead_of_unmodelled : k_thresholds.ahead_in_a_group;
 }
 
 /// Of names that are ahead of all else: `with`, the score with all of them.
 void look_at_unnamed_effects(const Evidence& evidence, Workers& workers, const Selection& selection, double with,
-                             std::vector<Nameless>& rivals) {
+                             std::vector<Unmodelled>& rivals) {
   std::vector<bool> asked;
-  for (const Nameless& rival : rivals) asked.push_back(rival.behind >= k_thresholds.ahead_of_nameless);
+  for (const Unmodelled& rival : rivals) asked.push_back(rival.behind >= k_thresholds.ahead_of_unmodelled);
   std::vector<UnnamedInPlace> unnamed =
-      unnamed_in_place(evidence, workers, selection, asked, with - k_thresholds.ahead_of_nameless);
+      unnamed_in_place(evidence, workers, selection, asked, with - k_thresholds.ahead_of_unmodelled);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     if (!(with - unnamed[i].score < rivals[i].behind)) continue;
     rivals[i].behind = with - unnamed[i].score;
@@ -441,21 +442,21 @@ void look_at_unnamed_effects(const Evidence& evidence, Workers& workers, const S
 /// Says why the effect may be of what stays beside it, however far it is ahead.
 void doubt_beside_rest(FoundEffect& effect) {
   const Evenness& even = effect.evenness;
-  Nameless& nameless = effect.nameless;
+  Unmodelled& unmodelled = effect.unmodelled;
   if (even.uneven > k_thresholds.most_uneven) {
-    nameless.doubt = "it would be of another size " + even.words + ", which makes the data " + rounded(even.uneven, 2) +
-                     " nats likelier, and something stays unexplained beside it";
-    nameless.separating_run = even.separating_run;
+    unmodelled.doubt = "it would be of another size " + even.words + ", odds " + odds(even.uneven) +
+                       ", and something stays unexplained beside it";
+    unmodelled.separating_run = even.separating_run;
   } else if (even.part < k_thresholds.least_part) {
-    nameless.doubt = "it does " + rounded(even.part, 2) + " times as much as what stays unexplained beside it";
+    unmodelled.doubt = "it does " + rounded(even.part, 2) + " times as much as what stays unexplained beside it";
   }
 }
 
 }  // namespace
 
-std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers, const Selection& selection) {
+std::vector<Unmodelled> unmodelled_rivals(const Evidence& evidence, Workers& workers, const Selection& selection) {
   const Fit& best = selection.best;
-  std::vector<Nameless> rivals(best.effects.size());
+  std::vector<Unmodelled> rivals(best.effects.size());
   if (rivals.empty()) return rivals;
   const Reader reader(evidence, selection);
   std::vector<Reading> readings(rivals.size() + 1);
@@ -493,20 +494,20 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
   return rivals;
 }
 
-void take_nameless(const Left& left, const Selection& selection, std::vector<FoundEffect>& effects) {
-  const bool beside_nameless =
-      left.anything ||
-      std::any_of(effects.begin(), effects.end(), [](const FoundEffect& effect) { return effect.nameless.behind < 0; });
+void take_unmodelled(const Left& left, const Selection& selection, std::vector<FoundEffect>& effects) {
+  const bool beside_unmodelled =
+      left.anything || std::any_of(effects.begin(), effects.end(),
+                                   [](const FoundEffect& effect) { return effect.unmodelled.behind < 0; });
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const Effect& found = *selection.best.effects[i];
     std::vector<std::string>& group = effects[i].group;
     const bool is_doubtful =
         selection.groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && is_told_by_time(found));
     const double least =
-        beside_nameless ? k_thresholds.ahead_beside_rest : least_ahead(found, group, selection.catalogue);
-    if (left.anything && effects[i].nameless.behind >= least) doubt_beside_rest(effects[i]);
-    if (is_doubtful || effects[i].nameless.behind < least || !effects[i].nameless.doubt.empty())
-      group.emplace_back(k_nameless);
+        beside_unmodelled ? k_thresholds.ahead_beside_rest : least_ahead(found, group, selection.catalogue);
+    if (left.anything && effects[i].unmodelled.behind >= least) doubt_beside_rest(effects[i]);
+    if (is_doubtful || effects[i].unmodelled.behind < least || !effects[i].unmodelled.doubt.empty())
+      group.emplace_back(k_unmodelled);
   }
 }
 
