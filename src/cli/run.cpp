@@ -194,6 +194,7 @@ int run(const std::vector<std::string>& given) {
   std::vector<std::string> words = given;
   const bool json = has_switch(words, "--json");
   catch_interrupts(json);
+  catch_lack_of_memory();
   Console console;
   const std::string bundle = take_bundle_option(words);
   const Ending ending = bundle.empty() ? ending_of(words, console) : recorded_ending(words, bundle, console);

@@ -168,10 +168,12 @@ ColumnName parse_column_name(std::string_view name, Quantity quantity) {
       return parsed;
     }
   }
-  // The longest end that is a unit: "tau_kgf_cm" before "tau_kgf".
-  for (std::size_t at = 0; at < name.size(); ++at) {
+  const std::size_t last = last_word(name);
+  // The longest end that is a unit: "tau_kgf_cm" before "tau_kgf". No unit is longer, and names come from anybody.
+  constexpr std::size_t k_longest_unit = 40;
+  for (std::size_t at = name.size() - std::min(name.size(), k_longest_unit); at < name.size(); ++at) {
     const bool begins_word =
-        at == 0 || std::string_view("_ .-:").find(name[at - 1]) != std::string_view::npos || at == last_word(name);
+        at == 0 || at == last || std::string_view("_ .-:").find(name[at - 1]) != std::string_view::npos;
     if (!begins_word) continue;
     const Unit* unit = find_unit(quantity, name.substr(at));
     if (unit == nullptr) continue;
@@ -180,10 +182,9 @@ ColumnName parse_column_name(std::string_view name, Quantity quantity) {
     return parsed;
   }
   parsed.base = lower(name);
-  const std::size_t at = last_word(name);
-  if (at == std::string_view::npos || name[at - 1] != '_' || !is_letters(name.substr(at))) return parsed;
-  parsed.base = base_of(name.substr(0, at));
-  parsed.unknown_unit = name.substr(at);
+  if (last == std::string_view::npos || name[last - 1] != '_' || !is_letters(name.substr(last))) return parsed;
+  parsed.base = base_of(name.substr(0, last));
+  parsed.unknown_unit = name.substr(last);
   return parsed;
 }
 

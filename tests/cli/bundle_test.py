@@ -148,8 +148,8 @@ class Bundles(Packed):
         (self.folder / "out/arm").mkdir(parents=True)
         (self.folder / "out/arm/pulley.stl").write_text("mine")
         (self.folder / "stroke.csv").write_text("mine")
-        (self.folder / "new").mkdir()
-        for words in [["build", "arm.toml"], ["analyze", "arm.toml", "-o", "stroke.csv"], ["analyze", "arm.toml", "-o", "new"],
+        (self.folder / "new.csv").mkdir()
+        for words in [["build", "arm.toml"], ["analyze", "arm.toml", "-o", "stroke.csv"], ["analyze", "arm.toml", "-o", "new.csv"],
                       ["analyze", "arm.toml", "-o", str(self.folder / "stroke.csv")]]:
             with self.subTest(words):
                 self.pack(words, 6)
@@ -335,12 +335,12 @@ class Hostile(Packed):
     def test_writes_nothing_outside(self):
         outside = self.folder / "outside-of-it"
         for words in [["build", "arm.toml", "-o", str(outside), "--force"], ["build", "arm.toml", "-o", "../../outside-of-it"],
-                      ["analyze", "arm.toml", "-o", str(outside)], ["build", "arm.toml", f"-o{outside}"]]:
+                      ["analyze", "arm.toml", "-o", f"{outside}.csv"], ["build", "arm.toml", f"-o{outside}"]]:
             with self.subTest(words):
                 self.edit("bug.zip", lambda index: index.update(command=words, exit=0))
                 self.refuse(5, "differs")
                 self.assertIn("lies outside of the folder", self.replay(5).stdout.decode())
-                self.assertFalse(outside.exists())
+                self.assertFalse(outside.exists() or outside.with_suffix(".csv").exists())
 
     def test_reads_nothing_of_this_machine(self):
         self.edit("bug.zip", lambda index: index.update(command=["check", str(self.folder / "other.toml")], exit=0))

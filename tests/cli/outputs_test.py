@@ -413,7 +413,7 @@ class Machine(harness.Scratch):
         self.build("made")
         self.expect("plan arm.toml -q", 0)
         refused = set()
-        for words in ("build arm.toml -o little", "check made/pulley.stl", "plan arm.toml -o p", "analyze arm.toml -o a.csv",
+        for words in ("build arm.toml -o little", "check made/pulley.stl", "plan arm.toml -o p", "kit arm.toml -o k", "analyze arm.toml -o a.csv",
                       "rewind arm.toml made/pulley.stl", "simulate arm.toml out/arm_plan/run_1.csv -o s.csv", "model arm.toml", "explain name",
                       "build arm.toml --dry-run --bundle bug.zip"):
             for limit in (50_000, 80_000, 110_000):

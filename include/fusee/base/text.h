@@ -28,7 +28,7 @@ bool is_utf8(std::string_view text);
 std::string cleaned(std::string_view text);
 /// The same on one line: line feeds and tabs become blanks.
 std::string cleaned_line(std::string_view text);
-/// The same characters escaped as \uXXXX, as JSON strings have them; what no such escape names becomes U+FFFD.
+/// The same characters escaped as in JSON strings; what no such escape names becomes U+FFFD.
 std::string unicode_escaped(std::string_view text);
 /// Words broken into lines of the terminal's usual width, each with its end: the first begins with `first`, the others
 /// with `indent`. A word that is longer stands alone.
