@@ -99,12 +99,14 @@ std::string number_words(const FittedParameter& number, const std::string& load_
   return name + " " + readable_rounded(number.value, 3) + unit;
 }
 
-/// "both pulleys too small (scale −1.2 %)", or by its name.
+/// "both pulleys too small (scale −1.2 %)", or by its name where the words of the sign stand for a part that they do
+/// not name ("it shows too little").
 std::string candidate_words(const std::string& name, const std::vector<FittedParameter>& numbers,
                             const std::string& load_unit) {
   if (numbers.empty()) return open_words(name);
   const FittedParameter& first = numbers.front();
-  return (first.sense.empty() ? open_words(name) : first.sense) + " (" + number_words(first, load_unit) + ")";
+  const bool is_named = first.sense.empty() || first.sense.rfind("it ", 0) == 0;
+  return (is_named ? open_words(name) : first.sense) + " (" + number_words(first, load_unit) + ")";
 }
 
 bool may_be_unmodelled(const FoundEffect& effect) { return effect.group.back() == k_unmodelled; }

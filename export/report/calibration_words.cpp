@@ -104,8 +104,11 @@ NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_
 
 std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit) {
   const auto [name, unit] = name_and_unit(parameter.name, load_unit);
-  return name + " = " + readable_rounded(parameter.value) + unit + " (95 %: " + readable_rounded(parameter.low) +
-         " … " + readable_rounded(parameter.high) + ")" + (parameter.sense.empty() ? "" : ", " + parameter.sense);
+  const std::string own = readable_rounded(parameter.low_if_only) + " … " + readable_rounded(parameter.high_if_only),
+                    all = readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high);
+  return name + " = " + readable_rounded(parameter.value) + unit + " (95 %: " + own +
+         (own == all ? "" : " if nothing else is there, else " + all) + ")" +
+         (parameter.sense.empty() ? "" : ", " + parameter.sense);
 }
 
 std::vector<std::string> rivals_of(const FoundEffect& effect) {

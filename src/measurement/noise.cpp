@@ -47,6 +47,13 @@ class Scatter {
 
   std::size_t count() const { return values_.size(); }
 
+  /// Of most differences, rad: up to a third of them may be jumps.
+  double typical() const {
+    std::vector<double> sizes;
+    for (const double value : values_) sizes.push_back(std::abs(value));
+    return sizes.empty() ? 0.0 : median_of(std::move(sizes)) / 0.6745;
+  }
+
   /// α about which the differences, each with its place, have the largest mean square.
   double largest_at() const {
     constexpr int k_places = 12;
@@ -502,8 +509,7 @@ NoiseFloor noise_floor(const Measurement& measurement) {
   }
   floor.from_repeats = scatter.count() >= k_enough;
   const Scatter neighbours = scatter_of_neighbours(measurement);
-  if (neighbours.count() >= k_enough)
-    floor.within_stroke = std::max(std::sqrt(neighbours.result(least_limit).variance), step_error(measurement));
+  if (neighbours.count() >= k_enough) floor.within_stroke = std::max(neighbours.typical(), step_error(measurement));
   if (!floor.from_repeats) {
     floor.from_repeats = neighbours.count() < k_enough && scatter.count() >= k_few;
     if (!floor.from_repeats) scatter = neighbours.count() < k_enough ? scatter_of_stands(measurement) : neighbours;

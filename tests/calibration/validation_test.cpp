@@ -54,7 +54,7 @@ TEST_F(Validation, RejectsEffectThatKeptRunsDoNotHave) {
 
 TEST_F(Validation, NamesLevelThatGetsWorse) {
   const Estimate declared = declared_estimate(workers, selection);
-  Measurement kept = stretching({4, 1}, k_stretch, 2);
+  Measurement kept = stretching({4, 2}, k_stretch, 2);
   for (Sample& sample : kept.runs[1].samples) sample.theta += 2 * k_stretch;  // the other way
   EXPECT_EQ(HeldOutRows(evidence, declared, kept).worse_at(found()), "run_2");
 }

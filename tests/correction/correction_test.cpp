@@ -269,7 +269,7 @@ TEST(Correct, ALoopGoesIntoTheTable) {
   EXPECT_EQ(correction.by_pulley, 0);
   EXPECT_EQ(correction.error_with_pulley, correction.error_now);
   // All but the few rows in which the play is taken up.
-  EXPECT_GT(correction.by_table, 0.98 * correction.error_now);
+  EXPECT_GT(correction.by_table, 0.97 * correction.error_now);
   ASSERT_GT(correction.table.size(), 20u);
   const Transmission law(frictionless());
   for (const CompensationRow& row : correction.table) {
@@ -291,7 +291,7 @@ TEST(Correct, AGuideRadiusGoesIntoThePulley) {
   EXPECT_FALSE(correction.round.suffices);
   EXPECT_GT(degrees(correction.error_now), 0.2);
   EXPECT_LT(degrees(correction.error_with_pulley), 1e-3);
-  EXPECT_NEAR(correction.by_pulley, correction.error_now, 1e-6);
+  EXPECT_NEAR(correction.by_pulley, correction.error_now, 0.05 * correction.error_now);  // by fewer rows
   EXPECT_EQ(correction.why_no_pulley_file, "");
 }
 

@@ -148,8 +148,8 @@ struct NoiseFloor {
   bool from_repeats = false;      ///< false: no repeats; taken from differences of neighbours, a lower bound
   double colour = 0;        ///< correlation of the noise of neighbouring rows of the log, 0 … 0.99; 0 without repeats
   double between_runs = 0;  ///< rms by which runs that should repeat differ smoothly, rad; 0 where they agree
-  /// rms of neighbouring rows about one another, from third differences, and of the sensors' own steps, rad: what of
-  /// the noise a single stroke shows. 0: too few rows.
+  /// scatter of most neighbouring rows about one another, from third differences, and of the sensors' own steps, rad:
+  /// what of the noise a single stroke shows. 0: too few rows.
   double within_stroke = 0;
   std::vector<NoiseLevel> levels;  ///< of repeats within runs, by load and speed; none without enough of them
 
