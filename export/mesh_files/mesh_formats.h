@@ -39,7 +39,10 @@ bool is_binary_stl(std::string_view bytes);
 void demand_room(const Source& source, std::size_t offset, std::uint64_t count, std::size_t least_bytes,
                  const std::string& things);
 
-/// A polygon as a fan of triangles about its first corner.
-void add_fan(TriangleMesh& mesh, std::span<const std::uint32_t> corners);
+/// A polygon as a fan of triangles about its first corner. One of two corners is a line, one of one a point: no facet.
+/// False, with nothing added, where it has more than two corners for each of the vertices that it can name: an outline
+/// bridged to a hole passes a vertex twice, none more often, and a few bytes a corner would make a mesh that takes
+/// minutes to check.
+[[nodiscard]] bool add_fan(TriangleMesh& mesh, std::span<const std::uint32_t> corners);
 
 }  // namespace fusee

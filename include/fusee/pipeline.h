@@ -1,25 +1,21 @@
 /// \file
 /// fusee as verbs, files in and values out: the first thing to read.
 ///
-///     BuildResult     build(file, options)            the pulley, in every format, checked
-///     AnalysisResult  analyze(file, options)          the transmission and the forces over the range
-///     OptimizeResult  optimize(file, options)         better numbers for the mechanism
-///     CalibrateResult calibrate(file, runs, options)  measured runs: what is off, and a better file
-///     PlanResult      plan(file, options)             which runs to measure, what they can show
-///     KitResult       kit(file, options)              the rest of the test model: parts, plates, a page
-///     (pipeline/kit.h) ModelResult     model(file, options)            the joint for simulators and firmware
-///     (pipeline/model.h) SimulateResult  simulate(file, log, options)    logged motor angles and loads: joint angle,
-///     tensions, torque
+///     BuildResult      build(file, options)              the pulley, in every format, checked
+///     AnalysisResult   analyze(file, options)            the transmission and the forces over the range
+///     OptimizeResult   optimize(file, options)           better numbers for the mechanism
+///     CalibrateResult  calibrate(file, runs, options)    measured runs: the causes of the error, a better file
+///     PlanResult       plan(file, options)               which runs to measure, what they can show
+///     KitResult        kit(file, options)                the test rig: parts, plates, a page (pipeline/kit.h)
+///     ModelResult      model(file, options)              the joint for simulators and firmware (pipeline/model.h)
+///     SimulateResult   simulate(file, log, options)      logged motor angles and loads: joint angle, tensions, torque
 ///
 /// and in the steps that build() takes:
 ///
-///     MechanismFile   file      = read_mechanism("forearm.toml");             // mechanism/file.h    what the joint is
-///     SynthesisResult synthesis = synthesise(file.mechanism);                 // profile/synthesis.h θ(α) → both pitch
-///     curves Pulley          pulley    = make_pulley(file.mechanism, synthesis);     // solid/pulley.h      → one
-///     checked body RewindResult    as_built  = rewind(file.mechanism, floor1, floor2);     // profile/rewind.h    what
-///     it will do BuildResult     built     = build(file, options);                       // all of these, and every
-///     file CalibrateResult found     = calibrate(file, runs, options);             // pipeline/calibrate.h  measured
-///     runs → what is off, a better file
+///     MechanismFile    file = read_mechanism("forearm.toml")            the declared joint (mechanism/file.h)
+///     SynthesisResult  synthesis = synthesise(file.mechanism)           θ(α) → both pitch curves (profile/synthesis.h)
+///     Pulley           pulley = make_pulley(file.mechanism, synthesis)  → one checked solid (solid/pulley.h)
+///     RewindResult     as_built = rewind(file.mechanism, floor1, floor2)  θ(α) of the part as made (profile/rewind.h)
 #pragma once
 
 #include <filesystem>
@@ -96,8 +92,7 @@ AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options
 /// a possible design and a search that was stopped are values; InputError and OutputError as their names say.
 OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options = {});
 
-// Parts from anywhere
-// --------------------------------------------------------------------------------------------------
+// ---- Parts from anywhere --------------------------------------------------------------------------------------------
 
 /// A made part as a file holds it.
 using Part = std::variant<TriangleMesh, Drawing>;

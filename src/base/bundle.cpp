@@ -9,6 +9,7 @@
 #include "base/json.h"
 #include "base/zip.h"
 #include "fusee/base/files.h"
+#include "fusee/base/text.h"
 
 namespace fusee {
 namespace {
@@ -17,7 +18,9 @@ constexpr const char* k_index = "bundle.json";
 constexpr const char* k_result = "stdout.txt";
 constexpr const char* k_files = "files/";
 constexpr int k_schema = 1;
-constexpr std::size_t k_longest_path = 1000;
+constexpr std::size_t k_longest_path = 1000, k_longest_name = 255;
+/// As a tree of values it takes sixteen times the room.
+constexpr std::uint64_t k_largest_index = std::uint64_t{16} << 20;
 
 // ---- writing --------------------------------------------------------------------------------------------------------
 
@@ -33,7 +36,6 @@ Json to_json(const Diagnostic& diagnostic) {
 
 Json to_json(const BundledFile& file) {
   Json json = {{"path", file.path}};
-  if (!file.asked.empty()) json["asked"] = file.asked;
   if (file.failure) {
     json["failure"] = to_json(*file.failure);
   } else {
@@ -74,10 +76,12 @@ std::map<std::string, std::string> entries_of(std::string_view bytes, const std:
   std::map<std::string, std::string> entries;
   for (std::size_t i = 0; i < archive.size(); ++i) {
     const std::string name = archive.name_of(i);
-    if (!is_inner_path(name)) fail(file, name, "the name leads out of the bundle");
+    if (!is_inner_path(name)) fail(file, name, "the name leads out of the bundle, or is hidden");
     if (!archive.is_plain_file(i)) fail(file, name, "is a link, a folder or encrypted, and no file");
     if (entries.count(name) != 0) fail(file, name, "stands twice in the bundle");
-    entries[name] = archive.unpacked(i, budget, limits);
+    std::uint64_t index_budget = k_largest_index;
+    const bool is_index = name == k_index;
+    entries[name] = archive.unpacked(i, is_index ? index_budget : budget, is_index ? "its list 16 MiB" : limits);
   }
   return entries;
 }
@@ -152,7 +156,6 @@ Diagnostic read_diagnostic(const Index& index) {
 BundledFile read_bundled(const Index& index, std::map<std::string, std::string>& entries) {
   BundledFile file;
   file.path = index.text("path");
-  if (index.has("asked")) file.asked = index.texts("asked");
   if (index.has("failure")) {
     file.failure = read_diagnostic(index.table("failure"));
     return file;
@@ -166,6 +169,26 @@ BundledFile read_bundled(const Index& index, std::map<std::string, std::string>&
   return file;
 }
 
+/// What a replay would make, one folder or file each, is no more than a bundle may hold.
+void demand_few_places(const Bundle& bundle, const Index& index) {
+  std::set<std::string_view> folders, files;
+  const auto take = [&](const char* key, std::string_view path) {
+    const bool is_folder = path.ends_with('/');
+    if (is_folder) path.remove_suffix(1);
+    if (!is_inner_path(path)) index.wrong(key, "a list of paths within the bundle");
+    (is_folder ? folders : files).insert(path);
+    for (std::size_t end = path.find('/'); end != std::string_view::npos; end = path.find('/', end + 1))
+      folders.insert(path.substr(0, end));
+    if (folders.size() > k_most_bundled_files || files.size() > k_most_bundled_files)
+      index.wrong(key, fmt::format("a list of at most {} files and folders", k_most_bundled_files));
+  };
+  for (const BundledFile& file : bundle.files)
+    if (!file.failure) take("files", file.path);
+  for (const std::string& path : bundle.in_the_way) take("in_the_way", path);
+  for (const std::string_view file : files)
+    if (folders.count(file) != 0) index.wrong("files", fmt::format("clear: {} is a file and a folder", file));
+}
+
 Json parse_index(const std::string& text, const std::string& file) {
   Json json = parse_foreign_json(text);
   if (!json.is_object()) fail(file, k_index, "is no JSON document of a bundle");
@@ -175,12 +198,11 @@ Json parse_index(const std::string& text, const std::string& file) {
 }  // namespace
 
 bool is_inner_path(std::string_view path) {
-  if (path.empty() || path.size() > k_longest_path) return false;
-  const auto is_odd = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '\\' || c == ':'; };
-  if (std::any_of(path.begin(), path.end(), is_odd)) return false;
+  const bool foreign = path.find_first_of("\\:") != std::string_view::npos || cleaned_line(path) != path;
+  if (path.empty() || path.size() > k_longest_path || foreign) return false;
   for (std::string_view rest = path;;) {
     const std::string_view part = rest.substr(0, rest.find('/'));
-    if (part.empty() || part == "." || part == "..") return false;
+    if (part.empty() || part.front() == '.' || part.size() > k_longest_name) return false;
     if (part.size() == rest.size()) return true;
     rest.remove_prefix(part.size() + 1);
   }
@@ -222,9 +244,7 @@ Bundle read_bundle(std::string_view bytes, const std::string& name) {
   index.for_each("messages", [&](const Index& each) { bundle.outcome.messages.push_back(read_diagnostic(each)); });
   index.for_each("files", [&](const Index& each) { bundle.files.push_back(read_bundled(each, entries)); });
   bundle.in_the_way = index.texts("in_the_way");
-  for (const std::string& path : bundle.in_the_way)
-    if (!is_inner_path(path.ends_with('/') ? path.substr(0, path.size() - 1) : path))
-      index.wrong("in_the_way", "a list of paths within the bundle");
+  demand_few_places(bundle, index);
   index.for_each("outputs", [&](const Index& each) {
     bundle.outcome.outputs.push_back(
         {each.text("path"), static_cast<std::uint64_t>(each.integer("bytes")), each.text("sha256")});

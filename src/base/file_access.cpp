@@ -10,7 +10,6 @@
 #include <memory>
 
 #include "base/descriptor.h"
-#include "base/staging.h"
 #include "fusee/base/diagnostics.h"
 
 namespace fusee {
@@ -40,7 +39,7 @@ FileAccess::FileAccess() : outer_(innermost) { innermost = this; }
 FileAccess::~FileAccess() { innermost = outer_; }
 FileAccess* FileAccess::current() { return innermost; }
 
-void read_as_it_lies(const ReadRequest& request, const TakeBlock& take) {
+void read_from_disk(const ReadRequest& request, const TakeBlock& take) {
   const std::string name = request.path.string();
   // O_NONBLOCK: a pipe that nobody writes to must not hang us; where pipes are welcome there is a writer to wait for.
   const int waiting = request.pipes ? 0 : O_NONBLOCK;
@@ -65,11 +64,6 @@ void read_as_it_lies(const ReadRequest& request, const TakeBlock& take) {
     left -= static_cast<std::size_t>(count);
     take({block.get(), static_cast<std::size_t>(count)});
   }
-}
-
-void read_from_disk(const ReadRequest& request, const TakeBlock& take) {
-  end_killed_publishing(request.path);
-  read_as_it_lies(request, take);
 }
 
 }  // namespace fusee

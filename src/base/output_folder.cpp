@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <sys/xattr.h>
 #include <unistd.h>
@@ -6,52 +7,23 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "base/output_list.h"
+#include "base/leftovers.h"
 #include "base/staging.h"
+#include "base/written_files.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/files.h"
 
-// How a set of files appears all at once. No call of the system replaces several files, but one replaces a folder: the
-// new folder is made beside the old one, with second names (hard links) for whatever else the old one holds, and both
-// change names in one call. Where that cannot be - the folder holds folders, is the one that we stand in, a mount
-// point, somebody else's, on a file system without such calls - the files are renamed one by one, after a journal was
-// written with which the next run ends what a killed one began, before it reads anything.
+// A set of files appears at once because one call of the system replaces a folder. The new files are staged in a
+// private folder beside the place; other entries of the earlier folder get second names (hard links) there; both
+// folders are exchanged; what has no second name, a folder above all, is moved across afterwards. Where the system has
+// no exchange, the earlier folder is renamed aside first. A folder that cannot be renamed (this process stands in it,
+// it is a mount point or somebody else's) has its files replaced one by one, between a manifest that goes first and one
+// that comes last. leftovers.h has the way back from a kill.
 
 namespace fusee {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* k_manifest = "manifest.json";
-constexpr const char* k_journal = ".publishing";
-constexpr std::string_view k_backup_prefix = ".earlier-";
-/// More than any output of ours; a file beyond it was not written by us.
-constexpr std::size_t k_largest_output = std::size_t{4} << 30;
-constexpr std::size_t k_largest_manifest = 16 << 20;
-
-using Owned = std::set<std::pair<std::string, std::string>>;
-
-/// Adds what a manifest says fusee wrote. False when it is no manifest of fusee.
-bool read_manifest(const fs::path& path, Owned& owned) {
-  std::string text;
-  try {
-    text = read_output(path, k_largest_manifest);
-  } catch (const InputError&) {
-    return false;
-  }
-  const Json manifest = parse_foreign_json(text);
-  if (!manifest.is_object() || !manifest.contains("tool") || !manifest.contains("outputs")) return false;
-  const Json& tool = manifest["tool"];
-  if (!tool.is_string() || tool.get_ref<const std::string&>().rfind("fusee", 0) != 0) return false;
-  if (!manifest["outputs"].is_array()) return false;
-  for (const Json& output : manifest["outputs"]) {
-    if (!output.is_object()) continue;
-    const auto file = output.find("file"), hash = output.find("sha256");
-    if (file == output.end() || hash == output.end() || !file->is_string() || !hash->is_string()) continue;
-    owned.emplace(file->get<std::string>(), hash->get<std::string>());
-  }
-  return true;
-}
 
 void tell_in_the_way(const fs::path& path) {
   if (FileAccess* access = FileAccess::current()) access->in_the_way(path);
@@ -81,12 +53,6 @@ void demand_ground(const fs::path& folder) {
   if (::access(ground.c_str(), W_OK | X_OK) != 0) fail_output("cannot write in", ground, errno);
 }
 
-std::vector<fs::path> entries_of(const fs::path& folder) {
-  std::vector<fs::path> entries;
-  for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
-  return entries;
-}
-
 bool is_within(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
@@ -101,7 +67,7 @@ bool has_attributes(const fs::path& folder) {
   return false;
 }
 
-/// May another folder take the place of this one, with nobody the worse?
+/// True when another folder may take the place of this one, and everything in it can be moved there.
 bool is_replaceable(const fs::path& folder) {
   struct stat status {};
   struct stat above {};
@@ -110,9 +76,13 @@ bool is_replaceable(const fs::path& folder) {
   std::error_code error;
   const fs::path here = fs::current_path(error);
   if (error || is_within(here, folder) || has_attributes(folder)) return false;
-  const std::vector<fs::path> entries = entries_of(folder);
-  return std::none_of(entries.begin(), entries.end(),
-                      [](const fs::path& entry) { return fs::is_directory(fs::symlink_status(entry)); });
+  const std::vector<std::string> names = names_in(folder);
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    struct stat entry {};
+    if (::lstat((folder / name).c_str(), &entry) != 0) return false;
+    return !S_ISDIR(entry.st_mode) ||
+           (entry.st_dev == status.st_dev && ::access((folder / name).c_str(), W_OK | X_OK) == 0);
+  });
 }
 
 bool set_rights(const fs::path& folder, const fs::path& like) {
@@ -122,90 +92,11 @@ bool set_rights(const fs::path& folder, const fs::path& like) {
          ::chmod(folder.c_str(), status.st_mode & 07777) == 0;
 }
 
-void set_ordinary_rights(const fs::path& folder) {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  ::chmod(folder.c_str(), 0777 & ~mask);
-}
-
-bool rename_as(const fs::path& from, const fs::path& to, unsigned how) {
-  return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), how) == 0;
-}
-
-/// The journal is a manifest of what is about to go.
-std::string journal_of(const fs::path& folder, const std::vector<std::string>& replaced,
-                       const std::vector<std::string>& withdrawn) {
-  Json journal = {{"tool", "fusee"}, {"outputs", Json::array()}, {"withdrawn", withdrawn}};
-  for (const auto* names : {&replaced, &withdrawn}) {
-    for (const std::string& name : *names) {
-      if (!stands(folder / name)) continue;
-      journal["outputs"].push_back({{"file", name}, {"sha256", sha256(read_output(folder / name, k_largest_output))}});
-    }
-  }
-  return json_text(journal, -1);
-}
-
-bool is_of(const Owned& owned, const fs::path& file) {
-  return fs::is_regular_file(fs::symlink_status(file)) &&
-         owned.count({file.filename().string(), sha256(read_output(file, k_largest_output))}) != 0;
-}
-
-/// Ends what a run began that was killed between two renames; nothing when somebody changed the files since.
-void end_publishing(const fs::path& staging, const fs::path& folder) {
-  Owned owned;
-  if (!read_manifest(staging / k_journal, owned)) return;
-  std::vector<fs::path> rest;
-  for (const fs::path& file : entries_of(staging))
-    if (file.filename().string().front() != '.' && file.filename() != k_manifest) rest.push_back(file);
-  const auto may_go = [&](const fs::path& file) {
-    const fs::path target = folder / file.filename();
-    return !stands(target) || is_of(owned, target);
-  };
-  if (!std::all_of(rest.begin(), rest.end(), may_go)) return;
-  for (const fs::path& file : rest)
-    if (::rename(file.c_str(), (folder / file.filename()).c_str()) != 0) return;
-  ::rename((staging / k_manifest).c_str(), (folder / k_manifest).c_str());
-  const Json journal = parse_json(read_output(staging / k_journal, k_largest_manifest));
-  for (const std::string& name : journal.at("withdrawn").get<std::vector<std::string>>())
-    if (is_of(owned, folder / name)) ::unlink((folder / name).c_str());
-}
-
-void end_killed_publishing_in(const fs::path& place) {
-  if (stale_stagings(place).empty()) return;
-  const Turn turn(place.parent_path());
-  for (const fs::path& staging : stale_stagings(place)) end_publishing(staging, place);
-  remove_stale_stagings(place);
-}
-
-/// Some of its set were renamed already, and some wait in the staging folder.
-bool is_half_published(const fs::path& staging, const fs::path& file) {
-  if (!stands(staging / k_journal)) return false;
-  Owned set;
-  read_manifest(staging / k_manifest, set);
-  std::set<std::string> names;
-  for (const auto& [name, hash] : set) names.insert(name);
-  for (const fs::path& entry : entries_of(staging)) {
-    const std::string name = entry.filename().string();
-    if (name.rfind(k_backup_prefix, 0) == 0) names.insert(name.substr(k_backup_prefix.size()));
-    if (name.front() != '.') names.insert(name);
-  }
-  const auto waits = [&staging](const std::string& name) { return stands(staging / name); };
-  const auto waiting = static_cast<std::size_t>(std::count_if(names.begin(), names.end(), waits));
-  return waiting > 0 && waiting < names.size() && names.count(file.filename().string()) != 0;
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace
-
-void end_killed_publishing(const fs::path& file) {
-  const fs::path place = place_of(file.has_parent_path() ? file.parent_path() : fs::path("."));
-  if (stale_stagings(place).empty()) return;
-  end_killed_publishing_in(place);
-  for (const fs::path& staging : stale_stagings(place)) {
-    if (!is_half_published(staging, file)) continue;
-    throw InputError(file.string(), "belongs to a set of files that a killed run of fusee left half old and half new",
-                     "run it again there, as one who may write in " + place.string());
-  }
-}
 
 OutputFolder::OutputFolder(fs::path folder, bool force)
     : folder_(folder.empty() ? "." : std::move(folder)),
@@ -213,44 +104,60 @@ OutputFolder::OutputFolder(fs::path folder, bool force)
       force_(force),
       missing_(std::make_unique<MissingFolders>()) {
   if (FileAccess* access = FileAccess::current()) access->will_write(folder_);
-  end_killed_publishing_in(place_);
-  earlier_run_ = read_manifest(place_ / k_manifest, ours_);
+  learn_ours();
 }
 
 OutputFolder::~OutputFolder() = default;
 
-void OutputFolder::claim(const std::vector<std::string>& names) {
-  const Turn turn(place_.parent_path());
-  if (read_manifest(place_ / k_manifest, ours_))
-    earlier_run_ = true;  // another run may have published since this one began
-  demand_ours(names);
+void OutputFolder::learn_ours() {
+  const bool here = add_written_files(place_, ours_), aside = add_files_aside(place_, ours_);
+  earlier_run_ = earlier_run_ || here || aside;
 }
 
-void OutputFolder::demand_ours(const std::vector<std::string>& names) const {
-  demand_ground(folder_);
-  std::string foreign, changed;
+void OutputFolder::claim(const std::vector<std::string>& names) { demand_ours(names); }
+
+/// Throws OutputError where something that is no regular file stands in the place of an output.
+void OutputFolder::demand_files(const std::vector<std::string>& names) const {
   for (const std::string& name : names) {
     const fs::path target = folder_ / name;
-    if (!stands(target)) continue;
-    if (!fs::is_regular_file(fs::symlink_status(target))) {
-      tell_in_the_way(target);
-      throw OutputError(target.string() + " is in the way and is not a regular file",
-                        "move it away, or choose another folder with -o");
-    }
-    if (force_ || (name == k_manifest && earlier_run_)) continue;
+    if (!stands(target) || fs::is_regular_file(fs::symlink_status(target))) continue;
+    tell_in_the_way(target);
+    throw OutputError(target.string() + " is in the way and is not a regular file",
+                      "move it away, or choose another folder with -o");
+  }
+}
+
+OutputFolder::NotOurs OutputFolder::not_ours(const std::vector<std::string>& names) const {
+  NotOurs found;
+  for (const std::string& name : names) {
+    if (force_ || !stands(folder_ / name) || (name == k_manifest && earlier_run_)) continue;
     const auto by_name = [&name](const auto& entry) { return entry.first == name; };
     if (std::none_of(ours_.begin(), ours_.end(), by_name)) {
-      foreign += (foreign.empty() ? "" : ", ") + name;
-      tell_in_the_way(target);
-    } else if (ours_.count({name, sha256(read_output(target, k_largest_output))}) == 0) {
-      changed += (changed.empty() ? "" : ", ") + name;
+      found.foreign.push_back(name);
+    } else if (!is_unchanged(ours_, folder_ / name)) {
+      found.changed.push_back(name);
     }
   }
-  if (foreign.empty() && changed.empty()) return;
+  return found;
+}
+
+void OutputFolder::demand_ours(const std::vector<std::string>& names) {
+  demand_ground(folder_);
+  demand_files(names);
+  NotOurs found;
+  // Another run may publish between the look at its manifest and the look at its files: its manifest is known then.
+  for (int look = 0; look < 3; ++look) {
+    learn_ours();
+    found = not_ours(names);
+    if (found.foreign.empty() && found.changed.empty()) return;
+  }
+  for (const std::string& name : found.foreign) tell_in_the_way(folder_ / name);
   std::string message = folder_.string() + " holds ";
-  if (!foreign.empty()) message += "files that fusee did not write: " + foreign;
-  if (!changed.empty())
-    message += (foreign.empty() ? "" : "; and ") + ("files that were changed after fusee wrote them: " + changed);
+  if (!found.foreign.empty())
+    message += fmt::format("files that fusee did not write: {}", fmt::join(found.foreign, ", "));
+  if (!found.changed.empty())
+    message += fmt::format("{}files that were changed after fusee wrote them: {}",
+                           found.foreign.empty() ? "" : "; and ", fmt::join(found.changed, ", "));
   throw OutputError(message, "choose another folder with -o, or overwrite them with --force");
 }
 
@@ -259,7 +166,7 @@ void OutputFolder::discard() const {
   missing_->remove();
 }
 
-/// Beside the folder where it can be replaced as a whole, so that what a killed run leaves does not lie in it either.
+/// Beside the folder where it can be replaced as a whole.
 void OutputFolder::open_staging() {
   if (staging_) return;
   demand_ground(folder_);
@@ -267,20 +174,19 @@ void OutputFolder::open_staging() {
   if (!stands(place_) || is_replaceable(place_)) {
     missing_->make(above);
     if (::access(above.c_str(), W_OK | X_OK) == 0) {
-      remove_stale_stagings(above);
-      staging_ = std::make_unique<Staging>(above);
+      staging_ = std::make_unique<Staging>(place_, StagingSite::beside);
       return;
     }
   }
   missing_->make(place_);
-  staging_ = std::make_unique<Staging>(place_);
+  staging_ = std::make_unique<Staging>(place_, StagingSite::inside);
 }
 
 void OutputFolder::stage(const OutputFile& file) {
   const bool plain = !file.name.empty() && file.name.front() != '.' && file.name.find('/') == std::string::npos;
   demand(plain, "output name " + file.name);
   open_staging();
-  demand(std::find(staged_.begin(), staged_.end(), file.name) == staged_.end(), "staged twice: " + file.name);
+  demand(!contains(staged_, file.name), "staged twice: " + file.name);
   staged_.push_back(file.name);
   write_whole(staging_->path() / file.name, file.bytes);
 }
@@ -289,108 +195,104 @@ fs::path OutputFolder::staged_path(const std::string& name) const { return stagi
 
 void OutputFolder::withdraw(const std::vector<std::string>& names) { withdrawn_ = names; }
 
-/// Those that an earlier run wrote, that nobody changed since, and that this run did not write.
-std::vector<std::string> OutputFolder::obsolete() const {
-  std::vector<std::string> names;
-  for (const std::string& name : withdrawn_) {
-    const bool staged = std::find(staged_.begin(), staged_.end(), name) != staged_.end();
-    if (!staged && is_of(ours_, place_ / name)) names.push_back(name);
-  }
-  return names;
+/// True for a file of an earlier run that this one neither wrote nor keeps.
+bool OutputFolder::is_obsolete(const fs::path& file) const {
+  const std::string name = file.filename().string();
+  return !contains(staged_, name) && contains(withdrawn_, name) && is_unchanged(ours_, file);
 }
 
-/// One rename of the folder; false, with nothing changed, where that cannot be.
-bool OutputFolder::publish_as_folder(const std::vector<std::string>& gone) {
+/// Gives what stays in the folder a second name among the new files; false when something has none.
+bool OutputFolder::link_others() const {
+  bool complete = true;
+  for (const std::string& name : names_in(place_)) {
+    const fs::path entry = place_ / name;
+    if (contains(staged_, name) || is_obsolete(entry) || fs::is_directory(fs::symlink_status(entry))) continue;
+    complete = ::link(entry.c_str(), (staging_->path() / name).c_str()) == 0 && complete;
+  }
+  return complete;
+}
+
+/// By renames of the folder; false, with nothing changed, where that cannot be.
+bool OutputFolder::publish_as_folder(std::vector<Diagnostic>& notes) {
+  if (staging_->site() == StagingSite::inside) return false;
   const fs::path& made = staging_->path();
-  if (made.parent_path() != place_.parent_path()) return false;
   if (!stands(place_)) {
-    set_ordinary_rights(made);
     flush_all({made});
-    if (!rename_as(made, place_, RENAME_NOREPLACE) && ::rename(made.c_str(), place_.c_str()) != 0) return false;
-    staging_->let_go();
-    flush_all({place_.parent_path()});
-    return true;
+    return move_if_free({AT_FDCWD, made}, {AT_FDCWD, place_});
   }
   if (!is_replaceable(place_) || !set_rights(made, place_)) return false;
-  const auto is_listed = [](const std::vector<std::string>& list, const fs::path& entry) {
-    return std::find(list.begin(), list.end(), entry.filename().string()) != list.end();
-  };
-  std::vector<fs::path> kept;
-  const auto undone = [&kept] {
-    for (const fs::path& link : kept) ::unlink(link.c_str());
-    return false;
-  };
-  for (const fs::path& entry : entries_of(place_)) {
-    if (is_listed(staged_, entry) || is_listed(gone, entry)) continue;
-    kept.push_back(made / entry.filename());
-    if (::link(entry.c_str(), kept.back().c_str()) != 0) return undone();
-  }
+  const bool linked = link_others();
   flush_all({made});
-  if (!rename_as(made, place_, RENAME_EXCHANGE)) return undone();
-  flush_all({place_.parent_path()});
-  // The old folder has the staging's name now. What came into it while its entries were listed is brought along.
-  for (const fs::path& entry : entries_of(made)) {
-    const bool known = is_listed(staged_, entry) || is_listed(gone, entry) || stands(place_ / entry.filename());
-    if (known) {
-      ::unlink(entry.c_str());
-    } else {
-      ::rename(entry.c_str(), (place_ / entry.filename()).c_str());
-    }
+  if (!staging_->take_place_of(place_, /*by_exchange=*/linked)) return false;
+  // Of folders, of what has no second name, and of what came since. Another run may have published in between: its set
+  // is the earlier one now.
+  add_written_files(staging_->old(), ours_);
+  const int moved = move_entries(staging_->old(), place_, [this](const fs::path& entry) { return is_obsolete(entry); });
+  if (moved >= 0) {
+    staging_->remove_old();
+  } else {
+    notes.push_back({Severity::warning,
+                     {},
+                     "other files of " + place_.string() + " could not be moved from " + staging_->old().string(),
+                     "move them by hand, or let the next run do so"});
   }
-  ::rmdir(made.c_str());
-  staging_->let_go();
   return true;
 }
 
+/// Removes the new files that were put in place and moves the earlier ones back.
 void OutputFolder::put_back(const std::vector<std::string>& published) const {
-  for (const std::string& name : published) {
-    const fs::path backup = staging_->path() / (std::string(k_backup_prefix) + name);
-    if (::rename(backup.c_str(), (place_ / name).c_str()) != 0) ::unlink((place_ / name).c_str());
-  }
+  for (const std::string& name : published) ::unlink((place_ / name).c_str());
+  move_entries(staging_->old(), place_, [](const fs::path&) { return false; });
+  staging_->remove_old();
 }
 
-/// One rename a file, the manifest last.
-void OutputFolder::publish_one_by_one(const std::vector<std::string>& gone) {
+void OutputFolder::publish_one_by_one() {
   missing_->make(place_);
-  if (staging_->path().parent_path() != place_ && !staging_->move_into(place_))
+  if (staging_->site() == StagingSite::beside && !staging_->move_inside(place_))
     fail_output("cannot write in", place_, errno);
-  const fs::path& from = staging_->path();
-  if (staged_.size() + gone.size() > 1) {
-    write_whole(from / k_journal, journal_of(place_, staged_, gone));
-    flush_all({from / k_journal, from});
-  }
+  const ReplacementLock lock(place_);
+  const fs::path old = staging_->old();
+  if (::mkdir(old.c_str(), 0700) != 0) fail_output("cannot write in", place_, errno);
   std::vector<std::string> published;
+  const auto fail = [&](const fs::path& target) {
+    const int code = errno;
+    put_back(published);
+    fail_output("cannot write", target, code);
+  };
+  // The manifest goes first and comes last: where it stands, the set is whole.
+  std::vector<std::string> going = {k_manifest};
+  for (const std::string& name : names_in(place_))
+    if (name != k_manifest && (contains(staged_, name) || is_obsolete(place_ / name))) going.push_back(name);
+  if (!contains(staged_, k_manifest)) going.erase(going.begin());
+  for (const std::string& name : going)
+    if (::rename((place_ / name).c_str(), (old / name).c_str()) != 0 && errno != ENOENT) fail(place_ / name);
+  if (!staging_->mark_ready()) fail(staging_->path());
   for (const std::string& name : staged_) {
-    const fs::path target = place_ / name, backup = from / (std::string(k_backup_prefix) + name);
-    // A second name for the earlier file, so that it can be put back. File systems without hard links go without.
-    if (::link(target.c_str(), backup.c_str()) != 0) errno = 0;
-    if (::rename((from / name).c_str(), target.c_str()) != 0) {
-      const int code = errno;
-      put_back(published);
-      fail_output("cannot write", target, code);
-    }
+    if (!move_if_free({AT_FDCWD, staging_->path() / name}, {AT_FDCWD, place_ / name})) fail(place_ / name);
     published.push_back(name);
   }
-  for (const std::string& name : gone) ::unlink((place_ / name).c_str());
   flush_all({place_});
+  staging_->remove_old();
 }
 
-void OutputFolder::publish() {
+void OutputFolder::publish(std::vector<Diagnostic>& notes) {
   if (!staging_) return;
-  const Turn turn(place_.parent_path());
-  if (read_manifest(place_ / k_manifest, ours_)) earlier_run_ = true;
+  for (Diagnostic& note : recover_leftovers(place_)) notes.push_back(std::move(note));
   const auto not_manifest = [](const std::string& name) { return name != k_manifest; };
   std::stable_partition(staged_.begin(), staged_.end(), not_manifest);
   demand_ours(staged_);
   std::vector<fs::path> to_flush;
   for (const std::string& name : staged_) to_flush.push_back(staging_->path() / name);
   flush_all(to_flush);
-  const std::vector<std::string> gone = obsolete();
   if (FileAccess* access = FileAccess::current()) {
     for (const std::string& name : staged_)
       access->wrote(folder_ / name, read_output(staging_->path() / name, k_largest_output));
   }
-  if (!publish_as_folder(gone)) publish_one_by_one(gone);
+  if (publish_as_folder(notes)) {
+    flush_all({place_.parent_path()});
+  } else {
+    publish_one_by_one();
+  }
   staging_.reset();
   staged_.clear();
 }
@@ -413,8 +315,8 @@ void write_file(const fs::path& path, std::string_view bytes, bool force) {
   demand_ground(folder);
   MissingFolders missing;
   missing.make(folder);
-  remove_stale_stagings(folder);
-  const Staging staging(folder);
+  remove_staged_leftovers(target);
+  const Staging staging(target, StagingSite::beside);
   const fs::path made = staging.path() / "file";
   write_whole(made, bytes);
   flush_all({made});

@@ -1,6 +1,6 @@
 /// \file
-/// Internal: the hidden folder in which outputs are written before they are renamed into place, and what a killed run
-/// left of one.
+/// Internal: the private folder in which new files wait until they take their place, and the file operations of
+/// publishing.
 #pragma once
 
 #include <filesystem>
@@ -8,17 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/base/file_access.h"
-
 namespace fusee {
 
-/// read_from_disk() without a look at what killed runs left.
-void read_as_it_lies(const ReadRequest& request, const TakeBlock& take);
-/// Before `file` is read: where a run was killed while it put a set of files in its folder, one by one, the set is made
-/// whole. InputError when it cannot be: half of it is of another set.
-void end_killed_publishing(const std::filesystem::path& file);
-
-/// OutputError: "<what> <path>: <what the code means>", with a hint where one is known.
+/// OutputError: "<what> <path>: <meaning of the code>", with a hint where one is known.
 [[noreturn]] void fail_output(const std::string& what, const std::filesystem::path& path, int code);
 
 /// True when `path` itself exists, whatever it is (a dangling link too).
@@ -27,9 +19,19 @@ bool stands(const std::filesystem::path& path);
 /// Makes a new file. OutputError when it exists or its bytes do not get there; a short write is no success.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);
 
-/// Flushes files and folders to the disk, together: it takes few turns for all of them where one after another would
-/// take one each.
+/// Flushes files and folders to the disk, together: fewer waits than one after another.
 void flush_all(const std::vector<std::filesystem::path>& paths);
+
+/// Names in a folder that is opened without following a link; empty when it cannot be opened.
+std::vector<std::string> names_in(const std::filesystem::path& folder);
+
+/// A name in a folder that is open; AT_FDCWD for a path.
+struct FolderEntry {
+  int folder;
+  std::filesystem::path name;
+};
+/// Renames `from` to `to` unless something stands there; false with errno.
+bool move_if_free(const FolderEntry& from, const FolderEntry& to);
 
 /// Folders that are made because they are missing; the destructor removes those that are still empty.
 class MissingFolders {
@@ -39,51 +41,73 @@ class MissingFolders {
   MissingFolders(const MissingFolders&) = delete;
   MissingFolders& operator=(const MissingFolders&) = delete;
   void make(const std::filesystem::path& folder);
-  /// Those that are empty.
+  /// Removes those that are empty.
   void remove() const;
 
  private:
   std::vector<std::filesystem::path> made_;  ///< outermost first
 };
 
-/// A folder named .fusee-<process>-XXXXXX in `within`, locked while this run lives, removed with all it holds at the
-/// end.
+/// A staging folder lies beside the place (a folder or a file) that it is made for, or inside it.
+enum class StagingSite { beside, inside };
+
+/// The private folder of one run: `.fusee-<process>-<key>-XXXXXX`, mode 0700, locked while the run lives. The key is
+/// derived from the name of the place, so that the next run into this place finds what a killed one left
+/// (leftovers.h). It holds
+///   new/       the new files
+///   old/       what stood in the place: the earlier folder, or those of its files that are replaced
+///   ready/     the new files, once all earlier ones are in old/ (files replaced one by one)
+///   obsolete/  earlier files that are being removed
+/// The destructor leaves it for the next run while it holds old/, and removes it otherwise.
 class Staging {
  public:
-  /// Throws OutputError.
-  explicit Staging(const std::filesystem::path& within);
+  /// OutputError when it cannot be made.
+  Staging(const std::filesystem::path& place, StagingSite site);
   ~Staging();
   Staging(const Staging&) = delete;
   Staging& operator=(const Staging&) = delete;
 
+  StagingSite site() const { return site_; }
+  /// Of the new files.
   const std::filesystem::path& path() const { return path_; }
-  /// From the disk; path() stays what it was.
+  std::filesystem::path old() const { return root_ / "old"; }
+  /// As the destructor does; path() stays what it was.
   void remove() const;
-  /// Renames it into another folder of the same file system; false with errno.
-  bool move_into(const std::filesystem::path& folder);
-  /// Nothing of what now has its name is removed.
-  void let_go() { path_.clear(); }
+  /// Removes the earlier files.
+  void remove_old() const;
+
+  /// The new files become `place`, and the folder that stood there becomes old(): by one exchange, or, where the
+  /// system has none or `by_exchange` is false, by two renames. False, with nothing changed, where neither is possible.
+  bool take_place_of(const std::filesystem::path& place, bool by_exchange);
+  /// Moves the staging folder from beside the place to inside it; false with errno.
+  bool move_inside(const std::filesystem::path& place);
+  /// Marks the earlier files as complete in old/: from now on a killed run is completed, no longer undone.
+  bool mark_ready();
 
  private:
-  std::filesystem::path path_;
+  std::filesystem::path root_, path_;
+  StagingSite site_;
   int lock_ = -1;
 };
 
-/// Stagings in `folder` whose run was killed.
-std::vector<std::filesystem::path> stale_stagings(const std::filesystem::path& folder);
-void remove_stale_stagings(const std::filesystem::path& folder);
+/// The part of a staging folder's name that identifies its place: 8 hex digits.
+std::string staging_key(const std::filesystem::path& place, StagingSite site);
+/// The folder that holds the staging folders of a place.
+std::filesystem::path staging_ground(const std::filesystem::path& place, StagingSite site);
 
-/// While it lives no other run of fusee publishes into a folder within `folder`: it waits for the one that does.
-class Turn {
+/// While it lives no other run of this user replaces files one by one in `folder`. Its lock file can be opened by this
+/// user alone; where it cannot be made there is no lock.
+class ReplacementLock {
  public:
-  /// OutputError after a minute.
-  explicit Turn(const std::filesystem::path& folder);
-  ~Turn();
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
+  /// Waits for the run that holds it; OutputError after a minute.
+  explicit ReplacementLock(const std::filesystem::path& folder);
+  ~ReplacementLock();
+  ReplacementLock(const ReplacementLock&) = delete;
+  ReplacementLock& operator=(const ReplacementLock&) = delete;
 
  private:
-  int lock_ = -1;
+  std::filesystem::path path_;
+  int file_ = -1;
 };
 
 }  // namespace fusee

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
 
 namespace fusee {
 namespace {
@@ -42,13 +43,6 @@ std::string source_bytes(zip_source_t* source) {
   return bytes;
 }
 
-/// Names may hold anything; messages may not.
-std::string shown(std::string_view name) {
-  std::string text;
-  for (const char c : name.substr(0, 200)) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return text;
-}
-
 }  // namespace
 
 std::string zip_bytes(const std::vector<ZipEntry>& entries) {
@@ -68,7 +62,7 @@ std::string zip_bytes(const std::vector<ZipEntry>& entries) {
 void fail_in_entry(const std::string& file, const std::string& entry, std::ptrdiff_t offset,
                    const std::string& message) {
   const std::string at = offset < 0 ? std::string() : fmt::format(" at byte {}", offset);
-  throw InputError(file, fmt::format("{}{}: {}", shown(entry), at, message));
+  throw InputError(file, fmt::format("{}{}: {}", cleaned_line(entry.substr(0, 200)), at, message));
 }
 
 void ZipArchive::Discard::operator()(zip* archive) const { zip_discard(archive); }

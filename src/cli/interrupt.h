@@ -1,5 +1,5 @@
 /// \file
-/// Ctrl-C, SIGTERM and SIGHUP: exit 130, nothing half done.
+/// Ctrl-C, SIGTERM and SIGHUP: exit 130, nothing half done. Lack of memory where no exception can be thrown: exit 6.
 #pragma once
 
 #include <stdexcept>
@@ -14,6 +14,10 @@ class Interrupted : public std::runtime_error {
 /// From here on a signal ends the program at once with exit 130, but for the places below. `json`: with a document on
 /// stdout.
 void catch_interrupts(bool json);
+
+/// From here on the program ends with exit 6 where GMP, or a function that must not throw, finds no memory. Without it
+/// they abort. What was staged stays for the next run that publishes there to remove.
+void catch_lack_of_memory();
 
 /// While one of these lives something stands on the disk that has to be removed: a signal is only noted, and
 /// stop_if_interrupted() throws Interrupted at the next step. What it ends with otherwise stands: a signal that comes

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fusee/base/files.h"
+#include "fusee/base/text.h"
 
 namespace fusee::cli {
 namespace {
@@ -20,12 +21,6 @@ bool stands_as_other(const fs::path& file) {
   } catch (const InputError&) {
     return true;
   }
-}
-
-fs::path here() {
-  std::error_code error;
-  const fs::path folder = fs::current_path(error);
-  return error ? fs::path("/") : folder;
 }
 
 std::string compiler() {
@@ -71,20 +66,27 @@ void sign(Bundle& bundle) {
   bundle.runs_on = machine();
 }
 
-BundledOutcome outcome_of(const Ending& ending, std::vector<BundledOutput> outputs, const BundleNames& names) {
+BundledOutcome outcome_of(Ending ending, std::vector<BundledOutput> outputs, const BundleNames& names) {
   BundledOutcome outcome;
   outcome.exit = static_cast<int>(ending.reply.exit);
   outcome.outputs = std::move(outputs);
-  outcome.result = names.text(ending.result);
-  for (Diagnostic message : ending.reply.diagnostics) {
-    for (std::string* words : {&message.place.file, &message.message, &message.hint}) *words = names.text(*words);
-    outcome.messages.push_back(std::move(message));
+  for (Diagnostic& message : ending.reply.diagnostics) {
+    for (std::string* words : {&message.place.file, &message.message, &message.hint})
+      *words = cleaned(names.text(*words));
   }
+  outcome.messages = ending.reply.diagnostics;
+  ending.reply.text = names.text(ending.reply.text);
+  ending.reply.fields = names.document(std::move(ending.reply.fields));
+  outcome.result = cleaned(ending.result());
   return outcome;
 }
 
+BundledOutput output_of(const fs::path& path, std::string_view bytes) {
+  return {tame(path.filename().string()), bytes.size(), sha256(bytes)};
+}
+
 Recording::Recording(fs::path file, const std::vector<std::string>& words, bool force)
-    : file_(std::move(file)), force_(force), names_(here()) {
+    : file_(std::move(file)), force_(force), names_(working_folder()) {
   if (!force_ && stands_as_other(file_))
     throw OutputError(file_.string() + " exists and is no bundle of fusee",
                       "choose another name, or overwrite it with --force");
@@ -93,13 +95,11 @@ Recording::Recording(fs::path file, const std::vector<std::string>& words, bool 
 }
 
 void Recording::read(const ReadRequest& request, const TakeBlock& take) {
-  std::vector<std::string> asked = names_.asked(request.path);  // before it has a name itself
   const std::string name = names_.inner(request.path);
-  asked.erase(std::remove(asked.begin(), asked.end(), name), asked.end());
   const bool known = std::any_of(bundle_.files.begin(), bundle_.files.end(),
                                  [&name](const BundledFile& file) { return file.path == name; });
   if (known) return read_from_disk(request, take);  // what is read twice stands once
-  BundledFile& entry = bundle_.files.emplace_back(BundledFile{name, std::move(asked), {}, {}});
+  BundledFile& entry = bundle_.files.emplace_back(BundledFile{name, {}, {}});
   bool taking = false;
   try {
     read_from_disk(request, [&](std::string_view block) {
@@ -123,7 +123,7 @@ void Recording::in_the_way(const fs::path& path) {
 }
 
 void Recording::wrote(const fs::path& name, std::string_view bytes) {
-  bundle_.outcome.outputs.push_back({names_.inner(name), bytes.size(), sha256(bytes)});
+  bundle_.outcome.outputs.push_back(output_of(name, bytes));
 }
 
 Diagnostic Recording::pack(const Ending& ending) {

@@ -35,11 +35,13 @@ class Recording : public FileAccess {
   bool force_;
   BundleNames names_;
   Bundle bundle_;
-  std::uint64_t kept_ = 0;
+  std::uint64_t kept_ = 0;  ///< bytes of files
 };
 
-/// What a run said, with the names that a bundle has for files.
-BundledOutcome outcome_of(const Ending& ending, std::vector<BundledOutput> outputs, const BundleNames& names);
+/// What a run reported, with the names that a bundle has for files.
+BundledOutcome outcome_of(Ending ending, std::vector<BundledOutput> outputs, const BundleNames& names);
+/// Its folder is named by the command line, if at all.
+BundledOutput output_of(const std::filesystem::path& path, std::string_view bytes);
 /// This program, as a bundle names it.
 void sign(Bundle& bundle);
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/bundle.h"
+#include "base/leftovers.h"
 #include "base/staging.h"
 #include "cli/bundle_names.h"
 #include "cli/command.h"
@@ -31,13 +32,11 @@ constexpr std::size_t k_most_differences = 8;
 /// The files of a bundle in place of the disk.
 class Replaying : public FileAccess {
  public:
-  Replaying(const Bundle& bundle, fs::path here) : bundle_(bundle), here_(std::move(here)), names_(here_) {}
+  explicit Replaying(const Bundle& bundle) : bundle_(bundle), here_(working_folder()), names_(here_) {}
 
   void read(const ReadRequest& request, const TakeBlock& take) override;
   void will_write(const fs::path& place) override;
-  void wrote(const fs::path& name, std::string_view bytes) override {
-    outputs_.push_back({names_.inner(name), bytes.size(), sha256(bytes)});
-  }
+  void wrote(const fs::path& name, std::string_view bytes) override { outputs_.push_back(output_of(name, bytes)); }
   const std::vector<BundledOutput>& outputs() const { return outputs_; }
   const BundleNames& names() const { return names_; }
 
@@ -50,14 +49,16 @@ class Replaying : public FileAccess {
   std::vector<BundledOutput> outputs_;
 };
 
+/// By its path; else by its name alone, for a file that a packed file names beside itself or by a path of the machine
+/// on which it was packed. It was read before the files that the command line names after it.
 const BundledFile* Replaying::find(const fs::path& path) const {
-  const std::string near = seen_from(here_, path).string();
-  const std::string hidden = path.is_absolute() ? hidden_path(path) : std::string();
-  for (const BundledFile& file : bundle_.files) {
-    const auto is_it = [&](const std::string& asked) { return asked == near || (!hidden.empty() && asked == hidden); };
-    if (file.path == near || std::any_of(file.asked.begin(), file.asked.end(), is_it)) return &file;
-  }
-  return nullptr;
+  const fs::path seen = seen_from(here_, path);
+  const std::string near = seen == "." ? "." : tame(seen.string()), name = tame(path.filename().string());
+  const auto by_path = [&near](const BundledFile& file) { return file.path == near; };
+  const auto by_name = [&name](const BundledFile& file) { return fs::path(file.path).filename() == name; };
+  auto found = std::find_if(bundle_.files.begin(), bundle_.files.end(), by_path);
+  if (found == bundle_.files.end()) found = std::find_if(bundle_.files.begin(), bundle_.files.end(), by_name);
+  return found == bundle_.files.end() ? nullptr : &*found;
 }
 
 void Replaying::read(const ReadRequest& request, const TakeBlock& take) {
@@ -74,41 +75,20 @@ void Replaying::read(const ReadRequest& request, const TakeBlock& take) {
 }
 
 void Replaying::will_write(const fs::path& place) {
-  const fs::path near = seen_from(here_, place);
-  if (near.empty() || *near.begin() == "..")
+  if (leads_out(seen_from(here_, place)))
     throw OutputError(place.string() + " lies outside of the folder in which a bundle is replayed");
 }
 
-/// The process stands in `folder` while it lives, and has its temporary files there.
-class Within {
- public:
-  explicit Within(const fs::path& folder) {
-    std::error_code error;
-    before_ = fs::current_path(error);
-    if (const char* temporary = ::getenv("TMPDIR")) temporary_ = temporary;
-    if (::chdir(folder.c_str()) != 0) fail_output("cannot work in", folder, errno);
-    ::setenv("TMPDIR", folder.c_str(), 1);
-  }
-  ~Within() {
-    if (!before_.empty() && ::chdir(before_.c_str()) != 0) before_.clear();
-    if (temporary_) {
-      ::setenv("TMPDIR", temporary_->c_str(), 1);
-    } else {
-      ::unsetenv("TMPDIR");
-    }
-  }
-  Within(const Within&) = delete;
-  Within& operator=(const Within&) = delete;
-
- private:
-  fs::path before_;
-  std::optional<std::string> temporary_;
-};
+/// The process stands in `folder` from here on, and has its temporary files there.
+void enter(const fs::path& folder) {
+  if (::chdir(folder.c_str()) != 0) fail_output("cannot work in", folder, errno);
+  ::setenv("TMPDIR", folder.c_str(), 1);
+}
 
 BundledOutcome replayed(const Bundle& bundle, const fs::path& folder) {
-  const Within within(folder);
+  enter(folder);
   Console console;
-  Replaying access(bundle, fs::current_path());
+  Replaying access(bundle);
   const Ending ending = ending_of(bundle.words, console);
   stop_if_interrupted();
   return outcome_of(ending, access.outputs(), access.names());
@@ -140,22 +120,20 @@ void demand_free(const fs::path& folder) {
 /// In a folder beside `kept`, which gets its name; without one in the system's temporary folder.
 BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<fs::path>& kept) {
   std::error_code error;
-  const fs::path place = kept ? fs::weakly_canonical(fs::absolute(*kept), error) : fs::path();
-  const fs::path above = kept ? (place.has_filename() ? place.parent_path() : place.parent_path().parent_path())
-                              : fs::temp_directory_path();
+  fs::path place = kept ? fs::weakly_canonical(fs::absolute(*kept, error), error)
+                        : fs::absolute(temporary_folder() / "fusee-replay");
+  if (!place.has_filename()) place = place.parent_path();
   MissingFolders missing;
-  missing.make(above);
-  remove_stale_stagings(above);
-  const Staging staging(above);
-  // In it, not it: who publishes into a folder takes a turn at the one above, and the staging folder is taken.
-  const fs::path folder = staging.path() / "run";
-  if (!fs::create_directory(folder, error)) fail_output("cannot make the folder", folder, error.value());
+  missing.make(place.parent_path());
+  remove_staged_leftovers(place);
+  const Staging staging(place, StagingSite::beside);
+  const fs::path& folder = staging.path();
   if (kept) unpack(bundle, folder);
   put_in_the_way(bundle, folder);
   BundledOutcome outcome = replayed(bundle, folder);
   if (!kept) return outcome;
-  demand_free(*kept);
-  if (::rename(folder.c_str(), place.c_str()) != 0) fail_output("cannot write", *kept, errno);
+  demand_free(place);
+  if (::rename(folder.c_str(), place.c_str()) != 0) fail_output("cannot write", place, errno);
   return outcome;
 }
 
@@ -217,13 +195,16 @@ std::vector<Difference> differences_of(const BundledOutcome& then, const Bundled
 
 // ---- words ----------------------------------------------------------------------------------------------------------
 
+/// As a shell takes it.
 std::string command_line(const Bundle& bundle) {
   std::string line = "fusee";
   for (const std::string& word : bundle.words) {
+    std::string quoted;
+    for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
     const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$`()[]{}*?;&|<>#!~") == std::string::npos;
-    line += plain ? " " + word : " '" + word + "'";
+    line += plain ? " " + word : " '" + quoted + "'";
   }
-  return line;
+  return cleaned_line(line);
 }
 
 std::string files_text(const Bundle& bundle) {
@@ -231,7 +212,7 @@ std::string files_text(const Bundle& bundle) {
   for (const BundledFile& file : bundle.files)
     text += (text.empty() ? "" : ", ") + file.path +
             (file.failure ? " (" + file.failure->message + ")" : " (" + std::to_string(file.bytes.size()) + " B)");
-  return text.empty() ? "no file" : text;
+  return text.empty() ? "no file" : cleaned_line(text);
 }
 
 void say_version(const Bundle& bundle, Reply& reply) {
@@ -240,7 +221,8 @@ void say_version(const Bundle& bundle, Reply& reply) {
   const auto say = [&reply](Severity severity, const std::string& what, const std::string& then,
                             const std::string& now) {
     if (then != now)
-      reply.diagnostics.push_back(note(severity, "the bundle is of " + what + then + ", and this is " + what + now));
+      reply.diagnostics.push_back(
+          note(severity, cleaned_line("the bundle is of " + what + then + ", and this is " + what + now)));
   };
   say(Severity::warning, "fusee ", bundle.version, own.version);
   say(Severity::note, "a fusee built with ", bundle.built_with, own.built_with);
@@ -248,8 +230,9 @@ void say_version(const Bundle& bundle, Reply& reply) {
 }
 
 std::string summary(const Bundle& bundle, const BundledOutcome& now, const std::vector<Difference>& differences) {
-  std::string text = command_line(bundle) + "\n  packed by  fusee " + bundle.version + ", " + bundle.built_with + ", " +
-                     bundle.runs_on + "\n" + wrapped(files_text(bundle), "  read       ", "             ");
+  std::string text = command_line(bundle) + "\n  packed by  fusee " +
+                     cleaned_line(bundle.version + ", " + bundle.built_with + ", " + bundle.runs_on) + "\n" +
+                     wrapped(files_text(bundle), "  read       ", "             ");
   if (differences.empty())
     return text + "  the same   exit code " + std::to_string(now.exit) + ", " + std::to_string(now.messages.size()) +
            " messages, " + std::to_string(now.outputs.size()) + " outputs, " +

@@ -116,7 +116,7 @@ Reply run_reproduce(const Arguments& arguments, Console& console) {
     stop_if_interrupted();
     out.stage(file);
   }
-  out.publish();
+  out.publish(reply.diagnostics);
   reply.text += "\n" + std::to_string(files.size()) + " files in " + *folder + "\n";
   reply.fields["outputs"] = names_of(files);
   return reply;

@@ -196,7 +196,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options) {
   if (options.before_writing) options.before_writing();
   for (const OutputFile& output : result.outputs) target.stage(output);
   target.withdraw(kit_names(product.plan));
-  target.publish();
+  target.publish(product.pulley.file.warnings);
   result.published = true;
   return result;
 }

@@ -216,7 +216,7 @@ ModelResult model(const MechanismFile& file, const ModelOptions& options) {
   if (options.before_writing) options.before_writing();
   for (const OutputFile& output : result.outputs) target.stage(output);
   target.withdraw(k_model_names);
-  target.publish();
+  target.publish(product.file.warnings);
   result.published = true;
   return result;
 }

@@ -159,7 +159,7 @@ void note_turns(const MechanismFile& file, OptimizeResult& result) {
 
 void publish(const OptimizeOptions& options, OutputFolder& front_folder, OptimizeResult& result) {
   for (const OutputFile& file : result.front_files) front_folder.stage(file);
-  front_folder.publish();
+  front_folder.publish(result.warnings);
   if (!options.new_file.empty()) write_file(options.new_file, result.new_text, options.force);
   result.published = true;
 }

@@ -40,7 +40,7 @@ PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options) {
   if (options.dry_run) return result;
   for (const OutputFile& output : result.outputs) target.stage(output);
   target.withdraw(run_names());
-  target.publish();
+  target.publish(result.product.file.warnings);
   result.published = true;
   return result;
 }

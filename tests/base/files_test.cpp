@@ -53,7 +53,8 @@ void publish(const fs::path& folder, const std::vector<OutputFile>& files, bool 
   OutputFolder output(folder, force);
   output.stage(manifest_of(files));
   for (const OutputFile& file : files) output.stage(file);
-  output.publish();
+  std::vector<Diagnostic> notes;
+  output.publish(notes);
 }
 
 /// What OutputError says; "" when nothing is thrown.
@@ -87,6 +88,17 @@ class Files : public testing::Test {
   void TearDown() override { fs::remove_all(root_); }
 
   fs::path root_;
+  std::vector<Diagnostic> notes_;  ///< of the last run
+};
+
+/// The process stands in `folder` while it lives, so that no other folder may take its place.
+class StandingIn {
+ public:
+  explicit StandingIn(const fs::path& folder) : before_(fs::current_path()) { fs::current_path(folder); }
+  ~StandingIn() { fs::current_path(before_); }
+
+ private:
+  fs::path before_;
 };
 
 // ---- reading --------------------------------------------------------------------------------------------------------
@@ -141,7 +153,7 @@ TEST_F(Files, PublishesIntoANewFolder) {
     output.stage({"x.stl", "xyz"});
     EXPECT_EQ(bytes_of(output.staged_path("x.stl")), "xyz");
     EXPECT_FALSE(fs::exists(folder / "x.stl"));
-    output.publish();
+    output.publish(notes_);
   }
   EXPECT_THAT(names_in(folder), ElementsAre("x.stl"));
   EXPECT_EQ(bytes_of(folder / "x.stl"), "xyz");
@@ -282,22 +294,6 @@ TEST_F(Files, AFullDiskLeavesEarlierFilesWhole) {
   EXPECT_EQ(after, before);
 }
 
-TEST_F(Files, ARenameThatFailsPutsEarlierFilesBack) {
-  publish(root_ / "out", {{"a.obj", "old a"}, {"b.stl", "old b"}});
-  fs::create_directory(root_ / "out" / "mine");  // so that it cannot be replaced as a whole
-  OutputFolder output(root_ / "out", false);
-  output.stage(manifest_of({{"a.obj", "new a"}, {"b.stl", "new b"}}));
-  output.stage({"a.obj", "new a"});
-  output.stage({"new.csv", "new"});
-  output.stage({"b.stl", "new b"});
-  fs::remove(output.staged_path("b.stl"));
-  fs::create_directory(output.staged_path("b.stl"));  // a folder cannot be renamed onto a file
-  EXPECT_NE(output_error([&] { output.publish(); }), "");
-  EXPECT_EQ(bytes_of(root_ / "out" / "a.obj"), "old a");
-  EXPECT_EQ(bytes_of(root_ / "out" / "b.stl"), "old b");
-  EXPECT_FALSE(fs::exists(root_ / "out" / "new.csv"));
-}
-
 /// Runs `action` in a child and kills it where it stops by itself.
 template <class Action>
 void kill_after(Action action) {
@@ -330,7 +326,7 @@ TEST_F(Files, ALivingRunIsLeftAlone) {
   living.stage({"x.stl", "mine"});
   publish(root_ / "out", {{"y.obj", "other"}});
   EXPECT_EQ(bytes_of(living.staged_path("x.stl")), "mine");
-  living.publish();
+  living.publish(notes_);
   EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "mine");
 }
 
@@ -355,12 +351,12 @@ TEST_F(Files, WhatElseIsInTheFolderStays) {
 
 TEST_F(Files, TheFolderThatWeStandInStays) {
   publish(root_ / "out", {{"x.stl", "old"}});
-  const fs::path before = fs::current_path();
-  fs::current_path(root_ / "out");
-  publish(".", {{"x.stl", "new"}});
-  EXPECT_EQ(bytes_of("x.stl"), "new");  // of this folder, which still has its name
-  EXPECT_TRUE(fs::equivalent(".", root_ / "out"));
-  fs::current_path(before);
+  {
+    const StandingIn standing(root_ / "out");
+    publish(".", {{"x.stl", "new"}});
+    EXPECT_EQ(bytes_of("x.stl"), "new");  // of this folder, which still has its name
+    EXPECT_TRUE(fs::equivalent(".", root_ / "out"));
+  }
   EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl"));
 }
 
@@ -374,35 +370,37 @@ TEST_F(Files, AFolderBehindALinkStaysBehindIt) {
 
 TEST_F(Files, WithdrawsWhatAnEarlierRunWrote) {
   for (const bool whole : {true, false}) {
-    const fs::path folder = root_ / (whole ? "whole" : "holds_a_folder");
+    const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"x.stl", "old"}, {"p1.stl", "old"}, {"p2.stl", "old"}});
     put(folder / "p2.stl", "edited");
-    if (!whole) fs::create_directory(folder / "mine");
+    std::optional<StandingIn> standing;
+    if (!whole) standing.emplace(folder);
     OutputFolder output(folder, false);
     output.stage(manifest_of({{"x.stl", "new"}}));
     output.stage({"x.stl", "new"});
     output.withdraw({"x.stl", "p1.stl", "p2.stl", "p3.stl"});
-    output.publish();
+    output.publish(notes_);
     EXPECT_EQ(bytes_of(folder / "x.stl"), "new");
     EXPECT_FALSE(fs::exists(folder / "p1.stl"));
     EXPECT_EQ(bytes_of(folder / "p2.stl"), "edited");
   }
 }
 
-TEST_F(Files, WhoPublishesLastWaitsForItsTurn) {
+TEST_F(Files, BothOfTwoRunsPublish) {
   // Both began before either published: neither may take the other's files for somebody's.
   for (const bool whole : {true, false}) {
-    const fs::path folder = root_ / (whole ? "whole" : "holds_a_folder");
+    const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"x.stl", "old"}});
-    if (!whole) fs::create_directory(folder / "mine");
+    std::optional<StandingIn> standing;
+    if (!whole) standing.emplace(folder);
     OutputFolder first(folder, false), second(folder, false);
     for (OutputFolder* output : {&first, &second}) {
       const std::string bytes = output == &first ? "first" : "second";
       output->stage(manifest_of({{"x.stl", bytes}}));
       output->stage({"x.stl", bytes});
     }
-    first.publish();
-    second.publish();
+    first.publish(notes_);
+    second.publish(notes_);
     EXPECT_EQ(bytes_of(folder / "x.stl"), "second");
     EXPECT_EQ(bytes_of(folder / "manifest.json"), manifest_of({{"x.stl", "second"}}).bytes);
   }

@@ -21,23 +21,24 @@
 
 namespace {
 
-/// Calls until the end; 0: no end.
+/// Calls until the one that does not happen; 0: all happen.
 int calls_left = 0;
-/// As on a disk that may only be read.
-bool writable = true;
+/// What happens in its place: the run is killed, or the call fails.
+bool kills = true;
+/// False as in a file system whose only rename is the plain one.
+bool has_exchange = true;
 
-void before_a_change() {
-  if (calls_left > 0 && --calls_left == 0) ::kill(::getpid(), SIGKILL);
+/// False when the call fails.
+bool may_change() {
+  if (calls_left == 0 || --calls_left > 0) return true;
+  if (kills) ::kill(::getpid(), SIGKILL);
+  errno = EIO;
+  return false;
 }
 
 template <class... Words>
 int changed(long number, Words... words) {
-  before_a_change();
-  if (!writable) {
-    errno = EROFS;
-    return -1;
-  }
-  return static_cast<int>(::syscall(number, words...));
+  return may_change() ? static_cast<int>(::syscall(number, words...)) : -1;
 }
 
 }  // namespace
@@ -46,8 +47,13 @@ extern "C" {
 int rename(const char* from, const char* to) noexcept {
   return changed(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0U);
 }
+int renameat(int a, const char* from, int b, const char* to) noexcept {
+  return changed(SYS_renameat2, a, from, b, to, 0U);
+}
 int renameat2(int a, const char* from, int b, const char* to, unsigned how) noexcept {
-  return changed(SYS_renameat2, a, from, b, to, how);
+  if (has_exchange || how == 0) return changed(SYS_renameat2, a, from, b, to, how);
+  errno = EINVAL;
+  return -1;
 }
 int link(const char* from, const char* to) noexcept { return changed(SYS_linkat, AT_FDCWD, from, AT_FDCWD, to, 0); }
 int unlink(const char* path) noexcept { return changed(SYS_unlinkat, AT_FDCWD, path, 0); }
@@ -57,8 +63,7 @@ int mkdir(const char* path, mode_t mode) noexcept { return changed(SYS_mkdirat, 
 int chmod(const char* path, mode_t mode) noexcept { return changed(SYS_fchmodat, AT_FDCWD, path, mode); }
 int fsync(int) { return 0; }  // a kill loses nothing that was written; waiting for the disk is most of the time
 ssize_t write(int file, const void* bytes, size_t count) {
-  before_a_change();
-  return ::syscall(SYS_write, file, bytes, count);
+  return may_change() ? ::syscall(SYS_write, file, bytes, count) : -1;
 }
 }
 
@@ -73,8 +78,8 @@ using Folder = std::map<std::string, std::string>;
 Folder files_in(const fs::path& folder) {
   Folder files;
   if (!fs::exists(folder)) return files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().lexically_relative(folder).string();
     if (name.rfind(".fusee-", 0) == 0) continue;
     std::ostringstream text;
     text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
@@ -94,11 +99,14 @@ Folder set_of(const std::string& text, const std::vector<std::string>& names) {
   return files;
 }
 
-void publish(const fs::path& folder, const Folder& files) {
+std::vector<Diagnostic> publish_set(const fs::path& folder, const Folder& files,
+                                    const std::vector<std::string>& withdrawn = {"profile.csv", "pulley_p1.stl"}) {
   OutputFolder output(folder, false);
   for (const auto& [name, bytes] : files) output.stage({name, bytes});
-  output.withdraw({"profile.csv", "pulley_p1.stl"});
-  output.publish();
+  output.withdraw(withdrawn);
+  std::vector<Diagnostic> notes;
+  output.publish(notes);
+  return notes;
 }
 
 /// True when it was killed.
@@ -116,12 +124,13 @@ bool killed_before(int call, Action action) {
   return WIFSIGNALED(status);
 }
 
-/// What stands in a folder before a run publishes in it.
+/// What stands in a folder before a run publishes into it.
 struct Ground {
   const char* name;
   bool earlier_run;  ///< of fusee
-  bool notes;        ///< a file of somebody else's
-  bool subfolder;    ///< no other folder may take its place
+  bool others;       ///< a file and a folder of somebody else's
+  bool exchange;     ///< the file system exchanges folders
+  bool stood_in;     ///< the run's current folder: no other folder may take its place
 };
 
 class Kill : public testing::TestWithParam<Ground> {
@@ -130,22 +139,37 @@ class Kill : public testing::TestWithParam<Ground> {
     std::string pattern = (fs::path(testing::TempDir()) / "fusee_kill_XXXXXX").string();
     ASSERT_NE(mkdtemp(pattern.data()), nullptr);
     root_ = pattern;
+    has_exchange = GetParam().exchange;
   }
-  void TearDown() override { fs::remove_all(root_); }
+  void TearDown() override {
+    has_exchange = true;
+    fs::remove_all(root_);
+  }
 
   /// The folder as it is before the run.
   fs::path prepared(int call) const {
     const Ground& ground = GetParam();
-    const fs::path folder = root_ / std::to_string(call) / "out";
-    fs::create_directories(folder.parent_path());
-    if (ground.earlier_run) publish(folder, older_);
-    if (ground.notes) std::ofstream(folder / "notes.txt") << "mine";
-    if (ground.subfolder) fs::create_directory(folder / "mine");
+    fs::path folder = root_ / std::to_string(call) / "out";
+    fs::create_directories(ground.stood_in ? folder : folder.parent_path());
+    if (ground.earlier_run) publish_set(folder, older_);
+    if (ground.others) {
+      std::ofstream(folder / "notes.txt") << "mine";
+      fs::create_directory(folder / "mine");
+      std::ofstream(folder / "mine" / "notes.txt") << "mine too";
+    }
     return folder;
   }
-  Folder with_the_rest(Folder files) const {
-    if (GetParam().notes) files["notes.txt"] = "mine";
-    if (GetParam().subfolder) files["mine"] = "";
+  void run_in(const fs::path& folder) const {
+    if (GetParam().stood_in) fs::current_path(folder);
+    publish_set(folder, newer_);
+  }
+  Folder with_others(Folder files) const {
+    if (GetParam().others) files.insert({{"notes.txt", "mine"}, {"mine", ""}, {"mine/notes.txt", "mine too"}});
+    return files;
+  }
+  /// Without what is not a fusee output.
+  Folder without_others(Folder files) const {
+    for (const char* name : {"notes.txt", "mine", "mine/notes.txt"}) files.erase(name);
     return files;
   }
 
@@ -154,62 +178,80 @@ class Kill : public testing::TestWithParam<Ground> {
   fs::path root_;
 };
 
-TEST_P(Kill, LeavesTheOldSetOrTheNewOne) {
-  const Folder before = with_the_rest(GetParam().earlier_run ? older_ : Folder{}), after = with_the_rest(newer_);
-  int old_sets = 0, new_sets = 0, call = 1;
+TEST_P(Kill, LeavesOldOrNewSet) {
+  const Folder before = GetParam().earlier_run ? older_ : Folder{};
+  int old_sets = 0, new_sets = 0, put_back = 0, call = 1;
   for (bool killed = true; killed; ++call) {
     const fs::path folder = prepared(call);
-    ASSERT_EQ(files_in(folder), before);
-    killed = killed_before(call, [&] { publish(folder, newer_); });
-    if (GetParam().subfolder) OutputFolder(folder, false);  // the next start, which is here a run that does nothing
-    const Folder left = files_in(folder);
-    ASSERT_TRUE(left == before || left == after)
+    ASSERT_EQ(files_in(folder), with_others(before));
+    killed = killed_before(call, [&] { run_in(folder); });
+    const Folder left = without_others(files_in(folder));
+    // Between two renames there is no set, and nothing that claims to be one.
+    ASSERT_TRUE(left == before || left == newer_ || left.count("manifest.json") == 0)
         << "killed before call " << call << ": " << testing::PrintToString(left);
-    ++(left == after ? new_sets : old_sets);
-    ASSERT_TRUE(killed || left == after);
-    publish(folder, older_);  // the next run finds its way, and cleans up
-    EXPECT_EQ(files_in(folder), with_the_rest(older_));
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder.parent_path()), {}), 1);
-    EXPECT_EQ(static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {})),
-              with_the_rest(older_).size());
+    ASSERT_TRUE(killed || left == newer_);
+    // The next run, which writes a file of another name, puts back what lies aside.
+    const std::vector<Diagnostic> notes = publish_set(folder, {{"other.csv", "next"}}, {});
+    Folder next = files_in(folder);
+    EXPECT_EQ(next.erase("other.csv"), 1u);
+    ASSERT_TRUE(next == with_others(before) || next == with_others(newer_))
+        << "killed before call " << call << ": " << testing::PrintToString(next);
+    ++(next == with_others(newer_) ? new_sets : old_sets);
+    if (left != without_others(next)) {
+      ++put_back;
+      ASSERT_FALSE(notes.empty());
+      EXPECT_THAT(notes.front().message, testing::HasSubstr("had set aside was put back"));
+    }
+    for (const fs::path& place : {folder, folder.parent_path()})
+      for (const auto& entry : fs::directory_iterator(place))
+        EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::StartsWith(".fusee-"))) << call;
   }
   EXPECT_GT(old_sets, 4);
   EXPECT_GT(new_sets, 0);
+  const bool by_one_call = GetParam().exchange && !GetParam().stood_in;
+  EXPECT_EQ(put_back > 0, GetParam().earlier_run && !by_one_call);
 }
 
-/// "old " or "new "; "" where the reader was told that it is some of both.
-std::string set_read_from(const fs::path& folder) {
-  try {
-    const std::string first = read_file(folder / "pulley.stl", 100), last = read_file(folder / "report.html", 100);
-    EXPECT_EQ(first.substr(0, 4), last.substr(0, 4));
-    return first.substr(0, 4);
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("left half old and half new"));
-    return "";
-  }
-}
-
-TEST_P(Kill, IsEndedByWhoReadsNext) {
-  if (!GetParam().earlier_run) return;
-  int halves = 0, call = 1;
-  for (bool killed = true; killed; ++call) {
+TEST_P(Kill, FailedCallLeavesOldOrNewSet) {
+  constexpr int k_no_such_call = 7;
+  const Folder before = with_others(GetParam().earlier_run ? older_ : Folder{}), after = with_others(newer_);
+  kills = false;
+  int refused = 0;
+  for (int call = 1, code = 0; code != k_no_such_call; ++call) {
     const fs::path folder = prepared(call);
-    killed = killed_before(call, [&] { publish(folder, newer_); });
-    writable = false;
-    halves += set_read_from(folder).empty() ? 1 : 0;
-    writable = true;
-    EXPECT_NE(set_read_from(folder), "");
-    const Folder left = files_in(folder);
-    EXPECT_TRUE(left == with_the_rest(older_) || left == with_the_rest(newer_)) << "killed before call " << call;
+    const pid_t child = ::fork();
+    if (child == 0) {
+      calls_left = call;
+      try {
+        run_in(folder);
+      } catch (const OutputError&) {
+        ::_exit(6);
+      }
+      ::_exit(calls_left > 0 ? k_no_such_call : 0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    code = WEXITSTATUS(status);
+    refused += code == 6 ? 1 : 0;
+    // What could not be moved back lies aside until the next run.
+    publish_set(folder, {{"other.csv", "next"}}, {});
+    Folder next = files_in(folder);
+    next.erase("other.csv");
+    ASSERT_EQ(next, code == 6 ? before : after) << "call " << call;
   }
-  EXPECT_EQ(halves > 0, GetParam().subfolder);
+  kills = true;
+  EXPECT_GT(refused, 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Grounds, Kill,
-                         testing::Values(Ground{"Nothing", false, false, false},
-                                         Ground{"AnEarlierRun", true, false, false},
-                                         Ground{"AnEarlierRunAndNotes", true, true, false},
-                                         Ground{"AnEarlierRunAndAFolder", true, true, true}),
+                         testing::Values(Ground{"Nothing", false, false, true, false},
+                                         Ground{"AnEarlierRun", true, false, true, false},
+                                         Ground{"AnEarlierRunAndOthers", true, true, true, false},
+                                         Ground{"NoExchange", true, false, false, false},
+                                         Ground{"NoExchangeAndOthers", true, true, false, false},
+                                         Ground{"CurrentFolder", true, true, true, true},
+                                         Ground{"CurrentFolderWithoutExchange", true, true, false, true}),
                          [](const auto& ground) { return std::string(ground.param.name); });
 
 }  // namespace

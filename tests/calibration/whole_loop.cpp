@@ -168,7 +168,8 @@ Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::
     target.stage({name, csv_text(log)});
     runs.push_back(folder / name);
   }
-  target.publish();
+  std::vector<Diagnostic> notes;
+  target.publish(notes);
   return read_measurement(runs);
 }
 

@@ -44,7 +44,7 @@ class FileAccess {
   FileAccess* outer_;
 };
 
-/// From the disk, whoever watches. First ends what a killed run began to publish in that folder.
+/// From the disk, without the FileAccess that there is.
 void read_from_disk(const ReadRequest& request, const TakeBlock& take);
 
 }  // namespace fusee

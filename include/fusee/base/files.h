@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "fusee/base/diagnostics.h"
 #include "fusee/base/file_access.h"
 
 namespace fusee {
@@ -22,6 +23,9 @@ void read_blocks(const ReadRequest& request, const TakeBlock& take);
 std::string read_file(const std::filesystem::path& path, std::size_t limit);
 /// The same of what fusee itself wrote, now or earlier: no input.
 std::string read_output(const std::filesystem::path& path, std::size_t limit);
+
+/// The system's folder for temporary files. OutputError where TMPDIR names none.
+std::filesystem::path temporary_folder();
 
 /// SHA-256 of `bytes`, 64 lower-case hex digits.
 std::string sha256(std::string_view bytes);
@@ -37,20 +41,19 @@ struct OutputFile {
 
 /// A set of files that appears in `folder` whole or not at all.
 ///
-/// stage() writes the files into a hidden folder, publish() flushes them to disk and puts them in place; the destructor
-/// removes what was staged and not published, and the folders made for it. A kill at any moment leaves the old set or
-/// the new one: publish() makes a folder of the new files and of what else the old one holds, and exchanges both by one
-/// rename. Where a folder cannot be replaced (it holds folders, is the one that the process stands in, a mount point,
-/// of another owner) the files are renamed one by one, manifest.json last, and the next OutputFolder ends what a killed
-/// one began. What a killed run left staged is removed by the next one. Who publishes while another run does waits for
-/// it.
+/// stage() writes the files into a private folder beside the place, publish() flushes them to disk and makes that
+/// folder take the place of the earlier one, with whatever else the earlier one held. The destructor removes what was
+/// staged and not published, and the folders made for it. A kill at any moment leaves the old set or the new one; what
+/// it left aside is put back or removed by the next publish() into that folder. In a folder that cannot be renamed (the
+/// process stands in it, it is a mount point, of another owner) files are replaced one by one, between the removal of
+/// manifest.json and its return: a folder without it, after a kill, holds no set.
 ///
-/// Whose work is it? A folder that fusee wrote holds a manifest.json naming its outputs with their SHA-256. claim() and
-/// publish() throw OutputError when publishing would overwrite a file that is not named there, or whose bytes were
+/// Which files are ours? A folder that fusee wrote holds a manifest.json naming its outputs with their SHA-256. claim()
+/// and publish() throw OutputError when publishing would overwrite a file that is not named there, or whose bytes were
 /// changed since, unless `force`. A manifest that cannot be read is somebody else's file.
 class OutputFolder {
  public:
-  /// Touches nothing yet, but for what killed runs left.
+  /// Changes nothing on the disk.
   OutputFolder(std::filesystem::path folder, bool force);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -67,18 +70,27 @@ class OutputFolder {
   /// Publishing will remove those of `names` that an earlier run wrote, that nobody changed since, and that this run
   /// did not write: they would be taken for this run's.
   void withdraw(const std::vector<std::string>& names);
-  /// Where a rename fails, what was renamed before it is put back.
-  void publish();
+  /// Where a rename fails, what was renamed before it is put back. `notes` receives what was put back or ignored of
+  /// killed runs.
+  void publish(std::vector<Diagnostic>& notes);
   /// Removes what is staged and the folders made for it from the disk, and nothing else: an interrupted program leaves
   /// while other threads still ask where their files are.
   void discard() const;
 
  private:
-  void demand_ours(const std::vector<std::string>& names) const;
+  struct NotOurs {
+    std::vector<std::string> foreign, changed;
+  };
+
+  void learn_ours();
+  void demand_files(const std::vector<std::string>& names) const;
+  NotOurs not_ours(const std::vector<std::string>& names) const;
+  void demand_ours(const std::vector<std::string>& names);
   void open_staging();
-  std::vector<std::string> obsolete() const;
-  bool publish_as_folder(const std::vector<std::string>& gone);
-  void publish_one_by_one(const std::vector<std::string>& gone);
+  bool is_obsolete(const std::filesystem::path& file) const;
+  bool link_others() const;
+  bool publish_as_folder(std::vector<Diagnostic>& notes);
+  void publish_one_by_one();
   void put_back(const std::vector<std::string>& published) const;
 
   std::filesystem::path folder_;  ///< as it was named

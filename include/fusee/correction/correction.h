@@ -32,9 +32,13 @@ struct Correction {
   double error_now = 0;
   double error_with_pulley = 0;  ///< … with the corrected pulley, tendons tied at α = 0
   double error_with_table = 0;   ///< … and the motor where the table says
-  double by_pulley = 0;          ///< what the pulley takes away: error_now² − error_with_pulley² is its square
-  double by_table = 0;           ///< what the table takes away beyond that, the empirical curve in it included …
-  double by_curve = 0;           ///< … which alone takes away so much of data that it was not made from; 0: not in it
+  // By how much less rows that were left out miss the declared law, rms, rad: the difference of the squares is the
+  // square of what is taken away. 0: they do not get better, and the file is not to be used.
+  double by_pulley = 0;  ///< by what the corrected pulley changes of the joint …
+  double by_table = 0;   ///< … and by the table beyond that, the empirical curve in it included …
+  double by_curve = 0;   ///< … which alone takes away so much of data that it was not made from; 0: not in it
+  std::string why_no_pulley_file;      ///< why corrected.toml is not to be used; "" where it is
+  std::string why_no_table;            ///< the same of compensation.csv
   std::vector<CompensationRow> table;  ///< for the corrected pulley where there is one, within the range seen
 };
 

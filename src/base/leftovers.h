@@ -1,0 +1,34 @@
+/// \file
+/// Internal: the staging folders of killed runs, and the way back from them.
+///
+/// A killed run leaves its staging folder (staging.h). The next run that publishes into the same place puts back what
+/// lies aside there and removes the rest. It trusts nothing in it: the folder must belong to this user, with mode 0700,
+/// and nobody may hold its lock; no link is followed; entries are moved by their plain names, into the place alone, and
+/// never over what stands there. Nothing outside the staging folder is deleted.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/written_files.h"
+#include "fusee/base/diagnostics.h"
+
+namespace fusee {
+
+/// Moves the entries of `from` into `to`, but those that `is_obsolete` and those whose name is taken there. Returns how
+/// many were moved, and -1 when one could not be.
+int move_entries(const std::filesystem::path& from, const std::filesystem::path& to,
+                 const std::function<bool(const std::filesystem::path&)>& is_obsolete);
+
+/// Adds what the manifests in the leftovers of `place` list. Changes nothing. True when there is such a manifest.
+bool add_files_aside(const std::filesystem::path& place, WrittenFiles& written);
+
+/// Ends what killed runs began at the folder `place`. Never throws for what lies there; the notes report what
+/// was put back, and what was ignored.
+std::vector<Diagnostic> recover_leftovers(const std::filesystem::path& place);
+/// Removes the leftovers of `file` in which nothing but new files is.
+void remove_staged_leftovers(const std::filesystem::path& file);
+
+}  // namespace fusee
