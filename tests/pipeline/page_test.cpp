@@ -120,7 +120,7 @@ std::vector<std::string> untrue_for_users_in(const std::string& page) {
 
 TEST(Page, OfThePhysicsNamesOnlyWhatThereIs) {
   EXPECT_THAT(untrue_for_users_in(text_of("profiles/physics.md")), IsEmpty());
-  EXPECT_THAT(untrue_for_users_in(text_of("profiles/guarantees.md")), IsEmpty());
+  EXPECT_THAT(untrue_for_users_in(text_of("docs/background/guarantees.md")), IsEmpty());
 }
 
 TEST(Page, HasEveryRoomInTheOrderOfTheFlow) {
