@@ -27,15 +27,12 @@ sys.path.insert(0, str(SOURCE / "docs/pictures"))
 sys.dont_write_bytecode = True
 import draw  # noqa: E402
 
-PAGES = ["README.md", *sorted(str(path.relative_to(SOURCE)) for path in (SOURCE / "docs").rglob("*.md"))]
+# Pages whose commands are run. Those of python.md need Python's module: tests/python/pages_test.py runs them.
+PAGES = ["README.md", "profiles/calibration.md",
+         *sorted(str(path.relative_to(SOURCE)) for path in (SOURCE / "docs").rglob("*.md") if path.name != "python.md")]
 LEFT_OUT = "…"
 
 # Pages that are run ---------------------------------------------------------------------------------------------------
-
-
-def blocks(text):
-    """Each sh and console block: its kind, and its lines."""
-    return [(kind, body.splitlines()) for kind, body in re.findall(r"^```(sh|console)\n(.*?)^```", text, re.M | re.S)]
 
 
 def commands_of(kind, lines):
@@ -88,23 +85,27 @@ class Bench:
         return done.returncode, done.stdout.decode().splitlines()
 
 
-def installs(command):
-    """A command that installs packages or compiles: of it only what `fusee` does is run."""
-    return ".ci/setup" in command or "cmake" in command or "pip install" in command
+def runnable(command):
+    """Of a command that installs packages or compiles, what `fusee` does; nothing of one that needs data which are not ours."""
+    if "$FUSEE_DAVINCI_JAW" in command and "FUSEE_DAVINCI_JAW" not in os.environ:
+        return None
+    if ".ci/setup" in command or "cmake" in command:
+        command = command.split("&&")[-1].strip()
+        return command if "fusee " in command else None
+    return command
 
 
 def rewritten(page, bench, failed):
     """A page as it has to be. Commands of sh blocks that do not succeed are appended to failed, with what they print."""
     def block(match):
-        kind, lines = match[1], match[2].splitlines()
-        out = []
-        for command, shown in commands_of(kind, lines):
-            run = command.split("&&")[-1].strip() if installs(command) else command
-            code, printed = bench.run(run) if "fusee" in run or not installs(command) else (0, [])
+        kind, shown_again = match[1], []
+        for command, shown in commands_of(kind, match[2].splitlines()):
+            run = runnable(command)
+            code, printed = bench.run(run) if run else (0, [])
             if kind == "sh" and code != 0:
-                failed.append((command, printed))
-            out += [f"$ {command}", *shortened(printed, shown)]
-        return match[0] if kind == "sh" else "```console\n" + "".join(line + "\n" for line in out) + "```"
+                failed.append(command + "\n" + "\n".join(printed))
+            shown_again += [f"$ {command}", *shortened(printed, shown)]
+        return match[0] if kind == "sh" else "```console\n" + "".join(line + "\n" for line in shown_again) + "```"
     return re.sub(r"^```(sh|console)\n(.*?)^```", block, (SOURCE / page).read_text(), flags=re.M | re.S)
 
 
@@ -286,24 +287,22 @@ def quick_pages(program):
 
 
 def run_pages(program):
-    """Pages of reference for which commands are run."""
+    """Pages of reference for which commands are run, and pictures."""
     with Bench(program) as bench:
-        return {"docs/reference/columns.md": columns_page(bench), "docs/reference/json.md": json_page(bench)}
+        pages = {"docs/reference/columns.md": columns_page(bench), "docs/reference/json.md": json_page(bench)}
+    return {**pages, **{f"docs/pictures/{name}": text for name, text in draw.pictures(program).items()}}
 
 
 def main():
     program = Path(sys.argv[1]).resolve()
-    written = {**quick_pages(program), **run_pages(program)}
-    written |= {f"docs/pictures/{name}": text for name, text in draw.pictures(program).items()}
-    for path, text in written.items():
+    for path, text in {**quick_pages(program), **run_pages(program)}.items():
         (SOURCE / path).write_text(text)
     for page in PAGES:
-        if page not in written and any(kind == "console" for kind, _ in blocks((SOURCE / page).read_text())):
+        if "```console" in (SOURCE / page).read_text():
             with Bench(program) as bench:
                 failed = []
                 (SOURCE / page).write_text(rewritten(page, bench, failed))
-                for command, printed in failed:
-                    print(f"{page}: {command}\n" + "\n".join(printed), file=sys.stderr)
+                print("\n".join(f"{page}: {words}" for words in failed), end="", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ STYLE = (SOURCE / "export/report/figure.css").read_text() + (SOURCE / "export/ki
 # A figure of the report that is a picture by itself, by its title.
 MECHANISM = "The mechanism at θ = 0.0°, α = 0.0°"
 FIGURES = [  # picture, mechanism, page, title
+    ("finger_joint.svg", "finger", "report.html", MECHANISM),
     ("layout_lever.svg", "forearm", "report.html", MECHANISM),
     ("layout_drum.svg", "finger_mcp", "report.html", MECHANISM),
     ("layout_idlers.svg", "elbow_idlers", "report.html", MECHANISM),
@@ -172,6 +173,7 @@ class Sheet:
 PICTURE = """.figure .tendon{stroke-width:3.2}
 .figure .t1{stroke:var(--p1)}.figure .t2{stroke:var(--p2)}
 .figure .body1{fill:var(--p1);fill-opacity:.18;stroke:var(--p1)}.figure .body2{fill:var(--p2);fill-opacity:.18;stroke:var(--p2)}
+.figure .box{fill:var(--body);stroke:var(--line)}
 .figure .bone{stroke:var(--ink);stroke-width:12;opacity:.22}"""
 
 
@@ -277,6 +279,41 @@ def slack_picture(joint):
     return picture(700, 420, f"A finger bent by {theta:.0f}°: round pulleys leave {slack[worst]:.1f} mm of slack, shaped ones none", "".join(parts))
 
 
+# The modules ----------------------------------------------------------------------------------------------------------
+
+MODULES = {
+    "The joint": {"base": "files, units, checks", "mechanism": "the file and its keys", "transmission": "θ(α), paths, arms",
+                  "profile": "pitch curves", "helix": "spirals", "joint": "elastic, with friction"},
+    "Questions": {"analysis": "forces and errors", "optimize": "better numbers", "paper": "the paper, computed"},
+    "Measured data": {"measurement": "runs from CSV", "plan": "which runs", "calibration": "which causes", "correction": "the corrected file"},
+    "The part": {"solid": "mesh, one turn", "coil": "mesh, several turns", "kit": "test rig", "model": "for simulators"},
+    "Files, commands": {"export": "a function a format", "pipeline": "the verbs", "python": "from Python", "cli": "from a shell"},
+}
+
+
+def flow():
+    """The modules in the order in which they may include each other, as the top CMakeLists.txt has them."""
+    text = (SOURCE / "CMakeLists.txt").read_text()
+    lines = re.search(r"#\s+(base <- (?:.|\n#)*)", text)[1]
+    return re.findall(r"[a-z]+", lines)
+
+
+def modules():
+    drawn = [name for row in MODULES.values() for name in row]
+    if drawn != flow():
+        raise ValueError(f"docs/pictures/draw.py draws {drawn}, CMakeLists.txt has {flow()}")
+    parts = []
+    for line, (title, row) in enumerate(MODULES.items()):
+        y = 12 + 76 * line
+        parts.append(f'<text class="heading end" x="128" y="{y + 30}">{title}</text>')
+        for place, (name, about) in enumerate(row.items()):
+            x = 142 + 148 * place
+            parts.append(f'<rect class="box" x="{x}" y="{y}" width="138" height="50" rx="6"/><text class="heading middle" x="{x + 69}" y="{y + 21}">{name}</text>'
+                         f'<text class="soft middle" x="{x + 69}" y="{y + 39}">{about}</text>')
+    parts.append('<text class="soft" x="142" y="408">A module includes only modules above it, and to its left.</text>')
+    return picture(1040, 420, "The modules of fusee, in the order in which they may include each other", "".join(parts))
+
+
 def pictures(program):
     """Name and text of every SVG picture of docs/pictures."""
     with tempfile.TemporaryDirectory() as folder:
@@ -287,4 +324,5 @@ def pictures(program):
         finger = Joint(program, "finger", folder)
         texts["joint.svg"] = moving_joint(finger)
         texts["slack.svg"] = slack_picture(finger)
+        texts["modules.svg"] = modules()
         return texts
