@@ -1,4 +1,4 @@
-"""Every line of Python that README.md and docs/reference/python.md show runs as it is written, and so does the sweep, here and on Dask."""
+"""Each line of Python that README.md and docs/reference/python.md show runs as written. So does the sweep, here and on Dask."""
 
 import contextlib
 import importlib.util
@@ -28,7 +28,8 @@ def blocks(page):
 class Pages(harness.Scratch):
     def setUp(self):
         super().setUp()
-        shutil.copytree(harness.SOURCE / "profiles", self.folder / "profiles")
+        for folder in ("profiles", "docs"):
+            shutil.copytree(harness.SOURCE / folder, self.folder / folder)
         (self.folder / "arm.toml").write_text(fusee.new("forearm"))
         before = os.getcwd()
         os.chdir(self.folder)
