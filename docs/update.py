@@ -19,6 +19,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 import tomllib
 from pathlib import Path
 
@@ -114,6 +115,10 @@ def rewritten(page, bench, failed):
 WRITTEN = "<!-- Written by docs/update.py from what the program prints; a test compares. -->\n"
 
 
+def wrapped(text):
+    return textwrap.fill(text, 118, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
 def output(program, *arguments, folder=None):
     return subprocess.run([program, *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=folder,
                           env={**os.environ, "LC_ALL": "C.UTF-8"}).stdout.decode()
@@ -129,7 +134,7 @@ def commands_page(program):
     names = [line.split()[0] for line in section(overview, "commands:").splitlines()]
     text = f"# Commands\n\n{WRITTEN}\n"
     text += "`fusee help COMMAND` prints the same. `cmake --install build/release` also installs manual pages (`man fusee-build`).\n\n"
-    text += " · ".join(f"[{name}](#fusee-{name})" for name in names) + "\n"
+    text += wrapped(" · ".join(f"[{name}](#fusee-{name})" for name in names))
     for name in names:
         parts = re.split(r"\n(?=[a-z][a-z, ]*:\n)", output(program, "help", name).rstrip("\n"))
         kept = [part for part in parts if not part.startswith("options of every command:")]
@@ -175,9 +180,9 @@ def keys_page(program):
     fields = json.loads(output(program, "explain", "--json"))["explained"]["fields"]
     tables, endings = listed(program, fields)
     text = f"# Keys of the mechanism file\n\n{WRITTEN}\n"
-    text += "`fusee explain KEY` prints one of them, with all that the [catalogue](catalogue.md) has for it; "
-    text += "`fusee explain --schema` a JSON schema\nfor editors. What the keys do together: [The mechanism file](mechanism-file.md).\n\n"
-    text += " · ".join(f"[{name}](#{name})" for name in tables) + "\n"
+    text += wrapped("`fusee explain KEY` prints one of them, with its entries of the [catalogue](catalogue.md). `fusee explain --schema` prints "
+                    "a JSON schema for editors. [The mechanism file](mechanism-file.md) says what the keys do together.")
+    text += "\n" + wrapped(" · ".join(f"[{name}](#{name})" for name in tables))
     table = None
     for field in fields:
         if field["table"] != table:
@@ -200,9 +205,9 @@ def catalogue_page(program):
         catalogue.update(json.loads(output(program, "explain", key, "--json"))["explained"].get("catalogue", {}))
     titles = {"horns": "Horns and splines of servos: `body.horn`", "shafts": "Shafts of motors: `body.shaft`",
               "tendons": "Tendons", "materials": "Materials: `material.name`"}
-    text = f"# Catalogue\n\n{WRITTEN}\nParts and materials that the program knows by name, with their sources. "
-    text += "Where a source says “measure yours”, no drawing was found:\nmeasure the part before you print. "
-    text += "To add an entry, write its table into a file of `profiles/catalogue/` and compile again.\n"
+    text = f"# Catalogue\n\n{WRITTEN}\n" + wrapped(
+        "Parts and materials that the program knows by name, with their sources. Where a source says “measure yours”, no drawing was "
+        "found: measure the part before you print. To add an entry, write its table into a file of `profiles/catalogue/` and compile again.")
     for kind, title in titles.items():
         text += f"\n## {title}\n\n| name | what | sizes | source |\n|---|---|---|---|\n"
         for entry in catalogue[kind]:
