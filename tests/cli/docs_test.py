@@ -101,7 +101,7 @@ class Readme(unittest.TestCase):
         self.assertLessEqual(len(self.LINES), 150)
 
     def test_shows_the_second_command_within_two_screens(self):
-        self.assertLess(self.LINES.index(next(line for line in self.LINES if line.startswith(".ci/setup tests"))), 80)
+        self.assertLess(self.LINES.index(next(line for line in self.LINES if line.startswith(".ci/setup tests"))), 60)
 
     def test_has_no_paragraph_above_five_lines(self):
         for paragraph in without_code("\n".join(self.LINES)).split("\n\n"):
