@@ -10,7 +10,7 @@
 
 namespace fusee {
 
-/// As CONTRACT §6 names it: "not_testable".
+/// As in calibration.json: "not_testable".
 std::string_view word(CalibrationVerdict verdict);
 
 /// What can be done about an effect, a sentence.
