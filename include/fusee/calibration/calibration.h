@@ -1,5 +1,5 @@
 /// \file
-/// From a measured residual to named effects with their evidence: CONTRACT §6.
+/// From a measured residual to named effects with their evidence.
 #pragma once
 
 #include <functional>
@@ -139,7 +139,7 @@ struct Detectable {
   double smallest = 0;  ///< rad at the joint
 };
 
-/// CONTRACT §6; in words: words.h.
+/// word() in words.h has the words.
 enum class CalibrationVerdict { not_testable, not_repeatable, unexplained, confounded, explained, no_effect };
 
 /// Rows that were left out, and the joint as all others have it.

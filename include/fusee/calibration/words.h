@@ -11,7 +11,7 @@
 
 namespace fusee {
 
-/// As CONTRACT §6 names it: "not_testable".
+/// As in calibration.json: "not_testable".
 std::string_view word(CalibrationVerdict verdict);
 
 /// "100 : 1" of a log of odds: to one digit, and of more than a million to one no more.

@@ -48,8 +48,8 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
 /// The declared file with the [identified] table, its comments kept; what was found stands above it in words.
 std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared,
                            const Calibration& calibration, const Correction& correction);
-/// CONTRACT §6. With an empirical curve in it two more columns, empirical_up_deg and empirical_down_deg, say which part
-/// of both angles is the curve's.
+/// Columns theta_deg, alpha_up_deg, alpha_down_deg. With an empirical curve two more, empirical_up_deg and
+/// empirical_down_deg, have the curve's part of both angles.
 std::string compensation_csv(const Correction& correction);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// What `fusee calibrate` leaves behind, as bytes: CONTRACT §6.
+/// Outputs of `fusee calibrate`, as bytes.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 /// \file
-/// Measured runs of a joint: what a bench logged, read with suspicion and cut into strokes. CONTRACT §5.
+/// Measured runs of a joint: what a bench logged, read with suspicion and cut into strokes.
 #pragma once
 
 #include <array>

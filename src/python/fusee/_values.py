@@ -447,7 +447,7 @@ class Documented(Value):
     json: str
 
     def document(self) -> Dict[str, Any]:
-        """All that there is to say, as CONTRACT.md has it: a dictionary of one's own."""
+        """The whole document, as docs/reference/json.md has it: a new dictionary."""
         read: Dict[str, Any] = json.loads(self.json) if self.json else {}
         return read
 

@@ -2,7 +2,7 @@
 # # Ten thousand pulleys
 #
 # A sweep over five lengths of a joint: of each design both pitch curves are drawn, tendons are wound on them, and what matters is kept. Cells
-# for an editor that knows `# %%` (or jupytext); as a script: `python3 profiles/python_sweep.py [DESIGNS] [WORKERS] [futures|dask]`.
+# for an editor that knows `# %%` (or jupytext); as a script: `python3 docs/reference/python_sweep.py [DESIGNS] [WORKERS] [futures|dask]`.
 
 # %% What is swept: keys of the mechanism file, each between two numbers.
 import math
