@@ -228,7 +228,9 @@ RUNS = [  # file, what makes it (in the bench's folder), what it is
     ("analyze -o FILE.csv", "fusee analyze arm.toml -o a.csv", "a.csv", "Forces over the stroke: by the paper, and by the full model with α rising and falling"),
     ("run_1.csv", "fusee plan arm.toml", "out/arm_plan/run_1.csv", "An empty run of `fusee plan` and `fusee kit`, to fill in; a log for `fusee calibrate`"),
     ("simulate", "fusee simulate arm.toml out/arm_plan/run_1.csv -o s.csv", "s.csv", "What `fusee simulate` adds to a log"),
-    ("compensation.csv", "fusee calibrate profiles/forearm.toml profiles/measured/forearm_*.csv --no-audit -o c", "c/compensation.csv",
+    ("compensation.csv", "for i in 1 2 3 4 5; do fusee simulate profiles/forearm.toml profiles/measured/forearm_$i.csv "
+     "--set identified.backlash_deg=1.5 --noise-deg 0.02 --seed $i -o m_$i.csv; done; "
+     "fusee calibrate profiles/forearm.toml m_*.csv --no-audit -o c", "c/compensation.csv",
      "Where the motor has to stand for the joint to be at θ"),
 ]
 DOCUMENTS = [  # command, what is run

@@ -99,35 +99,57 @@ std::string number_words(const FittedParameter& number, const std::string& load_
   return name + " " + readable_rounded(number.value, 3) + unit;
 }
 
-/// "both pulleys too small (scale −1.2 %)", or by its name where the words of the sign stand for a part that they do
+/// A cause, and the numbers that it may have: by two effects where both say the same of the joint.
+struct CandidateWords {
+  std::string cause;
+  std::vector<std::string> numbers;
+};
+
+/// "both pulleys too small" and "scale −1.2 %"; by its name where the words of the sign stand for a part that they do
 /// not name ("it shows too little").
-std::string candidate_words(const std::string& name, const std::vector<FittedParameter>& numbers,
-                            const std::string& load_unit) {
-  if (numbers.empty()) return open_words(name);
+CandidateWords candidate_words(const std::string& name, const std::vector<FittedParameter>& numbers,
+                               const std::string& load_unit) {
+  if (numbers.empty()) return {open_words(name), {}};
   const FittedParameter& first = numbers.front();
   const bool is_named = first.sense.empty() || first.sense.rfind("it ", 0) == 0;
-  return (is_named ? open_words(name) : first.sense) + " (" + number_words(first, load_unit) + ")";
+  return {is_named ? open_words(name) : first.sense, {number_words(first, load_unit)}};
 }
 
 bool may_be_unmodelled(const FoundEffect& effect) { return effect.group.back() == k_unmodelled; }
 
-/// The effect, and others of its group, the ones with numbers first.
-std::string group_words(const FoundEffect& effect, const std::string& load_unit) {
-  std::vector<std::string> words = {candidate_words(effect.name, effect.parameters, load_unit)};
-  std::size_t more = 0;
+/// What else may be there, in the order of the group.
+std::vector<CandidateWords> other_candidates(const FoundEffect& effect, const std::string& load_unit) {
+  std::vector<CandidateWords> others;
   for (const std::string& member : rivals_of(effect)) {
     if (member == k_unmodelled) continue;
     const auto own = std::find_if(effect.instead.begin(), effect.instead.end(),
                                   [&](const MemberBeside& other) { return other.name == member; });
-    if (words.size() == k_most_candidates) {
-      ++more;
-      continue;
-    }
-    words.push_back(own == effect.instead.end() ? open_words(member)
-                                                : candidate_words(member, own->parameters, load_unit));
+    others.push_back(own == effect.instead.end() ? CandidateWords{open_words(member), {}}
+                                                 : candidate_words(member, own->parameters, load_unit));
   }
+  return others;
+}
+
+/// The effect, and others of its group.
+std::string group_words(const FoundEffect& effect, const std::string& load_unit) {
+  std::vector<CandidateWords> candidates = {candidate_words(effect.name, effect.parameters, load_unit)};
+  std::size_t more = 0;
+  for (const CandidateWords& other : other_candidates(effect, load_unit)) {
+    const auto same = std::find_if(candidates.begin(), candidates.end(),
+                                   [&](const CandidateWords& known) { return known.cause == other.cause; });
+    if (same != candidates.end()) {
+      same->numbers.insert(same->numbers.end(), other.numbers.begin(), other.numbers.end());
+    } else if (candidates.size() < k_most_candidates) {
+      candidates.push_back(other);
+    } else {
+      ++more;
+    }
+  }
+  std::vector<std::string> words;
+  for (const CandidateWords& one : candidates)
+    words.push_back(one.cause + (one.numbers.empty() ? "" : " (" + joined(one.numbers, " or ") + ")"));
   std::string text = (words.size() > 1 ? "either " : "") + joined(words, ", or ");
-  if (more > 0) text += ", or one of " + std::to_string(more) + " more";
+  if (more > 0) text += more == 1 ? ", or 1 more" : ", or one of " + std::to_string(more) + " more";
   return text + (may_be_unmodelled(effect) ? ", or an unmodelled cause" : "");
 }
 
