@@ -277,11 +277,14 @@ struct Corrected {
   const DeclaredMechanism& declared;
   const DeclaredMechanism& corrected;
   bool has_pulley = false;
+  double tie = 0;  ///< where the motor stands when the pulley's tendons are tied, rad
 
   Angles now(const Imperfections& at, const BenchLog& log) const { return predict(expected_joint(declared), at, log); }
   Angles then(const Imperfections& at, const BenchLog& log) const {
     if (!has_pulley) return now(at, log);
-    return predict(expected_joint(corrected), beyond_mechanism(at, kind_of(declared)), log);
+    Imperfections rest = beyond_mechanism(at, kind_of(declared));
+    rest.motor.offset -= tie;
+    return predict(expected_joint(corrected), rest, log);
   }
 };
 
@@ -379,17 +382,15 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
   correction.has_pulley = !declared.transmission && !same_drawing(declared, corrected);
   if (correction.has_pulley) correction.infeasible = why_infeasible(corrected);
   if (!correction.infeasible.empty()) correction.has_pulley = false;
-  const auto rows_left_out = [&] {
-    return measured({declared, corrected, correction.has_pulley}, measurement, law, calibration.left_out);
+  const auto rows_left_out = [&](double tie) {
+    return measured({declared, corrected, correction.has_pulley, tie}, measurement, law, calibration.left_out);
   };
-  Measured rows = rows_left_out();
-  if (correction.has_pulley && !(rows.gone_by_pulley() > 0)) {
-    correction.has_pulley = false;
-    correction.why_no_pulley_file = k_no_better;
-    rows = rows_left_out();
+  if (correction.has_pulley) {
+    correction.by_pulley = rows_left_out(tied_at(corrected)).gone_by_pulley();
+    correction.has_pulley = correction.by_pulley > 0;
+    if (!correction.has_pulley) correction.why_no_pulley_file = k_no_better;
   }
-  correction.by_pulley = rows.gone_by_pulley();
-  correction.by_table = rows.gone_by_table();
+  correction.by_table = rows_left_out(0).gone_by_table();
   if (correction.has_pulley && declared.pulley.law == Law::compensate) correction.round = round_choice(corrected);
   if (correction.has_pulley) correction.tied_at = tied_at(corrected);
 

@@ -502,7 +502,7 @@ class Calibration(Documented):
     unexplained_rms_deg: float
     next_runs: Tuple[str, ...]
     residuals: Tuple[Residual, ...]
-    corrected: Mechanism  #: the declared one with what was found: build() makes the corrected pulley
+    corrected: Optional[Mechanism]  #: the declared one with what was found, for build(); None where nothing was found that rows left out confirm
     json: str = dataclasses.field(repr=False)
     files: Table[str, bytes] = dataclasses.field(repr=False)
     notes: Tuple[str, ...] = dataclasses.field(repr=False)

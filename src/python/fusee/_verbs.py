@@ -368,7 +368,8 @@ def calibrate(
     made["before"], made["after"] = (_figures(said.get(name) or {}) for name in ("before", "after"))
     made["unexplained_rms_deg"] = _known(said.get("unexplained_rms_deg"))
     made["next_runs"] = tuple(str(run) for run in said.get("next_runs", ()))
-    corrected = _reread(mechanism, made["files"]["corrected.toml"].decode())
+    file = made["files"].get("corrected.toml")
+    corrected = None if file is None else _reread(mechanism, file.decode())
     return _values.Calibration(json=document, corrected=corrected, **_with_values(made))
 
 
