@@ -62,8 +62,7 @@ void replace_name(std::string& text, const std::string& from, const std::string&
 
 fs::path working_folder() {
   std::error_code error;
-  const fs::path folder = fs::current_path(error);
-  return error ? fs::path() : folder;
+  return fs::current_path(error);
 }
 
 fs::path seen_from(const fs::path& here, const fs::path& path) { return whole_of(here, path).lexically_relative(here); }
@@ -104,14 +103,13 @@ std::string BundleNames::unused(const std::string& folder, const std::string& na
 
 std::string BundleNames::outside(const fs::path& whole) {
   const fs::path folder = whole.parent_path();
-  auto home = named_.find(folder);
-  if (home == named_.end()) home = named_.emplace(folder, "").first;
-  if (home->second.empty()) {
-    for (int i = 1; home->second.empty() || !used_.insert(home->second).second; ++i)
-      home->second = i == 1 ? "outside" : "outside_" + std::to_string(i);
-    add_folder(folder, home->second);
+  std::string& home = named_[folder];
+  if (home.empty()) {
+    home = "outside";
+    for (int i = 2; !used_.insert(home).second; ++i) home = "outside_" + std::to_string(i);
+    add_folder(folder, home);
   }
-  return unused(home->second + "/", tame(whole.filename().string()));
+  return unused(home + "/", tame(whole.filename().string()));
 }
 
 std::string BundleNames::inner(const fs::path& path) {
