@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -178,13 +179,12 @@ void demand_few_places(const Bundle& bundle, const Index& index) {
 
 bool is_inner_path(std::string_view path) {
   const bool foreign = path.find_first_of("\\:") != std::string_view::npos || cleaned_line(path) != path;
-  if (path.empty() || path.size() > k_longest_path || foreign) return false;
-  for (std::string_view rest = path;;) {
-    const std::string_view part = rest.substr(0, rest.find('/'));
-    if (part.empty() || part.front() == '.' || part.size() > k_longest_name) return false;
-    if (part.size() == rest.size()) return true;
-    rest.remove_prefix(part.size() + 1);
-  }
+  const std::string whole = fmt::format("/{}/", path);
+  const bool hides = whole.find("//") != std::string::npos || whole.find("/.") != std::string::npos;
+  const std::filesystem::path parts(path);
+  return path.size() <= k_longest_path && !foreign && !hides &&
+         std::all_of(parts.begin(), parts.end(),
+                     [](const auto& part) { return part.native().size() <= k_longest_name; });
 }
 
 std::string bundle_bytes(const Bundle& bundle) {

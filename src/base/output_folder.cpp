@@ -58,13 +58,14 @@ bool is_replaceable(const fs::path& folder) {
   const fs::path here = fs::current_path(error);
   const bool stands_in_it = std::mismatch(folder.begin(), folder.end(), here.begin(), here.end()).first == folder.end();
   if (error || stands_in_it || has_attributes(folder)) return false;
-  const std::vector<std::string> names = names_in(folder);
-  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
-    struct stat entry {};
-    if (::lstat((folder / name).c_str(), &entry) != 0) return false;
-    return !S_ISDIR(entry.st_mode) ||
-           (entry.st_dev == status.st_dev && ::access((folder / name).c_str(), W_OK | X_OK) == 0);
-  });
+  for (const std::string& name : names_in(folder)) {
+    const fs::path entry = folder / name;
+    struct stat inner {};
+    if (::lstat(entry.c_str(), &inner) != 0) return false;
+    if (S_ISDIR(inner.st_mode) && (inner.st_dev != status.st_dev || ::access(entry.c_str(), W_OK | X_OK) != 0))
+      return false;
+  }
+  return true;
 }
 
 bool set_rights(const fs::path& folder, const fs::path& like) {

@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <zip.h>
 
-#include <algorithm>
 #include <array>
 
 #include "fusee/base/diagnostics.h"
@@ -74,9 +73,7 @@ ZipArchive::ZipArchive(std::string_view bytes, std::string name, const std::stri
   throw InputError(file_, fmt::format("expected {}: {}", expected, reason));
 }
 
-std::size_t ZipArchive::size() const {
-  return static_cast<std::size_t>(std::max<zip_int64_t>(0, zip_get_num_entries(archive_.get(), 0)));
-}
+std::size_t ZipArchive::size() const { return static_cast<std::size_t>(zip_get_num_entries(archive_.get(), 0)); }
 
 std::string ZipArchive::name_of(std::size_t entry) const {
   const char* name = zip_get_name(archive_.get(), entry, ZIP_FL_ENC_RAW);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/bundle.h"
-#include "cli/command.h"
 #include "fusee/base/text.h"
 
 namespace fusee::cli {
@@ -31,15 +30,6 @@ std::size_t path_begin(const std::string& word, bool is_setting) {
   if (!is_setting) return begin;
   const std::size_t equals = word.find('=', begin);
   return equals == std::string::npos ? word.size() : equals + 1;
-}
-
-/// Options whose value is no path, whatever it looks like.
-bool takes_plain_value(const std::string& flag) {
-  for (const Command& command : commands()) {
-    for (const Option& option : command.options)
-      if (flag == option.name()) return option.value != "FILE" && option.value != "DIR" && !option.value.empty();
-  }
-  return false;
 }
 
 bool belongs_to_name(char c) {
@@ -141,8 +131,7 @@ std::vector<std::string> BundleNames::inner_words(const std::vector<std::string>
     const std::size_t begin = only_paths ? 0 : path_begin(word, flag == "--set");
     const std::string value = word.substr(begin);
     // What --set gives is seen from the mechanism file's folder, where the replayed run asks for it by its name.
-    const bool is_path = !value.empty() && !takes_plain_value(flag);
-    if (is_path && (fs::path(value).is_absolute() || leads_out(seen_from(here_, value)) || !is_utf8(value)))
+    if (!value.empty() && (fs::path(value).is_absolute() || leads_out(seen_from(here_, value)) || !is_utf8(value)))
       renamed[i] = word.substr(0, begin) + inner(value);
     only_paths = only_paths || word == "--";
   }
