@@ -58,7 +58,7 @@ void read_face(TextScanner& text, TriangleMesh& mesh, GreatestIndex& greatest) {
     corners.push_back(static_cast<std::uint32_t>(index));
   }
   if (corners.empty()) text.fail("a face of at least 1 corner");
-  if (!add_fan(mesh, corners)) text.fail("a face that has a vertex at most twice");
+  if (const auto expected = add_fan(text.source(), mesh, corners)) text.fail(*expected);
 }
 
 void put_line(fmt::memory_buffer& to, const Vec3& v) {

@@ -94,7 +94,7 @@ void read_face(TextScanner& text, TriangleMesh& mesh, std::vector<std::uint32_t>
     if (index >= mesh.vertices.size()) text.fail(fmt::format("a vertex number below {}", mesh.vertices.size()));
     corners.push_back(static_cast<std::uint32_t>(index));
   }
-  if (!add_fan(mesh, corners)) text.fail("a face that has a vertex at most twice");
+  if (const auto expected = add_fan(text.source(), mesh, corners)) text.fail(*expected);
 }
 
 /// A colour ends with its line. Where there are fewer lines than faces, faces share lines and have no colours.

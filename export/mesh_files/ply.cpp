@@ -279,7 +279,8 @@ std::uint64_t whole(const Values& values, double value, double limit, std::strin
 template <class Values>
 class ElementReader {
  public:
-  ElementReader(Values values, const Header& header) : values_(std::move(values)), header_(header) {}
+  ElementReader(const Source& source, Values values, const Header& header)
+      : source_(source), values_(std::move(values)), header_(header) {}
 
   TriangleMesh read() {
     for (const Element& element : header_.elements) {
@@ -333,9 +334,10 @@ class ElementReader {
       corners_.push_back(
           static_cast<std::uint32_t>(whole(values_, index, static_cast<double>(header_.vertices), "a vertex number")));
     }
-    if (!add_fan(mesh_, corners_)) values_.fail("a face that has a vertex at most twice");
+    if (const auto expected = add_fan(source_, mesh_, corners_)) values_.fail(*expected);
   }
 
+  const Source& source_;
   Values values_;
   const Header& header_;
   TriangleMesh mesh_;
@@ -347,9 +349,10 @@ class ElementReader {
 TriangleMesh read_ply(const Source& source) {
   TextScanner text(source);
   const Header header = read_header(source, text);
-  if (header.encoding == Encoding::ascii) return ElementReader(AsciiValues(text, rows_of(header)), header).read();
+  if (header.encoding == Encoding::ascii)
+    return ElementReader(source, AsciiValues(text, rows_of(header)), header).read();
   const bool big_endian = header.encoding == Encoding::big_endian;
-  return ElementReader(BinaryValues(source, text.next_line_offset(), big_endian), header).read();
+  return ElementReader(source, BinaryValues(source, text.next_line_offset(), big_endian), header).read();
 }
 
 }  // namespace fusee

@@ -37,6 +37,7 @@ class TextScanner {
   /// The next three numbers of the text.
   Vec3 flowing_point(std::string_view expected);
 
+  const Source& source() const { return source_; }
   /// This line ends with a backslash.
   bool is_continued() const;
   /// How many lines with words follow this one; it stops counting at `enough`.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -12,6 +13,10 @@
 #include "fusee/base/text.h"
 
 namespace fusee {
+
+NLOHMANN_JSON_SERIALIZE_ENUM(Severity,
+                             {{Severity::error, "error"}, {Severity::warning, "warning"}, {Severity::note, "note"}})
+
 namespace {
 
 constexpr const char* k_index = "bundle.json";
@@ -24,14 +29,9 @@ constexpr std::uint64_t k_largest_index = std::uint64_t{16} << 20;
 
 // ---- writing --------------------------------------------------------------------------------------------------------
 
-std::string_view word(Severity severity) {
-  if (severity == Severity::error) return "error";
-  return severity == Severity::warning ? "warning" : "note";
-}
-
 Json to_json(const Diagnostic& diagnostic) {
-  return {{"severity", word(diagnostic.severity)}, {"file", diagnostic.place.file}, {"line", diagnostic.place.line},
-          {"column", diagnostic.place.column},     {"message", diagnostic.message}, {"hint", diagnostic.hint}};
+  return {{"severity", diagnostic.severity},   {"file", diagnostic.place.file}, {"line", diagnostic.place.line},
+          {"column", diagnostic.place.column}, {"message", diagnostic.message}, {"hint", diagnostic.hint}};
 }
 
 Json to_json(const BundledFile& file) {
@@ -91,47 +91,36 @@ class Index {
  public:
   Index(const std::string& file, const Json& json, std::string place)
       : file_(file), json_(json), place_(std::move(place)) {
-    if (!json_.is_object()) fail(file_, k_index, place_ + " is no table");
+    if (!json_.is_object()) fail(file_, k_index, place_ + " is no table of JSON");
   }
 
   bool has(const char* key) const { return json_.contains(key); }
-  std::string text(const char* key) const {
-    const Json& value = at(key);
-    if (!value.is_string()) wrong(key, "a text");
-    return value.get<std::string>();
-  }
+  std::string text(const char* key) const { return value(key, &Json::is_string, "a text").get<std::string>(); }
   std::int64_t integer(const char* key) const {
-    const Json& value = at(key);
-    if (!value.is_number_integer()) wrong(key, "a whole number");
-    return value.get<std::int64_t>();
-  }
-  const Json& list(const char* key) const {
-    const Json& value = at(key);
-    if (!value.is_array()) wrong(key, "a list");
-    return value;
+    return value(key, &Json::is_number_integer, "a whole number").get<std::int64_t>();
   }
   std::vector<std::string> texts(const char* key) const {
-    std::vector<std::string> all;
-    for (const Json& each : list(key)) {
-      if (!each.is_string()) wrong(key, "a list of texts");
-      all.push_back(each.get<std::string>());
-    }
-    return all;
+    const Json& list = value(key, &Json::is_array, "a list");
+    if (!std::all_of(list.begin(), list.end(), [](const Json& each) { return each.is_string(); }))
+      wrong(key, "a list of texts");
+    return list.get<std::vector<std::string>>();
   }
-  Index table(const char* key) const { return {file_, at(key), place_ + "." + key}; }
+  Index table(const char* key) const { return {file_, value(key, &Json::is_object, "a table"), place_ + "." + key}; }
   template <class Read>
   void for_each(const char* key, const Read& read) const {
     std::size_t count = 0;
-    for (const Json& item : list(key)) read(Index(file_, item, fmt::format("{}.{}[{}]", place_, key, count++)));
+    for (const Json& item : value(key, &Json::is_array, "a list"))
+      read(Index(file_, item, fmt::format("{}.{}[{}]", place_, key, count++)));
   }
   [[noreturn]] void wrong(const char* key, const std::string& expected) const {
     fail(file_, k_index, fmt::format("{}.{} is not {}", place_, key, expected));
   }
 
  private:
-  const Json& at(const char* key) const {
+  const Json& value(const char* key, bool (Json::*is_expected)() const noexcept, const char* expected) const {
     const auto found = json_.find(key);
     if (found == json_.end()) fail(file_, k_index, fmt::format("{} lacks {}", place_, key));
+    if (!((*found).*is_expected)()) wrong(key, expected);
     return *found;
   }
 
@@ -141,10 +130,8 @@ class Index {
 };
 
 Diagnostic read_diagnostic(const Index& index) {
-  const std::string severity = index.text("severity");
   Diagnostic diagnostic;
-  if (severity == "warning") diagnostic.severity = Severity::warning;
-  if (severity == "note") diagnostic.severity = Severity::note;
+  diagnostic.severity = Json(index.text("severity")).get<Severity>();
   diagnostic.place = {index.text("file"), static_cast<int>(index.integer("line")),
                       static_cast<int>(index.integer("column"))};
   diagnostic.message = index.text("message");
@@ -161,10 +148,9 @@ BundledFile read_bundled(const Index& index, std::map<std::string, std::string>&
     return file;
   }
   if (!is_inner_path(file.path)) index.wrong("path", "a path within the bundle");
-  const auto entry = entries.find(k_files + file.path);
-  if (entry == entries.end()) index.wrong("path", "in the bundle, or listed twice");
-  file.bytes = std::move(entry->second);
-  entries.erase(entry);
+  auto entry = entries.extract(k_files + file.path);
+  if (entry.empty()) index.wrong("path", "in the bundle, or listed twice");
+  file.bytes = std::move(entry.mapped());
   if (sha256(file.bytes) != index.text("sha256")) index.wrong("sha256", "that of " + (k_files + file.path));
   return file;
 }
@@ -189,23 +175,16 @@ void demand_few_places(const Bundle& bundle, const Index& index) {
     if (folders.count(file) != 0) index.wrong("files", fmt::format("clear: {} is a file and a folder", file));
 }
 
-Json parse_index(const std::string& text, const std::string& file) {
-  Json json = parse_foreign_json(text);
-  if (!json.is_object()) fail(file, k_index, "is no JSON document of a bundle");
-  return json;
-}
-
 }  // namespace
 
 bool is_inner_path(std::string_view path) {
   const bool foreign = path.find_first_of("\\:") != std::string_view::npos || cleaned_line(path) != path;
-  if (path.empty() || path.size() > k_longest_path || foreign) return false;
-  for (std::string_view rest = path;;) {
-    const std::string_view part = rest.substr(0, rest.find('/'));
-    if (part.empty() || part.front() == '.' || part.size() > k_longest_name) return false;
-    if (part.size() == rest.size()) return true;
-    rest.remove_prefix(part.size() + 1);
-  }
+  const std::string whole = fmt::format("/{}/", path);
+  const bool hides = whole.find("//") != std::string::npos || whole.find("/.") != std::string::npos;
+  const std::filesystem::path parts(path);
+  return path.size() <= k_longest_path && !foreign && !hides &&
+         std::all_of(parts.begin(), parts.end(),
+                     [](const auto& part) { return part.native().size() <= k_longest_name; });
 }
 
 std::string bundle_bytes(const Bundle& bundle) {
@@ -225,17 +204,15 @@ bool is_bundle(std::string_view bytes) {
 
 Bundle read_bundle(std::string_view bytes, const std::string& name) {
   std::map<std::string, std::string> entries = entries_of(bytes, name);
-  const auto text = entries.find(k_index), result = entries.find(k_result);
-  if (text == entries.end()) fail(name, k_index, "is not in this archive: it is no bundle of fusee");
-  if (result == entries.end()) fail(name, k_result, "is not in this archive: it is no whole bundle of fusee");
-  const Json json = parse_index(text->second, name);
+  auto text = entries.extract(k_index), result = entries.extract(k_result);
+  if (text.empty() || result.empty())
+    fail(name, text.empty() ? k_index : k_result, "is not in this archive: it is no bundle of fusee");
+  const Json json = parse_foreign_json(text.mapped());
   const Index index(name, json, "the bundle");
   if (index.text("tool") != "fusee bundle") index.wrong("tool", "\"fusee bundle\"");
   if (index.integer("schema") != k_schema) index.wrong("schema", "1: it is of a later fusee");
   Bundle bundle;
-  bundle.outcome.result = std::move(result->second);
-  entries.erase(text);
-  entries.erase(result);
+  bundle.outcome.result = std::move(result.mapped());
   bundle.version = index.text("version");
   bundle.built_with = index.text("built_with");
   bundle.runs_on = index.text("runs_on");

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/bundle.h"
-#include "cli/command.h"
 #include "fusee/base/text.h"
 
 namespace fusee::cli {
@@ -33,15 +32,6 @@ std::size_t path_begin(const std::string& word, bool is_setting) {
   return equals == std::string::npos ? word.size() : equals + 1;
 }
 
-/// Options whose value is no path, whatever it looks like.
-bool takes_plain_value(const std::string& flag) {
-  for (const Command& command : commands()) {
-    for (const Option& option : command.options)
-      if (flag == option.name()) return option.value != "FILE" && option.value != "DIR" && !option.value.empty();
-  }
-  return false;
-}
-
 bool belongs_to_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' ||
          static_cast<unsigned char>(c) >= 0x80;
@@ -62,8 +52,7 @@ void replace_name(std::string& text, const std::string& from, const std::string&
 
 fs::path working_folder() {
   std::error_code error;
-  const fs::path folder = fs::current_path(error);
-  return error ? fs::path() : folder;
+  return fs::current_path(error);
 }
 
 fs::path seen_from(const fs::path& here, const fs::path& path) { return whole_of(here, path).lexically_relative(here); }
@@ -104,14 +93,13 @@ std::string BundleNames::unused(const std::string& folder, const std::string& na
 
 std::string BundleNames::outside(const fs::path& whole) {
   const fs::path folder = whole.parent_path();
-  auto home = named_.find(folder);
-  if (home == named_.end()) home = named_.emplace(folder, "").first;
-  if (home->second.empty()) {
-    for (int i = 1; home->second.empty() || !used_.insert(home->second).second; ++i)
-      home->second = i == 1 ? "outside" : "outside_" + std::to_string(i);
-    add_folder(folder, home->second);
+  std::string& home = named_[folder];
+  if (home.empty()) {
+    home = "outside";
+    for (int i = 2; !used_.insert(home).second; ++i) home = "outside_" + std::to_string(i);
+    add_folder(folder, home);
   }
-  return unused(home->second + "/", tame(whole.filename().string()));
+  return unused(home + "/", tame(whole.filename().string()));
 }
 
 std::string BundleNames::inner(const fs::path& path) {
@@ -143,8 +131,7 @@ std::vector<std::string> BundleNames::inner_words(const std::vector<std::string>
     const std::size_t begin = only_paths ? 0 : path_begin(word, flag == "--set");
     const std::string value = word.substr(begin);
     // What --set gives is seen from the mechanism file's folder, where the replayed run asks for it by its name.
-    const bool is_path = !value.empty() && !takes_plain_value(flag);
-    if (is_path && (fs::path(value).is_absolute() || leads_out(seen_from(here_, value)) || !is_utf8(value)))
+    if (!value.empty() && (fs::path(value).is_absolute() || leads_out(seen_from(here_, value)) || !is_utf8(value)))
       renamed[i] = word.substr(0, begin) + inner(value);
     only_paths = only_paths || word == "--";
   }

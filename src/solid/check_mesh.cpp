@@ -268,19 +268,15 @@ std::vector<Check> check_mesh(const TriangleMesh& mesh) {
   std::vector<Check> checks{facets_check(mesh), indices_check(mesh), finite_check(mesh)};
   if (!all_ok(checks)) return checks;
   const ExaminedSurface welded{weld(mesh), {}};
-  auto crossings = beside([&welded] { return crossing_check(welded); }, mesh.triangles.size() > k_worth_a_thread);
   const FaultyFacets faulty = find_faulty_facets(welded.mesh);
   checks.push_back(none_of(welded, "degenerate_facets", faulty.degenerate));
   checks.push_back(none_of(welded, "duplicate_facets", faulty.duplicate));
-  if (faulty.none()) {
-    add_surface_checks(welded, checks);
-    checks.push_back(crossings.get());
-    return checks;
-  }
-  crossings.get();
-  const ExaminedSurface others = without_faulty_facets(welded.mesh, faulty);
-  add_surface_checks(others, checks);
-  checks.push_back(crossing_check(others));
+  // Equal facets in a heap would cost the search for crossings the square of their number.
+  const ExaminedSurface others = faulty.none() ? ExaminedSurface() : without_faulty_facets(welded.mesh, faulty);
+  const ExaminedSurface& examined = faulty.none() ? welded : others;
+  auto crossings = beside([&examined] { return crossing_check(examined); }, mesh.triangles.size() > k_worth_a_thread);
+  add_surface_checks(examined, checks);
+  checks.push_back(crossings.get());
   return checks;
 }
 

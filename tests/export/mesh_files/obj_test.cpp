@@ -64,6 +64,15 @@ TEST(Obj, AFaceHasAVertexAtMostTwice) {
               HasSubstr("expected a face that has a vertex at most twice"));
 }
 
+TEST(Obj, AFileHasBytesForItsFacets) {
+  std::string face = "f", faces;
+  for (int i = 0; i < 36; ++i) face += i % 2 == 0 ? " 1" : " 2";
+  for (int i = 0; i < 5000; ++i) faces += face + " 38\n";
+  std::string vertices = "v 1 0 0\n";
+  for (int i = 1; i < 38; ++i) vertices += "v 0 1 0\n";
+  EXPECT_THAT(error_of(vertices + faces, "x.obj"), HasSubstr("expected no more than 1"));
+}
+
 TEST(ObjReader, FansPolygonsAndCountsNegativeIndicesFromTheEnd) {
   EXPECT_THAT(read_mesh(std::string(k_square) + "f 1 2 3 4\n", "x.obj").triangles,
               ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
