@@ -44,7 +44,7 @@ std::vector<const Effect*> catalogue(const Mechanism& declared, const Measuremen
   std::vector<const Effect*> all(more.begin(), more.end());
   for (const Effect& effect : effects(kind_of(declared))) all.push_back(&effect);
   std::erase_if(all, [&](const Effect* effect) {
-    return !can_be_seen(effect->needs, declared, measurement) ||
+    return !effect->is_looked_for || !can_be_seen(effect->needs, declared, measurement) ||
            std::find(without.begin(), without.end(), effect->name) != without.end();
   });
   std::stable_sort(all.begin(), all.end(), [](const Effect* a, const Effect* b) {

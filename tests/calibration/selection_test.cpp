@@ -91,15 +91,17 @@ double apart(const std::vector<std::vector<double>>& one, const std::vector<std:
   return std::sqrt(squares / rows);
 }
 
-/// Of a size that moves θ by eight times the noise, rms.
+/// Of a size that moves θ by eight times the noise, rms, but no number near its end: what stands there is not named.
 Imperfections well_seen(const DeclaredMechanism& declared, const Effect& effect) {
+  constexpr double within = 0.8;
   const Measurement measurement = logged(declared, {}, k_full);
   const auto moved = [&](double size) {
     Imperfections at;
     double part = 1;
     for (const EffectParameter& parameter : effect.parameters) {
       if (parameter.searched) continue;
-      set_value(at, parameter, std::clamp(part * size * parameter.step, parameter.least, parameter.most));
+      set_value(at, parameter,
+                std::clamp(part * size * parameter.step, within * parameter.least, within * parameter.most));
       part *= -0.6;
       if (parameter.least == 0) part = std::abs(part);
     }

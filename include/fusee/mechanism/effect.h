@@ -136,6 +136,7 @@ struct Effect {
   bool sticks = false;          ///< holds the joint where it is until more pushes: a slope or a chord says little of it
   bool loosens = false;         ///< leaves the joint free within a play: where in it it rests, any reading says
   Needs needs;
+  bool is_looked_for = true;  ///< by calibrate and plan; else it is simulated where a file has it in [identified]
   /// What stays of it when `before` was found earlier and `joint` now, into `joint`, where WhenFoundAgain does not say
   /// it all; null: it does.
   void (*found_again)(const Imperfections& before, Imperfections& joint) = nullptr;

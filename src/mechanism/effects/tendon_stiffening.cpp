@@ -59,8 +59,9 @@ Effect tendon_stiffening(JointKind kind) {
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.load = true};
   if (kind == JointKind::tendons) {
+    // Beside pretensioned tendons it reads as tendon_stretch, and no measured joint asked for it.
+    effect.is_looked_for = false;
     effect.parameters = straightening_of_tendons();
-    effect.starts = {{0.2, 0.05}, {0.2, 0.5}};
     return effect;
   }
   effect.parameters = straightening_of_ratio();
