@@ -70,14 +70,13 @@ std::vector<Leftover> leftovers_of(const fs::path& place, std::vector<Diagnostic
 int recover(const fs::path& leftover, const fs::path& place) {
   const ReplacementLock lock(place);
   const fs::path made = leftover / "new", old = leftover / "old", ready = leftover / "ready";
-  const auto none = [](const fs::path&) { return false; };
-  if (is_folder(ready)) return move_entries(ready, place, none);
+  if (is_folder(ready)) return move_entries(ready, place);
   // After an exchange, before the earlier folder had its name: other files had second names in the new folder, and what
   // a run stages holds no folders.
   if (!is_folder(old))
     return is_folder(place) ? move_entries(made, place, [](const fs::path& entry) { return !is_folder(entry); }) : 0;
   if (move_if_free(old, place)) return 1;
-  if (is_folder(made)) return move_entries(old, place, none);
+  if (is_folder(made)) return move_entries(old, place);
   WrittenFiles earlier;
   add_written_files(old, earlier);
   return move_entries(old, place, [&earlier](const fs::path& entry) { return is_unchanged(earlier, entry); });
@@ -129,7 +128,7 @@ int move_entries(const fs::path& from, const fs::path& to, const std::function<b
   int moved = 0;
   bool stuck = false;
   for (const std::string& name : names) {
-    if (is_obsolete(from / name)) continue;
+    if (is_obsolete && is_obsolete(from / name)) continue;
     const bool done = move_if_free(name, name, source.number(), target.number());
     moved += done ? 1 : 0;
     stuck = stuck || (!done && errno != EEXIST);

@@ -33,10 +33,10 @@ void add_files_aside(const std::filesystem::path& place, WrittenFiles& written);
 /// True for a regular file that is listed, by its name, with the bytes that it has now.
 bool is_unchanged(const WrittenFiles& written, const std::filesystem::path& file);
 
-/// Moves the entries of `from` into `to`, but those that `is_obsolete` and those whose name is taken there. Returns how
-/// many were moved, and -1 when one could not be.
+/// Moves the entries of `from` into `to`, but those that `is_obsolete`, if given, and those whose name is taken there.
+/// Returns how many were moved, and -1 when one could not be.
 int move_entries(const std::filesystem::path& from, const std::filesystem::path& to,
-                 const std::function<bool(const std::filesystem::path&)>& is_obsolete);
+                 const std::function<bool(const std::filesystem::path&)>& is_obsolete = {});
 
 /// Ends what killed runs began at the folder `place`. Never throws for what lies there; the notes report what
 /// was put back, and what was ignored.

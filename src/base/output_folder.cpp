@@ -201,7 +201,7 @@ void OutputFolder::publish_one_by_one() {
     if (done) return;
     const int code = errno;
     for (const std::string& name : published) ::unlink((place_ / name).c_str());
-    if (move_entries(old, place_, [](const fs::path&) { return false; }) >= 0) staging_->remove_old();
+    if (move_entries(old, place_) >= 0) staging_->remove_old();
     fail_output("cannot write", target, code);
   };
   // The manifest goes first and comes last: where it stands, the set is whole.

@@ -1,5 +1,5 @@
 /// \file
-/// Ctrl-C, SIGTERM and SIGHUP: exit 130, nothing half done. Lack of memory where no exception can be thrown: exit 6.
+/// Ctrl-C, SIGTERM and SIGHUP: exit 130, nothing half done.
 #pragma once
 
 #include <stdexcept>
@@ -11,13 +11,8 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// From here on a signal ends the program at once with exit 130, but for the places below. `json`: with a document on
-/// stdout.
-void catch_interrupts(bool json);
-
-/// From here on the program ends with exit 6 where GMP, or a function that must not throw, finds no memory. Without it
-/// they abort. What was staged stays for the next run that publishes there to remove.
-void catch_lack_of_memory();
+/// From here on a signal ends the program at once with exit 130, but for the places below.
+void catch_interrupts();
 
 /// While one of these lives something stands on the disk that has to be removed: a signal is only noted, and
 /// stop_if_interrupted() throws Interrupted at the next step. What it ends with otherwise stands: a signal that comes

@@ -11,7 +11,9 @@
 
 #include "cli/command.h"
 #include "cli/help.h"
+#include "cli/immediate_exit.h"
 #include "cli/interrupt.h"
+#include "cli/lack_of_memory.h"
 #include "cli/recording.h"
 #include "fusee/base/file_access.h"
 
@@ -106,7 +108,7 @@ Reply bug(const std::string& what) {
 }
 
 Reply out_of_memory() {
-  return failed(Exit::cannot_write, note(Severity::error, "not enough memory for this",
+  return failed(Exit::cannot_write, note(Severity::error, k_no_memory,
                                          "end other programs, raise the limit (ulimit -v), or give it a smaller file"));
 }
 
@@ -192,8 +194,8 @@ Ending recorded_ending(std::vector<std::string> words, const std::string& bundle
 
 int run(const std::vector<std::string>& given) {
   std::vector<std::string> words = given;
-  const bool json = has_switch(words, "--json");
-  catch_interrupts(json);
+  write_json_at_exit(has_switch(words, "--json"));
+  catch_interrupts();
   catch_lack_of_memory();
   Console console;
   const std::string bundle = take_bundle_option(words);
