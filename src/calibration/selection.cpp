@@ -778,11 +778,12 @@ bool is_at_bound(const Fit& fit, const Effect& effect) {
   });
 }
 
-/// Whether rows that were not fitted are predicted worse without the effect, the others fitted anew: whole runs, and
-/// whole levels of load and speed.
-bool predicts(const Fit& with, const Fit& without) {
-  return without.by_run.mean_square + without.by_factor.mean_square >
-         with.by_run.mean_square + with.by_factor.mean_square;
+/// Whether the fits differ by as much as can be seen, and rows that were not fitted are predicted worse without the
+/// effect, the others fitted anew: whole runs, and whole levels of load and speed.
+bool predicts(const Evidence& evidence, const Fit& with, const Fit& without) {
+  return rms_apart(evidence, with.residual, without.residual) > k_thresholds.least_left * evidence.floor &&
+         without.by_run.mean_square + without.by_factor.mean_square >
+             with.by_run.mean_square + with.by_factor.mean_square;
 }
 
 /// All sets that were looked at: of the declared joint's with one effect all were fitted, of the best's those that
@@ -809,7 +810,7 @@ std::vector<Weighed> Selector::weighed() {
 bool Selector::is_for_nothing(const Effect& effect, const Fit& others) const {
   const Fit& best = selection_.best;
   if (!others.usable) return false;
-  return score(others) > score(best) || !predicts(best, others) || is_at_bound(best, effect);
+  return score(others) > score(best) || !predicts(evidence_, best, others) || is_at_bound(best, effect);
 }
 
 /// Where nothing in its place may be there as well, each of all others takes a little of the doubt away, and says
@@ -951,7 +952,7 @@ void Selector::drop_what_predicts_nothing() {
     leave_each_out();
     const Fit& others = selection_.without[i];
     if (!others.usable ||
-        (predicts(selection_.best, others) && !is_at_bound(selection_.best, *selection_.best.effects[i]))) {
+        (predicts(evidence_, selection_.best, others) && !is_at_bound(selection_.best, *selection_.best.effects[i]))) {
       ++i;
       continue;
     }

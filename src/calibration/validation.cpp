@@ -118,7 +118,7 @@ HeldOutRows::Block HeldOutRows::sum_of(const std::vector<Block>& blocks) {
   return sum;
 }
 
-/// By more than nobody would see, and by more than strokes differ in that.
+/// By more than can be seen, and by more than strokes differ in that.
 bool HeldOutRows::gets_worse(const Level& level) const {
   const Block sum = sum_of(level.blocks);
   if (sum.rows == 0) return false;
@@ -133,13 +133,9 @@ bool HeldOutRows::gets_worse(const Level& level) const {
 }
 
 std::string HeldOutRows::worse_among(const std::vector<Level>& levels) const {
-  Block all;
-  for (const Level& level : levels) {
-    const Block sum = sum_of(level.blocks);
-    all.before += sum.before;
-    all.after += sum.after;
-  }
-  if (all.after > all.before) return "all rows";
+  Level all{"all rows", {}};
+  for (const Level& level : levels) all.blocks.insert(all.blocks.end(), level.blocks.begin(), level.blocks.end());
+  if (gets_worse(all)) return all.name;
   const auto worse =
       std::find_if(levels.begin(), levels.end(), [this](const Level& level) { return gets_worse(level); });
   return worse == levels.end() ? "" : worse->name;
