@@ -778,10 +778,11 @@ bool is_at_bound(const Fit& fit, const Effect& effect) {
   });
 }
 
-/// Whether the fits differ by as much as can be seen, and rows that were not fitted are predicted worse without the
+/// Whether the fits differ by as much as can be seen beside what is left, and rows that were not fitted are predicted worse without the
 /// effect, the others fitted anew: whole runs, and whole levels of load and speed.
 bool predicts(const Evidence& evidence, const Fit& with, const Fit& without) {
-  return rms_apart(evidence, with.residual, without.residual) > k_thresholds.least_left * evidence.floor &&
+  const double noise = std::max(evidence.floor, with.explained.amplitudes.noise);
+  return rms_apart(evidence, with.residual, without.residual) > k_thresholds.least_left * noise &&
          without.by_run.mean_square + without.by_factor.mean_square >
              with.by_run.mean_square + with.by_factor.mean_square;
 }

@@ -118,26 +118,35 @@ HeldOutRows::Block HeldOutRows::sum_of(const std::vector<Block>& blocks) {
   return sum;
 }
 
-/// By more than can be seen, and by more than strokes differ in that.
-bool HeldOutRows::gets_worse(const Level& level) const {
+/// Standard error of the mean of what the squares of blocks gained, by how they differ in it, rad².
+double HeldOutRows::standard_error(const std::vector<Block>& blocks) {
+  const Block sum = sum_of(blocks);
+  const double more = (sum.after - sum.before) / sum.rows;
+  const auto count = static_cast<double>(blocks.size());
+  double squares = 0;
+  for (const Block& block : blocks) squares += std::pow(block.rows * (block.after - block.before - more) / sum.rows, 2);
+  return std::sqrt(squares * count / (count - 1.0));
+}
+
+/// By more than can be seen, and by more than strokes differ in that: a single one as those of `all` levels do.
+bool HeldOutRows::gets_worse(const Level& level, const Level& all) const {
   const Block sum = sum_of(level.blocks);
   if (sum.rows == 0) return false;
   const double more = (sum.after - sum.before) / sum.rows;
   if (more <= std::pow(k_thresholds.least_left * evidence_.floor, 2)) return false;
-  const auto count = static_cast<double>(level.blocks.size());
-  if (count < 2) return true;
-  double squares = 0;
-  for (const Block& block : level.blocks)
-    squares += std::pow(block.rows * (block.after - block.before - more) / sum.rows, 2);
-  return more > k_errors_by_chance * std::sqrt(squares * count / (count - 1.0));
+  if (all.blocks.size() < 2) return true;
+  const double error = level.blocks.size() > 1
+                           ? standard_error(level.blocks)
+                           : standard_error(all.blocks) * std::sqrt(sum_of(all.blocks).rows / sum.rows);
+  return more > k_errors_by_chance * error;
 }
 
 std::string HeldOutRows::worse_among(const std::vector<Level>& levels) const {
   Level all{"all rows", {}};
   for (const Level& level : levels) all.blocks.insert(all.blocks.end(), level.blocks.begin(), level.blocks.end());
-  if (gets_worse(all)) return all.name;
+  if (gets_worse(all, all)) return all.name;
   const auto worse =
-      std::find_if(levels.begin(), levels.end(), [this](const Level& level) { return gets_worse(level); });
+      std::find_if(levels.begin(), levels.end(), [&](const Level& level) { return gets_worse(level, all); });
   return worse == levels.end() ? "" : worse->name;
 }
 

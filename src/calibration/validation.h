@@ -51,7 +51,8 @@ class HeldOutRows {
   std::vector<Level> kept_apart(const Estimate& answer) const;
   std::string worse_among(const std::vector<Level>& levels) const;
   static Block sum_of(const std::vector<Block>& blocks);
-  bool gets_worse(const Level& level) const;
+  static double standard_error(const std::vector<Block>& blocks);
+  bool gets_worse(const Level& level, const Level& all) const;
 
   const Evidence& evidence_;
   const Estimate& declared_;
