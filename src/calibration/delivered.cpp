@@ -5,14 +5,13 @@
 #include <utility>
 
 #include "calibration/held_out.h"
-#include "calibration/intervals.h"
 #include "calibration/thresholds.h"
 
 // Beside something without a name the summit says what the numbers are, and leaves to what has no name what that may
 // explain as well. What a file hands over is to foretell: where runs that were left out are foretold better by numbers
-// of least squares that the intervals hold, nothing speaks for the others. Of a group one member is there, and perhaps
-// another beside it: where they are foretold better still by both, both are handed over, and the group stays a group.
-// What a pulley would take out is not handed over so: nobody cuts metal for a perhaps.
+// of least squares, nothing speaks for the others, nor for an interval that does not hold them. Of a group one member
+// is there, and perhaps another beside it: where they are foretold better still by both, both are handed over, and the
+// group stays a group. What a pulley would take out is not handed over so: nobody cuts metal for a perhaps.
 
 namespace fusee {
 namespace {
@@ -50,18 +49,14 @@ EffectSet perhaps_beside(const Selection& selection) {
   return all;
 }
 
-/// Of the set, or with one effect more: that one's numbers within its own intervals. The one that foretells best.
+/// Of the set, or with one effect more: the one that foretells best.
 Fit best_by_squares(Workers& workers, const Selection& selection) {
-  const std::vector<ConfidenceInterval> own = intervals(selection);
-  Fit best = workers.one().by_squares(selection.best, own);
+  Fit best = workers.one().by_squares(selection.best);
   const EffectSet perhaps = perhaps_beside(selection);
   std::vector<Fit> wider(perhaps.size());
   workers.each(perhaps.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit start = fitter.with_effect(selection.best, *perhaps[i]);
-    if (!start.usable) return;
-    std::vector<ConfidenceInterval> ranges = intervals(start);
-    std::copy(own.begin(), own.end(), ranges.begin());
-    wider[i] = fitter.by_squares(start, ranges);
+    if (start.usable) wider[i] = fitter.by_squares(start);
   });
   const Foretold by_set = foretold(best);
   for (Fit& fit : wider) {

@@ -38,8 +38,9 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
       overall = range_of(own, ranges.overall[k]);
       if_only = range_of(own, ranges.if_only[k]);
     }
-    // Numbers that predict better than those of the summit may stand beside the narrower interval.
-    if_only = {std::min(if_only.first, value), std::max(if_only.second, value)};
+    // Numbers that predict better than those of the summit may stand beside the intervals about it.
+    for (std::pair<double, double>* range : {&overall, &if_only})
+      *range = {std::min(range->first, value), std::max(range->second, value)};
     const auto shown = [&](double x) { return own.shown(x, *evidence.declared); };
     number.value = shown(value);
     std::tie(number.low, number.high) = std::minmax({shown(overall.first), shown(overall.second)});

@@ -62,35 +62,12 @@ Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
   return at;
 }
 
-/// Of all its effects: the free offset belongs to none.
-std::vector<Eigen::Index> places_of_effects(const Fit& fit) {
-  std::vector<Eigen::Index> all;
-  for (const Effect* effect : fit.effects) {
-    const std::vector<Eigen::Index> own = places_of(fit, *effect);
-    all.insert(all.end(), own.begin(), own.end());
-  }
-  return all;
-}
-
-/// `step` shortened, number by number, to where the ranges end; what is held stays. The free offset has no range.
-Eigen::VectorXd kept_within(const std::vector<ConfidenceInterval>& ranges, const Fit& fit, Eigen::VectorXd step) {
+/// `step` without what is held.
+Eigen::VectorXd of_free_numbers(const Fit& fit, Eigen::VectorXd step) {
   for (Eigen::Index k = 0; k < step.size(); ++k) {
     if (fit.J.col(k).isZero(0)) step[k] = 0;
   }
-  for (const Eigen::Index k : places_of_effects(fit)) {
-    const ConfidenceInterval& range = ranges[static_cast<std::size_t>(k)];
-    step[k] = std::clamp(fit.x[k] + step[k], range.low, range.high) - fit.x[k];
-  }
   return step;
-}
-
-/// A number that has come to an end of its range stays there, and the others go where they are best with it.
-void hold_at_ends(const std::vector<ConfidenceInterval>& ranges, Fit& fit) {
-  for (const Eigen::Index k : places_of_effects(fit)) {
-    const ConfidenceInterval& range = ranges[static_cast<std::size_t>(k)];
-    const double near = 1e-9 * (range.high - range.low);
-    if (fit.x[k] <= range.low + near || fit.x[k] >= range.high - near) fit.J.col(k).setZero();
-  }
 }
 
 /// Each by its step.
@@ -314,7 +291,7 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   return likelier(std::move(beside), settled(named_first(start)));
 }
 
-Fit Fitter::by_squares(const Fit& fit, const std::vector<ConfidenceInterval>& within) const {
+Fit Fitter::by_squares(const Fit& fit) const {
   const double ridge = wide_prior(evidence().floor);
   const auto sums_at = [&](Fit& place) {
     place.readings = sums_of_readings(evidence(), place);
@@ -324,10 +301,9 @@ Fit Fitter::by_squares(const Fit& fit, const std::vector<ConfidenceInterval>& wi
   double share = 1.0;
   for (int i = 0; i < k_most_steps_down && best.usable; ++i) {
     hold_at_bounds(best);
-    hold_at_ends(within, best);
     const NormalEquations sums = sums_at(best);
     const Eigen::VectorXd step = least_squares_step(sums, best.x, ridge);
-    Fit next = placed(best.effects, stepped(best, kept_within(within, best, share * step)), best.rest);
+    Fit next = placed(best.effects, stepped(best, of_free_numbers(best, share * step)), best.rest);
     next.J = best.J;
     const double left = is_finite(evidence(), next) ? sums_at(next).rr : sums.rr;
     if (left >= sums.rr) {
@@ -338,7 +314,6 @@ Fit Fitter::by_squares(const Fit& fit, const std::vector<ConfidenceInterval>& wi
     share = 1.0;
     if (left > (1.0 - k_least_of_squares) * sums.rr) break;
   }
-  hold_at_ends(within, best);
   return judged(std::move(best));
 }
 

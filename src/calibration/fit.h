@@ -7,7 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include "calibration/confidence_interval.h"
 #include "calibration/held_out.h"
 #include "calibration/marginal.h"
 #include "calibration/model.h"
@@ -58,8 +57,7 @@ class Fitter {
   Fit fit(const EffectSet& effects, const Imperfections& from) const;
 
   /// The same set from there to the least squares, as hold_out() fits: no sizes in practice, nothing without a name.
-  /// Its effects' numbers stay in `within`, a range for each number of `fit`.
-  Fit by_squares(const Fit& fit, const std::vector<ConfidenceInterval>& within) const;
+  Fit by_squares(const Fit& fit) const;
 
   /// `base` with one effect more, from the best of its starts, close to its optimum: what candidates are compared by.
   /// The best beside what has no name, and, with all slopes, the best as if all that is left were named: the former

@@ -42,7 +42,7 @@ double mean_square(const Run& run, const Stroke& stroke, const std::vector<doubl
 
 Estimate declared_estimate(Workers& workers, const Selection& selection) {
   if (selection.none.x.size() == 0) return {selection.none, {}};
-  Fit fit = workers.one().by_squares(selection.none, {});
+  Fit fit = workers.one().by_squares(selection.none);
   return {fit.usable ? std::move(fit) : selection.none, {}};
 }
 
