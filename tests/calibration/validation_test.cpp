@@ -81,9 +81,7 @@ TEST_F(Validation, EachRunIsLeftOutOfTheNumbersThatJudgeIt) {
   Evidence runs = evidence_of(odd);
   runs.run_folds = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
   Workers more(runs);
-  const Estimate all{more.one().by_squares(more.one().fit({&named("tendon_stretch")}, {}),
-                                           std::vector<ConfidenceInterval>(2, {-1e9, 1e9, 1})),
-                     {}};
+  const Estimate all{more.one().by_squares(more.one().fit({&named("tendon_stretch")}, {})), {}};
   const std::vector<Imperfections> without = estimates_without(runs, all, runs.run_folds);
   const EffectParameter& stretch = named("tendon_stretch").parameters[0];
   ASSERT_EQ(without.size(), 3u);
