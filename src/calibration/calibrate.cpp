@@ -3,6 +3,7 @@
 
 #include "calibration/audit.h"
 #include "calibration/catalogue.h"
+#include "calibration/changes.h"
 #include "calibration/delivered.h"
 #include "calibration/evenness.h"
 #include "calibration/expected_sizes.h"
@@ -105,11 +106,14 @@ std::vector<std::string> why_not_testable(const Mechanism& declared, const Measu
   return measurement.not_testable;
 }
 
-void describe_errors(const Mechanism& declared, const Measurement& measurement, const Fit& none, const Fit& numbers,
+void describe_errors(const Evidence& evidence, const Measurement& measurement, const Fit& none, const Fit& numbers,
                      Calibration& calibration) {
   const BenchLog log = bench_log(measurement);
-  calibration.residuals_before = residuals(measurement, predict(declared, none.at, log));
-  calibration.residuals_after = residuals(measurement, predict(declared, numbers.at, log));
+  const auto left = [&](const Imperfections& at) {
+    return residuals(measurement, predict(*evidence.declared, at, log, evidence.earlier));
+  };
+  calibration.residuals_before = left(none.at);
+  calibration.residuals_after = left(numbers.at);
   calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(none));
   calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(numbers));
   calibration.iso_before = iso230(measurement, calibration.residuals_before);
@@ -118,8 +122,9 @@ void describe_errors(const Mechanism& declared, const Measurement& measurement, 
 
 /// Of what the declared joint leaves: between rows that stand far apart θ(α) bends by more than noise. As logged where
 /// the declared joint has no place.
-Measurement about_declared(const Mechanism& declared, const Measurement& measurement) {
-  const Readings model = predict(declared, {}, bench_log(measurement));
+Measurement about_declared(const Mechanism& declared, const Measurement& measurement,
+                           const std::optional<EarlierState>& earlier) {
+  const Readings model = predict(declared, {}, bench_log(measurement), earlier);
   Measurement about = measurement;
   for (std::size_t i = 0; i < about.runs.size(); ++i) {
     for (std::size_t k = 0; k < model[i].size(); ++k) {
@@ -139,6 +144,12 @@ Imperfections without_idle_numbers(const Fit& fit) {
   return at;
 }
 
+void describe_changes(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
+  calibration.difference = state_difference(evidence, selection.none, selection.best);
+  const std::vector<double> sizes = sizes_by_scatter(evidence, selection.best);
+  for (std::size_t i = 0; i < sizes.size(); ++i) calibration.effects[i].by_runs = sizes[i];
+}
+
 /// A name that simulated joints without it bear too often is none to stand alone: what was read as it joins the group.
 void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
   for (std::size_t i = 0; i < audited.size(); ++i) {
@@ -151,15 +162,13 @@ void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
   }
 }
 
-}  // namespace
-
-Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement,
-                      const CalibrationOptions& options) {
+Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& measurement,
+                         const CalibrationOptions& options) {
   if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty())
     return not_testable(measurement, reasons);
   const Measurement learnt_from = part(measurement, options.hold_out, false);
-  const NoiseFloor noise = noise_floor(about_declared(declared, learnt_from));
-  Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
+  const NoiseFloor noise = noise_floor(about_declared(declared, learnt_from, options.earlier));
+  Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9), options.earlier);
   evidence.floor_freedom = noise.degrees_of_freedom;
   if (evidence.blocks.size() < 2)
     return not_testable(measurement,
@@ -188,18 +197,38 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
     }
   }
   calibration.null_combinations = null_combinations(evidence, selection);
-  calibration.next_runs = next_runs(evidence, selection);
-  ask_for_both_sides(learnt_from, calibration.next_runs);
+  if (!options.earlier) {
+    calibration.next_runs = next_runs(evidence, selection);
+    ask_for_both_sides(learnt_from, calibration.next_runs);
+  }
   calibration.tried = selection.tried;
   calibration.detectable = detectable_sizes(evidence, workers, selection);
   calibration.identified = without_idle_numbers(made.fit);
-  describe_errors(declared, measurement, selection.none, made.fit, calibration);
+  describe_errors(evidence, measurement, selection.none, made.fit, calibration);
   name_held_out(evidence, calibration);
   validate(declared, part(measurement, options.hold_out, true), selection.none, made.fit, calibration);
   calibration.curve = made.curve;
   conclude(evidence, selection, unnamed, calibration);
   hold_against(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
+  if (options.earlier) describe_changes(evidence, selection, calibration);
   return calibration;
+}
+
+}  // namespace
+
+Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement,
+                      const CalibrationOptions& options) {
+  if (!options.earlier) return by_catalogue(declared, measurement, options);
+  const JointKind kind = kind_of(declared);
+  const std::vector<Effect> changes = changes_from(options.earlier->joint, kind);
+  CalibrationOptions of_changes = options;
+  for (const Effect& effect : effects(kind)) of_changes.without.push_back(effect.name);
+  for (const Effect& change : changes) {
+    of_changes.more_effects.push_back(&change);
+    std::erase(of_changes.without, change.name);
+  }
+  for (const std::string& name : options.without) of_changes.without.push_back(name);
+  return by_catalogue(declared, measurement, of_changes);
 }
 
 }  // namespace fusee

@@ -27,7 +27,8 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
       low = std::clamp(ranges[k].low * own.step, own.least, own.most);
       high = std::clamp(ranges[k].high * own.step, own.least, own.most);
     }
-    const auto shown = [&](double x) { return own.shown(x, *evidence.declared); };
+    const double before = evidence.earlier ? value_of(evidence.earlier->joint, own) : 0.0;
+    const auto shown = [&](double x) { return own.shown(before + x, *evidence.declared); };
     const std::string_view sense = value < 0 ? own.sign.below : value > 0 ? own.sign.above : "";
     fitted.push_back({own.name, shown(value), std::min(shown(low), shown(high)), std::max(shown(low), shown(high)),
                       std::string(sense)});

@@ -20,14 +20,19 @@ const EffectParameter* free_offset(const Mechanism& declared) {
   return declared.transmission ? &offset : nullptr;
 }
 
-Parameters varied(const Mechanism& declared, const EffectSet& effects) {
+Parameters parameters_of(const EffectSet& effects) {
   Parameters parameters;
-  if (const EffectParameter* offset = free_offset(declared)) parameters.push_back(offset);
   for (const Effect* effect : effects) {
     for (const EffectParameter& parameter : effect->parameters) {
       if (!parameter.searched) parameters.push_back(&parameter);
     }
   }
+  return parameters;
+}
+
+Parameters varied(const Mechanism& declared, const EffectSet& effects) {
+  Parameters parameters = parameters_of(effects);
+  if (const EffectParameter* offset = free_offset(declared)) parameters.insert(parameters.begin(), offset);
   return parameters;
 }
 

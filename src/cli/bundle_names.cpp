@@ -48,7 +48,8 @@ std::size_t path_begin(const std::string& word, bool is_setting) {
 bool takes_plain_value(const std::string& flag) {
   for (const Command& command : commands()) {
     for (const Option& option : command.options)
-      if (flag == option.name()) return option.value != "FILE" && option.value != "DIR" && !option.value.empty();
+      if (flag == option.name())
+        return !option.value.starts_with("FILE") && option.value != "DIR" && !option.value.empty();
   }
   return false;
 }

@@ -141,6 +141,9 @@ const Effect* find_effect(std::string_view name, JointKind kind);
 
 /// Both findings as one: of all effects what WhenFoundAgain says.
 Imperfections found_again(const Imperfections& before, const Imperfections& found, JointKind kind);
+/// The joint `before` with `change` added, number by number and within the bounds of each. A number that is searched is
+/// that of the change where its effect changes, and else that of `before`.
+Imperfections changed(const Imperfections& before, const Imperfections& change, JointKind kind);
 /// What stays of `found` where the expected joint of the corrected file has, or undoes, what a mechanism can have.
 Imperfections beyond_mechanism(const Imperfections& found, JointKind kind);
 
