@@ -15,6 +15,7 @@ endforeach()
 install(DIRECTORY profiles DESTINATION ${CMAKE_INSTALL_DATADIR}/fusee ${program})
 install(DIRECTORY ${PROJECT_BINARY_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR} ${program})
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} ${program})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} ${program} PATTERN "update.py" EXCLUDE PATTERN "draw.py" EXCLUDE PATTERN "columns.toml" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 
 set(development COMPONENT development)

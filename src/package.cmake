@@ -15,6 +15,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME fusee)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "librsvg2-2")  # loaded by `analyze -o FILE.png`
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "pulleys for tendon-driven joints, from mechanism to checked part
 One motor drives a joint through two tendons wound on a compound pulley, one
 groove of which is not round. fusee computes that pulley, checks the solid

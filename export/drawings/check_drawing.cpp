@@ -1,6 +1,6 @@
 /// \file
-/// What a shop's machine will stumble over, found before it does: one Check each, with the layer, the line in the file
-/// and the place.
+/// Faults of a drawing that a shop's machine would trip over: one Check each, with the layer, the line in the file and
+/// the place.
 ///
 /// Contours are what is cut. In a drawing with fusee's layers these are CUT_*, P*_PITCH, P*_FLOOR, BORE, CHECK_10MM and
 /// SHEET; in any other drawing they are all layers but ENGRAVE, NOTES and MARK_*, whose lines may end and cross as they
@@ -63,14 +63,22 @@ Paths contours_of(const Drawing& drawing) {
   return contours;
 }
 
-// Closed
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Closed ---------------------------------------------------------------------------------------------------------
+
+double gap_of(const DrawingPath& path) { return (path.points.front() - path.points.back()).norm(); }
+
+/// A contour was meant to be closed: its gap is narrower than anything that is cut, and most of it is no gap.
+bool almost_closes(const DrawingPath& path) {
+  double length = 0;
+  for (std::size_t i = 1; i < path.points.size(); ++i) length += (path.points[i] - path.points[i - 1]).norm();
+  return !path.closed && gap_of(path) < std::min(k_clean_feature, 0.5 * length);
+}
 
 Check check_contours_closed(const Paths& contours) {
   std::size_t open = 0;
   std::string where;
   for (const DrawingPath* path : contours) {
-    if (path->closed) continue;
+    if (path->closed || almost_closes(*path)) continue;
     if (open++ == 0) where = "open: " + place(*path, path->points.front());
   }
   return exactly("contours_closed", static_cast<double>(open), 0, "1", where);
@@ -80,8 +88,8 @@ Check check_ends_meet(const Paths& contours) {
   double widest = 0;
   std::string where;
   for (const DrawingPath* path : contours) {
-    if (path->closed) continue;
-    const double gap = (path->points.front() - path->points.back()).norm();
+    if (!almost_closes(*path)) continue;
+    const double gap = gap_of(*path);
     if (gap <= widest) continue;
     widest = gap;
     where = "gap between " + place(*path, path->points.back()) +
@@ -90,8 +98,7 @@ Check check_ends_meet(const Paths& contours) {
   return at_most("ends_meet", widest, k_joined, "mm", where);
 }
 
-// Lines and crossings
-// --------------------------------------------------------------------------------------------------
+// ---- Lines and crossings --------------------------------------------------------------------------------------------
 
 /// One edge of a path, from the lower end in (x, y) order to the upper.
 struct Edge {
@@ -149,20 +156,30 @@ std::vector<Edge> take_duplicates(std::vector<Edge>& edges) {
   return again;
 }
 
-Check check_duplicates(const Drawing& drawing) {
+struct Duplicates {
+  Check check;
+  std::set<const DrawingPath*> paths;  ///< each of their lines was drawn before
+};
+
+Duplicates check_duplicates(const Drawing& drawing) {
   Paths all;
   // Turns that lie over one another have one plan.
   for (const DrawingPath& path : drawing.paths)
     if (!path.in_space) all.push_back(&path);
   std::size_t count = 0;
   std::string where;
+  Duplicates duplicates;
   for (auto& [layer, edges] : edges_by_layer(all)) {
     const std::vector<Edge> repeated = take_duplicates(edges);
+    std::map<const DrawingPath*, std::size_t> repeats;
+    for (const Edge& edge : repeated)
+      if (++repeats[edge.path] == edge.last + 1) duplicates.paths.insert(edge.path);
     if (count == 0 && !repeated.empty())
       where = "drawn twice: " + place(*repeated.front().path, 0.5 * (repeated.front().left + repeated.front().right));
     count += repeated.size();
   }
-  return exactly("no_duplicate_lines", static_cast<double>(count), 0, "1", where);
+  duplicates.check = exactly("no_duplicate_lines", static_cast<double>(count), 0, "1", where);
+  return duplicates;
 }
 
 bool within_box(const Edge& edge, const Vec2& p) {
@@ -346,8 +363,7 @@ CrossingChecks check_crossings(const Paths& contours) {
           exactly("no_crossing_contours", static_cast<double>(layers), 0, "1", mutual_where)};
 }
 
-// Sizes
-// ----------------------------------------------------------------------------------------------------------------
+// ---- Sizes ----------------------------------------------------------------------------------------------------------
 
 /// Least distance of two parallel lines that hold the polygon between them (rotating calipers on its hull).
 double least_width(const Polygon& polygon) {
@@ -364,24 +380,23 @@ double least_width(const Polygon& polygon) {
   return least;
 }
 
-Check check_smallest_feature(const Paths& contours) {
+/// Nothing where no closed contour has a width.
+std::optional<Check> check_smallest_feature(const Paths& contours) {
   double least = std::numeric_limits<double>::infinity();
   const DrawingPath* narrow = nullptr;
   for (const DrawingPath* path : contours) {
     if (!path->closed || path->layer == k_as_declared) continue;
-    const double width = least_width(path->points);
+    const double width = path->diameter ? *path->diameter : least_width(path->points);
     if (width >= least) continue;
     least = width;
     narrow = path;
   }
-  if (narrow == nullptr)
-    return at_least("smallest_feature", 0, k_clean_feature - k_drawn, "mm", "there is no closed contour");
+  if (narrow == nullptr) return std::nullopt;
   return at_least("smallest_feature", least, k_clean_feature - k_drawn, "mm",
                   "narrow: " + place(*narrow, narrow->points.front()));
 }
 
-// Inside
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Inside ---------------------------------------------------------------------------------------------------------
 
 struct Framed {
   const DrawingPath* path;
@@ -441,19 +456,32 @@ Check check_inside(const Drawing& drawing) {
   return exactly("nothing_outside", static_cast<double>(outside), 0, "1", where);
 }
 
+Check check_undrawn(const Drawing& drawing) {
+  return exactly("undrawn_entities", static_cast<double>(drawing.undrawn), 0, "1",
+                 fmt::format("line {}: {}", drawing.first_undrawn.line, drawing.first_undrawn.why));
+}
+
 }  // namespace
 
 std::vector<Check> check_drawing(const Drawing& drawing) {
-  const Paths contours = contours_of(drawing);
+  const Duplicates duplicates = check_duplicates(drawing);
+  Paths contours = contours_of(drawing);
+  std::erase_if(contours, [&](const DrawingPath* path) { return duplicates.paths.count(path) > 0; });
+  std::vector<Check> checks = {check_undrawn(drawing)};
+  // A drawing none of whose entities can be drawn has nothing to cut, and one fault.
+  if (!contours.empty() || drawing.undrawn == 0) {
+    checks.push_back(
+        at_least("contours", static_cast<double>(contours.size()), 1, "1", "the drawing has no lines to cut"));
+  }
+  checks.push_back(check_contours_closed(contours));
+  checks.push_back(check_ends_meet(contours));
+  checks.push_back(duplicates.check);
   CrossingChecks crossings = check_crossings(contours);
-  return {at_least("contours", static_cast<double>(contours.size()), 1, "1", "the drawing has no lines to cut"),
-          check_contours_closed(contours),
-          check_ends_meet(contours),
-          check_duplicates(drawing),
-          std::move(crossings.self),
-          std::move(crossings.mutual),
-          check_smallest_feature(contours),
-          check_inside(drawing)};
+  checks.push_back(std::move(crossings.self));
+  checks.push_back(std::move(crossings.mutual));
+  if (auto feature = check_smallest_feature(contours)) checks.push_back(std::move(*feature));
+  checks.push_back(check_inside(drawing));
+  return checks;
 }
 
 }  // namespace fusee

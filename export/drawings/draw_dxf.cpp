@@ -2,32 +2,25 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "export/drawings/entity_curves.h"
 #include "export/drawings/join_paths.h"
+#include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 
 namespace fusee {
 namespace {
 
-constexpr double k_sagitta = 0.001;  // of sampled curves, mm
-constexpr double k_farthest = 1e7;   // mm from the origin
+constexpr double k_sagitta = 0.0007;  // of sampled curves, mm: 0.001 is promised
+constexpr double k_farthest = 1e7;    // mm from the origin
 constexpr std::size_t k_most_inserts = 200'000;
 constexpr std::size_t k_most_tags = 100'000'000;  // gone through while blocks are expanded
 constexpr int k_deepest_block = 16;
 constexpr std::size_t k_most_ignored = 64;
-
-/// Plane affine map: block coordinates → drawing, mm.
-struct DrawingPlacement {
-  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
-  Vec2 shift = Vec2::Zero();
-
-  Vec2 operator()(const Vec2& p) const { return linear * p + shift; }
-  /// How much a length can grow at most.
-  double growth() const { return std::max(linear.norm(), 1e-12); }
-};
+constexpr std::size_t k_most_remarks = 20;
 
 /// An INSERT: a block's entities, turned, scaled and repeated in columns and rows.
 struct DxfInsert {
@@ -54,6 +47,16 @@ struct DxfInsert {
   }
 };
 
+/// Meaning of an entity's values, before anything is drawn.
+struct UnderstoodEntity {
+  bool in_paper_space = false;
+  std::string layer;
+  DrawingPlacement place;
+  std::optional<DxfInsert> insert = std::nullopt;
+  const DxfBlock* block = nullptr;  ///< of the insert
+  EntityCurve drawn = {};
+};
+
 class DxfDrawer {
  public:
   DxfDrawer(const DxfFile& dxf, const std::string& file) : dxf_(dxf), file_(file) {}
@@ -69,29 +72,58 @@ class DxfDrawer {
   }
 
  private:
+  /// One entity that makes no sense is left out and counted. What is too much for any drawing ends the reading.
   void draw(const DxfEntity& entity, const DrawingPlacement& placement, const std::string& block_layer, int depth) {
-    const DxfValues values(file_, entity.tags);
-    if (values.integer(67, 0) == 1) return;  // paper space
-    std::string layer(values.text(8));
-    if (layer.empty() || layer == "0") layer = block_layer;  // layer 0 in a block is the insert's
-    const Vec2 tilt = values.point(210);
-    if (tilt.norm() > 1e-6) {
-      ignore(entity, " out of the plane");
+    UnderstoodEntity understood;
+    try {
+      understood = understand(entity, placement, block_layer);
+    } catch (const InputError& error) {
+      const Diagnostic& reason = error.diagnostics().front();
+      if (drawing_.undrawn++ == 0) drawing_.first_undrawn = {reason.place.line, reason.message};
       return;
     }
-    // An entity drawn from below has its x mirrored (but for those in world coordinates).
-    DrawingPlacement in_place = placement;
-    const bool has_own_plane = entity.type != "LINE" && entity.type != "ELLIPSE" && entity.type != "SPLINE";
-    if (has_own_plane && values.real(230, 1) < 0) in_place.linear.col(0) *= -1;
-    if (entity.type == "INSERT") {
-      insert(entity, in_place, layer, depth);
-      return;
-    }
-    const EntityCurve drawn = curve_of(entity, file_, k_sagitta / in_place.growth());
-    if (drawn.curve) {
-      add(entity, layer, *drawn.curve, in_place);
+    if (understood.in_paper_space) return;
+    const EntityCurve& drawn = understood.drawn;
+    if (!drawn.remark.empty()) remark(entity, drawn.remark);
+    if (understood.insert) {
+      insert(entity, understood, depth);
+    } else if (drawn.curve) {
+      add(entity, understood.layer, *drawn.curve);
     } else {
       ignore(entity, drawn.passed_over);
+    }
+  }
+
+  UnderstoodEntity understand(const DxfEntity& entity, const DrawingPlacement& placement,
+                              const std::string& block_layer) const {
+    const DxfValues values(file_, entity.tags);
+    UnderstoodEntity understood{values.integer(67, 0) == 1, std::string(values.text(8)), placement};
+    if (understood.in_paper_space) return understood;
+    // Layer 0 in a block is the insert's.
+    if (understood.layer.empty() || understood.layer == "0") understood.layer = block_layer;
+    if (values.point(210).norm() > 1e-6) {
+      understood.drawn.passed_over = " out of the plane";
+      return understood;
+    }
+    // An entity drawn from below has its x mirrored (but for those in world coordinates).
+    const bool has_own_plane = entity.type != "LINE" && entity.type != "ELLIPSE" && entity.type != "SPLINE";
+    if (has_own_plane && values.real(230, 1) < 0) understood.place.linear.col(0) *= -1;
+    if (entity.type == "INSERT") {
+      understood.insert.emplace(values);
+      understood.block = &block_of(entity);
+      return understood;
+    }
+    understood.drawn = curve_of(entity, file_, understood.place, k_sagitta);
+    if (understood.drawn.curve) demand_near(entity, understood.drawn.curve->points);
+    return understood;
+  }
+
+  void demand_near(const DxfEntity& entity, const Polygon& points) const {
+    for (const Vec2& p : points) {
+      if (p.cwiseAbs().maxCoeff() <= k_farthest) continue;
+      fail_in_dxf(file_, entity.line,
+                  "this " + std::string(entity.type) + " reaches (" + rounded(p.x()) + ", " + rounded(p.y()) +
+                      ") mm, further than 10 km");
     }
   }
 
@@ -101,61 +133,66 @@ class DxfDrawer {
     ignored_.insert(name.substr(1, name.size() - 2) + kind);
   }
 
-  const DxfBlock& block_of(const DxfEntity& entity, int depth) const {
+  /// Entities of one kind with the same oddity make one remark.
+  void remark(const DxfEntity& entity, const std::string& text) {
+    for (DrawingRemark& known : drawing_.remarks) {
+      if (known.text != text) continue;
+      ++known.count;
+      return;
+    }
+    if (drawing_.remarks.size() < k_most_remarks) drawing_.remarks.push_back({entity.line, text});
+  }
+
+  const DxfBlock& block_of(const DxfEntity& entity) const {
     const std::string name(DxfValues(file_, entity.tags).text(2));
     const auto block = dxf_.blocks.find(name);
     if (block == dxf_.blocks.end()) {
       fail_in_dxf(file_, entity.line,
                   "this INSERT names the block " + quoted_bytes(name) + ", which the file does not hold");
     }
+    return block->second;
+  }
+
+  void insert(const DxfEntity& entity, const UnderstoodEntity& understood, int depth) {
     if (depth >= k_deepest_block) {
       fail_in_dxf(file_, entity.line,
                   "blocks are nested more than " + std::to_string(k_deepest_block) + " deep (or in a ring)");
     }
-    return block->second;
-  }
-
-  void insert(const DxfEntity& entity, const DrawingPlacement& placement, const std::string& layer, int depth) {
-    const DxfBlock& block = block_of(entity, depth);
-    const DxfInsert insert(DxfValues(file_, entity.tags));
+    const DxfInsert& insert = *understood.insert;
+    const DxfBlock& block = *understood.block;
     for (int row = 0; row < insert.rows; ++row) {
       for (int column = 0; column < insert.columns; ++column) {
         if (++inserts_ > k_most_inserts) {
           fail_in_dxf(file_, entity.line,
                       "the drawing inserts more than " + std::to_string(k_most_inserts) + " blocks");
         }
-        const DrawingPlacement inner = insert.placed(placement, block.base, row, column);
+        const DrawingPlacement inner = insert.placed(understood.place, block.base, row, column);
         for (const DxfEntity& part : block.entities) {
           expanded_ += part.size;
           if (expanded_ > k_most_tags)
             fail_in_dxf(file_, entity.line, "the blocks of the drawing are inserted too often to be expanded");
-          draw(part, inner, layer, depth + 1);
+          draw(part, inner, understood.layer, depth + 1);
         }
       }
     }
   }
 
-  /// Puts a curve in its place in the drawing; repeated points go, and a last point that closes the curve.
-  void add(const DxfEntity& entity, const std::string& layer, const SampledCurve& curve,
-           const DrawingPlacement& placement) {
+  /// Repeated points go, and a last point that closes the curve.
+  void add(const DxfEntity& entity, const std::string& layer, const SampledCurve& curve) {
     DrawingPath path{layer, std::string(entity.type), entity.line, curve.closed, {}};
     path.in_space = entity.type == "POLYLINE" && (DxfValues(file_, entity.tags).integer(70, 0) & 8) != 0;
+    path.diameter = curve.diameter;
     points_ += curve.points.size();
     if (points_ > k_most_points) {
       fail_in_dxf(file_, entity.line, "the drawing has more than " + std::to_string(k_most_points) + " points");
     }
     path.points.reserve(curve.points.size());
     for (const Vec2& p : curve.points) {
-      const Vec2 placed = placement(p);
-      if (!(placed.cwiseAbs().maxCoeff() <= k_farthest)) {
-        fail_in_dxf(file_, entity.line,
-                    "this " + path.entity + " reaches (" + rounded(placed.x()) + ", " + rounded(placed.y()) +
-                        ") mm, further than 10 km");
-      }
-      if (path.points.empty() || placed != path.points.back()) path.points.push_back(placed);
+      if (path.points.empty() || p != path.points.back()) path.points.push_back(p);
     }
     close_where_ends_meet(path);
     if (path.points.size() < 2) {
+      remark(entity, "this " + path.entity + " draws nothing: it has no length");
       ignore(entity, " of no length");
       return;
     }

@@ -18,7 +18,13 @@ class DxfFileReader {
 
  private:
   void read_sections() {
-    for (DxfTag tag = tags_.required(); !is(tag, "EOF"); tag = tags_.required()) {
+    // dxflib 2.0 writes variables of the header behind its end: values without an entity are passed over there. A file
+    // that ends behind its entities lacks nothing but its last word.
+    for (std::optional<DxfTag> next = tags_.required(); next && !is(*next, "EOF");
+         next = saw_entities_ ? tags_.next() : tags_.required()) {
+      const DxfTag tag = *next;
+      if (saw_section_ && tag.code != 0) continue;
+      saw_section_ = true;
       if (!is(tag, "SECTION")) {
         fail_in_dxf(name_, tag.line, "a SECTION or EOF should stand here, not " + quoted_bytes(tag.value),
                     "is it a DXF drawing?");
@@ -102,6 +108,7 @@ class DxfFileReader {
 
   const std::string& name_;
   DxfTagReader tags_;
+  bool saw_section_ = false;
   bool saw_entities_ = false;
   DxfFile file_;
 };

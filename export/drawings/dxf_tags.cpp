@@ -57,7 +57,7 @@ DxfTag DxfTagReader::required() {
 
 std::optional<std::string_view> DxfTagReader::next_line() {
   if (position_ >= bytes_.size()) return std::nullopt;
-  const std::size_t end = std::min(bytes_.find('\n', position_), bytes_.size());
+  const std::size_t end = std::min(bytes_.find(line_end_, position_), bytes_.size());
   const std::string_view line = bytes_.substr(position_, end - position_);
   position_ = end + 1;
   ++line_;

@@ -22,14 +22,15 @@ struct DxfTag {
 /// What a message may show of foreign bytes: 40 of them, in quotes.
 std::string quoted_bytes(std::string_view text);
 
-/// Splits the bytes into tags.
+/// Splits the bytes into tags. Lines end with \n, with \r\n, or in a file without any \n with \r.
 class DxfTagReader {
  public:
-  DxfTagReader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+  DxfTagReader(std::string_view bytes, const std::string& file)
+      : bytes_(bytes), file_(file), line_end_(bytes.find('\n') == std::string_view::npos ? '\r' : '\n') {}
 
   /// The next tag; a remark (999) is skipped. Null at the end of the bytes.
   std::optional<DxfTag> next();
-  /// The next tag, which there must be: a file ends with EOF.
+  /// The next tag; fails at the end of the bytes.
   DxfTag required();
 
  private:
@@ -37,6 +38,7 @@ class DxfTagReader {
 
   std::string_view bytes_;
   const std::string& file_;
+  char line_end_;
   std::size_t position_ = 0;
   int line_ = 0;
   int last_line_ = 0;  ///< of the last required tag

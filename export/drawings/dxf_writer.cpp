@@ -65,6 +65,10 @@ void DxfDocument::closed(std::string layer, const Contour& contour, const Vec2& 
   paths.push_back(std::move(path));
 }
 
+void DxfDocument::closed_arcs(std::string layer, std::vector<BulgeVertex> vertices) {
+  paths.push_back({std::move(layer), std::move(vertices), true, {}});
+}
+
 void DxfDocument::open(std::string layer, const Polygon& points) {
   paths.push_back({std::move(layer), vertices_of({points, {}, 0}), false, {}});
 }

@@ -34,6 +34,7 @@ struct DxfDocument {
 
   void closed(std::string layer, const Polygon& points) { closed(std::move(layer), Contour{points, {}, 0}); }
   void closed(std::string layer, const Contour& contour, const Vec2& shift = Vec2::Zero());
+  void closed_arcs(std::string layer, std::vector<BulgeVertex> vertices);
   void open(std::string layer, const Polygon& points);
   /// A polyline in space: seen from above as it is in plan.
   void in_space(std::string layer, const std::vector<Vec3>& points);

@@ -11,7 +11,12 @@ namespace {
 
 constexpr double k_largest = 1e9;  // radius or axis
 
-EntityCurve lwpolyline(const DxfEntity& entity, const std::string& file, double sagitta) {
+EntityCurve nothing_drawn(std::string passed_over, const DxfEntity& entity, const std::string& why) {
+  return {std::nullopt, std::move(passed_over), "this " + std::string(entity.type) + " draws nothing: " + why};
+}
+
+EntityCurve lwpolyline(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place,
+                       double sagitta) {
   std::vector<BulgeVertex> vertices;
   for (const DxfTag& tag : entity.tags) {
     if (tag.code == 10) vertices.push_back({{dxf_number(file, tag), 0}, 0});
@@ -19,10 +24,10 @@ EntityCurve lwpolyline(const DxfEntity& entity, const std::string& file, double 
     if (tag.code == 20) vertices.back().place.y() = dxf_number(file, tag);
     if (tag.code == 42) vertices.back().bulge = dxf_number(file, tag);
   }
-  return {sampled_bulges(vertices, DxfValues(file, entity.tags).integer(70, 0) & 1, sagitta), {}};
+  return {sampled_bulges(vertices, DxfValues(file, entity.tags).integer(70, 0) & 1, sagitta, place)};
 }
 
-EntityCurve polyline(const DxfEntity& entity, const std::string& file, double sagitta) {
+EntityCurve polyline(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place, double sagitta) {
   const int flags = DxfValues(file, entity.tags).integer(70, 0);
   if (flags & (16 | 64)) return {std::nullopt, " mesh"};
   std::vector<BulgeVertex> vertices;
@@ -31,42 +36,51 @@ EntityCurve polyline(const DxfEntity& entity, const std::string& file, double sa
     if (vertex.integer(70, 0) & 16) continue;  // a spline's frame, not its curve
     vertices.push_back({vertex.point(10), vertex.real(42, 0)});
   }
-  return {sampled_bulges(vertices, flags & 1, sagitta), {}};
+  return {sampled_bulges(vertices, flags & 1, sagitta, place)};
 }
 
-EntityCurve circle_or_arc(const DxfEntity& entity, const std::string& file, double sagitta) {
+EntityCurve circle_or_arc(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place,
+                          double sagitta) {
   const DxfValues values(file, entity.tags);
   const double radius = values.real(40, 0);
+  if (radius == 0) return nothing_drawn(" of no size", entity, "its radius is 0");
   if (!(radius > 0) || radius > k_largest) {
     fail_in_dxf(file, entity.line, "the radius of this " + std::string(entity.type) + " is " + shortest(radius),
                 "it must be above 0");
   }
-  if (entity.type == "CIRCLE")
-    return {closed_by_full_turn(sampled_arc(values.point(10), radius, 0, k_two_pi, sagitta)), {}};
-  const double from = radians(std::remainder(values.real(50, 0), 360.0));
-  const double to = radians(std::remainder(values.real(51, 0), 360.0));
-  return {sampled_arc(values.point(10), radius, from, to, sagitta), {}};
+  EllipticArc arc{values.point(10), radius * Vec2::UnitX(), radius * Vec2::UnitY(), 0, k_two_pi};
+  if (entity.type == "ARC") {
+    arc.from = radians(std::remainder(values.real(50, 0), 360.0));
+    arc.to = radians(std::remainder(values.real(51, 0), 360.0));
+    if (arc.to <= arc.from) arc.to += k_two_pi;
+  }
+  return {sampled_arc(arc.placed(place), sagitta)};
 }
 
-EntityCurve ellipse(const DxfEntity& entity, const std::string& file, double sagitta) {
+/// The ratio of the axes may be rounded above 1, or negative where the minor axis points the other way. One well above
+/// 1 is against the format, but draws an ellipse all the same.
+EntityCurve ellipse(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place, double sagitta) {
+  constexpr double k_rounding = 1e-6;
   const DxfValues values(file, entity.tags);
-  const Vec2 centre = values.point(10);
   const Vec2 major = values.point(11);
   const double ratio = values.real(40, 1);
-  if (!(major.norm() > 0) || major.norm() > k_largest || !(ratio > 0) || ratio > 1) {
+  if (major.norm() == 0 || ratio == 0) return nothing_drawn(" of no size", entity, "one of its axes is 0");
+  if (!(std::max(1.0, std::abs(ratio)) * major.norm() <= k_largest)) {
     fail_in_dxf(file, entity.line,
                 "the axes of this ELLIPSE are " + shortest(major.norm()) + " and " + shortest(ratio) + " times that");
   }
-  const Vec2 minor = turned_left(major) * (values.real(230, 1) < 0 ? -ratio : ratio);
-  const double from = std::remainder(values.real(41, 0), k_two_pi);
+  EllipticArc arc{values.point(10), major, turned_left(major) * (values.real(230, 1) < 0 ? -ratio : ratio)};
+  arc.from = std::remainder(values.real(41, 0), k_two_pi);
   const double sweep_asked = values.real(42, k_two_pi) - values.real(41, 0);
-  const bool full = std::abs(sweep_asked) >= k_two_pi - 1e-9;
-  double to = std::remainder(values.real(42, k_two_pi), k_two_pi);
-  if (to <= from) to += k_two_pi;
-  if (full) to = from + k_two_pi;
-  SampledCurve curve = sampled_arc(Vec2::Zero(), 1, from, to, sagitta / major.norm());
-  for (Vec2& p : curve.points) p = centre + p.x() * major + p.y() * minor;
-  return {full ? closed_by_full_turn(std::move(curve)) : std::move(curve), {}};
+  arc.to = std::remainder(values.real(42, k_two_pi), k_two_pi);
+  if (arc.to <= arc.from) arc.to += k_two_pi;
+  if (std::abs(sweep_asked) >= k_two_pi - 1e-9) arc.to = arc.from + k_two_pi;
+  EntityCurve drawn{sampled_arc(arc.placed(place), sagitta)};
+  if (std::abs(ratio) > 1 + k_rounding) {
+    drawn.remark = "the ratio of the axes of this ELLIPSE is " + shortest(ratio) +
+                   ", above 1: programs that keep to the format may refuse it";
+  }
+  return drawn;
 }
 
 void check_spline(const DxfEntity& entity, const std::string& file, const BSpline& spline,
@@ -89,7 +103,7 @@ void check_spline(const DxfEntity& entity, const std::string& file, const BSplin
   }
 }
 
-EntityCurve spline(const DxfEntity& entity, const std::string& file, double sagitta) {
+EntityCurve spline(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place, double sagitta) {
   BSpline spline;
   spline.degree = DxfValues(file, entity.tags).integer(71, 3);
   std::vector<double> weights;
@@ -99,24 +113,25 @@ EntityCurve spline(const DxfEntity& entity, const std::string& file, double sagi
     if (tag.code == 10) spline.poles.emplace_back(dxf_number(file, tag), 0, 1);
     if (tag.code == 20 && !spline.poles.empty()) spline.poles.back().y() = dxf_number(file, tag);
   }
-  if (spline.poles.empty()) return {std::nullopt, " without control points"};
+  if (spline.poles.empty()) return {std::nullopt, " without control points", {}};
   check_spline(entity, file, spline, weights);
+  for (Vec3& pole : spline.poles) pole.head<2>() = place(pole.head<2>());
   for (std::size_t i = 0; i < weights.size(); ++i) spline.poles[i] *= weights[i];
-  return {sampled_spline(spline, sagitta, k_most_points), {}};
+  return {sampled_spline(spline, sagitta, k_most_points)};
 }
 
 }  // namespace
 
-EntityCurve curve_of(const DxfEntity& entity, const std::string& file, double sagitta) {
+EntityCurve curve_of(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place, double sagitta) {
   if (entity.type == "LINE") {
     const DxfValues values(file, entity.tags);
-    return {SampledCurve{{values.point(10), values.point(11)}, false}, {}};
+    return {SampledCurve{{place(values.point(10)), place(values.point(11))}, false}};
   }
-  if (entity.type == "LWPOLYLINE") return lwpolyline(entity, file, sagitta);
-  if (entity.type == "POLYLINE") return polyline(entity, file, sagitta);
-  if (entity.type == "CIRCLE" || entity.type == "ARC") return circle_or_arc(entity, file, sagitta);
-  if (entity.type == "ELLIPSE") return ellipse(entity, file, sagitta);
-  if (entity.type == "SPLINE") return spline(entity, file, sagitta);
+  if (entity.type == "LWPOLYLINE") return lwpolyline(entity, file, place, sagitta);
+  if (entity.type == "POLYLINE") return polyline(entity, file, place, sagitta);
+  if (entity.type == "CIRCLE" || entity.type == "ARC") return circle_or_arc(entity, file, place, sagitta);
+  if (entity.type == "ELLIPSE") return ellipse(entity, file, place, sagitta);
+  if (entity.type == "SPLINE") return spline(entity, file, place, sagitta);
   return {};
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// LINE, LWPOLYLINE, POLYLINE, CIRCLE, ARC, ELLIPSE and SPLINE as points, in the coordinates of their entity.
+/// LINE, LWPOLYLINE, POLYLINE, CIRCLE, ARC, ELLIPSE and SPLINE as points in their place in the drawing.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,12 @@ inline constexpr std::size_t k_most_points = 4'000'000;
 
 /// The curve; without one, what kind of it is passed over (" mesh"; "" where the entity is no line at all).
 struct EntityCurve {
-  std::optional<SampledCurve> curve;
-  std::string passed_over;
+  std::optional<SampledCurve> curve = std::nullopt;
+  std::string passed_over = {};
+  std::string remark = {};  ///< on an odd entity that was understood all the same
 };
 
-/// `sagitta`: how far chords may lie from the curve. Throws InputError for numbers that make no curve.
-EntityCurve curve_of(const DxfEntity& entity, const std::string& file, double sagitta);
+/// `sagitta`: how far chords may lie from the curve, mm. Throws InputError for numbers that make no curve.
+EntityCurve curve_of(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place, double sagitta);
 
 }  // namespace fusee

@@ -62,8 +62,7 @@ struct Stock {
   }
 };
 
-// Dowels
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Dowels ---------------------------------------------------------------------------------------------------------
 
 /// What every plate keeps: within both floors, clear of all that is cut out of any of them.
 Material2d common_material(const Stock& stock) {
@@ -110,8 +109,7 @@ void place_dowels(Plates& plates, const Stock& stock) {
       fmt::format("no dowels: {} for two of {} mm; align the plates on the shaft", why, rounded(wanted)));
 }
 
-// Shapes
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Shapes ---------------------------------------------------------------------------------------------------------
 
 void note_once(Plates& plates, const std::string& note) {
   if (std::find(plates.notes.begin(), plates.notes.end(), note) == plates.notes.end()) plates.notes.push_back(note);
@@ -224,8 +222,7 @@ void add_layers(Plates& plates, const Stock& stock) {
   }
 }
 
-// Engraving
-// ------------------------------------------------------------------------------------------------------------
+// ---- Engraving ------------------------------------------------------------------------------------------------------
 
 Material2d material_of(const PlateLayer& layer) {
   Material2d material;
@@ -285,8 +282,7 @@ void engrave(Plates& plates, std::size_t index, int total) {
   plates.notes.push_back(layer.name + ": there is no room for the plate's number");
 }
 
-// Notes
-// ----------------------------------------------------------------------------------------------------------------
+// ---- Notes ----------------------------------------------------------------------------------------------------------
 
 void describe_stack(Plates& plates, const Stock& stock) {
   const double t = stock.mechanism.cut.plate;
@@ -333,8 +329,7 @@ void note_small_features(Plates& plates, const Stock& stock) {
   }
 }
 
-// Sheets
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Sheets ---------------------------------------------------------------------------------------------------------
 
 /// The workshop's, or where a plate is larger the one that it takes, in whole mm: what is cut is the same, and somebody
 /// else may have a larger machine.

@@ -8,6 +8,7 @@
 
 #include "export/drawings/cut_shapes.h"
 #include "export/drawings/dxf_writer.h"
+#include "export/drawings/fitted_arcs.h"
 #include "export/drawings/plane_shapes.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
@@ -19,6 +20,9 @@ namespace {
 
 constexpr double k_label_height = 2.5;
 constexpr double k_label_pitch = 4.5;
+/// From the outline's points to the arcs in their place, mm: a twentieth of what the outline itself may miss the curve
+/// by.
+constexpr double k_arc_tolerance = 0.0005;
 
 std::vector<DxfLayer> layers() {
   return {{"P1_PITCH", 1},
@@ -34,11 +38,20 @@ std::vector<DxfLayer> layers() {
           {"CHECK_10MM", 8, false}};
 }
 
+/// A circle where the pulley is round, else arcs.
+void add_curve(DxfDocument& drawing, const char* layer, const Outline& outline, double distance) {
+  if (const auto circle = circle_about_axis(parallel(outline, distance))) {
+    drawing.closed(layer, circle_contour(*circle));
+  } else {
+    drawing.closed_arcs(layer, fitted_arcs(outline, distance, k_arc_tolerance));
+  }
+}
+
 void add_contours(DxfDocument& drawing, const SynthesisResult& synthesis, double d, const BodyLayout& layout) {
-  drawing.closed("P1_PITCH", parallel(synthesis.p1, 0));
-  drawing.closed("P1_FLOOR", parallel(synthesis.p1, -0.5 * d));
-  drawing.closed("P2_PITCH", parallel(synthesis.p2, 0));
-  drawing.closed("P2_FLOOR", parallel(synthesis.p2, -0.5 * d));
+  add_curve(drawing, "P1_PITCH", synthesis.p1, 0);
+  add_curve(drawing, "P1_FLOOR", synthesis.p1, -0.5 * d);
+  add_curve(drawing, "P2_PITCH", synthesis.p2, 0);
+  add_curve(drawing, "P2_FLOOR", synthesis.p2, -0.5 * d);
   drawing.closed("BORE", bore_contour(layout.bore));
   for (const Polygon& hole : layout.bore.screw_holes) drawing.closed("BORE", circle_contour(circle_within(hole)));
 }

@@ -16,16 +16,72 @@ int arc_steps(double radius, double turn, double sagitta) {
   return static_cast<int>(std::clamp(steps, 2.0, static_cast<double>(k_most_steps)));
 }
 
+/// Diameter of the circle that the arc belongs to; nothing for an ellipse.
+std::optional<double> diameter_of(const EllipticArc& arc) {
+  constexpr double k_round = 1e-9;
+  const double radius = arc.u.norm();
+  const bool is_round =
+      std::abs(arc.v.norm() - radius) <= k_round * radius && std::abs(arc.u.dot(arc.v)) <= k_round * radius * radius;
+  return is_round ? std::optional<double>(2 * radius) : std::nullopt;
+}
+
+/// Half of the longest diameter.
+double longest_radius(const EllipticArc& arc) {
+  const double uu = arc.u.squaredNorm(), vv = arc.v.squaredNorm(), uv = arc.u.dot(arc.v);
+  return std::sqrt(0.5 * (uu + vv) + std::hypot(0.5 * (uu - vv), uv));
+}
+
+/// The ends of the arc, and between them where its x or its y is extreme; rising.
+std::vector<double> breaks_of(const EllipticArc& arc) {
+  std::vector<double> breaks = {arc.from};
+  for (const int axis : {0, 1}) {
+    const double extreme = std::atan2(arc.v[axis], arc.u[axis]);
+    const double first = extreme + k_pi * std::ceil((arc.from - extreme) / k_pi);
+    for (int k = 0; first + k_pi * k < arc.to; ++k) breaks.push_back(std::max(arc.from, first + k_pi * k));
+  }
+  breaks.push_back(arc.to);
+  std::sort(breaks.begin(), breaks.end());
+  return breaks;
+}
+
+/// Without its first point.
+void append_arc(Polygon& points, const EllipticArc& arc, double sagitta) {
+  constexpr double k_same = 1e-9;  // rad
+  const double turn = arc.to - arc.from;
+  const int steps = arc_steps(longest_radius(arc), turn, sagitta);
+  const std::vector<double> breaks = breaks_of(arc);
+  for (std::size_t b = 1; b < breaks.size(); ++b) {
+    const double from = breaks[b - 1], width = breaks[b] - from;
+    if (width < k_same && breaks[b] != arc.to) continue;
+    const int parts = std::max(1, static_cast<int>(std::ceil(steps * width / turn - k_same)));
+    for (int i = 1; i <= parts; ++i) {
+      const double t = from + width * i / parts;
+      points.push_back(arc.centre + std::cos(t) * arc.u + std::sin(t) * arc.v);
+    }
+  }
+}
+
 /// From `from` (which is not repeated) to `to`.
-void append_bulge(Polygon& points, const Vec2& from, const Vec2& to, double bulge, double sagitta) {
+void append_bulge(Polygon& points, const Vec2& from, const Vec2& to, double bulge, double sagitta,
+                  const DrawingPlacement& place) {
   if (bulge != 0 && std::abs(bulge) < 1e6 && (to - from).norm() > 0) {
     const double turn = 4 * std::atan(bulge);
     const Vec2 centre = 0.5 * (from + to) + turned_left(to - from) * ((1 - bulge * bulge) / (4 * bulge));
     const Vec2 spoke = from - centre;
-    const int steps = arc_steps(spoke.norm(), turn, sagitta);
-    for (int i = 1; i < steps; ++i) points.push_back(centre + turned(spoke, turn * i / steps));
+    const EllipticArc arc{centre, spoke, (turn < 0 ? -1 : 1) * turned_left(spoke), 0, std::abs(turn)};
+    append_arc(points, arc.placed(place), sagitta);
+    points.pop_back();
   }
-  points.push_back(to);
+  points.push_back(place(to));
+}
+
+/// The diameter of two half circles on one chord, which is how a polyline draws a circle.
+std::optional<double> diameter_of(const std::vector<BulgeVertex>& vertices, bool closed,
+                                  const DrawingPlacement& place) {
+  if (!closed || vertices.size() != 2) return std::nullopt;
+  if (vertices[0].bulge != vertices[1].bulge || std::abs(vertices[0].bulge) != 1) return std::nullopt;
+  const Vec2 radius = 0.5 * (vertices[1].place - vertices[0].place);
+  return diameter_of(EllipticArc{Vec2::Zero(), radius, turned_left(radius)}.placed(place));
 }
 
 /// De Boor's recursion.
@@ -68,29 +124,27 @@ struct SpanSampler {
 
 }  // namespace
 
-SampledCurve sampled_arc(const Vec2& centre, double radius, double from, double to, double sagitta) {
+SampledCurve sampled_arc(const EllipticArc& arc, double sagitta) {
   SampledCurve curve;
-  while (to <= from) to += k_two_pi;
-  const int steps = arc_steps(radius, to - from, sagitta);
-  for (int i = 0; i <= steps; ++i) curve.points.push_back(centre + radius * unit(from + (to - from) * i / steps));
-  return curve;
-}
-
-SampledCurve closed_by_full_turn(SampledCurve curve) {
+  curve.points.push_back(arc.centre + std::cos(arc.from) * arc.u + std::sin(arc.from) * arc.v);
+  append_arc(curve.points, arc, sagitta);
+  if (arc.to - arc.from < k_two_pi) return curve;
   curve.points.pop_back();
   curve.closed = true;
+  curve.diameter = diameter_of(arc);
   return curve;
 }
 
-SampledCurve sampled_bulges(const std::vector<BulgeVertex>& vertices, bool closed, double sagitta) {
-  SampledCurve curve{{}, closed};
+SampledCurve sampled_bulges(const std::vector<BulgeVertex>& vertices, bool closed, double sagitta,
+                            const DrawingPlacement& place) {
+  SampledCurve curve{{}, closed, diameter_of(vertices, closed, place)};
   if (vertices.empty()) return curve;
-  curve.points.push_back(vertices.front().place);
+  curve.points.push_back(place(vertices.front().place));
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
-    append_bulge(curve.points, vertices[i].place, vertices[i + 1].place, vertices[i].bulge, sagitta);
+    append_bulge(curve.points, vertices[i].place, vertices[i + 1].place, vertices[i].bulge, sagitta, place);
   }
   if (closed && vertices.size() > 1) {
-    append_bulge(curve.points, vertices.back().place, vertices.front().place, vertices.back().bulge, sagitta);
+    append_bulge(curve.points, vertices.back().place, vertices.front().place, vertices.back().bulge, sagitta, place);
     curve.points.pop_back();
   }
   return curve;

@@ -1,7 +1,10 @@
 /// \file
-/// Arcs, bulges and B-splines as points, so close that no chord leaves its curve by more than `sagitta`.
+/// Arcs, bulges and B-splines as points in the drawing, so close that no chord leaves its curve by more than `sagitta`.
+/// Of arcs the extreme points along x and y are among them, so that a box round the points is a box round the curve.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "fusee/base/plane.h"
@@ -10,20 +13,38 @@ namespace fusee {
 
 struct SampledCurve {
   Polygon points;
-  bool closed = false;  ///< the last point joins the first and is not repeated
+  bool closed = false;                            ///< the last point joins the first and is not repeated
+  std::optional<double> diameter = std::nullopt;  ///< of a whole circle
 };
 
-/// Counter-clockwise from `from` to `to` (rad), by a full turn at most.
-SampledCurve sampled_arc(const Vec2& centre, double radius, double from, double to, double sagitta);
-/// What came back to where it began.
-SampledCurve closed_by_full_turn(SampledCurve curve);
+/// Plane affine map: coordinates of an entity → drawing, mm.
+struct DrawingPlacement {
+  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
+  Vec2 shift = Vec2::Zero();
 
+  Vec2 operator()(const Vec2& p) const { return linear * p + shift; }
+};
+
+/// centre + cos t · u + sin t · v for t from `from` to `to` (rad), from < to: an arc of a circle or an ellipse.
+struct EllipticArc {
+  Vec2 centre = Vec2::Zero();
+  Vec2 u = Vec2::UnitX();
+  Vec2 v = Vec2::UnitY();
+  double from = 0;
+  double to = 0;
+
+  EllipticArc placed(const DrawingPlacement& place) const {
+    return {place(centre), place.linear * u, place.linear * v, from, to};
+  }
+};
+SampledCurve sampled_arc(const EllipticArc& arc, double sagitta);
 /// A vertex and the bulge of the edge that leaves it: tan of a quarter of that arc's turning, 0 when straight.
 struct BulgeVertex {
   Vec2 place = Vec2::Zero();
   double bulge = 0;
 };
-SampledCurve sampled_bulges(const std::vector<BulgeVertex>& vertices, bool closed, double sagitta);
+SampledCurve sampled_bulges(const std::vector<BulgeVertex>& vertices, bool closed, double sagitta,
+                            const DrawingPlacement& place = {});
 
 /// A (rational) B-spline. Its knots never fall, and are degree + 1 more than its poles.
 struct BSpline {

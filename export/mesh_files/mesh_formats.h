@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,7 +40,13 @@ bool is_binary_stl(std::string_view bytes);
 void demand_room(const Source& source, std::size_t offset, std::uint64_t count, std::size_t least_bytes,
                  const std::string& things);
 
-/// A polygon as a fan of triangles about its first corner.
-void add_fan(TriangleMesh& mesh, std::span<const std::uint32_t> corners);
+/// Adds a polygon as a fan of triangles about its first corner. One of two corners is a line, one of one a point: no
+/// facet. Nothing is added, and what was expected in its place is returned,
+/// - where it has more than two corners for each of the vertices that it can name: an outline bridged to a hole passes
+///   a vertex twice, none more often;
+/// - where the mesh would have more facets than the file has bytes for. A closed mesh of V vertices has 2 V facets and
+///   3 V corners or more, which take over 12 bytes a vertex in any of these formats once V needs two bytes.
+[[nodiscard]] std::optional<std::string> add_fan(const Source& source, TriangleMesh& mesh,
+                                                 std::span<const std::uint32_t> corners);
 
 }  // namespace fusee

@@ -26,11 +26,17 @@ struct GreatestIndex {
   Place place;
 };
 
-/// The next word of a statement; a backslash at the end of a line carries it on to the next.
+/// The next word of a statement. A backslash at the end of a line, behind a blank or not, continues it on the next.
 std::string_view statement_word(TextScanner& text) {
   std::string_view word = text.word();
-  while (word == "\\" && text.next_line()) word = text.word();
-  return word;
+  while ((word.empty() || word == "\\") && text.is_continued() && text.next_line()) word = text.word();
+  return text.is_continued() && word.ends_with('\\') ? word.substr(0, word.size() - 1) : word;
+}
+
+Vec3 read_vertex(TextScanner& text) {
+  Vec3 vertex;
+  for (double& coordinate : vertex) coordinate = text.number(statement_word(text), "a coordinate of a vertex");
+  return vertex;
 }
 
 /// "7", "7/2", "7//3", "-1/-1/-1" → the vertex' index from 0.
@@ -51,8 +57,8 @@ void read_face(TextScanner& text, TriangleMesh& mesh, GreatestIndex& greatest) {
     if (index > greatest.index) greatest = {index, text.place()};
     corners.push_back(static_cast<std::uint32_t>(index));
   }
-  if (corners.size() < 3) text.fail("a face of at least 3 corners");
-  add_fan(mesh, corners);
+  if (corners.empty()) text.fail("a face of at least 1 corner");
+  if (const auto expected = add_fan(text.source(), mesh, corners)) text.fail(*expected);
 }
 
 void put_line(fmt::memory_buffer& to, const Vec3& v) {
@@ -82,7 +88,7 @@ TriangleMesh read_obj(const Source& source) {
   while (text.next_line()) {
     const std::string_view keyword = text.word();
     if (keyword == "v") {
-      mesh.vertices.push_back(text.point("a coordinate of a vertex"));
+      mesh.vertices.push_back(read_vertex(text));
     } else if (keyword == "f" || keyword == "fo") {
       read_face(text, mesh, greatest);
     } else if (std::find(k_passed_over.begin(), k_passed_over.end(), keyword) == k_passed_over.end()) {

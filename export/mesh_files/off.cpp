@@ -1,4 +1,5 @@
-// Geomview OFF in text: a line of counts, a line a vertex, a line a face.
+// Geomview OFF in text: counts, vertices, faces. Words count, not lines, except that a face's colour ends with its
+// line.
 
 #include <fmt/format.h>
 
@@ -11,9 +12,10 @@
 namespace fusee {
 namespace {
 
-struct Counts {
+struct OffHeader {
   std::uint64_t vertices = 0;
   std::uint64_t faces = 0;
+  std::size_t words_a_vertex = 3;  ///< coordinates, and the values that the keyword's prefix declares
 };
 
 std::uint64_t count(const TextScanner& text, std::string_view word, std::string_view expected) {
@@ -22,53 +24,103 @@ std::uint64_t count(const TextScanner& text, std::string_view word, std::string_
   return static_cast<std::uint64_t>(value);
 }
 
-/// The keyword is optional; its prefixes ST, C and N add values after each vertex' coordinates, which are passed over.
-Counts read_header(TextScanner& text) {
+/// Skips the number of edges. It follows on the line of the faces' number or alone on the next one; some
+/// writers leave it out.
+void pass_edge_count(TextScanner& text) {
+  if (!text.word().empty()) return;
+  TextScanner ahead = text;
+  if (!ahead.flowing_word().empty() && ahead.word().empty()) text.flowing_word();
+}
+
+/// The keyword is optional. Its prefixes ST, C and N add values after the coordinates of each vertex.
+OffHeader read_off_header(TextScanner& text) {
   std::string_view word = text.flowing_word();
+  OffHeader header;
   if (word.ends_with("OFF")) {
     if (word.find_first_of("4n") != std::string_view::npos) text.fail("an OFF file of three dimensions");
+    if (word.starts_with("ST")) header.words_a_vertex += 2;
+    if (word.find('C') != std::string_view::npos) header.words_a_vertex += 4;
+    if (word.find('N') != std::string_view::npos) header.words_a_vertex += 3;
     word = text.flowing_word();
   }
   if (word == "BINARY") text.fail("an OFF file in text");
-  Counts counts;
-  counts.vertices = count(text, word, "the number of vertices");
-  counts.faces = count(text, text.flowing_word(), "the number of faces");
-  text.rest_of_line();
-  return counts;
+  header.vertices = count(text, word, "the number of vertices");
+  header.faces = count(text, text.flowing_word(), "the number of faces");
+  pass_edge_count(text);
+  return header;
+}
+
+std::size_t words_left(TextScanner& text) {
+  std::size_t words = 0;
+  while (!text.word().empty()) ++words;
+  return words;
+}
+
+/// Writers add values that the keyword does not declare, or leave some out. A vertex a line is what such a file has in
+/// common with a plain one: as many lines as vertices follow, with equally many words.
+bool has_a_vertex_a_line(TextScanner text, std::uint64_t vertices) {
+  if (!text.word().empty()) return false;
+  std::size_t words = 0;
+  for (std::uint64_t i = 0; i < vertices; ++i) {
+    if (!text.next_line()) return false;
+    const std::size_t here = words_left(text);
+    if (here < 3 || (i > 0 && here != words)) return false;
+    words = here;
+  }
+  return true;
+}
+
+void read_vertices(TextScanner& text, const OffHeader& header, TriangleMesh& mesh) {
+  const bool by_lines = has_a_vertex_a_line(text, header.vertices);
+  mesh.vertices.reserve(header.vertices);
+  for (std::uint64_t i = 0; i < header.vertices; ++i) {
+    mesh.vertices.push_back(text.flowing_point("a coordinate of a vertex"));
+    if (by_lines) {
+      text.rest_of_line();
+    } else {
+      for (std::size_t k = 3; k < header.words_a_vertex; ++k) text.number(text.flowing_word(), "a value of a vertex");
+    }
+  }
 }
 
 void read_face(TextScanner& text, TriangleMesh& mesh, std::vector<std::uint32_t>& corners) {
-  if (!text.next_line()) text.fail("a face");
-  const std::uint64_t size = count(text, text.word(), "the number of a face's corners");
-  if (size < 3) text.fail("a face of at least 3 corners");
+  const std::string_view word = text.flowing_word();
+  if (word.empty()) text.fail("a face");
+  const std::uint64_t size = count(text, word, "the number of a face's corners");
+  if (size == 0) text.fail("a face of at least 1 corner");
   corners.clear();
   for (std::uint64_t i = 0; i < size; ++i) {
-    const std::uint64_t index = count(text, text.word(), "a vertex number");
+    const std::uint64_t index = count(text, text.flowing_word(), "a vertex number");
     if (index >= mesh.vertices.size()) text.fail(fmt::format("a vertex number below {}", mesh.vertices.size()));
     corners.push_back(static_cast<std::uint32_t>(index));
   }
-  add_fan(mesh, corners);
+  if (const auto expected = add_fan(text.source(), mesh, corners)) text.fail(*expected);
+}
+
+/// A colour ends with its line. Where there are fewer lines than faces, faces share lines and have no colours.
+void read_faces(TextScanner& text, const OffHeader& header, TriangleMesh& mesh) {
+  const bool have_lines = text.lines_ahead(header.faces) == header.faces;
+  mesh.triangles.reserve(header.faces);
+  std::vector<std::uint32_t> corners;
+  for (std::uint64_t i = 0; i < header.faces; ++i) {
+    read_face(text, mesh, corners);
+    if (have_lines) text.rest_of_line();
+  }
 }
 
 }  // namespace
 
 TriangleMesh read_off(const Source& source) {
-  constexpr std::size_t k_least_vertex_line = 6;  // "0 0 0\n"
-  constexpr std::size_t k_least_face_line = 8;    // "3 0 1 2\n"
+  constexpr std::size_t k_least_vertex = 6;  // "0 0 0 "
+  constexpr std::size_t k_least_face = 4;    // "1 0 "
   TextScanner text(source, '#');
-  const Counts counts = read_header(text);
+  const OffHeader header = read_off_header(text);
   // One more for a last line without an end.
-  demand_room(source, text.next_line_offset(), counts.vertices, k_least_vertex_line - 1, "vertices");
-  demand_room(source, text.next_line_offset(), counts.faces, k_least_face_line - 1, "faces");
+  demand_room(source, text.offset(), header.vertices, k_least_vertex - 1, "vertices");
+  demand_room(source, text.offset(), header.faces, k_least_face - 1, "faces");
   TriangleMesh mesh;
-  mesh.vertices.reserve(counts.vertices);
-  for (std::uint64_t i = 0; i < counts.vertices; ++i) {
-    if (!text.next_line()) text.fail("a vertex");
-    mesh.vertices.push_back(text.point("a coordinate of a vertex"));
-  }
-  mesh.triangles.reserve(counts.faces);
-  std::vector<std::uint32_t> corners;
-  for (std::uint64_t i = 0; i < counts.faces; ++i) read_face(text, mesh, corners);
+  read_vertices(text, header, mesh);
+  read_faces(text, header, mesh);
   return mesh;
 }
 

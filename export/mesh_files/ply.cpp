@@ -153,7 +153,12 @@ Header read_header(const Source& source, TextScanner& text) {
   Header header;
   text.next_line();
   if (text.word() != "ply") text.fail("'ply'");
-  if (!text.next_line() || text.word() != "format") text.fail("'format'");
+  std::string_view first;
+  do {
+    text.next_line();
+    first = text.word();
+  } while (first == "comment" || first == "obj_info");
+  if (first != "format") text.fail("'format'");
   header.encoding = read_encoding(text);
   while (true) {
     if (!text.next_line()) text.fail("'end_header'");
@@ -173,21 +178,31 @@ Header read_header(const Source& source, TextScanner& text) {
   return header;
 }
 
-// Values: two sources of the same numbers
-// ------------------------------------------------------------------------------
+// ---- Values: two sources of the same numbers ------------------------------------------------------------------------
 
+/// Words count, not lines. Only where each row has a line of its own, values that the header does not declare are
+/// passed over at its end.
 class AsciiValues {
  public:
-  explicit AsciiValues(TextScanner& text) : text_(text) {}
+  AsciiValues(TextScanner& text, std::uint64_t rows)
+      : text_(text), has_a_row_a_line_(text.lines_ahead(rows + 1) == rows) {}
   void begin_row(const Element& element) {
-    if (!text_.next_line()) text_.fail("an element '" + printable(element.name) + "'");
+    if (has_a_row_a_line_ && !text_.next_line()) text_.fail("an element '" + printable(element.name) + "'");
   }
-  double value(Scalar) { return text_.number(text_.word(), "a number"); }
+  double value(Scalar) { return text_.number(has_a_row_a_line_ ? text_.word() : text_.flowing_word(), "a number"); }
   [[noreturn]] void fail(const std::string& expected) const { text_.fail(expected); }
 
  private:
   TextScanner& text_;
+  bool has_a_row_a_line_;
 };
+
+/// Elements without properties take no room in the text.
+std::uint64_t rows_of(const Header& header) {
+  std::uint64_t rows = 0;
+  for (const Element& element : header.elements) rows += element.properties.empty() ? 0 : element.count;
+  return rows;
+}
 
 template <class Number>
 double as_number(std::uint64_t bits) {
@@ -264,7 +279,8 @@ std::uint64_t whole(const Values& values, double value, double limit, std::strin
 template <class Values>
 class ElementReader {
  public:
-  ElementReader(Values values, const Header& header) : values_(std::move(values)), header_(header) {}
+  ElementReader(const Source& source, Values values, const Header& header)
+      : source_(source), values_(std::move(values)), header_(header) {}
 
   TriangleMesh read() {
     for (const Element& element : header_.elements) {
@@ -311,16 +327,17 @@ class ElementReader {
       for (std::uint64_t i = 0; i < size; ++i) values_.value(property.type);
       return;
     }
-    if (size < 3) values_.fail("a face of at least 3 corners");
+    if (size == 0) values_.fail("a face of at least 1 corner");
     corners_.clear();
     for (std::uint64_t i = 0; i < size; ++i) {
       const double index = values_.value(property.type);
       corners_.push_back(
           static_cast<std::uint32_t>(whole(values_, index, static_cast<double>(header_.vertices), "a vertex number")));
     }
-    add_fan(mesh_, corners_);
+    if (const auto expected = add_fan(source_, mesh_, corners_)) values_.fail(*expected);
   }
 
+  const Source& source_;
   Values values_;
   const Header& header_;
   TriangleMesh mesh_;
@@ -332,9 +349,10 @@ class ElementReader {
 TriangleMesh read_ply(const Source& source) {
   TextScanner text(source);
   const Header header = read_header(source, text);
-  if (header.encoding == Encoding::ascii) return ElementReader(AsciiValues(text), header).read();
+  if (header.encoding == Encoding::ascii)
+    return ElementReader(source, AsciiValues(text, rows_of(header)), header).read();
   const bool big_endian = header.encoding == Encoding::big_endian;
-  return ElementReader(BinaryValues(source, text.next_line_offset(), big_endian), header).read();
+  return ElementReader(source, BinaryValues(source, text.next_line_offset(), big_endian), header).read();
 }
 
 }  // namespace fusee

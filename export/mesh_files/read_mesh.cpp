@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <limits>
+#include <vector>
 
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
@@ -67,8 +69,35 @@ void demand_room(const Source& source, std::size_t offset, std::uint64_t count, 
                            least_bytes, left));
 }
 
-void add_fan(TriangleMesh& mesh, std::span<const std::uint32_t> corners) {
+/// Vertices that no facet uses have no size, no place and need not be finite.
+TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
+  constexpr auto k_unused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(mesh.vertices.size(), k_unused);
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) number[corner] = 0;
+  }
+  if (std::find(number.begin(), number.end(), k_unused) == number.end()) return mesh;
+  TriangleMesh used;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] == k_unused) continue;
+    number[i] = static_cast<std::uint32_t>(used.vertices.size());
+    used.vertices.push_back(mesh.vertices[i]);
+  }
+  used.triangles.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) used.triangles.push_back({number[a], number[b], number[c]});
+  return used;
+}
+
+std::optional<std::string> add_fan(const Source& source, TriangleMesh& mesh, std::span<const std::uint32_t> corners) {
+  constexpr std::size_t k_always = 100'000, k_bytes_a_facet = 6;
+  if (corners.empty()) return {};
+  const std::uint64_t vertices = std::uint64_t{*std::max_element(corners.begin(), corners.end())} + 1;
+  if (corners.size() > 2 * vertices) return "a face that has a vertex at most twice";
+  const std::size_t most = k_always + source.bytes.size() / k_bytes_a_facet;
+  if (mesh.triangles.size() + corners.size() > most + 2)
+    return fmt::format("no more than {} facets in a file of {} bytes", most, source.bytes.size());
   for (std::size_t k = 2; k < corners.size(); ++k) mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+  return {};
 }
 
 TriangleMesh read_mesh(std::string_view bytes, const std::string& file_name) {
@@ -78,9 +107,9 @@ TriangleMesh read_mesh(std::string_view bytes, const std::string& file_name) {
   if (reader == nullptr) reader = reader_by_name(file_name);
   if (reader == nullptr) {
     throw InputError(file_name, "expected a mesh, and neither its first bytes nor its name say of which format",
-                     "fusee reads .stl, .obj, .3mf, .off, .ply and .drc");
+                     "fusee reads .stl, .obj, .3mf, .off, .ply, .drc and .dxf");
   }
-  return reader(source);
+  return without_unused_vertices(reader(source));
 }
 
 }  // namespace fusee

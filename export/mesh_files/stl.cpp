@@ -4,9 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cctype>
 #include <cstring>
+#include <limits>
+#include <optional>
 
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
@@ -21,6 +24,10 @@ static_assert(std::endian::native == std::endian::little, "STL floats are copied
 constexpr std::size_t k_header_size = 80;
 constexpr std::size_t k_facets_start = 84;
 constexpr std::size_t k_facet_size = 50;
+
+/// Words that end a normal: none of them can be part of it.
+constexpr auto k_keywords =
+    std::to_array<std::string_view>({"facet", "loop", "vertex", "endloop", "endfacet", "solid", "endsolid"});
 
 using Float3 = std::array<float, 3>;
 
@@ -62,8 +69,7 @@ void tell_from_ascii(std::string& bytes) {
   }
 }
 
-TriangleMesh read_binary_stl(std::string_view bytes) {
-  const std::size_t count = (bytes.size() - k_facets_start) / k_facet_size;
+TriangleMesh read_facets(std::string_view bytes, std::size_t count) {
   TriangleMesh soup;
   soup.vertices.reserve(3 * count);
   soup.triangles.reserve(count);
@@ -86,21 +92,23 @@ void expect(TextScanner& text, std::string_view keyword) {
   if (!is_word(text.flowing_word(), keyword)) text.fail(fmt::format("'{}'", keyword));
 }
 
-Vec3 flowing_point(TextScanner& text, std::string_view expected) {
-  Vec3 point;
-  for (double& coordinate : point) coordinate = text.number(text.flowing_word(), expected);
-  return point;
+/// The normal is redundant, since the corners' order gives it. Writers leave it out, or write "nan", "-nan(ind)" or
+/// "1.#QNAN" for it: up to "outer" anything goes that is no other keyword.
+void pass_normal(TextScanner& text) {
+  std::string_view word = text.flowing_word();
+  for (; !word.empty() && !is_word(word, "outer"); word = text.flowing_word()) {
+    if (std::any_of(k_keywords.begin(), k_keywords.end(), [&](std::string_view k) { return is_word(word, k); })) break;
+  }
+  if (!is_word(word, "outer")) text.fail("'outer'");
 }
 
-/// What follows the word "facet". Its normal is read and dropped: the corners' order says the same.
+/// The part of a facet after its first word.
 void read_ascii_facet(TextScanner& text, TriangleMesh& soup) {
-  expect(text, "normal");
-  flowing_point(text, "a number of the normal");
-  expect(text, "outer");
+  pass_normal(text);
   expect(text, "loop");
   for (int corner = 0; corner < 3; ++corner) {
     expect(text, "vertex");
-    soup.vertices.push_back(flowing_point(text, "a coordinate"));
+    soup.vertices.push_back(text.flowing_point("a coordinate"));
   }
   expect(text, "endloop");
   expect(text, "endfacet");
@@ -108,22 +116,66 @@ void read_ascii_facet(TextScanner& text, TriangleMesh& soup) {
   soup.triangles.push_back({end - 3, end - 2, end - 1});
 }
 
+/// A name may hold the word "facet", but neither "facet normal" nor "facet outer".
+bool is_name_over(TextScanner ahead) {
+  const std::string_view word = ahead.word();
+  if (!is_word(word, "facet")) return is_word(word, "endsolid");
+  const std::string_view next = ahead.flowing_word();
+  return is_word(next, "normal") || is_word(next, "outer");
+}
+
+/// Skips the name behind "solid" or "endsolid". It ends with its line, or before a facet or "endsolid" on that line.
+void pass_name(TextScanner& text) {
+  while (!is_name_over(text) && !text.word().empty()) {
+  }
+}
+
 TriangleMesh read_ascii_stl(const Source& source) {
   TriangleMesh soup;
   TextScanner text(source);
-  for (std::string_view word = text.flowing_word(); !word.empty(); word = text.flowing_word()) {
-    if (!is_word(word, "solid")) text.fail("'solid'");
-    text.rest_of_line();
-    for (word = text.flowing_word(); !is_word(word, "endsolid"); word = text.flowing_word()) {
-      if (!is_word(word, "facet")) text.fail("'facet' or 'endsolid'");
+  bool is_open = false;
+  for (std::string_view word = text.flowing_word(); is_open || !word.empty(); word = text.flowing_word()) {
+    if (is_word(word, "facet")) {
       read_ascii_facet(text, soup);
+      is_open = true;
+    } else if (is_word(word, is_open ? "endsolid" : "solid")) {
+      pass_name(text);
+      is_open = !is_open;
+    } else {
+      text.fail(is_open ? "'facet' or 'endsolid'" : "'solid'");
     }
-    text.rest_of_line();
   }
   return soup;
 }
 
-/// Where a file that is no ASCII STL is as a binary one wrong.
+bool starts_with_solid(const Source& source) {
+  // A binary header may start with "solid" too, but text holds no zero byte.
+  constexpr std::size_t k_looked_at = k_facets_start + k_facet_size;
+  return source.bytes.substr(0, k_looked_at).find('\0') == std::string_view::npos &&
+         is_word(TextScanner(source).flowing_word(), "solid");
+}
+
+std::uint32_t announced_facets(std::string_view bytes) {
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + k_header_size, sizeof count);
+  return count;
+}
+
+/// How many facets a binary file holds. A writer that did not know the count left 0 or −1, and the size tells; bytes
+/// behind the announced facets are passed over unless they are facets themselves. Nothing where count and size
+/// contradict.
+std::optional<std::size_t> binary_facets(std::string_view bytes) {
+  if (bytes.size() < k_facets_start) return std::nullopt;
+  const std::size_t announced = announced_facets(bytes);
+  const std::size_t held = (bytes.size() - k_facets_start) / k_facet_size;
+  const bool is_whole = (bytes.size() - k_facets_start) % k_facet_size == 0;
+  const bool is_unknown = announced == 0 || announced == std::numeric_limits<std::uint32_t>::max();
+  if (is_whole && (is_unknown || announced == held)) return held;
+  if (!is_whole && !is_unknown && announced <= held) return announced;
+  return std::nullopt;
+}
+
+/// The file is neither an ASCII STL nor a whole binary one.
 [[noreturn]] void fail_binary_size(const Source& source) {
   const std::size_t size = source.bytes.size();
   if (size < k_facets_start) {
@@ -131,8 +183,7 @@ TriangleMesh read_ascii_stl(const Source& source) {
                  fmt::format("expected a binary STL of at least {} bytes or the word 'solid', the file ends here",
                              k_facets_start));
   }
-  std::uint32_t count = 0;
-  std::memcpy(&count, source.bytes.data() + k_header_size, sizeof count);
+  const std::uint32_t count = announced_facets(source.bytes);
   fail_at_byte(source, k_header_size,
                fmt::format("the header announces {} facets, so expected a file of {} bytes, found {}", count,
                            k_facets_start + std::uint64_t{k_facet_size} * count, size));
@@ -157,16 +208,12 @@ std::string stl_bytes(const TriangleMesh& mesh, const std::string& name) {
 
 bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < k_facets_start) return false;
-  std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + k_header_size, sizeof count);
-  return bytes.size() == k_facets_start + std::uint64_t{k_facet_size} * count;
+  return bytes.size() == k_facets_start + std::uint64_t{k_facet_size} * announced_facets(bytes);
 }
 
 TriangleMesh read_stl(const Source& source) {
-  // Size before content: binary files whose header starts with "solid" exist.
-  if (is_binary_stl(source.bytes)) return weld(read_binary_stl(source.bytes));
-  TextScanner text(source);
-  if (is_word(text.flowing_word(), "solid")) return weld(read_ascii_stl(source));
+  if (starts_with_solid(source) && !is_binary_stl(source.bytes)) return weld(read_ascii_stl(source));
+  if (const auto count = binary_facets(source.bytes)) return weld(read_facets(source.bytes, *count));
   fail_binary_size(source);
 }
 

@@ -8,6 +8,7 @@ namespace fusee {
 namespace {
 
 constexpr std::string_view k_byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::string_view k_line_ends = "\r\n";
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f' || c == '\n'; }
 
@@ -18,6 +19,16 @@ bool parse(std::string_view word, Number& value) {
   return error == std::errc{} && end == word.data() + word.size();
 }
 
+/// "20,5" and "-0,25e3": a number but for its comma.
+bool has_decimal_comma(std::string_view word) {
+  std::string with_point(word);
+  const std::size_t comma = with_point.find(',');
+  if (comma == std::string::npos) return false;
+  with_point[comma] = '.';
+  double value = 0;
+  return parse(with_point, value);
+}
+
 }  // namespace
 
 bool parse_number(std::string_view word, double& value) { return parse(word, value); }
@@ -25,19 +36,21 @@ bool parse_integer(std::string_view word, std::int64_t& value) { return parse(wo
 
 TextScanner::TextScanner(const Source& source, char comment) : source_(source), comment_(comment) {
   if (source.bytes.starts_with(k_byte_order_mark)) next_ = k_byte_order_mark.size();
+  const std::size_t end = source.bytes.find_first_of(k_line_ends);
+  ends_with_cr_ = end != std::string_view::npos && source.bytes.substr(end, 2) != "\r\n" && source.bytes[end] == '\r';
 }
 
 bool TextScanner::next_line() {
   const std::string_view text = source_.bytes;
   while (next_ < text.size()) {
-    const std::size_t newline = std::min(text.find('\n', next_), text.size());
+    const std::size_t end = std::min(text.find_first_of(k_line_ends, next_), text.size());
+    const std::size_t end_size = !ends_with_cr_ && text.substr(end, 2) == "\r\n" ? 2 : 1;
     line_start_ = cursor_ = next_;
-    line_end_ = newline;
-    next_ = std::min(newline + 1, text.size());
+    line_end_ = end;
+    next_ = std::min(end + end_size, text.size());
     ++line_;
     if (comment_ != '\0')
-      line_end_ =
-          line_start_ + std::min(text.substr(line_start_, newline - line_start_).find(comment_), newline - line_start_);
+      line_end_ = line_start_ + std::min(text.substr(line_start_, end - line_start_).find(comment_), end - line_start_);
     while (cursor_ < line_end_ && is_blank(text[cursor_])) ++cursor_;
     word_start_ = word_end_ = cursor_;
     if (cursor_ < line_end_) return true;
@@ -83,11 +96,23 @@ std::int64_t TextScanner::integer(std::string_view word, std::string_view expect
   return value;
 }
 
-Vec3 TextScanner::point(std::string_view expected) {
-  const double x = number(word(), expected);
-  const double y = number(word(), expected);
-  const double z = number(word(), expected);
-  return {x, y, z};
+Vec3 TextScanner::flowing_point(std::string_view expected) {
+  Vec3 point;
+  for (double& coordinate : point) coordinate = number(flowing_word(), expected);
+  return point;
+}
+
+bool TextScanner::is_continued() const {
+  std::size_t end = line_end_;
+  while (end > line_start_ && is_blank(source_.bytes[end - 1])) --end;
+  return end > line_start_ && source_.bytes[end - 1] == '\\';
+}
+
+std::size_t TextScanner::lines_ahead(std::size_t enough) const {
+  TextScanner ahead = *this;
+  std::size_t lines = 0;
+  while (lines < enough && ahead.next_line()) ++lines;
+  return lines;
 }
 
 Place TextScanner::place() const {
@@ -100,7 +125,8 @@ void TextScanner::fail(std::string_view expected) const {
   const std::string what = !found.empty() ? fmt::format("found '{}'", printable(found))
                            : at_end       ? std::string("the file ends here")
                                           : std::string("the line ends here");
-  throw InputError({Severity::error, place(), fmt::format("expected {}, {}", expected, what), {}});
+  const char* hint = has_decimal_comma(found) ? "it has a decimal comma: write decimal points in the whole file" : "";
+  throw InputError({Severity::error, place(), fmt::format("expected {}, {}", expected, what), hint});
 }
 
 std::string printable(std::string_view text) {
@@ -108,7 +134,8 @@ std::string printable(std::string_view text) {
   std::string shown;
   for (const char c : text.substr(0, k_longest)) {
     const auto byte = static_cast<unsigned char>(c);
-    shown += byte >= 0x20 && byte < 0x7f ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
+    const bool plain = byte >= 0x20 && byte < 0x7f && c != '\\';
+    shown += plain ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
   }
   return text.size() > k_longest ? shown + "…" : shown;
 }

@@ -1,5 +1,5 @@
-// 3MF: a zip of XML parts. Its core specification 1.3 and, when reading, the paths of the production extension (objects
-// in other parts).
+// 3MF: a zip of XML parts. Core specification 1.3. The reader also follows the paths of the production extension
+// (objects in other parts), and refuses models that require an extension with geometry of its own.
 
 #include <fmt/format.h>
 
@@ -76,6 +76,20 @@ constexpr std::uint64_t k_always_unpacked = std::uint64_t{1} << 20;
 /// Components within components …
 constexpr int k_deepest = 32;
 
+/// Extensions that add nothing to the geometry but paths, which are followed.
+constexpr auto k_known_extensions =
+    std::to_array<std::string_view>({"http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
+                                     "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
+                                     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06",
+                                     "http://schemas.3mf.io/3dmanufacturing/trianglesets/2021/07"});
+
+/// Without blanks at its ends: XML Schema's numbers may have them.
+std::string_view collapsed(std::string_view text) {
+  constexpr std::string_view k_blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(k_blanks);
+  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(k_blanks) - first + 1);
+}
+
 std::string_view local_name(std::string_view name) { return name.substr(name.find(':') + 1); }
 
 pugi::xml_node child(const pugi::xml_node& node, std::string_view name) {
@@ -119,6 +133,8 @@ class ThreemfReader {
   std::string model_path();
   ModelPart& part(const std::string& path);
   double unit_of(const ModelPart& part, const pugi::xml_node& model) const;
+  void refuse_unknown_extensions(const ModelPart& part, const pugi::xml_node& model) const;
+  bool is_of_the_solid(const ModelPart& part, const pugi::xml_node& object) const;
 
   [[noreturn]] void fail(const ModelPart& part, const pugi::xml_node& node, const std::string& message) const {
     fail_in_entry(source_.name, part.path, node.offset_debug(), message);
@@ -139,6 +155,7 @@ class ThreemfReader {
   std::map<std::string, std::unique_ptr<ModelPart>> parts_;
   std::uint64_t unpacked_left_;
   std::uint64_t elements_left_ = 0;
+  std::size_t left_out_ = 0;  ///< objects that are no part of the solid
   TriangleMesh mesh_;
 };
 
@@ -188,14 +205,41 @@ ModelPart& ThreemfReader::part(const std::string& path) {
   parse(name, slot->text, slot->xml);
   const pugi::xml_node model = child(slot->xml, "model");
   if (!model) fail_in_entry(source_.name, name, 0, "expected the element 'model'");
+  refuse_unknown_extensions(*slot, model);
   slot->unit = unit_of(*slot, model);
   for_children(child(model, "resources"), "object",
                [&](const pugi::xml_node& object) { slot->objects[integer(*slot, object, "id")] = object; });
   return *slot;
 }
 
+/// A required extension describes a part of the object: without it the mesh would be another body, or none.
+void ThreemfReader::refuse_unknown_extensions(const ModelPart& part, const pugi::xml_node& model) const {
+  const Source required{model.attribute("requiredextensions").value(), source_.name};
+  TextScanner words(required);
+  for (std::string prefix(words.flowing_word()); !prefix.empty(); prefix = words.flowing_word()) {
+    const pugi::xml_attribute declared = model.attribute(("xmlns:" + prefix).c_str());
+    const std::string_view extension = declared.value();
+    if (std::find(k_known_extensions.begin(), k_known_extensions.end(), extension) != k_known_extensions.end())
+      continue;
+    fail(part, model,
+         fmt::format(
+             "requires the extension {}, which fusee does not read: export the object as a plain mesh",
+             declared ? "'" + std::string(extension) + "'" : "of the undeclared prefix '" + printable(prefix) + "'"));
+  }
+}
+
+/// Supports and other auxiliary objects stand beside the solid, or in its way.
+bool ThreemfReader::is_of_the_solid(const ModelPart& part, const pugi::xml_node& object) const {
+  const std::string_view type = collapsed(object.attribute("type").value());
+  if (type.empty() || type == "model" || type == "surface") return true;
+  if (type == "support" || type == "solidsupport" || type == "other") return false;
+  fail(part, object,
+       fmt::format("expected an object of the type model, surface, support, solidsupport or other, found '{}'",
+                   printable(type)));
+}
+
 double ThreemfReader::unit_of(const ModelPart& part, const pugi::xml_node& model) const {
-  const std::string_view unit = model.attribute("unit").value();
+  const std::string_view unit = collapsed(model.attribute("unit").value());
   if (unit.empty() || unit == "millimeter") return 1;
   if (unit == "micron") return 0.001;
   if (unit == "centimeter") return 10;
@@ -208,7 +252,7 @@ double ThreemfReader::unit_of(const ModelPart& part, const pugi::xml_node& model
 }
 
 double ThreemfReader::number(const ModelPart& part, const pugi::xml_node& node, const char* attribute) const {
-  const std::string_view text = node.attribute(attribute).value();
+  const std::string_view text = collapsed(node.attribute(attribute).value());
   double value = 0;
   if (!parse_number(text, value))
     fail(part, node, fmt::format("expected a number {}, found '{}'", attribute, printable(text)));
@@ -216,7 +260,7 @@ double ThreemfReader::number(const ModelPart& part, const pugi::xml_node& node, 
 }
 
 std::int64_t ThreemfReader::integer(const ModelPart& part, const pugi::xml_node& node, const char* attribute) const {
-  const std::string_view text = node.attribute(attribute).value();
+  const std::string_view text = collapsed(node.attribute(attribute).value());
   std::int64_t value = 0;
   if (!parse_integer(text, value)) {
     fail(part, node, fmt::format("expected a whole number {}, found '{}'", attribute, printable(text)));
@@ -267,6 +311,10 @@ void ThreemfReader::add_reference(ModelPart& part, const pugi::xml_node& referen
 void ThreemfReader::add_object(ModelPart& part, const pugi::xml_node& object, const Placement& place, int depth) {
   if (depth > k_deepest) fail(part, object, fmt::format("components within components, deeper than {}", k_deepest));
   spend(part, object);
+  if (!is_of_the_solid(part, object)) {
+    ++left_out_;
+    return;
+  }
   if (const pugi::xml_node mesh = child(object, "mesh")) {
     const std::size_t first = mesh_.vertices.size();
     add_vertices(part, mesh, place);
@@ -306,8 +354,15 @@ void ThreemfReader::add_triangles(ModelPart& part, const pugi::xml_node& mesh, c
 TriangleMesh ThreemfReader::read() {
   elements_left_ = k_always_unpacked;
   ModelPart& root = part(model_path());
-  for_children(child(child(root.xml, "model"), "build"), "item",
-               [&](const pugi::xml_node& item) { add_reference(root, item, {}, 0); });
+  const pugi::xml_node model = child(root.xml, "model");
+  bool is_empty = true;
+  for_children(child(model, "build"), "item", [&](const pugi::xml_node& item) {
+    is_empty = false;
+    add_reference(root, item, {}, 0);
+  });
+  if (is_empty) fail(root, model, "the build is empty: place the object on the plate and export it again");
+  if (mesh_.triangles.empty() && left_out_ > 0)
+    fail(root, model, "the build holds supports and auxiliary objects alone, no part: export the part with them");
   return std::move(mesh_);
 }
 

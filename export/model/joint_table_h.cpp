@@ -16,7 +16,7 @@ using namespace model_words;
 /// What cannot end a comment nor go on over a line's end.
 std::string in_comment(const std::string& text) {
   std::string clean;
-  for (const char c : plain(text)) clean += c == '*' || c == '\\' || c == '?' ? '_' : c;
+  for (const char c : cleaned_line(text)) clean += c == '*' || c == '\\' || c == '?' ? '_' : c;
   return clean;
 }
 

@@ -82,16 +82,10 @@ std::vector<std::string> of_curve(const JointCurve& curve, const ModelProduct& p
   return lines;
 }
 
-std::string plain(const std::string& text) {
-  std::string clean;
-  for (const char c : text) clean += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  return clean;
-}
-
 std::string xml_comment(const std::vector<std::string>& lines) {
   std::string text = "<!--\n";
   for (const std::string& words : lines) {
-    std::string line = plain(words);
+    std::string line = cleaned_line(words);
     // "--" ends a comment too early.
     for (std::size_t at = line.find("--"); at != std::string::npos; at = line.find("--", at))
       line.replace(at, 2, "- -");
@@ -100,7 +94,7 @@ std::string xml_comment(const std::vector<std::string>& lines) {
   return text + "-->\n";
 }
 
-std::string xml_attribute(const std::string& text) { return escape_html(plain(text)); }
+std::string xml_attribute(const std::string& text) { return escape_html(cleaned_line(text)); }
 
 namespace {
 

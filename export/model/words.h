@@ -20,8 +20,6 @@ std::string at_most_deg(double angle);
 
 /// What α and θ are in these files, and where they come from.
 std::vector<std::string> of_curve(const JointCurve& curve, const ModelProduct& product, bool shown);
-/// Text without control characters.
-std::string plain(const std::string& text);
 /// Lines without what XML does not take in a comment.
 std::string xml_comment(const std::vector<std::string>& lines);
 std::string xml_attribute(const std::string& text);

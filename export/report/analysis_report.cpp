@@ -1,9 +1,11 @@
 // The page of an analysis: the joint moves, and what it bears, what it misses its angle by, and why.
 
+#include <algorithm>
 #include <filesystem>
 
 #include "export/report/html.h"
 #include "export/report/moving_joint.h"
+#include "export/report/picture.h"
 #include "export/report/plot.h"
 #include "export/report/report_parts.h"
 #include "export/report/svg.h"
@@ -57,7 +59,7 @@ PlotAxis axis_of(const std::string& label, const std::string& unit, double least
   return {label, unit, {}, {}, least_span};
 }
 
-std::string plots(const AnalysisResult& result, const Mechanism& mechanism) {
+std::vector<Figure> figures(const AnalysisResult& result, const Mechanism& mechanism) {
   const PlotAxis alpha = axis_of("pulley angle α", "°", 1e-6);
   const std::string where = mechanism.sheath.is_there()                 ? "behind the sheaths, at the pulley"
                             : mechanism.guides.kind == GuideKind::idler ? "below the idlers"
@@ -81,10 +83,31 @@ std::string plots(const AnalysisResult& result, const Mechanism& mechanism) {
       {"small disturbances", Ink::main,
        over_rows(result, [&](const auto& r) { return per_degree(r.rising.stiffness_stuck); })},
       {"large ones", Ink::p2, over_rows(result, [&](const auto& r) { return per_degree(r.rising.stiffness); })}};
+  return {plot_figure(tension), plot_figure(torque), plot_figure(error), plot_figure(stiffness)};
+}
+
+std::string plots(const AnalysisResult& result, const Mechanism& mechanism) {
   std::string html;
-  for (const Plot* plot : {&tension, &torque, &error, &stiffness})
-    html += "<div>" + inline_svg(plot_figure(*plot)) + "</div>\n";
+  for (const Figure& figure : figures(result, mechanism)) html += in_div(figure);
   return "<div class=\"plots\">" + html + "</div>";
+}
+
+/// The figures two by two under the mechanism's name.
+Figure picture_of(const MechanismFile& file, const AnalysisResult& result) {
+  constexpr double k_head = 34, k_gap = 24;
+  const std::string& name = file.mechanism.name;
+  Figure all{0, k_head, name + ": analysis", svg_words("heading", {2, 20}, name), {}};
+  double left = 0, top = k_head, lowest = k_head;
+  for (const Figure& figure : figures(result, file.mechanism)) {
+    all.body += "<g transform=\"translate(" + svg_number(left) + " " + svg_number(top) + ")\">" + figure.body + "</g>";
+    all.width = std::max(all.width, left + figure.width);
+    lowest = std::max(lowest, top + figure.height);
+    const bool goes_on = left == 0;
+    left = goes_on ? figure.width + k_gap : 0;
+    if (!goes_on) top = lowest + k_gap;
+  }
+  all.height = lowest;
+  return all;
 }
 
 // Tables --------------------------------------------------------------------------------------------------------------
@@ -124,6 +147,20 @@ std::vector<StrokePoint> stroke_of(const AnalysisResult& result) {
 }
 
 }  // namespace
+
+std::string analysis_svg(const MechanismFile& file, const AnalysisResult& result) {
+  return standalone_svg(picture_of(file, result));
+}
+
+std::string analysis_png(const MechanismFile& file, const AnalysisResult& result) {
+  const Figure picture = picture_of(file, result);
+  return png_of(standalone_svg(picture), picture.width, picture.height);
+}
+
+std::string analysis_pdf(const MechanismFile& file, const AnalysisResult& result) {
+  const Figure picture = picture_of(file, result);
+  return pdf_of(standalone_svg(picture), picture.width, picture.height);
+}
 
 std::string analysis_html(const MechanismFile& file, const AnalysisResult& result, const AnalysisOptions& options,
                           const std::vector<Diagnostic>& said) {

@@ -23,6 +23,7 @@ Json parameters_json(const std::vector<FittedParameter>& parameters) {
   Json json = Json::object();
   for (const FittedParameter& parameter : parameters) {
     json[parameter.name] = {{"value", nine_digits(parameter.value)},
+                            {"ci95_if_only", {nine_digits(parameter.low_if_only), nine_digits(parameter.high_if_only)}},
                             {"ci95", {nine_digits(parameter.low), nine_digits(parameter.high)}}};
   }
   return json;
@@ -34,13 +35,16 @@ Json effect_json(const FoundEffect& effect) {
                {"place", word(effect.place)},
                {"parameters", parameters_json(effect.parameters)},
                {"rms_drop_deg", angle_json(effect.rms_drop)},
+               {"share", nine_digits(effect.share)},
                {"evidence", nine_digits(effect.evidence)},
                {"audit", audit_json(effect.audit)},
                {"correctable_by", word(effect.correctable_by)}};
   // What is ahead of everything without a name keeps the keys it had.
-  if (effect.group.back() == k_nameless) {
-    json["nameless"] = {{"behind", nine_digits(effect.nameless.behind)}, {"words", nameless_words(effect)}};
+  if (effect.group.back() == k_unmodelled) {
+    json["unmodelled"] = {{"behind", nine_digits(effect.unmodelled.behind)}, {"words", unmodelled_words(effect)}};
   }
+  for (const MemberBeside& member : effect.instead)
+    json["instead"].push_back({{"name", member.name}, {"parameters", parameters_json(member.parameters)}});
   for (const MemberBeside& member : effect.beside)
     json["beside"].push_back({{"name", member.name}, {"parameters", parameters_json(member.parameters)}});
   return json;
@@ -107,6 +111,17 @@ Json tried_json(const std::vector<Candidate>& tried) {
   return list;
 }
 
+Json noise_levels_json(const NoiseFloor& noise) {
+  Json list = Json::array();
+  for (const NoiseLevel& level : noise.levels) {
+    list.push_back({{"load", nine_digits(level.load)},
+                    {"speed_deg_per_s", angle_json(level.speed)},
+                    {"rms_deg", angle_json(level.rms)},
+                    {"largest_at_alpha_deg", angle_json(level.largest_at)}});
+  }
+  return list;
+}
+
 Json effects_json(const Calibration& calibration) {
   Json list = Json::array();
   for (const FoundEffect& effect : calibration.effects) list.push_back(effect_json(effect));
@@ -146,6 +161,8 @@ Json correctable_json(const Correction& correction) {
   Json json = {{"by_pulley_rms_deg", angle_json(correction.by_pulley)},
                {"by_table_rms_deg", angle_json(correction.by_table)}};
   if (correction.by_curve > 0) json["by_empirical_curve_rms_deg"] = angle_json(correction.by_curve);
+  if (!correction.why_no_pulley_file.empty()) json["no_corrected_toml"] = correction.why_no_pulley_file;
+  if (!correction.why_no_table.empty()) json["no_compensation_csv"] = correction.why_no_table;
   if (!correction.infeasible.empty()) json["infeasible"] = correction.infeasible;
   if (correction.tied_at != 0) json["tied_at_deg"] = angle_json(correction.tied_at);
   if (correction.round.r1 > 0) {
@@ -161,10 +178,14 @@ Json correctable_json(const Correction& correction) {
 std::string calibration_json(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
   Json json = {{"schema", 1}, {"verdict", word(calibration.verdict)}, {"summary", calibration.summary}};
+  const Headline first = headline(product);
+  json["headline"] = {{"problem", first.problem}, {"cause", first.cause}, {"action", first.action}};
   json["effects"] = effects_json(calibration);
   json["noise_floor_deg"] = angle_json(calibration.noise.rms);
   json["noise_floor"] = {{"degrees_of_freedom", nine_digits(calibration.noise.degrees_of_freedom)},
-                         {"from_repeats", calibration.noise.from_repeats}};
+                         {"from_repeats", calibration.noise.from_repeats},
+                         {"within_stroke_deg", angle_json(calibration.noise.within_stroke)},
+                         {"levels", noise_levels_json(calibration.noise)}};
   json["before"] = figures_json(calibration.before);
   json["after"] = figures_json(calibration.after);
   json["after_per_noise_floor"] =
@@ -172,6 +193,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["held_out"] = {{"factors", calibration.held_out_factors}, {"runs", calibration.held_out_runs}};
   json["rest_autocorrelation"] = nine_digits(calibration.rest_autocorrelation);
   json["unexplained_rms_deg"] = angle_json(calibration.unexplained_rms);
+  json["dropped"] = calibration.dropped;
   json["unexplained_where"] = calibration.unexplained_where;
   json["unknown"] = unknown_json(calibration.unknown);
   json["instead"] = unknown_json(calibration.instead);

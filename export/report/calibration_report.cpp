@@ -45,11 +45,39 @@ Sign sign_of(CalibrationVerdict verdict) {
   return {"bad", "✗"};
 }
 
-std::string verdict_section(const Calibration& calibration) {
-  const Sign sign = sign_of(calibration.verdict);
-  return "<section class=\"verdict " + sign.style + "\"><span class=\"sign\">" + sign.sign + "</span><p><b>" +
-         safe_text(first_upper(open_words(std::string(word(calibration.verdict))))) + ".</b> " +
-         safe_text(calibration.summary) + "</p></section>\n";
+std::string verdict_section(const CalibrationProduct& product) {
+  const Sign sign = sign_of(product.calibration.verdict);
+  const Headline first = headline(product);
+  std::string html = "<p><b>" + safe_text(first.problem) + "</b></p>";
+  for (const std::string& line : {first.cause, first.action})
+    html += line.empty() ? "" : "<p>" + safe_text(line) + "</p>";
+  return "<section class=\"verdict " + sign.style + "\"><span class=\"sign\">" + sign.sign + "</span><div>" + html +
+         "</div></section>\n";
+}
+
+std::string cause_table_section(const CalibrationProduct& product) {
+  std::string rows;
+  for (const CauseRow& row : cause_rows(product))
+    rows += "<tr>" + html_cell(first_upper(row.cause)) + html_cell(row.size) + html_cell(row.interval) +
+            html_number_cell(row.share) + html_cell(row.corrected_by) + "</tr>";
+  if (rows.empty()) return "";
+  return html_section("causes", "Causes",
+                      html_table({"cause", "size", "95 %, if the only cause", "#of the error", "corrected by"}, rows));
+}
+
+/// A section that opens where it is asked for.
+std::string folded(const std::string& section) {
+  const std::size_t title = section.find("<h2>"), end = section.find("</h2>");
+  if (title == std::string::npos) return section;
+  return section.substr(0, title) + "<details><summary><h2>" + section.substr(title + 4, end - title - 4) +
+         "</h2></summary>" + section.substr(end + 5, section.rfind("</section>") - end - 5) + "</details></section>\n";
+}
+
+std::string summary_section(const Calibration& calibration) {
+  return html_section(
+      "verdict", "Verdict: " + open_words(std::string(word(calibration.verdict))),
+      "<p>" + safe_text(calibration.summary) + "</p>" +
+          (calibration.noise_varies.empty() ? "" : "<p>" + safe_text(calibration.noise_varies) + "</p>"));
 }
 
 std::string slips_section(const CalibrationProduct& product) {
@@ -124,14 +152,18 @@ std::vector<std::string> correction_items(const CalibrationProduct& product) {
   std::vector<std::string> items;
   if (correction.has_pulley) {
     items.push_back("fusee build corrected.toml makes a pulley that takes away " + degree_words(correction.by_pulley) +
-                    " rms, by simulation.");
+                    " rms off rows that were not fitted.");
     if (correction.round.r1 > 0) items.push_back(round_words(correction) + ".");
     if (correction.tied_at != 0) items.push_back(first_upper(tied_words(correction)) + ".");
   } else if (!correction.infeasible.empty()) {
     items.push_back(first_upper(infeasible_words(correction)) + ".");
-  } else {
+  } else if (correction.why_no_pulley_file.empty()) {
     items.push_back("Nothing was identified that another pulley would take out.");
   }
+  if (!correction.why_no_pulley_file.empty())
+    items.push_back("corrected.toml is not written: " + correction.why_no_pulley_file + ".");
+  if (!correction.why_no_table.empty())
+    items.push_back("compensation.csv is not written: " + correction.why_no_table + ".");
   if (!correction.table.empty()) {
     items.push_back("compensation.csv, loaded into the motor’s controller" +
                     std::string(correction.has_pulley ? " with the corrected pulley," : ",") + " takes away " +
@@ -184,11 +216,11 @@ std::string effect_card(const FoundEffect& effect, const Signatures& known, cons
   if (const std::string audit = audit_words(effect); !audit.empty()) html += "<p>" + safe_text(audit) + "</p>";
   if (const std::string words = beside_words(effect, load_unit); !words.empty())
     html += "<p>" + safe_text(words) + "</p>";
-  if (const std::string words = nameless_words(effect); !words.empty()) html += "<p>" + safe_text(words) + "</p>";
+  if (const std::string words = unmodelled_words(effect); !words.empty()) html += "<p>" + safe_text(words) + "</p>";
   std::vector<std::string> rivals = rivals_of(effect);
-  std::erase(rivals, k_nameless);
+  std::erase(rivals, k_unmodelled);
   if (rivals.empty()) return html + "<p>Nothing else in the catalogue explains these data as well.</p></div>";
-  html += "<p><b>It may as well be:</b></p><ul>";
+  html += "<p><b>Equally likely:</b></p><ul>";
   for (const std::string& rival : rivals) {
     const auto found = known.find(rival);
     html += "<li><b>" + safe_text(open_words(rival)) + "</b>" +
@@ -297,8 +329,8 @@ std::string rest_section(const CalibrationProduct& product) {
   const std::string colour = " Neighbouring rows of it are correlated by " +
                              readable(calibration.rest_autocorrelation, 2) +
                              "; noise would be near 0. Dashed: the noise floor of a single row.";
-  const std::string unknown = described_html("What has no name, by what it depends on", calibration.unknown) +
-                              described_html("As likely as what was named: what has no name", calibration.instead) +
+  const std::string unknown = described_html("Unmodelled, by what it depends on", calibration.unknown) +
+                              described_html("As likely as what was named: an unmodelled cause", calibration.instead) +
                               covered_html(product);
   return html_section("rest", "What is left",
                       "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot + unknown);
@@ -325,7 +357,7 @@ std::string evidence_row(const Candidate& candidate, double most, bool as_good) 
                                        : "") +
                    open_words(candidate.name)) +
          "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
-         html_number_cell(readable(candidate.evidence / std::log(10.0), 1)) +
+         html_number_cell(std::isfinite(candidate.evidence) ? odds(candidate.evidence) : "–") +
          html_cell(candidate.why + (as_good ? "; as good in another's place" : "")) + "</tr>";
 }
 
@@ -343,10 +375,9 @@ std::string evidence_section(const Calibration& calibration) {
   if (rows.empty()) return "";
   return html_section(
       "evidence", "Evidence",
-      "<p class=\"lead\">How many times likelier the data are with an effect than without it, in powers of "
-      "ten, beside everything else that was found and a discrepancy that may take any smooth shape. A name "
-      "costs 2.6.</p>" +
-          html_table({"effect", "", "#powers of ten", "why"}, rows));
+      "<p class=\"lead\">Odds of the data with an effect to those without it, beside everything else that was found "
+      "and a discrepancy that may take any smooth shape. A name needs 400 : 1.</p>" +
+          html_table({"effect", "", "#odds", "why"}, rows));
 }
 
 std::string detectable_section(const Calibration& calibration) {
@@ -381,18 +412,20 @@ std::string calibration_report_html(const CalibrationProduct& product) {
             .name = product.file.mechanism.name,
             .source = std::to_string(runs) + (runs == 1 ? " run" : " runs") + " against <code>" +
                       safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code>",
-            .body = verdict_section(calibration) + slips_section(product),
+            .body = verdict_section(product) + cause_table_section(product) + slips_section(product),
             .foot = "Angles in degrees at the joint, lengths in mm, forces in N.",
             .styles = {embedded::figure_css, embedded::page_css, embedded::calibration_css},
             .scripts = {embedded::readout_js, joint_script(product.file.mechanism)}};
   if (calibration.verdict != CalibrationVerdict::not_testable) {
-    page.body += key_numbers(product) + action_section(product) + effects_section(product) + moving_section(product) +
-                 residuals_section(product) + rest_section(product) + figures_section(product) +
-                 evidence_section(calibration) + detectable_section(calibration);
+    for (const std::string& section :
+         {summary_section(calibration), action_section(product), key_numbers(product), effects_section(product),
+          moving_section(product), residuals_section(product), rest_section(product), figures_section(product),
+          evidence_section(calibration), detectable_section(calibration)})
+      page.body += folded(section);
   } else if (!calibration.next_runs.empty()) {
     page.body += html_section("actions", "Measure next", html_list(calibration.next_runs, "ol", "next"));
   }
-  page.body += data_section(product.measurement);
+  page.body += folded(data_section(product.measurement));
   return html_page(page);
 }
 

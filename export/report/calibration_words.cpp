@@ -7,6 +7,7 @@
 #include "export/report/svg.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "fusee/calibration/words.h"
 #include "fusee/export/calibration.h"
 
 namespace fusee {
@@ -59,14 +60,12 @@ std::string audit_words(const FoundEffect& effect) {
          ", these runs would have named it in " + std::to_string(effect.audit.named) + ".";
 }
 
-std::string nameless_words(const FoundEffect& effect) {
-  if (effect.group.empty() || effect.group.back() != k_nameless) return "";
-  const Nameless& rival = effect.nameless;
+std::string unmodelled_words(const FoundEffect& effect) {
+  if (effect.group.empty() || effect.group.back() != k_unmodelled) return "";
+  const Unmodelled& rival = effect.unmodelled;
   const std::string in_its_place = (rival.words.empty() ? "a smooth curve" : rival.words) +
-                                   " in its place, with which the data are " +
-                                   (rival.behind < 0 ? rounded(-rival.behind, 2) + " nats likelier"
-                                                     : "only " + rounded(rival.behind, 2) + " nats less likely");
-  return "Or something without a name that does the same: " + (rival.doubt.empty() ? in_its_place : rival.doubt) +
+                                   " in its place; odds for the named cause " + odds(rival.behind);
+  return "Or an unmodelled cause that does the same: " + (rival.doubt.empty() ? in_its_place : rival.doubt) +
          (rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".");
 }
 
@@ -105,8 +104,11 @@ NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_
 
 std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit) {
   const auto [name, unit] = name_and_unit(parameter.name, load_unit);
-  return name + " = " + readable_rounded(parameter.value) + unit + " (95 %: " + readable_rounded(parameter.low) +
-         " … " + readable_rounded(parameter.high) + ")" + (parameter.sense.empty() ? "" : ", " + parameter.sense);
+  const std::string own = readable_rounded(parameter.low_if_only) + " … " + readable_rounded(parameter.high_if_only),
+                    all = readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high);
+  return name + " = " + readable_rounded(parameter.value) + unit + " (95 %: " + own +
+         (own == all ? "" : " if nothing else is there, else " + all) + ")" +
+         (parameter.sense.empty() ? "" : ", " + parameter.sense);
 }
 
 std::vector<std::string> rivals_of(const FoundEffect& effect) {

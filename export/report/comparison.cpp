@@ -133,7 +133,7 @@ std::string remedy(const StateChange& change) {
 std::vector<std::string> others_of(const StateChange& change) {
   std::vector<std::string> others;
   for (const std::string& member : change.group) {
-    if (member != change.name) others.push_back(member == k_nameless ? "an unmodelled cause" : open_words(member));
+    if (member != change.name) others.push_back(member == k_unmodelled ? "an unmodelled cause" : open_words(member));
   }
   return others;
 }

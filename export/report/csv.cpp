@@ -2,6 +2,7 @@
 // decimals. A cell is empty where there is no such number.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -98,6 +99,25 @@ std::string profile_csv(const Product& product) {
   }
   put_outline(table, product.synthesis.p1, product.pulley.layout.z_p1);
   put_outline(table, product.synthesis.p2, product.pulley.layout.z_p2);
+  return table;
+}
+
+/// Places as in profile_csv(). Programs that make a closed spline of a table ask for its first point at the end again.
+std::string pitch_curve_csv(const Product& product, Side side) {
+  const bool left = side == Side::left;
+  std::string table = "x_mm,y_mm,z_mm\n";
+  const auto put = [&table](double x, double y, double z) { put_row(table, std::array{x, y, z}); };
+  if (product.helix) {
+    const SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
+    for (const SpiralRow& row : product.helix->synthesis.sides[left ? 0 : 1].spiral.rows)
+      put(row.x, row.y, place.height(row.z));
+    return table;
+  }
+  const BodyLayout& layout = product.pulley.layout;
+  const double z = left ? layout.z_p1 : layout.z_p2;
+  const Polygon curve = parallel(left ? product.synthesis.p1 : product.synthesis.p2, 0);
+  for (const Vec2& point : curve) put(point.x(), point.y(), z);
+  if (!curve.empty()) put(curve.front().x(), curve.front().y(), z);
   return table;
 }
 

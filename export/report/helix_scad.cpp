@@ -10,6 +10,7 @@
 #include "coil/helical_plan.h"
 #include "coil/winding.h"
 #include "export/report/scad_words.h"
+#include "fusee/base/text.h"
 #include "fusee/base/units.h"
 
 namespace fusee {
@@ -95,7 +96,7 @@ std::string climbing_parameters(const Product& product) {
 
 /* [Bore] */
 )",
-             on_one_line(mechanism.name)) +
+             cleaned_line(mechanism.name)) +
          bore_and_hub(product) + "\n/* [Groove] */\n" +
          slider_text({"groove_depth", "lip above the groove's floor: no deeper, for the ribs between the turns",
                       layout.groove_depth, 0.5, 0.1, layout.groove_depth}) +

@@ -104,8 +104,7 @@ std::string mu_windows_csv(const Reproduction& all) {
   return csv;
 }
 
-// ---- the page
-// ---------------------------------------------------------------------------------------------------------
+// ---- the page -------------------------------------------------------------------------------------------------------
 
 std::string row(std::initializer_list<std::string> cells) {
   std::string text = "|";

@@ -510,6 +510,7 @@ std::string files_table(const Product& product) {
                               {"profile.dxf", "pitch curves, groove floors and bore"},
                               {"plates.dxf", "the part as plates to cut"},
                               {"profile.csv, transmission.csv", "the curves and the stroke as tables"},
+                              {"profile_p1.csv, profile_p2.csv", "points of each pitch curve, for a spline in CAD"},
                               {"manifest.json", "the checks and the files’ hashes, for programs"}};
   std::string html = "<h3>Files beside this one</h3><div class=\"scroll\"><table><tbody>";
   const bool has_step = std::any_of(product.checks.begin(), product.checks.end(),

@@ -104,7 +104,7 @@ show = "assembled"; // [assembled, print{}]
 
 /* [Bore] */
 )",
-      on_one_line(mechanism.name), layout.parts == Parts::two ? ", P1, P2" : "");
+      cleaned_line(mechanism.name), layout.parts == Parts::two ? ", P1, P2" : "");
   text += bore_and_hub(product);
   text += "\n/* [Groove] */\n";
   text += slider_text({"groove_depth", "lip above the groove's floor", layout.groove_depth, 0.5, 0.1, 20});

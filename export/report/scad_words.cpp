@@ -66,12 +66,6 @@ std::string directions_text(const Polygon& points) {
 
 std::string decimal(double value) { return trimmed_fixed(value, 5); }
 
-std::string on_one_line(const std::string& text) {
-  std::string line;
-  for (const char c : text) line += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  return line;
-}
-
 std::string point_text(const Vec2& p) { return "[" + decimal(p.x()) + ", " + decimal(p.y()) + "]"; }
 
 std::string points_text(const Polygon& points) {

@@ -11,8 +11,6 @@
 namespace fusee::scad {
 
 std::string decimal(double value);
-/// A comment must stay one, whatever the mechanism is called.
-std::string on_one_line(const std::string& text);
 std::string point_text(const Vec2& p);
 std::string points_text(const Polygon& points);
 const char* name_of(Groove groove);

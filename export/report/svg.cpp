@@ -54,18 +54,7 @@ std::string standalone_svg(const Figure& figure) {
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + svg_element(figure, size, style);
 }
 
-std::string safe_text(std::string_view words) {
-  std::string clean;
-  for (const char c : words) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f) {
-      clean += "\uFFFD";
-    } else {
-      clean += c;
-    }
-  }
-  return escape_html(clean);
-}
+std::string safe_text(std::string_view words) { return escape_html(cleaned(words)); }
 
 std::string svg_number(double value) {
   if (!std::isfinite(value)) return "0";

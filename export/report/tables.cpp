@@ -67,6 +67,7 @@ constexpr PlainName k_plain_names[] = {
     {"groove_width_P#", "Width of P#’s groove"},
     {"triangles", "As many triangles as in pulley.stl"},
     {"deviation", "Distance to pulley.stl"},
+    {"undrawn_entities", "Entities that draw no curve"},
     {"contours_closed", "Contours left open"},
     {"ends_meet", "Gap between ends that should meet"},
     {"no_duplicate_lines", "Duplicate lines"},

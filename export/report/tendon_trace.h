@@ -1,6 +1,6 @@
 /// \file
-/// Where the mechanism's points stand at a place of the stroke, and the path of a tendon over them. Frame of CONTRACT
-/// §1, mm.
+/// Positions of the mechanism's points at one place of the stroke, and the path of a tendon over them. Frame of the
+/// mechanism file (docs/reference/mechanism-file.md), mm.
 #pragma once
 
 #include <optional>

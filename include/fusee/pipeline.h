@@ -93,8 +93,7 @@ AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options
 /// a possible design and a search that was stopped are values; InputError and OutputError as their names say.
 OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options = {});
 
-// Parts from anywhere
-// --------------------------------------------------------------------------------------------------
+// ---- Parts from anywhere --------------------------------------------------------------------------------------------
 
 /// A made part as a file holds it.
 using Part = std::variant<TriangleMesh, Drawing>;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the README's pictures: each profile's part as its report shows it, the report's page, and the test model.
+"""Draws the pictures of profiles/README.md and docs: each profile's part as its report shows it, the report's page, and the test model.
 
     profiles/pictures/draw.py build/release/fusee [folder, this one without it]
 

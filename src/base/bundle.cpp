@@ -3,37 +3,39 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
 #include "base/json.h"
 #include "base/zip.h"
 #include "fusee/base/files.h"
+#include "fusee/base/text.h"
 
 namespace fusee {
+
+NLOHMANN_JSON_SERIALIZE_ENUM(Severity,
+                             {{Severity::error, "error"}, {Severity::warning, "warning"}, {Severity::note, "note"}})
+
 namespace {
 
 constexpr const char* k_index = "bundle.json";
 constexpr const char* k_result = "stdout.txt";
 constexpr const char* k_files = "files/";
 constexpr int k_schema = 1;
-constexpr std::size_t k_longest_path = 1000;
+constexpr std::size_t k_longest_path = 1000, k_longest_name = 255;
+/// As a tree of values it takes sixteen times the room.
+constexpr std::uint64_t k_largest_index = std::uint64_t{16} << 20;
 
 // ---- writing --------------------------------------------------------------------------------------------------------
 
-std::string_view word(Severity severity) {
-  if (severity == Severity::error) return "error";
-  return severity == Severity::warning ? "warning" : "note";
-}
-
 Json to_json(const Diagnostic& diagnostic) {
-  return {{"severity", word(diagnostic.severity)}, {"file", diagnostic.place.file}, {"line", diagnostic.place.line},
-          {"column", diagnostic.place.column},     {"message", diagnostic.message}, {"hint", diagnostic.hint}};
+  return {{"severity", diagnostic.severity},   {"file", diagnostic.place.file}, {"line", diagnostic.place.line},
+          {"column", diagnostic.place.column}, {"message", diagnostic.message}, {"hint", diagnostic.hint}};
 }
 
 Json to_json(const BundledFile& file) {
   Json json = {{"path", file.path}};
-  if (!file.asked.empty()) json["asked"] = file.asked;
   if (file.failure) {
     json["failure"] = to_json(*file.failure);
   } else {
@@ -74,10 +76,12 @@ std::map<std::string, std::string> entries_of(std::string_view bytes, const std:
   std::map<std::string, std::string> entries;
   for (std::size_t i = 0; i < archive.size(); ++i) {
     const std::string name = archive.name_of(i);
-    if (!is_inner_path(name)) fail(file, name, "the name leads out of the bundle");
+    if (!is_inner_path(name)) fail(file, name, "the name leads out of the bundle, or is hidden");
     if (!archive.is_plain_file(i)) fail(file, name, "is a link, a folder or encrypted, and no file");
     if (entries.count(name) != 0) fail(file, name, "stands twice in the bundle");
-    entries[name] = archive.unpacked(i, budget, limits);
+    std::uint64_t index_budget = k_largest_index;
+    const bool is_index = name == k_index;
+    entries[name] = archive.unpacked(i, is_index ? index_budget : budget, is_index ? "its list 16 MiB" : limits);
   }
   return entries;
 }
@@ -87,47 +91,36 @@ class Index {
  public:
   Index(const std::string& file, const Json& json, std::string place)
       : file_(file), json_(json), place_(std::move(place)) {
-    if (!json_.is_object()) fail(file_, k_index, place_ + " is no table");
+    if (!json_.is_object()) fail(file_, k_index, place_ + " is no table of JSON");
   }
 
   bool has(const char* key) const { return json_.contains(key); }
-  std::string text(const char* key) const {
-    const Json& value = at(key);
-    if (!value.is_string()) wrong(key, "a text");
-    return value.get<std::string>();
-  }
+  std::string text(const char* key) const { return value(key, &Json::is_string, "a text").get<std::string>(); }
   std::int64_t integer(const char* key) const {
-    const Json& value = at(key);
-    if (!value.is_number_integer()) wrong(key, "a whole number");
-    return value.get<std::int64_t>();
-  }
-  const Json& list(const char* key) const {
-    const Json& value = at(key);
-    if (!value.is_array()) wrong(key, "a list");
-    return value;
+    return value(key, &Json::is_number_integer, "a whole number").get<std::int64_t>();
   }
   std::vector<std::string> texts(const char* key) const {
-    std::vector<std::string> all;
-    for (const Json& each : list(key)) {
-      if (!each.is_string()) wrong(key, "a list of texts");
-      all.push_back(each.get<std::string>());
-    }
-    return all;
+    const Json& list = value(key, &Json::is_array, "a list");
+    if (!std::all_of(list.begin(), list.end(), [](const Json& each) { return each.is_string(); }))
+      wrong(key, "a list of texts");
+    return list.get<std::vector<std::string>>();
   }
-  Index table(const char* key) const { return {file_, at(key), place_ + "." + key}; }
+  Index table(const char* key) const { return {file_, value(key, &Json::is_object, "a table"), place_ + "." + key}; }
   template <class Read>
   void for_each(const char* key, const Read& read) const {
     std::size_t count = 0;
-    for (const Json& item : list(key)) read(Index(file_, item, fmt::format("{}.{}[{}]", place_, key, count++)));
+    for (const Json& item : value(key, &Json::is_array, "a list"))
+      read(Index(file_, item, fmt::format("{}.{}[{}]", place_, key, count++)));
   }
   [[noreturn]] void wrong(const char* key, const std::string& expected) const {
     fail(file_, k_index, fmt::format("{}.{} is not {}", place_, key, expected));
   }
 
  private:
-  const Json& at(const char* key) const {
+  const Json& value(const char* key, bool (Json::*is_expected)() const noexcept, const char* expected) const {
     const auto found = json_.find(key);
     if (found == json_.end()) fail(file_, k_index, fmt::format("{} lacks {}", place_, key));
+    if (!((*found).*is_expected)()) wrong(key, expected);
     return *found;
   }
 
@@ -137,10 +130,8 @@ class Index {
 };
 
 Diagnostic read_diagnostic(const Index& index) {
-  const std::string severity = index.text("severity");
   Diagnostic diagnostic;
-  if (severity == "warning") diagnostic.severity = Severity::warning;
-  if (severity == "note") diagnostic.severity = Severity::note;
+  diagnostic.severity = Json(index.text("severity")).get<Severity>();
   diagnostic.place = {index.text("file"), static_cast<int>(index.integer("line")),
                       static_cast<int>(index.integer("column"))};
   diagnostic.message = index.text("message");
@@ -152,38 +143,48 @@ Diagnostic read_diagnostic(const Index& index) {
 BundledFile read_bundled(const Index& index, std::map<std::string, std::string>& entries) {
   BundledFile file;
   file.path = index.text("path");
-  if (index.has("asked")) file.asked = index.texts("asked");
   if (index.has("failure")) {
     file.failure = read_diagnostic(index.table("failure"));
     return file;
   }
   if (!is_inner_path(file.path)) index.wrong("path", "a path within the bundle");
-  const auto entry = entries.find(k_files + file.path);
-  if (entry == entries.end()) index.wrong("path", "in the bundle, or listed twice");
-  file.bytes = std::move(entry->second);
-  entries.erase(entry);
+  auto entry = entries.extract(k_files + file.path);
+  if (entry.empty()) index.wrong("path", "in the bundle, or listed twice");
+  file.bytes = std::move(entry.mapped());
   if (sha256(file.bytes) != index.text("sha256")) index.wrong("sha256", "that of " + (k_files + file.path));
   return file;
 }
 
-Json parse_index(const std::string& text, const std::string& file) {
-  Json json = parse_foreign_json(text);
-  if (!json.is_object()) fail(file, k_index, "is no JSON document of a bundle");
-  return json;
+/// What a replay would make, one folder or file each, is no more than a bundle may hold.
+void demand_few_places(const Bundle& bundle, const Index& index) {
+  std::set<std::string_view> folders, files;
+  const auto take = [&](const char* key, std::string_view path) {
+    const bool is_folder = path.ends_with('/');
+    if (is_folder) path.remove_suffix(1);
+    if (!is_inner_path(path)) index.wrong(key, "a list of paths within the bundle");
+    (is_folder ? folders : files).insert(path);
+    for (std::size_t end = path.find('/'); end != std::string_view::npos; end = path.find('/', end + 1))
+      folders.insert(path.substr(0, end));
+    if (folders.size() > k_most_bundled_files || files.size() > k_most_bundled_files)
+      index.wrong(key, fmt::format("a list of at most {} files and folders", k_most_bundled_files));
+  };
+  for (const BundledFile& file : bundle.files)
+    if (!file.failure) take("files", file.path);
+  for (const std::string& path : bundle.in_the_way) take("in_the_way", path);
+  for (const std::string_view file : files)
+    if (folders.count(file) != 0) index.wrong("files", fmt::format("clear: {} is a file and a folder", file));
 }
 
 }  // namespace
 
 bool is_inner_path(std::string_view path) {
-  if (path.empty() || path.size() > k_longest_path) return false;
-  const auto is_odd = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '\\' || c == ':'; };
-  if (std::any_of(path.begin(), path.end(), is_odd)) return false;
-  for (std::string_view rest = path;;) {
-    const std::string_view part = rest.substr(0, rest.find('/'));
-    if (part.empty() || part == "." || part == "..") return false;
-    if (part.size() == rest.size()) return true;
-    rest.remove_prefix(part.size() + 1);
-  }
+  const bool foreign = path.find_first_of("\\:") != std::string_view::npos || cleaned_line(path) != path;
+  const std::string whole = fmt::format("/{}/", path);
+  const bool hides = whole.find("//") != std::string::npos || whole.find("/.") != std::string::npos;
+  const std::filesystem::path parts(path);
+  return path.size() <= k_longest_path && !foreign && !hides &&
+         std::all_of(parts.begin(), parts.end(),
+                     [](const auto& part) { return part.native().size() <= k_longest_name; });
 }
 
 std::string bundle_bytes(const Bundle& bundle) {
@@ -203,17 +204,15 @@ bool is_bundle(std::string_view bytes) {
 
 Bundle read_bundle(std::string_view bytes, const std::string& name) {
   std::map<std::string, std::string> entries = entries_of(bytes, name);
-  const auto text = entries.find(k_index), result = entries.find(k_result);
-  if (text == entries.end()) fail(name, k_index, "is not in this archive: it is no bundle of fusee");
-  if (result == entries.end()) fail(name, k_result, "is not in this archive: it is no whole bundle of fusee");
-  const Json json = parse_index(text->second, name);
+  auto text = entries.extract(k_index), result = entries.extract(k_result);
+  if (text.empty() || result.empty())
+    fail(name, text.empty() ? k_index : k_result, "is not in this archive: it is no bundle of fusee");
+  const Json json = parse_foreign_json(text.mapped());
   const Index index(name, json, "the bundle");
   if (index.text("tool") != "fusee bundle") index.wrong("tool", "\"fusee bundle\"");
   if (index.integer("schema") != k_schema) index.wrong("schema", "1: it is of a later fusee");
   Bundle bundle;
-  bundle.outcome.result = std::move(result->second);
-  entries.erase(text);
-  entries.erase(result);
+  bundle.outcome.result = std::move(result.mapped());
   bundle.version = index.text("version");
   bundle.built_with = index.text("built_with");
   bundle.runs_on = index.text("runs_on");
@@ -222,9 +221,7 @@ Bundle read_bundle(std::string_view bytes, const std::string& name) {
   index.for_each("messages", [&](const Index& each) { bundle.outcome.messages.push_back(read_diagnostic(each)); });
   index.for_each("files", [&](const Index& each) { bundle.files.push_back(read_bundled(each, entries)); });
   bundle.in_the_way = index.texts("in_the_way");
-  for (const std::string& path : bundle.in_the_way)
-    if (!is_inner_path(path.ends_with('/') ? path.substr(0, path.size() - 1) : path))
-      index.wrong("in_the_way", "a list of paths within the bundle");
+  demand_few_places(bundle, index);
   index.for_each("outputs", [&](const Index& each) {
     bundle.outcome.outputs.push_back(
         {each.text("path"), static_cast<std::uint64_t>(each.integer("bytes")), each.text("sha256")});

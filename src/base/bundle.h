@@ -16,15 +16,12 @@ namespace fusee {
 /// What a run got when it asked for a file.
 struct BundledFile {
   std::string path;  ///< in the folder of the run, as the bundle names it: "arm.toml", "outside/run.csv"
-  /// How else it is asked for, by what stands in a file that was read: a relative path, or "sha256:…" of an absolute
-  /// one, which need not stand here too.
-  std::vector<std::string> asked;
   std::string bytes;
   std::optional<Diagnostic> failure;  ///< instead of bytes: it could not be read
 };
 
 struct BundledOutput {
-  std::string path;
+  std::string path;  ///< in the folder that the command line names: "pulley.stl"
   std::uint64_t bytes = 0;
   std::string sha256;
 
@@ -52,16 +49,18 @@ struct Bundle {
 
 /// Packed and unpacked a bundle holds no more.
 inline constexpr std::uint64_t k_largest_bundle = std::uint64_t{512} << 20;
+/// Of files, of names in the way, and of the folders that they stand in: each.
 inline constexpr std::size_t k_most_bundled_files = 2000;
 
 std::string bundle_bytes(const Bundle& bundle);
-/// Any bytes. InputError of `name`, with the entry that is wrong: names that lead out of the bundle, links, entries
-/// that stand twice, that are not listed or not as listed, or unpack to too much.
+/// Any bytes. InputError of `name`, with the entry that is wrong: names that lead out of the bundle or are hidden, links,
+/// entries that stand twice, that are not listed or not as listed, or too much of anything.
 Bundle read_bundle(std::string_view bytes, const std::string& name);
 /// Whether these bytes begin as a bundle does: ours to replace.
 bool is_bundle(std::string_view bytes);
 
-/// "a/b.csv": not absolute, without dots, colons and what else leads elsewhere on some system.
+/// "a/b.csv": UTF-8, not absolute, no part of it begins with a dot, and without colons, backslashes and what cleaned()
+/// takes out: it leads elsewhere on no system, hides nothing, and may be shown.
 bool is_inner_path(std::string_view path);
 
 }  // namespace fusee

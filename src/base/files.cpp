@@ -5,6 +5,7 @@
 #include <openssl/sha.h>
 
 #include <array>
+#include <cstdlib>
 
 #include "base/output_list.h"
 #include "fusee/base/diagnostics.h"
@@ -40,6 +41,15 @@ std::string read_output(const fs::path& path, std::size_t limit) {
   reserve_for(path, limit, bytes);
   read_from_disk({path, limit}, [&bytes](std::string_view block) { bytes += block; });
   return bytes;
+}
+
+fs::path temporary_folder() {
+  std::error_code error;
+  fs::path folder = fs::temp_directory_path(error);
+  if (!error) return folder;
+  const char* named = std::getenv("TMPDIR");
+  throw OutputError("the temporary folder " + std::string(named ? named : "/tmp") + " is none",
+                    "set TMPDIR to a folder that you may write to");
 }
 
 // Not by EVP, which reads its configuration and sets up all that it knows first: a millisecond, before anything is

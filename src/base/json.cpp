@@ -8,7 +8,7 @@
 namespace fusee {
 
 std::string json_text(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  return unicode_escaped(json.dump(indent, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 Json nine_digits(double value) {

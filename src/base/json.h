@@ -12,7 +12,7 @@ namespace fusee {
 using Json = nlohmann::ordered_json;
 
 /// `indent` blanks a level, and a line's end. Names of files and messages may hold any bytes, JSON may not: what is no
-/// UTF-8 is replaced.
+/// UTF-8 is replaced, and what a terminal would obey is escaped.
 std::string json_text(const Json& json, int indent);
 
 /// JSON knows no NaN and no infinity: null. The last digits of a fit or a simulation are noise, and nine are kept.

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: the staging folders of killed runs, and the way back from them.
+/// Internal: which files in a folder fusee wrote, the staging folders of killed runs, and the way back from them.
 ///
 /// A killed run leaves its staging folder (staging.h). The next run that publishes into the same place puts back what
 /// lies aside there and removes the rest. It trusts nothing in it: the folder must belong to this user, with mode 0700,
@@ -9,21 +9,34 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "base/written_files.h"
 #include "fusee/base/diagnostics.h"
 
 namespace fusee {
 
-/// Moves the entries of `from` into `to`, but those that `is_obsolete` and those whose name is taken there. Returns how
-/// many were moved, and -1 when one could not be.
-int move_entries(const std::filesystem::path& from, const std::filesystem::path& to,
-                 const std::function<bool(const std::filesystem::path&)>& is_obsolete);
+/// Every set of outputs holds one, which lists the others.
+inline constexpr const char* k_manifest = "manifest.json";
+/// No output of ours is larger: such a file was written by somebody else.
+inline constexpr std::size_t k_largest_output = std::size_t{4} << 30;
 
-/// Adds what the manifests in the leftovers of `place` list. Changes nothing. True when there is such a manifest.
-bool add_files_aside(const std::filesystem::path& place, WrittenFiles& written);
+/// Name and SHA-256 of outputs, their manifest among them.
+using WrittenFiles = std::set<std::pair<std::string, std::string>>;
+
+/// Adds the manifest of `folder` and what it lists. Nothing when there is none that fusee wrote.
+void add_written_files(const std::filesystem::path& folder, WrittenFiles& written);
+/// Adds what the manifests in the leftovers of `place` list. Changes nothing on the disk.
+void add_files_aside(const std::filesystem::path& place, WrittenFiles& written);
+/// True for a regular file that is listed, by its name, with the bytes that it has now.
+bool is_unchanged(const WrittenFiles& written, const std::filesystem::path& file);
+
+/// Moves the entries of `from` into `to`, but those that `is_obsolete`, if given, and those whose name is taken there.
+/// Returns how many were moved, and -1 when one could not be.
+int move_entries(const std::filesystem::path& from, const std::filesystem::path& to,
+                 const std::function<bool(const std::filesystem::path&)>& is_obsolete = {});
 
 /// Ends what killed runs began at the folder `place`. Never throws for what lies there; the notes report what
 /// was put back, and what was ignored.

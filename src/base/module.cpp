@@ -49,6 +49,10 @@ std::optional<fs::path> module_file(const std::string& name) {
 
 }  // namespace
 
+SystemLibrary::SystemLibrary(const char* soname) : handle_(::dlopen(soname, RTLD_NOW | RTLD_LOCAL)) {}
+
+void* SystemLibrary::symbol(const char* name) const { return handle_ == nullptr ? nullptr : ::dlsym(handle_, name); }
+
 LoadedModule load_module(const std::string& name, const char* symbol) {
   const auto file = module_file(name);
   if (!file) return {nullptr, "its module " + name + " is not installed beside it"};

@@ -9,7 +9,6 @@
 
 #include "base/leftovers.h"
 #include "base/staging.h"
-#include "base/written_files.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/files.h"
 
@@ -29,32 +28,14 @@ void tell_in_the_way(const fs::path& path) {
   if (FileAccess* access = FileAccess::current()) access->in_the_way(path);
 }
 
-/// The deepest part of `path` that exists.
-fs::path standing_ancestor(fs::path path) {
-  while (!stands(path) && path.has_parent_path() && path != path.parent_path()) path = path.parent_path();
-  return stands(path) ? path : fs::path(".");
-}
-
-/// `folder` from the root, without links, dots and a slash at its end.
-fs::path place_of(const fs::path& folder) {
-  std::error_code error;
-  fs::path place = fs::absolute(folder, error);
-  if (!error) place = fs::weakly_canonical(place, error);
-  if (error) place = folder;
-  return place.has_filename() ? place : place.parent_path();
-}
-
-/// OutputError where no file can be made.
-void demand_ground(const fs::path& folder) {
-  const fs::path ground = standing_ancestor(folder);
+/// OutputError where no file can be made in the deepest part of `folder` that exists.
+void demand_ground(fs::path folder) {
+  while (!stands(folder) && folder.has_parent_path() && folder != folder.parent_path()) folder = folder.parent_path();
+  const fs::path ground = stands(folder) ? folder : fs::path(".");
   std::error_code error;
   if (!fs::is_directory(ground, error))
     throw OutputError(ground.string() + " is not a folder", "choose another folder with -o");
   if (::access(ground.c_str(), W_OK | X_OK) != 0) fail_output("cannot write in", ground, errno);
-}
-
-bool is_within(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
 /// Rights that a new folder would not have by itself. What a security module labels is labelled anew.
@@ -75,20 +56,21 @@ bool is_replaceable(const fs::path& folder) {
   if (!S_ISDIR(status.st_mode) || status.st_dev != above.st_dev || status.st_uid != ::geteuid()) return false;
   std::error_code error;
   const fs::path here = fs::current_path(error);
-  if (error || is_within(here, folder) || has_attributes(folder)) return false;
-  const std::vector<std::string> names = names_in(folder);
-  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
-    struct stat entry {};
-    if (::lstat((folder / name).c_str(), &entry) != 0) return false;
-    return !S_ISDIR(entry.st_mode) ||
-           (entry.st_dev == status.st_dev && ::access((folder / name).c_str(), W_OK | X_OK) == 0);
-  });
+  const bool stands_in_it = std::mismatch(folder.begin(), folder.end(), here.begin(), here.end()).first == folder.end();
+  if (error || stands_in_it || has_attributes(folder)) return false;
+  for (const std::string& name : names_in(folder)) {
+    const fs::path entry = folder / name;
+    struct stat inner {};
+    if (::lstat(entry.c_str(), &inner) != 0) return false;
+    if (S_ISDIR(inner.st_mode) && (inner.st_dev != status.st_dev || ::access(entry.c_str(), W_OK | X_OK) != 0))
+      return false;
+  }
+  return true;
 }
 
 bool set_rights(const fs::path& folder, const fs::path& like) {
   struct stat status {};
-  if (::lstat(like.c_str(), &status) != 0) return false;
-  return ::chown(folder.c_str(), static_cast<uid_t>(-1), status.st_gid) == 0 &&
+  return ::lstat(like.c_str(), &status) == 0 && ::chown(folder.c_str(), static_cast<uid_t>(-1), status.st_gid) == 0 &&
          ::chmod(folder.c_str(), status.st_mode & 07777) == 0;
 }
 
@@ -99,10 +81,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path folder, bool force)
-    : folder_(folder.empty() ? "." : std::move(folder)),
-      place_(place_of(folder_)),
-      force_(force),
-      missing_(std::make_unique<MissingFolders>()) {
+    : folder_(folder.empty() ? "." : std::move(folder)), place_(place_of(folder_)), force_(force) {
   if (FileAccess* access = FileAccess::current()) access->will_write(folder_);
   learn_ours();
 }
@@ -110,95 +89,70 @@ OutputFolder::OutputFolder(fs::path folder, bool force)
 OutputFolder::~OutputFolder() = default;
 
 void OutputFolder::learn_ours() {
-  const bool here = add_written_files(place_, ours_), aside = add_files_aside(place_, ours_);
-  earlier_run_ = earlier_run_ || here || aside;
+  add_written_files(place_, ours_);
+  add_files_aside(place_, ours_);
 }
 
-void OutputFolder::claim(const std::vector<std::string>& names) { demand_ours(names); }
-
-/// Throws OutputError where something that is no regular file stands in the place of an output.
-void OutputFolder::demand_files(const std::vector<std::string>& names) const {
-  for (const std::string& name : names) {
-    const fs::path target = folder_ / name;
-    if (!stands(target) || fs::is_regular_file(fs::symlink_status(target))) continue;
-    tell_in_the_way(target);
-    throw OutputError(target.string() + " is in the way and is not a regular file",
-                      "move it away, or choose another folder with -o");
-  }
-}
-
-OutputFolder::NotOurs OutputFolder::not_ours(const std::vector<std::string>& names) const {
-  NotOurs found;
-  for (const std::string& name : names) {
-    if (force_ || !stands(folder_ / name) || (name == k_manifest && earlier_run_)) continue;
-    const auto by_name = [&name](const auto& entry) { return entry.first == name; };
-    if (std::none_of(ours_.begin(), ours_.end(), by_name)) {
-      found.foreign.push_back(name);
-    } else if (!is_unchanged(ours_, folder_ / name)) {
-      found.changed.push_back(name);
-    }
-  }
-  return found;
-}
-
-void OutputFolder::demand_ours(const std::vector<std::string>& names) {
+void OutputFolder::claim(const std::vector<std::string>& names) {
   demand_ground(folder_);
-  demand_files(names);
-  NotOurs found;
-  // Another run may publish between the look at its manifest and the look at its files: its manifest is known then.
-  for (int look = 0; look < 3; ++look) {
+  std::vector<std::string> foreign, changed;
+  const auto all_are_ours = [&] {
     learn_ours();
-    found = not_ours(names);
-    if (found.foreign.empty() && found.changed.empty()) return;
-  }
-  for (const std::string& name : found.foreign) tell_in_the_way(folder_ / name);
+    foreign.clear();
+    changed.clear();
+    for (const std::string& name : names) {
+      const fs::path target = folder_ / name;
+      if (!stands(target)) continue;
+      if (!fs::is_regular_file(fs::symlink_status(target))) {
+        tell_in_the_way(target);
+        throw OutputError(target.string() + " is in the way and is not a regular file",
+                          "move it away, or choose another folder with -o");
+      }
+      if (force_ || is_unchanged(ours_, target)) continue;
+      const auto listed = ours_.lower_bound({name, ""});
+      (listed != ours_.end() && listed->first == name ? changed : foreign).push_back(name);
+    }
+    return foreign.empty() && changed.empty();
+  };
+  // Another run may publish between the look at its manifest and the look at its files: its manifest is known then.
+  if (all_are_ours() || all_are_ours() || all_are_ours()) return;
+  for (const std::string& name : foreign) tell_in_the_way(folder_ / name);
   std::string message = folder_.string() + " holds ";
-  if (!found.foreign.empty())
-    message += fmt::format("files that fusee did not write: {}", fmt::join(found.foreign, ", "));
-  if (!found.changed.empty())
-    message += fmt::format("{}files that were changed after fusee wrote them: {}",
-                           found.foreign.empty() ? "" : "; and ", fmt::join(found.changed, ", "));
+  if (!foreign.empty()) message += fmt::format("files that fusee did not write: {}", fmt::join(foreign, ", "));
+  if (!changed.empty())
+    message += fmt::format("{}files that were changed after fusee wrote them: {}", foreign.empty() ? "" : "; and ",
+                           fmt::join(changed, ", "));
   throw OutputError(message, "choose another folder with -o, or overwrite them with --force");
 }
 
 void OutputFolder::discard() const {
   if (staging_) staging_->remove();
-  missing_->remove();
-}
-
-/// Beside the folder where it can be replaced as a whole.
-void OutputFolder::open_staging() {
-  if (staging_) return;
-  demand_ground(folder_);
-  const fs::path above = place_.parent_path();
-  if (!stands(place_) || is_replaceable(place_)) {
-    missing_->make(above);
-    if (::access(above.c_str(), W_OK | X_OK) == 0) {
-      staging_ = std::make_unique<Staging>(place_, StagingSite::beside);
-      return;
-    }
-  }
-  missing_->make(place_);
-  staging_ = std::make_unique<Staging>(place_, StagingSite::inside);
 }
 
 void OutputFolder::stage(const OutputFile& file) {
   const bool plain = !file.name.empty() && file.name.front() != '.' && file.name.find('/') == std::string::npos;
   demand(plain, "output name " + file.name);
-  open_staging();
+  if (!staging_) open_staging();
   demand(!contains(staged_, file.name), "staged twice: " + file.name);
   staged_.push_back(file.name);
   write_whole(staging_->path() / file.name, file.bytes);
+}
+
+/// Beside the folder where it can be replaced as a whole.
+void OutputFolder::open_staging() {
+  demand_ground(folder_);
+  const bool beside =
+      !stands(place_) || (is_replaceable(place_) && ::access(place_.parent_path().c_str(), W_OK | X_OK) == 0);
+  staging_ = std::make_unique<Staging>(place_, beside ? StagingSite::beside : StagingSite::inside);
 }
 
 fs::path OutputFolder::staged_path(const std::string& name) const { return staging_->path() / name; }
 
 void OutputFolder::withdraw(const std::vector<std::string>& names) { withdrawn_ = names; }
 
-/// True for a file of an earlier run that this one neither wrote nor keeps.
+/// True for a file of an earlier run that this one does not keep.
 bool OutputFolder::is_obsolete(const fs::path& file) const {
-  const std::string name = file.filename().string();
-  return !contains(staged_, name) && contains(withdrawn_, name) && is_unchanged(ours_, file);
+  return contains(withdrawn_, file.filename().string()) && is_unchanged(ours_, file);
 }
 
 /// Gives what stays in the folder a second name among the new files; false when something has none.
@@ -218,7 +172,7 @@ bool OutputFolder::publish_as_folder(std::vector<Diagnostic>& notes) {
   const fs::path& made = staging_->path();
   if (!stands(place_)) {
     flush_all({made});
-    return move_if_free({AT_FDCWD, made}, {AT_FDCWD, place_});
+    return move_if_free(made, place_);
   }
   if (!is_replaceable(place_) || !set_rights(made, place_)) return false;
   const bool linked = link_others();
@@ -227,8 +181,7 @@ bool OutputFolder::publish_as_folder(std::vector<Diagnostic>& notes) {
   // Of folders, of what has no second name, and of what came since. Another run may have published in between: its set
   // is the earlier one now.
   add_written_files(staging_->old(), ours_);
-  const int moved = move_entries(staging_->old(), place_, [this](const fs::path& entry) { return is_obsolete(entry); });
-  if (moved >= 0) {
+  if (move_entries(staging_->old(), place_, [this](const fs::path& entry) { return is_obsolete(entry); }) >= 0) {
     staging_->remove_old();
   } else {
     notes.push_back({Severity::warning,
@@ -239,36 +192,28 @@ bool OutputFolder::publish_as_folder(std::vector<Diagnostic>& notes) {
   return true;
 }
 
-/// Removes the new files that were put in place and moves the earlier ones back.
-void OutputFolder::put_back(const std::vector<std::string>& published) const {
-  for (const std::string& name : published) ::unlink((place_ / name).c_str());
-  move_entries(staging_->old(), place_, [](const fs::path&) { return false; });
-  staging_->remove_old();
-}
-
 void OutputFolder::publish_one_by_one() {
-  missing_->make(place_);
-  if (staging_->site() == StagingSite::beside && !staging_->move_inside(place_))
-    fail_output("cannot write in", place_, errno);
   const ReplacementLock lock(place_);
   const fs::path old = staging_->old();
   if (::mkdir(old.c_str(), 0700) != 0) fail_output("cannot write in", place_, errno);
   std::vector<std::string> published;
-  const auto fail = [&](const fs::path& target) {
+  const auto demand_done = [&](bool done, const fs::path& target) {
+    if (done) return;
     const int code = errno;
-    put_back(published);
+    for (const std::string& name : published) ::unlink((place_ / name).c_str());
+    if (move_entries(old, place_) >= 0) staging_->remove_old();
     fail_output("cannot write", target, code);
   };
   // The manifest goes first and comes last: where it stands, the set is whole.
-  std::vector<std::string> going = {k_manifest};
-  for (const std::string& name : names_in(place_))
-    if (name != k_manifest && (contains(staged_, name) || is_obsolete(place_ / name))) going.push_back(name);
-  if (!contains(staged_, k_manifest)) going.erase(going.begin());
-  for (const std::string& name : going)
-    if (::rename((place_ / name).c_str(), (old / name).c_str()) != 0 && errno != ENOENT) fail(place_ / name);
-  if (!staging_->mark_ready()) fail(staging_->path());
+  std::vector<std::string> names = names_in(place_);
+  std::partition(names.begin(), names.end(), [](const std::string& name) { return name == k_manifest; });
+  for (const std::string& name : names) {
+    if (!contains(staged_, name) && !is_obsolete(place_ / name)) continue;
+    demand_done(::rename((place_ / name).c_str(), (old / name).c_str()) == 0 || errno == ENOENT, place_ / name);
+  }
+  demand_done(staging_->mark_ready(), staging_->path());
   for (const std::string& name : staged_) {
-    if (!move_if_free({AT_FDCWD, staging_->path() / name}, {AT_FDCWD, place_ / name})) fail(place_ / name);
+    demand_done(move_if_free(staging_->path() / name, place_ / name), place_ / name);
     published.push_back(name);
   }
   flush_all({place_});
@@ -278,15 +223,14 @@ void OutputFolder::publish_one_by_one() {
 void OutputFolder::publish(std::vector<Diagnostic>& notes) {
   if (!staging_) return;
   for (Diagnostic& note : recover_leftovers(place_)) notes.push_back(std::move(note));
-  const auto not_manifest = [](const std::string& name) { return name != k_manifest; };
-  std::stable_partition(staged_.begin(), staged_.end(), not_manifest);
-  demand_ours(staged_);
-  std::vector<fs::path> to_flush;
-  for (const std::string& name : staged_) to_flush.push_back(staging_->path() / name);
-  flush_all(to_flush);
+  std::stable_partition(staged_.begin(), staged_.end(), [](const std::string& name) { return name != k_manifest; });
+  claim(staged_);
+  std::vector<fs::path> made;
+  for (const std::string& name : staged_) made.push_back(staged_path(name));
+  flush_all(made);
   if (FileAccess* access = FileAccess::current()) {
     for (const std::string& name : staged_)
-      access->wrote(folder_ / name, read_output(staging_->path() / name, k_largest_output));
+      access->wrote(folder_ / name, read_output(staged_path(name), k_largest_output));
   }
   if (publish_as_folder(notes)) {
     flush_all({place_.parent_path()});
@@ -302,19 +246,17 @@ void write_file(const fs::path& path, std::string_view bytes, bool force) {
   if (access != nullptr) access->will_write(path);
   std::error_code error;
   const fs::path target = fs::is_symlink(path) ? fs::weakly_canonical(path, error) : path;
-  if (stands(target) && (!force || !fs::is_regular_file(fs::symlink_status(target)))) tell_in_the_way(path);
-  if (stands(target) && !fs::is_regular_file(fs::symlink_status(target))) {
-    throw OutputError(path.string() + " exists and is not a regular file", "choose another name");
-  }
-  if (stands(target) && !force)
+  const bool is_file = fs::is_regular_file(fs::symlink_status(target));
+  if (stands(target) && !(force && is_file)) {
+    tell_in_the_way(path);
+    if (!is_file) throw OutputError(path.string() + " exists and is not a regular file", "choose another name");
     throw OutputError(path.string() + " exists", "choose another name, or overwrite it with --force");
+  }
   const fs::path name = target.filename();
   if (name.empty() || name == "." || name == "..")
     throw OutputError(path.string() + " names no file", "add a file name");
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   demand_ground(folder);
-  MissingFolders missing;
-  missing.make(folder);
   remove_staged_leftovers(target);
   const Staging staging(target, StagingSite::beside);
   const fs::path made = staging.path() / "file";

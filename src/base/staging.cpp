@@ -1,6 +1,5 @@
 #include "base/staging.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -11,30 +10,13 @@
 #include <cerrno>
 #include <chrono>
 #include <future>
-#include <memory>
 #include <thread>
 
-#include "base/descriptor.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/files.h"
 
 namespace fusee {
-namespace {
-
 namespace fs = std::filesystem;
-
-void flush(const fs::path& path) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.ok()) fail_output("cannot write", path, errno);
-  // Some file systems know no fsync of folders: that is no failure.
-  if (::fsync(file.number()) != 0 && errno != EINVAL && errno != ENOTSUP) fail_output("cannot write", path, errno);
-}
-
-bool exchange(const fs::path& one, const fs::path& other) {
-  return ::renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) == 0;
-}
-
-}  // namespace
 
 void fail_output(const std::string& what, const fs::path& path, int code) {
   std::string hint;
@@ -47,6 +29,14 @@ void fail_output(const std::string& what, const fs::path& path, int code) {
 bool stands(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(fs::symlink_status(path, ignored));
+}
+
+fs::path place_of(const fs::path& folder) {
+  std::error_code error;
+  fs::path place = fs::absolute(folder, error);
+  if (!error) place = fs::weakly_canonical(place, error);
+  if (error) place = folder;
+  return place.has_filename() ? place : place.parent_path();
 }
 
 void write_whole(const fs::path& path, std::string_view bytes) {
@@ -64,6 +54,12 @@ void write_whole(const fs::path& path, std::string_view bytes) {
 }
 
 void flush_all(const std::vector<fs::path>& paths) {
+  const auto flush = [](const fs::path& path) {
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    // Some file systems know no fsync of folders: that is no failure.
+    if (!file.ok() || (::fsync(file.number()) != 0 && errno != EINVAL && errno != ENOTSUP))
+      fail_output("cannot write", path, errno);
+  };
   std::vector<std::future<void>> flushes;
   for (const fs::path& path : paths)
     flushes.push_back(std::async(std::launch::async | std::launch::deferred, flush, path));
@@ -71,47 +67,22 @@ void flush_all(const std::vector<fs::path>& paths) {
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {
-  const int number = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  const std::unique_ptr<DIR, int (*)(DIR*)> open(number < 0 ? nullptr : ::fdopendir(number), &::closedir);
   std::vector<std::string> names;
-  if (open == nullptr) return names;
-  while (const dirent* entry = ::readdir(open.get())) {
-    const std::string name = entry->d_name;
-    if (name != "." && name != "..") names.push_back(name);
-  }
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator(); entry.increment(error))
+    names.push_back(entry->path().filename().string());
   return names;
 }
 
-bool move_if_free(const FolderEntry& from, const FolderEntry& to) {
-  if (::renameat2(from.folder, from.name.c_str(), to.folder, to.name.c_str(), RENAME_NOREPLACE) == 0) return true;
+bool move_if_free(const fs::path& from, const fs::path& to, int from_folder, int to_folder) {
+  if (::renameat2(from_folder, from.c_str(), to_folder, to.c_str(), RENAME_NOREPLACE) == 0) return true;
   if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) return false;
   struct stat ignored {};
-  if (::fstatat(to.folder, to.name.c_str(), &ignored, AT_SYMLINK_NOFOLLOW) == 0) {
+  if (::fstatat(to_folder, to.c_str(), &ignored, AT_SYMLINK_NOFOLLOW) == 0) {
     errno = EEXIST;
     return false;
   }
-  return ::renameat(from.folder, from.name.c_str(), to.folder, to.name.c_str()) == 0;
-}
-
-// ---- folders --------------------------------------------------------------------------------------------------------
-
-void MissingFolders::make(const fs::path& folder) {
-  std::vector<fs::path> missing;
-  for (fs::path path = folder; !path.empty() && !stands(path); path = path.parent_path()) missing.push_back(path);
-  for (auto path = missing.rbegin(); path != missing.rend(); ++path) {
-    if (path->filename().empty()) continue;  // "out/" with its slash
-    if (::mkdir(path->c_str(), 0777) == 0) {
-      made_.push_back(*path);
-    } else if (errno != EEXIST) {
-      fail_output("cannot make the folder", *path, errno);
-    }
-  }
-}
-
-MissingFolders::~MissingFolders() { remove(); }
-
-void MissingFolders::remove() const {
-  for (auto path = made_.rbegin(); path != made_.rend(); ++path) ::rmdir(path->c_str());
+  return ::renameat(from_folder, from.c_str(), to_folder, to.c_str()) == 0;
 }
 
 // ---- staging --------------------------------------------------------------------------------------------------------
@@ -125,22 +96,21 @@ fs::path staging_ground(const fs::path& place, StagingSite site) {
   return place.has_parent_path() ? place.parent_path() : fs::path(".");
 }
 
-Staging::Staging(const fs::path& place, StagingSite site) : site_(site) {
+Staging::Staging(const fs::path& place, StagingSite site) : Staging(site) {
   const fs::path ground = staging_ground(place, site);
-  const std::string name = fmt::format(".fusee-{}-{}-XXXXXX", ::getpid(), staging_key(place, site));
-  std::string pattern = (ground / name).string();
+  root_ = ground / fmt::format(".fusee-{}-{}-XXXXXX", ::getpid(), staging_key(place, site));
+  for (fs::path path = ground; !path.empty() && !stands(path); path = path.parent_path()) made_.push_back(path);
+  std::error_code error;
+  fs::create_directories(ground, error);
+  if (error) fail_output("cannot make the folder", ground, error.value());
+  std::string pattern = root_.string();
   if (::mkdtemp(pattern.data()) == nullptr) fail_output("cannot write in", ground, errno);
   root_ = pattern;
   path_ = root_ / "new";
-  lock_ = ::open(root_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ >= 0) ::flock(lock_, LOCK_EX | LOCK_NB);
+  lock_ = Descriptor(::open(root_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  ::flock(lock_.number(), LOCK_EX | LOCK_NB);
   // With the rights of an ordinary folder: it may become one.
   if (::mkdir(path_.c_str(), 0777) != 0) fail_output("cannot write in", root_, errno);
-}
-
-Staging::~Staging() {
-  remove();
-  if (lock_ >= 0) ::close(lock_);
 }
 
 void Staging::remove() const {
@@ -149,6 +119,7 @@ void Staging::remove() const {
   fs::remove_all(path_, ignored);
   fs::remove_all(root_ / "obsolete", ignored);
   ::rmdir(root_.c_str());
+  for (const fs::path& path : made_) ::rmdir(path.c_str());
 }
 
 void Staging::remove_old() const {
@@ -158,26 +129,18 @@ void Staging::remove_old() const {
 }
 
 bool Staging::take_place_of(const fs::path& place, bool by_exchange) {
-  if (by_exchange && exchange(path_, place)) {
-    if (::rename(path_.c_str(), old().c_str()) == 0) return true;
-    exchange(path_, place);
+  const auto renamed = [](const fs::path& from, const fs::path& to, unsigned how) {
+    return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), how) == 0;
+  };
+  if (by_exchange && renamed(path_, place, RENAME_EXCHANGE)) {
+    if (renamed(path_, old(), 0)) return true;
+    renamed(path_, place, RENAME_EXCHANGE);
     return false;
   }
-  if (::rename(place.c_str(), old().c_str()) != 0) return false;
-  if (::rename(path_.c_str(), place.c_str()) == 0) return true;
-  ::rename(old().c_str(), place.c_str());
+  if (!renamed(place, old(), 0)) return false;
+  if (renamed(path_, place, 0)) return true;
+  renamed(old(), place, 0);
   return false;
-}
-
-bool Staging::move_inside(const fs::path& place) {
-  std::string name = root_.filename().string();
-  const std::string from = staging_key(place, StagingSite::beside), to = staging_key(place, StagingSite::inside);
-  name.replace(name.find(from), from.size(), to);
-  if (!move_if_free({AT_FDCWD, root_}, {AT_FDCWD, place / name})) return false;
-  site_ = StagingSite::inside;
-  root_ = place / name;
-  path_ = root_ / "new";
-  return true;
 }
 
 bool Staging::mark_ready() {
@@ -191,32 +154,26 @@ bool Staging::mark_ready() {
 
 ReplacementLock::ReplacementLock(const fs::path& folder) : path_(folder / ".fusee-lock") {
   using namespace std::chrono_literals;
-  const auto give_up = std::chrono::steady_clock::now() + 1min;
-  for (;; std::this_thread::sleep_for(10ms)) {
-    const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
+  for (const auto begin = std::chrono::steady_clock::now(); std::chrono::steady_clock::now() - begin < 1min;
+       std::this_thread::sleep_for(10ms)) {
+    Descriptor file(::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
     struct stat opened {};
     struct stat named {};
-    const bool is_ours =
-        file >= 0 && ::fstat(file, &opened) == 0 && opened.st_uid == ::geteuid() && (opened.st_mode & 077) == 0;
-    const bool locked = is_ours && ::flock(file, LOCK_EX | LOCK_NB) == 0;
-    const bool is_held = is_ours && !locked && (errno == EWOULDBLOCK || errno == EINTR);
+    if (!file.ok() || ::fstat(file.number(), &opened) != 0) return;
+    if (opened.st_uid != ::geteuid() || (opened.st_mode & 077) != 0) return;
+    const bool locked = ::flock(file.number(), LOCK_EX | LOCK_NB) == 0;
+    if (!locked && errno != EWOULDBLOCK) return;
     // The run that held it removed the file: this one may have no name any more.
-    if (locked && ::lstat(path_.c_str(), &named) == 0 && named.st_ino == opened.st_ino) {
-      file_ = file;
-      return;
-    }
-    if (file >= 0) ::close(file);
-    if (!locked && !is_held) return;
-    if (std::chrono::steady_clock::now() > give_up)
-      throw OutputError("another run of fusee has been writing in " + folder.string() + " for a minute",
-                        "end it, or choose another folder with -o");
+    if (!locked || ::lstat(path_.c_str(), &named) != 0 || named.st_ino != opened.st_ino) continue;
+    file_ = std::move(file);
+    return;
   }
+  throw OutputError("another run of fusee has been writing in " + folder.string() + " for a minute",
+                    "end it, or choose another folder with -o");
 }
 
 ReplacementLock::~ReplacementLock() {
-  if (file_ < 0) return;
-  ::unlink(path_.c_str());
-  ::close(file_);
+  if (file_.ok()) ::unlink(path_.c_str());
 }
 
 }  // namespace fusee

@@ -3,10 +3,14 @@
 /// publishing.
 #pragma once
 
+#include <fcntl.h>
+
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/descriptor.h"
 
 namespace fusee {
 
@@ -16,37 +20,21 @@ namespace fusee {
 /// True when `path` itself exists, whatever it is (a dangling link too).
 bool stands(const std::filesystem::path& path);
 
+/// `folder` from the root, without links, dots and a slash at its end.
+std::filesystem::path place_of(const std::filesystem::path& folder);
+
 /// Makes a new file. OutputError when it exists or its bytes do not get there; a short write is no success.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);
 
 /// Flushes files and folders to the disk, together: fewer waits than one after another.
 void flush_all(const std::vector<std::filesystem::path>& paths);
 
-/// Names in a folder that is opened without following a link; empty when it cannot be opened.
+/// Names in a folder; empty when it cannot be read.
 std::vector<std::string> names_in(const std::filesystem::path& folder);
 
-/// A name in a folder that is open; AT_FDCWD for a path.
-struct FolderEntry {
-  int folder;
-  std::filesystem::path name;
-};
-/// Renames `from` to `to` unless something stands there; false with errno.
-bool move_if_free(const FolderEntry& from, const FolderEntry& to);
-
-/// Folders that are made because they are missing; the destructor removes those that are still empty.
-class MissingFolders {
- public:
-  MissingFolders() = default;
-  ~MissingFolders();
-  MissingFolders(const MissingFolders&) = delete;
-  MissingFolders& operator=(const MissingFolders&) = delete;
-  void make(const std::filesystem::path& folder);
-  /// Removes those that are empty.
-  void remove() const;
-
- private:
-  std::vector<std::filesystem::path> made_;  ///< outermost first
-};
+/// Renames `from` to `to`, each seen from an open folder, unless something stands there; false with errno.
+bool move_if_free(const std::filesystem::path& from, const std::filesystem::path& to, int from_folder = AT_FDCWD,
+                  int to_folder = AT_FDCWD);
 
 /// A staging folder lies beside the place (a folder or a file) that it is made for, or inside it.
 enum class StagingSite { beside, inside };
@@ -58,12 +46,13 @@ enum class StagingSite { beside, inside };
 ///   old/       what stood in the place: the earlier folder, or those of its files that are replaced
 ///   ready/     the new files, once all earlier ones are in old/ (files replaced one by one)
 ///   obsolete/  earlier files that are being removed
-/// The destructor leaves it for the next run while it holds old/, and removes it otherwise.
+/// The destructor leaves it for the next run while it holds old/, and removes it otherwise, with the folders that were
+/// made above it and are still empty.
 class Staging {
  public:
-  /// OutputError when it cannot be made.
+  /// Makes the folders above it that are missing too. OutputError when one cannot be made.
   Staging(const std::filesystem::path& place, StagingSite site);
-  ~Staging();
+  ~Staging() { remove(); }
   Staging(const Staging&) = delete;
   Staging& operator=(const Staging&) = delete;
 
@@ -79,15 +68,16 @@ class Staging {
   /// The new files become `place`, and the folder that stood there becomes old(): by one exchange, or, where the
   /// system has none or `by_exchange` is false, by two renames. False, with nothing changed, where neither is possible.
   bool take_place_of(const std::filesystem::path& place, bool by_exchange);
-  /// Moves the staging folder from beside the place to inside it; false with errno.
-  bool move_inside(const std::filesystem::path& place);
   /// Marks the earlier files as complete in old/: from now on a killed run is completed, no longer undone.
   bool mark_ready();
 
  private:
+  explicit Staging(StagingSite site) : site_(site) {}  ///< so that what the other has made is removed when it throws
+
   std::filesystem::path root_, path_;
+  std::vector<std::filesystem::path> made_;  ///< above it, innermost first
   StagingSite site_;
-  int lock_ = -1;
+  Descriptor lock_{-1};
 };
 
 /// The part of a staging folder's name that identifies its place: 8 hex digits.
@@ -107,7 +97,7 @@ class ReplacementLock {
 
  private:
   std::filesystem::path path_;
-  int file_ = -1;
+  Descriptor file_{-1};
 };
 
 }  // namespace fusee

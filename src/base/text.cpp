@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <system_error>
 
 namespace fusee {
@@ -20,7 +22,103 @@ std::string without_negative_zero(std::string text) {
   return text;
 }
 
+void append_utf8(std::string& text, std::uint32_t point) {
+  const auto put = [&text](std::uint32_t byte) { text += static_cast<char>(byte); };
+  const auto follow = [&](int shift) { put(0x80 | ((point >> shift) & 0x3F)); };
+  if (point < 0x80) {
+    put(point);
+  } else if (point < 0x800) {
+    put(0xC0 | point >> 6);
+    follow(0);
+  } else if (point < 0x10000) {
+    put(0xE0 | point >> 12);
+    follow(6);
+    follow(0);
+  } else {
+    put(0xF0 | point >> 18);
+    follow(12);
+    follow(6);
+    follow(0);
+  }
+}
+
+/// One character of UTF-8, taken off the front; none where no well-formed one stands there, and the longest beginning
+/// of one is taken, as JSON's writer does too. Overlong forms, surrogates and what lies beyond U+10FFFF are not well
+/// formed (Unicode 15, table 3-7).
+std::optional<char32_t> take_character(std::string_view& text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  const std::size_t size = lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
+  char32_t code = size < 2 ? lead : lead & (0x7F >> size);
+  std::size_t taken = 1;
+  unsigned char least = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
+  unsigned char most = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
+  for (; taken < size && taken < text.size(); ++taken) {
+    const auto byte = static_cast<unsigned char>(text[taken]);
+    if (byte < least || byte > most) break;
+    code = (code << 6) | (byte & 0x3F);
+    least = 0x80;
+    most = 0xBF;
+  }
+  text.remove_prefix(taken);
+  return taken == size ? std::optional(code) : std::nullopt;
+}
+
+bool is_fit(char32_t code) {
+  const auto within = [code](char32_t first, char32_t last) { return code >= first && code <= last; };
+  const bool control = code < 0x20 || within(0x7F, 0x9F) || within(0x2028, 0x2029);
+  const bool reorders = within(0x202A, 0x202E) || within(0x2066, 0x2069) || within(0x200E, 0x200F) || code == 0x061C;
+  const bool no_character = (code & 0xFFFE) == 0xFFFE || within(0xFDD0, 0xFDEF);
+  return !control && !reorders && !no_character;
+}
+
+/// Copies `text`, with what `unfit` makes of each character that is not fit, and none for bytes that are no character.
+template <class Unfit>
+std::string with_unfit(std::string_view text, const Unfit& unfit) {
+  std::string fit;
+  fit.reserve(text.size());
+  while (!text.empty()) {
+    const std::string_view before = text;
+    const std::optional<char32_t> code = take_character(text);
+    if (code && (is_fit(*code) || code == U'\n' || code == U'\t')) {
+      fit += before.substr(0, before.size() - text.size());
+    } else {
+      fit += unfit(code);
+    }
+  }
+  return fit;
+}
+
+constexpr std::string_view k_replacement = "\uFFFD";
+
 }  // namespace
+
+bool is_utf8(std::string_view text) {
+  // Most text is ASCII, and a log of a million rows is read line by line.
+  unsigned char all = 0;
+  for (const char c : text) all |= static_cast<unsigned char>(c);
+  if (all < 0x80) return true;
+  while (!text.empty())
+    if (!take_character(text)) return false;
+  return true;
+}
+
+std::string cleaned(std::string_view text) {
+  return with_unfit(text, [](std::optional<char32_t>) { return k_replacement; });
+}
+
+std::string cleaned_line(std::string_view text) {
+  std::string line = cleaned(text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  return line;
+}
+
+std::string unicode_escaped(std::string_view text) {
+  return with_unfit(text, [](std::optional<char32_t> code) {
+    const bool one_unit = code && *code < 0x10000;
+    return one_unit ? fmt::format("\\u{:04x}", static_cast<unsigned>(*code)) : std::string(k_replacement);
+  });
+}
 
 std::string shortest(double value) { return without_negative_zero(fmt::format("{}", value)); }
 
@@ -50,6 +148,29 @@ std::string rounded(double value, int digits) {
   }
   const int before_point = static_cast<int>(std::floor(std::log10(size))) + 1;
   return trimmed_fixed(value, std::max(0, digits - before_point));
+}
+
+std::optional<std::string> utf8_of_utf16(std::string_view bytes) {
+  const bool big_endian = bytes.starts_with("\xFE\xFF");
+  if (!big_endian && !bytes.starts_with("\xFF\xFE")) return std::nullopt;
+  const auto unit_at = [&](std::size_t at) -> std::uint32_t {
+    if (at + 1 >= bytes.size()) return 0;
+    const auto byte = [&](std::size_t k) { return std::uint32_t{static_cast<unsigned char>(bytes[k])}; };
+    return byte(big_endian ? at : at + 1) << 8 | byte(big_endian ? at + 1 : at);
+  };
+  std::string text;
+  for (std::size_t at = 2; at + 1 < bytes.size(); at += 2) {
+    std::uint32_t point = unit_at(at);
+    const std::uint32_t next = unit_at(at + 2);
+    if (point >= 0xD800 && point < 0xDC00 && next >= 0xDC00 && next < 0xE000) {
+      point = 0x10000 + ((point - 0xD800) << 10) + (next - 0xDC00);
+      at += 2;
+    } else if (point >= 0xD800 && point < 0xE000) {
+      point = 0xFFFD;
+    }
+    append_utf8(text, point);
+  }
+  return text;
 }
 
 std::size_t characters(std::string_view text) {

@@ -4,10 +4,10 @@
 #include <sys/stat.h>
 #include <zip.h>
 
-#include <algorithm>
 #include <array>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
 
 namespace fusee {
 namespace {
@@ -32,7 +32,19 @@ void add_entry(zip_t* archive, const ZipEntry& entry) {
   demand_zip(zip_set_file_compression(archive, index, ZIP_CM_DEFLATE, k_quick) == 0, archive, entry.name);
 }
 
-std::string source_bytes(zip_source_t* source) {
+}  // namespace
+
+std::string zip_bytes(const std::vector<ZipEntry>& entries) {
+  zip_source_t* source = zip_source_buffer_create(nullptr, 0, 0, nullptr);
+  demand(source != nullptr, "zip: no memory");
+  zip_source_keep(source);
+  const std::unique_ptr<zip_source_t, decltype(&zip_source_free)> keeper(source, &zip_source_free);
+  std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open_from_source(source, ZIP_TRUNCATE, nullptr),
+                                                         &zip_discard);
+  demand_zip(archive != nullptr, nullptr, "zip");
+  for (const ZipEntry& entry : entries) add_entry(archive.get(), entry);
+  demand_zip(zip_close(archive.get()) == 0, archive.get(), "zip");
+  static_cast<void>(archive.release());  // closed
   zip_stat_t stat;
   demand(zip_source_stat(source, &stat) == 0 && zip_source_open(source) == 0, "reading back a zip in memory");
   std::string bytes(stat.size, '\0');
@@ -42,38 +54,14 @@ std::string source_bytes(zip_source_t* source) {
   return bytes;
 }
 
-/// Names may hold anything; messages may not.
-std::string shown(std::string_view name) {
-  std::string text;
-  for (const char c : name.substr(0, 200)) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return text;
-}
-
-}  // namespace
-
-std::string zip_bytes(const std::vector<ZipEntry>& entries) {
-  zip_source_t* bytes = zip_source_buffer_create(nullptr, 0, 0, nullptr);
-  demand(bytes != nullptr, "zip: no memory");
-  zip_source_keep(bytes);
-  const std::unique_ptr<zip_source_t, decltype(&zip_source_free)> keeper(bytes, &zip_source_free);
-  std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open_from_source(bytes, ZIP_TRUNCATE, nullptr),
-                                                         &zip_discard);
-  demand_zip(archive != nullptr, nullptr, "zip");
-  for (const ZipEntry& entry : entries) add_entry(archive.get(), entry);
-  demand_zip(zip_close(archive.get()) == 0, archive.get(), "zip");
-  static_cast<void>(archive.release());  // closed
-  return source_bytes(bytes);
-}
-
 void fail_in_entry(const std::string& file, const std::string& entry, std::ptrdiff_t offset,
                    const std::string& message) {
   const std::string at = offset < 0 ? std::string() : fmt::format(" at byte {}", offset);
-  throw InputError(file, fmt::format("{}{}: {}", shown(entry), at, message));
+  throw InputError(file, fmt::format("{}{}: {}", cleaned_line(entry.substr(0, 200)), at, message));
 }
 
-void ZipArchive::Discard::operator()(zip* archive) const { zip_discard(archive); }
-
-ZipArchive::ZipArchive(std::string_view bytes, std::string name, const std::string& expected) : file_(std::move(name)) {
+ZipArchive::ZipArchive(std::string_view bytes, std::string name, const std::string& expected)
+    : file_(std::move(name)), archive_(nullptr, zip_discard) {
   zip_error_t error;
   zip_error_init(&error);
   zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
@@ -85,9 +73,7 @@ ZipArchive::ZipArchive(std::string_view bytes, std::string name, const std::stri
   throw InputError(file_, fmt::format("expected {}: {}", expected, reason));
 }
 
-std::size_t ZipArchive::size() const {
-  return static_cast<std::size_t>(std::max<zip_int64_t>(0, zip_get_num_entries(archive_.get(), 0)));
-}
+std::size_t ZipArchive::size() const { return static_cast<std::size_t>(zip_get_num_entries(archive_.get(), 0)); }
 
 std::string ZipArchive::name_of(std::size_t entry) const {
   const char* name = zip_get_name(archive_.get(), entry, ZIP_FL_ENC_RAW);

@@ -38,11 +38,8 @@ class ZipArchive {
   std::string unpacked(std::size_t entry, std::uint64_t& budget, const std::string& limits) const;
 
  private:
-  struct Discard {
-    void operator()(zip* archive) const;
-  };
   std::string file_;
-  std::unique_ptr<zip, Discard> archive_;
+  std::unique_ptr<zip, void (*)(zip*)> archive_;
 };
 
 /// InputError of a place in an archive.

@@ -8,9 +8,9 @@
 #include "calibration/evenness.h"
 #include "calibration/expected_sizes.h"
 #include "calibration/explanation.h"
-#include "calibration/nameless.h"
 #include "calibration/next_runs.h"
 #include "calibration/thresholds.h"
+#include "calibration/unmodelled.h"
 #include "calibration/verdict.h"
 #include "fusee/calibration/calibration.h"
 #include "fusee/joint/simulate.h"
@@ -82,14 +82,13 @@ Measurement part(const Measurement& measurement, const std::vector<std::string>&
 }
 
 /// Where runs were named, theirs are the held-out figures.
-void validate(const Mechanism& declared, const Measurement& kept, const Fit& none, const Fit& numbers,
-              Calibration& calibration) {
+void validate(const Mechanism& declared, const Measurement& kept, const Validated& answer, Calibration& calibration) {
   if (kept.runs.empty()) return;
   const auto rms = [&](const Imperfections& at) {
     return figures(kept, residuals(kept, predict(declared, at, bench_log(kept))), 0).rms;
   };
-  calibration.before.held_out_rms = rms(none.at);
-  calibration.after.held_out_rms = rms(numbers.at);
+  calibration.before.held_out_rms = rms(answer.declared.fit.at);
+  calibration.after.held_out_rms = rms(answer.made.estimate.fit.at);
   calibration.held_out_runs.clear();
   for (const Run& run : kept.runs) calibration.held_out_runs.push_back(run.name);
 }
@@ -106,16 +105,21 @@ std::vector<std::string> why_not_testable(const Mechanism& declared, const Measu
   return measurement.not_testable;
 }
 
-void describe_errors(const Evidence& evidence, const Measurement& measurement, const Fit& none, const Fit& numbers,
+void describe_errors(const Evidence& evidence, const Measurement& measurement, const Validated& answer,
                      Calibration& calibration) {
   const BenchLog log = bench_log(measurement);
-  const auto left = [&](const Imperfections& at) {
-    return residuals(measurement, predict(*evidence.declared, at, log, evidence.earlier));
+  const auto residuals_of = [&](const Estimate& estimate) {
+    return residuals(measurement, predict(*evidence.declared, estimate.fit.at, log, evidence.earlier));
   };
-  calibration.residuals_before = left(none.at);
-  calibration.residuals_after = left(numbers.at);
-  calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(none));
-  calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(numbers));
+  const auto held_out_rms = [&](const Estimate& estimate) {
+    const double square = hold_out(evidence, estimate, evidence.run_folds).mean_square;
+    return std::sqrt(std::max(0.0, square - estimate.fit.price));
+  };
+  const Estimate &before = answer.declared, &after = answer.made.estimate;
+  calibration.residuals_before = residuals_of(before);
+  calibration.residuals_after = residuals_of(after);
+  calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(before));
+  calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(after));
   calibration.iso_before = iso230(measurement, calibration.residuals_before);
   calibration.iso_after = iso230(measurement, calibration.residuals_after);
 }
@@ -136,10 +140,10 @@ Measurement about_declared(const Mechanism& declared, const Measurement& measure
 }
 
 /// A number that does nothing is as declared.
-Imperfections without_idle_numbers(const Fit& fit) {
-  Imperfections at = fit.at;
+Imperfections without_idle_numbers(const Fit& fit, const Imperfections& numbers) {
+  Imperfections at = numbers;
   for (const EffectParameter* parameter : fit.parameters) {
-    if (is_idle(*parameter, fit.at)) reset(at, *parameter);
+    if (is_idle(*parameter, numbers)) reset(at, *parameter);
   }
   return at;
 }
@@ -148,6 +152,28 @@ void describe_changes(const Evidence& evidence, const Selection& selection, Cali
   calibration.difference = state_difference(evidence, selection.none, selection.best);
   const std::vector<double> sizes = sizes_by_scatter(evidence, selection.best);
   for (std::size_t i = 0; i < sizes.size(); ++i) calibration.effects[i].by_runs = sizes[i];
+}
+
+std::vector<std::string> runs_of(const Evidence& evidence, const Fold& fold) {
+  std::vector<std::string> names;
+  for (const std::size_t block : fold) {
+    const std::string& name = evidence.measurement.runs[evidence.blocks[block].run].name;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+/// What a correction is measured by: the runs that were kept for validation, or whole runs left out in turn. A lone run
+/// is judged by the numbers that its strokes were validated with.
+std::vector<LeftOut> left_out(const Evidence& evidence, const Estimate& estimate, const std::vector<std::string>& kept,
+                              const Imperfections& identified) {
+  if (!kept.empty()) return {{kept, identified}};
+  if (evidence.measurement.runs.size() < 2) return {{{evidence.measurement.runs.front().name}, identified}};
+  const std::vector<Imperfections> numbers = estimates_without(evidence, estimate, evidence.run_folds);
+  std::vector<LeftOut> all;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    all.push_back({runs_of(evidence, evidence.run_folds[i]), numbers[i]});
+  return all;
 }
 
 /// A name that simulated joints without it bear too often is none to stand alone: what was read as it joins the group.
@@ -176,7 +202,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
   Workers workers(evidence);
   evidence.sizes =
       expected_sizes(catalogue(declared, measurement, options.more_effects, options.without), evidence, workers);
-  const Selection selection = select_effects(evidence, workers, options);
+  Selection selection = select_effects(evidence, workers, options);
   if (!selection.none.usable)
     return not_testable(
         measurement,
@@ -184,15 +210,18 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
          "of one joint."});
   Calibration calibration;
   calibration.noise = noise;
-  const Unnamed unnamed = unnamed_beside(evidence, selection.best);
-  const Delivered made = delivered(evidence, workers, selection, unnamed);
-  calibration.effects = found_effects(evidence, selection, made.fit);
+  const Measurement kept = part(measurement, options.hold_out, true);
+  const Validated answer =
+      options.earlier ? changes_beside(evidence, workers, selection) : validated(evidence, workers, kept, selection);
+  const Fit& numbers = answer.made.estimate.fit;
+  calibration.dropped = answer.dropped;
+  calibration.effects = found_effects(evidence, selection, numbers);
   if (options.audit) {
     take_audit(audit(evidence, workers, selection), calibration);
-    const std::vector<Nameless> nameless = nameless_rivals(evidence, workers, selection);
+    const std::vector<Unmodelled> unmodelled = unmodelled_rivals(evidence, workers, selection);
     const std::vector<Evenness> even = evenness(evidence, workers, selection);
-    for (std::size_t i = 0; i < nameless.size(); ++i) {
-      calibration.effects[i].nameless = nameless[i];
+    for (std::size_t i = 0; i < unmodelled.size(); ++i) {
+      calibration.effects[i].unmodelled = unmodelled[i];
       calibration.effects[i].evenness = even[i];
     }
   }
@@ -203,12 +232,14 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
   }
   calibration.tried = selection.tried;
   calibration.detectable = detectable_sizes(evidence, workers, selection);
-  calibration.identified = without_idle_numbers(made.fit);
-  describe_errors(evidence, measurement, selection.none, made.fit, calibration);
+  calibration.identified = without_idle_numbers(numbers, numbers.at);
+  calibration.left_out = left_out(evidence, answer.made.estimate, options.hold_out, calibration.identified);
+  for (LeftOut& left : calibration.left_out) left.identified = without_idle_numbers(numbers, left.identified);
+  describe_errors(evidence, measurement, answer, calibration);
   name_held_out(evidence, calibration);
-  validate(declared, part(measurement, options.hold_out, true), selection.none, made.fit, calibration);
-  calibration.curve = made.curve;
-  conclude(evidence, selection, unnamed, calibration);
+  validate(declared, kept, answer, calibration);
+  calibration.curve = answer.made.curve;
+  conclude(evidence, selection, answer.unnamed, calibration);
   hold_against(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
   if (options.earlier) describe_changes(evidence, selection, calibration);
   return calibration;

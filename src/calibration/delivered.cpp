@@ -1,6 +1,8 @@
 #include "calibration/delivered.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "calibration/held_out.h"
 #include "calibration/intervals.h"
@@ -21,15 +23,15 @@ struct Foretold {
   double levels = 0;
 };
 
-bool is_better(const Fit& fit, const Foretold& than) {
-  return fit.by_run.mean_square < k_thresholds.least_squares_left * than.runs &&
-         fit.by_factor.mean_square < than.levels;
+Foretold foretold(const Fit& squares) { return {squares.by_run.mean_square, squares.by_factor.mean_square}; }
+
+bool is_better(const Foretold& one, const Foretold& than) {
+  return one.runs < k_thresholds.least_squares_left * than.runs && one.levels < than.levels;
 }
 
-Foretold foretold_by_summit(const Evidence& evidence, const Fit& fit, const Unnamed& unnamed, bool with_curve) {
-  const Amplitudes amplitudes = amplitudes_beside(evidence, fit, unnamed);
+Foretold foretold_by_summit(const Evidence& evidence, const Estimate& summit, bool with_curve) {
   const auto left = [&](const std::vector<Fold>& folds) {
-    const HeldOutBeside held = hold_out_beside(evidence, fit, amplitudes, folds);
+    const HeldOutBeside held = hold_out_beside(evidence, summit.fit, *summit.beside, folds);
     return (with_curve ? held.with_place : held.effects).mean_square;
   };
   return {left(evidence.run_folds), left(evidence.factor_folds)};
@@ -61,29 +63,89 @@ Fit best_by_squares(Workers& workers, const Selection& selection) {
     std::copy(own.begin(), own.end(), ranges.begin());
     wider[i] = fitter.by_squares(start, ranges);
   });
-  const Foretold by_set{best.by_run.mean_square, best.by_factor.mean_square};
+  const Foretold by_set = foretold(best);
   for (Fit& fit : wider) {
     const bool is_best = fit.by_run.mean_square < best.by_run.mean_square;
-    if (fit.usable && is_best && is_better(fit, by_set)) best = std::move(fit);
+    if (fit.usable && is_best && is_better(foretold(fit), by_set)) best = std::move(fit);
   }
   return best;
+}
+
+/// Numbers of least squares go without a curve.
+Delivered by_squares(const Evidence& evidence, Fit squares, const Unnamed& unnamed) {
+  Delivered made{{std::move(squares), {}}, {}};
+  if (is_unexplained(unnamed, evidence.floor))
+    made.curve.why = "the effects' numbers take away more than it would of runs that they were not fitted to";
+  return made;
+}
+
+/// The declared joint, and the curve that was made beside its free offset where that stood elsewhere.
+Delivered as_declared(const Estimate& declared, Delivered made) {
+  const double moved = made.estimate.fit.at.sensor.zero - declared.fit.at.sensor.zero;
+  for (std::vector<double>* curve : {&made.curve.up, &made.curve.down}) {
+    for (double& angle : *curve) angle += moved;
+  }
+  made.estimate = declared;
+  return made;
+}
+
+/// The member without which the others predict best what they were not fitted to.
+std::size_t least_needed(const Selection& selection) {
+  std::size_t least = 0;
+  double least_left = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < selection.without.size(); ++i) {
+    const Fit& others = selection.without[i];
+    const double left = others.by_run.mean_square + others.by_factor.mean_square;
+    if (others.usable && left < least_left) least = i, least_left = left;
+  }
+  return least;
 }
 
 }  // namespace
 
 Delivered delivered(const Evidence& evidence, Workers& workers, const Selection& selection, const Unnamed& unnamed) {
-  Delivered all{selection.best, {}};
+  Delivered all{{selection.best, amplitudes_beside(evidence, selection.best, unnamed)}, {}};
   if (!is_unexplained(unnamed, evidence.floor) || is_walking(stroke_scatter(evidence, selection.best))) return all;
   all.curve = empirical_curve(evidence, selection.best, unnamed);
   if (selection.best.effects.empty()) return all;
   Fit squares = best_by_squares(workers, selection);
-  if (!squares.usable) return all;
-  const Foretold summit = foretold_by_summit(evidence, selection.best, unnamed, all.curve.used);
-  if (!is_better(squares, summit)) return all;
-  all.fit = std::move(squares);
-  all.curve.used = false;
-  all.curve.why = "the effects' numbers take away more than it would of runs that they were not fitted to";
-  return all;
+  if (!squares.usable || !is_better(foretold(squares), foretold_by_summit(evidence, all.estimate, all.curve.used)))
+    return all;
+  return by_squares(evidence, std::move(squares), unnamed);
+}
+
+Validated validated(const Evidence& evidence, Workers& workers, const Measurement& kept, Selection& selection) {
+  Validated answer;
+  answer.declared = declared_estimate(workers, selection);
+  const HeldOutRows rows(evidence, answer.declared, kept);
+  for (;;) {
+    answer.unnamed = unnamed_beside(evidence, selection.best);
+    answer.made = delivered(evidence, workers, selection, answer.unnamed);
+    if (selection.best.effects.empty()) {
+      answer.made = as_declared(answer.declared, std::move(answer.made));
+      return answer;
+    }
+    if (rows.worse_at(answer.made.estimate).empty()) return answer;
+    // What the discrepancy had taken from the numbers, or given to them, is theirs where nothing stands beside them.
+    Delivered alone = by_squares(evidence, best_by_squares(workers, selection), answer.unnamed);
+    const std::string where = alone.estimate.fit.usable ? rows.worse_at(alone.estimate) : "all rows";
+    if (where.empty()) {
+      answer.made = std::move(alone);
+      return answer;
+    }
+    const std::size_t place = least_needed(selection);
+    answer.dropped.push_back(selection.best.effects[place]->name);
+    drop_effect(workers, place, "with it rows that were not fitted are predicted worse than as declared: " + where,
+                selection);
+  }
+}
+
+Validated changes_beside(const Evidence& evidence, Workers& workers, const Selection& selection) {
+  Validated answer;
+  answer.declared = declared_estimate(workers, selection);
+  answer.unnamed = unnamed_beside(evidence, selection.best);
+  answer.made.estimate = {selection.best, amplitudes_beside(evidence, selection.best, answer.unnamed)};
+  return answer;
 }
 
 }  // namespace fusee

@@ -1,18 +1,39 @@
 /// \file
-/// Which numbers of the set that was found are handed over, and whether a curve goes with them.
+/// The numbers that are handed over, and the empirical curve beside them: those that predict best what they were not
+/// fitted to, and never worse than the declared joint.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "calibration/empirical.h"
-#include "calibration/selection.h"
+#include "calibration/validation.h"
 
 namespace fusee {
 
 struct Delivered {
-  Fit fit;  ///< the set that was found, perhaps with a member of a group more, with the numbers of the joint's file
+  /// The set that was found, perhaps with a member of a group more; of no effect the declared joint.
+  Estimate estimate;
   EmpiricalCurve curve;  ///< as the verdict unexplained has it
 };
 
 /// `unnamed`: beside selection.best.
 Delivered delivered(const Evidence& evidence, Workers& workers, const Selection& selection, const Unnamed& unnamed);
+
+/// What is reported.
+struct Validated {
+  Estimate declared;  ///< before
+  Delivered made;
+  Unnamed unnamed;                   ///< beside selection.best
+  std::vector<std::string> dropped;  ///< effects that fit the runs and do not predict others, in the order they went
+};
+
+/// Removes effects from `selection`, the one that predicts least first, until the answer predicts rows that were not
+/// fitted no worse than the declared joint, over all and at each level of load and speed. `kept`: runs for validation.
+Validated validated(const Evidence& evidence, Workers& workers, const Measurement& kept, Selection& selection);
+
+/// Of two states: the numbers stand as they were selected, beside the discrepancy that both states share. By themselves
+/// they predict nothing: what the earlier state does not hold is in every run.
+Validated changes_beside(const Evidence& evidence, Workers& workers, const Selection& selection);
 
 }  // namespace fusee

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "calibration/intervals.h"
 #include "calibration/thresholds.h"
@@ -10,28 +12,41 @@
 namespace fusee {
 namespace {
 
+/// Of each number of a fit: whatever else may be there, and if nothing else is.
+struct Ranges {
+  std::vector<ConfidenceInterval> overall, if_only;
+};
+
+/// `range` in the number's own unit, within its bounds.
+std::pair<double, double> range_of(const EffectParameter& own, const ConfidenceInterval& range) {
+  return {std::clamp(range.low * own.step, own.least, own.most),
+          std::clamp(range.high * own.step, own.least, own.most)};
+}
+
 /// `ranges`: of the numbers of `fit`.
-std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit,
-                                               const std::vector<ConfidenceInterval>& ranges, const Effect& effect) {
+std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit, const Ranges& ranges,
+                                               const Effect& effect) {
   std::vector<FittedParameter> fitted;
   for (const EffectParameter& own : effect.parameters) {
-    if (is_idle(own, fit.at)) {
-      fitted.push_back({own.name, 0, 0, 0, ""});
-      continue;
-    }
+    FittedParameter& number = fitted.emplace_back();
+    number.name = own.name;
+    if (is_idle(own, fit.at)) continue;
     const double value = value_of(fit.at, own);
-    double low = value;
-    double high = value;
+    std::pair<double, double> overall{value, value}, if_only{value, value};
     for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
       if (fit.parameters[k] != &own) continue;
-      low = std::clamp(ranges[k].low * own.step, own.least, own.most);
-      high = std::clamp(ranges[k].high * own.step, own.least, own.most);
+      overall = range_of(own, ranges.overall[k]);
+      if_only = range_of(own, ranges.if_only[k]);
     }
+    // Numbers that predict better than those of the summit may stand beside the narrower interval.
+    if_only = {std::min(if_only.first, value), std::max(if_only.second, value)};
     const double before = evidence.earlier ? value_of(evidence.earlier->joint, own) : 0.0;
     const auto shown = [&](double x) { return own.shown(before + x, *evidence.declared); };
-    const std::string_view sense = value < 0 ? own.sign.below : value > 0 ? own.sign.above : "";
-    fitted.push_back({own.name, shown(value), std::min(shown(low), shown(high)), std::max(shown(low), shown(high)),
-                      std::string(sense)});
+    number.value = shown(value);
+    std::tie(number.low, number.high) = std::minmax({shown(overall.first), shown(overall.second)});
+    std::tie(number.low_if_only, number.high_if_only) = std::minmax({shown(if_only.first), shown(if_only.second)});
+    const bool has_sign = if_only.first > 0 || if_only.second < 0;
+    if (has_sign) number.sense = value < 0 ? own.sign.below : own.sign.above;
   }
   return fitted;
 }
@@ -54,10 +69,18 @@ double rms_drop(const Selection& selection, std::size_t place) {
   return std::max(0.0, std::sqrt(before.by_factor.mean_square) - std::sqrt(selection.best.by_factor.mean_square));
 }
 
+/// The same as a part of the mean square that the declared joint leaves.
+double share(const Selection& selection, std::size_t place) {
+  const double all = selection.none.by_factor.mean_square, best = selection.best.by_factor.mean_square;
+  const Fit& others = selection.without[place];
+  const double without_it = others.usable ? others.by_factor.mean_square : all;
+  return all > 0 ? std::clamp((without_it - best) / all, 0.0, 1.0) : 0.0;
+}
+
 /// What was handed over beside the set that was found, in the first group that holds it.
 void place_beside(const Evidence& evidence, const Selection& selection, const Fit& numbers,
                   std::vector<FoundEffect>& found) {
-  const std::vector<ConfidenceInterval> ranges = intervals(numbers);
+  const Ranges ranges{intervals(numbers), intervals(numbers)};
   for (const Effect* effect : numbers.effects) {
     if (contains(selection.best.effects, *effect)) continue;
     const auto group = std::find_if(selection.groups.begin(), selection.groups.end(),
@@ -84,7 +107,7 @@ std::vector<const Rival*> rivals_as_good(const Evidence& evidence, const Selecti
 
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection, const Fit& numbers) {
   const Fit& best = selection.best;
-  const std::vector<ConfidenceInterval> ranges = intervals(selection);
+  const Ranges ranges{intervals(selection), intervals_if_only(selection)};
   const std::vector<const Rival*> rivals = rivals_as_good(evidence, selection);
   std::vector<FoundEffect> all;
   for (const Effect* effect : best.effects) {
@@ -98,7 +121,14 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
       const bool in_group = std::count(found.group.begin(), found.group.end(), rival->rival->name) > 0;
       if (rival->accepted == effect && !in_group) found.group.push_back(rival->rival->name);
     }
+    for (const Rival& rival : selection.rivals) {
+      const bool in_group = std::count(found.group.begin(), found.group.end(), rival.rival->name) > 0;
+      if (rival.accepted != effect || !in_group) continue;
+      const std::vector<ConfidenceInterval> own = intervals(rival.fit, selection.temperature);
+      found.instead.push_back({rival.rival->name, fitted_parameters(evidence, rival.fit, {own, own}, *rival.rival)});
+    }
     found.rms_drop = rms_drop(selection, all.size());
+    found.share = share(selection, all.size());
     for (const Candidate& candidate : selection.tried)
       if (candidate.accepted && candidate.name == effect->name) found.evidence = candidate.evidence;
     all.push_back(std::move(found));

@@ -1,6 +1,6 @@
 /// \file
-/// What was found, in the words of CONTRACT §6: effects with their groups, what they cannot be told from, what would
-/// have been seen of the others.
+/// Results of a calibration in words: effects with their groups, rivals that the data do not distinguish, and the sizes
+/// that the other effects would have been detected at.
 #pragma once
 
 #include <string>

@@ -47,8 +47,7 @@ double size_in_practice(const Evidence& evidence, const EffectParameter& paramet
   if (&parameter == free_offset(*evidence.declared)) return std::numeric_limits<double>::infinity();
   if (const auto known = evidence.sizes.find(&parameter); known != evidence.sizes.end()) return known->second;
   if (!(parameter.prior > 0)) return k_steps_in_practice;
-  const double load = parameter.prior_at_load ? largest_load(evidence.measurement) : 1.0;
-  return parameter.prior / parameter.step / (load > 0 ? load : 1.0);
+  return prior_of(parameter, largest_load(evidence.measurement)) / parameter.step;
 }
 
 /// A step of the fit, kept within bounds: what would leave them stays there, and the others go where they are best

@@ -49,11 +49,15 @@ class Folds {
 
   void leave_out(const Fold& fold) {
     const NormalEquations rest = without(fold);
-    const auto known = [this](const NormalEquations& sums) {
-      return sums.JJ.topLeftCorner(fitted_.named, fitted_.named);
-    };
-    if (can_do_without(known(rest), known(fitted_.all))) return judge(fold, rest);
+    if (is_enough(rest)) return judge(fold, rest);
     for (const std::size_t block : fold) judge({block}, without({block}));
+  }
+
+  /// To the effects' numbers that the rest of the blocks have; none where these do not know them.
+  Eigen::VectorXd step_without(const Fold& fold) const {
+    const NormalEquations rest = without(fold);
+    if (!is_enough(rest)) return Eigen::VectorXd::Zero(fitted_.named);
+    return least_squares_step(rest, fitted_.x, ridge_).head(fitted_.named);
   }
 
   /// `else_square`: where nothing is held out.
@@ -76,6 +80,13 @@ class Folds {
     NormalEquations rest = fitted_.all;
     for (const std::size_t block : fold) rest -= fitted_.sums[block];
     return rest;
+  }
+
+  bool is_enough(const NormalEquations& rest) const {
+    const auto known = [this](const NormalEquations& sums) {
+      return sums.JJ.topLeftCorner(fitted_.named, fitted_.named);
+    };
+    return can_do_without(known(rest), known(fitted_.all));
   }
 
   void judge(const Fold& fold, const NormalEquations& rest) {
@@ -165,6 +176,16 @@ HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fol
   Folds held(fitted, evidence.floor, {Mask::Ones(fit.x.size())});
   for (const Fold& fold : folds) held.leave_out(fold);
   return held.errors(0, fit.mean_square);
+}
+
+std::vector<Eigen::VectorXd> numbers_without(const Evidence& evidence, const Fit& fit, const Amplitudes* beside,
+                                             const std::vector<Fold>& folds) {
+  const Fitted fitted =
+      beside != nullptr ? effects_beside(evidence, fit, scaled(evidence, *beside)) : effects_alone(fit);
+  const Folds held(fitted, evidence.floor, {});
+  std::vector<Eigen::VectorXd> numbers;
+  for (const Fold& fold : folds) numbers.push_back(fit.x + held.step_without(fold));
+  return numbers;
 }
 
 HeldOutBeside hold_out_beside(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,

@@ -21,6 +21,11 @@ struct HeldOut {
 /// is left out block by block.
 HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fold>& folds);
 
+/// All numbers of `fit` as the rows outside each of the folds have them, by the same step. `beside`: amplitudes of the
+/// discrepancy beside them, or null.
+std::vector<Eigen::VectorXd> numbers_without(const Evidence& evidence, const Fit& fit, const Amplitudes* beside,
+                                             const std::vector<Fold>& folds);
+
 /// The same of a fit with the discrepancy beside it, which is learnt from the others too. `amplitudes`: of that fit.
 struct HeldOutBeside {
   HeldOut effects;     ///< what the effects alone leave

@@ -17,24 +17,32 @@ ConfidenceInterval about(double x, double variance) {
   return {x - 1.96 * deviation, x + 1.96 * deviation, deviation};
 }
 
-}  // namespace
-
-std::vector<ConfidenceInterval> intervals(const Fit& fit) {
-  std::vector<ConfidenceInterval> found;
-  for (std::size_t k = 0; k < fit.parameters.size(); ++k)
-    found.push_back(about(fit.x[static_cast<Eigen::Index>(k)], variance_of(fit, k)));
-  return found;
-}
-
-std::vector<ConfidenceInterval> intervals(const Selection& selection) {
+std::vector<ConfidenceInterval> intervals(const Selection& selection, double Selection::Variance::*of) {
   const Fit& best = selection.best;
   std::vector<ConfidenceInterval> found;
   for (std::size_t k = 0; k < best.parameters.size(); ++k) {
     const auto known = selection.variance.find(best.parameters[k]);
-    const double variance = known == selection.variance.end() ? variance_of(best, k) : known->second;
+    const double variance = known == selection.variance.end() ? variance_of(best, k) : known->second.*of;
     found.push_back(about(best.x[static_cast<Eigen::Index>(k)], variance));
   }
   return found;
+}
+
+}  // namespace
+
+std::vector<ConfidenceInterval> intervals(const Fit& fit, double overstated) {
+  std::vector<ConfidenceInterval> found;
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k)
+    found.push_back(about(fit.x[static_cast<Eigen::Index>(k)], overstated * variance_of(fit, k)));
+  return found;
+}
+
+std::vector<ConfidenceInterval> intervals(const Selection& selection) {
+  return intervals(selection, &Selection::Variance::overall);
+}
+
+std::vector<ConfidenceInterval> intervals_if_only(const Selection& selection) {
+  return intervals(selection, &Selection::Variance::if_only);
 }
 
 }  // namespace fusee

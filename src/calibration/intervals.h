@@ -11,8 +11,11 @@ namespace fusee {
 
 /// Of every fitted x, in their order: beside a discrepancy that may take any shape, and what is known from practice and
 /// from calipers.
-std::vector<ConfidenceInterval> intervals(const Fit& fit);
+/// `overstated`: by which evidence is, as Selection::temperature.
+std::vector<ConfidenceInterval> intervals(const Fit& fit, double overstated = 1.0);
 /// Of `selection.best`, wider by what is not known of the other effects, and by as much as evidence is overstated.
 std::vector<ConfidenceInterval> intervals(const Selection& selection);
+/// The same if the effects of `selection.best` are all there is: by as much wider as evidence is overstated.
+std::vector<ConfidenceInterval> intervals_if_only(const Selection& selection);
 
 }  // namespace fusee

@@ -20,6 +20,10 @@ constexpr double k_tail = 2.0;
 
 double square(double x) { return x * x; }
 
+/// Logarithm of the density of Student's t at 0. Computed once, before any thread begins: lgamma writes a global sign.
+const double k_log_density_at_0 =
+    std::lgamma(0.5 * (k_tail + 1.0)) - std::lgamma(0.5 * k_tail) - 0.5 * std::log(k_tail * k_pi);
+
 /// Information that the prior gives near x.
 double information(double x, double prior) {
   return std::isfinite(prior) ? (k_tail + 1.0) / (k_tail * prior * prior + x * x) : 1e-12;
@@ -29,8 +33,7 @@ double information(double x, double prior) {
 
 double log_prior(double x, double prior) {
   if (!std::isfinite(prior)) return 0;
-  const double constant = std::lgamma(0.5 * (k_tail + 1.0)) - std::lgamma(0.5 * k_tail) - 0.5 * std::log(k_tail * k_pi);
-  return constant - std::log(prior) - 0.5 * (k_tail + 1.0) * std::log1p(x * x / (k_tail * prior * prior));
+  return k_log_density_at_0 - std::log(prior) - 0.5 * (k_tail + 1.0) * std::log1p(x * x / (k_tail * prior * prior));
 }
 
 void add_numbers(const Eigen::VectorXd& prior, Tangent& tangent) {

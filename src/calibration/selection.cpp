@@ -12,6 +12,8 @@
 #include "calibration/catalogue.h"
 #include "calibration/thresholds.h"
 #include "calibration/unknown.h"
+#include "calibration/validation.h"
+#include "fusee/calibration/words.h"
 
 // Sets of effects by plain squares first, then a beam over sets by evidence. A set is as good as its evidence, beside a
 // discrepancy that may take any smooth shape, and as its effects are common; the best set ever seen is what is looked
@@ -172,6 +174,7 @@ class Selector {
   std::vector<std::pair<double, const Fit*>> ranked_plainly();
   const Fit* completed_by_names();
   void complete_by_names();
+  void drop_what_predicts_nothing();
   void write_down();
 
   void report(const std::string& what, double share) const {
@@ -766,13 +769,21 @@ bool Selector::try_all_beside() {
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
-/// Whether all its numbers may as well be nothing.
-bool has_no_size(const Fit& fit, const Effect& effect, double temperature) {
-  const std::vector<Eigen::Index> own = places_of(fit, effect);
-  if (own.empty()) return false;
-  const Eigen::VectorXd x = fit.x(own);
-  const Eigen::MatrixXd variance = temperature * fit.explained.covariance(own, own);
-  return x.dot(solved(variance, x)) < k_thresholds.least_size * static_cast<double>(own.size());
+/// Whether one of its numbers stands at the end of its range: the data ask for more of it than any joint has, and so
+/// for something else. Where it is searched for the end may be where it is, and what is nothing has no end.
+bool is_at_bound(const Fit& fit, const Effect& effect) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(), [&](const EffectParameter& parameter) {
+    return !parameter.searched && value_of(fit.at, parameter) != 0 && !is_idle(parameter, fit.at) &&
+           at_bound(fit.at, parameter);
+  });
+}
+
+/// Whether the fits differ by as much as can be seen, and rows that were not fitted are predicted worse without the
+/// effect, the others fitted anew: whole runs, and whole levels of load and speed.
+bool predicts(const Evidence& evidence, const Fit& with, const Fit& without) {
+  return rms_apart(evidence, with.residual, without.residual) > k_thresholds.least_left * evidence.floor &&
+         without.by_run.mean_square + without.by_factor.mean_square >
+             with.by_run.mean_square + with.by_factor.mean_square;
 }
 
 /// All sets that were looked at: of the declared joint's with one effect all were fitted, of the best's those that
@@ -795,14 +806,11 @@ std::vector<Weighed> Selector::weighed() {
 }
 
 /// Whether the joint is likelier without it: two groups of which each holds what stands in the other's place may be
-/// sure of both. Or whether the data say of its numbers that they may as well be nothing, and the readings that it
-/// hardly moves them. A friction that holds a joint fast moves it by all there is, and its slope is nothing then.
+/// sure of both. Or whether it predicts nothing, or only by more than any joint has of it.
 bool Selector::is_for_nothing(const Effect& effect, const Fit& others) const {
   const Fit& best = selection_.best;
   if (!others.usable) return false;
-  return score(others) > score(best) ||
-         (has_no_size(best, effect, selection_.temperature) &&
-          rms_apart(evidence_, others.residual, best.residual) < k_thresholds.least_moved * evidence_.floor);
+  return score(others) > score(best) || !predicts(evidence_, best, others) || is_at_bound(best, effect);
 }
 
 /// Where nothing in its place may be there as well, each of all others takes a little of the doubt away, and says
@@ -832,7 +840,7 @@ bool Selector::is_completed_beside(const Fit& others) const {
          is_without_a_part(beside_best, beside_others, evidence_.floor);
 }
 
-/// What is not sure enough to be named, with all that could stand in its place, or has no size to name, goes, the most
+/// What is not sure enough to be named, with all that could stand in its place, or predicts nothing, goes, the most
 /// doubtful first. What completes an explanation may stay with more doubt: its group will say that it may be nothing
 /// with a name. Whether something went.
 bool Selector::drop_doubtful() {
@@ -938,6 +946,22 @@ void Selector::complete_by_names() {
   }
 }
 
+/// Of names that took the place of what has none.
+void Selector::drop_what_predicts_nothing() {
+  for (std::size_t i = 0; i < selection_.best.effects.size();) {
+    leave_each_out();
+    const Fit& others = selection_.without[i];
+    if (!others.usable ||
+        (predicts(evidence_, selection_.best, others) && !is_at_bound(selection_.best, *selection_.best.effects[i]))) {
+      ++i;
+      continue;
+    }
+    drop_effect(workers_, i, "", selection_);
+    beside_best_.reset();
+    i = 0;
+  }
+}
+
 /// Root mean square over the rows of what a Gaussian of covariance `C` does by the slopes `J`, rad.
 double rms_by(const Eigen::MatrixXd& J, const Eigen::MatrixXd& C) {
   return std::sqrt(std::max(0.0, (J * C).cwiseProduct(J).sum()) /
@@ -1015,15 +1039,11 @@ void Selector::look_at_variance() {
       squares += weight * *square;
       weights += weight;
     }
-    double variance = weights > 0 ? squares / weights : *square_about_best(best, place);
+    const double alone = *square_about_best(best, place);
+    double variance = std::max(alone, weights > 0 ? squares / weights : alone);
     for (const Fit& companion : companions_) variance = std::max(variance, *square_about_best(companion, place));
-    selection_.variance[best.parameters[k]] = wider * variance;
+    selection_.variance[best.parameters[k]] = {wider * alone, wider * variance};
   }
-}
-
-std::string nats_words(double nats) {
-  const double decades = nats / std::log(10.0);
-  return (decades < 0 ? "−" : "") + std::to_string(static_cast<int>(std::lround(std::abs(decades))));
 }
 
 /// What the data say of every effect: of those that were accepted what is lost without, of the others what is gained.
@@ -1036,7 +1056,7 @@ void Selector::write_down() {
     candidate.why = "without it, and with the others where they are, the joint could not be simulated";
     if (selection_.without[i].usable) {
       candidate.evidence = best.log_evidence - selection_.without[i].log_evidence;
-      candidate.why = "without it the data are 10^" + nats_words(candidate.evidence) + " times less likely";
+      candidate.why = "odds with it to without it " + odds(candidate.evidence);
     }
     selection_.tried.push_back(candidate);
   }
@@ -1074,6 +1094,7 @@ Selection Selector::run() {
   if (settle_rivals()) settle_best();
   drop_all_doubtful();
   complete_by_names();
+  drop_what_predicts_nothing();
   join_companions();
   look_at_variance();
   write_down();

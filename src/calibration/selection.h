@@ -29,8 +29,12 @@ struct Selection {
   std::vector<Rival> rivals;          ///< of every accepted effect, usable ones
   std::vector<CredibleGroup> groups;  ///< of every accepted effect, in their order
   double temperature = 1;             ///< by which evidence is overstated: variances are as many times larger
-  /// Of each number of `best`, over all sets that hold it by their weight: mean square about it, in its steps.
-  std::map<const EffectParameter*, double> variance;
+  /// Mean square of a number about its value in `best`, in its steps.
+  struct Variance {
+    double if_only = 0;  ///< with the effects of `best` and no other
+    double overall = 0;  ///< over all sets that hold it by their weight, and with whatever may be there beside it
+  };
+  std::map<const EffectParameter*, Variance> variance;
   /// What has no name and is as likely as names of `best` that took its place.
   std::optional<std::vector<Unknown>> instead;
   std::vector<Candidate> tried;

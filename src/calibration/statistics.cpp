@@ -143,6 +143,10 @@ StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
   return scatter;
 }
 
+bool is_scattering(const NoiseFloor& noise) {
+  return noise.from_repeats && noise.within_stroke > 0 && noise.rms > k_thresholds.scatters * noise.within_stroke;
+}
+
 bool is_walking(const StrokeScatter& scatter) {
   return scatter.between > k_thresholds.walks * scatter.within ||
          scatter.tilts > k_thresholds.walks * scatter.about_tilts;

@@ -33,6 +33,9 @@ struct StrokeScatter {
 };
 StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit);
 
+/// Repeats differ by many times what a stroke scatters by within itself: no noise of a sensor does that.
+bool is_scattering(const NoiseFloor& noise);
+
 /// Whether strokes of one run and direction differ by more than noise lets them.
 bool is_walking(const StrokeScatter& scatter);
 

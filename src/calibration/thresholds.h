@@ -64,14 +64,6 @@ struct Thresholds {
   /// Degrees of freedom that the noise floor is taken to have.
   double noise_freedom = 30.0;
 
-  /// Squares of an effect's numbers in their standard deviations, each: less says that they may as well be nothing (95
-  /// % of a number). Where the data are likelier with such an effect all the same it is not by its size: a joint that
-  /// rubs ever so little rests elsewhere when it is loose. Matrix, seeds 31017, 32002, 32022: joint_friction named
-  /// alone and not there by 16 to 20 nats, its squares 0.1 to 0.8; where it is there 160 and more.
-  double least_size = 3.84;
-  /// … and that it moves the readings by no more than so many noise floors, rms.
-  double least_moved = 2.0;
-
   /// Simulated joints without an effect, and the most of them in which its name may come up before it stands alone.
   int worlds = 200;
   double most_mistaken = 0.02;
@@ -114,9 +106,9 @@ struct Thresholds {
   /// Effects that simulated joints were read by, in a group: where it is anything at all, the ones most often there.
   std::size_t most_culprits = 6;
 
-  /// Nats that a name that stands alone must be ahead of the best that has no name in its place (nameless.h), else its
-  /// group says that it may be something without a name …
-  double ahead_of_nameless = 10.0;
+  /// Nats that a name that stands alone must be ahead of the best that has no name in its place (unmodelled.h), else
+  /// its group says that it may be something without a name …
+  double ahead_of_unmodelled = 10.0;
   /// … what stands in a group of several, of which the simulated joints told less …
   double ahead_in_a_group = 15.0;
   /// … what is told by the bench's warmth alone, or by when it happens, since all that wears, settles, walks away or
@@ -168,6 +160,9 @@ struct Thresholds {
   /// Strokes that should be alike are apart by this part of the noise within them: the joint does not repeat. Matrix,
   /// rows walking_zero and nothing_coloured_noise; bench joint: a walking zero (34972f4).
   double walks = 0.7;
+  /// … and so does one whose repeats differ by more than so many times the scatter of neighbouring rows about one
+  /// another. Noise with a memory of 0.95 from row to row differs by 6 times, of 0.98 by 9.
+  double scatters = 10.0;
 
   // ---- how far is looked ----
 

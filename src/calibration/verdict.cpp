@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "calibration/nameless.h"
 #include "calibration/statistics.h"
+#include "calibration/unmodelled.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
 
@@ -60,10 +60,10 @@ class Places {
 };
 
 std::string group_words(const FoundEffect& effect) {
-  const bool may_be_nameless = effect.group.back() == k_nameless;
-  const std::vector<std::string> names(effect.group.begin(), effect.group.end() - (may_be_nameless ? 1 : 0));
+  const bool may_be_unmodelled = effect.group.back() == k_unmodelled;
+  const std::vector<std::string> names(effect.group.begin(), effect.group.end() - (may_be_unmodelled ? 1 : 0));
   return (names.size() > 1 ? "one of {" + list(names) + "}" : effect.name) +
-         (may_be_nameless ? " or something without a name that does the same" : "");
+         (may_be_unmodelled ? " or an unmodelled cause that does the same" : "");
 }
 
 std::string effects_words(const std::vector<FoundEffect>& effects) {
@@ -86,11 +86,48 @@ CalibrationVerdict verdict_of(bool walks, bool above_floor, const std::vector<Fo
                                                                : CalibrationVerdict::explained;
 }
 
+std::string level_words(const NoiseLevel& level, const std::string& load_unit) {
+  std::string words;
+  if (!load_unit.empty()) words += "load " + rounded(level.load, 2) + " " + load_unit;
+  if (level.speed > 0) words += (words.empty() ? "" : ", ") + rounded(degrees(level.speed), 2) + "°/s";
+  return words;
+}
+
+bool is_quieter(const NoiseLevel& one, const NoiseLevel& other) { return one.rms < other.rms; }
+
+/// Repeats that no sensor's noise makes differ, and where they do most.
+std::string scatter_words(const Calibration& calibration, const std::string& load_unit) {
+  const NoiseFloor& noise = calibration.noise;
+  std::string words = "The same angle, direction and load give joint angles that differ by " + in_degrees(noise.rms) +
+                      " rms from stroke to stroke, " + rounded(noise.rms / noise.within_stroke, 2) +
+                      " times the scatter within a stroke";
+  if (!noise.levels.empty()) {
+    const NoiseLevel& most = *std::max_element(noise.levels.begin(), noise.levels.end(), is_quieter);
+    const std::string level = level_words(most, load_unit);
+    words += ", most at alpha " + rounded(degrees(most.largest_at), 3) + "°" + (level.empty() ? "" : ", " + level);
+  }
+  return words + ": look for something loose, or a sensor that holds its reading, before any correction.";
+}
+
+/// Noise that is another at another load or speed by more than chance makes it, and by more than half.
+std::string noise_words(const NoiseFloor& noise, const std::string& load_unit) {
+  if (noise.levels.size() < 2) return "";
+  const auto [least, most] = std::minmax_element(noise.levels.begin(), noise.levels.end(), is_quieter);
+  const double ratio = most->rms / least->rms;
+  const bool is_other =
+      ratio > 1.5 && ratio * ratio > rarest_ratio(most->degrees_of_freedom, least->degrees_of_freedom);
+  if (!is_other || level_words(*least, load_unit) == level_words(*most, load_unit)) return "";
+  return "Noise is " + in_degrees(least->rms) + " at " + level_words(*least, load_unit) + " and " +
+         in_degrees(most->rms) + " at " + level_words(*most, load_unit) + ".";
+}
+
 /// What a person can act on.
-std::string finding(const Calibration& calibration, const Rest& rest, const StrokeScatter& scatter, double floor) {
+std::string finding(const Calibration& calibration, const Rest& rest, const StrokeScatter& scatter, double floor,
+                    const std::string& load_unit) {
   const std::string names = effects_words(calibration.effects);
   switch (calibration.verdict) {
     case CalibrationVerdict::not_repeatable:
+      if (is_scattering(calibration.noise)) return scatter_words(calibration, load_unit);
       return "The same angle, direction and load give joint angles that differ by " +
              in_degrees(std::hypot(scatter.between, scatter.tilts)) +
              " rms from stroke to stroke: look for something loose before any correction.";
@@ -99,7 +136,11 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
              (any_beside(calibration.effects) ? "with these alone " : "") +
              in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms are left and noise makes " +
              in_degrees(floor) + " of it: what is more stays unexplained, " + rest.where + "." +
-             (calibration.unknown.empty() ? "" : " It depends on " + calibration.unknown.front().factor + ".");
+             (calibration.unknown.empty() ? "" : " It depends on " + calibration.unknown.front().factor + ".") +
+             (calibration.dropped.empty() ? ""
+                                          : " Not reported, since rows that were not fitted are predicted worse with "
+                                            "it than as declared: " +
+                                                list(calibration.dropped) + ".");
     case CalibrationVerdict::confounded:
       return (calibration.next_runs.empty() ? "" : "Measure this first: " + calibration.next_runs.front() + ". ") +
              "The data are explained by " + names + ", and cannot tell which.";
@@ -121,9 +162,9 @@ std::string figures(const Calibration& calibration, double floor) {
 /// What the verdict itself asks for, beside what would split a group.
 void ask_for_runs(Calibration& calibration) {
   for (const FoundEffect& effect : calibration.effects) {
-    const std::string& run = effect.nameless.separating_run;
+    const std::string& run = effect.unmodelled.separating_run;
     const bool asked = std::count(calibration.next_runs.begin(), calibration.next_runs.end(), run) > 0;
-    if (effect.group.back() == k_nameless && !run.empty() && !asked) calibration.next_runs.push_back(run);
+    if (effect.group.back() == k_unmodelled && !run.empty() && !asked) calibration.next_runs.push_back(run);
   }
   if (calibration.verdict == CalibrationVerdict::not_repeatable) {
     calibration.next_runs.insert(calibration.next_runs.begin(),
@@ -162,14 +203,16 @@ void conclude(const Evidence& evidence, const Selection& selection, const Unname
     calibration.unexplained_where = rest.where;
     calibration.unknown = unnamed.parts;
   }
-  const bool walks = is_walking(scatter);
+  const bool walks = is_walking(scatter) || is_scattering(calibration.noise);
+  const std::string& load_unit = evidence.measurement.load_unit;
+  calibration.noise_varies = noise_words(calibration.noise, load_unit);
   if (selection.instead) calibration.instead = *selection.instead;
   const bool in_time = walks || (unexplained && goes_with_time(unnamed));
-  take_nameless({unexplained || walks || selection.instead, in_time}, selection, calibration.effects);
+  take_unmodelled({unexplained || walks || selection.instead, in_time}, selection, calibration.effects);
   calibration.verdict = verdict_of(walks, unexplained, calibration.effects);
   ask_for_runs(calibration);
   calibration.summary =
-      finding(calibration, rest, scatter, evidence.floor) + " " + figures(calibration, evidence.floor);
+      finding(calibration, rest, scatter, evidence.floor, load_unit) + " " + figures(calibration, evidence.floor);
 }
 
 }  // namespace fusee

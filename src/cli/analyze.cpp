@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <filesystem>
 
 #include "cli/analysis_table.h"
@@ -225,20 +228,44 @@ AnalysisOptions options_from(const Arguments& arguments) {
   return options;
 }
 
-/// What FILE's ending asks for.
+constexpr auto k_endings = std::to_array<std::string_view>({".csv", ".json", ".html", ".svg", ".png", ".pdf"});
+
+std::string ending_of(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+/// Before any work is done.
+void refuse_unknown_ending(const Arguments& arguments) {
+  const std::optional<std::string> file = arguments.text("--out");
+  if (!file || std::find(k_endings.begin(), k_endings.end(), ending_of(*file)) != k_endings.end()) return;
+  throw UsageError("analyze writes no file with the ending of '" + *file + "'",
+                   "use .csv or .json for the table, .html for a page, .svg, .png or .pdf for the plots");
+}
+
+std::string bytes_for(const std::string& ending, const MechanismFile& mechanism, const AnalysisResult& result,
+                      const AnalysisOptions& options, const Reply& reply) {
+  if (ending == ".json") return json_text(stroke_json(result.rows), 1);
+  if (ending == ".html") return analysis_html(mechanism, result, options, reply.diagnostics);
+  if (ending == ".svg") return analysis_svg(mechanism, result);
+  if (ending == ".png") return analysis_png(mechanism, result);
+  if (ending == ".pdf") return analysis_pdf(mechanism, result);
+  return stroke_csv(result.rows);
+}
+
 void write_result(const Arguments& arguments, const MechanismFile& mechanism, const AnalysisResult& result,
                   const AnalysisOptions& options, Reply& reply) {
   const std::optional<std::string> file = arguments.text("--out");
   if (!file) return;
-  const std::filesystem::path ending = std::filesystem::path(*file).extension();
-  const std::string bytes = ending == ".json"   ? json_text(stroke_json(result.rows), 1)
-                            : ending == ".html" ? analysis_html(mechanism, result, options, reply.diagnostics)
-                                                : stroke_csv(result.rows);
+  const std::string bytes = bytes_for(ending_of(*file), mechanism, result, options, reply);
   if (!arguments.has("--dry-run")) write_file(*file, bytes, arguments.has("--force"));
   reply.fields["output"] = *file;
 }
 
 Reply run_analyze(const Arguments& arguments, Console& console) {
+  refuse_unknown_ending(arguments);
   const AnalysisOptions options = options_from(arguments);
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
   Reply reply;
@@ -272,28 +299,30 @@ Reply run_analyze(const Arguments& arguments, Console& console) {
 }  // namespace
 
 Command analyze_command() {
-  return {
-      "analyze",
-      "SPEC",
-      "the transmission and the forces over the range",
-      "Shows angles, radii, tensions, torque, stretch and stiffness over the range of\n"
-      "the mechanism file SPEC: by the paper's formulas, and beside them by the full\n"
-      "model of two elastic tendons with pretension, friction at the pins and in the\n"
-      "grooves (what lies on a pulley slides as far as that lets it), in its third\n"
-      "cycle, alpha growing. The summary says what is largest, what is slack, and\n"
-      "what makes the joint miss its angle. At the ends of the range the motion turns\n"
-      "back: there both directions show the same state.",
-      {{"-o,--out", "FILE", "write to FILE: a page if it ends in .html, the table\nas JSON if in .json, else as CSV"},
-       {"--csv", "", "the table as CSV on stdout"},
-       {"--steps", "N", "steps of the table (default 60)"},
-       {"--tolerance-mm", "MM", "tolerance of every dimension (default 0.1)"},
-       {"--samples", "N", "samples of the Monte Carlo (default 1000)"},
-       {"--seed", "N", "its seed (default 1)"}},
-      {{"fusee analyze arm.toml", "tables and summary"},
-       {"fusee analyze arm.toml --set load.tip_force_N=10", "what would a load of 10 N do?"},
-       {"fusee analyze arm.toml -o arm.html", "a page on which the joint moves"},
-       {"fusee analyze arm.toml --csv > stroke.csv", "every row and every column, for a plot"}},
-      run_analyze};
+  return {"analyze",
+          "SPEC",
+          "the transmission and the forces over the range",
+          "Shows angles, radii, tensions, torque, stretch and stiffness over the range of\n"
+          "the mechanism file SPEC: by the paper's formulas, and beside them by the full\n"
+          "model of two elastic tendons with pretension, friction at the pins and in the\n"
+          "grooves (what lies on a pulley slides as far as that lets it), in its third\n"
+          "cycle, alpha growing. The summary says what is largest, what is slack, and\n"
+          "what makes the joint miss its angle. At the ends of the range the motion turns\n"
+          "back: there both directions show the same state.",
+          {{"-o,--out", "FILE",
+            "write to FILE what its ending says: the plots as\n.svg, .png or .pdf, a page as .html, the table as\n.csv "
+            "or .json"},
+           {"--csv", "", "the table as CSV on stdout"},
+           {"--steps", "N", "steps of the table (default 60)"},
+           {"--tolerance-mm", "MM", "tolerance of every dimension (default 0.1)"},
+           {"--samples", "N", "samples of the Monte Carlo (default 1000)"},
+           {"--seed", "N", "its seed (default 1)"}},
+          {{"fusee analyze arm.toml", "tables and summary"},
+           {"fusee analyze arm.toml --set load.tip_force_N=10", "what would a load of 10 N do?"},
+           {"fusee analyze arm.toml -o arm.html", "a page on which the joint moves"},
+           {"fusee analyze arm.toml -o arm.svg", "its plots as a picture"},
+           {"fusee analyze arm.toml --csv > stroke.csv", "every row and every column, for a plot"}},
+          run_analyze};
 }
 
 }  // namespace fusee::cli

@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "base/bundle.h"
-#include "cli/command.h"
-#include "fusee/base/files.h"
+#include "fusee/base/text.h"
 
 namespace fusee::cli {
 namespace {
@@ -15,17 +14,6 @@ namespace fs = std::filesystem;
 fs::path whole_of(const fs::path& here, const fs::path& path) {
   fs::path whole = (here / path).lexically_normal();
   return whole.has_filename() ? whole : whole.parent_path();
-}
-
-bool leads_out(const fs::path& path) { return path.is_absolute() || path.empty() || *path.begin() == ".."; }
-
-/// Any name as one that a bundle may hold.
-std::string tame(std::string name) {
-  for (char& c : name) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code < 0x20 || code >= 0x7f || c == '\\' || c == ':') c = '_';
-  }
-  return is_inner_path(name) ? name : "file";
 }
 
 /// Where in a word of the command line a path begins: after "--out=", "-o" and "pulley.table=".
@@ -43,18 +31,6 @@ std::size_t path_begin(const std::string& word, bool is_setting) {
   const std::size_t equals = word.find('=', begin);
   return equals == std::string::npos ? word.size() : equals + 1;
 }
-
-/// Options whose value is no path, whatever it looks like.
-bool takes_plain_value(const std::string& flag) {
-  for (const Command& command : commands()) {
-    for (const Option& option : command.options)
-      if (flag == option.name())
-        return !option.value.starts_with("FILE") && option.value != "DIR" && !option.value.empty();
-  }
-  return false;
-}
-
-bool looks_like_path(const std::string& text) { return text == ".." || text.find('/') != std::string::npos; }
 
 bool belongs_to_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' ||
@@ -74,104 +50,106 @@ void replace_name(std::string& text, const std::string& from, const std::string&
 
 }  // namespace
 
-fs::path seen_from(const fs::path& here, const fs::path& path) { return whole_of(here, path).lexically_relative(here); }
-
-std::string hidden_path(const fs::path& path) { return "sha256:" + sha256(path.lexically_normal().string()); }
-
-void BundleNames::add(const std::string& from, const std::string& to) {
-  if (from != to) renamed_.emplace(from, to);
+fs::path working_folder() {
+  std::error_code error;
+  return fs::current_path(error);
 }
 
-/// In a folder that was named: where outputs go.
-std::optional<std::string> BundleNames::home_of(const fs::path& whole) const {
-  for (fs::path folder = whole; folder.has_relative_path(); folder = folder.parent_path()) {
-    const auto home = named_.find(folder);
-    if (home != named_.end() && folder == whole) return home->second;
-    if (home != named_.end())
-      return (fs::path(home->second) / whole.lexically_relative(folder)).lexically_normal().string();
+fs::path seen_from(const fs::path& here, const fs::path& path) { return whole_of(here, path).lexically_relative(here); }
+
+bool leads_out(const fs::path& seen) { return seen.empty() || seen.is_absolute() || *seen.begin() == ".."; }
+
+std::string tame(std::string_view name) {
+  std::string tamed = cleaned_line(name);
+  for (std::size_t i = 0; i < tamed.size(); ++i) {
+    const bool hides = tamed[i] == '.' && (i == 0 || tamed[i - 1] == '/');
+    if (hides || tamed[i] == '\\' || tamed[i] == ':') tamed[i] = '_';
   }
-  return std::nullopt;
+  return is_inner_path(tamed) ? tamed : "file";
+}
+
+BundleNames::BundleNames(const fs::path& here) : here_(here) {
+  if (!here.empty()) add_folder(here, ".");
+}
+
+void BundleNames::add(const std::string& from, const std::string& to) {
+  if (from != to) renamed_[from] = to;
+}
+
+/// A folder, and those above it where they have no name yet: messages name them too.
+void BundleNames::add_folder(fs::path folder, std::string name) {
+  add(folder.string(), name);
+  for (folder = folder.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
+    name = (fs::path(name) / "..").lexically_normal().string();
+    if (renamed_.count(folder.string()) == 0) add(folder.string(), name);
+  }
+}
+
+std::string BundleNames::unused(const std::string& folder, const std::string& name) {
+  std::string full = folder + name;
+  for (int i = 2; !used_.insert(full).second; ++i) full = folder + std::to_string(i) + "/" + name;
+  return full;
+}
+
+std::string BundleNames::outside(const fs::path& whole) {
+  const fs::path folder = whole.parent_path();
+  std::string& home = named_[folder];
+  if (home.empty()) {
+    home = "outside";
+    for (int i = 2; !used_.insert(home).second; ++i) home = "outside_" + std::to_string(i);
+    add_folder(folder, home);
+  }
+  return unused(home + "/", tame(whole.filename().string()));
 }
 
 std::string BundleNames::inner(const fs::path& path) {
-  const fs::path near = seen_from(here_, path);
-  std::string name;
+  const fs::path near = seen_from(here_, path), whole = whole_of(here_, path);
   if (near == ".") return ".";
-  if (!leads_out(near)) {
-    name = tame(near.generic_string());
-  } else {
-    const fs::path whole = whole_of(here_, path), folder = whole.parent_path();
-    if (const auto home = home_of(whole)) return *home;
-    const std::string next = outside_.empty() ? "outside" : "outside_" + std::to_string(outside_.size() + 1);
-    const std::string home = outside_.emplace(folder, next).first->second;
-    name = home + "/" + tame(whole.filename().string());
-    if (folder != whole) add(folder.string(), home);
-    if (path.has_parent_path()) add(path.parent_path().string(), home);
-  }
-  named_[whole_of(here_, path)] = name;
+  auto known = named_.find(whole);
+  if (known == named_.end())
+    known = named_.emplace(whole, leads_out(near) ? outside(whole) : unused("", tame(near.string()))).first;
+  const std::string& name = known->second;
   add(path.string(), name);
-  add(whole_of(here_, path).string(), name);
+  add(whole.string(), name);
   std::error_code error;
-  if (const fs::path real = fs::weakly_canonical(here_ / path, error); !error) add(real.string(), name);
+  const fs::path real = fs::weakly_canonical(here_ / path, error);
+  if (!error) add(real.string(), name);
+  if (!leads_out(near)) return name;
+  if (const auto home = named_.find(whole.parent_path()); home != named_.end()) {
+    if (path.has_parent_path()) add_folder(path.parent_path(), home->second);
+    if (!error) add_folder(real.parent_path(), home->second);
+  }
   return name;
 }
 
 std::vector<std::string> BundleNames::inner_words(const std::vector<std::string>& words) {
-  std::vector<std::string> renamed;
+  std::vector<std::string> renamed = words;
   bool only_paths = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    std::string word = words[i];
-    const std::string flag = i == 0 ? "" : words[i - 1];
-    const bool is_setting = !only_paths && flag == "--set";
-    const bool is_plain = !only_paths && takes_plain_value(flag);
-    const std::size_t begin = only_paths ? 0 : path_begin(word, is_setting);
+    const std::string& word = words[i];
+    const std::string flag = i == 0 || only_paths ? "" : words[i - 1];
+    const std::size_t begin = only_paths ? 0 : path_begin(word, flag == "--set");
     const std::string value = word.substr(begin);
-    const bool in_setting = is_setting || word.rfind("--set=", 0) == 0;
-    // What --set gives is seen from the mechanism file: only an absolute path leads out of there.
-    const bool is_path = in_setting ? value.rfind('/', 0) == 0 : !is_plain && looks_like_path(value);
-    if (is_path) {
-      word = word.substr(0, begin) + inner(value);
-      if (in_setting) set_paths_.push_back(value);
-    }
-    only_paths = only_paths || words[i] == "--";
-    renamed.push_back(word);
-  }
-  if (const auto at = find_command(renamed)) {
-    // The first word that may be the mechanism file.
-    const auto spec = std::find_if(renamed.begin() + static_cast<std::ptrdiff_t>(*at) + 1, renamed.end(),
-                                   [](const std::string& word) { return word.rfind(".toml") != std::string::npos; });
-    if (spec != renamed.end()) spec_folder_ = fs::path(*spec).parent_path().string();
+    // What --set gives is seen from the mechanism file's folder, where the replayed run asks for it by its name.
+    if (!value.empty() && (fs::path(value).is_absolute() || leads_out(seen_from(here_, value)) || !is_utf8(value)))
+      renamed[i] = word.substr(0, begin) + inner(value);
+    only_paths = only_paths || word == "--";
   }
   return renamed;
 }
 
-std::vector<std::string> BundleNames::asked(const fs::path& path) const {
-  const std::string raw = path.string();
-  if (std::find(set_paths_.begin(), set_paths_.end(), raw) != set_paths_.end())
-    return {(fs::path(spec_folder_) / renamed_.at(raw)).lexically_normal().string()};
-  std::vector<std::string> all;
-  if (path.is_absolute()) all.push_back(hidden_path(path));
-  // What a file names beside itself: the file's folder has another name now.
-  for (fs::path folder = path.parent_path(); !folder.empty() && folder != folder.root_path();
-       folder = folder.parent_path()) {
-    const auto home = renamed_.find(folder.string());
-    if (home == renamed_.end()) continue;
-    all.push_back((fs::path(home->second) / raw.substr(folder.string().size() + 1)).lexically_normal().string());
-    return all;
-  }
-  if (!path.is_absolute()) all.push_back(seen_from(here_, path).string());
-  return all;
-}
-
 std::string BundleNames::text(std::string words) const {
   if (const auto exact = renamed_.find(words); exact != renamed_.end()) return exact->second;
-  std::vector<std::pair<std::string, std::string>> longest_first(renamed_.begin(), renamed_.end());
-  longest_first.emplace_back(here_.string(), ".");
-  std::stable_sort(longest_first.begin(), longest_first.end(),
-                   [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
-  for (const auto& [from, to] : longest_first)
+  for (const auto& [from, to] : renamed_)
     if (from.find_first_not_of("./") != std::string::npos) replace_name(words, from, to);
   return words;
+}
+
+Json BundleNames::document(Json json) const {
+  if (json.is_string()) return text(json.get<std::string>());
+  if (json.is_structured())
+    for (Json& each : json) each = document(std::move(each));
+  return json;
 }
 
 }  // namespace fusee::cli

@@ -1,47 +1,59 @@
 /// \file
-/// What files of this machine are called in a bundle. A path within the folder of the run keeps its name from there;
-/// any other is outside/NAME, those of another folder outside_2/NAME …: no absolute path, and so no person, stands in
-/// the bundle that was not in a file that it packs.
+/// The names that a bundle has for files of this machine. A path within the folder of the run keeps its name; any other
+/// is outside/NAME, those of another folder outside_2/NAME …: no absolute path, and so no person, stands in the bundle
+/// that was not in a file that it packs.
 #pragma once
 
 #include <filesystem>
 #include <map>
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
+
+#include "base/json.h"
 
 namespace fusee::cli {
 
 class BundleNames {
  public:
-  explicit BundleNames(std::filesystem::path here) : here_(std::move(here)) {}
+  /// Of a run that stands in `here`; empty where that folder is gone.
+  explicit BundleNames(const std::filesystem::path& here);
 
-  /// The path as the bundle has it; what the run says of it later is renamed alike.
+  /// The name of a path, an inner path of a bundle, or "." of the folder itself. No two files have one name.
   std::string inner(const std::filesystem::path& path);
-  /// `from` is another name of `to` in what the run says.
-  void add(const std::string& from, const std::string& to);
   /// A command line with its paths renamed.
   std::vector<std::string> inner_words(const std::vector<std::string>& words);
-  /// How a run of inner_words() may ask for what this one asked for: see BundledFile::asked.
-  std::vector<std::string> asked(const std::filesystem::path& path) const;
-  /// Without names of this machine.
+  /// `from` is another name of `to` in what the run reports.
+  void add(const std::string& from, const std::string& to);
+  /// What a run reported, with the names of the bundle in place of all that were added or that inner() was asked for.
   std::string text(std::string words) const;
+  /// The same for each text of a document.
+  Json document(Json json) const;
 
  private:
-  std::optional<std::string> home_of(const std::filesystem::path& whole) const;
+  struct LongestFirst {
+    bool operator()(const std::string& a, const std::string& b) const {
+      return a.size() != b.size() ? a.size() > b.size() : a < b;
+    }
+  };
+
+  std::string outside(const std::filesystem::path& path);
+  std::string unused(const std::string& folder, const std::string& name);
+  void add_folder(std::filesystem::path folder, std::string name);
 
   std::filesystem::path here_;
-  std::map<std::filesystem::path, std::string> named_;    ///< from the root
-  std::map<std::filesystem::path, std::string> outside_;  ///< a folder, and its name in the bundle
-  std::map<std::string, std::string> renamed_;
-  std::vector<std::string> set_paths_;  ///< absolute ones of --set, which are taken from the mechanism file's folder
-  std::string spec_folder_;             ///< of the renamed one
+  std::map<std::filesystem::path, std::string> named_;  ///< files and folders, from the root
+  std::set<std::string> used_;
+  std::map<std::string, std::string, LongestFirst> renamed_;
 };
 
-/// From `here`, without dots: what is read or written under one name has one. Leads upwards ("../x") where it is
-/// outside.
+/// From `here`, without dots: what is read or written under one name has one. Leads upwards ("../x") or is empty where
+/// it is outside.
 std::filesystem::path seen_from(const std::filesystem::path& here, const std::filesystem::path& path);
-/// "sha256:…" of an absolute path.
-std::string hidden_path(const std::filesystem::path& path);
+bool leads_out(const std::filesystem::path& seen);
+/// Any name as one that a bundle may hold, and itself where it may.
+std::string tame(std::string_view name);
+/// The folder that the process stands in; empty where it is gone.
+std::filesystem::path working_folder();
 
 }  // namespace fusee::cli

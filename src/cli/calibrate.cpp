@@ -91,20 +91,22 @@ Command calibrate_command() {
           "SPEC RUN.csv...",
           "measured data: what is off, why, a better pulley",
           "Holds measured runs of a joint (CSV with alpha_deg,theta_deg and, if logged,\n"
-          "time_s,load_N,temperature_C) against the mechanism file SPEC: finds the\n"
+          "time_s,load_N,temperature_C; other units by name, as theta_rad, time_ms,\n"
+          "load [kg], or by --unit) against the mechanism file SPEC: finds the\n"
           "residual, names the effects behind it that hold on data they were not fitted\n"
           "to, with those that would do as well, and leaves corrected.toml (fusee build\n"
           "makes its pulley), compensation.csv (where the motor must stand, from below and\n"
           "from above), calibration.json and report.html. Whatever the verdict, also\n"
           "not_testable, the exit code is 0 when the data could be read and 3 when they\n"
           "could not.",
-          {{"-o,--out", "DIR", "where the files go\n(default: out/<name of SPEC>_calibration)"},
-           {"--hold-out", "FILE", "a run to validate with only; may be given several\ntimes", true},
-           {"--no-audit", "", "do not count how often these runs would have\nnamed what is not there"},
-           column_option()},
+          with_reading_options(
+              {{"-o,--out", "DIR", "where the files go\n(default: out/<name of SPEC>_calibration)"},
+               {"--hold-out", "FILE", "a run to validate with only; may be given several\ntimes", true},
+               {"--no-audit", "", "do not count how often these runs would have\nnamed what is not there"}}),
           {{"fusee calibrate arm.toml run_1.csv run_2.csv", "files in out/arm_calibration; open its report.html"},
            {"fusee calibrate arm.toml run_1.csv --hold-out run_2.csv", "judge by run_2.csv alone"},
-           {"fusee calibrate jaw.toml jaw.csv --column load=tau_out_Nm", "the load has another name"}},
+           {"fusee calibrate jaw.toml jaw.csv --column load=tau_out_Nm", "the load has another name"},
+           {"fusee calibrate arm.toml log.csv --ticks-per-turn alpha=4096", "alpha_deg holds counts of an encoder"}},
           run_calibrate};
 }
 

@@ -1,5 +1,7 @@
 #include "cli/calibration_summary.h"
 
+#include <cmath>
+
 #include "cli/table.h"
 #include "export/report/calibration_words.h"
 #include "fusee/base/text.h"
@@ -31,11 +33,29 @@ std::string figures_table(const Calibration& c) {
        row("  ISO 230-2 M", c.iso_before.M, c.iso_after.M)});
 }
 
+std::string headline_text(const CalibrationProduct& product) {
+  const Headline first = headline(product);
+  std::string text;
+  for (const std::string& line : {first.problem, first.cause, first.action})
+    text += line.empty() ? "" : wrapped(line, "", "");
+  return text;
+}
+
+std::string causes_table(const CalibrationProduct& product) {
+  std::vector<std::vector<std::string>> rows;
+  for (const CauseRow& row : cause_rows(product))
+    rows.push_back({row.cause, row.size, row.interval, row.share, row.corrected_by});
+  if (rows.empty()) return "";
+  return "\n" +
+         table({{"cause"}, {"size"}, {"95 %, if the only cause"}, {"of the error", Align::right}, {"corrected by"}},
+               rows);
+}
+
 std::string noise_text(const Calibration& c) {
   std::string words =
       "noise floor " + deg(c.noise.rms) + (c.noise.from_repeats ? " deg, from repeats" : " deg or more: no repeats");
   if (c.noise.rms > 0) words += "; what is left is " + rounded(c.after.rms / c.noise.rms, 3) + " times that";
-  return wrapped(words, "  ", "  ");
+  return wrapped(words, "  ", "  ") + (c.noise_varies.empty() ? "" : wrapped(c.noise_varies, "  ", "  "));
 }
 
 std::string effect_text(const FoundEffect& effect, const std::string& load_unit) {
@@ -44,13 +64,13 @@ std::string effect_text(const FoundEffect& effect, const std::string& load_unit)
     words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i], load_unit);
   words += ". Takes " + deg(effect.rms_drop) + " deg rms off";
   std::vector<std::string> rivals = rivals_of(effect);
-  std::erase(rivals, k_nameless);
-  const std::string nameless = nameless_words(effect);
-  words += !rivals.empty()    ? "; as good: " + joined(rivals, ", ")
-           : nameless.empty() ? "; nothing else does as well"
-                              : "; no other name does as well";
+  std::erase(rivals, k_unmodelled);
+  const std::string unmodelled = unmodelled_words(effect);
+  words += !rivals.empty()      ? "; as good: " + joined(rivals, ", ")
+           : unmodelled.empty() ? "; nothing else does as well"
+                                : "; no other name does as well";
   std::string sentences;
-  for (const std::string& more : {audit_words(effect), beside_words(effect, load_unit), nameless})
+  for (const std::string& more : {audit_words(effect), beside_words(effect, load_unit), unmodelled})
     sentences += more.empty() ? "" : (sentences.empty() ? ". " : " ") + more;
   return words + sentences;
 }
@@ -61,8 +81,8 @@ std::vector<std::string> effect_texts(const Calibration& c, const std::string& l
   if (texts.empty()) texts.push_back("none accepted");
   if (!c.unexplained_where.empty())
     texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms beyond the noise, " + c.unexplained_where);
-  for (const Unknown& unknown : c.unknown) texts.push_back("without a name: " + unknown_words(unknown));
-  for (const Unknown& unknown : c.instead) texts.push_back("or, as likely, without a name: " + unknown_words(unknown));
+  for (const Unknown& unknown : c.unknown) texts.push_back("unmodelled: " + unknown_words(unknown));
+  for (const Unknown& unknown : c.instead) texts.push_back("or, as likely, unmodelled: " + unknown_words(unknown));
   return texts;
 }
 
@@ -75,9 +95,12 @@ std::vector<std::string> correction_texts(const CalibrationProduct& product) {
     if (correction.tied_at != 0) texts.push_back(tied_words(correction));
   } else if (!correction.infeasible.empty()) {
     texts.push_back(infeasible_words(correction));
-  } else {
+  } else if (correction.why_no_pulley_file.empty()) {
     texts.push_back("nothing was identified that another pulley would take out");
   }
+  if (!correction.why_no_pulley_file.empty())
+    texts.push_back("corrected.toml is not written: " + correction.why_no_pulley_file);
+  if (!correction.why_no_table.empty()) texts.push_back("compensation.csv is not written: " + correction.why_no_table);
   if (!correction.table.empty())
     texts.push_back("compensation.csv takes away " + deg(correction.by_table) + " deg rms" +
                     (correction.has_pulley ? " beyond that" : ""));
@@ -95,17 +118,18 @@ std::string tried_table(const Calibration& c) {
   if (c.tried.empty()) return "";
   std::vector<std::vector<std::string>> rows;
   for (const Candidate& candidate : c.tried) {
-    rows.push_back({"  " + candidate.name, fixed(candidate.evidence, 1), candidate.accepted ? "taken" : ""});
+    rows.push_back({"  " + candidate.name, std::isfinite(candidate.evidence) ? odds(candidate.evidence) : "–",
+                    candidate.accepted ? "taken" : ""});
   }
-  return "\n" + table({{"Tried"}, {"evidence (nats)", Align::right}, {""}}, rows);
+  return "\n" + table({{"Tried"}, {"odds", Align::right}, {""}}, rows);
 }
 
 }  // namespace
 
 std::string calibration_summary(const CalibrationProduct& product, bool verbose) {
   const Calibration& c = product.calibration;
-  std::string text =
-      product.file.mechanism.name + ": " + std::string(word(c.verdict)) + "\n" + wrapped(c.summary, "  ", "  ");
+  std::string text = headline_text(product) + causes_table(product) + "\n" + product.file.mechanism.name + ": " +
+                     std::string(word(c.verdict)) + "\n" + wrapped(c.summary, "  ", "  ");
   text += items("A slip of the file or of the log?", slips_words(product));
   if (c.verdict == CalibrationVerdict::not_testable) return text + items("Measure next", c.next_runs);
   text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));

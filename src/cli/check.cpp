@@ -25,7 +25,7 @@ std::string by_three(const Vec3& extent, bool is_flat, double factor) {
 }
 
 std::string size_text(const PartSize& size) {
-  if (!size.extent) return "size: none, it holds no points that can be measured";
+  if (!size.extent) return "size: none, it holds nothing that can be measured";
   if (size.contours)
     return "size " + by_three(*size.extent, true, 1) + ", " + std::to_string(*size.contours) + " closed " +
            (*size.contours == 1 ? "contour" : "contours");
@@ -50,6 +50,16 @@ void add_unit_warning(const std::string& file, const PartSize& size, Reply& repl
   Diagnostic warning = about_file(Severity::warning, file, "read in mm it measures " + would_be(1) + ": " + guess);
   warning.hint = "export it again in millimetres, or scale it where it is sliced or cut";
   reply.diagnostics.push_back(warning);
+}
+
+/// Odd entities that did no harm here, and may elsewhere.
+void add_remarks(const std::string& file, const Part& part, Reply& reply) {
+  const auto* drawing = std::get_if<Drawing>(&part);
+  if (drawing == nullptr) return;
+  for (const DrawingRemark& remark : drawing->remarks) {
+    const std::string others = remark.count > 1 ? " (" + std::to_string(remark.count) + " such entities)" : "";
+    reply.diagnostics.push_back({Severity::warning, {file, remark.line, 0}, remark.text + others, {}});
+  }
 }
 
 void add_size(const PartSize& size, Reply& reply) {
@@ -77,6 +87,7 @@ Reply run_check(const Arguments& arguments, Console& console) {
   add_size(size, reply);
   reply.fields["checks"] = to_json(checks);
   add_unit_warning(file, size, reply);
+  add_remarks(file, part, reply);
   if (!ok) {
     reply.exit = Exit::check_failed;
     add_failures(checks, reply);
@@ -92,7 +103,8 @@ Command check_command() {
           "a mesh or drawing: valid, or what is wrong and where",
           "Checks a mesh (stl, obj, 3mf, off, ply, drc) or a drawing (dxf) from anywhere:\n"
           "is it a closed, sound solid, or closed, clean contours? Each check is shown with\n"
-          "its value and its limit, and a failed one with the place of the fault. Size and\n"
+          "its value and its limit, and a failed one with the place of the fault. A faulty\n"
+          "facet or a line drawn twice fails once: the rest is checked without it. Size and\n"
           "volume are shown too, and a size that only inches or metres explain is said.",
           {},
           {{"fusee check out/arm/pulley.stl", "is the mesh a solid that can be printed?"},

@@ -106,22 +106,22 @@ Reply run_compare(const Arguments& arguments, Console& console) {
 }  // namespace
 
 Command compare_command() {
-  return {"compare",
-          "SPEC",
-          "what changed between two measured states of one joint",
-          "Holds runs of one joint in two states against each other: before and after it\n"
-          "was retensioned, reprinted, warmed or worn. Identifies the joint before, and\n"
-          "names the changes from there that the runs after show, by the effects that\n"
-          "'fusee calibrate' knows. What both states share cancels, and what repeated\n"
-          "runs of one state scatter by is no change. Runs are read as by calibrate. The\n"
-          "exit code is 3 where the files are no two states of one joint.",
-          {{"--before", "FILE...", "runs of the earlier state, one or more", true},
-           {"--after", "FILE...", "runs of the later state, one or more", true},
-           {"-o,--out", "DIR", "leave comparison.json and report.html there\n(default: no files)"},
-           column_option()},
-          {{"fusee compare arm.toml --before run_1.csv --after run_2.csv", "what changed in between"},
-           {"fusee compare arm.toml --before run_1.csv --after run_2.csv -o compared", "and a page of it"}},
-          run_compare};
+  return {
+      "compare",
+      "SPEC",
+      "what changed between two measured states of one joint",
+      "Holds runs of one joint in two states against each other: before and after it\n"
+      "was retensioned, reprinted, warmed or worn. Identifies the joint before, and\n"
+      "names the changes from there that the runs after show, by the effects that\n"
+      "'fusee calibrate' knows. What both states share cancels, and what repeated\n"
+      "runs of one state scatter by is no change. Runs are read as by calibrate. The\n"
+      "exit code is 3 where the files are no two states of one joint.",
+      with_reading_options({{"--before", "FILE...", "runs of the earlier state, one or more", true},
+                            {"--after", "FILE...", "runs of the later state, one or more", true},
+                            {"-o,--out", "DIR", "leave comparison.json and report.html there\n(default: no files)"}}),
+      {{"fusee compare arm.toml --before run_1.csv --after run_2.csv", "what changed in between"},
+       {"fusee compare arm.toml --before run_1.csv --after run_2.csv -o compared", "and a page of it"}},
+      run_compare};
 }
 
 }  // namespace fusee::cli

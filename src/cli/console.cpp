@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "cli/interrupt.h"
+#include "fusee/base/text.h"
 
 namespace fusee::cli {
 namespace {
@@ -23,14 +24,8 @@ bool write_all(int descriptor, std::string_view text) {
   return true;
 }
 
-/// Names of files stand in messages and may hold escape sequences that a terminal would obey.
-std::string printable(std::string text) {
-  for (char& c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if ((code < 0x20 && c != '\n' && c != '\t') || code == 0x7f) c = '?';
-  }
-  return text;
-}
+/// To stderr: names of files, and words of a bundle, may hold what a terminal would obey.
+void show(std::string_view text) { write_all(STDERR_FILENO, cleaned(text)); }
 
 /// "error:" in red, "warning:" in yellow, "hint:" in cyan: the first of each.
 std::string colored(std::string text, Severity severity) {
@@ -61,7 +56,7 @@ Console::~Console() { end_progress(); }
 void Console::say(const Diagnostic& diagnostic) {
   if (options_.quiet && diagnostic.severity != Severity::error) return;
   end_progress();
-  std::string text = printable(to_text(diagnostic));
+  std::string text = cleaned(to_text(diagnostic));
   if (diagnostic.place.file.empty()) text.insert(0, "fusee: ");
   if (color_ && !options_.no_color) text = colored(std::move(text), diagnostic.severity);
   write_all(STDERR_FILENO, text + "\n");
@@ -70,9 +65,10 @@ void Console::say(const Diagnostic& diagnostic) {
 void Console::progress(std::string_view step) {
   if (options_.quiet) return;
   if (options_.verbose) {
-    write_all(STDERR_FILENO, "fusee: " + std::string(step) + "\n");
+    show("fusee: " + std::string(step) + "\n");
   } else if (terminal_) {
-    write_all(STDERR_FILENO, "\r\x1b[K" + std::string(step) + " …");
+    write_all(STDERR_FILENO, "\r\x1b[K");
+    show(std::string(step) + " …");
     progress_shown_ = true;
   }
 }
@@ -80,7 +76,7 @@ void Console::progress(std::string_view step) {
 std::optional<std::string> Console::ask(std::string_view question) {
   constexpr std::size_t k_longest_answer = 4096;
   end_progress();
-  write_all(STDERR_FILENO, question);
+  show(question);
   std::string line;
   char c = 0;
   while (line.size() < k_longest_answer) {
@@ -109,7 +105,7 @@ std::string progress_bar(double share) {
   return "[" + std::string(full, '#') + std::string(k_places - full, '.') + "] " + std::to_string(percent) + " %";
 }
 
-bool write_result(std::string_view text) { return write_all(STDOUT_FILENO, text); }
+bool write_result(std::string_view text) { return write_all(STDOUT_FILENO, cleaned(text)); }
 
 void make_streams_safe() {
   std::signal(SIGPIPE, SIG_IGN);

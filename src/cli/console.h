@@ -25,9 +25,6 @@ class Console {
 
   void set_options(ConsoleOptions options) { options_ = options; }
   bool verbose() const { return options_.verbose; }
-  /// The run is watched, to be packed: nothing may come from elsewhere than files.
-  void set_recorded() { recorded_ = true; }
-  bool is_recorded() const { return recorded_; }
   /// A diagnostic on stderr. With --quiet only errors.
   void say(const Diagnostic& diagnostic);
   /// What is being done now: a line that is overwritten on a terminal, a plain line with --verbose elsewhere, nothing
@@ -44,14 +41,13 @@ class Console {
   bool terminal_;
   bool color_;  ///< as far as terminal and environment go
   bool progress_shown_ = false;
-  bool recorded_ = false;
 };
 
 /// "[########............] 40 %" of a share 0 … 1.
 std::string progress_bar(double share);
 
-/// All of `text` to stdout. False when it could not be delivered (a full disk, a closed or broken pipe); errno says
-/// why.
+/// All of `text` to stdout, cleaned(). False when it could not be delivered (a full disk, a closed or broken pipe);
+/// errno says why.
 bool write_result(std::string_view text);
 
 /// Standard descriptors that are closed are filled, so that no output file is opened in their place and receives

@@ -28,14 +28,15 @@ std::string option_lines(const std::vector<Option>& options) {
 }  // namespace
 
 const std::vector<ExitWords>& exit_words() {
-  static const std::vector<ExitWords> all = {{Exit::done, "done"},
-                                             {Exit::bug, "a bug in fusee"},
-                                             {Exit::usage, "wrong usage"},
-                                             {Exit::bad_input, "bad input"},
-                                             {Exit::infeasible, "no such pulley can be made"},
-                                             {Exit::check_failed, "made but a check failed"},
-                                             {Exit::cannot_write, "an output exists or cannot be written"},
-                                             {Exit::interrupted, "interrupted"}};
+  static const std::vector<ExitWords> all = {
+      {Exit::done, "done"},
+      {Exit::bug, "a bug in fusee"},
+      {Exit::usage, "wrong usage"},
+      {Exit::bad_input, "bad input"},
+      {Exit::infeasible, "no such pulley can be made"},
+      {Exit::check_failed, "made but a check failed"},
+      {Exit::cannot_write, "an output exists or cannot be written; or memory lacks"},
+      {Exit::interrupted, "interrupted"}};
   return all;
 }
 
@@ -66,7 +67,7 @@ std::string main_help() {
     code.resize(5, ' ');
     text += "  " + code + std::string(one.words) + "\n";
   }
-  text += "\n'fusee COMMAND --help' says more about a command.\n";
+  text += "\n'fusee help COMMAND' describes a command, with examples.\n";
   return text;
 }
 

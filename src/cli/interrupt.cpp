@@ -1,10 +1,9 @@
 #include "cli/interrupt.h"
 
-#include <unistd.h>
-
 #include <csignal>
 #include <exception>
-#include <string_view>
+
+#include "cli/immediate_exit.h"
 
 namespace fusee::cli {
 namespace {
@@ -12,33 +11,15 @@ namespace {
 // A signal handler can speak to the program through nothing but globals of this type.
 volatile std::sig_atomic_t interrupted = 0;
 volatile std::sig_atomic_t is_deferred = 0;
-volatile std::sig_atomic_t json_wanted = 0;
-
-void write_signal_safe(int descriptor, std::string_view text) {
-  // The program ends here; a failed write has nobody left to tell.
-  [[maybe_unused]] const ssize_t written = ::write(descriptor, text.data(), text.size());
-}
-
-[[noreturn]] void leave() {
-  write_signal_safe(STDERR_FILENO, "fusee: error: interrupted\n");
-  if (json_wanted) {
-    write_signal_safe(
-        STDOUT_FILENO,
-        "{\"schema\": 1, \"ok\": false, \"exit\": 130, \"errors\": [{\"file\": \"\", \"line\": 0, \"column\": 0, "
-        "\"message\": \"interrupted\", \"hint\": \"\"}]}\n");
-  }
-  ::_exit(130);
-}
 
 extern "C" void on_signal(int) {
   interrupted = 1;
-  if (!is_deferred) leave();
+  if (!is_deferred) leave_interrupted();
 }
 
 }  // namespace
 
-void catch_interrupts(bool json) {
-  json_wanted = json ? 1 : 0;
+void catch_interrupts() {
   struct sigaction action = {};
   action.sa_handler = on_signal;
   ::sigemptyset(&action.sa_mask);
@@ -55,7 +36,7 @@ InterruptsDeferred::~InterruptsDeferred() {
   if (std::uncaught_exceptions() > 0) is_deferred = 0;
 }
 
-void leave_interrupted() { leave(); }
+void leave_interrupted() { exit_at_once(Exit::interrupted, "interrupted"); }
 
 bool is_interrupted() { return interrupted != 0; }
 

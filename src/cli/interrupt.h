@@ -11,9 +11,8 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// From here on a signal ends the program at once with exit 130, but for the places below. `json`: with a document on
-/// stdout.
-void catch_interrupts(bool json);
+/// From here on a signal ends the program at once with exit 130, but for the places below.
+void catch_interrupts();
 
 /// While one of these lives something stands on the disk that has to be removed: a signal is only noted, and
 /// stop_if_interrupted() throws Interrupted at the next step. What it ends with otherwise stands: a signal that comes

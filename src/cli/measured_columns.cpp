@@ -1,34 +1,97 @@
 #include "cli/measured_columns.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 #include "fusee/base/diagnostics.h"
 
 namespace fusee::cli {
+namespace {
 
-Option column_option() {
-  return {"--column", "ROLE=NAME",
-          "the column of a role: alpha, theta, time, load,\ntemperature …; may be given several times", true};
+constexpr double k_most_counts_a_turn = 1e9, k_most_counts = 1e12;
+
+struct RoleValue {
+  std::string role, value;
+};
+
+/// "load=tau_out_Nm", all of one option.
+std::vector<RoleValue> role_values(const Arguments& arguments, const std::string& option, const std::string& example,
+                                   const std::vector<std::string>& roles) {
+  std::vector<RoleValue> found;
+  for (const std::string& text : arguments.texts(option)) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+      throw UsageError(
+          option + " takes role=" + (option == "--column" ? "name" : "value") + "; '" + text + "' is not of that form",
+          "for example: " + option + " " + example);
+    }
+    const std::string role = text.substr(0, equals);
+    if (std::find(roles.begin(), roles.end(), role) == roles.end()) {
+      const std::string nearest = nearest_word(role, roles);
+      std::string list;
+      for (const std::string& known : roles) {
+        if (known.find("_turned") == std::string::npos) list += (list.empty() ? "" : ", ") + known;
+      }
+      throw UsageError(option + ": there is no role '" + role + "'",
+                       nearest.empty() ? "roles: " + list : "did you mean '" + nearest + "'?");
+    }
+    found.push_back({role, text.substr(equals + 1)});
+  }
+  return found;
+}
+
+double counts(const std::string& option, const RoleValue& given, double most) {
+  double value = 0;
+  const char* const last = given.value.data() + given.value.size();
+  const auto [end, error] = std::from_chars(given.value.data(), last, value);
+  if (error != std::errc() || end != last || !(std::abs(value) <= most))
+    throw UsageError(option + " takes a number of counts; '" + given.value + "' is none",
+                     "for example: " + option + " " + given.role + "=4096");
+  return value;
+}
+
+}  // namespace
+
+std::vector<Option> with_reading_options(std::vector<Option> options) {
+  options.push_back({"--column", "ROLE=NAME",
+                     "the column of a role: alpha, theta, time, load,\ntemperature …; may be given several times",
+                     true});
+  options.push_back({"--unit", "ROLE=UNIT",
+                     "the unit of a role's column, where its name does not\n"
+                     "say it: time=ms, alpha=rad, load=kg",
+                     true});
+  options.push_back({"--ticks-per-turn", "ROLE=N",
+                     "alpha or theta is in counts of an encoder, N a turn;\n"
+                     "negative where they fall as the angle grows",
+                     true});
+  options.push_back({"--zero-ticks", "ROLE=N", "what that encoder shows at home (default 0)", true});
+  return options;
 }
 
 MeasurementOptions columns_from(const Arguments& arguments) {
   MeasurementOptions options;
   std::vector<std::string> roles;
   for (const auto& [role, column] : column_roles()) roles.push_back(role);
-  for (const std::string& text : arguments.texts("--column")) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-      throw UsageError("--column takes role=name; '" + text + "' is not of that form",
-                       "for example: --column load=tau_out_Nm");
-    }
-    const std::string role = text.substr(0, equals);
-    if (std::find(roles.begin(), roles.end(), role) == roles.end()) {
-      const std::string nearest = nearest_word(role, roles);
-      throw UsageError("--column: there is no role '" + role + "'",
-                       nearest.empty() ? "roles: alpha, theta, time, load, temperature, tension1, tension2, cycle"
-                                       : "did you mean '" + nearest + "'?");
-    }
-    options.columns[role] = text.substr(equals + 1);
+  for (const auto& [role, name] : role_values(arguments, "--column", "load=tau_out_Nm", roles))
+    options.columns[role] = name;
+  for (const auto& [role, unit] : role_values(arguments, "--unit", "time=ms", roles)) {
+    if (unit_for(role, unit).empty())
+      throw UsageError("--unit: " + role + " has no unit '" + unit + "'", "units: " + units_for(role));
+    options.units[role] = unit;
+  }
+  const std::vector<std::string> angles = {"alpha", "theta"};
+  for (const RoleValue& given : role_values(arguments, "--ticks-per-turn", "alpha=4096", angles)) {
+    const double ticks = counts("--ticks-per-turn", given, k_most_counts_a_turn);
+    if (std::abs(ticks) < 2)
+      throw UsageError("--ticks-per-turn must be 2 or more, or -2 or less where counts fall as the angle grows");
+    options.ticks_per_turn[given.role] = ticks;
+  }
+  for (const RoleValue& given : role_values(arguments, "--zero-ticks", "theta=2048", angles)) {
+    if (options.ticks_per_turn.count(given.role) == 0)
+      throw UsageError("--zero-ticks " + given.role + " says what the encoder shows at home, in counts",
+                       "give --ticks-per-turn " + given.role + "=N too");
+    options.zero_ticks[given.role] = counts("--zero-ticks", given, k_most_counts);
   }
   return options;
 }

@@ -1,5 +1,6 @@
 #include "cli/command.h"
 #include "cli/questions.h"
+#include "fusee/base/file_access.h"
 #include "fusee/base/text.h"
 #include "fusee/mechanism/file.h"
 
@@ -21,7 +22,7 @@ Reply list_templates() {
 /// The file of the answers; that a pulley can be made of them, or what stands in the way.
 Reply ask_questions(const Arguments& arguments, Console& console) {
   if (!arguments.positionals().empty()) throw UsageError("--ask takes no template: it asks for the joint");
-  if (console.is_recorded())
+  if (FileAccess::current() != nullptr)
     throw UsageError("--ask reads what is typed, and no bundle holds that", "bundle the file that it writes");
   const AskedMechanism asked = ask_for_mechanism(console);
   Reply reply;

@@ -155,8 +155,7 @@ Answers asked(Console& console) {
   put(console,
       {"", "What is the joint called?", answers.name,
        [&](std::string_view answer) -> std::string {
-         if (std::any_of(answer.begin(), answer.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
-           return "a name is text of one line";
+         if (cleaned_line(answer) != answer) return "a name is text of one line, without control characters";
          answers.name = answer;
          return {};
        }},

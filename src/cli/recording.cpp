@@ -1,10 +1,13 @@
 #include "cli/recording.h"
 
 #include <gnu/libc-version.h>
+#include <sys/utsname.h>
 
 #include <algorithm>
 
+#include "base/staging.h"
 #include "fusee/base/files.h"
+#include "fusee/base/text.h"
 
 namespace fusee::cli {
 namespace {
@@ -12,39 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 
 bool stands_as_other(const fs::path& file) {
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(file, error))) return false;
-  if (!fs::is_regular_file(file, error)) return true;
   try {
-    return !is_bundle(read_output(file, k_largest_bundle));
+    return stands(file) && !is_bundle(read_output(file, k_largest_bundle));
   } catch (const InputError&) {
     return true;
   }
-}
-
-fs::path here() {
-  std::error_code error;
-  const fs::path folder = fs::current_path(error);
-  return error ? fs::path("/") : folder;
-}
-
-std::string compiler() {
-#ifdef __clang__
-  return "clang " __clang_version__;
-#else
-  return "gcc " __VERSION__;
-#endif
-}
-
-std::string machine() {
-#if defined(__x86_64__)
-  const std::string processor = "x86_64";
-#elif defined(__aarch64__)
-  const std::string processor = "aarch64";
-#else
-  const std::string processor = "another processor";
-#endif
-  return processor + ", glibc " + gnu_get_libc_version();
 }
 
 }  // namespace
@@ -52,14 +27,11 @@ std::string machine() {
 std::string take_bundle_option(std::vector<std::string>& words) {
   const auto end = std::find(words.begin(), words.end(), "--");
   for (auto word = words.begin(); word != end; ++word) {
-    if (word->rfind("--bundle=", 0) == 0) {
-      const std::string file = word->substr(9);
-      if (!file.empty()) words.erase(word);
-      return file;
-    }
-    if (*word != "--bundle" || word + 1 == end || (word + 1)->empty() || (word + 1)->rfind("--", 0) == 0) continue;
-    const std::string file = *(word + 1);
-    words.erase(word, word + 2);
+    const bool joined = word->rfind("--bundle=", 0) == 0;
+    if (!joined && (*word != "--bundle" || word + 1 == end || (word + 1)->rfind("--", 0) == 0)) continue;
+    const std::string file = joined ? word->substr(9) : *(word + 1);
+    if (file.empty()) continue;
+    words.erase(word, word + (joined ? 1 : 2));
     return file;
   }
   return "";
@@ -67,24 +39,37 @@ std::string take_bundle_option(std::vector<std::string>& words) {
 
 void sign(Bundle& bundle) {
   bundle.version = FUSEE_VERSION;
-  bundle.built_with = compiler();
-  bundle.runs_on = machine();
+#ifdef __clang__
+  bundle.built_with = "clang " __clang_version__;
+#else
+  bundle.built_with = "gcc " __VERSION__;
+#endif
+  utsname system;
+  bundle.runs_on =
+      std::string(::uname(&system) == 0 ? system.machine : "a machine") + ", glibc " + gnu_get_libc_version();
 }
 
-BundledOutcome outcome_of(const Ending& ending, std::vector<BundledOutput> outputs, const BundleNames& names) {
+BundledOutcome outcome_of(Ending ending, std::vector<BundledOutput> outputs, const BundleNames& names) {
   BundledOutcome outcome;
   outcome.exit = static_cast<int>(ending.reply.exit);
   outcome.outputs = std::move(outputs);
-  outcome.result = names.text(ending.result);
-  for (Diagnostic message : ending.reply.diagnostics) {
-    for (std::string* words : {&message.place.file, &message.message, &message.hint}) *words = names.text(*words);
-    outcome.messages.push_back(std::move(message));
+  for (Diagnostic& message : ending.reply.diagnostics) {
+    for (std::string* words : {&message.place.file, &message.message, &message.hint})
+      *words = cleaned(names.text(*words));
   }
+  outcome.messages = ending.reply.diagnostics;
+  ending.reply.text = names.text(ending.reply.text);
+  ending.reply.fields = names.document(std::move(ending.reply.fields));
+  outcome.result = cleaned(ending.result());
   return outcome;
 }
 
+BundledOutput output_of(const fs::path& path, std::string_view bytes) {
+  return {tame(path.filename().string()), bytes.size(), sha256(bytes)};
+}
+
 Recording::Recording(fs::path file, const std::vector<std::string>& words, bool force)
-    : file_(std::move(file)), force_(force), names_(here()) {
+    : file_(std::move(file)), force_(force), names_(working_folder()) {
   if (!force_ && stands_as_other(file_))
     throw OutputError(file_.string() + " exists and is no bundle of fusee",
                       "choose another name, or overwrite it with --force");
@@ -93,13 +78,11 @@ Recording::Recording(fs::path file, const std::vector<std::string>& words, bool 
 }
 
 void Recording::read(const ReadRequest& request, const TakeBlock& take) {
-  std::vector<std::string> asked = names_.asked(request.path);  // before it has a name itself
   const std::string name = names_.inner(request.path);
-  asked.erase(std::remove(asked.begin(), asked.end(), name), asked.end());
   const bool known = std::any_of(bundle_.files.begin(), bundle_.files.end(),
                                  [&name](const BundledFile& file) { return file.path == name; });
   if (known) return read_from_disk(request, take);  // what is read twice stands once
-  BundledFile& entry = bundle_.files.emplace_back(BundledFile{name, std::move(asked), {}, {}});
+  BundledFile& entry = bundle_.files.emplace_back(BundledFile{name, {}, {}});
   bool taking = false;
   try {
     read_from_disk(request, [&](std::string_view block) {
@@ -120,10 +103,6 @@ void Recording::in_the_way(const fs::path& path) {
   const std::string name = names_.inner(path);
   // What cannot stand again in a folder of its own is only in the message.
   if (is_inner_path(name)) bundle_.in_the_way.push_back(name + (fs::is_directory(path) ? "/" : ""));
-}
-
-void Recording::wrote(const fs::path& name, std::string_view bytes) {
-  bundle_.outcome.outputs.push_back({names_.inner(name), bytes.size(), sha256(bytes)});
 }
 
 Diagnostic Recording::pack(const Ending& ending) {

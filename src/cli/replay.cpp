@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 
 #include "base/bundle.h"
@@ -32,18 +33,38 @@ constexpr std::size_t k_most_differences = 8;
 /// The files of a bundle in place of the disk.
 class Replaying : public FileAccess {
  public:
-  Replaying(const Bundle& bundle, fs::path here) : bundle_(bundle), here_(std::move(here)), names_(here_) {}
+  explicit Replaying(const Bundle& bundle) : bundle_(bundle), here_(working_folder()), names_(here_) {}
 
-  void read(const ReadRequest& request, const TakeBlock& take) override;
-  void will_write(const fs::path& place) override;
-  void wrote(const fs::path& name, std::string_view bytes) override {
-    outputs_.push_back({names_.inner(name), bytes.size(), sha256(bytes)});
+  void read(const ReadRequest& request, const TakeBlock& take) override {
+    const std::string name = request.path.string();
+    const BundledFile* file = find(request.path);
+    if (file == nullptr) throw InputError(name, "cannot be read: it is not in the bundle");
+    names_.add(name, file->path);
+    if (file->failure) throw InputError(name, file->failure->message, file->failure->hint);
+    if (file->bytes.size() > request.limit)
+      throw InputError(name, "is larger than " + std::to_string(request.limit) + " bytes", "is it the right file?");
+    if (!file->bytes.empty()) take(file->bytes);
   }
-  const std::vector<BundledOutput>& outputs() const { return outputs_; }
-  const BundleNames& names() const { return names_; }
+  void will_write(const fs::path& place) override {
+    if (leads_out(seen_from(here_, place)))
+      throw OutputError(place.string() + " lies outside of the folder in which a bundle is replayed");
+  }
+  void wrote(const fs::path& name, std::string_view bytes) override { outputs_.push_back(output_of(name, bytes)); }
+  BundledOutcome outcome(const Ending& ending) const { return outcome_of(ending, outputs_, names_); }
 
  private:
-  const BundledFile* find(const fs::path& path) const;
+  /// By its path; else by its name alone, for a file that a packed file names beside itself or by a path of the machine
+  /// on which it was packed. It was read before the files that the command line names after it.
+  const BundledFile* find(const fs::path& path) const {
+    const fs::path seen = seen_from(here_, path);
+    const std::string near = seen == "." ? "." : tame(seen.string()), name = tame(path.filename().string());
+    const BundledFile* of_that_name = nullptr;
+    for (const BundledFile& file : bundle_.files) {
+      if (file.path == near) return &file;
+      if (of_that_name == nullptr && fs::path(file.path).filename() == name) of_that_name = &file;
+    }
+    return of_that_name;
+  }
 
   const Bundle& bundle_;
   fs::path here_;
@@ -51,76 +72,18 @@ class Replaying : public FileAccess {
   std::vector<BundledOutput> outputs_;
 };
 
-const BundledFile* Replaying::find(const fs::path& path) const {
-  const std::string near = seen_from(here_, path).string();
-  const std::string hidden = path.is_absolute() ? hidden_path(path) : std::string();
-  for (const BundledFile& file : bundle_.files) {
-    const auto is_it = [&](const std::string& asked) { return asked == near || (!hidden.empty() && asked == hidden); };
-    if (file.path == near || std::any_of(file.asked.begin(), file.asked.end(), is_it)) return &file;
-  }
-  return nullptr;
-}
-
-void Replaying::read(const ReadRequest& request, const TakeBlock& take) {
-  const std::string name = request.path.string();
-  const BundledFile* file = find(request.path);
-  if (file == nullptr) throw InputError(name, "cannot be read: it is not in the bundle");
-  names_.add(name, file->path);
-  if (file->failure) throw InputError(name, file->failure->message, file->failure->hint);
-  if (file->bytes.size() > request.limit)
-    throw InputError(name, "is larger than " + std::to_string(request.limit) + " bytes", "is it the right file?");
-  constexpr std::size_t k_block = std::size_t{1} << 20;
-  for (std::string_view rest = file->bytes; !rest.empty(); rest.remove_prefix(std::min(rest.size(), k_block)))
-    take(rest.substr(0, k_block));
-}
-
-void Replaying::will_write(const fs::path& place) {
-  const fs::path near = seen_from(here_, place);
-  if (near.empty() || *near.begin() == "..")
-    throw OutputError(place.string() + " lies outside of the folder in which a bundle is replayed");
-}
-
-/// The process stands in `folder` while it lives, and has its temporary files there.
-class Within {
- public:
-  explicit Within(const fs::path& folder) {
-    std::error_code error;
-    before_ = fs::current_path(error);
-    if (const char* temporary = ::getenv("TMPDIR")) temporary_ = temporary;
-    if (::chdir(folder.c_str()) != 0) fail_output("cannot work in", folder, errno);
-    ::setenv("TMPDIR", folder.c_str(), 1);
-  }
-  ~Within() {
-    if (!before_.empty() && ::chdir(before_.c_str()) != 0) before_.clear();
-    if (temporary_) {
-      ::setenv("TMPDIR", temporary_->c_str(), 1);
-    } else {
-      ::unsetenv("TMPDIR");
-    }
-  }
-  Within(const Within&) = delete;
-  Within& operator=(const Within&) = delete;
-
- private:
-  fs::path before_;
-  std::optional<std::string> temporary_;
-};
-
-BundledOutcome replayed(const Bundle& bundle, const fs::path& folder) {
-  const Within within(folder);
+/// The process stands in `folder` from here on, and has its temporary files there.
+BundledOutcome replayed_in(const fs::path& folder, const Bundle& bundle) {
+  if (::chdir(folder.c_str()) != 0) fail_output("cannot work in", folder, errno);
+  ::setenv("TMPDIR", folder.c_str(), 1);
   Console console;
-  Replaying access(bundle, fs::current_path());
+  Replaying access(bundle);
   const Ending ending = ending_of(bundle.words, console);
   stop_if_interrupted();
-  return outcome_of(ending, access.outputs(), access.names());
+  return access.outcome(ending);
 }
 
 // ---- where it goes --------------------------------------------------------------------------------------------------
-
-void unpack(const Bundle& bundle, const fs::path& folder) {
-  for (const BundledFile& file : bundle.files)
-    if (!file.failure) write_file(folder / file.path, file.bytes, /*force=*/false);
-}
 
 /// What was refused then because something stood there is refused again.
 void put_in_the_way(const Bundle& bundle, const fs::path& folder) {
@@ -140,20 +103,17 @@ void demand_free(const fs::path& folder) {
 
 /// In a folder beside `kept`, which gets its name; without one in the system's temporary folder.
 BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<fs::path>& kept) {
-  std::error_code error;
-  fs::path place = kept ? fs::weakly_canonical(fs::absolute(*kept), error) : fs::temp_directory_path() / "fusee-replay";
-  if (!place.has_filename()) place = place.parent_path();
-  MissingFolders missing;
-  missing.make(place.parent_path());
+  const fs::path place = place_of(kept ? *kept : temporary_folder() / "fusee-replay");
   remove_staged_leftovers(place);
   const Staging staging(place, StagingSite::beside);
   const fs::path& folder = staging.path();
-  if (kept) unpack(bundle, folder);
+  for (const BundledFile& file : bundle.files)
+    if (kept && !file.failure) write_file(folder / file.path, file.bytes, /*force=*/false);
   put_in_the_way(bundle, folder);
-  BundledOutcome outcome = replayed(bundle, folder);
+  BundledOutcome outcome = replayed_in(folder, bundle);
   if (!kept) return outcome;
-  demand_free(*kept);
-  if (::rename(folder.c_str(), place.c_str()) != 0) fail_output("cannot write", *kept, errno);
+  demand_free(place);
+  if (::rename(folder.c_str(), place.c_str()) != 0) fail_output("cannot write", place, errno);
   return outcome;
 }
 
@@ -162,9 +122,7 @@ BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<
 /// Columns and lines are as wide as the names in them.
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
+  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -174,19 +132,19 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-struct Difference {
-  std::string of;  ///< "exit code", "message 2" …
-  std::string then, now;
-};
+Json difference(const std::string& of, const std::string& then, const std::string& now) {
+  return {{"of", of}, {"then", then}, {"now", now}};
+}
 
 /// Texts one by one, and those that only one of them has.
 void compare(const std::string& of, const std::vector<std::string>& then, const std::vector<std::string>& now,
-             std::vector<Difference>& differences) {
+             Json& differences) {
   const std::string none = "(none)";
   for (std::size_t i = 0; i < std::max(then.size(), now.size()); ++i) {
     const std::string& before = i < then.size() ? then[i] : none;
     const std::string& after = i < now.size() ? now[i] : none;
-    if (words_of(before) != words_of(after)) differences.push_back({of + " " + std::to_string(i + 1), before, after});
+    if (words_of(before) != words_of(after))
+      differences.push_back(difference(of + " " + std::to_string(i + 1), before, after));
   }
 }
 
@@ -204,9 +162,10 @@ std::vector<std::string> outputs_of(const BundledOutcome& outcome) {
   return texts;
 }
 
-std::vector<Difference> differences_of(const BundledOutcome& then, const BundledOutcome& now) {
-  std::vector<Difference> all;
-  if (then.exit != now.exit) all.push_back({"exit code", std::to_string(then.exit), std::to_string(now.exit)});
+Json differences_of(const BundledOutcome& then, const BundledOutcome& now) {
+  Json all = Json::array();
+  if (then.exit != now.exit)
+    all.push_back(difference("exit code", std::to_string(then.exit), std::to_string(now.exit)));
   compare("message", messages_of(then), messages_of(now), all);
   compare("output", outputs_of(then), outputs_of(now), all);
   if (words_of(then.result) != words_of(now.result)) compare("line", lines_of(then.result), lines_of(now.result), all);
@@ -215,13 +174,16 @@ std::vector<Difference> differences_of(const BundledOutcome& then, const Bundled
 
 // ---- words ----------------------------------------------------------------------------------------------------------
 
+/// As a shell takes it.
 std::string command_line(const Bundle& bundle) {
   std::string line = "fusee";
   for (const std::string& word : bundle.words) {
+    std::string quoted;
+    for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
     const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$`()[]{}*?;&|<>#!~") == std::string::npos;
-    line += plain ? " " + word : " '" + word + "'";
+    line += plain ? " " + word : " '" + quoted + "'";
   }
-  return line;
+  return cleaned_line(line);
 }
 
 std::string files_text(const Bundle& bundle) {
@@ -229,89 +191,70 @@ std::string files_text(const Bundle& bundle) {
   for (const BundledFile& file : bundle.files)
     text += (text.empty() ? "" : ", ") + file.path +
             (file.failure ? " (" + file.failure->message + ")" : " (" + std::to_string(file.bytes.size()) + " B)");
-  return text.empty() ? "no file" : text;
+  return text.empty() ? "no file" : cleaned_line(text);
 }
 
 void say_version(const Bundle& bundle, Reply& reply) {
   Bundle own;
   sign(own);
-  const auto say = [&reply](Severity severity, const std::string& what, const std::string& then,
-                            const std::string& now) {
-    if (then != now)
-      reply.diagnostics.push_back(note(severity, "the bundle is of " + what + then + ", and this is " + what + now));
+  const auto say = [&](Severity severity, const std::string& what, std::string Bundle::*of) {
+    if (bundle.*of == own.*of) return;
+    const std::string words = "the bundle is of " + what + bundle.*of + ", and this is " + what + own.*of;
+    reply.diagnostics.push_back(note(severity, cleaned_line(words)));
   };
-  say(Severity::warning, "fusee ", bundle.version, own.version);
-  say(Severity::note, "a fusee built with ", bundle.built_with, own.built_with);
-  say(Severity::note, "a machine with ", bundle.runs_on, own.runs_on);
+  say(Severity::warning, "fusee ", &Bundle::version);
+  say(Severity::note, "a fusee built with ", &Bundle::built_with);
+  say(Severity::note, "a machine with ", &Bundle::runs_on);
 }
 
-std::string summary(const Bundle& bundle, const BundledOutcome& now, const std::vector<Difference>& differences) {
-  std::string text = command_line(bundle) + "\n  packed by  fusee " + bundle.version + ", " + bundle.built_with + ", " +
-                     bundle.runs_on + "\n" + wrapped(files_text(bundle), "  read       ", "             ");
+std::string summary(const Bundle& bundle, const BundledOutcome& now, const Json& differences) {
+  std::string text = command_line(bundle) + "\n  packed by  fusee " +
+                     cleaned_line(bundle.version + ", " + bundle.built_with + ", " + bundle.runs_on) + "\n" +
+                     wrapped(files_text(bundle), "  read       ", "             ");
   if (differences.empty())
     return text + "  the same   exit code " + std::to_string(now.exit) + ", " + std::to_string(now.messages.size()) +
            " messages, " + std::to_string(now.outputs.size()) + " outputs, " +
            std::to_string(lines_of(now.result).size()) + " lines on stdout\n";
   for (std::size_t i = 0; i < std::min(differences.size(), k_most_differences); ++i) {
-    const Difference& difference = differences[i];
-    text += "  differs    " + difference.of + "\n    then     " + difference.then + "\n    now      " + difference.now +
-            "\n";
+    const auto part = [&](const char* key) { return differences[i][key].get<std::string>() + "\n"; };
+    text += "  differs    " + part("of") + "    then     " + part("then") + "    now      " + part("now");
   }
   if (differences.size() > k_most_differences)
     text += "  and        " + std::to_string(differences.size() - k_most_differences) + " more differences\n";
   return text;
 }
 
-void add_findings(const Bundle& bundle, const std::vector<Difference>& differences, Reply& reply) {
+void add_findings(const Bundle& bundle, const Json& differences, Reply& reply) {
   if (differences.empty()) return;
   reply.exit = Exit::check_failed;
   std::string hint;
   if (bundle.outcome.exit == static_cast<int>(Exit::cannot_write))
     hint = "what stood where its outputs go is not in a bundle";
   if (bundle.outcome.exit == static_cast<int>(Exit::interrupted)) hint = "that run was interrupted";
-  reply.diagnostics.push_back(
-      note(Severity::error, "the run is not as it was: " + differences.front().of + " differs", hint));
-}
-
-Json differences_json(const std::vector<Difference>& differences) {
-  Json list = Json::array();
-  for (const Difference& difference : differences)
-    list.push_back({{"of", difference.of}, {"then", difference.then}, {"now", difference.now}});
-  return list;
-}
-
-/// One in another would have no end where a bundle is made to hold itself.
-void refuse_nested(const Bundle& bundle, const std::string& file) {
-  const auto at = find_command(bundle.words);
-  if (at && bundle.words[*at] == "replay")
-    throw InputError(file, "holds a run of 'fusee replay'", "replay the bundle that it was given: it is in this zip");
+  const std::string first = differences.front()["of"];
+  reply.diagnostics.push_back(note(Severity::error, "the run is not as it was: " + first + " differs", hint));
 }
 
 Reply run_replay(const Arguments& arguments, Console& console) {
   const std::string& file = arguments.positionals().front();
   std::optional<fs::path> kept;
-  if (const auto folder = arguments.text("--out")) kept = *folder;
+  if (const auto folder = arguments.text("--out"); folder && !arguments.has("--dry-run")) kept = *folder;
   const Bundle bundle = read_bundle(read_file(file, k_largest_bundle), file);
-  refuse_nested(bundle, file);
-  if (arguments.has("--dry-run")) kept.reset();
+  // One in another would have no end where a bundle is made to hold itself.
+  if (const auto at = find_command(bundle.words); at && bundle.words[*at] == "replay")
+    throw InputError(file, "holds a run of 'fusee replay'", "replay the bundle that it was given: it is in this zip");
   if (kept) demand_free(*kept);
   console.progress("running " + command_line(bundle));
   Reply reply;
   say_version(bundle, reply);
   const BundledOutcome now = replayed_in_own_folder(bundle, kept);
-  const std::vector<Difference> differences = differences_of(bundle.outcome, now);
+  const Json differences = differences_of(bundle.outcome, now);
   add_findings(bundle, differences, reply);
   reply.text = summary(bundle, now, differences);
   if (kept) reply.text += "  in         " + kept->string() + "\n";
-  reply.fields["replayed"] = bundle.words;
-  reply.fields["version"] = bundle.version;
-  reply.fields["built_with"] = bundle.built_with;
-  reply.fields["runs_on"] = bundle.runs_on;
-  reply.fields["exit_then"] = bundle.outcome.exit;
-  reply.fields["exit_now"] = now.exit;
-  reply.fields["same"] = differences.empty();
-  reply.fields["differences"] = differences_json(differences);
-  reply.fields["messages"] = messages_of(now);
+  reply.fields = {{"replayed", bundle.words},    {"version", bundle.version},        {"built_with", bundle.built_with},
+                  {"runs_on", bundle.runs_on},   {"exit_then", bundle.outcome.exit}, {"exit_now", now.exit},
+                  {"same", differences.empty()}, {"differences", differences},       {"messages", messages_of(now)}};
   if (kept) reply.fields["folder"] = kept->string();
   return reply;
 }

@@ -7,20 +7,26 @@
 #include <filesystem>
 #include <fstream>
 #include <new>
+#include <system_error>
 
 #include "cli/command.h"
 #include "cli/help.h"
+#include "cli/immediate_exit.h"
 #include "cli/interrupt.h"
+#include "cli/lack_of_memory.h"
 #include "cli/recording.h"
+#include "fusee/base/file_access.h"
 
 namespace fusee::cli {
 namespace {
 
 constexpr const char* k_version = FUSEE_VERSION;
 
-/// The first mechanism file of this folder by name; "" where there is none.
+/// The first mechanism file of this folder by name; "" where there is none. A bundle holds no folder: a run that is
+/// packed or replayed has none.
 std::string mechanism_here() {
   std::vector<std::string> names;
+  if (FileAccess::current() != nullptr) return "";
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator(".", failed)) {
     if (names.size() < 100 && entry.path().extension() == ".toml" && entry.is_regular_file(failed))
@@ -53,21 +59,30 @@ Reply version_reply() {
   return reply;
 }
 
-/// For someone who types the name to see what happens.
-std::string what_to_type_next() {
+/// The overview, and what to type next in this folder.
+Reply overview_reply() {
   const std::string spec = mechanism_here();
-  return (spec.empty() ? "begin with 'fusee new forearm > arm.toml', then 'fusee build arm.toml'"
-                       : "'fusee build " + spec + "' makes its pulley") +
-         std::string("; 'fusee --help' lists the commands");
+  const std::string next = spec.empty() ? "Begin with 'fusee new forearm > arm.toml', then 'fusee build arm.toml'."
+                                        : "'fusee build " + spec + "' makes the pulley of " + spec + ".";
+  return help_reply(main_help() + next + "\n");
 }
 
 Reply without_command(const std::vector<std::string>& words) {
-  if (has_switch(words, "--help") || has_switch(words, "-h")) return help_reply(main_help());
   if (has_switch(words, "--version")) return version_reply();
-  throw UsageError("no command given", what_to_type_next());
+  return has_switch(words, "--help") || has_switch(words, "-h") ? help_reply(main_help()) : overview_reply();
 }
 
-Reply answer(std::vector<std::string> words, std::string& command_name, Console& console) {
+/// "help build" as "build --help".
+std::vector<std::string> without_help_command(std::vector<std::string> words) {
+  const auto at = find_command(words);
+  if (!at || words[*at] != "help") return words;
+  words.erase(words.begin() + static_cast<std::ptrdiff_t>(*at));
+  words.push_back("--help");
+  return words;
+}
+
+Reply answer(const std::vector<std::string>& given, std::string& command_name, Console& console) {
+  std::vector<std::string> words = without_help_command(given);
   const auto at = find_command(words);
   if (!at) return without_command(words);
   const Command& command = find_known_command(words[*at]);
@@ -92,6 +107,11 @@ Reply bug(const std::string& what) {
                                 "please report it with what the same command writes with --bundle bug.zip"));
 }
 
+Reply out_of_memory() {
+  return failed(Exit::cannot_write, note(Severity::error, k_no_memory,
+                                         "end other programs, raise the limit (ulimit -v), or give it a smaller file"));
+}
+
 /// The one place where exceptions become exit codes.
 Reply guarded_answer(const std::vector<std::string>& words, std::string& command_name, Console& console) {
   try {
@@ -108,7 +128,9 @@ Reply guarded_answer(const std::vector<std::string>& words, std::string& command
   } catch (const Interrupted& error) {
     return failed(Exit::interrupted, note(Severity::error, error.what()));
   } catch (const std::bad_alloc&) {
-    return bug("out of memory");
+    return out_of_memory();
+  } catch (const std::system_error& error) {  // a thread whose stack found no room
+    return error.code() == std::errc::resource_unavailable_try_again ? out_of_memory() : bug(error.what());
   } catch (const std::exception& error) {
     return bug(error.what());
   } catch (...) {
@@ -141,7 +163,7 @@ const std::vector<Command>& commands() {
 Ending ending_of(const std::vector<std::string>& words, Console& console) {
   Ending ending;
   ending.reply = guarded_answer(words, ending.command, console);
-  ending.result = has_switch(words, "--json") ? document(ending.reply, ending.command) : ending.reply.text;
+  ending.json = has_switch(words, "--json");
   return ending;
 }
 
@@ -154,18 +176,18 @@ void add_not_packed(const OutputError& error, Reply& reply) {
 }
 
 Ending recorded_ending(std::vector<std::string> words, const std::string& bundle, Console& console) {
-  const bool json = has_switch(words, "--json");
   Ending ending;
+  ending.json = has_switch(words, "--json");
   try {
     Recording recording(bundle, words, has_switch(words, "--force"));
-    console.set_recorded();
     ending = ending_of(words, console);
     ending.reply.diagnostics.push_back(recording.pack(ending));
     ending.reply.fields["bundle"] = bundle;
   } catch (const OutputError& error) {
     add_not_packed(error, ending.reply);
+  } catch (const std::bad_alloc&) {
+    add_not_packed(OutputError("no bundle was written: not enough memory"), ending.reply);
   }
-  ending.result = json ? document(ending.reply, ending.command) : ending.reply.text;
   return ending;
 }
 
@@ -173,15 +195,16 @@ Ending recorded_ending(std::vector<std::string> words, const std::string& bundle
 
 int run(const std::vector<std::string>& given) {
   std::vector<std::string> words = given;
-  const bool json = has_switch(words, "--json");
-  catch_interrupts(json);
+  write_json_at_exit(has_switch(words, "--json"));
+  catch_interrupts();
+  catch_lack_of_memory();
   Console console;
   const std::string bundle = take_bundle_option(words);
   const Ending ending = bundle.empty() ? ending_of(words, console) : recorded_ending(words, bundle, console);
   const Reply& reply = ending.reply;
   for (const Diagnostic& diagnostic : reply.diagnostics) console.say(diagnostic);
   console.end_progress();
-  if (!write_result(ending.result)) {
+  if (!write_result(ending.result())) {
     console.say(
         note(Severity::error, std::string("the result could not be written to stdout: ") + std::strerror(errno)));
     return static_cast<int>(reply.exit == Exit::done ? Exit::cannot_write : reply.exit);

@@ -14,7 +14,9 @@ namespace fusee::cli {
 struct Ending {
   std::string command;  ///< "" where none was understood
   Reply reply;
-  std::string result;  ///< for stdout
+  bool json = false;
+  /// For stdout.
+  std::string result() const { return json ? document(reply, command) : reply.text; }
 };
 
 /// `words`: the arguments without the program's name. Never throws; nothing is printed but progress.

@@ -139,11 +139,11 @@ Command simulate_command() {
           "turns the pulley. status says where nothing holds the joint. The pulley is the\n"
           "one made as declared, on which [identified] was found, unless --corrected is\n"
           "given.",
-          {{"-o,--out", "FILE", "write the table to FILE, and show a summary"},
-           {"--corrected", "", "with the pulley that 'fusee build SPEC' makes, which\nundoes what a pulley can"},
-           {"--noise-deg", "DEG", "of the joint's sensor, standard deviation\n(default 0)"},
-           {"--seed", "N", "of that noise (default 1)"},
-           column_option()},
+          with_reading_options(
+              {{"-o,--out", "FILE", "write the table to FILE, and show a summary"},
+               {"--corrected", "", "with the pulley that 'fusee build SPEC' makes, which\nundoes what a pulley can"},
+               {"--noise-deg", "DEG", "of the joint's sensor, standard deviation\n(default 0)"},
+               {"--seed", "N", "of that noise (default 1)"}}),
           {{"fusee simulate arm.toml out/arm_plan/run_1.csv > shown.csv", "every row"},
            {"fusee simulate arm.toml shown.csv --set identified.backlash_deg=1", "what would play do?"},
            {"fusee simulate arm.toml shown.csv -o rehearsed.csv --noise-deg 0.02", "as a bench would log it"}},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "calibration/evidence.h"
 #include "fusee/joint/simulate.h"
 #include "fusee/mechanism/effect.h"
 #include "fusee/transmission/guide_friction.h"
@@ -31,6 +32,17 @@ double mean_load(const Measurement& measurement, const Mechanism& declared) {
     }
   }
   return count > 0 ? sum / count : declared.load.tip_force;
+}
+
+/// Upper bound of the motor's way after a reversal until the joint follows in full, rad of α. A cable's last contact
+/// holds twice the mean friction.
+double lost_motion(const Imperfections& found, const Mechanism& declared, double load) {
+  const RatioJointError& joint = found.ratio_joint;
+  const double play = 2 * (found.shaft.backlash + joint.slack);
+  if (!declared.transmission) return play;
+  const double held = 2 * joint.friction.at(load);
+  const double turned = 2 * joint.compliance * held + joint.waves.gained(load + held) - joint.waves.gained(load - held);
+  return play + std::abs(declared.transmission->ratio * turned);
 }
 
 /// What earlier calibrations found was part of the declared model this time, so far as a mechanism can have it; the
@@ -253,6 +265,103 @@ std::vector<CompensationRow> compensation_rows(const DeclaredLaw& law, const Off
   return table;
 }
 
+// ---- measured -------------------------------------------------------------------------------------------------------
+
+constexpr const char* k_no_better = "rows that were not fitted do not get better by it";
+
+/// Rows of a run by which a correction is measured.
+constexpr std::size_t k_rows_a_run = 300;
+
+/// The joint with what was identified, before and behind the pulley that would correct it.
+struct Corrected {
+  const DeclaredMechanism& declared;
+  const DeclaredMechanism& corrected;
+  bool has_pulley = false;
+  double tie = 0;  ///< where the motor stands when the pulley's tendons are tied, rad
+
+  Angles now(const Imperfections& at, const BenchLog& log) const { return predict(expected_joint(declared), at, log); }
+  Angles then(const Imperfections& at, const BenchLog& log) const {
+    if (!has_pulley) return now(at, log);
+    Imperfections rest = beyond_mechanism(at, kind_of(declared));
+    rest.motor.offset -= tie;
+    return predict(expected_joint(corrected), rest, log);
+  }
+};
+
+BothWays table_of(const Corrected& joint, const Measurement& measurement, const DeclaredLaw& law,
+                  const Imperfections& at) {
+  return both_ways(measurement, errors(measurement, law, joint.then(at, bench_log(measurement))),
+                   lost_motion(at, joint.declared, mean_load(measurement, joint.declared)));
+}
+
+/// Squares of rows that were left out: as measured, by what the pulley changes of them, and with the table.
+struct Measured {
+  double now = 0, with_pulley = 0, with_table = 0, rows = 0;
+
+  void add(const Measurement& held, const Angles& error, const Angles& change, const BothWays& table, double zero) {
+    for_each_known(held, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
+      const double off = error[r][i] - zero, with = off + change[r][i];
+      if (!std::isfinite(with)) return;
+      const double taken = (stroke.direction > 0 ? table.up : table.down).at(held.runs[r].samples[i].alpha) - zero;
+      now += off * off;
+      with_pulley += with * with;
+      with_table += (with - taken) * (with - taken);
+      rows += 1;
+    });
+  }
+  double gone_by_pulley() const { return rows > 0 ? gone(std::sqrt(now / rows), std::sqrt(with_pulley / rows)) : 0; }
+  double gone_by_table() const {
+    return rows > 0 ? gone(std::sqrt(with_pulley / rows), std::sqrt(with_table / rows)) : 0;
+  }
+};
+
+Measurement some_runs(Measurement measurement, const std::vector<std::string>& names, bool those) {
+  std::erase_if(measurement.runs, [&](const Run& run) {
+    return (std::find(names.begin(), names.end(), run.name) != names.end()) != those;
+  });
+  return measurement;
+}
+
+/// Run by run, with the numbers and the table that the other runs give. A table is made from all where there is no
+/// other.
+Measured measured(const Corrected& joint, const Measurement& measurement, const DeclaredLaw& law,
+                  const std::vector<LeftOut>& left_out) {
+  const Measurement thin = with_fewer_rows(measurement, k_rows_a_run);
+  Measured all;
+  for (const LeftOut& left : left_out) {
+    const Measurement held = some_runs(thin, left.runs, true), others = some_runs(thin, left.runs, false);
+    const BothWays table = table_of(joint, others.runs.empty() ? held : others, law, left.identified);
+    const BenchLog log = bench_log(held);
+    Angles theta, change = joint.then(left.identified, log);
+    const Angles now = joint.now(left.identified, log);
+    for (std::size_t r = 0; r < held.runs.size(); ++r) {
+      theta.emplace_back();
+      for (std::size_t i = 0; i < held.runs[r].samples.size(); ++i) {
+        theta[r].push_back(held.runs[r].samples[i].theta);
+        change[r][i] -= now[r][i];
+      }
+    }
+    const double zero = joint.declared.transmission ? left.identified.sensor.zero : 0.0;
+    all.add(held, errors(held, law, std::move(theta)), change, table, zero);
+  }
+  return all;
+}
+
+/// Why a file is not handed over.
+void judge(const Calibration& calibration, Correction& correction) {
+  if (calibration.effects.empty()) {
+    correction.why_no_pulley_file = "no effect was found that the declared file lacks";
+  } else if (!(calibration.after.held_out_rms < calibration.before.held_out_rms)) {
+    correction.why_no_pulley_file = k_no_better;
+  }
+  if (correction.table.empty()) {
+    correction.why_no_table = "there is no range of the joint that was measured both ways";
+  } else if (!(correction.by_table > 0)) {
+    correction.why_no_table = k_no_better;
+  }
+  if (!correction.why_no_table.empty()) correction.table.clear();
+}
+
 }  // namespace
 
 Correction correct(const DeclaredMechanism& declared, const Measurement& measurement, const Calibration& calibration) {
@@ -263,34 +372,43 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
   if (gives_way && !declared.transmission)
     correction.identified.joint.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
   const DeclaredLaw law(declared);
-  if (!seen_span(measurement, &Sample::alpha).any() || !law.exists()) return correction;
+  if (!seen_span(measurement, &Sample::alpha).any() || !law.exists()) {
+    judge(calibration, correction);
+    return correction;
+  }
 
   DeclaredMechanism corrected = declared;
   corrected.identified = correction.identified;
   correction.has_pulley = !declared.transmission && !same_drawing(declared, corrected);
   if (correction.has_pulley) correction.infeasible = why_infeasible(corrected);
   if (!correction.infeasible.empty()) correction.has_pulley = false;
+  const auto rows_left_out = [&](double tie) {
+    return measured({declared, corrected, correction.has_pulley, tie}, measurement, law, calibration.left_out);
+  };
+  if (correction.has_pulley) {
+    correction.by_pulley = rows_left_out(tied_at(corrected)).gone_by_pulley();
+    correction.has_pulley = correction.by_pulley > 0;
+    if (!correction.has_pulley) correction.why_no_pulley_file = k_no_better;
+  }
+  correction.by_table = rows_left_out(0).gone_by_table();
   if (correction.has_pulley && declared.pulley.law == Law::compensate) correction.round = round_choice(corrected);
   if (correction.has_pulley) correction.tied_at = tied_at(corrected);
 
+  const Corrected joint{declared, corrected, correction.has_pulley};
   const BenchLog log = bench_log(measurement);
-  const Angles now = errors(measurement, law, predict(expected_joint(declared), found, log));
-  Angles then = now;
-  if (correction.has_pulley)
-    then =
-        errors(measurement, law, predict(expected_joint(corrected), beyond_mechanism(found, kind_of(declared)), log));
-  const BothWays table = both_ways(measurement, then, 2 * (found.shaft.backlash + found.ratio_joint.slack));
+  const Angles now = errors(measurement, law, joint.now(found, log)),
+               then = errors(measurement, law, joint.then(found, log));
+  const BothWays table = both_ways(measurement, then, lost_motion(found, declared, mean_load(measurement, declared)));
   // A ratio says nothing of where the joint's zero is: to stand there is no error.
   const double zero = declared.transmission ? found.sensor.zero : 0.0;
   correction.error_now = rms(measurement, now, zero);
   correction.error_with_pulley = rms(measurement, then, zero);
   correction.error_with_table = rms(measurement, tabled(measurement, then, table), 0.0);
-  correction.by_pulley = gone(correction.error_now, correction.error_with_pulley);
-  correction.by_table = gone(correction.error_with_pulley, correction.error_with_table);
   const EmpiricalCurve* curve = calibration.curve.used ? &calibration.curve : nullptr;
   if (curve != nullptr) correction.by_curve = curve->gain;
   correction.by_table = std::hypot(correction.by_table, correction.by_curve);
   correction.table = compensation_rows(law, {table, curve, seen_in(table, curve)});
+  judge(calibration, correction);
   return correction;
 }
 

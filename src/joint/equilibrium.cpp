@@ -184,6 +184,15 @@ void give_way(Spans& spans, const Give& give) {
   spans.lower_material += give.lower_unseen;
 }
 
+/// A span of a tendon whose waves straighten, about the tension `pull`: to first order a spring of the compliance
+/// waves.slope(pull), which is to the span as EA times that of tendon that no temperature reaches (see Give).
+Spans with_waves(Spans spans, const CableStiffening& waves, double pull, double home) {
+  const double slope = waves.slope(pull), unseen = slope * spans.EA;
+  spans.upper_length += unseen + slope * pull + waves.gained(home) - waves.gained(pull);
+  spans.upper_material += unseen;
+  return spans;
+}
+
 /// With what slides on the pulley as a part of the lower span: exact in value and slope at the slide's own strain.
 Spans with_slide(Spans spans, const AtAlpha& at) {
   spans.lower_length += at.slide.length;
@@ -301,7 +310,7 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
   trial.wrap = trial.span.normal - off_pin;
   const double on_pin = model.guide.log_ratio(trial.wrap);
   if (bends_of(model.sheath) > 1) trial.threaded = std::make_unique<Threaded>();
-  const auto balanced = [&] {
+  const auto balance_once = [&] {
     if (trial.threaded) {
       ThreadedSpans& spans = trial.threaded->spans = threaded(trial.spans, tendon, model, at.swelling);
       spans.holds.front() += on_pin;
@@ -310,6 +319,19 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
     } else {
       trial.spans.capstan = std::exp(on_pin);
       trial.balance = balance(trial.spans);
+    }
+    return trial.balance.upper;
+  };
+  const auto balanced = [&] {
+    if (!(model.waves.most > 0)) return balance_once() / at.spans.EA;
+    // The spring stiffens as it is pulled, so that Newton's steps come from one side.
+    const Spans straight = trial.spans;
+    double pull = tendon.upper;
+    for (int i = 0; i < k_rounds; ++i) {
+      trial.spans = with_waves(straight, model.waves, pull, tendon.home);
+      const double next = balance_once();
+      if (std::abs(next - pull) <= near_strain(model) * at.spans.EA) break;
+      pull = next;
     }
     return trial.balance.upper / at.spans.EA;
   };
@@ -531,7 +553,7 @@ double energy_of_pieces(const TendonHistory& tendon, double EA) {
 double energy_of_spans(const TendonHistory& tendon, const JointModel& model) {
   const double EA = model.EA;
   const double inside = bends_of(model.sheath) > 1 ? energy_of_pieces(tendon, EA) : 0.0;
-  return inside + tendon.upper_material * energy_per_material(tendon.upper, EA) +
+  return inside + model.waves.energy(tendon.upper) + tendon.upper_material * energy_per_material(tendon.upper, EA) +
          tendon.lower_material * energy_per_material(tendon.lower, EA);
 }
 

@@ -8,6 +8,7 @@
 #include "fusee/joint/simulate.h"
 #include "fusee/mechanism/effect.h"
 #include "joint/lower_path_table.h"
+#include "joint/rubbing_cable.h"
 #include "joint/sensors.h"
 
 namespace fusee {
@@ -235,18 +236,13 @@ std::vector<double> Forward::geared(std::size_t index, const Imperfections& at, 
     return play.to(shaft_angle(alpha, motor), at.shaft.backlash + slack_of(at.ratio_joint, load_of(row)));
   };
   const BenchRow& first = run.rows.front();
-  for (int i = 1; i < k_approach; ++i) pulley_at(first.alpha * i / k_approach, first);
+  RubbingCable cable(at.ratio_joint, shaft_angle(0.0, motor) / ratio);
+  for (int i = 1; i < k_approach; ++i) cable.to(pulley_at(first.alpha * i / k_approach, first) / ratio, load_of(first));
   drift.hold(0, time_before(index));
-  double direction = 0;
-  double before = pulley_at(first.alpha, first);
   const BenchRow* last = &first;
   for (const BenchRow& row : run.rows) {
-    const double pulley = pulley_at(row.alpha, row);
-    if (pulley != before) direction = (pulley > before) == (ratio > 0) ? 1.0 : -1.0;
-    before = pulley;
     const double load = load_of(row);
-    double angle =
-        pulley / ratio - at.ratio_joint.compliance * load - at.ratio_joint.dry_friction * std::abs(load) * direction;
+    double angle = cable.to(pulley_at(row.alpha, row) / ratio, load);
     if (at.ratio_joint.drift != 0) {
       drift.hold(0.5 * (load_of(*last) + load), row.time - last->time);
       angle -= at.ratio_joint.drift * drift.crept();

@@ -146,6 +146,7 @@ void set_imperfect_statics(JointModel& model, const Mechanism& declared, const I
   model.slack = 0.5 * at.tendon.slack;
   model.bearing_friction = std::max(0.0, at.joint.friction);
   model.rubbing = {std::max(0.0, at.joint.rubbing.by_area), std::max(0.0, at.joint.rubbing.by_lesser)};
+  model.waves = at.tendon.waves;
   model.pin_give = std::max(0.0, at.pins.give);
   const Weight weight = with_error({model.weight, model.tilt}, at.joint.weight);
   model.weight = weight.moment;

@@ -39,7 +39,7 @@ bool has_part(const Mechanism& mechanism, const Needs& needs) {
 std::vector<const Effect*> effects_of(const Mechanism& mechanism) {
   std::vector<const Effect*> all;
   for (const Effect& effect : effects(kind_of(mechanism))) {
-    if (has_part(mechanism, effect.needs)) all.push_back(&effect);
+    if (effect.is_looked_for && has_part(mechanism, effect.needs)) all.push_back(&effect);
   }
   return all;
 }

@@ -2,8 +2,8 @@
 /// The tendon that lies on a pulley, from its knot to where it takes off: how much material (unstretched length) it
 /// holds, and how it slides in its groove.
 ///
-/// Source: the capstan law [7], along the whole wrap and with memory (research/mechanics.md, "What lies on the
-/// pulley"). Strains are tensions over EA.
+/// Capstan law [7] along the whole wrap, with memory: an element at the wrap φ behind the take-off has
+/// T e^(−μφ) ≤ T(φ) ≤ T e^(μφ) and keeps what it had within. Strains are tensions over EA.
 #pragma once
 
 #include <memory>

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "fusee/base/text.h"
+#include "measurement/clock.h"
+#include "measurement/columns.h"
 #include "measurement/repair.h"
 #include "measurement/row_reader.h"
 #include "measurement/run_checks.h"
@@ -11,7 +13,8 @@
 #include "measurement/strokes.h"
 
 // From bytes to runs in three steps:
-//   1. Rows (row_reader): the file is read in bounded memory; a run too long to keep is thinned as it comes.
+//   1. Rows (row_reader): the file is read in bounded memory; a run too long to keep is thinned as it comes. Bytes to
+//      records (csv_text), header to columns and their units (columns, units), cells to numbers (cells).
 //   2. Repair (repair): order in time, wrap-around, outliers; each said in a note.
 //   3. Strokes (strokes), and whether anything can be concluded from them at all (run_checks).
 
@@ -41,12 +44,6 @@ void say_what_was_read(const LoggedRows& rows, const std::string& name, const Sa
     into.not_testable.push_back(name + ": more than half of the rows hold no angle");
 }
 
-/// "Nm" of "tau_out_Nm".
-std::string unit_of(const std::string& column) {
-  const std::size_t mark = column.rfind('_');
-  return mark == std::string::npos ? "" : column.substr(mark + 1);
-}
-
 void repair(Run& run, const Say& say) {
   if (run.has_time) order_time(run, say);
   // θ first: a turn of α at which θ goes far is a motion.
@@ -70,6 +67,16 @@ void describe(Run& run) {
   for (const Sample& sample : run.samples) run.mean_load += sample.load / static_cast<double>(run.samples.size());
 }
 
+/// A sweep whose rows lie minutes apart was logged in another unit.
+void say_implausible_steps(const Run& run, std::size_t stride, const Say& say) {
+  if (!run.has_time || run.samples.size() < 2 || is_from_point_to_point(run)) return;
+  const double span = run.samples.back().time - run.samples.front().time;
+  const double step = span / static_cast<double>((run.samples.size() - 1) * stride);
+  if (step > k_longest_step)
+    say("the rows lie " + rounded(step, 3) +
+        " s apart: if the times are in ms, let their column's name end in _ms, or give --unit time=ms");
+}
+
 /// Strokes, and what stands or falls together in them.
 void cut(Run& run, Measurement& into, double alpha_quantum) {
   std::vector<Hold> holds = holds_in(run.samples, alpha_quantum);
@@ -83,6 +90,21 @@ void cut(Run& run, Measurement& into, double alpha_quantum) {
     run.strokes = {{0, run.samples.size() - 1, 0, 0, false}};
   }
   run.stretches = cut_stretches(run, holds);
+}
+
+/// N·mm in a unit of torque; 0 for N.
+double torque_of(const std::string& unit) { return unit == "Nm" ? 1000.0 : unit == "Nmm" ? 1.0 : 0.0; }
+
+/// The loads of all runs are in one unit, that of the first.
+void take_load_unit(const std::string& unit, Run& run, Measurement& into) {
+  if (into.load_unit.empty()) into.load_unit = unit;
+  if (into.load_unit == unit) return;
+  if (torque_of(unit) == 0 || torque_of(into.load_unit) == 0)
+    throw InputError(run.name, "holds loads in " + unit + ", and a run before it in " + into.load_unit,
+                     "log forces in all runs, or torques in all");
+  const double factor = torque_of(unit) / torque_of(into.load_unit);
+  for (Sample& sample : run.samples) sample.load *= factor;
+  run.mean_load *= factor;
 }
 
 Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
@@ -100,9 +122,10 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
     repair(run, say);
     cut(run, into, alpha_quantum);
     describe(run);
+    say_implausible_steps(run, rows.stride, say);
   }
   if (!is_unfilled(rows)) look_at_run(run, into, say);
-  if (run.has_load) into.load_unit = unit_of(rows.load_column);
+  if (run.has_load) take_load_unit(rows.load_unit, run, into);
   return run;
 }
 
@@ -184,12 +207,13 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
 
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const Mechanism& declared,
                              const MeasurementOptions& options) {
-  Measurement measurement = read_measurement(files, options);
+  Measurement measurement = read_measurement(files, expecting(declared, options));
   compare_with_declared(declared, measurement);
   return measurement;
 }
 
 Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared, MeasurementOptions options) {
+  options = expecting(declared, std::move(options));
   options.needs_theta = false;
   check_roles(options);
   Measurement measurement;
@@ -207,7 +231,7 @@ Measurement read_driving(const std::filesystem::path& file, const Mechanism& dec
   unwrap(run.samples, &Sample::alpha, "alpha", say);
   run.has_load = rows.has_load && fill_gaps(run.samples, &Sample::load, "load", say);
   run.has_temperature = rows.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", say);
-  if (run.has_load) measurement.load_unit = unit_of(rows.load_column);
+  if (run.has_load) measurement.load_unit = rows.load_unit;
   take_torques_as_forces(declared, measurement);
   return measurement;
 }

@@ -94,7 +94,7 @@ std::string wrong_zero(const DeclaredLaw& law, const Measurement& measurement) {
     if (std::abs(off) < radians(30.0)) continue;
     return run.name + ": theta stands " + rounded(degrees(off), 3) +
            " deg beside what is declared at the same alpha: set both zeros at home (alpha = theta = 0), or subtract "
-           "them in the log";
+           "them in the log (of counts: --zero-ticks theta=N)";
   }
   return {};
 }
@@ -150,7 +150,7 @@ std::string slope_text(const Slopes& slopes) {
          rounded(slopes.declared, 3) + " is declared: ";
 }
 
-const char* const k_in_degrees = "; give it in degrees (times 57.29578), or let the column's name end in _rad";
+const char* const k_in_degrees = "; let the column's name end in _rad, or give --unit alpha=rad or theta=rad";
 
 std::string fault(const DeclaredLaw& law, const Slopes& slopes) {
   const double ratio = slopes.measured / slopes.declared;
@@ -215,6 +215,14 @@ double force_of_unit(const std::string& unit, double length) {
 }
 
 }  // namespace
+
+MeasurementOptions expecting(const Mechanism& declared, MeasurementOptions options) {
+  const DeclaredLaw law(declared);
+  if (!law.exists() || !std::isfinite(law.slope())) return options;
+  options.alpha_span = law.alpha_range();
+  options.theta_span = std::abs(law.slope()) * law.alpha_range();
+  return options;
+}
 
 void take_torques_as_forces(const Mechanism& declared, Measurement& measurement) {
   const double per_unit = declared.transmission ? 0.0 : force_of_unit(measurement.load_unit, declared.joint.R);

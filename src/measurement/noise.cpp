@@ -28,19 +28,53 @@
 namespace fusee {
 namespace {
 
+/// Enough differences, and of repeats so few that they are better than rows at different places.
+constexpr std::size_t k_enough = 20;
+constexpr std::size_t k_few = 6;
+
 /// Differences scaled to the spread of a single row, in sequences of neighbours.
 class Scatter {
  public:
-  /// `worth`: independent differences in each, for those of overlapping strokes.
-  void add(const std::vector<double>& differences, double worth) {
+  /// `worth`: independent differences in each, for those of overlapping strokes. `places`: α of each, or none.
+  void add(const std::vector<double>& differences, double worth, const std::vector<double>& places = {}) {
     for (std::size_t i = 0; i < differences.size(); ++i) {
       values_.push_back(differences[i]);
       follows_.push_back(i > 0);
       worth_ += worth;
     }
+    places_.insert(places_.end(), places.begin(), places.end());
   }
 
   std::size_t count() const { return values_.size(); }
+
+  /// Of most differences, rad: up to a third of them may be jumps.
+  double typical() const {
+    std::vector<double> sizes;
+    for (const double value : values_) sizes.push_back(std::abs(value));
+    return sizes.empty() ? 0.0 : median_of(std::move(sizes)) / 0.6745;
+  }
+
+  /// α about which the differences, each with its place, have the largest mean square.
+  double largest_at() const {
+    constexpr int k_places = 12;
+    SeenSpan span;
+    for (const double place : places_) span.take(place);
+    if (!span.any() || places_.size() != values_.size()) return 0;
+    const Bins bins{span, k_places};
+    std::array<double, k_places> squares{}, counts{};
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const auto bin = static_cast<std::size_t>(bins.bin(places_[i]));
+      squares[bin] += values_[i] * values_[i];
+      counts[bin] += 1;
+    }
+    int largest = 0;
+    double most = -1;
+    for (int bin = 0; bin < k_places; ++bin) {
+      const auto k = static_cast<std::size_t>(bin);
+      if (counts[k] > 0 && squares[k] / counts[k] > most) most = squares[k] / counts[k], largest = bin;
+    }
+    return 0.5 * (bins.edge(largest) + bins.edge(largest + 1));
+  }
 
   struct Result {
     double variance = 0;
@@ -77,6 +111,7 @@ class Scatter {
   }
 
   std::vector<double> values_;
+  std::vector<double> places_;
   std::vector<bool> follows_;
   double worth_ = 0;
 };
@@ -269,7 +304,7 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
   const bool triples = group.size() > 2;
   const std::size_t count = triples ? group.size() - 2 : 1;
   for (std::size_t k = 1; k <= count; ++k) {
-    std::vector<double> differences;
+    std::vector<double> differences, places;
     const Run& run = *group[k].run;
     const Stretch& rows = group[k].rows;
     const auto look = [&](const Pass& pass, std::size_t row) {
@@ -286,15 +321,17 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
       const Looked before = look(group[k - 1], i);
       if (!before.inside) continue;
       if (!triples) {
+        places.push_back(sample.alpha);
         differences.push_back((sample.theta - before.theta) / std::sqrt(1 + before.weight));
         continue;
       }
       const Looked after = look(group[k + 1], i);
       if (!after.inside) continue;
+      places.push_back(sample.alpha);
       differences.push_back((2 * sample.theta - before.theta - after.theta) /
                             std::sqrt(4 + before.weight + after.weight));
     }
-    scatter.add(differences, worth_of(count));
+    scatter.add(differences, worth_of(count), places);
   }
 }
 
@@ -364,6 +401,34 @@ Scatter scatter_of_stands(const Measurement& measurement) {
   return scatter;
 }
 
+/// Repeats of one load and speed, either way and in any run.
+struct ScatterAtLevel {
+  NoiseLevel level;
+  Scatter scatter;
+};
+
+std::vector<NoiseLevel> noise_levels(const Measurement& measurement, double least_limit) {
+  const Alike alike = alike_in(measurement, false);
+  std::vector<ScatterAtLevel> all;
+  for (const std::vector<Pass>& group : repeats(measurement, alike)) {
+    const double load = group.front().load, speed = group.front().run->speed;
+    auto at = std::find_if(all.begin(), all.end(), [&](const ScatterAtLevel& other) {
+      const double faster = std::max(speed, other.level.speed);
+      return std::abs(other.level.load - load) <= alike.load && std::abs(other.level.speed - speed) <= 0.15 * faster;
+    });
+    if (at == all.end()) at = all.insert(all.end(), ScatterAtLevel{{load, speed, 0, 0, 0}, {}});
+    add_repeats(group, alike.load, at->scatter);
+  }
+  std::vector<NoiseLevel> levels;
+  for (const ScatterAtLevel& at : all) {
+    if (at.scatter.count() < k_enough) continue;
+    const Scatter::Result result = at.scatter.result(least_limit);
+    levels.push_back({at.level.load, at.level.speed, std::sqrt(result.variance), result.degrees_of_freedom,
+                      at.scatter.largest_at()});
+  }
+  return levels;
+}
+
 Scatter scatter_within_runs(const Measurement& measurement) {
   const Alike alike = alike_in(measurement, false);
   Scatter scatter;
@@ -430,14 +495,6 @@ double step_error(const Measurement& measurement) {
 
 }  // namespace
 
-namespace {
-
-/// Enough differences, and of repeats so few that they are better than rows at different places.
-constexpr std::size_t k_enough = 20;
-constexpr std::size_t k_few = 6;
-
-}  // namespace
-
 NoiseFloor noise_floor(const Measurement& measurement) {
   const double least_limit = 3 * measurement.theta_quantum;
   NoiseFloor floor;
@@ -451,8 +508,9 @@ NoiseFloor noise_floor(const Measurement& measurement) {
       scatter = std::move(between.noise);
   }
   floor.from_repeats = scatter.count() >= k_enough;
+  const Scatter neighbours = scatter_of_neighbours(measurement);
+  if (neighbours.count() >= k_enough) floor.within_stroke = std::max(neighbours.typical(), step_error(measurement));
   if (!floor.from_repeats) {
-    Scatter neighbours = scatter_of_neighbours(measurement);
     floor.from_repeats = neighbours.count() < k_enough && scatter.count() >= k_few;
     if (!floor.from_repeats) scatter = neighbours.count() < k_enough ? scatter_of_stands(measurement) : neighbours;
   }
@@ -460,6 +518,7 @@ NoiseFloor noise_floor(const Measurement& measurement) {
   floor.rms = std::max(std::sqrt(result.variance), step_error(measurement));
   floor.degrees_of_freedom = result.degrees_of_freedom;
   floor.colour = floor.from_repeats ? result.colour : 0;
+  floor.levels = noise_levels(measurement, least_limit);
   return floor;
 }
 

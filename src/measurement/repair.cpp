@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <utility>
 
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
@@ -14,105 +14,8 @@
 namespace fusee {
 namespace {
 
-constexpr double k_no_time = std::numeric_limits<double>::quiet_NaN();
 /// With fewer rows there is no telling what is usual.
 constexpr std::size_t k_fewest_rows = 20;
-
-// ---- time -----------------------------------------------------------------------------------------------------------
-
-void drop_time(Run& run) {
-  run.has_time = false;
-  for (Sample& sample : run.samples) sample.time = k_no_time;
-}
-
-/// Between the rows that have one; false when more than one in ten has none, or an end.
-bool fill_time(std::vector<Sample>& samples, const Say& say) {
-  const auto is_lost = [](const Sample& sample) { return std::isnan(sample.time); };
-  const auto lost = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), is_lost));
-  if (lost == 0) return true;
-  if (10 * lost > samples.size() || is_lost(samples.front()) || is_lost(samples.back())) {
-    say(rows_text(lost) + " without a time: time is not used");
-    return false;
-  }
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    if (!is_lost(samples[i])) continue;
-    std::size_t next = i;
-    while (is_lost(samples[next])) ++next;
-    samples[i].time =
-        samples[i - 1].time + (samples[next].time - samples[i - 1].time) / static_cast<double>(next - i + 1);
-  }
-  say(rows_text(lost) + " without a time: it was taken from the rows beside");
-  return true;
-}
-
-void join_restarts(std::vector<Sample>& samples, const Say& say) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(std::abs(samples[i].time - samples[i - 1].time));
-  const double usual = median_of(steps);
-  const double first = samples.front().time;
-  std::size_t back = 0, restarts = 0;
-  double shift = 0, last = first;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double here = samples[i].time;
-    if (here < last) {
-      const bool restart = std::abs(here - first) < 2 * usual && last - here > 10 * usual;
-      if (restart) shift += last - here + usual;
-      ++(restart ? restarts : back);
-    }
-    last = here;
-    samples[i].time = here + shift;
-  }
-  if (restarts > 0)
-    say("the clock starts again " + std::to_string(restarts) + (restarts == 1 ? " time" : " times") +
-        ": taken as one motion");
-  if (back == 0) return;
-  std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.time < b.time; });
-  say("time goes back " + std::to_string(back) + (back == 1 ? " time" : " times") + ": rows were put in order");
-}
-
-Sample mean_of(const std::vector<Sample>& samples, std::size_t first, std::size_t end) {
-  Sample mean = samples[first];
-  for (double Sample::*value :
-       {&Sample::alpha, &Sample::theta, &Sample::load, &Sample::temperature, &Sample::tension1, &Sample::tension2}) {
-    double sum = 0;
-    for (std::size_t i = first; i < end; ++i) sum += samples[i].*value / static_cast<double>(end - first);
-    mean.*value = sum;
-  }
-  return mean;
-}
-
-/// Rows of one time: one row logged more than once, or a clock that ticks more slowly than the log is written.
-void part_ticks(Run& run, const Say& say) {
-  std::vector<Sample>& samples = run.samples;
-  std::vector<std::size_t> ticks;  // the first row of each
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (i == 0 || samples[i].time != samples[i - 1].time) ticks.push_back(i);
-  }
-  const std::size_t same = samples.size() - ticks.size();
-  if (same == 0) return;
-  if (ticks.size() == 1) {
-    say("the clock stands still: time is not used");
-    return drop_time(run);
-  }
-  const bool coarse = samples.size() >= 3 * ticks.size();
-  const std::vector<Sample> rows = std::move(samples);
-  samples.clear();
-  for (std::size_t k = 0; k < ticks.size(); ++k) {
-    const std::size_t first = ticks[k], end = k + 1 < ticks.size() ? ticks[k + 1] : rows.size();
-    if (!coarse) {
-      samples.push_back(mean_of(rows, first, end));
-      continue;
-    }
-    const double tick =
-        k + 1 < ticks.size() ? rows[end].time - rows[first].time : rows[first].time - rows[ticks[k - 1]].time;
-    for (std::size_t i = first; i < end; ++i) {
-      samples.push_back(rows[i]);
-      samples.back().time += tick * static_cast<double>(i - first) / static_cast<double>(end - first);
-    }
-  }
-  say(rows_text(same) + " with the time of the row before: " +
-      (coarse ? "the clock is coarser than the log, they were spread over its ticks" : "taken together, their mean"));
-}
 
 // ---- outliers -------------------------------------------------------------------------------------------------------
 
@@ -169,26 +72,19 @@ void drop_wild(std::vector<Sample>& samples, const Wild& wild, const std::string
   std::vector<Sample> kept;
   kept.reserve(samples.size());
   auto next = wild.rows.begin();
+  bool after_break = false;
   for (std::size_t i = 0; i < samples.size(); ++i) {
+    after_break = after_break || samples[i].after_break;
     if (next != wild.rows.end() && *next == i) {
       ++next;
     } else {
       kept.push_back(samples[i]);
+      kept.back().after_break = std::exchange(after_break, false);
     }
   }
   samples = std::move(kept);
   say(words + "dropped as outliers");
 }
-
-}  // namespace
-
-void order_time(Run& run, const Say& say) {
-  if (!fill_time(run.samples, say)) return drop_time(run);
-  join_restarts(run.samples, say);
-  part_ticks(run, say);
-}
-
-namespace {
 
 /// Without the hundredth that may be wild.
 double span_of_theta(const std::vector<Sample>& samples) {

@@ -11,11 +11,6 @@ namespace fusee {
 
 using Say = std::function<void(const std::string&)>;
 
-/// Afterwards time grows from row to row, or the run has none. A clock that starts again goes on where it stopped; rows
-/// out of order are put in order; rows of one time become one, their mean, or are spread over the tick of a clock
-/// coarser than the log.
-void order_time(Run& run, const Say& say);
-
 /// An encoder that jumps by about a turn was wrapped around. Not the motor's where θ goes by a quarter of its span at
 /// the same time: from point to point a motor may turn as far between two rows.
 void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::string& name, const Say& say);

@@ -1,7 +1,6 @@
 #include "measurement/row_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -9,100 +8,23 @@
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "measurement/cells.h"
+#include "measurement/columns.h"
+#include "measurement/csv_text.h"
+#include "measurement/words.h"
 
 namespace fusee {
 namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t k_longest_line = std::size_t{1} << 16;
-constexpr std::size_t k_most_columns = 1000;
 constexpr std::size_t k_most_problems = 20;
-constexpr double k_largest_deg = 1e7;
-/// Times and loads beyond this are a logger's garbage; their squares are still numbers.
-constexpr double k_largest_value = 1e15;
+/// Lines above the header: settings of a logger, a scope, a motor's tool.
+constexpr std::size_t k_longest_preamble = 1000;
+/// Values beyond this are a logger's garbage; their squares are still numbers. Times in ns since 1970 are below.
+constexpr double k_largest_value = 1e15, k_largest_time = 1e19;
 
-// ---- words ----------------------------------------------------------------------------------------------------------
-
-std::string_view trimmed(std::string_view text) {
-  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-std::string_view unquoted(std::string_view text) {
-  text = trimmed(text);
-  return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
-}
-
-/// Bytes of a file as a message may show them.
-std::string shown(std::string_view text) {
-  std::string words;
-  for (const char c : text.substr(0, 40)) {
-    const auto byte = static_cast<unsigned char>(c);
-    words += byte < 0x20 || byte >= 0x7f ? '?' : c;
-  }
-  return "\"" + words + (text.size() > 40 ? "…\"" : "\"");
-}
-
-std::string lower(std::string_view text) {
-  std::string small(text);
-  for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return small;
-}
-
-bool ends_with(std::string_view text, std::string_view end) {
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
-}
-
-/// `separator` ' ': any number of blanks.
-std::vector<std::string_view> cells(std::string_view line, char separator) {
-  std::vector<std::string_view> parts;
-  const std::string_view separators = separator == ' ' ? std::string_view(" \t") : std::string_view(&separator, 1);
-  while (parts.size() <= k_most_columns) {
-    const std::size_t end = line.find_first_of(separators);
-    parts.push_back(unquoted(line.substr(0, end)));
-    if (end == std::string_view::npos) break;
-    line.remove_prefix(end + 1);
-    if (separator == ' ') line.remove_prefix(std::min(line.find_first_not_of(separators), line.size()));
-  }
-  return parts;
-}
-
-char separator_of(std::string_view header) {
-  for (const char separator : {',', ';', '\t', ' '}) {
-    if (header.find(separator) != std::string_view::npos) return separator;
-  }
-  return ',';
-}
-
-enum class Cell { number, missing, text };
-
-/// "", "nan" and "inf" are what loggers write when there was nothing to write.
-Cell read_cell(std::string_view text, double& value) {
-  value = k_nan;
-  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-  if (text.empty()) return Cell::missing;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = end == text.data() + text.size();
-  if (!whole || (error != std::errc() && error != std::errc::result_out_of_range)) {
-    value = k_nan;
-    const std::string_view known[] = {"na", "n/a", "null", "none", "-"};
-    return std::find(std::begin(known), std::end(known), lower(text)) != std::end(known) ? Cell::missing : Cell::text;
-  }
-  if (error != std::errc() || !std::isfinite(value)) value = k_nan;
-  return std::isnan(value) ? Cell::missing : Cell::number;
-}
-
-/// "-12,5": a number where the comma is the point.
-bool has_decimal_comma(std::string_view text) {
-  const std::size_t comma = text.find(',');
-  if (comma == std::string_view::npos || text.find(',', comma + 1) != std::string_view::npos) return false;
-  std::string point(text);
-  point[comma] = '.';
-  double value = 0;
-  return read_cell(point, value) == Cell::number;
-}
+const char* const k_usual_header =
+    "the first line names the columns: alpha_deg,theta_deg and, if logged, time_s,load_N";
 
 double* member(Mounting& mounting, const std::string& role) {
   if (role == k_motor_sensor_turned) return &mounting.motor_sensor_turned;
@@ -110,26 +32,42 @@ double* member(Mounting& mounting, const std::string& role) {
   return nullptr;
 }
 
-double* member(Sample& sample, const std::string& role) {
-  if (role == "time") return &sample.time;
-  if (role == "alpha") return &sample.alpha;
-  if (role == "theta") return &sample.theta;
-  if (role == "load") return &sample.load;
-  if (role == "temperature") return &sample.temperature;
-  if (role == "tension1") return &sample.tension1;
-  if (role == "tension2") return &sample.tension2;
-  return nullptr;  // cycle: found from α itself
+bool all_numbers(const std::vector<std::string>& cells) {
+  double value = 0;
+  return std::all_of(cells.begin(), cells.end(),
+                     [&](const std::string& cell) { return read_number(cell, value) == Cell::number; });
 }
 
-bool is_mounting(const std::string& role) { return role == k_motor_sensor_turned || role == k_joint_sensor_turned; }
-bool is_angle(const std::string& role) { return role == "alpha" || role == "theta" || is_mounting(role); }
-
-/// The unit stands in the column's name: degrees and seconds unless it says otherwise.
-double factor_of(const std::string& role, const std::string& column) {
-  if (is_angle(role)) return ends_with(column, "_rad") ? 1.0 : radians(1.0);
-  if (role == "time") return ends_with(column, "_ms") ? 1e-3 : ends_with(column, "_us") ? 1e-6 : 1.0;
-  return 1.0;
+/// "sep=;" of spreadsheets; 0 for another line.
+char stated_separator(std::string_view line) {
+  if (line.size() >= 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
+  return line.size() == 5 && lower(line.substr(0, 4)) == "sep=" ? line[4] : '\0';
 }
+
+std::vector<std::string> names_in(std::string_view line, char separator) {
+  std::vector<std::string_view> cells;
+  split_cells(line, separator, cells);
+  std::vector<std::string> names;
+  for (const std::string_view cell : cells) {
+    std::string& name = names.emplace_back(cell);
+    for (std::size_t at = name.find("\"\""); at != std::string::npos; at = name.find("\"\"", at + 1)) name.erase(at, 1);
+  }
+  return names;
+}
+
+char separator_of(std::string_view line) {
+  for (const char separator : {',', ';', '\t', ' '}) {
+    if (line.find(separator) != std::string_view::npos) return separator;
+  }
+  return ',';
+}
+
+/// A line that may be the header: for what is said where none is.
+struct HeaderLine {
+  std::string text;
+  std::vector<std::string> names;
+  long long line = 0;
+};
 
 // ---- rows -----------------------------------------------------------------------------------------------------------
 
@@ -138,46 +76,54 @@ class RowReader {
   RowReader(const std::string& name, const MeasurementOptions& options, std::size_t most_samples)
       : name_(name), options_(options), most_samples_(most_samples) {}
 
-  void line(std::string_view text) {
-    ++line_;
-    if (line_ == 1 && text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
-    line_text_ = text;
-    refuse_binary(text);
-    const std::size_t mark = text.find('#');
-    if (columns_.empty() && mark != std::string_view::npos) comment_ = trimmed(text.substr(mark + 1));
-    const std::string_view content = text.substr(0, mark);
-    if (trimmed(content).empty()) return;
-    if (columns_.empty()) return header(trimmed(content));
-    row(separator_ == '\t' ? content : trimmed(content));
+  void take(const Record& record) {
+    line_ = record.line;
+    line_text_ = record.text;
+    if (record.open_quote && record.text.find('\n') != std::string_view::npos) refuse_long(record.line, true);
+    refuse_binary(record.text);
+    const std::string_view content = trimmed(record.text);
+    if (content.empty()) return;
+    if (content.front() == '#') {
+      if (columns_.empty()) comment_ = content.substr(1);
+      return;
+    }
+    if (columns_.empty()) return look_for_header(content);
+    row(separator_ == '\t' ? record.text : content);
   }
 
   LoggedRows finish() {
-    if (columns_.empty()) {
-      fail(0, "holds no header", "the first line names the columns: alpha_deg,theta_deg and, if logged, time_s,load_N");
-    }
+    if (columns_.empty()) refuse_without_header();
     // A log that was cut off ends in the middle of a row.
     if (!cut_off_.message.empty() && problems_.empty()) {
       found_.notes.push_back("the last row (line " + std::to_string(cut_off_.place.line) + ") is cut off: left out");
     }
     if (!problems_.empty()) throw InputError(problems_);
+    if (headers_ > 0) {
+      found_.notes.push_back("the header stands again " + times(headers_) + ", first in line " +
+                             std::to_string(second_header_) + ": a new motion begins there" +
+                             (dropped_ > 0 ? ", and " + rows_text(dropped_) + " before it were no rows" : ""));
+    }
+    const std::string units = settle_units(columns_, found_.samples, options_, name_);
+    if (!units.empty()) found_.notes.push_back(units);
+    for (const Column& column : columns_) {
+      if (column.role == "load") found_.load_unit = column.unit->base;
+    }
     return std::move(found_);
   }
 
-  [[noreturn]] void refuse_long_line() const {
-    const Diagnostic problem{
-        Severity::error, place(line_ + 1, 1),
-        "a line of more than " + std::to_string(k_longest_line) + " bytes: this is no table of measured data",
-        "one row a line, ended by LF, CR LF or CR"};
+  [[noreturn]] void refuse_long(long long line, bool open_quote) const {
+    const std::string most = std::to_string(k_longest_record);
+    const Diagnostic problem =
+        open_quote ? Diagnostic{Severity::error, place(line, 1),
+                                "a quotation mark opens a cell here and never closes it", "close it, or take it away"}
+                   : Diagnostic{Severity::error, place(line, 1),
+                                "a line of more than " + most + " bytes: this is no table of measured data",
+                                "one row a line, ended by LF, CR LF or CR"};
     throw InputError(problem);
   }
 
  private:
-  struct Column {
-    std::size_t index = 0;
-    std::string role;
-    std::string name;
-    double factor = 1;
-  };
+  static std::string times(std::size_t count) { return std::to_string(count) + (count == 1 ? " time" : " times"); }
 
   Place place(long long line, int column) const {
     return {name_, static_cast<int>(std::min<long long>(line, std::numeric_limits<int>::max())), line > 0 ? column : 0};
@@ -187,155 +133,203 @@ class RowReader {
   int column_of(std::string_view cell) const { return static_cast<int>(cell.data() - line_text_.data()) + 1; }
 
   void fail(int column, std::string message, std::string hint) {
-    problems_.push_back({Severity::error, place(columns_.empty() && column == 0 ? 0 : line_, column),
-                         std::move(message), std::move(hint)});
+    problems_.push_back({Severity::error, place(line_, column), std::move(message), std::move(hint)});
     if (problems_.size() < k_most_problems) return;
     problems_.push_back({Severity::note, place(line_, 1), "reading stopped here: there may be more", ""});
     throw InputError(problems_);
   }
 
   void refuse_binary(std::string_view text) const {
-    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\f'; };
+    const auto is_control = [](char c) {
+      return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\f' && c != '\n';
+    };
     const auto found = std::find_if(text.begin(), text.end(), is_control);
     if (found == text.end()) return;
     const std::string_view start = text.substr(0, 2);
     std::string hint = "measured data are a CSV text";
-    if (line_ == 1 && (start == "\xFF\xFE" || start == "\xFE\xFF")) hint = "it looks like UTF-16: save it as UTF-8";
-    if (line_ == 1 && start == "\x1F\x8B") hint = "it looks compressed: unpack it with gunzip";
+    if (line_ == 1 && text.size() > 1 && (text[0] == '\0' || text[1] == '\0'))
+      hint = "it looks like UTF-16 without its byte order mark: save it as UTF-8";
+    if (line_ == 1 && text.substr(0, 1) == "\x1F") hint = "it looks compressed: unpack it with gunzip";
     if (line_ == 1 && start == "PK") hint = "it looks like a spreadsheet or a zip: export a CSV text";
     const Diagnostic problem{Severity::error, place(line_, static_cast<int>(found - text.begin()) + 1),
                              "holds binary bytes", hint};
     throw InputError(problem);
   }
 
-  void header(std::string_view text) {
-    separator_ = separator_of(text);
-    std::vector<std::string> names;
-    for (const std::string_view cell : cells(text, separator_)) names.emplace_back(cell);
-    if (names.size() > k_most_columns) {
-      fail(1, "the header names more than " + std::to_string(k_most_columns) + " columns", "measured data need a few");
-      throw InputError(problems_);
+  // ---- header
+
+  /// The header is the first line that names the angles; what stands above is a preamble.
+  void look_for_header(std::string_view text) {
+    if (const char stated = stated_separator(text)) {
+      stated_separator_ = stated;
+      return;
     }
-    count_ = names.size();
-    refuse_numbers_as_header(names);
-    for (const auto& [role, usual] : column_roles()) {
-      const auto given = options_.columns.find(role);
-      const std::string wanted = given != options_.columns.end() ? given->second : usual;
-      const auto found = std::find(names.begin(), names.end(), wanted);
-      if (found != names.end()) {
-        columns_.push_back({static_cast<std::size_t>(found - names.begin()), role, wanted, factor_of(role, wanted)});
-        if (std::find(found + 1, names.end(), wanted) != names.end()) {
-          fail(1, "two columns are called " + shown(wanted), "each column needs a name of its own");
-        }
-      } else if (is_needed(role) || given != options_.columns.end()) {
-        missing(role, wanted, names);
-      }
+    for (const char separator : {',', ';', '\t', ' ', stated_separator_}) {
+      if (separator == 0 || (stated_separator_ != 0 && separator != stated_separator_)) continue;
+      const std::vector<std::string> names = names_in(text, separator);
+      if (names.size() > k_most_columns) refuse_many_columns();
+      Header header = find_columns(names, options_);
+      if (!header.has_angles) continue;
+      separator_ = separator;
+      return take_header(names, std::move(header));
     }
+    remember(text);
+  }
+
+  [[noreturn]] void refuse_many_columns() const {
+    const Diagnostic problem{Severity::error, place(line_, 1),
+                             "the header names more than " + std::to_string(k_most_columns) + " columns",
+                             "measured data need a few"};
+    throw InputError(problem);
+  }
+
+  void take_header(const std::vector<std::string>& names, Header header) {
+    for (Diagnostic& problem : header.problems) fail(1, std::move(problem.message), std::move(problem.hint));
     if (!problems_.empty()) throw InputError(problems_);
-    refuse_shared_columns();
+    columns_ = std::move(header.columns);
+    found_.notes = std::move(header.notes);
+    count_ = names.size();
     found_.has_time = has("time");
     found_.has_load = has("load");
     found_.has_temperature = has("temperature");
-    for (const Column& column : columns_) {
-      if (column.role == "load") found_.load_column = column.name;
-    }
+    if (preamble_ > 0)
+      found_.notes.push_back("the header is line " + std::to_string(line_) + ": the lines above are left out");
   }
 
-  bool is_needed(const std::string& role) const { return role == "alpha" || (role == "theta" && options_.needs_theta); }
+  /// The likeliest header of a file without the names that are looked for: the first line above a row of as many
+  /// numbers, or else the first line.
+  void remember(std::string_view text) {
+    HeaderLine here{std::string(text), names_in(text, stated_separator_ ? stated_separator_ : separator_of(text)),
+                    line_};
+    const bool numbers = all_numbers(here.names);
+    if (preamble_ == 0) {
+      likely_ = here;
+    } else if (!above_row_ && numbers && !all_numbers(last_.names) && last_.names.size() == here.names.size()) {
+      likely_ = last_;
+      above_row_ = true;
+    }
+    last_ = std::move(here);
+    if (++preamble_ > k_longest_preamble) refuse_without_header();
+  }
+
+  [[noreturn]] void refuse_without_header() {
+    if (preamble_ == 0) {
+      const Diagnostic problem{Severity::error, place(0, 0), "holds no header", k_usual_header};
+      throw InputError(problem);
+    }
+    line_ = likely_.line;
+    if (all_numbers(likely_.names)) {
+      const bool in_comment = comment_.find("alpha") != std::string::npos;
+      fail(1, "the first line holds numbers: there is no header",
+           in_comment ? "line " + std::to_string(line_) + " follows a comment that may be it: take the # away"
+                      : k_usual_header);
+    } else {
+      for (Diagnostic& problem : find_columns(likely_.names, options_).problems)
+        fail(1, std::move(problem.message), std::move(problem.hint));
+    }
+    throw InputError(problems_);
+  }
 
   bool has(const std::string& role) const {
     return std::any_of(columns_.begin(), columns_.end(), [&](const Column& column) { return column.role == role; });
   }
 
-  void refuse_numbers_as_header(const std::vector<std::string>& names) {
-    double value = 0;
-    for (const std::string& name : names) {
-      if (read_cell(name, value) != Cell::number) return;
-    }
-    const bool in_comment = comment_.find("alpha") != std::string::npos;
-    fail(1, "the first line holds numbers: there is no header",
-         in_comment ? "line " + std::to_string(line_) + " follows a comment that may be it: take the # away"
-                    : "the first line names the columns: alpha_deg,theta_deg and, if logged, time_s,load_N");
-    throw InputError(problems_);
+  bool is_header(const std::vector<std::string_view>& values) const {
+    return std::all_of(columns_.begin(), columns_.end(),
+                       [&](const Column& column) { return values[column.index] == column.name; });
   }
 
-  /// One column is not two things.
-  void refuse_shared_columns() {
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if (columns_[i].index != columns_[j].index) continue;
-        fail(1,
-             "column " + shown(columns_[i].name) + " is taken as " + columns_[j].role + " and as " + columns_[i].role,
-             "give each role a column of its own with --column " + columns_[i].role + "=NAME");
-      }
-    }
-    if (!problems_.empty()) throw InputError(problems_);
+  /// The board started again: what it printed since the last row was no row.
+  void begin_again() {
+    if (headers_++ == 0) second_header_ = line_;
+    dropped_ += problems_.size() - problems_at_last_row_ + (cut_off_.message.empty() ? 0 : 1);
+    problems_.resize(problems_at_last_row_);
+    cut_off_ = {};
+    after_break_ = true;
   }
 
-  void missing(const std::string& role, const std::string& wanted, const std::vector<std::string>& names) {
-    std::string nearest;
-    for (const std::string& name : names) {
-      if (lower(name) == lower(wanted)) nearest = name;
-    }
-    if (nearest.empty()) nearest = nearest_word(wanted, names);
-    for (const std::string& name : names) {
-      if (nearest.empty() && lower(name).find(role) != std::string::npos) nearest = name;
-    }
-    std::string list;
-    for (const std::string& name : names) {
-      if (list.size() < 300) list += (list.empty() ? "" : ", ") + shown(name);
-    }
-    const std::string unit = is_angle(role) ? " (in degrees, or its name ends in _rad)" : "";
-    const std::string word = shown(nearest);
-    const bool plain = word.size() == nearest.size() + 2 && nearest.find(' ') == std::string::npos;
-    fail(1, "there is no column " + wanted,
-         nearest.empty()
-             ? "the columns are " + list + "; --column " + role + "=NAME says which one it is" + unit
-             : "the nearest is " + word + ": --column " + role + "=" + (plain ? nearest : word) + " takes it" + unit);
-  }
+  // ---- rows
 
   void row(std::string_view text) {
+    split_cells(text, separator_, values_);
+    if (values_.size() == count_ + 1 && values_.back().empty())
+      values_.pop_back();  // some loggers end each row with a separator
+    if (values_.size() == count_ && is_header(values_)) return begin_again();
     if (!cut_off_.message.empty()) {
       problems_.push_back(cut_off_);
       cut_off_ = {};
       if (problems_.size() >= k_most_problems) throw InputError(problems_);
     }
     ++found_.rows;
-    std::vector<std::string_view> values = cells(text, separator_);
-    if (values.size() == count_ + 1 && values.back().empty())
-      values.pop_back();  // some loggers end each row with a separator
-    if (values.size() != count_) return wrong_count(values.size());
-    Sample sample{k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan};
-    for (const Column& column : columns_) {
-      double value = k_nan;
-      if (read_cell(values[column.index], value) == Cell::text) return not_a_number(column, values);
-      if (is_angle(column.role) && std::abs(value) * column.factor > radians(k_largest_deg)) {
-        return fail(column_of(values[column.index]), column.name + " = " + shortest(value) + " is no angle",
-                    "angles are in degrees; leave the cell empty where nothing was logged");
-      }
-      if (std::abs(value) > k_largest_value) {
-        return fail(column_of(values[column.index]),
-                    column.name + " = " + shortest(value) + " is beyond anything measured",
-                    "leave the cell empty where nothing was logged");
-      }
-      if (double* to = member(sample, column.role)) *to = value * column.factor;
-      if (double* to = member(found_.mounting, column.role); to != nullptr && !std::isnan(value)) {
-        if (mounted_.insert(column.role).second) {
-          *to = value * column.factor;
-        } else if (*to != value * column.factor) {
-          return fail(column_of(values[column.index]), column.name + " changes within the run",
-                      "one file for each way in which the encoders were mounted");
-        }
-      }
+    if (values_.size() != count_) return wrong_count(values_.size());
+    numbers_.settle_mark(values_);
+    Sample sample{k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, false};
+    for (Column& column : columns_) {
+      if (!take_cell(column, values_[column.index], sample)) return;
     }
     keep(sample);
+  }
+
+  /// False for what is no value of that column, after saying so.
+  bool take_cell(Column& column, std::string_view cell, Sample& sample) {
+    double value = k_nan;
+    if (!read_value(column, cell, value)) {
+      not_a_number(column, cell);
+      return false;
+    }
+    if (std::isnan(value)) return true;
+    if (!is_possible(column, cell, value)) return false;
+    column.whole = column.whole && value == std::floor(value);
+    column.least = std::min(column.least, value);
+    column.most = std::max(column.most, value);
+    if (double Sample::*const to = member_of(column.role)) sample.*to = value;
+    double* const mounting = member(found_.mounting, column.role);
+    return mounting == nullptr || take_mounting(column, cell, value * column.unit->factor, *mounting);
+  }
+
+  bool read_value(Column& column, std::string_view cell, double& value) {
+    const Cell kind = numbers_.read(cell, value);
+    if (column.quantity != Quantity::time) return kind != Cell::text;
+    const bool had_numbers = !column.is_date && column.most >= column.least;
+    if (kind != Cell::text) return kind == Cell::missing || !column.is_date;
+    const std::optional<double> stamp = had_numbers ? std::nullopt : read_time_stamp(cell);
+    if (!stamp) return false;
+    column.is_date = true;
+    value = *stamp;
+    return true;
+  }
+
+  bool is_possible(const Column& column, std::string_view cell, double value) {
+    const bool is_angle = column.quantity == Quantity::angle && column.unit != nullptr;
+    if (is_angle && std::abs(value) * column.unit->factor > radians(k_largest_deg)) {
+      fail(column_of(cell), column.name + " = " + shortest(value) + " is no angle",
+           "leave the cell empty where nothing was logged");
+      return false;
+    }
+    if (std::abs(value) > (column.quantity == Quantity::time ? k_largest_time : k_largest_value)) {
+      fail(column_of(cell), column.name + " = " + shortest(value) + " is beyond anything measured",
+           "leave the cell empty where nothing was logged");
+      return false;
+    }
+    return true;
+  }
+
+  bool take_mounting(const Column& column, std::string_view cell, double angle, double& mounting) {
+    if (mounted_.insert(column.role).second) {
+      mounting = angle;
+    } else if (mounting != angle) {
+      fail(column_of(cell), column.name + " changes within the run",
+           "one file for each way in which the encoders were mounted");
+      return false;
+    }
+    return true;
   }
 
   void wrong_count(std::size_t count) {
     const std::string message =
         "the row has " + std::to_string(count) + " values, the header " + std::to_string(count_);
     if (count > count_ && separator_ == ',' && found_.rows == 1) {
-      fail(1, message, "if commas are the decimal points, separate the values with ; and write points: 1.5;2.5");
+      fail(1, message, "if commas are the decimal marks, separate the values with ; as in 1,5;2,5");
       throw InputError(problems_);
     }
     Diagnostic problem{Severity::error, place(line_, 1), message, "remove the row, or complete it"};
@@ -346,34 +340,43 @@ class RowReader {
     }
   }
 
-  void not_a_number(const Column& column, const std::vector<std::string_view>& values) {
-    const std::string_view cell = values[column.index];
+  void not_a_number(const Column& column, std::string_view cell) {
     const std::string message = column.name + ": " + shown(cell) + " is not a number";
-    if (has_decimal_comma(cell)) {
-      fail(column_of(cell), message + ": it has a decimal comma", "write decimal points in the whole file: 1.5");
-      throw InputError(problems_);
-    }
     double value = 0;
-    const bool all_text = std::all_of(values.begin(), values.end(),
-                                      [&](std::string_view v) { return read_cell(v, value) != Cell::number; });
+    const bool all_text = std::all_of(values_.begin(), values_.end(),
+                                      [&](std::string_view v) { return read_number(v, value) != Cell::number; });
     if (all_text && found_.rows == 1) {
       return fail(column_of(cell), message, "a second line of the header? Begin it with #");
     }
     fail(column_of(cell), message,
-         "numbers with a decimal point, one a cell; leave the cell empty where nothing was logged");
+         column.quantity == Quantity::time
+             ? "numbers, or time stamps as 2025-03-01T10:00:00.020 in all rows"
+             : "numbers, one a cell, with one decimal mark in the whole file; leave the cell empty where nothing was "
+               "logged");
   }
 
-  void keep(const Sample& sample) {
+  void keep(Sample sample) {
+    problems_at_last_row_ = problems_.size();
     if (std::isnan(sample.alpha) || (options_.needs_theta && std::isnan(sample.theta))) {
       found_.without_theta += !std::isnan(sample.alpha);
       if (found_.without_angle++ == 0) found_.first_without_angle = line_;
       return;
     }
     if (counter_++ % found_.stride != 0) return;
+    sample.after_break = after_break_ && !found_.samples.empty();
+    after_break_ = false;
     std::vector<Sample>& samples = found_.samples;
     samples.push_back(sample);
-    if (samples.size() < most_samples_) return;
-    for (std::size_t i = 0; 2 * i < samples.size(); ++i) samples[i] = samples[2 * i];
+    if (samples.size() >= most_samples_) thin_out();
+  }
+
+  void thin_out() {
+    std::vector<Sample>& samples = found_.samples;
+    for (std::size_t i = 0; 2 * i < samples.size(); ++i) {
+      const bool break_before = i > 0 && samples[2 * i - 1].after_break;
+      samples[i] = samples[2 * i];
+      samples[i].after_break = samples[i].after_break || break_before;
+    }
     samples.resize((samples.size() + 1) / 2);
     found_.stride *= 2;
     counter_ = 0;
@@ -384,50 +387,36 @@ class RowReader {
   std::size_t most_samples_;
   LoggedRows found_;
   std::vector<Column> columns_;
+  std::vector<std::string_view> values_;
+  NumberReader numbers_;
   std::set<std::string> mounted_;  ///< roles of the mounting that have their value
   std::vector<Diagnostic> problems_;
   Diagnostic cut_off_;
   std::string_view line_text_;
   std::string comment_;
-  char separator_ = ',';
+  HeaderLine likely_, last_;
+  char separator_ = ',', stated_separator_ = 0;
+  bool above_row_ = false, after_break_ = false;
+  std::size_t preamble_ = 0, problems_at_last_row_ = 0, headers_ = 0, dropped_ = 0;
   std::size_t count_ = 0, counter_ = 0;
-  long long line_ = 0;
+  long long line_ = 0, second_header_ = 0;
 };
 
-/// Cuts blocks of bytes into lines that end with LF, CR LF or CR.
-class Lines {
- public:
-  explicit Lines(RowReader& reader) : reader_(reader) {}
-
-  void add(std::string_view bytes) {
-    while (!bytes.empty()) {
-      if (after_return_ && bytes.front() == '\n') bytes.remove_prefix(1);
-      after_return_ = false;
-      const std::size_t end = bytes.find_first_of("\r\n");
-      rest_.append(bytes.substr(0, end));
-      if (rest_.size() > k_longest_line) reader_.refuse_long_line();
-      if (end == std::string_view::npos) return;
-      after_return_ = bytes[end] == '\r';
-      reader_.line(rest_);
-      rest_.clear();
-      bytes.remove_prefix(end + 1);
-    }
-  }
-
-  LoggedRows finish() {
-    if (!rest_.empty()) reader_.line(rest_);
-    return reader_.finish();
-  }
-
- private:
-  RowReader& reader_;
-  std::string rest_;
-  bool after_return_ = false;
-};
+RecordSplitter splitter_for(RowReader& reader) {
+  return {[&reader](const Record& record) { reader.take(record); },
+          [&reader](long long line, bool open_quote) { reader.refuse_long(line, open_quote); }};
+}
 
 }  // namespace
 
 std::string rows_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " row" : " rows"); }
+
+std::string unit_for(const std::string& role, const std::string& spelling) {
+  const Unit* unit = find_unit(quantity_of(role), spelling);
+  return unit == nullptr ? "" : std::string(unit->name);
+}
+
+std::string units_for(const std::string& role) { return unit_names(quantity_of(role)); }
 
 void check_roles(const MeasurementOptions& options) {
   std::vector<std::string> roles;
@@ -436,29 +425,45 @@ void check_roles(const MeasurementOptions& options) {
     roles.push_back(role);
     list += (list.empty() ? "" : ", ") + role;
   }
-  for (const auto& [role, column] : options.columns) {
-    if (std::find(roles.begin(), roles.end(), role) != roles.end()) continue;
+  const auto check = [&](const std::string& role) {
+    if (std::find(roles.begin(), roles.end(), role) != roles.end()) return;
     const std::string nearest = nearest_word(role, roles);
     throw InputError("", "there is no role " + shown(role) + " for a column",
                      nearest.empty() ? "roles: " + list : "did you mean " + nearest + "?");
+  };
+  for (const auto& [role, column] : options.columns) check(role);
+  for (const auto& [role, unit] : options.units) {
+    check(role);
+    if (unit_for(role, unit).empty())
+      throw InputError("", "there is no unit " + shown(unit) + " of " + role, "units: " + units_for(role));
+  }
+  for (const auto& [role, ticks] : options.ticks_per_turn) {
+    if (member_of(role) == nullptr || quantity_of(role) != Quantity::angle || !(std::abs(ticks) >= 2))
+      throw InputError("", "counts a turn are of alpha or theta, and 2 or more (negative where they fall)");
+  }
+  for (const auto& [role, ticks] : options.zero_ticks) {
+    if (options.ticks_per_turn.count(role) == 0)
+      throw InputError("", "counts of " + role + " at home need the counts a turn, too");
   }
 }
 
 LoggedRows read_rows(std::string_view text, const std::string& name, const MeasurementOptions& options,
                      std::size_t most_samples) {
   RowReader reader(name, options, most_samples);
-  Lines lines(reader);
-  lines.add(text);
-  return lines.finish();
+  RecordSplitter records = splitter_for(reader);
+  records.add(text);
+  records.finish();
+  return reader.finish();
 }
 
 LoggedRows read_rows(const std::filesystem::path& path, const std::string& name, const MeasurementOptions& options,
                      std::size_t most_samples) {
   RowReader reader(name, options, most_samples);
-  Lines lines(reader);
+  RecordSplitter records = splitter_for(reader);
   constexpr std::size_t k_any_size = std::numeric_limits<std::size_t>::max();
-  read_blocks({path, k_any_size, /*pipes=*/true}, [&lines](std::string_view block) { lines.add(block); });
-  return lines.finish();
+  read_blocks({path, k_any_size, /*pipes=*/true}, [&records](std::string_view block) { records.add(block); });
+  records.finish();
+  return reader.finish();
 }
 
 }  // namespace fusee

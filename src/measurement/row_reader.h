@@ -15,11 +15,11 @@ namespace fusee {
 /// Rows kept of all files together; beyond a file's share every second one goes, again and again.
 constexpr std::size_t k_most_samples = std::size_t{1} << 20;
 
-/// The rows of one file as they stand in it, angles in rad, times in s.
+/// The rows of one file in its order, in the units of Sample.
 struct LoggedRows {
   std::vector<Sample> samples;  ///< every `stride`-th row that holds both angles
   std::vector<std::string> notes;
-  std::string load_column;
+  std::string load_unit;
   bool has_time = false, has_load = false, has_temperature = false;
   Mounting mounting;
   std::size_t rows = 0;  ///< in the file
@@ -36,7 +36,7 @@ LoggedRows read_rows(std::string_view text, const std::string& name, const Measu
 LoggedRows read_rows(const std::filesystem::path& path, const std::string& name, const MeasurementOptions& options,
                      std::size_t most_samples = k_most_samples);
 
-/// InputError for a role that no column can have.
+/// InputError for a role that no column can have, or a unit that a role cannot.
 void check_roles(const MeasurementOptions& options);
 
 /// "1 row", "7 rows".

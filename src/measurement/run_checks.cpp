@@ -100,6 +100,7 @@ void look_for_frozen_alpha(const Run& run, Measurement& into) {
 
 void say_gaps(const Run& run, const Say& say) {
   for (const std::size_t gap : gaps_in(run.samples, run.has_time)) {
+    if (run.samples[gap].after_break) continue;  // said where the log was read
     const double way = std::abs(run.samples[gap].alpha - run.samples[gap - 1].alpha);
     const std::string time =
         run.has_time ? "of " + rounded(run.samples[gap].time - run.samples[gap - 1].time) + " s " : "";

@@ -108,11 +108,12 @@ class Splitter {
   int direction_ = 0;
 };
 
-/// The first stroke is whole when it begins where the later ones of its direction begin.
-bool begins_at_reversal(const std::vector<Sample>& samples, const std::vector<Stroke>& strokes, double threshold) {
-  const double start = samples[strokes.front().first].alpha;
+/// A stroke with which a log begins is whole when it begins where another of its direction begins.
+bool begins_at_reversal(const std::vector<Sample>& samples, const std::vector<Stroke>& strokes, std::size_t stroke,
+                        double threshold) {
+  const double start = samples[strokes[stroke].first].alpha;
   for (std::size_t i = 1; i < strokes.size(); ++i) {
-    if (strokes[i].direction != strokes.front().direction || strokes[i].partial) continue;
+    if (i == stroke || strokes[i].direction != strokes[stroke].direction || strokes[i].partial) continue;
     // The row at the reversal still belongs to the stroke before.
     return std::abs(samples[strokes[i].first - 1].alpha - start) <= 3 * threshold;
   }
@@ -165,7 +166,8 @@ std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_ti
   std::vector<std::size_t> gaps;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const bool paused = has_time && times[i - 1] > pause;
-    if (ways[i - 1] > moved && (paused || ways[i - 1] > jump)) gaps.push_back(i);
+    const bool moved_unseen = ways[i - 1] > moved && (paused || ways[i - 1] > jump);
+    if (samples[i].after_break || moved_unseen) gaps.push_back(i);
   }
   return gaps;
 }
@@ -182,7 +184,11 @@ std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std:
   if (strokes.empty()) return strokes;
   // From point to point play is known from the second hold on, wherever the first one was.
   strokes.front().partial =
-      holds.empty() && (strokes.front().partial || !begins_at_reversal(samples, strokes, threshold));
+      holds.empty() && (strokes.front().partial || !begins_at_reversal(samples, strokes, 0, threshold));
+  for (std::size_t i = 1; i < strokes.size(); ++i) {
+    if (strokes[i].partial && samples[strokes[i].first].after_break)
+      strokes[i].partial = !begins_at_reversal(samples, strokes, i, threshold);
+  }
   // A cycle begins with each stroke of the direction of the first whole one.
   const std::size_t first = strokes.front().partial && strokes.size() > 1 ? 1 : 0;
   int cycle = -1;

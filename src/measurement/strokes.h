@@ -16,7 +16,8 @@ namespace fusee {
 std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<Hold>& holds,
                                   double alpha_quantum, bool has_time);
 
-/// Rows before which α moved without being logged: after a pause in time, or faster than it ever does.
+/// Rows before which α moved without being logged: after a pause in time, faster than it ever does, or where the log
+/// begins again.
 std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_time);
 
 /// The value in the middle; 0 for none. Reorders its copy.

@@ -71,6 +71,19 @@ const Effect* find_effect(std::string_view name, JointKind kind) {
   return found == all.end() ? nullptr : &*found;
 }
 
+double prior_of(const EffectParameter& parameter, double largest_load) {
+  if (!(largest_load > 0)) return parameter.prior;
+  switch (parameter.prior_unit) {
+    case PriorUnit::own:
+      return parameter.prior;
+    case PriorUnit::at_largest_load:
+      return parameter.prior / largest_load;
+    case PriorUnit::of_largest_load:
+      return parameter.prior * largest_load;
+  }
+  return parameter.prior;
+}
+
 double value_of(const Imperfections& joint, const EffectParameter& parameter) {
   Imperfections copy = joint;  // numbers are reached through a reference that may write
   return parameter.number(copy);

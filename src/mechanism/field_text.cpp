@@ -102,10 +102,10 @@ std::string kind_text(const Field& field) {
 std::string toml_string(std::string_view text) { return "\"" + escaped(text) + "\""; }
 
 std::string as_shown(std::string_view text, std::size_t longest) {
-  if (text.size() <= longest) return escaped(text);
+  if (text.size() <= longest) return unicode_escaped(escaped(text));
   std::size_t end = longest;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a UTF-8 character
-  return escaped(text.substr(0, end)) + "...";
+  return unicode_escaped(escaped(text.substr(0, end))) + "...";
 }
 
 std::string in_quotes(std::string_view text) { return "\"" + as_shown(text) + "\""; }

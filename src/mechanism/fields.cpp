@@ -615,6 +615,10 @@ void add_making(std::vector<Field>& table) {
       "deg", 20, 75));
   table.push_back(boolean<print, &Print::supports>(
       {"print.supports", "", "false", "true: the printer makes supports, and the part is not shaped to need none"}));
+  table.push_back(number<print, &Print::nozzle>(
+      {"print.nozzle_mm", "", "0.4",
+       "diameter of the printer's nozzle, the width of one line: a warning names flanges and walls that are thinner"},
+      "mm", 0.05, 5));
   table.push_back(
       number<cut, &Cut::kerf>({"cut.kerf_mm", "", "0.2", "width of what the cutter takes away"}, "mm", 0, 10));
   table.push_back(number<cut, &Cut::plate>(

@@ -33,6 +33,7 @@ constexpr std::size_t k_largest_table = 8 << 20;
 constexpr std::size_t k_longest_text = 200;
 constexpr std::size_t k_longest_list = 100;
 constexpr std::size_t k_most_errors = 100;
+constexpr double k_least_length = 0.001;  // mm
 
 Place place_of(const toml::source_region& region, const std::string& file) {
   return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
@@ -87,6 +88,7 @@ class MechanismReader {
   bool take_pair(const Field& field, const Entry& entry);
   void take_range(const Field& field, const Entry& entry);
   void demand_home(const Field& field, const Entry& entry, double lowest, double highest);
+  bool demand_line(const Field& field, const Place& place, const std::string& text);
   void take_text(const Field& field, const Entry& entry);
   void take_numbers(const Field& field, const Entry& entry);
   void take_texts(const Field& field, const Entry& entry);
@@ -299,6 +301,12 @@ void MechanismReader::apply(const Setting& setting) {
 
 // ---- 3. entries → fields --------------------------------------------------------------------------------------------
 
+/// A length that may be 0, for a default or for none. Drawings round to 1e-6 mm, and a length that they round to 0
+/// would be neither.
+bool is_declared_length(const Field& field) {
+  return field.unit == "mm" && field.least == 0 && field.table != "identified";
+}
+
 void MechanismReader::take_number(const Field& field, const Entry& entry, int end, const toml::node& node) {
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
   const Place place = entry.place.line > 0 ? place_of(node.source(), entry.place.file) : entry.place;
@@ -313,6 +321,10 @@ void MechanismReader::take_number(const Field& field, const Entry& entry, int en
   if (*value < field.least || *value > field.most) {
     return fail(place, field.name() + " = " + with_unit(*value, field.unit) + " is out of range",
                 "allowed: " + allowed_text(field));
+  }
+  if (is_declared_length(field) && *value > 0 && *value < k_least_length) {
+    return fail(place, field.name() + " = " + with_unit(*value, field.unit) + " is less than a micrometre",
+                "0, or at least " + with_unit(k_least_length, field.unit));
   }
   field.set(mechanism_, end, *value);
   good_[field.name()] = true;
@@ -347,6 +359,20 @@ void MechanismReader::demand_home(const Field& field, const Entry& entry, double
        "the lowest angle is at most 0, the highest at least 0, and they differ");
 }
 
+/// Texts go into drawings, pages and comments of programs, and to the terminal.
+bool MechanismReader::demand_line(const Field& field, const Place& place, const std::string& text) {
+  if (text.size() > k_longest_text) {
+    fail(place, field.name() + " must be one line of at most " + std::to_string(k_longest_text) + " bytes",
+         "take a shorter text");
+  } else if (cleaned_line(text) != text) {
+    fail(place, field.name() + " = " + in_quotes(text) + " holds a character that is none of a text of one line",
+         "leave out control characters, line ends and marks that change the direction of writing");
+  } else {
+    return true;
+  }
+  return false;
+}
+
 void MechanismReader::take_text(const Field& field, const Entry& entry) {
   std::string value;
   if (field.kind == FieldKind::boolean) {
@@ -365,11 +391,7 @@ void MechanismReader::take_text(const Field& field, const Entry& entry) {
     return fail(entry.place, field.name() + " = " + in_quotes(value) + " is not known",
                 "allowed: " + allowed_text(field) + (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
   }
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
-  if (value.size() > k_longest_text || std::any_of(value.begin(), value.end(), is_control)) {
-    return fail(entry.place, field.name() + " must be one line of at most " + std::to_string(k_longest_text) + " bytes",
-                "take a shorter text");
-  }
+  if (!demand_line(field, entry.place, value)) return;
   field.set_text(mechanism_, value);
   good_[field.name()] = true;
 }
@@ -406,8 +428,7 @@ void MechanismReader::take_texts(const Field& field, const Entry& entry) {
     if (!node.is_string())
       return fail(place, field.name() + " holds texts, not " + described(node), "write them in quotes");
     const std::string& value = **node.as_string();
-    if (value.size() > k_longest_text)
-      return fail(place, field.name() + " holds texts of at most " + std::to_string(k_longest_text) + " bytes");
+    if (!demand_line(field, place, value)) return;
     if (!field.choices.empty() && std::find(field.choices.begin(), field.choices.end(), value) == field.choices.end()) {
       const std::string nearest = nearest_word(value, {field.choices.begin(), field.choices.end()});
       return fail(place, field.name() + " = " + in_quotes(value) + " is not known",

@@ -12,12 +12,12 @@
 // well chosen places do. Each gives
 //   1. the interval value of f over the box;
 //   2. linear functions that are nowhere above f: from a corner v, f(x) >= f(v) + Σ g_i (x_i − v_i) with g_i the end of
-//   the slope's interval that is on the safe side of that corner. So do the conditions that a design must keep, where
-//   they are tightest. All of them together are a linear program, whose multipliers prove its least value
-//   (relaxation.cpp): the bound's error shrinks with the square of the box. What they leave no room for is cut off;
+//      the slope's interval that is on the safe side of that corner. So do the conditions that a design must keep, where
+//      they are tightest. All of them together are a linear program, whose multipliers prove its least value
+//      (relaxation.cpp): the bound's error shrinks with the square of the box. What they leave no room for is cut off;
 //   3. over point pins T_b is e^{μφ}/sin γ2, and the torque with a round P1 r1 e^{μφ}/sin γ1. There b/a, the cotangent
-//   of γ, is a quotient of two linear functions, and is bounded by weights exactly, where 1 and 2 only come near.
-//   Without friction whole surfaces of designs tie, and nothing less sharp could prove it.
+//      of γ, is a quotient of two linear functions, and is bounded by weights exactly, where 1 and 2 only come near.
+//      Without friction whole surfaces of designs tie, and nothing less sharp could prove it.
 //
 // Conditions are looked at only where those who judge a design look too (k_places of the stroke): what a proof leaves
 // out is never accepted as a design.
@@ -138,8 +138,7 @@ Bounder::Bounder(const Problem& problem, Objective objective) : problem_(problem
   }
 }
 
-// ---- values
-// -----------------------------------------------------------------------------------------------------------
+// ---- values ---------------------------------------------------------------------------------------------------------
 
 /// Of intervals to be called while a RoundingUp lives.
 template <typename S>
@@ -262,8 +261,7 @@ Jet Bounder::value_of(const Asked& asked, const DesignNumbers<Jet>& numbers, Dom
   return value_of(asked, numbers_of(variables), domain);
 }
 
-// ---- lines
-// ------------------------------------------------------------------------------------------------------------
+// ---- lines ----------------------------------------------------------------------------------------------------------
 
 Bounder::Lines Bounder::lines_of_constraints(const Box& box, double slack) const {
   Lines lines;
@@ -341,8 +339,7 @@ void Bounder::add_lines_of(const Box& box, const Asked& asked, Lines& lines, Box
   }
 }
 
-// ---- places
-// -----------------------------------------------------------------------------------------------------------
+// ---- places ---------------------------------------------------------------------------------------------------------
 
 /// Where f is largest, and where it is largest of its neighbours, in the middle of the box.
 void Bounder::ask_worst_places(Objective objective, bool of_cap, const DesignNumbers<double>& middle,
@@ -416,8 +413,7 @@ std::vector<Bounder::Asked> Bounder::asked_around(const std::vector<double>& des
   return asked;
 }
 
-// ---- bounds
-// -----------------------------------------------------------------------------------------------------------
+// ---- bounds ---------------------------------------------------------------------------------------------------------
 
 /// Bound 3. −infinity where it does not apply.
 [[gnu::noinline]] double Bounder::quotient_bound(const Box& box, double place, const Lines& constraints) const {
@@ -495,8 +491,7 @@ BoxBound Bounder::bound(Box& box, double limit) const {
   return result;
 }
 
-// ---- guesses
-// ----------------------------------------------------------------------------------------------------------
+// ---- guesses --------------------------------------------------------------------------------------------------------
 
 /// In plain numbers.
 double Bounder::excess_of(const Asked& asked, const std::vector<double>& design) const {
@@ -559,8 +554,7 @@ Design Bounder::lowest_around(const Design& design, double size) const {
   return lowest;
 }
 
-// ---- a single design
-// --------------------------------------------------------------------------------------------------
+// ---- a single design ------------------------------------------------------------------------------------------------
 
 /// One piece of the stroke of one design.
 [[gnu::noinline]] Interval Bounder::value_over_piece(const Design& design, double low, double high) const {

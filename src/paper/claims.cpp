@@ -20,8 +20,7 @@ constexpr double k_same_place = 1e-3;
 /// A joint that follows a straight line to this is called linear: what the paper takes the trouble to analyse. deg
 constexpr double k_linear = 0.1;
 
-// ---- predicates
-// -------------------------------------------------------------------------------------------------------
+// ---- predicates -----------------------------------------------------------------------------------------------------
 
 template <typename Value>
 double place_of_largest(const std::vector<StrokePlace>& stroke, Value value) {
@@ -84,8 +83,7 @@ bool is_optimal(const PaperAssumptions& assumptions, Objective objective, const 
          here.value * (1.0 - 2.0 * k_same_value);
 }
 
-// ---- windows
-// ----------------------------------------------------------------------------------------------------------
+// ---- windows --------------------------------------------------------------------------------------------------------
 
 std::vector<WindowsOf> windows_of(const PaperAssumptions& assumptions, const Holds& holds) {
   struct Searched {
@@ -126,8 +124,7 @@ Claim judged(Claim claim, const PaperAssumptions& assumptions, const Holds& hold
   return claim;
 }
 
-// ---- the claims
-// -------------------------------------------------------------------------------------------------------
+// ---- the claims -----------------------------------------------------------------------------------------------------
 
 std::string in_mm(double value) { return rounded(value, 5); }
 

@@ -21,6 +21,7 @@
 #include "pipeline/agreement.h"
 #include "pipeline/design.h"
 #include "pipeline/several_turns.h"
+#include "pipeline/thin_walls.h"
 
 namespace fusee {
 namespace {
@@ -29,8 +30,10 @@ namespace {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "fusee-dry-run-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw OutputError("the temporary folder cannot be written: " + name);
+    std::string name = (temporary_folder() / "fusee-dry-run-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw OutputError("the temporary folder cannot be written: " + name,
+                        "set TMPDIR to a folder that you may write to");
     path_ = name;
   }
   ~TemporaryFolder() { remove(); }
@@ -235,10 +238,12 @@ Looks write_parts(Workshop& shop) {
 
 /// Tables that ask for no check: made while the last of them are under way.
 struct Tables {
-  std::future<std::string> profile, transmission;
+  std::future<std::string> profile, p1, p2, transmission;
 };
 Tables begin_tables(const Product& product) {
   return {beside([&product] { return profile_csv(product); }),
+          beside([&product] { return pitch_curve_csv(product, Side::left); }),
+          beside([&product] { return pitch_curve_csv(product, Side::right); }),
           beside([&product] { return transmission_csv(product); })};
 }
 
@@ -317,6 +322,8 @@ void write_texts(Workshop& shop, Tables tables) {
   shop.step("writing tables, report and manifest");
   auto report = beside([&] { return report_html(product); });
   shop.stage("profile.csv", shop.take(tables.profile));
+  shop.stage("profile_p1.csv", shop.take(tables.p1));
+  shop.stage("profile_p2.csv", shop.take(tables.p2));
   shop.stage("transmission.csv", shop.take(tables.transmission));
   shop.stage("report.html", shop.take(report));
   auto manifest = beside([&] { return manifest_json(product, shop.result.outputs); });
@@ -455,7 +462,10 @@ Advice advice_for(const Product& product, const BuildOptions& options) {
 }
 
 void write_and_check(Workshop& shop) {
-  write_texts(shop, write_and_check_parts(shop));
+  Tables tables = write_and_check_parts(shop);
+  Product& product = shop.result.product;
+  for (Diagnostic& thin : walls_below_a_line(product)) product.file.warnings.push_back(std::move(thin));
+  write_texts(shop, std::move(tables));
   shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }
 
@@ -473,10 +483,10 @@ void write_and_forget(BuildResult& result, const BuildOptions& options) {
 }  // namespace
 
 const std::vector<std::string>& output_names() {
-  static const std::vector<std::string> names = {"pulley.stl",  "pulley_p1.stl", "pulley_p2.stl", "pulley.obj",
-                                                 "pulley.3mf",  "pulley.drc",    k_step,          "pulley.scad",
-                                                 "profile.dxf", "plates.dxf",    "profile.csv",   "transmission.csv",
-                                                 "report.html", "manifest.json"};
+  static const std::vector<std::string> names = {
+      "pulley.stl",     "pulley_p1.stl",    "pulley_p2.stl", "pulley.obj",   "pulley.3mf",  "pulley.drc",
+      k_step,           "pulley.scad",      "profile.dxf",   "plates.dxf",   "profile.csv", "profile_p1.csv",
+      "profile_p2.csv", "transmission.csv", "report.html",   "manifest.json"};
   return names;
 }
 

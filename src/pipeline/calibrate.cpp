@@ -55,7 +55,7 @@ void conclude(const Bench& bench, const RunFiles& runs) {
   const DeclaredMechanism& declared = bench.file.mechanism;
   const DeclaredMechanism expected = expected_joint(declared);
   bench.step("reading the runs");
-  const Measurement as_read = read_measurement(runs.all, bench.options.columns);
+  const Measurement as_read = read_measurement(runs.all, expecting(expected, bench.options.columns));
   product.measurement = as_read;
   compare_with_declared(expected, product.measurement);
   CalibrationOptions options;
@@ -72,6 +72,7 @@ void conclude(const Bench& bench, const RunFiles& runs) {
   }
   bench.step("working out the correction");
   product.correction.identified = declared.identified;
+  product.correction.why_no_pulley_file = product.correction.why_no_table = "the data decide nothing";
   if (product.calibration.verdict != CalibrationVerdict::not_testable)
     product.correction = correct(declared, product.measurement, product.calibration);
   product.rehearsal = rehearse(expected, product.measurement, product.calibration);
@@ -97,9 +98,11 @@ std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const std:
   std::vector<OutputFile> outputs;
   outputs.push_back({"calibration.json", calibration_json(product)});
   if (law_table_name(product.file.mechanism)) outputs.push_back(law_table_copy(product.file));
-  outputs.push_back(
-      {"corrected.toml", corrected_toml(declared, product.file.mechanism, product.calibration, product.correction)});
-  outputs.push_back({"compensation.csv", compensation_csv(product.correction)});
+  if (product.correction.why_no_pulley_file.empty())
+    outputs.push_back(
+        {"corrected.toml", corrected_toml(declared, product.file.mechanism, product.calibration, product.correction)});
+  if (product.correction.why_no_table.empty())
+    outputs.push_back({"compensation.csv", compensation_csv(product.correction)});
   outputs.push_back({"report.html", calibration_report_html(product)});
   outputs.push_back({"manifest.json", calibration_manifest_json(product, outputs)});
   return outputs;
@@ -133,6 +136,7 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
   const std::string declared = declared_text(file, result.rewritten);
   conclude(bench, run_files(runs, options.hold_out));
   result.outputs = outputs_of(result.product, declared);
+  target.withdraw(output_names(file));  // a correction that this run does not make
   if (!options.dry_run) publish(bench, target);
   return result;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "fusee/base/text.h"
 #include "fusee/export/drawings.h"
 #include "fusee/export/mesh_files.h"
 #include "fusee/pipeline.h"
@@ -20,15 +21,16 @@ bool has_ending(std::string name, std::string_view ending) {
 /// An ASCII DXF starts with group code 0 (SECTION) or 999 (a comment) on a line of its own; no mesh format does.
 bool is_drawing(std::string_view bytes, const std::string& name) {
   if (has_ending(name, ".dxf")) return true;
-  const std::string_view first = bytes.substr(0, std::min(bytes.find('\n'), std::size_t{8}));
+  const std::string_view first = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), std::size_t{8}));
   std::string code;
   for (const char c : first) {
-    if (c != ' ' && c != '\r') code += c;
+    if (c != ' ') code += c;
   }
   return code == "0" || code == "999";
 }
 
 Part parse_part(std::string_view bytes, const std::string& name) {
+  if (const auto text = utf8_of_utf16(bytes)) return parse_part(*text, name);
   if (is_drawing(bytes, name)) return read_dxf(bytes, name);
   return read_mesh(bytes, name);
 }

@@ -52,8 +52,7 @@ std::vector<RowPlace> places(const BenchRun& run, const Bench& bench) {
 }  // namespace
 
 double usual_size(const EffectParameter& number, double largest_load) {
-  const double size = number.prior_at_load && largest_load > 0 ? number.prior / largest_load : number.prior;
-  return std::clamp(size, number.least, number.most);
+  return std::clamp(prior_of(number, largest_load), number.least, number.most);
 }
 
 Signatures::Signatures(const DeclaredMechanism& declared, const Bench& bench, double noise)

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <exception>
 #include <iterator>
+#include <map>
+#include <tuple>
 
 #include "fusee/joint/as_it_is.h"
 #include "fusee/mechanism/fields.h"
@@ -296,16 +298,25 @@ std::vector<std::filesystem::path> paths_of(const std::vector<std::string>& name
   return {names.begin(), names.end()};
 }
 
+/// How logs are read, as the package gives it: columns, units, counts a turn, counts at home, each by role.
+using ReadingOptions = std::tuple<std::map<std::string, std::string>, std::map<std::string, std::string>,
+                                  std::map<std::string, double>, std::map<std::string, double>>;
+
+MeasurementOptions measurement_options(const ReadingOptions& reading) {
+  MeasurementOptions options;
+  std::tie(options.columns, options.units, options.ticks_per_turn, options.zero_ticks) = reading;
+  return options;
+}
+
 py::dict calibrate_joint(const CarriedMechanism& carried, const std::vector<std::string>& runs,
                          const std::vector<std::string>& hold_out, const CarriedFiles& logs,
-                         const std::map<std::string, std::string>& columns, const Target& target, bool audit,
-                         const Stop& stop) {
+                         const ReadingOptions& reading, const Target& target, bool audit, const Stop& stop) {
   CarriedFiles files = carried.files;
   files.insert(logs.begin(), logs.end());
   return to_python(made_unlocked(files, [&] {
     CalibrateOptions options;
     aim(options, target);
-    options.columns.columns = columns;
+    options.columns = measurement_options(reading);
     options.hold_out = paths_of(hold_out);
     options.audit = audit;
     options.progress = [&stop](const std::string&, std::optional<double>) { stop.look(); };
@@ -332,13 +343,12 @@ py::dict plan_bench(const CarriedMechanism& carried, const Target& target, doubl
 }
 
 py::dict simulate_joint(const CarriedMechanism& carried, const std::string& log, const CarriedFiles& logs,
-                        const std::map<std::string, std::string>& columns, bool corrected, double noise,
-                        std::uint64_t seed) {
+                        const ReadingOptions& reading, bool corrected, double noise, std::uint64_t seed) {
   CarriedFiles files = carried.files;
   files.insert(logs.begin(), logs.end());
   return to_python(made_unlocked(files, [&] {
     SimulateOptions options;
-    options.columns.columns = columns;
+    options.columns = measurement_options(reading);
     options.corrected = corrected;
     options.noise = noise;
     options.seed = seed;

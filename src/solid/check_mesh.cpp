@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "fusee/solid/mesh.h"
 #include "solid/dealt_by_vertex.h"
 #include "solid/disjoint_sets.h"
+#include "solid/faulty_facets.h"
 #include "solid/place.h"
 #include "solid/self_intersection.h"
 #include "solid/solid_angle.h"
@@ -22,9 +22,10 @@
 namespace fusee {
 namespace {
 
-std::string facet_at(const TriangleMesh& mesh, std::size_t facet) {
+std::string facet_at(const ExaminedSurface& surface, std::size_t facet) {
+  const TriangleMesh& mesh = surface.mesh;
   const auto& [a, b, c] = mesh.triangles[facet];
-  return "facet " + std::to_string(facet) + " at " +
+  return "facet " + std::to_string(surface.number_of(facet)) + " at " +
          place_of((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0);
 }
 
@@ -39,9 +40,14 @@ struct Tally {
   }
 };
 
-Check none_of(const TriangleMesh& mesh, std::string name, const Tally& tally) {
+Check none_of(const ExaminedSurface& surface, std::string name, const Tally& tally) {
   return exactly(std::move(name), static_cast<double>(tally.count), 0, "1",
-                 tally.count > 0 ? facet_at(mesh, tally.first) : std::string());
+                 tally.count > 0 ? facet_at(surface, tally.first) : std::string());
+}
+
+Check none_of(const ExaminedSurface& surface, std::string name, const std::vector<std::uint32_t>& facets) {
+  return exactly(std::move(name), static_cast<double>(facets.size()), 0, "1",
+                 facets.empty() ? std::string() : facet_at(surface, facets.front()));
 }
 
 Check not_looked_at(std::string name, const std::string& reason) {
@@ -90,10 +96,13 @@ std::size_t corner_of(const TriangleMesh& mesh, std::size_t facet, std::uint32_t
   return 3 * facet + static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), vertex) - triangle.begin());
 }
 
-// A vertex is pinched when the facets round it fall into groups that share no edge there.
+// A vertex is pinched when the facets round it fall into groups that share no edge there. At the corners of a hole they
+// do so because of the hole, which has a check of its own.
 Tally pinched_vertices(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides) {
   DisjointSets corners(3 * mesh.triangles.size());
+  std::vector<bool> at_hole(mesh.vertices.size(), false);
   for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+    if (last - first == 1) at_hole[sides[first].low] = at_hole[sides[first].high] = true;
     for (std::size_t k = first + 1; k < last; ++k) {
       for (const std::uint32_t vertex : {sides[k].low, sides[k].high}) {
         corners.unite(corner_of(mesh, sides[first].facet, vertex), corner_of(mesh, sides[k].facet, vertex));
@@ -104,9 +113,10 @@ Tally pinched_vertices(const TriangleMesh& mesh, const std::vector<EdgeSide>& si
   std::vector<std::size_t> group(mesh.vertices.size(), none);
   Tally pinched;
   for (std::size_t corner = 0; corner < 3 * mesh.triangles.size(); ++corner) {
-    std::size_t& known = group[mesh.triangles[corner / 3][corner % 3]];
+    const std::uint32_t vertex = mesh.triangles[corner / 3][corner % 3];
+    std::size_t& known = group[vertex];
     const std::size_t here = corners.root(corner);
-    if (known != none && known != here && here == corner) pinched.add(corner / 3);
+    if (known != none && known != here && here == corner && !at_hole[vertex]) pinched.add(corner / 3);
     known = known == none ? here : known;
   }
   return pinched;
@@ -121,32 +131,6 @@ Topology topology_of(const TriangleMesh& mesh, const std::vector<EdgeSide>& side
   });
   topology.pinched = pinched_vertices(mesh, sides);
   return topology;
-}
-
-Tally degenerate_facets(const TriangleMesh& mesh) {
-  Tally degenerate;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (is_degenerate(mesh, f)) degenerate.add(f);
-  }
-  return degenerate;
-}
-
-Tally duplicate_facets(const TriangleMesh& mesh) {
-  using Sorted = std::pair<std::array<std::uint32_t, 3>, std::size_t>;
-  std::vector<Sorted> facets;
-  facets.reserve(mesh.triangles.size());
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    auto corners = mesh.triangles[f];
-    std::sort(corners.begin(), corners.end());
-    facets.emplace_back(corners, f);
-  }
-  const std::vector<Sorted> sorted = dealt_by_vertex(
-      facets, mesh.vertices.size(), [](const Sorted& facet) { return facet.first[0]; }, std::less<>());
-  Tally duplicate;
-  for (std::size_t k = 1; k < sorted.size(); ++k) {
-    if (sorted[k].first == sorted[k - 1].first) duplicate.add(sorted[k].second);
-  }
-  return duplicate;
 }
 
 // ---- outward --------------------------------------------------------------------------------------------------------
@@ -202,7 +186,8 @@ double winding_number(const TriangleMesh& mesh, const Part& part, const Vec3& po
 }
 
 // A part must enclose volume where it stands outside of the others, and be a cavity where it stands inside one.
-Check outward_check(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides) {
+Check outward_check(const ExaminedSurface& surface, const std::vector<EdgeSide>& sides) {
+  const TriangleMesh& mesh = surface.mesh;
   const std::vector<Part> parts = parts_of(mesh, sides);
   // Nested parts by the thousand are nobody's pulley.
   std::size_t facets_left = 200'000'000;
@@ -221,22 +206,31 @@ Check outward_check(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides
     const bool inside = std::lround(around) != 0;
     if (!(inside ? part.volume < 0 : part.volume > 0)) inverted.add(part.facets.front());
   }
-  return none_of(mesh, "inverted_parts", inverted);
+  return none_of(surface, "inverted_parts", inverted);
 }
 
 // Of fewer facets a search for crossings is over before a thread has begun.
 constexpr std::size_t k_worth_a_thread = 2000;
 
-Check crossing_check(const TriangleMesh& mesh) {
-  const CrossingSearch search = find_crossing(mesh);
+Check crossing_check(const ExaminedSurface& surface) {
+  const CrossingSearch search = find_crossing(surface.mesh);
   if (search.gave_up) return not_looked_at("self_intersections", "too many facets lie on top of one another");
   if (!search.facets) return exactly("self_intersections", 0, 0, "1");
   const auto [f, g] = *search.facets;
-  return exactly("self_intersections", 1, 0, "1", facet_at(mesh, f) + " crosses facet " + std::to_string(g));
+  return exactly("self_intersections", 1, 0, "1",
+                 facet_at(surface, f) + " crosses facet " + std::to_string(surface.number_of(g)));
 }
 
-// ---- what must hold before anything else can be asked
-// ----------------------------------------------------------------
+// ---- what must hold before anything else can be asked ---------------------------------------------------------------
+
+Check facets_check(const TriangleMesh& mesh) {
+  const std::size_t count = mesh.triangles.size();
+  std::string where = "there are no facets";
+  if (count > 0)
+    where = std::to_string(count) + (count == 1 ? " facet encloses" : " facets enclose") +
+            " no solid: at least 4 are required";
+  return at_least("facets", static_cast<double>(count), 4, "1", where);
+}
 
 Check indices_check(const TriangleMesh& mesh) {
   Tally bad;
@@ -256,39 +250,32 @@ Check finite_check(const TriangleMesh& mesh) {
                  "vertex " + std::to_string(bad - mesh.vertices.begin()));
 }
 
-std::optional<std::string> unusable(const std::vector<Check>& checks) {
-  if (!checks[0].ok) return "there are no facets";
-  if (!checks[1].ok) return "facets name vertices that are not there";
-  if (!checks[2].ok) return "coordinates are not finite";
-  return std::nullopt;
+// Is it a closed surface that faces outward? Without an inside nothing faces outward: then that is not asked.
+void add_surface_checks(const ExaminedSurface& surface, std::vector<Check>& checks) {
+  const std::vector<EdgeSide> sides = edge_sides(surface.mesh);
+  const Topology topology = topology_of(surface.mesh, sides);
+  checks.push_back(none_of(surface, "open_edges", topology.open));
+  checks.push_back(none_of(surface, "edges_of_more_than_two_facets", topology.crowded));
+  checks.push_back(none_of(surface, "flipped_facets", topology.turned));
+  checks.push_back(none_of(surface, "pinched_vertices", topology.pinched));
+  const bool closed = topology.open.count == 0 && topology.crowded.count == 0 && topology.turned.count == 0;
+  if (closed) checks.push_back(outward_check(surface, sides));
 }
 
 }  // namespace
 
 std::vector<Check> check_mesh(const TriangleMesh& mesh) {
-  std::vector<Check> checks{
-      at_least("facets", static_cast<double>(mesh.triangles.size()), 4, "1", "there are not enough for a solid"),
-      indices_check(mesh), finite_check(mesh)};
-  if (const auto reason = unusable(checks)) {
-    for (const char* name : {"degenerate_facets", "duplicate_facets", "open_edges", "edges_of_more_than_two_facets",
-                             "flipped_facets", "pinched_vertices", "inverted_parts", "self_intersections"}) {
-      checks.push_back(not_looked_at(name, *reason));
-    }
-    return checks;
-  }
-  const TriangleMesh welded = weld(mesh);
-  auto crossings = beside([&welded] { return crossing_check(welded); }, welded.triangles.size() > k_worth_a_thread);
-  const std::vector<EdgeSide> sides = edge_sides(welded);
-  const Topology topology = topology_of(welded, sides);
-  checks.push_back(none_of(welded, "degenerate_facets", degenerate_facets(welded)));
-  checks.push_back(none_of(welded, "duplicate_facets", duplicate_facets(welded)));
-  checks.push_back(none_of(welded, "open_edges", topology.open));
-  checks.push_back(none_of(welded, "edges_of_more_than_two_facets", topology.crowded));
-  checks.push_back(none_of(welded, "flipped_facets", topology.turned));
-  checks.push_back(none_of(welded, "pinched_vertices", topology.pinched));
-  const bool closed = topology.open.count == 0 && topology.crowded.count == 0 && topology.turned.count == 0;
-  checks.push_back(closed ? outward_check(welded, sides)
-                          : not_looked_at("inverted_parts", "the surface has no inside: see the checks above"));
+  std::vector<Check> checks{facets_check(mesh), indices_check(mesh), finite_check(mesh)};
+  if (!all_ok(checks)) return checks;
+  const ExaminedSurface welded{weld(mesh), {}};
+  const FaultyFacets faulty = find_faulty_facets(welded.mesh);
+  checks.push_back(none_of(welded, "degenerate_facets", faulty.degenerate));
+  checks.push_back(none_of(welded, "duplicate_facets", faulty.duplicate));
+  // Equal facets in a heap would cost the search for crossings the square of their number.
+  const ExaminedSurface others = faulty.none() ? ExaminedSurface() : without_faulty_facets(welded.mesh, faulty);
+  const ExaminedSurface& examined = faulty.none() ? welded : others;
+  auto crossings = beside([&examined] { return crossing_check(examined); }, mesh.triangles.size() > k_worth_a_thread);
+  add_surface_checks(examined, checks);
   checks.push_back(crossings.get());
   return checks;
 }

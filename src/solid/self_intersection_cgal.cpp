@@ -268,8 +268,8 @@ CrossingSearch find_crossing(const TriangleMesh& welded) {
   const BoxTree tree(facets.boxes);
   std::atomic<bool> is_over = false;
   const auto search_in = [&](const auto& any_pair) {
-    // A part whose facets all lie in one heap would take hours; no real one comes near this.
-    std::size_t pairs_left = 100'000'000 + 2000 * facets.boxes.size();
+    // A part whose facets all lie in one heap would take hours. Pulleys have up to 25 pairs a facet.
+    std::size_t pairs_left = 50'000'000 + 50 * facets.boxes.size();
     CrossingSearch search;
     any_pair([&](std::size_t i, std::size_t j) {
       search.gave_up = pairs_left-- == 0;

@@ -44,6 +44,16 @@ TEST(Text, RoundedKeepsItsDigitsAndNoZerosBehindThem) {
   EXPECT_EQ(rounded(-2.0), "-2");
 }
 
+TEST(Text, Utf16OfEitherOrderBecomesUtf8) {
+  using namespace std::string_literals;
+  EXPECT_EQ(utf8_of_utf16("\xFF\xFEs\0\xB0\0\xAC\x20"s), "s°€");
+  EXPECT_EQ(utf8_of_utf16("\xFE\xFF\0s\0\xB0\x20\xAC"s), "s°€");
+  EXPECT_EQ(utf8_of_utf16("\xFF\xFE\x3D\xD8\x00\xDE"s), "\xF0\x9F\x98\x80");
+  EXPECT_EQ(utf8_of_utf16("\xFF\xFE\x3D\xD8s\0"s), "\uFFFDs");
+  EXPECT_EQ(utf8_of_utf16("\xFF\xFEs\0x"s), "s");
+  EXPECT_EQ(utf8_of_utf16("solid"), std::nullopt);
+}
+
 TEST(Text, WrapsByCharactersAndKeepsLongWordsWhole) {
   EXPECT_EQ(wrapped("one two", "  - ", "    "), "  - one two\n");
   EXPECT_EQ(wrapped("", "  ", "  "), "  \n");
@@ -52,6 +62,32 @@ TEST(Text, WrapsByCharactersAndKeepsLongWordsWhole) {
   EXPECT_EQ(wrapped(umlauts + " " + umlauts, "  ", "  "), "  " + umlauts + " " + umlauts + "\n");
   EXPECT_EQ(wrapped(word + word + word + " y", "", ""), word + word + word + "\ny\n");
   EXPECT_EQ(characters("3 × 4 …"), 7u);
+}
+
+TEST(Text, CleanedLeavesNothingThatATerminalObeys) {
+  EXPECT_EQ(cleaned("θ = 3°, größe 日本 😀 \uFFFD\n\tx"), "θ = 3°, größe 日本 😀 \uFFFD\n\tx");
+  for (const char* one : {"\x1b", "\r", "\x07", "\x7f", "\u0080", "\u009b", "\u200e", "\u200f", "\u061c", "\u202a",
+                          "\u202e", "\u2066", "\u2069", "\u2028", "\ufffe", "\uffff", "\ufdd0", "\xf0\x9f\xbf\xbe"})
+    EXPECT_EQ(cleaned(std::string("a") + one + "b"), "a\uFFFDb") << testing::PrintToString(one);
+  EXPECT_EQ(cleaned(std::string("\0", 1)), "\uFFFD");
+  EXPECT_EQ(cleaned_line("a\n\tb\x1b"), "a  b\uFFFD");
+}
+
+TEST(Text, CleanedIsUtf8WhateverTheBytes) {
+  for (const std::string bytes : {"\xff", "\x9b", "\xc2", "\xe2\x82", "\xc0\xaf", "\xe0\x80\x80", "\xed\xa0\x80",
+                                  "\xf4\x90\x80\x80", "\xf8\x88\x80\x80\x80"}) {
+    EXPECT_FALSE(is_utf8(bytes));
+    const std::string clean = cleaned(bytes + "a");
+    EXPECT_TRUE(is_utf8(clean));
+    EXPECT_TRUE(clean.ends_with("\uFFFDa"));
+    EXPECT_EQ(cleaned(clean), clean);
+  }
+  EXPECT_EQ(cleaned("\xe2\x82\x82\xe2"), "₂\uFFFD");
+  EXPECT_EQ(cleaned("\xe2\x82.\xf0\x9f\x98"), "\uFFFD.\uFFFD");  // each broken one once, as in JSON
+}
+
+TEST(Text, UnicodeEscapesAreJson) {
+  EXPECT_EQ(unicode_escaped("a\u009b\u202e\x7f\x1b\xff é"), "a\\u009b\\u202e\\u007f\\u001b\uFFFD é");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 /// \file
-/// The names that CONTRACT §6 promises, written once by hand: what the catalogue, the rig's truths and the tests of
-/// every effect are held against.
+/// Names of effects that outputs promise, written by hand: the catalogue, the truths of the rig and the tests of every
+/// effect are compared with them.
 #pragma once
 
 #include <array>

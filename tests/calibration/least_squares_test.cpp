@@ -363,8 +363,8 @@ class HandedOver : public testing::Test {
     selection.best = workers.one().fit({&stretch, &slack}, start);
     for (std::size_t k = 0; k < selection.best.parameters.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
-      selection.variance[selection.best.parameters[k]] =
-          deviations * deviations * selection.best.explained.covariance(i, i);
+      const double variance = deviations * deviations * selection.best.explained.covariance(i, i);
+      selection.variance[selection.best.parameters[k]] = {variance, variance};
     }
     return delivered(evidence, workers, selection, unnamed_beside(evidence, selection.best));
   }
@@ -372,19 +372,20 @@ class HandedOver : public testing::Test {
 
 TEST_F(HandedOver, LeastSquaresWithinTheIntervalsWhereTheyForetellMore) {
   const Delivered made = with_intervals(3);
-  EXPECT_LT(made.fit.mean_square, 0.7 * selection.best.mean_square);
-  EXPECT_LT(made.fit.by_run.mean_square, std::pow(radians(0.21), 2));
+  EXPECT_LT(made.estimate.fit.mean_square, 0.7 * selection.best.mean_square);
+  EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.21), 2));
   const std::vector<ConfidenceInterval> ranges = intervals(selection);
-  for (Eigen::Index k = 1; k < made.fit.x.size(); ++k) {  // but for the offset
-    EXPECT_GE(made.fit.x[k], ranges[static_cast<std::size_t>(k)].low - 1e-6) << k;
-    EXPECT_LE(made.fit.x[k], ranges[static_cast<std::size_t>(k)].high + 1e-6) << k;
+  for (Eigen::Index k = 1; k < made.estimate.fit.x.size(); ++k) {  // but for the offset
+    EXPECT_GE(made.estimate.fit.x[k], ranges[static_cast<std::size_t>(k)].low - 1e-6) << k;
+    EXPECT_LE(made.estimate.fit.x[k], ranges[static_cast<std::size_t>(k)].high + 1e-6) << k;
   }
   EXPECT_FALSE(made.curve.used);
 }
 
 TEST_F(HandedOver, TheSummitWhereTheIntervalsLeaveNoRoom) {
   const Delivered made = with_intervals(1e-6);
-  EXPECT_LT((made.fit.x - selection.best.x).tail(made.fit.x.size() - 1).norm(), 1e-3 * selection.best.x.norm());
+  EXPECT_LT((made.estimate.fit.x - selection.best.x).tail(made.estimate.fit.x.size() - 1).norm(),
+            1e-3 * selection.best.x.norm());
 }
 
 /// … and the joint's sensor shows more: a group says so, perhaps.
@@ -394,15 +395,15 @@ class HandedOverBeside : public HandedOver {
     selection.groups = {{{&named("tendon_stretch"), &named("joint_sensor_gain")}, 0}, {{&named("slack")}, 0}};
   }
 
-  bool holds_gain(const Delivered& made) { return contains(made.fit.effects, named("joint_sensor_gain")); }
+  bool holds_gain(const Delivered& made) { return contains(made.estimate.fit.effects, named("joint_sensor_gain")); }
 };
 
 TEST_F(HandedOverBeside, AMemberOfAGroupGoesWithTheSetWhereBothForetellMore) {
   const Delivered made = with_intervals(3);
   ASSERT_TRUE(holds_gain(made));
-  EXPECT_LT(made.fit.by_run.mean_square, std::pow(radians(0.25), 2));
+  EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.25), 2));
   selection.without.resize(2);
-  const std::vector<FoundEffect> found = found_effects(evidence, selection, made.fit);
+  const std::vector<FoundEffect> found = found_effects(evidence, selection, made.estimate.fit);
   ASSERT_EQ(found.size(), 2u);
   ASSERT_EQ(found[0].beside.size(), 1u);
   EXPECT_TRUE(found[1].beside.empty());
@@ -429,7 +430,7 @@ TEST_F(LinearFit, TheSummitIsHandedOverWhereNothingStaysWithoutAName) {
   selection.best = fitter.fit({&stretch}, {});
   const Unnamed unnamed = unnamed_beside(evidence, selection.best);
   ASSERT_FALSE(is_unexplained(unnamed, evidence.floor));
-  EXPECT_EQ(delivered(evidence, workers, selection, unnamed).fit.at, selection.best.at);
+  EXPECT_EQ(delivered(evidence, workers, selection, unnamed).estimate.fit.at, selection.best.at);
 }
 
 }  // namespace

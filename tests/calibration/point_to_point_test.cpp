@@ -214,7 +214,7 @@ TEST(PointToPoint, two_places_name_nothing_alone) {
     EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained) << found.summary;
     ASSERT_FALSE(found.unknown.empty()) << ends.name;
     EXPECT_THAT(found.unknown.front().factor, StartsWith(ends.seen_with));
-    EXPECT_EQ(tried->why, "it adds less than a name needs");
+    EXPECT_THAT(tried->why, AnyOf("it adds less than a name needs", StartsWith("with it rows that were not fitted")));
   }
 }
 

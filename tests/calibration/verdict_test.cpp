@@ -72,29 +72,57 @@ TEST_F(Concluded, OneOfTwo) {
   EXPECT_THAT(calibration.summary, HasSubstr("backlash, one of {zero_offset, motor_offset}, and cannot tell which"));
 }
 
+TEST_F(Concluded, RepeatsThatDifferByManyTimesTheScatterWithinAStroke) {
+  leave(1);
+  find({{"backlash"}});
+  calibration.noise.from_repeats = true;
+  calibration.noise.rms = radians(2);
+  calibration.noise.within_stroke = radians(0.02);
+  calibration.noise.levels = {{0, radians(10), radians(1), 100, 0}, {5, radians(60), radians(2), 100, radians(12)}};
+  EXPECT_EQ(verdict(), CalibrationVerdict::not_repeatable);
+  EXPECT_THAT(calibration.summary,
+              HasSubstr("100 times the scatter within a stroke, most at alpha 12°, load 5 N, 60°/s"));
+  EXPECT_EQ(calibration.noise_varies, "Noise is 1° at load 0 N, 10°/s and 2° at load 5 N, 60°/s.");
+  calibration.noise.within_stroke = radians(0.5);
+  EXPECT_EQ(verdict(), CalibrationVerdict::explained);
+}
+
+TEST(Scatter, OfASensorThatHoldsItsReadingIsNoNoise) {
+  const auto noise = white_noise(radians(0.02), 1);
+  const auto held = white_noise(radians(2), 2);
+  double holds = 0;
+  int row = 0;
+  const Measurement holding = measured({0, 5}, [&](const Sample& sample) {
+    if (row++ % 10 == 0) holds = held(sample);
+    return holds + noise(sample);
+  });
+  EXPECT_TRUE(is_scattering(noise_floor(holding)));
+  EXPECT_FALSE(is_scattering(noise_floor(measured({0, 5}, noise))));
+}
+
 /// An effect that is so many nats ahead of what has no name.
 FoundEffect ahead_by(double nats) {
   FoundEffect effect;
   effect.name = "backlash";
   effect.group = {"backlash"};
-  effect.nameless = {nats, "a jump at 50 % of the way", "come from both sides", ""};
+  effect.unmodelled = {nats, "a jump at 50 % of the way", "come from both sides", ""};
   return effect;
 }
 
 TEST_F(Concluded, WhatIsHardlyAheadOfSomethingWithoutANameIsNotNamedAlone) {
   leave(1);
-  calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless - 1)};
+  calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled - 1)};
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
-  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "nameless"));
+  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "unmodelled"));
   EXPECT_THAT(calibration.next_runs, testing::Contains("come from both sides"));
   EXPECT_THAT(calibration.summary,
               testing::StartsWith("Measure this first: come from both sides. The data are explained by "
-                                  "backlash or something without a name that does the same"));
+                                  "backlash or an unmodelled cause that does the same"));
 }
 
 TEST_F(Concluded, WhatIsFarAheadOfEverythingWithoutANameIs) {
   leave(1);
-  calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless + 1)};
+  calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled + 1)};
   EXPECT_EQ(verdict(), CalibrationVerdict::explained);
   EXPECT_THAT(calibration.next_runs, testing::Not(testing::Contains("come from both sides")));
 }
@@ -104,7 +132,7 @@ TEST_F(Concluded, OneOfSeveralHasToBeFurtherAhead) {
   calibration.effects = {ahead_by(k_thresholds.ahead_in_a_group - 1), ahead_by(k_thresholds.ahead_in_a_group + 1)};
   for (FoundEffect& effect : calibration.effects) effect.group.emplace_back("joint_friction");
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
-  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "joint_friction", "nameless"));
+  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "joint_friction", "unmodelled"));
   EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "joint_friction"));
 }
 
@@ -140,18 +168,19 @@ TEST_F(Concluded, WhatMayBeSlackHasToBeFurtherAheadAloneOrInAGroup) {
 
 TEST_F(Concluded, WhatIsDoubtfulMayBeSomethingWithoutANameHoweverFarAhead) {
   leave(1);
-  calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless + 1), ahead_by(k_thresholds.ahead_of_nameless + 1)};
+  calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled + 1),
+                         ahead_by(k_thresholds.ahead_of_unmodelled + 1)};
   selection.groups = {{{}, k_thresholds.most_mistaken / 2}, {{}, k_thresholds.most_mistaken * 2}};
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash"));
-  EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "nameless"));
+  EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "unmodelled"));
 }
 
 TEST_F(Concluded, BesideSomethingUnexplainedANameNeedsMore) {
   leave(5);
-  calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless + 1), ahead_by(k_thresholds.ahead_beside_rest + 1)};
+  calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled + 1), ahead_by(k_thresholds.ahead_beside_rest + 1)};
   EXPECT_EQ(verdict(), CalibrationVerdict::unexplained);
-  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "nameless"));
+  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "unmodelled"));
   EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash"));
 }
 
@@ -166,8 +195,8 @@ TEST_F(Concluded, BesideSomethingUnexplainedANameIsOfOneSizeAndDoesMore) {
     verdict();
     for (const FoundEffect& effect : calibration.effects) EXPECT_EQ(effect.group.size(), left > 1 ? 2u : 1u) << left;
   }
-  EXPECT_THAT(calibration.effects.front().nameless.doubt, HasSubstr("of another size from run to run"));
-  EXPECT_THAT(calibration.effects.back().nameless.doubt, HasSubstr("1.9 times as much as what stays"));
+  EXPECT_THAT(calibration.effects.front().unmodelled.doubt, HasSubstr("of another size from run to run"));
+  EXPECT_THAT(calibration.effects.back().unmodelled.doubt, HasSubstr("1.9 times as much as what stays"));
   EXPECT_THAT(calibration.next_runs, testing::Contains("repeat one run five times"));
 }
 
@@ -183,9 +212,9 @@ TEST_F(Concluded, WhereAnythingIsLikelierWithoutANameTheOthersNeedMore) {
 TEST_F(Concluded, NamesInThePlaceOfSomethingWithoutOneNeedMoreThoughTheyLeaveNothing) {
   leave(1);
   selection.instead = std::vector<Unknown>{{"place", 0, 0.002, 20, "place", {}, {}}};
-  calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless + 1), ahead_by(k_thresholds.ahead_beside_rest + 1)};
+  calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled + 1), ahead_by(k_thresholds.ahead_beside_rest + 1)};
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
-  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "nameless"));
+  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "unmodelled"));
   EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash"));
   ASSERT_EQ(calibration.instead.size(), 1u);
   EXPECT_EQ(calibration.instead.front().factor, "place");
@@ -344,6 +373,7 @@ TEST(FoundEffects, SayWhatTheirSignMeans) {
     selection.best = workers.one().fit({&named("joint_sensor_gain")}, {});
     selection.groups = {{{&named("joint_sensor_gain")}, 0.0}};
     selection.best.at.sensor.gain = gain;
+    selection.best.x[1] = gain / named("joint_sensor_gain").parameters[0].step;
     const std::vector<FoundEffect> found = found_effects(evidence, selection, selection.best);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].parameters[0].sense, words);

@@ -63,7 +63,9 @@ Correction known_correction(const Joint& joint, const LoopCase& hidden) {
   Calibration calibration;
   calibration.verdict = CalibrationVerdict::explained;
   calibration.identified = truth_of(hidden.hidden, joint.made.declared);
-  return correct(joint.made.declared, measured(joint.made, hidden, scratch(hidden.name)), calibration);
+  const Measurement measurement = measured(joint.made, hidden, scratch(hidden.name));
+  for (const Run& run : measurement.runs) calibration.left_out.push_back({{run.name}, calibration.identified});
+  return correct(joint.made.declared, measurement, calibration);
 }
 
 MadeJoint corrected_joint(const Joint& joint, const Correction& correction) {

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import math
+import xml.etree.ElementTree
 
 import harness
 
@@ -65,6 +66,26 @@ class Analyze(harness.Scratch):
         self.expect("analyze arm.toml -o arm.html --samples 10", 0)
         self.assertIn("<h2>The joint moves</h2>", (self.folder / "arm.html").read_text())
         self.assertEqual(json.loads((self.folder / "stroke.json").read_text()), self.expect_json("analyze arm.toml --samples 10", 0)["rows"])
+
+    def test_the_ending_says_what_is_written(self):
+        self.expect("analyze arm.toml -o plots.svg --samples 10", 0)
+        picture = (self.folder / "plots.svg").read_text()
+        self.assertEqual(xml.etree.ElementTree.fromstring(picture).tag, "{http://www.w3.org/2000/svg}svg")
+        for words in ("Motor torque", "Stiffness about the joint", "pulley angle"):
+            self.assertIn(words, picture)
+        for ending, start in ((".png", b"\x89PNG\r\n\x1a\n"), (".PDF", b"%PDF-")):
+            done = self.fusee(f"analyze arm.toml -o plots{ending} --samples 10")
+            if b"librsvg" in done.stderr:
+                self.assertEqual(done.returncode, 3)
+                self.assertFalse((self.folder / f"plots{ending}").exists())
+                continue
+            self.assertEqual(done.returncode, 0, done.stderr)
+            bytes_of = (self.folder / f"plots{ending}").read_bytes()
+            self.assertTrue(bytes_of.startswith(start))
+            self.assertGreater(len(bytes_of), 10000)
+        for name in ("plots.txt", "plots.svgz", "plots"):
+            self.expect(f"analyze arm.toml -o {name}", 2, "^$", name)
+            self.assertFalse((self.folder / name).exists())
 
     def test_the_same_input_gives_the_same_bytes(self):
         self.assertEqual(self.fusee("analyze arm.toml").stdout, self.fusee("analyze arm.toml").stdout)

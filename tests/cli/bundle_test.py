@@ -1,10 +1,12 @@
 """--bundle and replay: whatever a run read is in one file, nothing else is, and it runs again as it ran."""
 
+import hashlib
 import json
 import os
 import re
 import shutil
 import subprocess
+import time
 import unittest
 import warnings
 import zipfile
@@ -146,8 +148,8 @@ class Bundles(Packed):
         (self.folder / "out/arm").mkdir(parents=True)
         (self.folder / "out/arm/pulley.stl").write_text("mine")
         (self.folder / "stroke.csv").write_text("mine")
-        (self.folder / "new").mkdir()
-        for words in [["build", "arm.toml"], ["analyze", "arm.toml", "-o", "stroke.csv"], ["analyze", "arm.toml", "-o", "new"],
+        (self.folder / "new.csv").mkdir()
+        for words in [["build", "arm.toml"], ["analyze", "arm.toml", "-o", "stroke.csv"], ["analyze", "arm.toml", "-o", "new.csv"],
                       ["analyze", "arm.toml", "-o", str(self.folder / "stroke.csv")]]:
             with self.subTest(words):
                 self.pack(words, 6)
@@ -198,6 +200,67 @@ class Bundles(Packed):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.replay()
 
+    def test_output_in_the_folder_itself(self):
+        for words in [["build", "arm.toml", "-o", "."], ["build", "arm.toml", "--out=./"], ["plan", "arm.toml", "-o", "."]]:
+            with self.subTest(words):
+                self.pack(words, 0)
+                begin = time.monotonic()
+                self.assertIn("the same", self.replay().stdout.decode())
+                self.assertLess(time.monotonic() - begin, 40)  # it waited 60 s for its own lock
+
+    def test_a_run_whose_folder_is_gone(self):
+        secret = self.folder / "of-anna"
+        secret.mkdir()
+        shutil.copy(self.folder / "arm.toml", secret)
+        for words, code in [(f"build {secret}/arm.toml -o {secret}/made", 0), (f"check {secret}/made/pulley.stl", 0), ("build arm.toml", 3)]:
+            with self.subTest(words):
+                (self.folder / "bug.zip").unlink(missing_ok=True)
+                line = f"mkdir gone && cd gone && rmdir ../gone && fusee {words} --bundle {self.folder}/bug.zip"
+                done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, capture_output=True)
+                self.assertEqual(done.returncode, code, done.stderr)
+                with zipfile.ZipFile(self.folder / "bug.zip") as archive:
+                    told = b"".join(archive.read(name) for name in archive.namelist() if name != "files/outside/arm.toml")
+                    told += "".join(archive.namelist()).encode()
+                for name in ["of-anna", self.folder.name, "gone"]:
+                    self.assertNotIn(name.encode(), told)
+                self.assertIn("the same", self.replay().stdout.decode())
+
+    def test_names_of_odd_bytes(self):
+        self.runs()
+        for i, name in enumerate([b"\xff.csv", b"\xfe.csv", b"a\x1b[2Jb.csv", b".hidden.csv", b"x:\\y.csv", "größe\u202e.csv".encode()]):
+            shutil.copy(self.folder / "run.csv", os.path.join(os.fsencode(self.folder), name))
+            with self.subTest(name):
+                self.pack([b"simulate", b"arm.toml", name, b"-o", b"shown.csv", b"--force"], 0, f"{i}.zip")
+                self.assertIn("the same", self.replay(bundle=f"{i}.zip").stdout.decode())
+        rows = (self.folder / "run.csv").read_bytes().splitlines(True)
+        for name, part in ((b"\xffa.csv", rows[:len(rows) // 2]), (b"\xfeb.csv", rows[:1] + rows[len(rows) // 2:])):
+            with open(os.path.join(os.fsencode(self.folder), name), "wb") as run:
+                run.write(b"".join(part))
+        both = [b"calibrate", b"arm.toml", b"\xffa.csv", b"\xfeb.csv", b"--no-audit", b"-o", b"o\xff\x1b[2J"]
+        self.pack(both, 0, "both.zip")
+        made = os.path.join(os.fsencode(self.folder), b"o\xff\x1b[2J")
+        for file in os.listdir(made):
+            with open(os.path.join(made, file), "rb") as output:
+                output.read().decode()  # pages too are UTF-8
+        self.assertIn("the same", self.replay(bundle="both.zip").stdout.decode())
+        self.pack([*both, b"--json", b"--force"], 0, "json.zip")
+        self.assertIn("the same", self.replay(bundle="json.zip").stdout.decode())
+        shutil.copy(self.folder / "arm.toml", os.path.join(os.fsencode(self.folder), b"\xff.toml"))
+        self.pack([b"build", b"\xff.toml", b"-o", b".made\xff"], 0, "spec.zip")
+        self.assertIn("the same", self.replay(bundle="spec.zip").stdout.decode())
+
+    def test_questions_are_never_asked_again(self):
+        done, index = self.pack(["new", "--ask"], 2)
+        self.assertIn("no bundle holds that", done.stderr.decode())
+        for words in (["new", "--ask"], ["new", "--ask", "--set", "joint.length_mm=50"]):
+            self.edit("bug.zip", lambda index: index.update(command=words))
+            read, write = os.pipe()  # that nobody writes to: who reads it waits
+            self.addCleanup(os.close, write)
+            done = harness.fusee(["replay", "bug.zip"], self.folder, stdin=read, timeout=20)
+            os.close(read)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertNotIn("1/6", done.stderr.decode())
+
     @unittest.skipUnless(shutil.which("strace"), "strace is not installed")
     def test_packs_every_file_that_was_opened(self):
         self.runs()
@@ -231,7 +294,7 @@ class Hostile(Packed):
             with self.subTest(name):
                 self.setUp()
                 self.edit("bug.zip", lambda index: None, [(name, "x")])
-                self.refuse(3, "bug.zip: error: .*(leads out of the bundle|is a link, a folder)")
+                self.refuse(3, "bug.zip: error: .*(leads out of the bundle, or is hidden|is a link, a folder)")
 
     def test_entries_that_are_not_listed_or_twice(self):
         self.edit("bug.zip", lambda index: None, [("files/more.toml", "x")])
@@ -272,20 +335,122 @@ class Hostile(Packed):
     def test_writes_nothing_outside(self):
         outside = self.folder / "outside-of-it"
         for words in [["build", "arm.toml", "-o", str(outside), "--force"], ["build", "arm.toml", "-o", "../../outside-of-it"],
-                      ["analyze", "arm.toml", "-o", str(outside)], ["build", "arm.toml", f"-o{outside}"]]:
+                      ["analyze", "arm.toml", "-o", f"{outside}.csv"], ["build", "arm.toml", f"-o{outside}"]]:
             with self.subTest(words):
                 self.edit("bug.zip", lambda index: index.update(command=words, exit=0))
                 self.refuse(5, "differs")
                 self.assertIn("lies outside of the folder", self.replay(5).stdout.decode())
-                self.assertFalse(outside.exists())
+                self.assertFalse(outside.exists() or outside.with_suffix(".csv").exists())
 
     def test_reads_nothing_of_this_machine(self):
-        self.edit("bug.zip", lambda index: index.update(command=["check", str(self.folder / "arm.toml")], exit=0))
+        self.edit("bug.zip", lambda index: index.update(command=["check", str(self.folder / "other.toml")], exit=0))
         self.assertIn("it is not in the bundle", self.replay(5).stdout.decode())
 
     def test_a_replay_is_not_replayed(self):
         self.edit("bug.zip", lambda index: index.update(command=["replay", "arm.toml"]))
         self.refuse(3, "holds a run of 'fusee replay'")
+
+
+    def test_prints_nothing_that_a_terminal_obeys(self):
+        evil = "a\x1b[2J\x1b]52;c;aGk=\x07\x9b31m\u202eb\r\x7f"
+        self.edit("bug.zip", lambda index: index.update(
+            version=evil, built_with=evil, runs_on=evil, command=["explain", evil, "'; touch /tmp/x; '"], exit=0,
+            messages=[{"severity": "error", "file": evil, "line": 1, "column": 1, "message": evil, "hint": evil}],
+            files=[{"path": evil, "failure": {"severity": "error", "file": "", "line": 0, "column": 0, "message": evil, "hint": ""}}],
+            outputs=[{"path": evil, "bytes": 1, "sha256": evil}]))
+        with zipfile.ZipFile(self.folder / "bug.zip", "r") as archive:
+            index = archive.read("bundle.json")
+        with zipfile.ZipFile(self.folder / "bug.zip", "w") as archive:
+            archive.writestr("bundle.json", index)
+            archive.writestr("stdout.txt", evil.encode() + b"\xff\xc2")
+        for options in ([], ["-v"], ["--json"]):
+            done = self.replay(5, options=options)
+            for stream in (done.stdout, done.stderr):
+                self.assertIsNone(UNFIT.search(stream.decode()), stream)
+        self.assertIn("'\\'';", self.replay(5).stdout.decode())  # quoted for a shell
+        json.loads(self.replay(5, options=["--json"]).stdout)
+
+    def test_everything_else_that_a_bundle_may_try(self):
+        """Each ends with a clear code in seconds, leaves nothing anywhere, and prints nothing that a terminal obeys."""
+        temporary = self.folder / "temporary"
+        temporary.mkdir()
+        original = (self.folder / "bug.zip").read_bytes()
+        for name, (edit, entries) in hostile(self.folder).items():
+            with self.subTest(name):
+                (self.folder / "bug.zip").write_bytes(original)
+                self.edit("bug.zip", edit, entries)
+                before = self.tree()
+                for options in ([], ["-o", "kept"]):
+                    done = harness.fusee(["replay", "bug.zip", *options], self.folder, stdin=subprocess.DEVNULL, timeout=60,
+                                         env={**harness.ENVIRONMENT, "TMPDIR": str(temporary)})
+                    self.assertIn(done.returncode, (0, 3, 5), done.stderr)
+                    for stream in (done.stdout, done.stderr):
+                        self.assertIsNone(UNFIT.search(stream.decode()), stream)
+                    if (self.folder / "kept").exists():
+                        for path in (self.folder / "kept").rglob("*"):
+                            self.assertFalse(path.is_symlink())
+                        shutil.rmtree(self.folder / "kept")
+                    self.assertEqual(self.tree(), before)
+
+    def tree(self):
+        return {str(path): path.read_bytes() if path.is_file() else None for path in self.folder.rglob("*")}
+
+
+UNFIT = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\u200e\u200f\u061c\u2028\u2029]")
+
+
+def hostile(folder):
+    """Name → what it does to bundle.json, and further entries of the zip."""
+    nothing = lambda index: None
+
+    def listed(path, content="x"):
+        """An entry that the index lists as it should."""
+        digest = hashlib.sha256(content.encode()).hexdigest()
+        return (lambda index: index["files"].append({"path": path, "bytes": len(content), "sha256": digest})), [("files/" + path, content)]
+
+    def command(*words):
+        return (lambda index: index.update(command=list(words), exit=0)), []
+
+    def in_the_way(*paths):
+        return (lambda index: index.update(in_the_way=list(paths))), []
+
+    def set_to(key, value):
+        return (lambda index: index.update({key: value})), []
+
+    def link(name, target):
+        info = zipfile.ZipInfo(name)
+        info.create_system, info.external_attr = 3, 0o120777 << 16
+        return nothing, [(info, target)]
+
+    victim = str(folder / "arm.toml")
+    journal = json.dumps({"tool": "fusee", "outputs": [], "withdrawn": ["../arm.toml", victim]})
+    failure = {"severity": "error", "file": "", "line": 0, "column": 0, "message": "x", "hint": ""}
+    return {
+        "slip": listed("../../evil"), "slip in the middle": listed("a/../../evil"), "absolute": listed(victim), "home": listed("~/evil"),
+        "backslash": listed("..\\evil"), "drive": listed("c:/evil"), "stream": listed("arm.toml:x"), "empty part": listed("a//b"),
+        "journal": listed(".fusee-3999999-x/.publishing", journal), "journal below": listed("out/.fusee-3999999-x/.publishing", journal),
+        "hidden": listed(".bashrc"), "control": listed("a\x1b[2Jb"), "C1": listed("a\x9bb"), "direction": listed("a\u202eb"), "line": listed("a\nb"),
+        "long": listed("a" * 1001), "long part": listed("a" * 300), "deep": listed("a/" * 499 + "b"), "no character": listed("a\ufffeb"),
+        "case": ((lambda index: [listed(name)[0](index) for name in ("A.csv", "a.csv")]), listed("A.csv")[1] + listed("a.csv")[1]),
+        "file and folder": ((lambda index: [listed(name)[0](index) for name in ("d", "d/e")]), listed("d")[1] + listed("d/e")[1]),
+        "twice": (nothing, [("stdout.txt", "x")]), "unlisted": (nothing, [("files/unlisted", "x")]), "folder": (nothing, [("files/d/", "")]),
+        "link out": link("files/link", "/etc"), "link as stdout": link("files/arm.toml", "/etc/passwd"),
+        "many entries": (nothing, [(f"files/{i}", "") for i in range(10 ** 5)]),
+        "in the way: out": in_the_way("../evil"), "in the way: absolute": in_the_way(str(folder / "evil")), "in the way: hidden": in_the_way(".fusee-1-x/"),
+        "in the way: many": in_the_way(*(f"{i}/" for i in range(200_000))), "in the way: deep": in_the_way(*(f"{i}/" + "a/" * 480 for i in range(100))),
+        "in the way: its own file": in_the_way("arm.toml", "arm.toml/"), "in the way: control": in_the_way("a\x1b[2J"),
+        "in the way: no text": set_to("in_the_way", [1]),
+        "writes outside": command("build", "arm.toml", "-o", str(folder / "evil")), "writes above": command("build", "arm.toml", "-o", ".."),
+        "writes over it": command("analyze", "arm.toml", "-o", "../../../../evil.csv", "--force"),
+        "packs": command("build", "arm.toml", "--bundle", str(folder / "evil.zip")), "replays": command("replay", "bug.zip"),
+        "replays behind": command("--force", "--", "replay", "arm.toml"), "reads": command("check", "/etc/passwd"), "reads stdin": command("check", "/dev/stdin"),
+        "asks": command("new", "--ask"), "no words": command(), "odd words": command("\x1b[2J", "\u202e", "\x00"),
+        "long words": command("build", "x" * 10 ** 6), "many words": command(*["build"] * 10 ** 5),
+        "exit": set_to("exit", 2 ** 70), "exit as text": set_to("exit", "\x1b[2J"), "nested": set_to("messages", [[[[[[[[[[1]]]]]]]]]]),
+        "messages": set_to("messages", [failure] * 10 ** 4), "numbers": set_to("junk", list(range(10 ** 6))),
+        "size": ((lambda index: index["files"].append({"path": "huge", "bytes": 2 ** 62, "sha256": "0"})), [("files/huge", "x")]),
+        "failure twice": ((lambda index: index["files"].extend([{"path": "../../evil", "failure": failure}] * 3)), []),
+    }
 
 
 if __name__ == "__main__":

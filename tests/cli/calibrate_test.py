@@ -226,6 +226,37 @@ class Calibrate(harness.Scratch):
         self.expect("calibrate joint.toml other.csv --column alfa=motor", 2, err="did you mean 'alpha'")
         self.expect("calibrate joint.toml other.csv --column motor", 2, err="role=name")
 
+    def test_units_and_counts_read_as_degrees_do(self):
+        """One motion in degrees, radians and counts of an encoder: the same backlash."""
+        rows = [line.split(",") for line in run_csv(lash=4.0).splitlines()[1:]]
+
+        def log(name, header, alpha, theta):
+            lines = [header, *(f"{20 * i},{alpha(float(a))},{theta(float(t))}" for i, (a, t) in enumerate(rows))]
+            (self.folder / name).write_text("\n".join(lines) + "\n")
+
+        def lash(arguments):
+            document = self.expect_json(f"calibrate joint.toml {arguments} --dry-run --no-audit", 0)
+            backlash = next(effect for effect in document["effects"] if effect["name"] == "backlash")
+            return next(iter(backlash["parameters"].values()))["value"]
+
+        log("deg.csv", "Time[ms],alpha_deg,theta_deg", lambda a: f"{a:.4f}", lambda t: f"{t:.5f}")
+        log("rad.csv", "t,motor,joint [mrad]", lambda a: f"{math.radians(a):.7f}", lambda t: f"{1000 * math.radians(t):.6f}")
+        log("counts.csv", "time_ms,alpha,theta", lambda a: round(100 + a / 360 * 65536) % 65536, lambda t: round(7 - t / 360 * 65536) % 65536)
+        expected = lash("deg.csv")
+        self.assertAlmostEqual(expected, 4.0, delta=0.1)
+        rad = "rad.csv --column time=t --unit time=ms --column alpha=motor --unit alpha=rad --column 'theta=joint [mrad]'"
+        self.assertAlmostEqual(lash(rad), expected, delta=1e-3)
+        counts = "counts.csv --ticks-per-turn alpha=65536 --zero-ticks alpha=100 --ticks-per-turn theta=-65536 --zero-ticks theta=7"
+        self.assertAlmostEqual(lash(counts), expected, delta=0.01)
+        self.expect(f"calibrate joint.toml {counts} --dry-run --no-audit", 0, err="alpha in counts of 65536 a turn, 100 at home; .*time in ms")
+        self.expect("calibrate joint.toml rad.csv --column alpha=motor --column time=t --column 'theta=joint [mrad]'", 3, err="as s, the rows lie 20 s apart")
+
+    def test_how_a_log_is_read_is_refused_in_words(self):
+        for option, said in (("--unit time=furlong", "units: s, ms, us"), ("--unit tim=ms", "did you mean 'time'"), ("--unit ms", "role=value"),
+                             ("--ticks-per-turn load=4096", "no role 'load'"), ("--ticks-per-turn alpha=many", "'many' is none"),
+                             ("--ticks-per-turn alpha=1", "2 or more"), ("--zero-ticks theta=2048", "give --ticks-per-turn theta=N too")):  # fmt: skip
+            self.expect(f"calibrate joint.toml run_1.csv {option}", 2, err=said)
+
     def test_what_cannot_be_read_or_tested(self):
         self.expect("calibrate joint.toml", 2, err="needs RUN.csv")
         self.expect("calibrate joint.toml nothing.csv", 3, err="No such file")

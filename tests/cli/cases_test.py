@@ -27,6 +27,10 @@ ALL_COMMANDS = "new.*explain.*analyze.*build.*check.*rewind.*optimize.*reproduce
 CASES = [
     # Asking for help.
     ("--help", 0, ALL_COMMANDS, "^$"),
+    ("", 0, ALL_COMMANDS + ".*'fusee build arm.toml' makes the pulley", "^$"),
+    ("help", 0, ALL_COMMANDS, "^$"),
+    ("help build", 0, "usage: fusee build SPEC.*examples:", "^$"),
+    ("help bild", 2, "^$", "unknown command 'bild'.*did you mean 'fusee build'"),
     ("-h", 0, ALL_COMMANDS, "^$"),
     ("--version", 0, r"^fusee \d+\.\d+\.\d+\n$", "^$"),
     ("build --version", 0, "^fusee ", "^$"),
@@ -53,7 +57,6 @@ CASES = [
     (f'''optimize {OPTIMIZE} --set optimize.constraints='["guides.ED_mm >= 300"]' ''', 4, "^$", "no design of the box is possible.*a constraint is not kept.*widen"),
     (f"optimize {OPTIMIZE} --set optimize.objective=min_bend --method certified", 3, "^$", "cannot be certified.*certified: max_tension"),
     # Wrong usage.
-    ("", 2, "^$", "no command given.*fusee --help"),
     ("bild arm.toml", 2, "^$", "unknown command 'bild'.*fusee build"),
     ("zzzzzzzzzz", 2, "^$", "unknown command.*fusee --help"),
     ("build", 2, "^$", "'build' needs SPEC.*usage: fusee build SPEC"),

@@ -16,7 +16,7 @@ import unittest
 import harness
 
 OUTPUTS = {"pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "pulley.scad", "profile.dxf", "plates.dxf",
-           "profile.csv", "transmission.csv", "report.html", "manifest.json"}
+           "profile.csv", "profile_p1.csv", "profile_p2.csv", "transmission.csv", "report.html", "manifest.json"}
 PARTS = {"pulley_p1.stl", "pulley_p2.stl"}  # of a pulley that is printed in two, as arm.toml's is
 
 
@@ -251,7 +251,9 @@ class NamesOfDots(harness.Scratch):
         for name in ("...", "..x", "x..", ".hidden"):
             self.assertEqual(set(self.build(name)), OUTPUTS | PARTS)
         for name in (".", "..", "x/.."):
-            self.expect(["analyze", "arm.toml", "-o", name, "--force"], 6, "^$")
+            self.expect(["analyze", "arm.toml", "-o", name, "--force"], 2, "^$", "ending")
+        (self.folder / "folder.csv").mkdir()
+        self.expect("analyze arm.toml -o folder.csv --force", 6, "^$")
         self.expect("analyze arm.toml -o .table.csv", 0)
         self.assertTrue((self.folder / ".table.csv").exists())
 
@@ -324,6 +326,20 @@ class Streams(harness.Scratch):
         self.assertEqual(done.returncode, 3)
         self.assertNotIn(b"\x1b", done.stderr)
 
+    def test_control_characters_come_out_nowhere(self):
+        unfit = "a\x1b[2J\x9b\u202e\x7f"
+        spec = (self.folder / "arm.toml").read_text()
+        (self.folder / f"{unfit}.toml").write_text(spec)
+        for words, code in [(["build", f"{unfit}.toml", "-o", f"o{unfit}"], 0), (["build", f"{unfit}.toml", "-o", f"o{unfit}", "--json"], 0),
+                            (["explain", unfit], 3), (["build", "arm.toml", "--set", f"name={unfit}"], 3), (["check", unfit, "-v"], 3)]:
+            done = self.fusee(words)
+            shown = done.stdout + done.stderr
+            self.assertEqual(done.returncode, code, shown)
+            for one in unfit[1], *unfit[5:]:
+                self.assertNotIn(one.encode(), shown)
+        document = harness.json.loads(self.fusee(["check", f"o{unfit}/pulley.stl", "--json"]).stdout)
+        self.assertEqual(document["file"], f"o{unfit}/pulley.stl")  # escaped, and the same
+
     def test_names_that_are_no_text(self):
         done = self.fusee([b"build", b"\xff\xfe.toml", b"--json"])
         self.assertEqual(harness.json.loads(done.stdout)["exit"], 3)
@@ -378,6 +394,37 @@ class Leftovers(harness.Scratch):
         started = time.monotonic()
         self.build()
         self.assertLess(time.monotonic() - started, 30)
+
+
+class Machine(harness.Scratch):
+    """What the machine does not have is said, and is no bug."""
+
+    def test_no_temporary_folder(self):
+        bundle = self.folder / "bug.zip"
+        self.expect(f"explain name --bundle {bundle}", 0)
+        (self.folder / "file").write_text("x")
+        for temporary in ("/no/such/folder", self.folder / "file"):
+            for words in ("build arm.toml --dry-run", "replay bug.zip", "build arm.toml --dry-run --json"):
+                done = self.fusee(words, env={**harness.ENVIRONMENT, "TMPDIR": str(temporary)})
+                self.assertEqual(done.returncode, 6, done.stderr)
+                self.assertIn(b"TMPDIR", done.stderr)
+
+    def test_not_enough_memory(self):
+        self.build("made")
+        self.expect("plan arm.toml -q", 0)
+        refused = set()
+        for words in ("build arm.toml -o little", "check made/pulley.stl", "plan arm.toml -o p", "kit arm.toml -o k", "analyze arm.toml -o a.csv",
+                      "rewind arm.toml made/pulley.stl", "simulate arm.toml out/arm_plan/run_1.csv -o s.csv", "model arm.toml", "explain name",
+                      "build arm.toml --dry-run --bundle bug.zip"):
+            for limit in (50_000, 80_000, 110_000):
+                done = subprocess.run(["bash", "-c", f"ulimit -v {limit}; exec fusee {words} -q --force"], cwd=self.folder, env=harness.ENVIRONMENT, capture_output=True)
+                if done.returncode == 127 or b"error while loading shared libraries" in done.stderr:
+                    continue  # the system's own words: there was no room for the program
+                self.assertIn(done.returncode, (0, 6), (words, limit, done.stderr))
+                if done.returncode == 6:
+                    self.assertIn(b"not enough memory", done.stderr)
+                    refused.add(words.split()[0])
+        self.assertIn("build", refused)
 
 
 class Kill(harness.Scratch):

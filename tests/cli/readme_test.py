@@ -1,56 +1,64 @@
-"""Every command that README.md and profiles/calibration.md show works as it is written, in its order, in a copy of the source tree.
+"""Pages show what the program does: each command of README.md and docs/ runs as it is written, in its order, in a copy of profiles/ and
+docs/, and prints what is shown. Pages of reference and pictures that are made of outputs are up to date.
 
-The two that install packages and compile are run by .ci/run in a fresh clone; here their place is taken by the program under test.
+The two commands that install packages and compile are run by .ci/run in a fresh clone; here the program under test takes their place.
 """
 
-import os
 import re
-import shutil
-import subprocess
+import sys
+import unittest
 
 import harness
 
+sys.path.insert(0, str(harness.SOURCE / "docs"))
+sys.dont_write_bytecode = True
+import update  # noqa: E402
 
-PAGES = ["README.md", "profiles/calibration.md", "profiles/model.md", "profiles/physics.md", "profiles/guarantees.md"]
-
-
-def commands(page="README.md"):
-    blocks = re.findall(r"^```sh\n(.*?)^```", (harness.SOURCE / page).read_text(), re.M | re.S)
-    return [line for block in blocks for line in block.replace("\\\n", " ").splitlines() if line and not line.startswith("#")]
+RENEW = "renew it: docs/update.py build/release/fusee"
 
 
-class Readme(harness.Scratch):
+class Readme(unittest.TestCase):
     def test_starts_with_the_two_commands_that_set_everything_up(self):
-        first, second = commands()[:2]
+        blocks = re.findall(r"^```sh\n(.*?)^```", (harness.SOURCE / "README.md").read_text(), re.M | re.S)
+        first, second = "".join(blocks).splitlines()[:2]
         self.assertRegex(first, r"^\.ci/setup && .*build/release/fusee build profiles/paper_optimum\.toml$")
         self.assertRegex(second, r"^\.ci/setup tests && ")
 
-    def setUp(self):
-        super().setUp()
-        os.makedirs(self.folder / "build/release")
-        os.symlink(harness.PROGRAM, self.folder / "build/release/fusee")
-        shutil.copytree(harness.SOURCE / "profiles", self.folder / "profiles")
 
-    def run_all(self, lines):
-        self.assertTrue(lines)
-        for line in lines:
-            with self.subTest(line):
-                done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, capture_output=True, timeout=120)
-                self.assertEqual(done.returncode, 0, done.stdout.decode() + done.stderr.decode())
+class Pages(unittest.TestCase):
+    def test_commands_succeed_and_print_what_is_shown(self):
+        self.assertGreater(len(update.PAGES), 20)
+        for page in update.PAGES:
+            with self.subTest(page), update.Bench(harness.PROGRAM) as bench:
+                failed = []
+                self.assertEqual((harness.SOURCE / page).read_text(), update.rewritten(page, bench, failed), RENEW)
+                self.assertEqual(failed, [])
 
-    def test_commands(self):
-        first = commands()[0].split("&&")[-1]
-        self.run_all([first, *commands()[2:]])
+    def test_made_pages_and_pictures_are_current(self):
+        made = update.run_pages(harness.PROGRAM)
+        for path, text in made.items():
+            with self.subTest(path):
+                self.assertEqual((harness.SOURCE / path).read_text(), text, RENEW)
+        pictures = {f"docs/pictures/{path.name}" for path in (harness.SOURCE / "docs/pictures").glob("*.svg")}
+        self.assertEqual(pictures, {path for path in made if path.endswith(".svg")})
 
-    def test_commands_of_calibration(self):
-        # A real joint's data are not ours to keep: a variable names their folder.
-        self.run_all([line for line in commands("profiles/calibration.md") if "$FUSEE_DAVINCI_JAW" not in line or "FUSEE_DAVINCI_JAW" in os.environ])
+    def test_slack_of_the_first_sentence_is_that_of_the_picture(self):
+        words = re.search(r"leave ([\d.]+ mm) of slack", (harness.SOURCE / "docs/pictures/slack.svg").read_text())[1]
+        self.assertIn(words, (harness.SOURCE / "README.md").read_text()[:400])
 
-    def test_files_they_link_to_exist(self):
-        for page in PAGES:
-            for target in re.findall(r"\]\(([^)#]+)\)", (harness.SOURCE / page).read_text()):
-                if "://" not in target:
-                    self.assertTrue((harness.SOURCE / page).parent.joinpath(target).exists(), f"{page}: {target}")
+
+class Shortened(unittest.TestCase):
+    PRINTED = ["one", "two", "three", "four"]
+
+    def test_whole_output_is_compared_without_ellipsis(self):
+        self.assertEqual(update.shortened(self.PRINTED, ["one"]), self.PRINTED)
+
+    def test_ellipsis_keeps_as_many_lines_as_were_shown(self):
+        self.assertEqual(update.shortened(self.PRINTED, ["1", "…", "4"]), ["one", "…", "four"])
+        self.assertEqual(update.shortened(self.PRINTED, ["1", "…"]), ["one", "…"])
+
+    def test_ellipsis_for_nothing_is_dropped(self):
+        self.assertEqual(update.shortened(["one"], ["1", "…", "4"]), ["one"])
 
 
 if __name__ == "__main__":

@@ -15,8 +15,8 @@ class Reproduce(harness.Scratch):
         self.assertEqual(done.returncode, 0, done.stderr.decode())
         answer = json.loads(done.stdout)
         folder = self.folder / "paper"
-        self.assertEqual((folder / "paper.md").read_text(), (harness.SOURCE / "profiles/paper.md").read_text(),
-                         "profiles/paper.md lags behind: copy what 'fusee reproduce -o DIR' writes")
+        self.assertEqual((folder / "paper.md").read_text(), (harness.SOURCE / "docs/background/paper.md").read_text(),
+                         "docs/background/paper.md lags behind: copy what 'fusee reproduce -o DIR' writes")
         self.assertEqual(sorted(answer["outputs"]), sorted(path.name for path in folder.iterdir()))
         for number in [4, 5, 7, 8, 9, 10, 11, 13]:
             name = folder / f"fig_{number:02d}"

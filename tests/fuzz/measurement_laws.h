@@ -19,6 +19,7 @@ inline std::string broken_law(const Run& run) {
     if (run.has_load && !std::isfinite(sample.load)) return "a load is no number";
     if (run.has_time && i > 0 && !(sample.time >= run.samples[i - 1].time)) return "time goes back";
   }
+  if (!run.samples.empty() && run.samples.front().after_break) return "the log begins again before it began";
   std::size_t next = 0;
   for (const Stroke& stroke : run.strokes) {
     if (stroke.first < next || stroke.last < stroke.first || stroke.last >= run.samples.size())
@@ -33,11 +34,19 @@ inline std::string broken_law(const Run& run) {
 /// Reads `bytes` as a run, judges it and works out its figures. "" or what is broken; throws InputError where it cannot
 /// be read.
 inline std::string broken_law(std::string_view bytes) {
-  // A first byte ! turns to other columns, so that one corpus reaches roles too.
+  // A first byte ! turns to other columns, ? to columns without units, & to counts: one corpus reaches options too.
   MeasurementOptions options;
-  if (!bytes.empty() && bytes.front() == '!') options.columns = {{"load", "x"}, {"alpha", "a_rad"}, {"time", "t_ms"}};
+  const char first = bytes.empty() ? ' ' : bytes.front();
+  if (first == '!') options.columns = {{"load", "x"}, {"alpha", "a_rad"}, {"time", "t_ms"}};
+  if (first == '?') options.columns = {{"load", "x"}, {"alpha", "a"}, {"theta", "b"}, {"time", "t"}};
+  if (first == '&') {
+    options.ticks_per_turn = {{"alpha", 4096}, {"theta", -2000}};
+    options.zero_ticks = {{"theta", 100}};
+    options.units = {{"time", "us"}, {"load", "lbf"}};
+  }
+  const bool has_options = std::string_view("!?&").find(first) != std::string_view::npos;
   Measurement measurement;
-  measurement.runs.push_back(parse_run(bytes.substr(options.columns.empty() ? 0 : 1), "run.csv", options, measurement));
+  measurement.runs.push_back(parse_run(bytes.substr(has_options ? 1 : 0), "run.csv", options, measurement));
   Mechanism ratio;
   ratio.transmission = RatioTransmission{4.0};
   const std::string broken = broken_law(measurement.runs[0]);

@@ -369,8 +369,8 @@ TEST(Equilibrium, OfAGrooveDoesNotDependOnTheStep) {
 }
 
 TEST(Equilibrium, GivesWayAsMuchAsTheReferenceSays) {
-  // Mean deflection over ±100° of α under 12 N, EA 7070 N: research/mechanics.md has 0.362°, 0.389° and 0.385° of a rig
-  // whose pins and pretension it does not give.
+  // Mean deflection over ±100° of α under 12 N, EA 7070 N. An independent rig, whose pins and pretension are not known,
+  // gave 0.362° (groove friction infinite), 0.389° (0.2) and 0.385° (0.05).
   const auto mean = [](double friction) {
     Mechanism mechanism = with(forearm(), 5.0, 0.12, modulus_of(7070.0));
     mechanism.pulley.mu = friction;

@@ -301,8 +301,7 @@ TEST(KitOfOne, ATendonIsCutForAllItsWay) {
   }
 }
 
-// ---- plates to drill by
-// ----------------------------------------------------------------------------------------------
+// ---- plates to drill by ---------------------------------------------------------------------------------------------
 
 /// Two bearings of the list lie in the link, on a lip that touches the outer rings alone; the ring that carries the
 /// inner ones goes through the drum.

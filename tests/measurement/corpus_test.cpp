@@ -43,6 +43,9 @@ TEST(MeasurementCorpus, TheLawsCanFail) {
   other.samples[2].time = 0.5;
   EXPECT_EQ(testing::broken_law(other), "time goes back");
   other = run;
+  other.samples[0].after_break = true;
+  EXPECT_EQ(testing::broken_law(other), "the log begins again before it began");
+  other = run;
   other.strokes[1].first = 1;
   EXPECT_EQ(testing::broken_law(other), "strokes overlap or leave the run");
   other = run;

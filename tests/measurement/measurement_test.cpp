@@ -55,6 +55,12 @@ Parsed parsed(const std::string& text, const MeasurementOptions& options = {}) {
   return result;
 }
 
+MeasurementOptions named(const std::map<std::string, std::string>& columns) {
+  MeasurementOptions options;
+  options.columns = columns;
+  return options;
+}
+
 std::string error_of(const std::string& text, const MeasurementOptions& options = {}) {
   try {
     parsed(text, options);
@@ -137,7 +143,7 @@ TEST(Measurement, AFirstStrokeFromTheMiddleIsPartial) {
 TEST(Measurement, TakesCommentsByteOrderMarksAndAnyLineEnd) {
   std::string text = csv(triangle(40, 50, 4), quarter);
   std::string windows = "\xEF\xBB\xBF# a log\r\n";
-  for (const char c : text) windows += c == '\n' ? std::string("  # said\r\n") : std::string(1, c);
+  for (const char c : text) windows += c == '\n' ? std::string("\r\n  # said\r\n") : std::string(1, c);
   const Parsed plain = parsed(text), strange = parsed(windows);
   ASSERT_EQ(plain.run.samples.size(), strange.run.samples.size());
   for (std::size_t i = 0; i < plain.run.samples.size(); ++i)
@@ -169,29 +175,23 @@ TEST(Measurement, ReadsEverySeparatorAndLineEndAlike) {
 
 TEST(Measurement, TheUnitStandsInTheColumnsName) {
   const std::string text = "clock_ms,motor_rad,joint_rad\n500,0.5,0.1\n";
-  const Parsed p = parsed(text, {{{"time", "clock_ms"}, {"alpha", "motor_rad"}, {"theta", "joint_rad"}}});
+  const Parsed p = parsed(text, named({{"time", "clock_ms"}, {"alpha", "motor_rad"}, {"theta", "joint_rad"}}));
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).time, 0.5);
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).alpha, 0.5);
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).theta, 0.1);
 }
 
 TEST(Measurement, OneColumnIsNotTwoThings) {
-  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,2\n", {{{"load", "theta_deg"}}}),
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,2\n", named({{"load", "theta_deg"}})),
               HasSubstr("\"theta_deg\" is taken as theta and as load"));
 }
 
-TEST(Measurement, ADecimalCommaIsSaidOnce) {
-  const std::string semicolons = error_of("alpha_deg;theta_deg\n1,5;2,5\n2,5;3,5\n");
-  EXPECT_THAT(semicolons, HasSubstr("run.csv:2:1: error: alpha_deg: \"1,5\" is not a number: it has a decimal comma"));
-  EXPECT_THAT(semicolons, Not(HasSubstr("run.csv:3")));
-  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,5,2,5\n2,5,3,5\n"), HasSubstr("if commas are the decimal points"));
+TEST(Measurement, DecimalCommasBetweenCommasAreSaidOnce) {
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,5,2,5\n2,5,3,5\n"), HasSubstr("if commas are the decimal marks"));
 }
 
 TEST(Measurement, WhatIsNoTableIsSaid) {
-  EXPECT_THAT(error_of(std::string("\xFF\xFE"
-                                   "a\0",
-                                   4)),
-              HasSubstr("save it as UTF-8"));
+  EXPECT_THAT(error_of(std::string("a\0l\0", 4)), HasSubstr("save it as UTF-8"));
   EXPECT_THAT(error_of("\x1F\x8B\x08\x01"), HasSubstr("unpack it with gunzip"));
   EXPECT_THAT(error_of("PK\x03\x04"), HasSubstr("export a CSV text"));
   EXPECT_THAT(error_of("alpha_deg,theta_deg\n" + std::string(70'000, '1')),
@@ -200,7 +200,7 @@ TEST(Measurement, WhatIsNoTableIsSaid) {
   EXPECT_THAT(error_of("# alpha_deg,theta_deg\n1,2\n3,4\n"), HasSubstr("take the # away"));
   EXPECT_THAT(error_of("alpha_deg,theta_deg\ndeg,deg\n1,2\n"),
               HasSubstr("a second line of the header? Begin it with #"));
-  EXPECT_THAT(error_of("ALPHA_DEG,theta_deg\n1,2\n"), HasSubstr("the nearest is \"ALPHA_DEG\""));
+  EXPECT_THAT(error_of("ALPHADEG,theta_deg\n1,2\n"), HasSubstr("the nearest is \"ALPHADEG\""));
   EXPECT_THAT(error_of("alpha_deg,theta_deg\n1e300,2\n"),
               HasSubstr("run.csv:2:1: error: alpha_deg = 1e+300 is no angle"));
 }
@@ -221,12 +221,12 @@ TEST(Measurement, ALastRowCutOffIsLeftOut) {
 
 TEST(Measurement, ColumnsCanBeGivenARole) {
   const std::string text = "alpha_deg,theta_deg,tau_out_Nm\n1,2,3\n";
-  const Parsed p = parsed(text, {{{"load", "tau_out_Nm"}}});
+  const Parsed p = parsed(text, named({{"load", "tau_out_Nm"}}));
   EXPECT_TRUE(p.run.has_load);
   EXPECT_EQ(p.run.samples.at(0).load, 3);
   EXPECT_EQ(p.measurement.load_unit, "Nm");
-  EXPECT_THAT(error_of(text, {{{"load", "tau_oat_Nm"}}}), HasSubstr("the nearest is \"tau_out_Nm\""));
-  EXPECT_THAT(error_of(text, {{{"loud", "tau_out_Nm"}}}), HasSubstr("did you mean load?"));
+  EXPECT_THAT(error_of(text, named({{"load", "tau_oat_Nm"}})), HasSubstr("the nearest is \"tau_out_Nm\""));
+  EXPECT_THAT(error_of(text, named({{"loud", "tau_out_Nm"}})), HasSubstr("did you mean load?"));
 }
 
 TEST(Measurement, AMissingColumnIsNamedWithTheNearest) {
@@ -266,14 +266,14 @@ TEST(Measurement, WrapAroundIsTakenBack) {
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("unwrapped"));
 }
 
-TEST(Measurement, TimeIsPutInOrder) {
+TEST(Measurement, ARowDeliveredLateIsPutBack) {
   std::string text = csv(triangle(40, 50, 4), quarter);
   const std::size_t a = text.find("\n3,") + 1, b = text.find('\n', a) + 1, c = text.find('\n', b) + 1;
   text = text.substr(0, a) + text.substr(b, c - b) + text.substr(a, b - a) + text.substr(a, b - a) + text.substr(c);
   const Parsed p = parsed(text);
   ASSERT_THAT(p.run.samples, SizeIs(201));
   for (std::size_t i = 1; i < 201; ++i) EXPECT_GT(p.run.samples[i].time, p.run.samples[i - 1].time);
-  EXPECT_THAT(notes_of(p.measurement), HasSubstr("rows were put in order"));
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("delivered late"));
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("taken together"));
 }
 
@@ -317,17 +317,19 @@ TEST(Measurement, AClockThatStartsAgainGoesOn) {
   const Parsed p = parsed(timed([](int i) { return shortest(0.1 * (i % 100)); }));
   ASSERT_THAT(p.run.samples, SizeIs(201));
   for (std::size_t i = 0; i < 201; ++i) EXPECT_NEAR(p.run.samples[i].time, 0.1 * static_cast<double>(i), 1e-9);
-  EXPECT_THAT(notes_of(p.measurement), HasSubstr("the clock starts again 2 times"));
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("the clock goes back 2 times, first from 9.9 to 0 s"));
 }
 
-// The later half first: no clock that starts again.
-TEST(Measurement, HalvesInTheWrongOrderArePutInOrder) {
+TEST(Measurement, HalvesInTheWrongOrderStayInTheirOrder) {
   const std::string text = timed([](int i) { return shortest(0.1 * i); });
-  const std::size_t body = text.find('\n') + 1, middle = text.find("\n10,") + 1;
-  const Parsed p = parsed(text.substr(0, body) + text.substr(middle) + text.substr(body, middle - body)),
-               plain = parsed(text);
-  ASSERT_EQ(p.run.samples.size(), plain.run.samples.size());
-  for (std::size_t i = 0; i < 201; ++i) EXPECT_EQ(p.run.samples[i].alpha, plain.run.samples[i].alpha);
+  const std::size_t body = text.find('\n') + 1, middle = text.find("\n13,") + 1;
+  const Parsed p = parsed(text.substr(0, body) + text.substr(middle) + text.substr(body, middle - body));
+  ASSERT_THAT(p.run.samples, SizeIs(201));
+  for (std::size_t i = 0; i < 201; ++i) {
+    EXPECT_NEAR(degrees(p.run.samples[i].alpha), triangle(40, 50, 4)[(i + 130) % 201], 1e-9);
+    EXPECT_EQ(p.run.samples[i].after_break, i == 71);
+    EXPECT_NEAR(p.run.samples[i].time, 13 + 0.1 * static_cast<double>(i), 1e-9);
+  }
 }
 
 // ---- strokes --------------------------------------------------------------------------------------------------------

@@ -27,7 +27,7 @@ TEST_P(EveryKind, HasNumbersThatAreApart) {
       EXPECT_LT(parameter.least, parameter.most) << effect.name << " " << parameter.name;
       EXPECT_GT(parameter.step, 0) << effect.name << " " << parameter.name;
       EXPECT_EQ(parameter.prior > 0, !parameter.searched) << effect.name << " " << parameter.name;
-      if (!parameter.searched && !parameter.prior_at_load) {
+      if (!parameter.searched && parameter.prior_unit == PriorUnit::own) {
         EXPECT_GT(parameter.prior, parameter.step) << effect.name << " " << parameter.name;
         EXPECT_LE(parameter.prior, parameter.most) << effect.name << " " << parameter.name;
       }

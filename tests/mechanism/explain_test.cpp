@@ -134,56 +134,10 @@ TEST(Templates, AMisspeltNameNamesTheNearest) {
 
 std::string code(std::string_view text) { return "`" + std::string(text) + "`"; }
 
-std::string allowed_cell(const Field& field) {
-  if (field.kind == FieldKind::number || field.kind == FieldKind::range || field.kind == FieldKind::numbers ||
-      field.kind == FieldKind::point) {
-    return field.least == field.most ? shortest(field.least) : shortest(field.least) + " … " + shortest(field.most);
-  }
-  std::string text;
-  for (const std::string_view choice : field.choices) text += (text.empty() ? "" : " ") + code(choice);
-  return text;
-}
-
-std::string default_cell(const Field& field) {
-  const std::string text = !field.otherwise.empty() ? std::string(field.otherwise)
-                           : field.fallback.empty() ? "required"
-                                                    : code(field.fallback);
-  return field.only_when.empty() ? text : text + ", with " + code(field.only_when);
-}
-
-/// The key table of profiles/README.md, as the field table gives it.
-std::string key_table() {
-  std::string text;
-  std::string_view table = "?";
-  for (const Field& field : fields()) {
-    if (field.table != table) {
-      table = field.table;
-      text += table.empty()
-                  ? "At the top of the file:\n"
-                  : "\n" + code("[" + std::string(table) + "]") + " " + std::string(table_meaning(table)) + ":\n";
-      text += "\n| key | meaning | unit | allowed | default |\n|---|---|---|---|---|\n";
-    }
-    const std::string symbol = field.symbol.empty() ? "" : std::string(field.symbol) + ": ";
-    text += "| " + code(field.key) + " | " + symbol + std::string(field.meaning) + " | " + std::string(field.unit) +
-            " | " + allowed_cell(field) + " | " + default_cell(field) + " |\n";
-  }
-  return text;
-}
-
 TEST(Readme, NamesEveryProfile) {
   const std::string readme = read_file(k_profiles / "README.md", 1 << 20);
   for (const Template& profile : templates())
     EXPECT_THAT(readme, HasSubstr("| " + code(std::string(profile.name) + ".toml") + " |"));
-}
-
-TEST(Readme, ItsKeyTableIsThatOfTheFields) {
-  const std::string readme = read_file(k_profiles / "README.md", 1 << 20);
-  const std::string begin = "<!-- key table: begin -->\n", end = "<!-- key table: end -->";
-  const std::size_t from = readme.find(begin), to = readme.find(end);
-  ASSERT_NE(from, std::string::npos);
-  ASSERT_NE(to, std::string::npos);
-  EXPECT_EQ(readme.substr(from + begin.size(), to - from - begin.size()), key_table())
-      << "profiles/README.md lags behind the field table: put the text above between its two marks";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "fusee/base/files.h"
+#include "fusee/mechanism/fields.h"
 #include "fusee/mechanism/file.h"
 #include "mechanism/mechanism_text.h"
 
@@ -82,7 +83,8 @@ TEST(Reader, NamesLineAndColumnOfEachKindOfError) {
               HasSubstr("2:8 name must be a text in quotes, not the number 4"));
   EXPECT_THAT(only_error(with("name = \"test\"", "name = 2020-01-01")),
               HasSubstr("2:8 name must be a text in quotes, not a date or time"));
-  EXPECT_THAT(only_error(with("name = \"test\"", "name = \"a\\nb\"")), HasSubstr("2:8 name must be one line"));
+  EXPECT_THAT(only_error(with("name = \"test\"", "name = \"a\\nb\"")),
+              HasSubstr("2:8 name = \"a\\nb\" holds a character"));
   EXPECT_THAT(only_error(with("[tendon]\n", "law = \"linea\"\nratio = 2\n[tendon]\n")),
               HasSubstr("13:7 pulley.law = \"linea\" is not known"));
 }
@@ -342,6 +344,37 @@ TEST(Reader, RefusesWhatIsNoMechanismFile) {
                                      6)),
               HasSubstr("is a binary file"));
   EXPECT_THAT(only_error(std::string((1 << 20) + 1, '#')), HasSubstr("larger than 1 MB"));
+}
+
+TEST(Reader, RefusesTextsThatATerminalWouldObey) {
+  for (const char* odd :
+       {"\\u001B[2J", "\\u009B31m", "\\u202Ex", "\\u2066x", "\\u200F", "\\uFFFE", "\\n", "\\t", "\\u007F"}) {
+    const std::string error = only_error(with("\"test\"", "\"x" + std::string(odd) + "\""));
+    EXPECT_THAT(error, HasSubstr("2:8 name = \"x\\")) << odd;
+    EXPECT_THAT(error, HasSubstr("holds a character that is none of a text of one line")) << odd;
+    EXPECT_THAT(only_error(k_good_file + "[material]\nname = \"" + odd + "\"\n"), HasSubstr("material.name = ")) << odd;
+    EXPECT_THAT(only_error(k_good_file + "[optimize]\nvariables = [\"" + odd + "\"]\n"),
+                HasSubstr("optimize.variables = "))
+        << odd;
+  }
+  EXPECT_THAT(errors_of(with("\"test\"", "\"größe \\\\ é 日本 \\uFFFD\"")), IsEmpty());
+}
+
+TEST(Reader, RefusesLengthsBelowAMicrometre) {
+  int keys = 0;
+  for (const Field& field : fields()) {
+    if (field.unit != "mm" || field.least != 0 || field.table == "identified") continue;
+    ++keys;
+    for (const char* value : {"5e-324", "1e-300", "1e-12", "0.00099"}) {
+      const std::vector<Diagnostic> errors = errors_of(k_good_file, {{field.name(), value}});
+      ASSERT_FALSE(errors.empty()) << field.name();
+      EXPECT_THAT(errors.front().message, HasSubstr("is less than a micrometre")) << field.name();
+      EXPECT_THAT(errors.front().hint, HasSubstr("0, or at least 0.001 mm"));
+    }
+    for (const Diagnostic& error : errors_of(k_good_file, {{field.name(), "0.001"}}))
+      EXPECT_THAT(error.message, testing::Not(HasSubstr("micrometre")));
+  }
+  EXPECT_GT(keys, 20);
 }
 
 TEST(Reader, RefusesDeepNesting) {

@@ -1,9 +1,11 @@
 """ezdxf as a judge: each DXF must load and audit with no error and nothing to mend, in mm, and hold nothing but closed contours where something
 is cut. What is round must be round: bores, dowel holes, knot pockets and a horn's screws circles, the shaft's part of D and keyway bores one
-arc about the axis; centres and diameters are held against pulley.scad and the manifest, which know nothing of drawings.
+arc about the axis; centres and diameters are held against pulley.scad and the manifest, which know nothing of drawings. Pitch curves are circles or
+arcs, held against profile.csv.
 Usage: judge_dxf.py FILE.dxf   any drawing; judge_dxf.py FOLDER   with profile.dxf, plates.dxf, pulley.scad, manifest.json; or judge_dxf.py FOLDER --self-test: that this judge sees
 a polygon in a circle's place, a wrong diameter and a shifted centre.   Prints what is wrong; exit 1 when anything is, 77 without ezdxf."""
 import argparse
+import csv
 import json
 import math
 import pathlib
@@ -122,6 +124,40 @@ def profile_faults(document, expected):
         yield f"has {len(bores) - 1} further holes, {len(more)} of them unexpected, {len(missing)} missing"
 
 
+def distance_to_curve(point, entity):
+    """From a point to a circle, or to the nearest piece of a closed polyline of arcs."""
+    if entity.dxftype() == "CIRCLE":
+        return abs(point.distance(Vec2(entity.dxf.center)) - entity.dxf.radius)
+    corners = vertices(entity)
+    nearest = math.inf
+    for k, (start, bulge) in enumerate(corners):
+        end = corners[(k + 1) % len(corners)][0]
+        if point.distance((start + end) / 2) > 0.51 * start.distance(end) + 1e-3:
+            continue
+        if bulge == 0:
+            nearest = min(nearest, abs((end - start).normalize().det(point - start)))
+        else:
+            nearest = min(nearest, abs(point.distance(bulge_center(start, end, bulge)) - bulge_radius(start, end, bulge)))
+    return nearest
+
+
+def curve_faults(document, folder):
+    """The pitch curves against profile.csv: within 0.0005 mm, and of far fewer pieces than it has points."""
+    with open(folder / "profile.csv") as table:
+        rows = list(csv.DictReader(table))
+    for pulley in ("P1", "P2"):
+        points = [Vec2(float(row["x_mm"]), float(row["y_mm"])) for row in rows if row["pulley"] == pulley]
+        for entity in document.modelspace().query(f'*[layer=="{pulley}_PITCH"]'):
+            worst = max(distance_to_curve(point, entity) for point in points)
+            if worst > 0.0005 + NEAR:
+                yield f"draws {pulley}_PITCH {worst} mm off profile.csv"
+            if entity.dxftype() != "CIRCLE" and 2 * len(vertices(entity)) > len(points):
+                yield f"draws {pulley}_PITCH in {len(vertices(entity))} pieces"
+            radii = [point.magnitude for point in points]
+            if max(radii) - min(radii) < 1e-5 and entity.dxftype() != "CIRCLE":
+                yield f"draws a round {pulley} as a {entity.dxftype()}"
+
+
 def pocket_diameters(document):
     return [circle_of(e) for e in document.modelspace().query('CIRCLE[layer=="MARK_ANCHOR"]')]
 
@@ -177,6 +213,7 @@ def faults(folder):
     for name, document in (("profile.dxf", profile), ("plates.dxf", plates)):
         yield from (f"{name}: {fault}" for fault in drawing_faults(document))
     yield from round_faults(profile, plates, Expected(folder))
+    yield from (f"profile.dxf: {fault}" for fault in curve_faults(profile, folder))
 
 
 def as_polygon(document, circle):
@@ -207,6 +244,11 @@ def self_test(folder):
             spoil(documents[which], list(documents[which].modelspace().query(f'CIRCLE[layer=="{layer}"]'))[-1])
             if not list(round_faults(*documents, expected)):
                 yield f"the judge accepts a {spoil.__name__} circle on {layer}"
+    profile, _ = read(folder)
+    for entity in list(profile.modelspace().query('CIRCLE[layer=="P1_PITCH"]')):
+        polygon(profile, entity)
+        if not list(curve_faults(profile, folder)):
+            yield "the judge accepts a round P1 as a polygon"
 
 
 def main():

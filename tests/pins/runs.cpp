@@ -120,7 +120,8 @@ void add_analyses(std::vector<PinnedRun>& all) {
     all.push_back({"analyze/" + name, [name]() -> Outputs {
                      const MechanismFile file = read_mechanism(k_root / "profiles" / (name + ".toml"));
                      const AnalysisResult result = analyze(file);
-                     return {{"page.html", analysis_html(file, result, {}, result.warnings)}};
+                     return {{"page.html", analysis_html(file, result, {}, result.warnings)},
+                             {"plots.svg", analysis_svg(file, result)}};
                    }});
 }
 

@@ -141,6 +141,30 @@ TEST_F(Build, WithSupportsAsksNothingOfOverhangs) {
   }
 }
 
+// A slicer leaves out what is thinner than the nozzle's line, and no check of the mesh sees it.
+TEST_F(Build, WarnsOfWallsThinnerThanALine) {
+  const auto thin = [&](double nozzle) {
+    file_.mechanism.print.nozzle = nozzle;
+    options_.dry_run = true;
+    std::vector<std::string> words;
+    for (const Diagnostic& warning : build(file_, options_).product.file.warnings) {
+      if (warning.message.find("print.nozzle_mm") != std::string::npos)
+        words.push_back(warning.message + " | " + warning.hint);
+    }
+    return words;
+  };
+  EXPECT_THAT(thin(0.4), ::testing::IsEmpty());
+  file_.mechanism.body.flange_thickness = 0.3;
+  EXPECT_THAT(thin(0.4), ::testing::ElementsAre(
+                             ::testing::AllOf(HasSubstr("the flanges are 0.3 mm thick at the lip"),
+                                              HasSubstr("try body.flange_thickness_mm = 0.4 or more (now 0.3)"))));
+  EXPECT_THAT(thin(0.25), ::testing::IsEmpty());
+  file_.mechanism.body.flange_thickness = 1.2;
+  file_.mechanism.body.min_wall = 0.3;
+  EXPECT_THAT(thin(0.4), ::testing::ElementsAre(::testing::AllOf(
+                             HasSubstr("0.3 mm thick"), HasSubstr("try body.min_wall_mm = 0.4 or more (now 0.3)"))));
+}
+
 TEST_F(Build, NamesEveryCheckOnce) {
   std::vector<std::string> names = names_of(build(file_, options_).product.checks);
   std::sort(names.begin(), names.end());

@@ -221,8 +221,7 @@ TEST_P(Campaign, DesignsAreMadeOrRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Random, Campaign, ::testing::Range(0, k_shards));
 
-// ---- every choice
-// ----------------------------------------------------------------------------------------------------
+// ---- every choice ---------------------------------------------------------------------------------------------------
 
 struct Choice {
   std::string key;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "fusee/pipeline.h"
 #include "fusee/solid/layout.h"
@@ -217,6 +218,22 @@ TEST_F(MadePart, HasItsSize) {
   EXPECT_EQ(*flat.extent, Vec3(4, 4, 0));
   EXPECT_EQ(flat.contours, 1u);
   EXPECT_FALSE(flat.volume);
+}
+
+TEST_F(MadePart, MayBeTextInUtf16OrWithCarriageReturnsAlone) {
+  const std::string square = "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n40\n50\n0\nENDSEC\n0\nEOF\n";
+  std::string utf16 = "\xFF\xFE", cr = square;
+  for (const char c : square) utf16 += {c, '\0'};
+  std::replace(cr.begin(), cr.end(), '\n', '\r');
+  for (const std::string& bytes : {utf16, cr}) {
+    // Without an ending that tells it.
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "round_part";
+    std::ofstream(file, std::ios::binary) << bytes;
+    const Part part = read_part(file);
+    ASSERT_TRUE(std::holds_alternative<Drawing>(part));
+    EXPECT_EQ(*size_of(part, check_part(part)).extent, Vec3(100, 100, 0));
+    std::filesystem::remove(file);
+  }
 }
 
 TEST_F(MadePart, AsADrawingOfFloorsOrOfPitchCurvesGivesTheSameAngles) {

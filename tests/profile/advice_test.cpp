@@ -71,7 +71,7 @@ std::vector<Condition> fails_by(double gap) {
 }
 
 TEST(Advice, HowMuchIsTriedIsLimited) {
-  int looks = 0;
+  std::atomic<int> looks = 0;
   std::atomic<int> makings = 0;
   const Judge hopeless{[&](const Mechanism&) { return ++looks, fails_by(1.0); },
                        [&](const Mechanism&) { return ++makings, true; }};

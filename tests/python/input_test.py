@@ -128,6 +128,9 @@ class Input(unittest.TestCase):
             self.refused(fusee.calibrate, self.arm, runs)
         self.refused(fusee.calibrate, self.arm, [LOG], columns={"lod": "x"})
         self.refused(fusee.calibrate, self.arm, [LOG], columns={"load": "missing"})
+        self.refused(fusee.calibrate, self.arm, [LOG], units={"alpha": "stone"})
+        self.refused(fusee.calibrate, self.arm, [LOG], ticks_per_turn={"load": 4096})
+        self.refused(fusee.simulate, self.arm, LOG, zero_ticks={"alpha": 4096})
 
     def test_places_that_cannot_be_written(self):
         (self.folder / "taken").mkdir()

@@ -1,4 +1,4 @@
-"""Every line of Python that README.md and profiles/python.md show runs as it is written, and so does the sweep, here and on Dask."""
+"""Each line of Python that README.md and docs/reference/python.md show runs as written. So does the sweep, here and on Dask."""
 
 import contextlib
 import importlib.util
@@ -17,8 +17,8 @@ from setting import harness
 
 import fusee
 
-PAGES = ["README.md", "profiles/python.md"]
-SWEEP = harness.SOURCE / "profiles/python_sweep.py"
+PAGES = ["README.md", "docs/reference/python.md"]
+SWEEP = harness.SOURCE / "docs/reference/python_sweep.py"
 
 
 def blocks(page):
@@ -28,7 +28,8 @@ def blocks(page):
 class Pages(harness.Scratch):
     def setUp(self):
         super().setUp()
-        shutil.copytree(harness.SOURCE / "profiles", self.folder / "profiles")
+        for folder in ("profiles", "docs"):
+            shutil.copytree(harness.SOURCE / folder, self.folder / folder)
         (self.folder / "arm.toml").write_text(fusee.new("forearm"))
         before = os.getcwd()
         os.chdir(self.folder)
@@ -48,8 +49,8 @@ class Pages(harness.Scratch):
                         self.assertIn(words, printed.getvalue())
 
     def test_commands_run(self):
-        """Those of profiles/python.md that install nothing."""
-        lines = [line for block in re.findall(r"^```sh\n(.*?)^```", (harness.SOURCE / "profiles/python.md").read_text(), re.M | re.S) for line in block.splitlines()]
+        """Those of docs/reference/python.md that install nothing."""
+        lines = [line for block in re.findall(r"^```sh\n(.*?)^```", (harness.SOURCE / "docs/reference/python.md").read_text(), re.M | re.S) for line in block.splitlines()]
         ran = 0
         for line in lines:
             if re.search(r"\bpip\b|\.ci/setup|cmake|dask", line):
@@ -61,12 +62,12 @@ class Pages(harness.Scratch):
         self.assertGreater(ran, 0)
 
     def test_pages_name_what_exists(self):
-        for name in re.findall(r"\bfusee\.(\w+)", (harness.SOURCE / "profiles/python.md").read_text()):
+        for name in re.findall(r"\bfusee\.(\w+)", (harness.SOURCE / "docs/reference/python.md").read_text()):
             self.assertTrue(hasattr(fusee, name) or name in ("toml", "sh"), name)
 
 
 class Sweep(unittest.TestCase):
-    """Small: what it is to show in large is measured by hand, and said in profiles/python.md."""
+    """Small: what it is to show in large is measured by hand, and said in docs/reference/python.md."""
 
     @classmethod
     def setUpClass(cls):

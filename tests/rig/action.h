@@ -29,6 +29,7 @@ struct Moment {
   double warmth = 0;                                     ///< K above the session's begin
   std::array<double, 2> tension{};                       ///< at the link; [0] is tendon 1
   std::array<Vec2, 2> pull{Vec2::Zero(), Vec2::Zero()};  ///< unit, from the link's end towards the pins
+  std::size_t side = 0;                                  ///< the tendon that is acted on, where one is; 0 is tendon 1
 };
 
 /// A function of a moment with its numbers; equal where name, numbers and function are.
@@ -44,7 +45,8 @@ struct Action {
 class Actors {
  public:
   Actors() = default;
-  explicit Actors(const std::vector<Action>& actions) : actions_(actions), memories_(actions.size()) {}
+  explicit Actors(const std::vector<Action>& actions, std::size_t side = 0)
+      : actions_(actions), memories_(actions.size()), side_(side) {}
 
   bool empty() const { return actions_.empty(); }
   /// Their sum; they remember it.
@@ -57,15 +59,18 @@ class Actors {
 
  private:
   double sum(const Moment& now, std::vector<std::vector<double>>& memories) const {
+    Moment here = now;
+    here.side = side_;
     double all = 0;
     for (std::size_t i = 0; i < actions_.size(); ++i) {
-      all += actions_[i].act(now, actions_[i].numbers, memories[i]);
+      all += actions_[i].act(here, actions_[i].numbers, memories[i]);
     }
     return all;
   }
 
   std::vector<Action> actions_;
   std::vector<std::vector<double>> memories_;
+  std::size_t side_ = 0;
 };
 
 }  // namespace fusee::rig

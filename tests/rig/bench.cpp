@@ -152,7 +152,7 @@ UpperString string_up(const BenchTendon& tendon, const Circle& pin, double theta
 
 Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
     : hidden_(hidden),
-      longer_{Actors(hidden.longer[0]), Actors(hidden.longer[1])},
+      longer_{Actors(hidden.longer[0], 0), Actors(hidden.longer[1], 1)},
       torque_(hidden.torque),
       dry_(hidden.dry) {
   const DeclaredMechanism& declared = joint.declared;

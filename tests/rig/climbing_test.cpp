@@ -9,7 +9,6 @@
 #include "fusee/mechanism/file.h"
 #include "rig/bench.h"
 #include "rig/rig.h"
-#include "rig/string_geometry.h"
 
 namespace fusee::rig {
 namespace {
@@ -41,37 +40,17 @@ double furthest_off(const DeclaredMechanism& declared) {
   return degrees(off);
 }
 
-TEST(Climbing, AStringOnACylinderIsAsLongAsThatUnrolled) {
-  constexpr double radius = 7.0, slope = 0.07;
-  constexpr int corners = 4000;
-  Polygon polygon;
-  std::vector<double> heights;
-  for (int i = 0; i <= 3 * corners; ++i) {
-    polygon.push_back(radius * unit(k_two_pi * i / corners));
-    heights.push_back(slope * radius * k_two_pi * i / corners);
-  }
-  const Hull spiral = spiral_of(polygon, heights, corners);
-  EXPECT_NEAR(spiral.around, 3.0 * k_two_pi * radius * std::hypot(1.0, slope), 1e-4);
-
-  const Circle pin{{15.0, 40.0}, 2.0};
-  const LowerString level = lower_string(hull_of(Polygon(polygon.begin(), polygon.begin() + corners)), pin, 0);
-  const LowerString string = lower_string(spiral, pin, first_look(spiral, pin));
-  EXPECT_NEAR(string.length, level.length, 1e-9);
-  EXPECT_NEAR(string.height, slope * string.arc / std::hypot(1.0, slope), 1e-4);
-  EXPECT_THROW(lower_string(spiral, pin, 3 * corners), InputError);
-}
-
 // The curves are those that build draws, from paths unrolled; here strings are laid on them in space.
-TEST(Climbing, FollowsTheDeclaredLawWhereNothingGives) { EXPECT_LT(furthest_off(stiff(wrist_turns())), 5e-4); }
+TEST(Climbing, FollowsDeclaredLaw) { EXPECT_LT(furthest_off(stiff(wrist_turns())), 5e-4); }
 
-TEST(Climbing, FollowsItWithCollarsToo) {
+TEST(Climbing, FollowsDeclaredLawWithCollars) {
   DeclaredMechanism declared = stiff(wrist_turns());
   declared.guides.collar = true;
   EXPECT_LT(furthest_off(declared), 5e-4);
 }
 
 // Else the groove would end where the knot of a pulley of one turn lies.
-TEST(Climbing, TiesItsTendonsBehindTheSpareTurns) {
+TEST(Climbing, TiesTendonsBehindSpareTurns) {
   const MadeJoint joint = make_joint(wrist_turns());
   const Bench bench(joint, {});
   for (const std::size_t side : {0u, 1u}) {

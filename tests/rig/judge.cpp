@@ -151,7 +151,7 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
       lost += "  (" + fault + " " + (least > 0 ? rounded(size / least, 2) : "?") + ")";
     }
     one.held_by_names += std::any_of(found.effects.begin(), found.effects.end(),
-                                     [&](const FoundEffect& e) { return in(e) && !holds(e.group, k_nameless); })
+                                     [&](const FoundEffect& e) { return in(e) && !holds(e.group, k_unmodelled); })
                              ? 1
                              : 0;
     one.alone += std::any_of(found.effects.begin(), found.effects.end(),
@@ -165,10 +165,10 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
       add_covered("groove_friction", effect, made, one.numbers);
     const bool wrong = !holds_truth(effect.group, made, without);
     one.false_groups += wrong ? 1 : 0;
-    one.false_names += wrong && !holds(effect.group, k_nameless) ? 1 : 0;
+    one.false_names += wrong && !holds(effect.group, k_unmodelled) ? 1 : 0;
     one.wrong_alone += wrong && effect.group.size() == 1 ? 1 : 0;
     groups += (wrong ? "  !{" : "  {") + joined(effect.group) + "}" + rounded(effect.evidence, 2) + "~" +
-              rounded(effect.nameless.behind, 2) + "[" + effect.nameless.words + "]";
+              rounded(effect.unmodelled.behind, 2) + "[" + effect.unmodelled.words + "]";
   }
   std::string seen;
   for (const double times : made.seen) seen += (seen.empty() ? "" : ", ") + rounded(times, 3);

@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -24,37 +26,30 @@ namespace fusee::rig {
 namespace {
 
 constexpr const char* k_usage =
-    "usage: known_truth [--seeds N] [--only NAME]... [--protocol full|single|random] [--csv DIR] ...\n"
-    "       known_truth --joints N [--split NAME] [--kinds NAME]... [--protocol full|single|random] ...\n"
-    "       known_truth --leave-out NAME|all [--seeds N] ...\n"
-    "  --seeds N           joints per truth (3)\n"
-    "  --first N           seed of the first of them (1): joints that nobody has tuned anything on\n"
-    "  --only NAME         this truth alone; \"nothing\", \"tendon_stretch\", \"backlash + sensor_lag\" ...\n"
-    "  --joints N          joints drawn at random instead: nothing, one, two, three faults with names, an unknown "
-    "one,\n"
-    "                      a known one beside an unknown one, in turn\n"
-    "  --kinds NAME        only these: nothing one two three unknown beside (repeatable)\n"
-    "  --split NAME        where faults without a name are drawn from: tuning (unless told), or those that are\n"
-    "                      kept aside: unseen, sealed, withheld, reserved, unopened, unread, untold, unmet, unheard,\n"
-    "                      unforeseen, unimagined, undreamt, unsuspected\n"
-    "  --leave-out NAME    joints that have this effect, calibrated by a catalogue that does not; all: each in turn\n"
-    "  --protocol NAME     full: five runs; single: one unloaded run; random: any (full; random with --joints)\n"
-    "  --any-groove        the groove's friction is drawn from 0.05 to 0.5 while the file says 0.2 (always with "
-    "--joints)\n"
-    "  --csv DIR           leaves spec.toml, runs and truth.json of each joint there\n"
-    "  --no-calibration    makes the data alone\n"
-    "  --jobs N            joints at work at once (2)\n"
-    "  --most-missed P     exit code 4 when more than P % of the named faults are missed\n"
-    "  --most-lost P       exit code 4 when more than P % of the named faults beside one without a name are in no "
-    "group\n"
-    "  --most-blamed P     exit code 4 when more than P % of the joints, of either kind, are falsely blamed\n"
-    "  --most-empty P      exit code 4 when of more than P % of the joints, of either kind, a group names nothing that "
-    "is\n"
-    "                      there, though it may say that it may be something without a name\n"
-    "  --joint FILE        this joint, without its [load], and none drawn at random: faults of its drum, attachments "
-    "and\n"
-    "                      idlers\n"
-    "  --list              the truths\n";
+    R"(usage: known_truth [--seeds N] [--only NAME]... [--protocol full|single|random] [--csv DIR] ...
+       known_truth --joints N [--split NAME] [--kinds NAME]... [--protocol full|single|random] ...
+       known_truth --leave-out NAME|all [--seeds N] ...
+  --seeds N         joints per truth (3)
+  --first N         seed of the first of them (1): joints that nobody has tuned anything on
+  --only NAME       this truth alone: "nothing", or faults: "tendon_stretch", "backlash + sensor_lag" ...
+  --joints N        joints drawn at random instead: each of --kinds in turn
+  --kinds NAME      only these: nothing one two three (faults with names) unknown (one without) beside (one of each)
+  --split NAME      where faults without a name are drawn from: tuning (the default), regression, or a held-out set:
+                    heldout_13
+  --leave-out NAME  joints that have this effect, calibrated by a catalogue that does not; all: each in turn
+  --protocol NAME   full: five runs; single: one unloaded run; random: any (full; random with --joints)
+  --any-groove      the groove's friction is drawn from 0.05 to 0.5 while the file says 0.2 (always with --joints)
+  --csv DIR         leaves spec.toml, runs and truth.json of each joint there
+  --no-calibration  makes the data alone
+  --jobs N          joints at work at once (2)
+  --most-missed P   exit code 4 when more than P % of the named faults are missed
+  --most-lost P     exit code 4 when more than P % of the named faults beside one without a name are in no group
+  --most-blamed P   exit code 4 when more than P % of the joints, of either kind, have a false positive
+  --most-empty P    exit code 4 when of more than P % of the joints, of either kind, a group names nothing that is
+                    there, though it may say that the cause may be unmodelled
+  --joint FILE      this joint, without its [load], and none drawn at random: faults of its drum, attachments, idlers
+  --list            the truths
+)";
 
 constexpr const char* k_full_words =
     "Five runs a joint: no load, a load, no load and fast, half the load, the load reversed.\n";
@@ -79,7 +74,7 @@ struct Request {
   std::optional<Protocol> protocol;
   bool any_groove = false;
   std::string csv;
-  bool calibration = true;
+  bool no_calibration = false;
   bool list = false;
   std::size_t jobs = 2;
   double most_missed = 100;  ///< %
@@ -120,100 +115,75 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
-/// Options that stand alone. False when it is none of them.
-bool read_flag(const std::string& word, Request& request) {
-  if (word == "--no-calibration") {
-    request.calibration = false;
-  } else if (word == "--any-groove") {
-    request.any_groove = true;
-  } else if (word == "--list") {
-    request.list = true;
-  } else {
-    return false;
-  }
+/// Reads a word after an option. False when it is not fit for it.
+using Reader = std::function<bool(Request&, const std::string&)>;
+
+Reader text_into(std::string Request::*member) {
+  return [=](Request& request, const std::string& text) { return request.*member = text, true; };
+}
+Reader texts_into(std::vector<std::string> Request::*member) {
+  return [=](Request& request, const std::string& text) { return (request.*member).push_back(text), true; };
+}
+template <typename Value>
+Reader number_into(Value Request::*member, double least = 0) {
+  return [=](Request& request, const std::string& text) {
+    const std::optional<double> value = number(text);
+    if (value) request.*member = static_cast<Value>(*value);
+    return value && *value >= least;
+  };
+}
+
+bool read_kind(Request& request, const std::string& text) {
+  request.kinds.push_back(text);
+  return kind_of(text).has_value();
+}
+bool read_protocol(Request& request, const std::string& text) {
+  request.protocol = protocol_of(text);
+  return request.protocol.has_value();
+}
+bool read_joint(Request& request, const std::string& text) {
+  DeclaredMechanism declared = read_mechanism(text).mechanism;
+  declared.load = {};
+  request.joint = make_joint(declared);
   return true;
 }
 
-/// Options with a word. False when it is none of them; `fit`: whether the word is one for it.
-bool read_word(const std::string& word, const std::string& text, Request& request, bool& fit) {
-  fit = true;
-  if (word == "--only") {
-    request.only.push_back(text);
-  } else if (word == "--kinds") {
-    request.kinds.push_back(text);
-    fit = kind_of(text).has_value();
-  } else if (word == "--split") {
-    request.split = text;
-  } else if (word == "--leave-out") {
-    request.leave_out = text;
-  } else if (word == "--joint") {
-    DeclaredMechanism declared = read_mechanism(text).mechanism;
-    declared.load = {};
-    request.joint = make_joint(declared);
-  } else if (word == "--csv") {
-    request.csv = text;
-  } else if (word == "--protocol") {
-    request.protocol = protocol_of(text);
-    fit = request.protocol.has_value();
-  } else {
-    return false;
-  }
-  return true;
-}
-
-/// Options with a value. False when it is none of them or the value is not fit for it.
-bool read_option(const std::string& word, const std::string& text, Request& request) {
-  bool fit = false;
-  if (read_word(word, text, request, fit)) return fit;
-  const std::optional<double> value = number(text);
-  if (!value) return false;
-  const auto whole = static_cast<std::uint64_t>(*value);
-  if (word == "--seeds") {
-    request.seeds = whole;
-    return whole > 0;
-  }
-  if (word == "--jobs") {
-    request.jobs = static_cast<std::size_t>(whole);
-    return whole > 0;
-  }
-  if (word == "--joints") {
-    request.joints = whole;
-  } else if (word == "--first") {
-    request.first = whole;
-  } else if (word == "--most-missed") {
-    request.most_missed = *value;
-  } else if (word == "--most-lost") {
-    request.most_lost = *value;
-  } else if (word == "--most-blamed") {
-    request.most_blamed = *value;
-  } else if (word == "--most-empty") {
-    request.most_empty = *value;
-  } else {
-    return false;
-  }
-  return true;
-}
+const std::map<std::string, bool Request::*> k_flags = {
+    {"--any-groove", &Request::any_groove}, {"--no-calibration", &Request::no_calibration}, {"--list", &Request::list}};
+const std::map<std::string, Reader> k_options = {{"--seeds", number_into(&Request::seeds, 1)},
+                                                 {"--first", number_into(&Request::first)},
+                                                 {"--joints", number_into(&Request::joints)},
+                                                 {"--jobs", number_into(&Request::jobs, 1)},
+                                                 {"--most-missed", number_into(&Request::most_missed)},
+                                                 {"--most-lost", number_into(&Request::most_lost)},
+                                                 {"--most-blamed", number_into(&Request::most_blamed)},
+                                                 {"--most-empty", number_into(&Request::most_empty)},
+                                                 {"--only", texts_into(&Request::only)},
+                                                 {"--split", text_into(&Request::split)},
+                                                 {"--leave-out", text_into(&Request::leave_out)},
+                                                 {"--csv", text_into(&Request::csv)},
+                                                 {"--kinds", read_kind},
+                                                 {"--protocol", read_protocol},
+                                                 {"--joint", read_joint}};
 
 std::optional<Request> read_request(const std::vector<std::string>& words) {
   Request request;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (read_flag(words[i], request)) continue;
-    if (i + 1 == words.size() || !read_option(words[i], words[i + 1], request)) return std::nullopt;
-    ++i;
+    if (const auto flag = k_flags.find(words[i]); flag != k_flags.end()) {
+      request.*flag->second = true;
+      continue;
+    }
+    const auto option = k_options.find(words[i]);
+    if (option == k_options.end() || ++i == words.size() || !option->second(request, words[i])) return std::nullopt;
   }
   return request;
 }
 
-/// The truths asked for. InputError for one that there is not.
+/// The truths asked for. InputError for a fault that there is not.
 std::vector<Truth> truths_of(const Request& request) {
-  const std::vector<Truth> all = request.joint ? wide_truths(*request.joint) : all_truths();
-  if (request.only.empty()) return all;
+  if (request.only.empty()) return request.joint ? wide_truths(*request.joint) : all_truths();
   std::vector<Truth> chosen;
-  for (const std::string& name : request.only) {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Truth& truth) { return truth.name == name; });
-    if (found == all.end()) throw InputError("--only", "there is no truth '" + name + "'; --list shows them");
-    chosen.push_back(*found);
-  }
+  for (const std::string& name : request.only) chosen.push_back(truth_of(name));
   return chosen;
 }
 
@@ -278,7 +248,7 @@ std::vector<Judgement> work(const std::vector<Job>& jobs, const Request& request
       const CaseOptions options{protocol_of(request), request.any_groove || request.joints > 0,
                                 request.joint ? &*request.joint : nullptr};
       const Case made = make_case(jobs[i].truth, jobs[i].seed, options);
-      if (request.calibration) {
+      if (!request.no_calibration) {
         answers[i] = calibrate_case(made, folder / folder_name(jobs[i]), jobs[i].without);
         words = answers[i]->words;
         if (!jobs[i].row.empty()) answers[i]->truth = jobs[i].row;
@@ -362,7 +332,7 @@ int run(const std::vector<std::string>& words) {
   if (request->csv.empty()) scratch.emplace();
   const std::vector<Judgement> all =
       work(jobs, *request, scratch ? scratch->path() : std::filesystem::path(request->csv));
-  if (!request->calibration) return 0;
+  if (request->no_calibration) return 0;
   const bool fine = report(all, *request);
   // Not every protocol shows every fault: those are left out.
   if (all.empty() || (protocol_of(*request) == Protocol::full && all.size() < jobs.size())) return 1;

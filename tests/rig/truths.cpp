@@ -1,7 +1,6 @@
 #include "rig/truths.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "fusee/base/diagnostics.h"
@@ -99,7 +98,7 @@ Sized sized(const Fault& fault, const Character& character, const Case& made, co
   Sized best{fault.first, 0};
   for (int look = 0; look < k_looks; ++look) {
     Hidden hidden = made.hidden;
-    fault.set(hidden, best.size, character, made.joint);
+    fault.apply(hidden, best.size, character, made.joint);
     try {
       best.moved = moved(made, hidden, without);
     } catch (const InputError&) {
@@ -136,7 +135,7 @@ bool try_joint(Case& made, Random& random, const CaseOptions& options) {
     const Sized found = sized(wanted, character, made, without, target);
     if (found.moved < (1.0 - k_near) * wanted.least_seen * noise || found.moved > 1.3 * k_most_seen * noise)
       return false;
-    wanted.set(all, found.size, character, made.joint);
+    wanted.apply(all, found.size, character, made.joint);
     made.seen.push_back(found.moved / noise);
   }
   made.hidden = all;
@@ -194,6 +193,17 @@ std::vector<Truth> wide_truths(const MadeJoint& joint) {
   return truths;
 }
 
+Truth truth_of(const std::string& name) {
+  Truth truth{name, {}};
+  if (name.starts_with("nothing")) return truth;
+  const std::string joint = " + ";
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + joint.size()) {
+    end = name.find(joint, begin);
+    truth.faults.push_back(find_fault(name.substr(begin, end - begin)).name);
+  }
+  return truth;
+}
+
 std::vector<std::string> kin_of(const std::string& name) { return find_fault(name).kin; }
 
 std::vector<Truth> all_truths() {
@@ -201,18 +211,16 @@ std::vector<Truth> all_truths() {
   for (const char* split : {"named", "tuning"}) {
     for (const std::string& name : names_in(split)) truths.push_back({name, {name}});
   }
-  const std::vector<std::array<const char*, 2>> pairs = {
-      {"tendon_stretch", "backlash"},     {"tendon_stretch", "capstan_friction"},
-      {"tendon_stretch", "guide_radius"}, {"backlash", "sensor_lag"},
-      {"backlash", "zero_offset"},        {"backlash", "pulley_runout"},
-      {"pulley_scale", "tendon_stretch"}, {"motor_sensor_eccentricity", "zero_offset"},
-  };
-  for (const auto& pair : pairs) truths.push_back({std::string(pair[0]) + " + " + pair[1], {pair[0], pair[1]}});
+  for (const char* pair :
+       {"tendon_stretch + backlash", "tendon_stretch + capstan_friction", "tendon_stretch + guide_radius",
+        "backlash + sensor_lag", "backlash + zero_offset", "backlash + pulley_runout", "pulley_scale + tendon_stretch",
+        "motor_sensor_eccentricity + zero_offset"})
+    truths.push_back(truth_of(pair));
   return truths;
 }
 
 Truth random_truth(Kind kind, const std::string& split, std::uint64_t seed) {
-  Random random(hash_of(split) ^ (seed * 0xD1B54A32D192ED03ULL));
+  Random random(hash_of(find_split(split).seed_word) ^ (seed * 0xD1B54A32D192ED03ULL));
   Truth truth;
   const auto add = [&](const std::vector<std::string>& names) {
     std::string name;

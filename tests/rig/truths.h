@@ -27,7 +27,10 @@ bool has_name(const std::string& fault);
 /// Fault::kin.
 std::vector<std::string> kin_of(const std::string& fault);
 
-/// Nothing at all (three kinds of noise), every fault alone but those of a split that is kept aside, and pairs.
+/// The truth of this name: "nothing", or names of faults joined by " + ". InputError for a fault that there is not.
+Truth truth_of(const std::string& name);
+
+/// Nothing at all (three kinds of noise), every fault with a name or for tuning alone, and pairs.
 std::vector<Truth> all_truths();
 
 /// Nothing, and every fault of the wide list that this joint can have, alone; where its grooves climb, those with a

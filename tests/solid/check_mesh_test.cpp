@@ -1,6 +1,10 @@
 // Each check of a mesh is seen failing, alone where that can be, on a solid broken on purpose.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "fusee/base/diagnostics.h"
@@ -26,7 +30,7 @@ TEST(CheckMesh, MissingFacet) {
   TriangleMesh mesh = cube(10);
   mesh.triangles.erase(mesh.triangles.begin() + 4);
   const auto checks = check_mesh(mesh);
-  EXPECT_EQ(failed(checks), "open_edges inverted_parts");
+  EXPECT_EQ(failed(checks), "open_edges");
   EXPECT_EQ(check_named(checks, "open_edges").value, 3);
   EXPECT_EQ(check_named(checks, "open_edges").where.substr(0, 6), "facet ");
 }
@@ -35,7 +39,7 @@ TEST(CheckMesh, FlippedFacetIsNamedWithItsPlace) {
   TriangleMesh mesh = cube(9);
   std::swap(mesh.triangles[0][1], mesh.triangles[0][2]);
   const auto checks = check_mesh(mesh);
-  EXPECT_EQ(failed(checks), "flipped_facets inverted_parts");
+  EXPECT_EQ(failed(checks), "flipped_facets");
   EXPECT_EQ(check_named(checks, "flipped_facets").where, "facet 0 at (3.000, 3.000, 0.000) mm");
 }
 
@@ -55,7 +59,7 @@ TEST(CheckMesh, DuplicateFacet) {
   TriangleMesh mesh = cube(10);
   mesh.triangles.push_back(mesh.triangles[7]);
   const auto checks = check_mesh(mesh);
-  EXPECT_EQ(failed(checks), "duplicate_facets edges_of_more_than_two_facets inverted_parts");
+  EXPECT_EQ(failed(checks), "duplicate_facets");
   EXPECT_EQ(check_named(checks, "duplicate_facets").value, 1);
 }
 
@@ -67,9 +71,70 @@ TEST(CheckMesh, DegenerateFacet) {
   mesh.triangles.push_back({0, 8, 1});
   mesh.triangles.push_back({1, 8, 2});
   const auto checks = check_mesh(mesh);
-  // Its neighbours touch along the edge that it hides.
-  EXPECT_EQ(failed(checks), "degenerate_facets self_intersections");
-  EXPECT_EQ(check_named(checks, "degenerate_facets").where.substr(0, 8), "facet 13");
+  EXPECT_EQ(failed(checks), "degenerate_facets");
+  EXPECT_EQ(check_named(checks, "degenerate_facets").value, 1);
+}
+
+// Poles of spheres and capsules are exported with facets of two equal corners.
+TEST(CheckMesh, ACollapsedFacetIsNamedOnce) {
+  for (const std::array<std::uint32_t, 3>& slit : {std::array<std::uint32_t, 3>{0, 0, 1}, {4, 2, 4}, {5, 5, 5}}) {
+    TriangleMesh mesh = cube(10);
+    mesh.triangles.insert(mesh.triangles.begin() + 3, slit);
+    const auto checks = check_mesh(mesh);
+    EXPECT_EQ(failed(checks), "degenerate_facets");
+    EXPECT_EQ(check_named(checks, "degenerate_facets").where.substr(0, 7), "facet 3");
+  }
+}
+
+TEST(CheckMesh, ANeedleBesideASoundSurfaceIsNamedOnce) {
+  TriangleMesh mesh = cube(10);
+  mesh.vertices.emplace_back(5, 0, 0);
+  mesh.triangles.push_back({0, 8, 1});
+  EXPECT_EQ(failed(check_mesh(mesh)), "degenerate_facets");
+}
+
+// Along one edge: each needle's neighbour is the next one, down to a facet that is split several times.
+TEST(CheckMesh, ARowOfNeedlesIsNamedOnce) {
+  TriangleMesh mesh = cube(10);
+  mesh.vertices.emplace_back(5, 5, 0);
+  mesh.vertices.emplace_back(2.5, 7.5, 0);
+  mesh.triangles[0] = {0, 2, 9};
+  mesh.triangles.push_back({0, 9, 8});
+  mesh.triangles.push_back({0, 8, 1});
+  mesh.triangles.push_back({1, 8, 2});
+  mesh.triangles.push_back({8, 9, 2});
+  const auto checks = check_mesh(mesh);
+  EXPECT_EQ(failed(checks), "degenerate_facets");
+  EXPECT_EQ(check_named(checks, "degenerate_facets").value, 2);
+}
+
+// The rest is examined without it, and named by the facets' own numbers.
+TEST(CheckMesh, FaultsBesideADegenerateFacetAreFoundToo) {
+  TriangleMesh mesh = cube(10);
+  mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
+  mesh.triangles.pop_back();
+  EXPECT_EQ(failed(check_mesh(mesh)), "degenerate_facets open_edges");
+  mesh = joined(cube(10), cube(10, {4.5, 4.25, 4.125}));
+  mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
+  EXPECT_EQ(failed(check_mesh(mesh)), "degenerate_facets self_intersections");
+  mesh = cube(9);
+  std::swap(mesh.triangles[0][1], mesh.triangles[0][2]);
+  mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
+  EXPECT_EQ(check_named(check_mesh(mesh), "flipped_facets").where, "facet 1 at (3.000, 3.000, 0.000) mm");
+}
+
+// Two holes that share a corner are two holes.
+TEST(CheckMesh, ACornerOfHolesIsNotPinched) {
+  TriangleMesh mesh = cube(10);
+  // A facet of the bottom, and one of a side that has a single corner in common with it.
+  const auto share = [](const auto& s, const auto& t) {
+    return std::count_if(s.begin(), s.end(), [&](std::uint32_t v) { return std::count(t.begin(), t.end(), v) > 0; });
+  };
+  const auto first = mesh.triangles.front();
+  mesh.triangles.erase(mesh.triangles.begin());
+  mesh.triangles.erase(
+      std::find_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) { return share(first, t) == 1; }));
+  EXPECT_EQ(failed(check_mesh(mesh)), "open_edges");
 }
 
 TEST(CheckMesh, CrossingParts) {
@@ -91,8 +156,7 @@ TEST(CheckMesh, AFacetFoldedOntoItsNeighbour) {
 }
 
 TEST(CheckMesh, TwoCubesOnOneEdge) {
-  EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(10, {10, 10, 0})))),
-            "edges_of_more_than_two_facets inverted_parts");
+  EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(10, {10, 10, 0})))), "edges_of_more_than_two_facets");
 }
 
 TEST(CheckMesh, TwoCubesOnOneCorner) {
@@ -113,11 +177,14 @@ TEST(CheckMesh, VerticesNumberedPerFacetAreWelded) {
 
 TEST(CheckMesh, NothingAtAll) {
   const auto checks = check_mesh({});
-  EXPECT_EQ(failed(checks),
-            "facets degenerate_facets duplicate_facets open_edges edges_of_more_than_two_facets flipped_facets "
-            "pinched_vertices inverted_parts "
-            "self_intersections");
-  EXPECT_EQ(check_named(checks, "open_edges").where, "not looked at: there are no facets");
+  EXPECT_EQ(failed(checks), "facets");
+  EXPECT_EQ(check_named(checks, "facets").where, "there are no facets");
+}
+
+TEST(CheckMesh, ASingleFacet) {
+  const auto checks = check_mesh({{{0, 0, 0}, {10, 0, 0}, {0, 10, 0}}, {{0, 1, 2}}});
+  EXPECT_EQ(failed(checks), "facets");
+  EXPECT_EQ(check_named(checks, "facets").where, "1 facet encloses no solid: at least 4 are required");
 }
 
 TEST(CheckMesh, IndicesOutOfRange) {
@@ -125,7 +192,7 @@ TEST(CheckMesh, IndicesOutOfRange) {
   mesh.triangles[3][1] = 4'000'000'000u;
   const auto checks = check_mesh(mesh);
   EXPECT_EQ(check_named(checks, "indices_out_of_range").value, 1);
-  EXPECT_FALSE(check_named(checks, "self_intersections").ok);
+  EXPECT_EQ(failed(checks), "indices_out_of_range");
 }
 
 TEST(CheckMesh, NotANumberAndInfinity) {
@@ -134,7 +201,7 @@ TEST(CheckMesh, NotANumberAndInfinity) {
     mesh.vertices[5].y() = value;
     const auto checks = check_mesh(mesh);
     EXPECT_EQ(check_named(checks, "vertices_not_finite").where, "vertex 5");
-    EXPECT_FALSE(check_named(checks, "open_edges").ok);
+    EXPECT_EQ(failed(checks), "vertices_not_finite");
   }
 }
 
@@ -144,11 +211,26 @@ TEST(CheckMesh, HugeAndTinyCoordinatesAreDecidedExactly) {
   EXPECT_EQ(failed(check_mesh(joined(cube(1e-30), cube(1e30, {1, 1, 1})))), "");
 }
 
-// A cone of many facets about one vertex and a heap of facets in one place end too.
+// The search for crossings among them took 20 s for each 100 000.
 TEST(CheckMesh, AHeapOfEqualFacetsEnds) {
   TriangleMesh mesh = cube(10);
-  for (int k = 0; k < 2000; ++k) mesh.triangles.push_back(mesh.triangles[0]);
-  EXPECT_EQ(check_named(check_mesh(mesh), "duplicate_facets").value, 2000);
+  for (int k = 0; k < 200'000; ++k) mesh.triangles.push_back(mesh.triangles[0]);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto checks = check_mesh(mesh);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+  EXPECT_EQ(check_named(checks, "duplicate_facets").value, 200'000);
+  EXPECT_EQ(failed(checks), "duplicate_facets");
+}
+
+// Facets about one edge: each two of them are neighbours.
+TEST(CheckMesh, AnEdgeOfManyFacetsIsNotSearchedForCrossings) {
+  TriangleMesh mesh{{{0, 0, 0}, {0, 0, 1}}, {}};
+  for (std::uint32_t k = 0; k < 15'000; ++k) {
+    mesh.vertices.emplace_back(5 + std::cos(k / 1e4), std::sin(k / 1e4), 0.5);
+    mesh.triangles.push_back({0, 1, k + 2});
+  }
+  EXPECT_THAT(check_named(check_mesh(mesh), "self_intersections").where,
+              ::testing::HasSubstr("too many facets lie on top of one another"));
 }
 
 TEST(Section, OfACube) {

@@ -60,8 +60,7 @@ Mechanism printed(Parts parts, double overhang = 45) {
   return mechanism;
 }
 
-// ---- slopes
-// -----------------------------------------------------------------------------------------------------------
+// ---- slopes ---------------------------------------------------------------------------------------------------------
 
 bool outside(const Outline& outline, double distance, const Vec2& point) {
   return std::any_of(outline.points.begin(), outline.points.end(),
@@ -175,8 +174,7 @@ TEST(PrintShapes, SupportsGiveFlatCeilingsAndSymmetricGrooves) {
   }
 }
 
-// ---- seats
-// ------------------------------------------------------------------------------------------------------------
+// ---- seats ----------------------------------------------------------------------------------------------------------
 
 struct Seat {
   double below = 1e9;  ///< of the tendon's centre line from the wall, the part of it below the groove's plane
@@ -243,8 +241,7 @@ TEST(PrintShapes, TheHalfThatTheTendonLiesOnIsTheSameWithSupports) {
   }
 }
 
-// ---- two parts
-// --------------------------------------------------------------------------------------------------------
+// ---- two parts ------------------------------------------------------------------------------------------------------
 
 Made two_parts() { return {printed(Parts::two), pulley_of(circle(20), circle(24, {2, 1}))}; }
 
@@ -375,8 +372,7 @@ TEST(TwoParts, PinsKeepClearOfTieOffs) {
   EXPECT_EQ(pin_holes(made.pulley.mesh, layout.z_p1 + 0.01, layout.dowels.hole_diameter).size(), 2u);
 }
 
-// ---- one or two
-// -------------------------------------------------------------------------------------------------------
+// ---- one or two -----------------------------------------------------------------------------------------------------
 
 // Flange 1 stands at 20 − d/2 + 2 d, the middle one 0.2 mm and the smooth maximum's share outside of both lips.
 double cone_over(double r1, double r2, double overhang) {

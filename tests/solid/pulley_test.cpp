@@ -113,8 +113,7 @@ TEST(Pulley, TieOffsLeaveTheFloorPastTheWoundEnds) {
   }
 }
 
-// ---- each check fails on a part that is broken in its way
-// --------------------------------------------------------------
+// ---- each check fails on a part that is broken in its way -----------------------------------------------------------
 
 TEST(CheckPulley, WrongRadius) {
   Made made;

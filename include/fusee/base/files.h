@@ -24,10 +24,12 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit);
 /// The same of what fusee itself wrote, now or earlier: no input.
 std::string read_output(const std::filesystem::path& path, std::size_t limit);
 
+/// The system's folder for temporary files. OutputError where TMPDIR names none.
+std::filesystem::path temporary_folder();
+
 /// SHA-256 of `bytes`, 64 lower-case hex digits.
 std::string sha256(std::string_view bytes);
 
-class MissingFolders;
 class Staging;
 
 /// One file to be left behind: its name inside the output folder and its bytes.
@@ -57,7 +59,7 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   /// True when the folder already holds a manifest of an earlier run of fusee.
-  bool has_earlier_run() const { return earlier_run_; }
+  bool has_earlier_run() const { return !ours_.empty(); }
   /// Throws OutputError, naming all of them, when some of `names` may not be overwritten (see above) or the folder
   /// cannot be written. Writes nothing.
   void claim(const std::vector<std::string>& names);
@@ -75,30 +77,20 @@ class OutputFolder {
   void discard() const;
 
  private:
-  struct NotOurs {
-    std::vector<std::string> foreign, changed;
-  };
-
   void learn_ours();
-  void demand_files(const std::vector<std::string>& names) const;
-  NotOurs not_ours(const std::vector<std::string>& names) const;
-  void demand_ours(const std::vector<std::string>& names);
   void open_staging();
   bool is_obsolete(const std::filesystem::path& file) const;
   bool link_others() const;
   bool publish_as_folder(std::vector<Diagnostic>& notes);
   void publish_one_by_one();
-  void put_back(const std::vector<std::string>& published) const;
 
   std::filesystem::path folder_;  ///< as it was named
   std::filesystem::path place_;   ///< the same from the root, without links and dots
   bool force_;
-  bool earlier_run_ = false;
-  /// What earlier runs of fusee wrote here: name and SHA-256.
+  /// What earlier runs of fusee wrote here, their manifests too: name and SHA-256.
   std::set<std::pair<std::string, std::string>> ours_;
   std::vector<std::string> staged_;
   std::vector<std::string> withdrawn_;
-  std::unique_ptr<MissingFolders> missing_;  ///< outlives the staging folder
   std::unique_ptr<Staging> staging_;
 };
 

@@ -1,5 +1,5 @@
 /// \file
-/// From a measured residual to named effects with their evidence: CONTRACT §6.
+/// From a measured residual to named effects with their evidence.
 #pragma once
 
 #include <functional>
@@ -34,9 +34,13 @@ struct CalibrationOptions {
 struct FittedParameter {
   std::string name;  ///< "EA_N": the unit stands in the name
   double value = 0;  ///< in that unit
-  double low = 0;    ///< 95 % interval
+  double low = 0;    ///< 95 % interval, whatever else of the catalogue may be there beside it
   double high = 0;
-  std::string sense = {};  ///< what its sign says of the joint ("pins too high"); empty where nothing has to be said
+  double low_if_only = 0;  ///< the same if the effects that were found are all there is: never wider
+  double high_if_only = 0;
+  /// What its sign says of the joint ("pins too high"), as far as the narrower interval knows it; empty where nothing
+  /// has to be said.
+  std::string sense = {};
 };
 
 /// Joints simulated without an effect, and in how many of them the same runs would have named it.
@@ -46,10 +50,10 @@ struct Audit {
 };
 
 /// Stands in a group beside names: what is there may have none.
-inline constexpr const char* k_nameless = "nameless";
+inline constexpr const char* k_unmodelled = "unmodelled";
 
 /// Something without a name that would do what a named effect does.
-struct Nameless {
+struct Unmodelled {
   /// Nats by which the data are likelier with the effect, whatever else has no name beside either; infinite: not asked.
   double behind = std::numeric_limits<double>::infinity();
   std::string words;           ///< what it would be: "a wave of 5.2 times a turn of the motor"; "" where nothing is
@@ -66,7 +70,7 @@ struct Evenness {
   double part = std::numeric_limits<double>::infinity();
 };
 
-/// A member of a group that may be there beside the effect, with the numbers that are handed over.
+/// A member of a group with its numbers.
 struct MemberBeside {
   std::string name;
   std::vector<FittedParameter> parameters;
@@ -75,17 +79,20 @@ struct MemberBeside {
 /// One effect that the data ask for, with all that would do as well.
 struct FoundEffect {
   std::string name;
-  /// `name` and every effect that would do nearly as well in its place; k_nameless where the data do not say that it
+  /// `name` and every effect that would do nearly as well in its place; k_unmodelled where the data do not say that it
   /// is anything with a name.
   std::vector<std::string> group;
   ChainPlace place = ChainPlace::joint;
   std::vector<FittedParameter> parameters;
   /// Members of `group` that foretell runs that were left out better where they are there too.
   std::vector<MemberBeside> beside;
+  /// Members of `group` that would do in its place, each with the numbers that it would have there.
+  std::vector<MemberBeside> instead;
   double rms_drop = 0;  ///< of the held-out residual, rad; never below 0
+  double share = 0;     ///< part of the declared joint's held-out mean square that goes with it, 0 … 1
   double evidence = 0;  ///< log of how many times less likely the data are without it
   Audit audit;
-  Nameless nameless;
+  Unmodelled unmodelled;
   Evenness evenness;
   CorrectableBy correctable_by = CorrectableBy::nothing;
   /// Of a change: its size by the standard error that the scatter from run to run gives it; infinite: not asked.
@@ -149,14 +156,24 @@ struct Detectable {
   double smallest = 0;  ///< rad at the joint
 };
 
-/// CONTRACT §6; in words: words.h.
+/// word() in words.h has the words.
 enum class CalibrationVerdict { not_testable, not_repeatable, unexplained, confounded, explained, no_effect };
+
+/// Rows that were left out, and the joint as all others have it.
+struct LeftOut {
+  std::vector<std::string> runs;  ///< names
+  Imperfections identified;
+};
 
 struct Calibration {
   CalibrationVerdict verdict = CalibrationVerdict::not_testable;
   std::string summary;  ///< two sentences that a person can act on
   std::vector<FoundEffect> effects;
-  Imperfections identified;  ///< what the effects amount to; all zero without any
+  Imperfections identified;       ///< what the effects amount to; all zero without any
+  std::vector<LeftOut> left_out;  ///< by which a correction is measured; each run in one of them, or those kept
+  /// Effects that fit the runs and are not reported: with them rows that were not fitted are predicted worse.
+  std::vector<std::string> dropped;
+  std::string noise_varies;  ///< how the noise depends on load and speed, in a sentence; "" where it does not
   std::vector<Candidate> tried;
   NoiseFloor noise;
   ErrorFigures before, after;

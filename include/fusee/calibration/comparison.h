@@ -29,7 +29,7 @@ struct ChangedParameter {
 /// A change that the runs show, with every change that would explain them as well.
 struct StateChange {
   std::string name;
-  std::vector<std::string> group;  ///< `name` first; k_nameless where it may be none of the catalogue
+  std::vector<std::string> group;  ///< `name` first; k_unmodelled where it may be none of the catalogue
   ChainPlace place = ChainPlace::joint;
   std::vector<ChangedParameter> parameters;
   double rms_drop = 0;  ///< of the held-out residual, rad

@@ -32,9 +32,13 @@ struct Correction {
   double error_now = 0;
   double error_with_pulley = 0;  ///< … with the corrected pulley, tendons tied at α = 0
   double error_with_table = 0;   ///< … and the motor where the table says
-  double by_pulley = 0;          ///< what the pulley takes away: error_now² − error_with_pulley² is its square
-  double by_table = 0;           ///< what the table takes away beyond that, the empirical curve in it included …
-  double by_curve = 0;           ///< … which alone takes away so much of data that it was not made from; 0: not in it
+  // By how much less rows that were left out miss the declared law, rms, rad: the difference of the squares is the
+  // square of what is taken away. 0: they do not get better, and the file is not to be used.
+  double by_pulley = 0;  ///< by what the corrected pulley changes of the joint …
+  double by_table = 0;   ///< … and by the table beyond that, the empirical curve in it included …
+  double by_curve = 0;   ///< … which alone takes away so much of data that it was not made from; 0: not in it
+  std::string why_no_pulley_file;      ///< why corrected.toml is not to be used; "" where it is
+  std::string why_no_table;            ///< the same of compensation.csv
   std::vector<CompensationRow> table;  ///< for the corrected pulley where there is one, within the range seen
 };
 
@@ -44,8 +48,8 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
 /// The declared file with the [identified] table, its comments kept; what was found stands above it in words.
 std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared,
                            const Calibration& calibration, const Correction& correction);
-/// CONTRACT §6. With an empirical curve in it two more columns, empirical_up_deg and empirical_down_deg, say which part
-/// of both angles is the curve's.
+/// Columns theta_deg, alpha_up_deg, alpha_down_deg. With an empirical curve two more, empirical_up_deg and
+/// empirical_down_deg, have the curve's part of both angles.
 std::string compensation_csv(const Correction& correction);
 
 }  // namespace fusee

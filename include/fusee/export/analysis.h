@@ -16,4 +16,10 @@ namespace fusee {
 std::string analysis_html(const MechanismFile& file, const AnalysisResult& result, const AnalysisOptions& options,
                           const std::vector<Diagnostic>& said);
 
+/// The page's plots as one picture of their own, and the same for programs that take no SVG: InputError where the
+/// system has no librsvg.
+std::string analysis_svg(const MechanismFile& file, const AnalysisResult& result);
+std::string analysis_png(const MechanismFile& file, const AnalysisResult& result);
+std::string analysis_pdf(const MechanismFile& file, const AnalysisResult& result);
+
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// What `fusee calibrate` leaves behind, as bytes: CONTRACT §6.
+/// Outputs of `fusee calibrate`, as bytes.
 #pragma once
 
 #include <string>
@@ -29,9 +29,29 @@ std::string calibration_report_html(const CalibrationProduct& product);
 /// Names the files beside it, so that the next run knows them as ours.
 std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs);
 
+// ---- what a person reads first ----
+
+/// 60 words at most, without identifiers.
+struct Headline {
+  std::string problem;  ///< what the joint does wrong, and by how much
+  std::string cause;    ///< one, or two or three candidates; "" where there is none
+  std::string action;   ///< what to do now
+};
+Headline headline(const CalibrationProduct& product);
+
+/// A number of a cause; of a further number, and of what may be there in the cause's place, share and remedy are empty.
+struct CauseRow {
+  std::string cause;
+  std::string size;
+  std::string interval;      ///< 95 %, if this is the only cause
+  std::string share;         ///< of the error on rows that were not fitted
+  std::string corrected_by;  ///< "pulley", "table" or "–"
+};
+std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
+
 // ---- in words, for the page and for a terminal alike ----
 
-/// "EA = 4515 N (95 %: 4479 … 4551)": the unit is taken from the end of the name; `load_unit` is that of the load
+/// "EA = 4515 N (95 %: 4479 … 4551 if nothing else is there, else 4420 … 4610)": the unit is taken from the end of the name; `load_unit` is that of the load
 /// column.
 std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit);
 /// The group without the effect itself.

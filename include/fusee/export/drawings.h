@@ -3,6 +3,8 @@
 /// bytes.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +32,20 @@ struct DrawingPath {
   int line = 0;        ///< in the file
   bool closed = false;
   Polygon points;
-  bool in_space = false;  ///< `points` is its plan
+  bool in_space = false;                          ///< `points` is its plan
+  std::optional<double> diameter = std::nullopt;  ///< of a whole circle: its own, not that of the points
+};
+
+/// An odd entity that did no harm; those of one kind together.
+struct DrawingRemark {
+  int line = 0;  ///< of the first
+  std::string text;
+  std::size_t count = 1;
+};
+/// The reason why an entity was left out.
+struct UndrawnEntity {
+  int line = 0;
+  std::string why;
 };
 
 struct Drawing {
@@ -38,12 +53,18 @@ struct Drawing {
   bool millimetres = false;          ///< $INSUNITS = 4, or absent in R12
   std::vector<DrawingPath> paths;    ///< in mm; what meets on one layer is joined
   std::vector<std::string> ignored;  ///< kinds of entity that were passed over
+  std::vector<DrawingRemark> remarks = {};
+  std::size_t undrawn = 0;  ///< entities whose values draw no curve
+  UndrawnEntity first_undrawn = {};
 };
 
-/// ASCII DXF, R12 to R2018. InputError with the line.
+/// ASCII DXF, R12 to R2018. Entities that cannot be drawn are counted and the rest is read. InputError with the line
+/// where the file as a whole cannot be read.
 Drawing read_dxf(std::string_view bytes, const std::string& file_name);
 
-/// Closed contours, ends that meet, no self-crossing, no duplicate lines, smallest feature: one Check each.
+/// Entities that can be drawn, closed contours, ends that meet, no self-crossing, no duplicate lines, smallest feature:
+/// one Check each. Lines that are drawn twice are looked at once, and what only an earlier fault makes fail is left
+/// out.
 std::vector<Check> check_drawing(const Drawing& drawing);
 
 }  // namespace fusee

@@ -10,7 +10,7 @@
 
 namespace fusee {
 
-/// paper.md alone: what stands in profiles/paper.md.
+/// paper.md alone: what stands in docs/background/paper.md.
 std::string paper_page(const Reproduction& reproduction);
 
 /// fig_04.svg and fig_04.csv …, table_4.csv, claims.csv, laws.csv, mu_windows.csv, paper.md, and manifest.json, which

@@ -12,6 +12,8 @@
 namespace fusee {
 
 std::string profile_csv(const Product& product);
+/// One pitch curve as points for a CAD program's spline: x_mm, y_mm, z_mm. Closed ones end where they begin.
+std::string pitch_curve_csv(const Product& product, Side side);
 std::string transmission_csv(const Product& product);
 /// The part as an OpenSCAD program that a person can read and change.
 std::string scad_text(const Product& product);

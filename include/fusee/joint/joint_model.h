@@ -78,6 +78,7 @@ struct JointModel {
   double slack = 0;                              ///< material of each tendon beyond what the pretension leaves, mm
   double bearing_friction = 0;                   ///< dry, of the joint's bearing, N·mm
   RubbingError rubbing;                          ///< dry, and by the tendons' pull
+  CableStiffening waves;                         ///< of each tendon, between its pin and its end
   double pin_give = 0;                           ///< a pin moves by this along what its tendon pushes it with, mm/N
   /// Between tendon and groove: what lies on a pulley slides as far as this lets it, up to the knot. Infinite: it keeps
   /// the strain that it was wound at; 0: it is a part of the spring.

@@ -1,5 +1,5 @@
 /// \file
-/// Measured runs of a joint: what a bench logged, read with suspicion and cut into strokes. CONTRACT §5.
+/// Measured runs of a joint: what a bench logged, read with suspicion and cut into strokes.
 #pragma once
 
 #include <array>
@@ -17,12 +17,27 @@
 
 namespace fusee {
 
-/// Separators: comma, semicolon, tab or blanks, whichever the header has. Lines end with LF, CR LF or CR. Angles are in
-/// degrees and time in s, unless the column's name ends in _rad, _ms or _us.
+/// A CSV text of RFC 4180: UTF-8, Latin-1 or UTF-16; lines end with LF, CR LF or CR; separators are comma, semicolon,
+/// tab or blanks. The header is the first line that names the angles. The unit of a column is, in this order: what an
+/// option says, what the column's name states ("theta_rad", "load [kg]"), or what its values show (with a note). An
+/// InputError where none of them decides.
 struct MeasurementOptions {
-  std::map<std::string, std::string> columns;  ///< role → column name: {"load", "tau_out_Nm"}
-  bool needs_theta = true;                     ///< false: what drove the joint is enough, as in read_driving()
+  std::map<std::string, std::string> columns;    ///< role → column name: {"load", "tau_out_Nm"}
+  bool needs_theta = true;                       ///< false: what drove the joint is enough, as in read_driving()
+  std::map<std::string, std::string> units;      ///< role → unit: {"time", "ms"}
+  std::map<std::string, double> ticks_per_turn;  ///< alpha, theta → counts a turn; negative where they fall
+  std::map<std::string, double> zero_ticks;      ///< alpha, theta → counts at home
+  double alpha_span = 0;  ///< how far the declared joint moves, rad; 0: not known. See expecting()
+  double theta_span = 0;
 };
+
+/// The options with the spans of a declared joint: they tell degrees from radians where no name states the unit.
+MeasurementOptions expecting(const Mechanism& declared, MeasurementOptions options);
+
+/// The name of a unit that a role can have, for options ("ms" for "msec"); "" for none.
+std::string unit_for(const std::string& role, const std::string& spelling);
+/// "s, ms, us, …": all of a role's units.
+std::string units_for(const std::string& role);
 
 /// One logged row. NaN where a column is absent.
 struct Sample {
@@ -33,6 +48,7 @@ struct Sample {
   double temperature = 0;  ///< °C
   double tension1 = 0;     ///< N
   double tension2 = 0;
+  bool after_break = false;  ///< the log began again here: what the joint did before it is not known
 };
 
 /// Samples in one direction of α, from one reversal (or the run's beginning) to the next.
@@ -68,7 +84,7 @@ struct Measurement {
   std::vector<Run> runs;
   double alpha_quantum = 0;  ///< step of the sensor, rad; 0 when it is finer than can be told
   double theta_quantum = 0;
-  std::string load_unit;                  ///< from the load column's name: "N", "Nm", "Nmm"; "" without one
+  std::string load_unit;                  ///< of the loads: "N", "Nm", "Nmm"; "" without any
   std::vector<std::string> notes;         ///< what was dropped, repaired or suspected, with file and line
   std::vector<std::string> not_testable;  ///< reasons why nothing can be concluded; empty when it can
 };
@@ -114,6 +130,15 @@ void compare_with_declared(const Mechanism& declared, Measurement& measurement);
 /// Its last step: the tendons' elastic model takes N across OC.
 void take_torques_as_forces(const Mechanism& declared, Measurement& measurement);
 
+/// Noise of repeats at one level of load and speed.
+struct NoiseLevel {
+  double load = 0;                ///< as Sample
+  double speed = 0;               ///< rad/s; 0 without time
+  double rms = 0;                 ///< scatter between repeats, rad
+  double degrees_of_freedom = 0;  ///< as NoiseFloor
+  double largest_at = 0;          ///< α about which repeats differ most, rad
+};
+
 /// Scatter of θ between repeats at the same α, direction, load and speed, before any fit. Repeats within a run, or
 /// where there are none, of runs that repeat one another: as far as they agree. What differs between two runs smoothly
 /// is no noise, something was changed between them. Single wild rows do not count.
@@ -123,6 +148,10 @@ struct NoiseFloor {
   bool from_repeats = false;      ///< false: no repeats; taken from differences of neighbours, a lower bound
   double colour = 0;        ///< correlation of the noise of neighbouring rows of the log, 0 … 0.99; 0 without repeats
   double between_runs = 0;  ///< rms by which runs that should repeat differ smoothly, rad; 0 where they agree
+  /// scatter of most neighbouring rows about one another, from third differences, and of the sensors' own steps, rad:
+  /// what of the noise a single stroke shows. 0: too few rows.
+  double within_stroke = 0;
+  std::vector<NoiseLevel> levels;  ///< of repeats within runs, by load and speed; none without enough of them
 
   /// As many independent rows' worth in the mean of `rows` rows, of which each is the `every`-th of the log.
   double effective_rows(double rows, double every = 1) const;

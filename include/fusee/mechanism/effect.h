@@ -67,6 +67,9 @@ struct SignWords {
   std::string_view above;
 };
 
+/// The unit of load is the log's, so that numbers with it have no size of their own.
+enum class PriorUnit { own, at_largest_load, of_largest_load };
+
 struct EffectParameter {
   std::string name;  ///< as reported, the unit stands in it: "EA_N"
   /// What it does to the joint: it is this number of it.
@@ -77,7 +80,9 @@ struct EffectParameter {
   /// How large it is in practice: the standard deviation over joints that people build, in the number's own unit, as
   /// good as declared in the middle. Positive, but 0 where the number is searched.
   double prior = 0;
-  bool prior_at_load = false;  ///< of a number per unit of load, whose unit is the log's: what the largest load does
+  /// Unit of the prior: that of the number; of a number per unit of load, what the largest load makes of it; or of a
+  /// number that is a load, a share of the largest.
+  PriorUnit prior_unit = PriorUnit::own;
   /// From the number to what is reported; may fall where the number grows.
   double (*shown)(double value, const Mechanism& declared) = nullptr;
   IdentifiedKey key;
@@ -89,6 +94,8 @@ struct EffectParameter {
   bool (*idle)(const Imperfections& joint) = nullptr;
 };
 
+/// The prior in the number's own unit. `largest_load`: the log's largest magnitude; 0 where there is none.
+double prior_of(const EffectParameter& parameter, double largest_load);
 bool is_idle(const EffectParameter& parameter, const Imperfections& joint);
 /// As reported, of that joint.
 double shown_value(const EffectParameter& parameter, const Imperfections& joint, const Mechanism& declared);
@@ -129,6 +136,7 @@ struct Effect {
   bool sticks = false;          ///< holds the joint where it is until more pushes: a slope or a chord says little of it
   bool loosens = false;         ///< leaves the joint free within a play: where in it it rests, any reading says
   Needs needs;
+  bool is_looked_for = true;  ///< by calibrate and plan; else it is simulated where a file has it in [identified]
   /// What stays of it when `before` was found earlier and `joint` now, into `joint`, where WhenFoundAgain does not say
   /// it all; null: it does.
   void (*found_again)(const Imperfections& before, Imperfections& joint) = nullptr;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 namespace fusee {
 
@@ -50,6 +51,34 @@ struct PulleyError {
   bool operator==(const PulleyError&) const = default;
 };
 
+/// A cable that does not lie straight is longer by the way that its waves take. A pull straightens them: it gains
+/// most · x/(1 + x) with x = rate · pull. Radians and units of load of a joint declared by a ratio; mm and N of a
+/// tendon.
+struct CableStiffening {
+  double most = 0;  ///< gained under any pull, the waves gone
+  double rate = 0;  ///< of straightening: half of it is gained at a pull of 1/rate
+
+  /// Gained under `pull`; odd, since the cable of the other side takes a pull the other way.
+  double gained(double pull) const {
+    const double x = rate * pull;
+    return most * x / (1.0 + std::abs(x));
+  }
+
+  /// Gained per pull, more of it. rad or mm per unit of pull
+  double slope(double pull) const {
+    const double straight = 1.0 + std::abs(rate * pull);
+    return most * rate / (straight * straight);
+  }
+  /// Work that a pull from zero up to `pull` ≥ 0 stores in it.
+  double energy(double pull) const {
+    if (!(rate > 0)) return 0;
+    const double x = rate * pull;
+    return most / rate * (std::log1p(x) - x / (1.0 + x));
+  }
+
+  bool operator==(const CableStiffening&) const = default;
+};
+
 struct TendonError {
   double stretch = 0;          ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
   double pretension = 0;       ///< added to that of tendon 1 at home, N; nothing where tendons hang loose
@@ -60,6 +89,7 @@ struct TendonError {
   double thermal1 = 0;         ///< unloaded length of tendon 1 added per kelvin, as a fraction
   double thermal2 = 0;         ///< of tendon 2: one may lie nearer to what is warm
   double groove_friction = 0;  ///< added to the coefficient between tendon and groove
+  CableStiffening waves = {};  ///< of each tendon between pin and joint, mm and N
 
   /// What slack leaves of the pretension: nothing, but for the last micrometre, over which a fit finds no jump.
   double pretension_share() const { return std::clamp(1.0 - slack / 1e-3, 0.0, 1.0); }
@@ -154,10 +184,21 @@ struct JointError {
   bool operator==(const JointError&) const = default;
 };
 
+/// Friction that a pull has to overcome before the joint turns, on the mean over the cable's way.
+struct CableFriction {
+  double share = 0;     ///< of the load
+  double unloaded = 0;  ///< and beside it, by what pulls the cables without load; units of load
+
+  double at(double load) const { return unloaded + share * std::abs(load); }
+
+  bool operator==(const CableFriction&) const = default;
+};
+
 /// Of a joint declared by a ratio, whose tendons are not known. rad.
 struct RatioJointError {
   double compliance = 0;      ///< turned by a unit of load
-  double dry_friction = 0;    ///< half loop per unit of |load|
+  CableStiffening waves;      ///< what a cable that lies wavy gives beside that
+  CableFriction friction;     ///< of the cable along its way
   double drift = 0;           ///< turned by a unit of load in every decade of time that it acts
   double slack = 0;           ///< play of α, full width, without load; it shrinks by 1 + slack_taken_up · |load|
   double slack_taken_up = 0;  ///< per unit of load

@@ -238,6 +238,7 @@ struct Print {
   Parts parts = Parts::automatic;  ///< one: P1 and P2 in one piece; two: each for itself, pinned together
   double overhang = 0;             ///< the flattest slope above the horizontal that a face looking down may have, rad
   bool supports = false;           ///< true: the printer makes supports, nothing is shaped to need none
+  double nozzle = 0;               ///< width of the line that the printer lays, mm
 
   bool operator==(const Print&) const = default;
 };

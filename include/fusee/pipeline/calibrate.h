@@ -1,5 +1,5 @@
 /// \file
-/// Measured runs of a joint → what is off, why, and the file of a better pulley: CONTRACT §6.
+/// Measured runs of a joint → what is off, why, and the file of a better pulley.
 #pragma once
 
 #include <filesystem>

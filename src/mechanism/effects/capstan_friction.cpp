@@ -9,6 +9,30 @@ double whole_friction(double added, const Mechanism& declared) {
   return there + added > 0 ? there + added : 0.0;
 }
 
+/// Of a joint declared by a ratio: RubbingCable.
+std::vector<EffectParameter> friction_of_cable() {
+  return {
+      {.name = "share_of_load",
+       .number = [](Imperfections& at) -> double& { return at.ratio_joint.friction.share; },
+       .least = 0,
+       .most = 2,
+       .step = 5e-3,
+       .prior = 0.15,  // a mean over the way: half of e^μφ − 1, 0.08 for one bend of 90° at 0.1, 0.35 for three at 0.15
+       .shown = shown::as_is,
+       .key = key::plain("friction_share", "", 0, 100,
+                         "of a joint declared by a ratio: friction along its cable, as a share of the load")},
+      {.name = "friction_without_load",
+       .number = [](Imperfections& at) -> double& { return at.ratio_joint.friction.unloaded; },
+       .least = 0,
+       .most = 1e6,
+       .step = 1e-3,
+       .prior = 0.1,  // pretension of two thirds of the largest load at that share
+       .prior_unit = PriorUnit::of_largest_load,
+       .shown = shown::as_is,
+       .key = key::plain("friction_without_load", "", 0, 1e7,
+                         "friction by the pretension of its cables, in the unit of load")}};
+}
+
 }  // namespace
 
 Effect capstan_friction(JointKind kind) {
@@ -21,18 +45,12 @@ Effect capstan_friction(JointKind kind) {
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {};
   if (kind == JointKind::ratio) {
+    effect.signature =
+        "hysteresis in the compliance: it grows with the load, sets in bit by bit after each reversal, and "
+        "holds the joint where it is when the load is taken off";
     effect.needs = {.load = true};
-    effect.parameters = {
-        {.name = "half_loop_deg_per_load",
-         .number = [](Imperfections& at) -> double& { return at.ratio_joint.dry_friction; },
-         .least = 0,
-         .most = 1e6,
-         .step = 1e-3,
-         .prior = radians(2.0),  // at the largest load: a sheathed cable loses some tenths of its stretch
-         .prior_at_load = true,
-         .shown = shown::in_degrees,
-         .key = key::in_degrees("dry_friction_deg", -360, 360,
-                                "of a joint declared by a ratio: half loop per unit of load")}};
+    effect.parameters = friction_of_cable();
+    effect.starts = {{0.1, 0}, {0.3, 0}};
     return effect;
   }
   effect.needs = {.pins = true};

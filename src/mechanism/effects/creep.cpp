@@ -19,7 +19,7 @@ Effect creep(JointKind kind) {
                           .most = 1e6,
                           .step = 1e-4,
                           .prior = radians(0.5),  // at the largest load: a tenth of what it stretches by
-                          .prior_at_load = true,
+                          .prior_unit = PriorUnit::at_largest_load,
                           .shown = shown::in_degrees,
                           .key = key::in_degrees(
                               "drift_deg", -360, 360,

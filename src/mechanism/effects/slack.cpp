@@ -28,7 +28,7 @@ std::vector<EffectParameter> of_ratio() {
            .most = 1e6,
            .step = 1e-2,
            .prior = 1,  // at the largest load: half of it
-           .prior_at_load = true,
+           .prior_unit = PriorUnit::at_largest_load,
            .shown = shown::as_is,
            .key = key::plain("slack_taken_up", "", 0, 1e6, "it shrinks by 1 + this for every unit of load")}};
 }

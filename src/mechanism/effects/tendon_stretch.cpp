@@ -33,7 +33,7 @@ Effect tendon_stretch(JointKind kind) {
                           .most = 1e6,
                           .step = 1e-3,
                           .prior = radians(5.0),  // at the largest load: what cable-driven fingers give
-                          .prior_at_load = true,
+                          .prior_unit = PriorUnit::at_largest_load,
                           .shown = shown::in_degrees,
                           .key = key::in_degrees("compliance_deg", -360, 360,
                                                  "of a joint declared by a ratio: turned by a unit of load")}};

@@ -53,7 +53,7 @@ def calibrate(
     arg1: Sequence[bytes],
     arg2: Sequence[bytes],
     arg3: Dict[bytes, bytes],
-    arg4: Dict[bytes, bytes],
+    arg4: Tuple[Any, ...],
     arg5: Target,
     arg6: bool,
     arg7: Stop,
@@ -70,6 +70,6 @@ def plan(
     arg8: Stop,
 ) -> Dict[str, Any]: ...
 def simulate(
-    arg0: CarriedMechanism, arg1: bytes, arg2: Dict[bytes, bytes], arg3: Dict[bytes, bytes], arg4: bool, arg5: float, arg6: int
+    arg0: CarriedMechanism, arg1: bytes, arg2: Dict[bytes, bytes], arg3: Tuple[Any, ...], arg4: bool, arg5: float, arg6: int
 ) -> Dict[str, Any]: ...
 def kit(arg0: CarriedMechanism, arg1: Target, arg2: float, arg3: str, arg4: Stop) -> Dict[str, Any]: ...

@@ -447,7 +447,7 @@ class Documented(Value):
     json: str
 
     def document(self) -> Dict[str, Any]:
-        """All that there is to say, as CONTRACT.md has it: a dictionary of one's own."""
+        """The whole document, as docs/reference/json.md has it: a new dictionary."""
         read: Dict[str, Any] = json.loads(self.json) if self.json else {}
         return read
 
@@ -502,7 +502,7 @@ class Calibration(Documented):
     unexplained_rms_deg: float
     next_runs: Tuple[str, ...]
     residuals: Tuple[Residual, ...]
-    corrected: Mechanism  #: the declared one with what was found: build() makes the corrected pulley
+    corrected: Optional[Mechanism]  #: the declared one with what was found, for build(); None where nothing was found that rows left out confirm
     json: str = dataclasses.field(repr=False)
     files: Table[str, bytes] = dataclasses.field(repr=False)
     notes: Tuple[str, ...] = dataclasses.field(repr=False)

@@ -300,9 +300,23 @@ def _logs(argument: str, logs: abc.Sequence[Log], prefix: str) -> Tuple[List[byt
     return names, held
 
 
-def _roles(columns: Optional[abc.Mapping[str, str]]) -> Dict[bytes, bytes]:
-    known = ["alpha", "theta", "time", "load", "temperature", "tension1", "tension2", "cycle", "motor_sensor_turned", "joint_sensor_turned"]
-    return {choice("columns", role, known).encode(): text_bytes("columns", str(name)) for role, name in (columns or {}).items()}
+_ANGLES = ["alpha", "theta"]
+_ROLES = [*_ANGLES, "time", "load", "temperature", "tension1", "tension2", "cycle", "motor_sensor_turned", "joint_sensor_turned"]
+_MOST_COUNTS = 1e12
+_Words = Optional[abc.Mapping[str, str]]
+_Counts = Optional[abc.Mapping[str, float]]
+
+
+def _reading(columns: _Words, units: _Words, ticks_per_turn: _Counts, zero_ticks: _Counts) -> Tuple[Any, ...]:
+    """How logs are read: columns, units and counts, each by its role."""
+
+    def words(name: str, given: _Words) -> Dict[bytes, bytes]:
+        return {choice(name, role, _ROLES).encode(): text_bytes(name, str(word)) for role, word in (given or {}).items()}
+
+    def counts(name: str, given: _Counts) -> Dict[bytes, float]:
+        return {choice(name, role, _ANGLES).encode(): number(name, count, -_MOST_COUNTS, _MOST_COUNTS) for role, count in (given or {}).items()}
+
+    return words("columns", columns), words("units", units), counts("ticks_per_turn", ticks_per_turn), counts("zero_ticks", zero_ticks)
 
 
 def _list(name: str, logs: object) -> abc.Sequence[Any]:
@@ -317,14 +331,18 @@ def calibrate(
     folder: Optional[PathLike] = None,
     *,
     hold_out: abc.Sequence[Log] = (),
-    columns: Optional[abc.Mapping[str, str]] = None,
+    columns: _Words = None,
+    units: _Words = None,
+    ticks_per_turn: _Counts = None,
+    zero_ticks: _Counts = None,
     force: bool = False,
     audit: bool = True,
 ) -> _values.Calibration:
     """Measured runs held against the mechanism: what is off, why, and a better file.
 
     A run is a CSV file or its columns (``alpha_deg``, ``theta_deg``, and if logged ``time_s``, ``load_N``, ``temperature_C`` …). `columns`
-    gives other names their role: ``{"load": "tau_out_Nm"}``. Whole searches take seconds to a minute.
+    gives other names their role: ``{"load": "tau_out_Nm"}``; `units` says what a name does not: ``{"time": "ms"}``; `ticks_per_turn` and
+    `zero_ticks` are of angles in counts of an encoder: ``{"alpha": 4096}``. Whole searches take seconds to a minute.
 
     >>> import fusee, numpy
     >>> arm = fusee.read(fusee.new("forearm"))
@@ -340,8 +358,8 @@ def calibrate(
     if {os.path.normpath(name) for name in fitted} <= {os.path.normpath(name) for name in kept}:
         raise input_error("hold_out", "every run is held out: none is left to fit")
     target = _target(folder, force)
-    roles = _roles(columns)
-    made = heard(lambda stop: _core.calibrate(joint, fitted, kept, {**held, **more}, roles, target, bool(audit), stop))
+    reading = _reading(columns, units, ticks_per_turn, zero_ticks)
+    made = heard(lambda stop: _core.calibrate(joint, fitted, kept, {**held, **more}, reading, target, bool(audit), stop))
     document = made.pop("document")
     said = json.loads(document)
     made["effects"] = tuple(_effect(effect) for effect in said.get("effects", ()))
@@ -350,7 +368,8 @@ def calibrate(
     made["before"], made["after"] = (_figures(said.get(name) or {}) for name in ("before", "after"))
     made["unexplained_rms_deg"] = _known(said.get("unexplained_rms_deg"))
     made["next_runs"] = tuple(str(run) for run in said.get("next_runs", ()))
-    corrected = _reread(mechanism, made["files"]["corrected.toml"].decode())
+    file = made["files"].get("corrected.toml")
+    corrected = None if file is None else _reread(mechanism, file.decode())
     return _values.Calibration(json=document, corrected=corrected, **_with_values(made))
 
 
@@ -419,7 +438,10 @@ def simulate(
     mechanism: Mechanism,
     log: Log,
     *,
-    columns: Optional[abc.Mapping[str, str]] = None,
+    columns: _Words = None,
+    units: _Words = None,
+    ticks_per_turn: _Counts = None,
+    zero_ticks: _Counts = None,
     corrected: bool = False,
     noise_deg: float = 0,
     seed: int = 1,
@@ -436,8 +458,8 @@ def simulate(
     names, held = _logs("log", [log], "columns")
     noise = math.radians(number("noise_deg", noise_deg, 0, 45, "deg"))
     start = whole("seed", seed, 0, _MOST_SEED)
-    roles = _roles(columns)
-    made = heard(lambda stop: _core.simulate(joint, names[0], held, roles, bool(corrected), noise, start))
+    reading = _reading(columns, units, ticks_per_turn, zero_ticks)
+    made = heard(lambda stop: _core.simulate(joint, names[0], held, reading, bool(corrected), noise, start))
     made["columns"] = _values.Table(made["columns"])
     return _values.Simulation(**_with_values(made))
 

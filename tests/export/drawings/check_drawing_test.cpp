@@ -9,7 +9,6 @@ namespace fusee {
 namespace {
 
 using testing::check_named;
-using ::testing::Contains;
 using ::testing::ElementsAre;
 using testing::failed;
 using ::testing::HasSubstr;
@@ -32,23 +31,60 @@ Drawing plate() {
 
 TEST(CheckDrawing, AGoodDrawingPasses) { EXPECT_THAT(failed(check_drawing(plate())), IsEmpty()); }
 
-TEST(CheckDrawing, AnEmptyDrawingFails) { EXPECT_THAT(failed(check_drawing({})), Contains("contours")); }
+TEST(CheckDrawing, AnEmptyDrawingFails) { EXPECT_THAT(failed(check_drawing({})), ElementsAre("contours")); }
 
 TEST(CheckDrawing, AnOpenContourFails) {
   Drawing drawing = plate();
   drawing.paths[2].closed = false;
   const auto checks = check_drawing(drawing);
-  EXPECT_THAT(failed(checks), ElementsAre("contours_closed", "ends_meet"));
+  EXPECT_THAT(failed(checks), ElementsAre("contours_closed"));
   EXPECT_THAT(check_named(checks, "contours_closed").where, HasSubstr("layer CUT_OUTER, LWPOLYLINE at line 7"));
-  EXPECT_DOUBLE_EQ(check_named(checks, "ends_meet").value, 30);
 }
 
 TEST(CheckDrawing, EndsThatAlmostMeetFail) {
   Drawing drawing = plate();
   drawing.paths[2] = contour("CUT_OUTER", {{0, 0}, {30, 0}, {30, 30}, {0, 30}, {0, 0.01}}, false);
-  const Check check = check_named(check_drawing(drawing), "ends_meet");
-  EXPECT_FALSE(check.ok);
-  EXPECT_NEAR(check.value, 0.01, 1e-12);
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("ends_meet"));
+  EXPECT_NEAR(check_named(check_drawing(drawing), "ends_meet").value, 0.01, 1e-12);
+}
+
+// A short line has its ends as near, and was never meant to be closed.
+TEST(CheckDrawing, AShortLineIsOpen) {
+  Drawing drawing = plate();
+  drawing.paths.push_back(contour("CUT_OUTER", {{40, 40}, {40.5, 40}}, false));
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("contours_closed"));
+}
+
+TEST(CheckDrawing, ADrawingOfOneOpenContourFailsOnce) {
+  Drawing drawing;
+  drawing.paths = {contour("0", {{0, 0}, {30, 0}, {30, 30}, {0, 30}, {0, 0.05}}, false)};
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("ends_meet"));
+}
+
+TEST(CheckDrawing, ALineOnAnEdgeIsDrawnTwiceAndNoMore) {
+  Drawing drawing = plate();
+  drawing.paths.push_back(contour("CUT_OUTER", {{0, 0}, {30, 0}}, false));
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("no_duplicate_lines"));
+}
+
+TEST(CheckDrawing, AnEntityThatIsLeftOutFailsAndTheRestIsChecked) {
+  Drawing drawing = plate();
+  drawing.undrawn = 2;
+  drawing.first_undrawn = {36, "the radius of this ARC is -1"};
+  const auto checks = check_drawing(drawing);
+  EXPECT_THAT(failed(checks), ElementsAre("undrawn_entities"));
+  EXPECT_EQ(check_named(checks, "undrawn_entities").where, "line 36: the radius of this ARC is -1");
+  drawing.paths.clear();
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("undrawn_entities"));
+}
+
+TEST(CheckDrawing, ACircleIsAsWideAsItsDiameter) {
+  Drawing drawing = plate();
+  drawing.paths[1] = contour("CUT_INNER", circle_polygon({10, 10}, 0.5));
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("smallest_feature"));
+  drawing.paths[1].diameter = 1;
+  EXPECT_THAT(failed(check_drawing(drawing)), IsEmpty());
+  EXPECT_EQ(check_named(check_drawing(drawing), "smallest_feature").value, 1);
 }
 
 TEST(CheckDrawing, EngravingMayEndAndCross) {
@@ -152,7 +188,7 @@ TEST(CheckDrawing, APlateBeyondItsSheetFails) {
 TEST(CheckDrawing, ForeignDrawingsAreContoursOnEveryLayer) {
   Drawing drawing;
   drawing.paths = {contour("Layer 1", square(0, 0, 30)), contour("whatever", {{1, 1}, {5, 5}}, false)};
-  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("contours_closed", "ends_meet"));
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("contours_closed"));
 }
 
 // The sweep against every pair, on polygons that cross often, sometimes or never.

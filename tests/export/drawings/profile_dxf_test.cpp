@@ -3,6 +3,9 @@
 
 #include "drawing_tools.h"
 #include "export/drawings/cut_shapes.h"
+#include "export/drawings/fitted_arcs.h"
+#include "fusee/base/units.h"
+#include "solid/nearest_segment.h"
 #include "support/shapes.h"
 
 namespace fusee {
@@ -33,9 +36,47 @@ TEST_P(BothVersions, CurvesComeBackToTheMicron) {
     const auto paths = on_layer(drawing, layer);
     ASSERT_EQ(paths.size(), 1u) << layer;
     EXPECT_TRUE(paths[0].closed);
-    ASSERT_EQ(paths[0].points.size(), points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LE((paths[0].points[i] - points[i]).norm(), 1e-6);
+    // The arcs stay within half a micron of the outline, and the reader's chords within one of the arcs.
+    const NearestSegment drawn_curve({paths[0].points});
+    for (const Vec2& point : points) EXPECT_LE(drawn_curve.distance(point), 0.0016) << layer;
+    EXPECT_NEAR(signed_area(paths[0].points) / signed_area(points), 1, 5e-3) << layer;
   }
+}
+
+TEST_P(BothVersions, ARoundPulleyIsACircle) {
+  const Drawing drawing = drawn(egg());
+  for (const auto& [layer, diameter] : {std::pair{"P1_PITCH", 32.0}, {"P1_FLOOR", 31.0}}) {
+    const auto paths = on_layer(drawing, layer);
+    ASSERT_EQ(paths.size(), 1u) << layer;
+    EXPECT_EQ(paths[0].entity, "CIRCLE") << layer;
+    EXPECT_NEAR(paths[0].diameter.value_or(0), diameter, 1e-6) << layer;
+  }
+}
+
+TEST(ProfileDxf, AnotherPulleyIsAFewArcsWithCommonTangents) {
+  const Product product = egg();
+  for (const double distance : {0.0, -0.5}) {
+    const std::vector<BulgeVertex> arcs = fitted_arcs(product.synthesis.p2, distance, 0.0005);
+    EXPECT_LT(arcs.size(), 0.5 * static_cast<double>(product.synthesis.p2.points.size()));
+    double turn = 0;
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+      const BulgeVertex &here = arcs[i], &next = arcs[(i + 1) % arcs.size()], &after = arcs[(i + 2) % arcs.size()];
+      const Vec2 chord = next.place - here.place, then = after.place - next.place;
+      const double end = 2 * std::atan(here.bulge), start = 2 * std::atan(next.bulge);
+      EXPECT_NEAR(std::atan2(cross(chord, then), chord.dot(then)), end + start, 1e-6) << "a corner at arc " << i;
+      turn += 2 * end;
+    }
+    EXPECT_NEAR(turn, k_two_pi, 1e-6);
+  }
+}
+
+// Normals that belong to no smooth curve leave the outline's own edges.
+TEST(ProfileDxf, EdgesThatNoArcFitsStayStraight) {
+  Outline outline = egg().synthesis.p2;
+  for (OutlinePoint& point : outline.points) point.normal = -point.normal;
+  const std::vector<BulgeVertex> edges = fitted_arcs(outline, 0, 0.0005);
+  ASSERT_EQ(edges.size(), outline.points.size());
+  for (const BulgeVertex& edge : edges) EXPECT_EQ(edge.bulge, 0);
 }
 
 TEST_P(BothVersions, NothingToComplainOf) {

@@ -1,11 +1,13 @@
 // What a drawing from anywhere becomes: points in mm, chains joined, and a line number in every refusal.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <random>
 
 #include "drawing_tools.h"
 #include "export/drawings/dxf_writer.h"
+#include "export/drawings/plane_shapes.h"
 #include "fusee/base/files.h"
 
 namespace fusee {
@@ -214,18 +216,115 @@ TEST(ReadDxf, WrittenPointsComeBack) {
   }
 }
 
-// Refusals
-// -------------------------------------------------------------------------------------------------------------
+// ---- Refusals -------------------------------------------------------------------------------------------------------
 
 TEST(ReadDxf, RefusesWithTheLine) {
-  EXPECT_THAT(message_of(dxf_of(tags({{0, "LINE"}, {8, "cut"}, {10, "zero"}}))),
-              HasSubstr("test.dxf:30: error: a number should stand here (group 10), not 'zero'"));
-  EXPECT_THAT(message_of(dxf_of(tags({{0, "LINE"}, {8, "cut"}, {10, "nan"}, {20, "inf"}}))), HasSubstr("test.dxf:30"));
-  EXPECT_THAT(message_of(dxf_of(tags({{0, "CIRCLE"}, {8, "cut"}, {40, "-1"}}))),
-              HasSubstr("test.dxf:26: error: the radius of this CIRCLE is -1"));
   EXPECT_THAT(message_of(dxf_of("LINE\n0\n")), HasSubstr("test.dxf:25: error: a group code"));
-  EXPECT_THAT(message_of(dxf_of(tags({{0, "INSERT"}, {2, "gone"}}))), HasSubstr("block 'gone'"));
-  EXPECT_THAT(message_of(dxf_of(line(0, 0, 1e9, 0))), HasSubstr("further than 10 km"));
+}
+
+// The rest of the drawing is read, and the entity is counted with its line and the reason.
+TEST(ReadDxf, AnEntityThatDrawsNoCurveIsLeftOut) {
+  const auto why = [](const std::string& entity) {
+    const Drawing drawing = read(dxf_of(entity + line(0, 0, 1, 0)));
+    EXPECT_EQ(drawing.paths.size(), 1u) << entity;
+    EXPECT_EQ(drawing.undrawn, 1u) << entity;
+    return std::to_string(drawing.first_undrawn.line) + ": " + drawing.first_undrawn.why;
+  };
+  EXPECT_EQ(why(tags({{0, "LINE"}, {8, "cut"}, {10, "zero"}})),
+            "30: a number should stand here (group 10), not 'zero'");
+  EXPECT_THAT(why(tags({{0, "LINE"}, {8, "cut"}, {10, "nan"}, {20, "inf"}})), HasSubstr("30: "));
+  EXPECT_THAT(why(tags({{0, "CIRCLE"}, {8, "cut"}, {40, "-1"}})), HasSubstr("26: the radius of this CIRCLE is -1"));
+  EXPECT_THAT(why(tags({{0, "INSERT"}, {2, "gone"}})), HasSubstr("block 'gone'"));
+  EXPECT_THAT(why(line(0, 0, 1e9, 0)), HasSubstr("further than 10 km"));
+  EXPECT_THAT(why(tags({{0, "SPLINE"}, {8, "cut"}, {71, "3"}, {40, "0"}, {10, "0"}, {20, "0"}})), HasSubstr("knots"));
+  EXPECT_THAT(why(tags({{0, "ELLIPSE"}, {8, "cut"}, {11, "1e12"}, {21, "0"}, {40, "1"}})), HasSubstr("axes"));
+}
+
+TEST(ReadDxf, AnEntityOfNoSizeIsRemarkedOn) {
+  const Drawing drawing = read(dxf_of(tags({{0, "ARC"}, {8, "cut"}, {40, "0"}}) + line(3, 3, 3, 3) + line(4, 4, 4, 4) +
+                                      tags({{0, "ELLIPSE"}, {8, "cut"}, {11, "0"}, {21, "0"}}) + line(0, 0, 1, 0)));
+  EXPECT_EQ(drawing.paths.size(), 1u);
+  EXPECT_EQ(drawing.undrawn, 0u);
+  ASSERT_EQ(drawing.remarks.size(), 3u);
+  EXPECT_EQ(drawing.remarks[0].text, "this ARC draws nothing: its radius is 0");
+  EXPECT_EQ(drawing.remarks[0].line, 26);
+  EXPECT_EQ(drawing.remarks[1].text, "this LINE draws nothing: it has no length");
+  EXPECT_EQ(drawing.remarks[1].count, 2u);
+}
+
+TEST(ReadDxf, AnEllipseMayBeTallerThanLong) {
+  const auto ellipse = [](const std::string& ratio) {
+    return read(dxf_of(tags({{0, "ELLIPSE"},
+                             {8, "cut"},
+                             {10, "0"},
+                             {20, "0"},
+                             {11, "10"},
+                             {21, "0"},
+                             {40, ratio},
+                             {41, "0"},
+                             {42, "6.283185307179586"}})));
+  };
+  const Drawing tall = ellipse("1.5");
+  ASSERT_EQ(tall.paths.size(), 1u);
+  EXPECT_EQ(bounding_box(tall.paths[0].points).size(), Vec2(20, 30));
+  ASSERT_EQ(tall.remarks.size(), 1u);
+  EXPECT_THAT(tall.remarks[0].text, HasSubstr("ELLIPSE is 1.5, above 1"));
+  // Above 1 by rounding is 1.
+  EXPECT_TRUE(ellipse("1.0000001").remarks.empty());
+}
+
+// CIRCLE, ARC, bulge and ELLIPSE reach as far as they do, not as their chords.
+TEST(ReadDxf, CurvesHaveTheirOwnSize) {
+  const auto size = [](const std::string& entity) { return bounding_box(only_path(entity).points).size(); };
+  EXPECT_EQ(size(tags({{0, "CIRCLE"}, {8, "cut"}, {40, "50"}})), Vec2(100, 100));
+  EXPECT_EQ(size(tags({{0, "CIRCLE"}, {8, "cut"}, {40, "3"}})), Vec2(6, 6));
+  EXPECT_LE(
+      (size(tags({{0, "ARC"}, {8, "cut"}, {40, "10"}, {50, "30"}, {51, "150"}})) - Vec2(20 * std::cos(radians(30)), 5))
+          .norm(),
+      1e-12);
+  // A slot of 60 by 10, and a half circle that bulges to the left of its way.
+  EXPECT_EQ(size(tags({{0, "LWPOLYLINE"},
+                       {8, "cut"},
+                       {90, "4"},
+                       {70, "1"},
+                       {10, "0"},
+                       {20, "0"},
+                       {10, "50"},
+                       {20, "0"},
+                       {42, "1"},
+                       {10, "50"},
+                       {20, "10"},
+                       {10, "0"},
+                       {20, "10"},
+                       {42, "1"}})),
+            Vec2(60, 10));
+  EXPECT_EQ(
+      size(tags({{0, "LWPOLYLINE"}, {8, "cut"}, {90, "2"}, {10, "0"}, {20, "0"}, {42, "-1"}, {10, "20"}, {20, "0"}})),
+      Vec2(20, 10));
+  // Turned by 30° in a block, and stretched there: an ellipse whose extremes are none of the circle's.
+  const std::string block = tags({{0, "BLOCK"}, {2, "b"}, {0, "CIRCLE"}, {8, "0"}, {40, "5"}, {0, "ENDBLK"}});
+  const DrawingPath stretched = only_path(tags({{0, "INSERT"}, {2, "b"}, {41, "2"}, {50, "30"}}), block);
+  const double c = std::cos(radians(30)), s = 0.5;
+  EXPECT_LE((bounding_box(stretched.points).size() - Vec2(10 * std::hypot(2 * c, s), 10 * std::hypot(2 * s, c))).norm(),
+            1e-12);
+  EXPECT_FALSE(stretched.diameter);
+  EXPECT_DOUBLE_EQ(*only_path(tags({{0, "INSERT"}, {2, "b"}, {41, "2"}, {42, "2"}, {50, "30"}}), block).diameter, 20);
+}
+
+TEST(ReadDxf, LinesMayEndWithCarriageReturnsAlone) {
+  std::string bytes = dxf_of(line(0, 0, 10, 0) + line(10, 10, 10, 0) + line(0, 10, 0, 0) + line(0, 10, 10, 10));
+  std::replace(bytes.begin(), bytes.end(), '\n', '\r');
+  const Drawing drawing = read(bytes);
+  ASSERT_EQ(drawing.paths.size(), 1u);
+  EXPECT_TRUE(drawing.paths[0].closed);
+}
+
+// dxflib 2.0 goes on with its header behind the header's end.
+TEST(ReadDxf, ValuesBetweenSectionsArePassedOver) {
+  std::string bytes = dxf_of(line(0, 0, 1, 0));
+  const std::string first_end = tags({{0, "ENDSEC"}});
+  bytes.insert(bytes.find(first_end) + first_end.size(), tags({{9, "$EXTMIN"}, {10, "0.0"}, {20, "0.0"}}));
+  EXPECT_EQ(read(bytes).paths.size(), 1u);
 }
 
 TEST(ReadDxf, RefusesWhatIsNoAsciiDxf) {
@@ -238,8 +337,11 @@ TEST(ReadDxf, RefusesWhatIsNoAsciiDxf) {
 
 TEST(ReadDxf, RefusesAFileThatWasCutShort) {
   const std::string whole = dxf_of(line(0, 0, 1, 0));
-  for (std::size_t size = 0; size + 4 < whole.size(); ++size)
+  // Behind its entities nothing but the last word is missing.
+  const std::size_t entities_end = whole.size() - tags({{0, "EOF"}}).size();
+  for (std::size_t size = 0; size + 1 < entities_end; ++size)
     EXPECT_NE(message_of(whole.substr(0, size)), "no error") << size;
+  EXPECT_EQ(message_of(whole.substr(0, entities_end)), "no error");
 }
 
 TEST(ReadDxf, BlocksThatHoldThemselvesEnd) {

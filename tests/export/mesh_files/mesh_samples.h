@@ -57,6 +57,16 @@ inline std::string error_of(std::string_view bytes, const std::string& name) {
   return {};
 }
 
+/// Text as an old Macintosh has it: lines end with \r alone.
+inline std::string with_cr(std::string_view text) {
+  std::string changed;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
+    changed += text[i] == '\n' ? '\r' : text[i];
+  }
+  return changed;
+}
+
 /// Cuts `bytes` at every place: each piece is a mesh or an InputError, never anything else. Returns how many were
 /// meshes.
 inline int meshes_among_truncations(std::string_view bytes, const std::string& name) {

@@ -21,11 +21,20 @@ TEST(ReadMesh, ContentTellsTheFormatWhateverTheName) {
   }
 }
 
+// A stray one far away, or one that is no number, is no part of the mesh.
+TEST(ReadMesh, LeavesOutVerticesThatNoFacetUses) {
+  const TriangleMesh mesh = read_mesh("v nan 0 0\nv 0 0 0\nv 500 500 500\nv 1 0 0\nv 0 1 0\nf 2 4 5\n", "x.obj");
+  ASSERT_EQ(mesh.vertices.size(), 3U);
+  ASSERT_EQ(mesh.triangles.size(), 1U);
+  EXPECT_EQ(mesh.vertices[mesh.triangles[0][1]], Vec3(1, 0, 0));
+  EXPECT_EQ(bounds(mesh).high, Vec3(1, 1, 0));
+}
+
 TEST(ReadMesh, SaysWhatItWouldHaveRead) {
   EXPECT_EQ(error_of("", "x.stl"), "x.stl: error: the file is empty, expected a mesh");
   EXPECT_EQ(error_of("hello", "letter.txt"),
             "letter.txt: error: expected a mesh, and neither its first bytes nor its name say of which format\n"
-            "  hint: fusee reads .stl, .obj, .3mf, .off, .ply and .drc");
+            "  hint: fusee reads .stl, .obj, .3mf, .off, .ply, .drc and .dxf");
 }
 
 /// What the fuzzer starts from and what it once broke: each is a mesh or an InputError.

@@ -113,7 +113,8 @@ TEST(ThreemfReader, ConvertsEveryUnit) {
         read_mesh(package(model(object, "<item objectid='1'/>", "unit='" + std::string(unit) + "'")), "x");
     EXPECT_EQ(corner(mesh, 0, 1), Vec3(size, 0, 0)) << unit;
   }
-  EXPECT_THAT(error_of(package(model(object, "", "unit='parsec'")), "x.3mf"), HasSubstr("found 'parsec'"));
+  EXPECT_THAT(error_of(package(model(object, "<item objectid='1'/>", "unit='parsec'")), "x.3mf"),
+              HasSubstr("found 'parsec'"));
 }
 
 TEST(ThreemfReader, PlacesItemsAndComponents) {
@@ -148,11 +149,64 @@ TEST(ThreemfReader, FollowsPathsToOtherParts) {
 
 TEST(ThreemfReader, ReadsPrefixedNames) {
   const std::string text =
-      R"(<m:model xmlns:m="core"><m:resources><m:object id="1"><m:mesh><m:vertices><m:vertex x="+1" y="0" z="inf"/></m:vertices></m:mesh></m:object>)"
+      R"(<m:model xmlns:m="core"><m:resources><m:object id="1"><m:mesh><m:vertices><m:vertex x="+1" y="0" z="inf"/></m:vertices>)"
+      R"(<m:triangles><m:triangle v1="0" v2="0" v3="0"/></m:triangles></m:mesh></m:object>)"
       R"(</m:resources><m:build><m:item objectid="1"/></m:build></m:model>)";
   const TriangleMesh mesh = read_mesh(package(text), "x.3mf");
   ASSERT_EQ(mesh.vertices.size(), 1U);
   EXPECT_TRUE(std::isinf(mesh.vertices[0].z()));
+}
+
+// A lattice of beams without its beams is no part at all.
+TEST(ThreemfReader, RefusesARequiredExtensionThatItDoesNotRead) {
+  const std::string object = "<object id='1'>" + k_triangle + "</object>", item = "<item objectid='1'/>";
+  const std::string beams = "xmlns:b='http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02'";
+  EXPECT_THAT(error_of(package(model(object, item, beams + " requiredextensions='b'")), "x.3mf"),
+              HasSubstr("requires the extension 'http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02'"));
+  EXPECT_THAT(error_of(package(model(object, item, "requiredextensions='q'")), "x.3mf"),
+              HasSubstr("undeclared prefix 'q'"));
+  // One that is not required, and those that are read or add colour alone.
+  EXPECT_EQ(error_of(package(model(object, item, beams)), "x.3mf"), "");
+  EXPECT_EQ(error_of(package(model(object, item,
+                                   "xmlns:p='http://schemas.microsoft.com/3dmanufacturing/production/2015/06' "
+                                   "xmlns:m='http://schemas.microsoft.com/3dmanufacturing/material/2015/02' "
+                                   "requiredextensions=' p  m '")),
+                     "x.3mf"),
+            "");
+}
+
+TEST(ThreemfReader, SupportsAreNoPartOfTheSolid) {
+  const auto object = [](int id, const std::string& type) {
+    return "<object id='" + std::to_string(id) + "' type='" + type + "'>" + k_triangle + "</object>";
+  };
+  const std::string objects = object(1, "model") + object(2, "support") + object(3, "solidsupport") +
+                              object(4, "other") + object(5, "surface") +
+                              "<object id='6'><components><component objectid='1'/><component objectid='2'/>"
+                              "</components></object>";
+  const auto triangles = [&](const std::string& items) {
+    return read_mesh(package(model(objects, items)), "x.3mf").triangles.size();
+  };
+  EXPECT_EQ(triangles("<item objectid='1'/><item objectid='2'/><item objectid='3'/><item objectid='4'/>"), 1U);
+  EXPECT_EQ(triangles("<item objectid='5'/>"), 1U);
+  EXPECT_EQ(triangles("<item objectid='6'/>"), 1U);
+  EXPECT_THAT(error_of(package(model(objects, "<item objectid='2'/>")), "x.3mf"), HasSubstr("supports"));
+  EXPECT_THAT(error_of(package(model(object(1, "ghost"), "<item objectid='1'/>")), "x.3mf"),
+              HasSubstr("found 'ghost'"));
+}
+
+TEST(ThreemfReader, SaysThatTheBuildIsEmpty) {
+  EXPECT_THAT(error_of(package(model("<object id='1'>" + k_triangle + "</object>", "")), "x.3mf"),
+              HasSubstr("the build is empty"));
+}
+
+TEST(ThreemfReader, BlanksRoundNumbersCollapse) {
+  std::string object = "<object id=' 1 '>" + k_triangle + "</object>";
+  object.replace(object.find("x=\"1\""), 5, "x=\"\n 1\t\"");
+  object.replace(object.find("v2=\"1\""), 6, "v2=\" 1 \"");
+  const TriangleMesh mesh = read_mesh(package(model(object, "<item objectid='1 '/>")), "x.3mf");
+  EXPECT_EQ(corner(mesh, 0, 1), Vec3(1, 0, 0));
+  object.replace(object.find("v2=\" 1 \""), 8, "v2=\"1 1\"");
+  EXPECT_THAT(error_of(package(model(object, "<item objectid='1'/>")), "x.3mf"), HasSubstr("found '1 1'"));
 }
 
 TEST(ThreemfReader, SaysWhereItIsWrong) {

@@ -59,6 +59,17 @@ TEST(ProfileCsv, HoldsBothPitchCurves) {
                                    "7.250000"));
 }
 
+TEST(PitchCurveCsv, HoldsOneClosedCurveInSpace) {
+  Product product = round_product();
+  product.pulley.layout.z_p2 = 7.25;
+  const auto rows = cells(pitch_curve_csv(product, Side::right));
+  ASSERT_EQ(rows.size(), 1U + 8 + 1);
+  EXPECT_THAT(rows[0], ElementsAre("x_mm", "y_mm", "z_mm"));
+  EXPECT_THAT(rows[1], ElementsAre("15.000000", "0.000000", "7.250000"));
+  EXPECT_THAT(rows[3], ElementsAre("0.000000", "15.000000", "7.250000"));
+  EXPECT_EQ(rows.back(), rows[1]);
+}
+
 TEST(TransmissionCsv, StartsWithTheAgreedColumns) {
   EXPECT_THAT(transmission_csv(round_product()), StartsWith("alpha_deg,theta_deg,r1_mm,r2_mm,"));
 }

@@ -1,0 +1,120 @@
+#include "export/drawings/fitted_arcs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_most_turn = 1.5;          // rad, of one biarc
+constexpr std::size_t k_longest_span = 200;  // of an outline, for one biarc
+
+struct Knot {
+  Vec2 place;
+  Vec2 tangent;
+};
+
+struct Arc {
+  Vec2 from, to;
+  double bulge = 0;
+
+  double distance(const Vec2& point) const {
+    const Vec2 chord = to - from;
+    if (std::abs(bulge) < 1e-9) return std::abs(cross(chord, point - from)) / chord.norm();
+    const Vec2 centre = 0.5 * (from + to) + turned_left(chord) * ((1 - bulge * bulge) / (4 * bulge));
+    return std::abs((point - centre).norm() - (from - centre).norm());
+  }
+};
+
+Arc arc_between(const Knot& from, const Vec2& to) {
+  const Vec2 chord = to - from.place;
+  return {from.place, to, std::tan(0.5 * std::atan2(cross(from.tangent, chord), from.tangent.dot(chord)))};
+}
+
+/// Two arcs that leave `from` and reach `to` along their tangents and meet in a third.
+struct Biarc {
+  Arc first, second;
+  Vec2 middle_tangent;
+
+  double distance(const Vec2& point) const {
+    return ((point - first.to).dot(middle_tangent) < 0 ? first : second).distance(point);
+  }
+};
+
+/// Both arcs' tangents are equally long: d (t₀ + t₁) and a piece of length 2 d lead from end to end (Bolton 1975).
+std::optional<Biarc> biarc_between(const Knot& from, const Knot& to) {
+  const Vec2 across = to.place - from.place;
+  const double along = across.dot(from.tangent + to.tangent), size = across.squaredNorm();
+  if (!(along > 0)) return std::nullopt;
+  const double bend = 2 * (1 - from.tangent.dot(to.tangent));
+  const double d = size / (along + std::sqrt(along * along + bend * size));
+  const Vec2 middle_tangent = (across - d * (from.tangent + to.tangent)).normalized();
+  const Vec2 middle = from.place + d * (from.tangent + middle_tangent);
+  return Biarc{arc_between(from, middle), arc_between({middle, middle_tangent}, to.place), middle_tangent};
+}
+
+class ArcFit {
+ public:
+  ArcFit(const Outline& outline, double distance, double tolerance)
+      : outline_(outline), points_(parallel(outline, distance)), tolerance_(tolerance) {}
+
+  std::vector<BulgeVertex> fit() const {
+    std::vector<BulgeVertex> vertices;
+    for (std::size_t i = 0; i < points_.size();) {
+      std::size_t last = i + 1;
+      std::optional<Biarc> longest = fitting(i, last);
+      while (longest && last < points_.size() && last < i + k_longest_span) {
+        const std::optional<Biarc> longer = fitting(i, last + 1);
+        if (!longer) break;
+        longest = longer;
+        ++last;
+      }
+      vertices.push_back({points_[i], longest ? longest->first.bulge : 0});
+      if (longest) vertices.push_back({longest->first.to, longest->second.bulge});
+      i = last;
+    }
+    return vertices;
+  }
+
+ private:
+  Knot knot(std::size_t i) const {
+    const std::size_t k = i % points_.size();
+    return {points_[k], turned_left(outline_.points[k].normal)};
+  }
+
+  std::optional<Biarc> fitting(std::size_t from, std::size_t to) const {
+    const Knot start = knot(from), end = knot(to);
+    const double turn = std::atan2(cross(start.tangent, end.tangent), start.tangent.dot(end.tangent));
+    if (!(turn >= 0) || turn > k_most_turn) return std::nullopt;
+    const std::optional<Biarc> biarc = biarc_between(start, end);
+    // The outline is convex, and so are its arcs.
+    if (!biarc || !(biarc->first.bulge >= 0 && biarc->second.bulge >= 0)) return std::nullopt;
+    for (std::size_t i = from + 1; i < to; ++i) {
+      if (!(biarc->distance(points_[i]) <= tolerance_)) return std::nullopt;
+    }
+    return biarc;
+  }
+
+  const Outline& outline_;
+  Polygon points_;
+  double tolerance_;
+};
+
+}  // namespace
+
+std::optional<RoundHole> circle_about_axis(const Polygon& points) {
+  constexpr double k_round = 1e-6;  // mm
+  if (points.empty()) return std::nullopt;
+  const double radius = points.front().norm();
+  const bool is_round = std::all_of(points.begin(), points.end(),
+                                    [radius](const Vec2& point) { return std::abs(point.norm() - radius) <= k_round; });
+  return is_round ? std::optional<RoundHole>({Vec2::Zero(), 2 * radius}) : std::nullopt;
+}
+
+std::vector<BulgeVertex> fitted_arcs(const Outline& outline, double distance, double tolerance) {
+  return ArcFit(outline, distance, tolerance).fit();
+}
+
+}  // namespace fusee

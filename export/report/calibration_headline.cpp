@@ -1,0 +1,263 @@
+// What a person reads first of a calibration: what the joint does wrong, why, and what to do now.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "export/report/calibration_words.h"
+#include "export/report/svg.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/calibration/words.h"
+#include "fusee/export/calibration.h"
+
+namespace fusee {
+namespace {
+
+constexpr std::size_t k_most_candidates = 3;
+
+std::string angle_words(double angle) { return readable_rounded(std::abs(degrees(angle)), 2) + "°"; }
+
+// ---- what is wrong --------------------------------------------------------------------------------------------------
+
+/// One way in which a joint can be off, over all rows: its slope, and the part of the mean square it makes.
+struct Pattern {
+  double sum = 0, sum_error = 0, squares = 0, products = 0, most = 0;
+
+  void add(double value, double error) {
+    sum += value;
+    sum_error += error;
+    squares += value * value;
+    products += value * error;
+    most = std::max(most, std::abs(value));
+  }
+  double spread(double rows) const { return squares - sum * sum / rows; }
+  double slope(double rows) const {
+    const double spread = this->spread(rows);
+    return spread > 0 ? (products - sum * sum_error / rows) / spread : 0.0;
+  }
+  double taken(double rows) const { return slope(rows) * slope(rows) * std::max(0.0, spread(rows)); }
+};
+
+/// By proportion to the joint's angle, by direction and by load, and all squares.
+struct Patterns {
+  Pattern angle, direction, load;
+  double rows = 0, error = 0, squares = 0;
+};
+
+Patterns patterns_of(const Measurement& measurement, const std::vector<std::vector<double>>& residuals) {
+  Patterns all;
+  for (std::size_t r = 0; r < std::min(measurement.runs.size(), residuals.size()); ++r) {
+    const Run& run = measurement.runs[r];
+    for (const Stroke& stroke : run.strokes) {
+      for (std::size_t i = stroke.first; !stroke.partial && i <= stroke.last; ++i) {
+        const double error = residuals[r][i];
+        if (!std::isfinite(error)) continue;
+        all.rows += 1;
+        all.error += error;
+        all.squares += error * error;
+        all.angle.add(run.samples[i].theta - error, error);
+        all.direction.add(stroke.direction, error);
+        all.load.add(run.has_load ? run.samples[i].load : 0.0, error);
+      }
+    }
+  }
+  return all;
+}
+
+/// The pattern that makes more than half of the error, or how large it is.
+std::string problem_words(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  const Patterns all = patterns_of(product.measurement, calibration.residuals_before);
+  const double size = calibration.before.rms;
+  if (!(all.rows > 0) || calibration.verdict == CalibrationVerdict::no_effect)
+    return "The joint does what its file declares, within " + angle_words(size) + " rms.";
+  const double mean = all.error / all.rows;
+  const double slope = all.angle.slope(all.rows);
+  const std::array<std::pair<double, std::string>, 4> known = {{
+      {all.rows * mean * mean, "The joint reads " + angle_words(mean) + (mean > 0 ? " high" : " low") + " everywhere"},
+      {all.angle.taken(all.rows),
+       "The joint turns " + readable_rounded(std::abs(100 * slope), 2) + " % too " + (slope < 0 ? "little" : "far")},
+      {all.direction.taken(all.rows),
+       "The joint stands " + angle_words(2 * all.direction.slope(all.rows)) + " apart between its two directions"},
+      {all.load.taken(all.rows),
+       "The joint moves by " + angle_words(all.load.slope(all.rows) * all.load.most) + " under its largest load"},
+  }};
+  const auto most = std::max_element(known.begin(), known.end(),
+                                     [](const auto& one, const auto& other) { return one.first < other.first; });
+  const bool is_clear = most->first > 0.5 * all.squares;
+  return (is_clear ? most->second : "The joint is wrong by up to " + angle_words(calibration.before.max)) + ": " +
+         angle_words(calibration.before.held_out_rms) + " rms, " + angle_words(calibration.after.held_out_rms) +
+         " with what was found.";
+}
+
+// ---- why ------------------------------------------------------------------------------------------------------------
+
+std::string number_words(const FittedParameter& number, const std::string& load_unit) {
+  const auto [name, unit] = name_and_unit(number.name, load_unit);
+  return name + " " + readable_rounded(number.value, 3) + unit;
+}
+
+/// A cause, and the numbers that it may have: by two effects where both say the same of the joint.
+struct CandidateWords {
+  std::string cause;
+  std::vector<std::string> numbers;
+};
+
+/// "both pulleys too small" and "scale −1.2 %"; by its name where the words of the sign stand for a part that they do
+/// not name ("it shows too little").
+CandidateWords candidate_words(const std::string& name, const std::vector<FittedParameter>& numbers,
+                               const std::string& load_unit) {
+  if (numbers.empty()) return {open_words(name), {}};
+  const FittedParameter& first = numbers.front();
+  const bool is_named = first.sense.empty() || first.sense.rfind("it ", 0) == 0;
+  return {is_named ? open_words(name) : first.sense, {number_words(first, load_unit)}};
+}
+
+bool may_be_unmodelled(const FoundEffect& effect) { return effect.group.back() == k_unmodelled; }
+
+/// What else may be there, in the order of the group.
+std::vector<CandidateWords> other_candidates(const FoundEffect& effect, const std::string& load_unit) {
+  std::vector<CandidateWords> others;
+  for (const std::string& member : rivals_of(effect)) {
+    if (member == k_unmodelled) continue;
+    const auto own = std::find_if(effect.instead.begin(), effect.instead.end(),
+                                  [&](const MemberBeside& other) { return other.name == member; });
+    others.push_back(own == effect.instead.end() ? CandidateWords{open_words(member), {}}
+                                                 : candidate_words(member, own->parameters, load_unit));
+  }
+  return others;
+}
+
+/// The effect, and others of its group.
+std::string group_words(const FoundEffect& effect, const std::string& load_unit) {
+  std::vector<CandidateWords> candidates = {candidate_words(effect.name, effect.parameters, load_unit)};
+  std::size_t more = 0;
+  for (const CandidateWords& other : other_candidates(effect, load_unit)) {
+    const auto same = std::find_if(candidates.begin(), candidates.end(),
+                                   [&](const CandidateWords& known) { return known.cause == other.cause; });
+    if (same != candidates.end()) {
+      same->numbers.insert(same->numbers.end(), other.numbers.begin(), other.numbers.end());
+    } else if (candidates.size() < k_most_candidates) {
+      candidates.push_back(other);
+    } else {
+      ++more;
+    }
+  }
+  std::vector<std::string> words;
+  for (const CandidateWords& one : candidates)
+    words.push_back(one.cause + (one.numbers.empty() ? "" : " (" + joined(one.numbers, " or ") + ")"));
+  std::string text = (words.size() > 1 ? "either " : "") + joined(words, ", or ");
+  if (more > 0) text += more == 1 ? ", or 1 more" : ", or one of " + std::to_string(more) + " more";
+  return text + (may_be_unmodelled(effect) ? ", or an unmodelled cause" : "");
+}
+
+const FoundEffect& largest_effect(const std::vector<FoundEffect>& effects) {
+  return *std::max_element(effects.begin(), effects.end(),
+                           [](const FoundEffect& one, const FoundEffect& other) { return one.share < other.share; });
+}
+
+std::string cause_words(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  if (calibration.effects.empty()) {
+    if (calibration.verdict != CalibrationVerdict::unexplained) return "";
+    return std::string("No known cause predicts it") +
+           (calibration.unknown.empty() ? "." : "; it depends on " + calibration.unknown.front().factor + ".");
+  }
+  const FoundEffect& first = largest_effect(calibration.effects);
+  std::string text = first_upper(group_words(first, product.measurement.load_unit));
+  if (calibration.effects.size() > 1)
+    text += "; and " + std::to_string(calibration.effects.size() - 1) + " more, below";
+  return text + ".";
+}
+
+// ---- what to do -----------------------------------------------------------------------------------------------------
+
+/// Up to where a person knows what to do: what it tells apart, and what to write, stands below.
+std::string first_clause(const std::string& sentence) {
+  return first_upper(sentence.substr(0, std::min(sentence.find(": "), sentence.find(" and write")))) + ".";
+}
+
+/// An effect that is taken out where it is.
+std::string repair_words(const FoundEffect& effect, const std::string& load_unit) {
+  constexpr std::array<std::pair<const char*, const char*>, 6> k_repairs = {
+      {{"zero_offset", "Re-zero the joint sensor"},
+       {"motor_offset", "Re-zero the motor sensor"},
+       {"joint_sensor_gain", "Check the joint sensor's scale"},
+       {"slack", "Raise the pretension"},
+       {"tendon_slip", "Tie the tendon where it slips"},
+       {"sensor_lag", "Log both sensors at the same time"}}};
+  const auto known =
+      std::find_if(k_repairs.begin(), k_repairs.end(), [&](const auto& one) { return effect.name == one.first; });
+  if (known == k_repairs.end() || effect.parameters.empty()) return "";
+  const FittedParameter& number = effect.parameters.front();
+  if (effect.name != "zero_offset") return std::string(known->second) + ": " + number_words(number, load_unit) + ".";
+  return std::string(known->second) + ": it reads " + readable_rounded(std::abs(number.value), 3) + "° " +
+         (number.value > 0 ? "high." : "low.");
+}
+
+std::string action_words(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  if (!product.slips.empty()) return "Check the file first: see below.";
+  if (calibration.verdict == CalibrationVerdict::no_effect) return "Nothing to do.";
+  const bool is_sure = calibration.verdict == CalibrationVerdict::explained;
+  if (!is_sure && !calibration.next_runs.empty()) return first_clause(calibration.next_runs.front());
+  if (!calibration.effects.empty()) {
+    const std::string repair = repair_words(largest_effect(calibration.effects), product.measurement.load_unit);
+    if (!repair.empty()) return repair;
+  }
+  if (product.correction.has_pulley) return "Build the corrected pulley from corrected.toml.";
+  if (!product.correction.table.empty()) return "Load compensation.csv into the motor's controller.";
+  return calibration.next_runs.empty() ? "" : first_clause(calibration.next_runs.front());
+}
+
+std::string share_words(double share) {
+  return share > 0.995 ? "all" : share < 0.005 ? "< 1 %" : readable_rounded(std::round(100 * share), 2) + " %";
+}
+
+void add_rows(const std::string& cause, const std::vector<FittedParameter>& numbers, const std::string& load_unit,
+              std::vector<CauseRow>& rows) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const FittedParameter& number = numbers[i];
+    const std::string unit = name_and_unit(number.name, load_unit).unit;
+    rows.push_back({i == 0 ? cause : "", number_words(number, load_unit),
+                    readable_rounded(number.low_if_only, 3) + " … " + readable_rounded(number.high_if_only, 3) + unit,
+                    "", ""});
+  }
+  if (numbers.empty()) rows.push_back({cause, "", "", "", ""});
+}
+
+}  // namespace
+
+Headline headline(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  if (calibration.verdict == CalibrationVerdict::not_testable)
+    return {"These runs decide nothing.", calibration.summary,
+            calibration.next_runs.empty() ? "" : first_clause("measure " + calibration.next_runs.front())};
+  if (calibration.verdict == CalibrationVerdict::not_repeatable)
+    return {"The joint does not repeat: the same angle, direction and load give other joint angles.", "",
+            calibration.next_runs.empty() ? "" : first_clause(calibration.next_runs.front())};
+  return {problem_words(product), cause_words(product), action_words(product)};
+}
+
+std::vector<CauseRow> cause_rows(const CalibrationProduct& product) {
+  const std::string& load_unit = product.measurement.load_unit;
+  std::vector<CauseRow> rows;
+  for (const FoundEffect& effect : product.calibration.effects) {
+    const std::size_t first = rows.size();
+    add_rows(open_words(effect.name), effect.parameters, load_unit, rows);
+    rows[first].share = share_words(effect.share);
+    rows[first].corrected_by = effect.correctable_by == CorrectableBy::nothing ? "–" : word(effect.correctable_by);
+    for (const std::string& member : rivals_of(effect)) {
+      const auto own = std::find_if(effect.instead.begin(), effect.instead.end(),
+                                    [&](const MemberBeside& other) { return other.name == member; });
+      const std::vector<FittedParameter> none;
+      add_rows("or " + (member == k_unmodelled ? "an unmodelled cause" : open_words(member)),
+               own == effect.instead.end() ? none : own->parameters, load_unit, rows);
+    }
+  }
+  return rows;
+}
+
+}  // namespace fusee

@@ -1,0 +1,206 @@
+#include "measurement/clock.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "fusee/base/text.h"
+#include "measurement/row_reader.h"
+#include "measurement/strokes.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_no_time = std::numeric_limits<double>::quiet_NaN();
+/// Counters that run over, s: micros() and millis() of 32 bits, nanoseconds of 32 bits, millis() of 16 bits, a day.
+constexpr std::array k_periods = {4294.967296, 4294967.296, 4.294967296, 65.536, 86400.0};
+/// A row that comes later than this many others was not delivered late: the clock was set back.
+constexpr std::size_t k_latest = 3;
+
+void drop_time(Run& run) {
+  run.has_time = false;
+  for (Sample& sample : run.samples) sample.time = k_no_time;
+}
+
+std::string times_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " time" : " times"); }
+
+/// Between the rows that have one; false when more than one in ten has none, or an end.
+bool fill_time(std::vector<Sample>& samples, const Say& say) {
+  const auto is_lost = [](const Sample& sample) { return std::isnan(sample.time); };
+  const auto lost = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), is_lost));
+  if (lost == 0) return true;
+  if (10 * lost > samples.size() || is_lost(samples.front()) || is_lost(samples.back())) {
+    say(rows_text(lost) + " without a time: time is not used");
+    return false;
+  }
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (!is_lost(samples[i])) continue;
+    std::size_t next = i;
+    while (is_lost(samples[next])) ++next;
+    samples[i].time =
+        samples[i - 1].time + (samples[next].time - samples[i - 1].time) / static_cast<double>(next - i + 1);
+  }
+  say(rows_text(lost) + " without a time: it was taken from the rows beside");
+  return true;
+}
+
+/// Makes one growing clock of what a log shows.
+class ClockJoiner {
+ public:
+  explicit ClockJoiner(std::vector<Sample>& samples) : samples_(samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (!std::isnan(samples[i].time)) rows_.push_back(i);
+    }
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < rows_.size(); ++k) {
+      if (const double step = time(k) - time(k - 1); step > 0) steps.push_back(step);
+    }
+    usual_ = median_of(std::move(steps));
+  }
+
+  /// False where the clock goes back so often that it is none.
+  bool join(const Say& say) {
+    if (rows_.empty()) return true;
+    std::vector<double> joined(rows_.size(), time(0));
+    double shift = 0, high = time(0), first = high;
+    for (std::size_t k = 1; k < rows_.size(); ++k) {
+      const bool begins_again = samples_[rows_[k]].after_break;
+      if (!begins_again && time(k) < high) {
+        if (const double period = period_over(high, time(k)); period > 0) {
+          shift += period;
+          ++overruns_;
+        } else if (const std::size_t late = late_rows(k, first, high); late > 0) {
+          for (const std::size_t end = k + late; k < end; ++k) joined[k] = time(k) + shift;
+          late_ += late;
+        } else {
+          restarts_.push_back(k);
+        }
+      }
+      if (begins_again || (!restarts_.empty() && restarts_.back() == k)) {
+        shift += high - time(k) + usual_;
+        first = time(k);
+      }
+      high = time(k);
+      joined[k] = high + shift;
+    }
+    if (20 * restarts_.size() > rows_.size() && restarts_.size() > 1) {
+      say("the clock goes back " + times_text(restarts_.size()) + " in " + rows_text(rows_.size()) +
+          ": time is not used");
+      return false;
+    }
+    apply(joined, say);
+    return true;
+  }
+
+ private:
+  double time(std::size_t k) const { return samples_[rows_[k]].time; }
+
+  /// Of the counter that ran over between two rows; 0 for none.
+  double period_over(double before, double here) const {
+    for (const double period : k_periods) {
+      const double step = here - before + period;
+      if (step > 0 && step <= 3 * usual_) return period;
+    }
+    return 0;
+  }
+
+  bool same_reading(std::size_t k, std::size_t other) const {
+    const Sample &one = samples_[rows_[k]], &two = samples_[rows_[other]];
+    return one.alpha == two.alpha && one.theta == two.theta;
+  }
+
+  /// How many rows from `k` on were delivered late: the clock then goes on beyond `high`, and each of them has a place
+  /// of its own between the rows before.
+  std::size_t late_rows(std::size_t k, double first, double high) const {
+    std::size_t end = k;
+    while (end < rows_.size() && end < k + k_latest + 1 && !(time(end) > high)) ++end;
+    if (end == rows_.size() || end > k + k_latest) return 0;
+    const std::size_t begin = k > 3 * k_latest ? k - 3 * k_latest : 0;
+    for (std::size_t row = k; row < end; ++row) {
+      if (time(row) < first) return 0;
+      for (std::size_t other = begin; other < end; ++other) {
+        const bool is_near = std::abs(time(row) - time(other)) < 0.5 * usual_;
+        if (other != row && is_near && !same_reading(row, other)) return 0;
+      }
+    }
+    return end - k;
+  }
+
+  void apply(const std::vector<double>& joined, const Say& say) {
+    if (overruns_ > 0) say("the clock's counter ran over " + times_text(overruns_) + ": it goes on");
+    if (!restarts_.empty()) {
+      const std::size_t k = restarts_.front();
+      say("the clock goes back " + times_text(restarts_.size()) + ", first from " + rounded(time(k - 1)) + " to " +
+          rounded(time(k)) + " s: the log begins again there, and rows stay in their order");
+    }
+    for (const std::size_t k : restarts_) samples_[rows_[k]].after_break = true;
+    for (std::size_t k = 0; k < rows_.size(); ++k) samples_[rows_[k]].time = joined[k];
+    if (late_ == 0) return;
+    say(rows_text(late_) + " delivered late, after rows of a later time: put back between them");
+    std::vector<Sample> in_order;
+    for (const std::size_t row : rows_) in_order.push_back(samples_[row]);
+    const auto by_time = [](const Sample& a, const Sample& b) { return a.time < b.time; };
+    std::stable_sort(in_order.begin(), in_order.end(), by_time);
+    for (std::size_t k = 0; k < rows_.size(); ++k) samples_[rows_[k]] = in_order[k];
+  }
+
+  std::vector<Sample>& samples_;
+  std::vector<std::size_t> rows_;  ///< with a time
+  double usual_ = 0;               ///< step of the clock
+  std::size_t overruns_ = 0, late_ = 0;
+  std::vector<std::size_t> restarts_;  ///< among rows_
+};
+
+Sample mean_of(const std::vector<Sample>& samples, std::size_t first, std::size_t end) {
+  Sample mean = samples[first];
+  for (double Sample::*value :
+       {&Sample::alpha, &Sample::theta, &Sample::load, &Sample::temperature, &Sample::tension1, &Sample::tension2}) {
+    double sum = 0;
+    for (std::size_t i = first; i < end; ++i) sum += samples[i].*value / static_cast<double>(end - first);
+    mean.*value = sum;
+  }
+  return mean;
+}
+
+/// Rows of one time: one row logged more than once, or a clock that ticks more slowly than the log is written.
+void part_ticks(Run& run, const Say& say) {
+  std::vector<Sample>& samples = run.samples;
+  std::vector<std::size_t> ticks;  // the first row of each
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i == 0 || samples[i].time != samples[i - 1].time) ticks.push_back(i);
+  }
+  const std::size_t same = samples.size() - ticks.size();
+  if (same == 0) return;
+  if (ticks.size() == 1) {
+    say("the clock stands still: time is not used");
+    return drop_time(run);
+  }
+  const bool coarse = samples.size() >= 3 * ticks.size();
+  const std::vector<Sample> rows = std::move(samples);
+  samples.clear();
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    const std::size_t first = ticks[k], end = k + 1 < ticks.size() ? ticks[k + 1] : rows.size();
+    if (!coarse) {
+      samples.push_back(mean_of(rows, first, end));
+      continue;
+    }
+    const double tick =
+        k + 1 < ticks.size() ? rows[end].time - rows[first].time : rows[first].time - rows[ticks[k - 1]].time;
+    for (std::size_t i = first; i < end; ++i) {
+      samples.push_back(rows[i]);
+      samples.back().time += tick * static_cast<double>(i - first) / static_cast<double>(end - first);
+    }
+  }
+  say(rows_text(same) + " with the time of the row before: " +
+      (coarse ? "the clock is coarser than the log, they were spread over its ticks" : "taken together, their mean"));
+}
+
+}  // namespace
+
+void order_time(Run& run, const Say& say) {
+  if (!ClockJoiner(run.samples).join(say) || !fill_time(run.samples, say)) return drop_time(run);
+  part_ticks(run, say);
+}
+
+}  // namespace fusee

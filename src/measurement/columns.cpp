@@ -1,0 +1,207 @@
+#include "measurement/columns.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+#include "fusee/base/text.h"
+#include "measurement/words.h"
+
+namespace fusee {
+namespace {
+
+/// Names by which a role is known without --column, beside its usual one and in any unit.
+const std::vector<std::string>& words_of(const std::string& role) {
+  static const std::map<std::string, std::vector<std::string>> words = {
+      {"alpha", {"alpha"}},       {"theta", {"theta"}},
+      {"load", {"load"}},         {"time", {"time", "timestamp", "%time", "__time"}},
+      {"tension1", {"tension1"}}, {"temperature", {"temperature", "temp"}},
+      {"tension2", {"tension2"}}};
+  static const std::vector<std::string> none;
+  const auto found = words.find(role);
+  return found == words.end() ? none : found->second;
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) {
+    if (!name.empty() && list.size() < 300) list += (list.empty() ? "" : ", ") + shown(name);
+  }
+  return list;
+}
+
+/// As --column takes it in a shell.
+std::string argument(const std::string& name) {
+  const bool plain = name.find_first_of(" '\"$\\`;&()[]{}<>|*?#!~%") == std::string::npos;
+  return plain ? name : "\"" + name + "\"";
+}
+
+class ColumnFinder {
+ public:
+  ColumnFinder(const std::vector<std::string>& names, const MeasurementOptions& options)
+      : names_(names), options_(options) {}
+
+  Header find() {
+    bool all_angles = true;
+    for (const auto& [role, usual] : column_roles()) {
+      const auto given = options_.columns.find(role);
+      const std::optional<std::size_t> index =
+          given != options_.columns.end() ? index_of(to_utf8(given->second)) : usual_index(role, usual);
+      const bool is_needed = role == "alpha" || (role == "theta" && options_.needs_theta);
+      if (index) {
+        take(role, *index, given != options_.columns.end());
+      } else if (is_needed || given != options_.columns.end()) {
+        missing(role, given != options_.columns.end() ? to_utf8(given->second) : usual);
+        all_angles = all_angles && !is_needed;
+      }
+    }
+    header_.has_angles = all_angles;
+    refuse_shared_columns();
+    return std::move(header_);
+  }
+
+ private:
+  std::optional<std::size_t> index_of(const std::string& wanted) {
+    for (const bool exactly : {true, false}) {
+      const auto same = [&](const std::string& name) {
+        return exactly ? name == wanted : lower(trimmed(name)) == lower(trimmed(wanted));
+      };
+      const auto found = std::find_if(names_.begin(), names_.end(), same);
+      if (found == names_.end()) continue;
+      if (std::find_if(found + 1, names_.end(), same) != names_.end())
+        problem("two columns are called " + shown(wanted), "each column needs a name of its own");
+      return static_cast<std::size_t>(found - names_.begin());
+    }
+    return std::nullopt;
+  }
+
+  std::optional<std::size_t> usual_index(const std::string& role, const std::string& usual) {
+    if (const auto index = index_of(usual)) return index;
+    const std::vector<std::string>& words = words_of(role);
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const ColumnName name = parse_column_name(names_[i], quantity_of(role));
+      if (std::find(words.begin(), words.end(), name.base) == words.end()) continue;
+      if (name.unknown_unit.empty() || name.states_unit) return i;
+      if (quantity_of(role) != Quantity::load) continue;  // theta_ref is another column, not θ in "ref"
+      header_.notes.push_back("column " + shown(names_[i]) + " is not used: " + shown(name.unknown_unit) +
+                              " is no unit of a load; --column load=" + argument(names_[i]) +
+                              " --unit load=N says what it is in");
+    }
+    return std::nullopt;
+  }
+
+  void take(const std::string& role, std::size_t index, bool by_option) {
+    Column column;
+    column.index = index;
+    column.role = role;
+    column.name = names_[index];
+    column.quantity = quantity_of(role);
+    const auto unit = options_.units.find(role);
+    if (const auto ticks = options_.ticks_per_turn.find(role); ticks != options_.ticks_per_turn.end()) {
+      column.unit = find_unit(Quantity::angle, "counts");
+      column.ticks_per_turn = ticks->second;
+      const auto zero = options_.zero_ticks.find(role);
+      column.zero_ticks = zero == options_.zero_ticks.end() ? 0 : zero->second;
+      column.is_given = true;
+    } else if (unit != options_.units.end()) {
+      column.unit = find_unit(column.quantity, unit->second);
+      column.is_given = true;
+    } else if (column.quantity != Quantity::none) {
+      take_unit_of_name(column, by_option);
+    }
+    if (column.unit != nullptr && column.unit->base != "N" && role.substr(0, 7) == "tension")
+      problem(role + " in " + std::string(column.unit->name) + " is a torque", "a tension is a force: N, kg, lbf");
+    header_.columns.push_back(std::move(column));
+  }
+
+  void take_unit_of_name(Column& column, bool by_option) {
+    const ColumnName name = parse_column_name(column.name, column.quantity);
+    column.unit = name.unit;
+    const bool is_mounting = column.quantity == Quantity::angle && member_of(column.role) == nullptr;
+    if (is_mounting && (name.unit == nullptr || name.unit->is_counts())) column.unit = usual_unit(Quantity::angle);
+    if (column.unit != nullptr) return;
+    const bool is_load = column.role == "load";
+    const bool is_unknown = name.states_unit || (is_load && by_option && !name.unknown_unit.empty());
+    if (is_unknown) {
+      problem("the unit of " + shown(column.name) + " is not known: " + shown(name.unknown_unit),
+              "units: " + unit_names(column.quantity) + "; --unit " + column.role + "=" +
+                  std::string(usual_unit(column.quantity)->name) + " says which one it is");
+      return;
+    }
+    if (column.quantity == Quantity::angle || column.quantity == Quantity::time) return;  // settle_units()
+    column.unit = usual_unit(column.quantity);
+    if (is_load)
+      header_.notes.push_back("load: taken as N, as the name " + shown(column.name) +
+                              " states no unit (--unit load=kg says otherwise)");
+  }
+
+  /// One column is not two things.
+  void refuse_shared_columns() {
+    for (std::size_t i = 0; i < header_.columns.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const Column &one = header_.columns[i], &other = header_.columns[j];
+        if (one.index != other.index) continue;
+        problem("column " + shown(one.name) + " is taken as " + other.role + " and as " + one.role,
+                "give each role a column of its own with --column " + one.role + "=NAME");
+      }
+    }
+  }
+
+  void missing(const std::string& role, const std::string& wanted) {
+    std::vector<std::string> others;
+    std::copy_if(names_.begin(), names_.end(), std::back_inserter(others), [](const std::string& name) {
+      return std::none_of(column_roles().begin(), column_roles().end(),
+                          [&](const auto& known) { return known.second == name; });
+    });
+    std::string nearest = nearest_word(wanted, others);
+    for (const std::string& name : others) {
+      if (nearest.empty() && lower(name).find(role) != std::string::npos) nearest = name;
+    }
+    const std::string unit = quantity_of(role) == Quantity::angle
+                                 ? " (in degrees, or its name ends in its unit: _rad, _turns, _counts)"
+                                 : "";
+    problem(
+        "there is no column " + shown_plainly(wanted),
+        nearest.empty()
+            ? "the columns are " + list_of(names_) + "; --column " + role + "=NAME says which one it is" + unit
+            : "the nearest is " + shown(nearest) + ": --column " + role + "=" + argument(nearest) + " takes it" + unit);
+  }
+
+  static std::string shown_plainly(const std::string& name) {
+    return argument(name) == name ? shown(name).substr(1, shown(name).size() - 2) : shown(name);
+  }
+
+  void problem(std::string message, std::string hint) {
+    header_.problems.push_back({Severity::error, {}, std::move(message), std::move(hint)});
+  }
+
+  const std::vector<std::string>& names_;
+  const MeasurementOptions& options_;
+  Header header_;
+};
+
+}  // namespace
+
+Quantity quantity_of(const std::string& role) {
+  if (role == "time") return Quantity::time;
+  if (role == "load" || role == "tension1" || role == "tension2") return Quantity::load;
+  if (role == "temperature") return Quantity::temperature;
+  return role == "cycle" ? Quantity::none : Quantity::angle;
+}
+
+double Sample::*member_of(const std::string& role) {
+  if (role == "time") return &Sample::time;
+  if (role == "alpha") return &Sample::alpha;
+  if (role == "theta") return &Sample::theta;
+  if (role == "load") return &Sample::load;
+  if (role == "temperature") return &Sample::temperature;
+  if (role == "tension1") return &Sample::tension1;
+  if (role == "tension2") return &Sample::tension2;
+  return nullptr;  // cycle: found from α itself
+}
+
+Header find_columns(const std::vector<std::string>& names, const MeasurementOptions& options) {
+  return ColumnFinder(names, options).find();
+}
+
+}  // namespace fusee

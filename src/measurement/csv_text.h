@@ -1,0 +1,62 @@
+/// \file
+/// Internal: bytes of a file, in blocks, to the records of a CSV text (RFC 4180) as UTF-8.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fusee {
+
+constexpr std::size_t k_longest_record = std::size_t{1} << 16;
+constexpr std::size_t k_most_columns = 1000;
+
+/// One line, or several where a quoted cell holds line ends.
+struct Record {
+  std::string_view text;    ///< UTF-8, line ends within it as LF
+  long long line = 1;       ///< of its beginning
+  bool open_quote = false;  ///< the file ends within a quoted cell
+};
+
+/// Lines end with LF, CR LF or CR. UTF-16 with a byte order mark and Latin-1 become UTF-8; the mark of UTF-8 is
+/// dropped.
+class RecordSplitter {
+ public:
+  /// `take` is called for each record; `refuse` for a line that is longer than k_longest_record, or a quotation mark
+  /// that has not closed until then, and must throw.
+  RecordSplitter(std::function<void(const Record&)> take, std::function<void(long long line, bool open_quote)> refuse);
+
+  void add(std::string_view bytes);
+  void finish();
+
+ private:
+  enum class Encoding { unknown, bytes, utf16_little, utf16_big };
+
+  void detect_encoding();
+  void add_utf16(std::string_view bytes);
+  void append_utf8(unsigned long character);
+  void add_bytes(std::string_view bytes);
+  void end_line();
+  void give(bool open_quote);
+  void check_length() const;
+
+  std::function<void(const Record&)> take_;
+  std::function<void(long long, bool)> refuse_;
+  Encoding encoding_ = Encoding::unknown;
+  std::string start_;       ///< bytes until the encoding is known; then what is left of a character of UTF-16
+  std::string decoded_;     ///< of UTF-16
+  std::string record_;      ///< lines that are complete, within an open quote
+  std::string line_;        ///< what there is of the line
+  unsigned long high_ = 0;  ///< first half of a surrogate pair
+  bool after_return_ = false;
+  bool in_record_ = false;
+  long long lines_ = 0, first_line_ = 1;
+};
+
+/// The cells of a record, without the blanks and the quotation marks around them; a quotation mark within a quoted cell
+/// stays doubled. `separator` ' ': any number of blanks. Stops after more than k_most_columns.
+void split_cells(std::string_view record, char separator, std::vector<std::string_view>& cells);
+
+}  // namespace fusee

@@ -1,0 +1,260 @@
+// Units that no option and no column's name states, found from the values.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "measurement/columns.h"
+#include "measurement/words.h"
+
+namespace fusee {
+namespace {
+
+// ---- time -----------------------------------------------------------------------------------------------------------
+
+/// s since 1970: from 2000 to 2100.
+bool is_since_1970(double seconds) { return seconds > 9.4e8 && seconds < 4.2e9; }
+
+/// How far rows lie apart on the whole, whatever restarts there are between them.
+double mean_step(const std::vector<Sample>& samples) {
+  double sum = 0, steps = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double step = samples[i].time - samples[i - 1].time;
+    if (!(step >= 0)) continue;
+    sum += step;
+    ++steps;
+  }
+  return steps > 0 ? sum / steps : 0;
+}
+
+// ---- counts ---------------------------------------------------------------------------------------------------------
+
+/// Encoders of joints and of servos that show their angle as a number of so many bits.
+constexpr std::array k_absolute_encoders = {4096.0, 16384.0};
+/// Counts a turn that a jump over a whole turn shows.
+constexpr std::array k_wrapping_encoders = {256.0,   400.0,   512.0,    600.0,    800.0,    1000.0,   1024.0,  1200.0,
+                                            1600.0,  2000.0,  2048.0,   2400.0,   2500.0,   3200.0,   3600.0,  4000.0,
+                                            4096.0,  5000.0,  8000.0,   8192.0,   10000.0,  16384.0,  20000.0, 32768.0,
+                                            40000.0, 65536.0, 131072.0, 262144.0, 524288.0, 1048576.0};
+
+double largest_jump(const std::vector<Sample>& samples, double Sample::*value) {
+  double largest = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    largest = std::max(largest, std::abs(samples[i].*value - samples[i - 1].*value));
+  return largest;
+}
+
+/// Counts a turn of an encoder that begins again at 0 after a turn; 0 where the values do not tell.
+double plausible_ticks(const Column& column, const std::vector<Sample>& samples) {
+  if (!column.whole || column.least < 0) return 0;
+  for (const double ticks : k_absolute_encoders) {
+    if (column.most < ticks && column.most >= ticks / 2) return ticks;
+  }
+  const double jump = largest_jump(samples, member_of(column.role));
+  const auto next = std::upper_bound(k_wrapping_encoders.begin(), k_wrapping_encoders.end(), column.most);
+  return next != k_wrapping_encoders.end() && jump > 0.9 * *next ? *next : 0;
+}
+
+/// A counter of 16 or 32 bits that ran over. A jump of an encoder's single turn is unwrap()'s.
+std::size_t unwrap_counter(std::vector<Sample>& samples, double Sample::*value, double ticks_per_turn) {
+  std::size_t wraps = 0;
+  double shift = 0, before = samples.front().*value;
+  for (Sample& sample : samples) {
+    const double here = sample.*value, jump = here - before;
+    if (!std::isnan(here)) before = here;
+    for (const double size : {65536.0, 4294967296.0}) {
+      const bool ran_over = size > std::abs(ticks_per_turn) && std::abs(std::abs(jump) - size) < 0.1 * size;
+      if (!ran_over) continue;
+      shift -= std::copysign(size, jump);
+      ++wraps;
+    }
+    sample.*value = here + shift;
+  }
+  return wraps;
+}
+
+// ---- all columns ----------------------------------------------------------------------------------------------------
+
+class UnitFinder {
+ public:
+  UnitFinder(std::vector<Column>& columns, std::vector<Sample>& samples, const MeasurementOptions& options,
+             std::string name)
+      : columns_(columns), samples_(samples), options_(options), name_(std::move(name)) {}
+
+  /// One line of words: what is not the usual unit.
+  std::string settle() {
+    if (samples_.empty()) return {};
+    for (Column& column : columns_) {
+      if (column.quantity == Quantity::time) find_time_unit(column);
+      if (column.quantity == Quantity::angle && member_of(column.role) != nullptr) find_angle_unit(column);
+    }
+    if (!problems_.empty()) throw InputError(problems_);
+    for (Column& column : columns_) convert(column);
+    if (!problems_.empty()) throw InputError(problems_);
+    return words_;
+  }
+
+ private:
+  void say(const std::string& words) { words_ += (words_.empty() ? "" : "; ") + words; }
+
+  void refuse(const std::string& message, const std::string& hint) {
+    problems_.push_back(InputError(name_, message, hint).diagnostics().front());
+  }
+
+  static std::string values_of(const Column& column) {
+    return (column.whole ? "whole numbers from " : "numbers from ") + rounded(column.least) + " to " +
+           rounded(column.most);
+  }
+
+  void find_time_unit(Column& column) {
+    if (column.is_date) {
+      column.unit = find_unit(Quantity::time, "s");
+      return say("time in time stamps");
+    }
+    if (column.unit != nullptr) {
+      if (column.unit != usual_unit(Quantity::time) || column.is_given)
+        say("time in " + std::string(column.unit->name));
+      return;
+    }
+    for (const char* const spelling : {"s", "ms", "us", "ns"}) {
+      const Unit* unit = find_unit(Quantity::time, spelling);
+      if (!is_since_1970(column.most * unit->factor)) continue;
+      column.unit = unit;
+      return say(std::string("time in ") + spelling + " since 1970");
+    }
+    const double step = mean_step(samples_);
+    if (step > k_longest_step || (column.whole && step >= 1)) {
+      return refuse(
+          "the unit of " + shown(column.name) + " is not known: as s, the rows lie " + rounded(step, 3) + " s apart",
+          "let the column's name end in its unit (_s, _ms, _us, _ns), or say it: --unit time=ms");
+    }
+    column.unit = find_unit(Quantity::time, "s");
+    say("time taken as s, as the name " + shown(column.name) + " states no unit");
+  }
+
+  void find_angle_unit(Column& column) {
+    if (!(column.most >= column.least)) column.unit = usual_unit(Quantity::angle);  // empty
+    if (column.unit != nullptr && column.unit->is_counts() && !column.whole && column.ticks_per_turn == 0)
+      column.unit = nullptr;  // "raw" of something else
+    if (column.unit == nullptr) {
+      find_unit_of_values(column);
+    } else if (column.unit->is_counts()) {
+      find_ticks(column);
+    } else if (column.unit != usual_unit(Quantity::angle) || column.is_given) {
+      say(column.role + " in " + std::string(column.unit->name));
+    } else if (column.whole && column.most - column.least > 360) {
+      say(column.role + ": " + values_of(column) + ", read as degrees; if they are counts, --ticks-per-turn " +
+          column.role + "=4096");
+    }
+  }
+
+  void find_ticks(Column& column) {
+    if (column.ticks_per_turn != 0) {
+      return say(column.role + " in counts of " + rounded(std::abs(column.ticks_per_turn), 9) + " a turn" +
+                 (column.ticks_per_turn < 0 ? ", falling" : "") +
+                 (column.zero_ticks != 0 ? ", " + rounded(column.zero_ticks, 9) + " at home" : ""));
+    }
+    column.ticks_per_turn = plausible_ticks(column, samples_);
+    if (column.ticks_per_turn == 0 && column.least >= 0 && column.most < found_ticks_)
+      column.ticks_per_turn = found_ticks_;  // α's encoder has a twin
+    if (column.ticks_per_turn == 0) {
+      return refuse(column.role + ": " + shown(column.name) + " holds " + values_of(column) +
+                        ", which look like counts of an encoder",
+                    "say how many make a turn, --ticks-per-turn " + column.role + "=4096, or what they are: --unit " +
+                        column.role + "=deg");
+    }
+    found_ticks_ = column.ticks_per_turn;
+    say(column.role + ": " + values_of(column) + ", taken as counts of " + rounded(column.ticks_per_turn, 9) +
+        " a turn (--ticks-per-turn " + column.role + "=N says otherwise)");
+  }
+
+  void find_unit_of_values(Column& column) {
+    const double span = column.role == "alpha" ? options_.alpha_span : options_.theta_span;
+    const bool within_a_turn = column.least >= -360 && column.most <= 360;
+    const bool counts_by_values = column.whole && plausible_ticks(column, samples_) > 0;
+    if (column.whole && (!within_a_turn || counts_by_values || found_ticks_ > 0)) {
+      column.unit = find_unit(Quantity::angle, "counts");
+      return find_ticks(column);
+    }
+    column.unit = find_unit(Quantity::angle, column.whole ? "deg"
+                                             : span > 0   ? nearest_to(span, column)
+                                                          : guess(column));
+    say(column.role + " taken as " + std::string(column.unit->name) + ", as the name " + shown(column.name) +
+        " states no unit (--unit " + column.role + "=" + (column.unit->name == "deg" ? "rad" : "deg") +
+        " says otherwise)");
+  }
+
+  /// The unit in which the values go nearest to as far as the declared joint.
+  static const char* nearest_to(double span, const Column& column) {
+    const char* best = "deg";
+    double least = 1e300;
+    for (const char* const spelling : {"deg", "rad", "turns", "mdeg"}) {
+      const double off =
+          std::abs(std::log((column.most - column.least) * find_unit(Quantity::angle, spelling)->factor / span));
+      if (off >= least) continue;
+      least = off;
+      best = spelling;
+    }
+    return best;
+  }
+
+  /// Without a declared range: positions of ROS are radians, and so is what moves less than 2π in its unit.
+  static const char* guess(const Column& column) {
+    const bool is_position = lower(column.name).find("position") != std::string::npos;
+    return is_position || column.most - column.least <= k_two_pi ? "rad" : "deg";
+  }
+
+  void convert(const Column& column) {
+    double Sample::*const value = member_of(column.role);
+    if (value == nullptr || column.unit == nullptr) return;
+    if (column.unit->is_counts()) {
+      convert_counts(column, value);
+    } else {
+      if (column.role == "load" && column.unit->factor != 1)
+        say("load in " + std::string(column.unit->name) + ", converted to " + std::string(column.unit->base));
+      scale(value, column.unit->factor, column.unit->offset);
+    }
+    if (column.quantity == Quantity::angle) refuse_wild_angle(column, value);
+  }
+
+  void refuse_wild_angle(const Column& column, double Sample::*value) {
+    const auto is_wild = [&](const Sample& sample) { return std::abs(sample.*value) > radians(k_largest_deg); };
+    const auto wild = std::find_if(samples_.begin(), samples_.end(), is_wild);
+    if (wild == samples_.end()) return;
+    refuse(shown(column.name) + " goes to " + rounded(degrees((*wild).*value)) + " deg, which is no angle",
+           "leave the cell empty where nothing was logged");
+  }
+
+  void scale(double Sample::*value, double factor, double offset) {
+    if (factor == 1 && offset == 0) return;
+    for (Sample& sample : samples_) sample.*value = sample.*value * factor + offset;
+  }
+
+  void convert_counts(const Column& column, double Sample::*value) {
+    const std::size_t wraps = unwrap_counter(samples_, value, column.ticks_per_turn);
+    if (wraps > 0)
+      say("the counter of " + column.role + " ran over " + std::to_string(wraps) + (wraps == 1 ? " time" : " times") +
+          ", unwrapped");
+    for (Sample& sample : samples_)
+      sample.*value = (sample.*value - column.zero_ticks) / column.ticks_per_turn * k_two_pi;
+  }
+
+  std::vector<Column>& columns_;
+  std::vector<Sample>& samples_;
+  const MeasurementOptions& options_;
+  std::string name_;
+  std::string words_;
+  std::vector<Diagnostic> problems_;
+  double found_ticks_ = 0;
+};
+
+}  // namespace
+
+std::string settle_units(std::vector<Column>& columns, std::vector<Sample>& samples, const MeasurementOptions& options,
+                         const std::string& name) {
+  return UnitFinder(columns, samples, options, name).settle();
+}
+
+}  // namespace fusee

@@ -1,0 +1,73 @@
+#include "measurement/words.h"
+
+#include "fusee/base/text.h"
+
+namespace fusee {
+namespace {
+
+unsigned char byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
+
+/// Bytes of the UTF-8 character that begins at `at`; 0 if none does.
+std::size_t character_length(std::string_view text, std::size_t at) {
+  const unsigned char first = byte_at(text, at);
+  const std::size_t length = first < 0x80                    ? 1
+                             : first >= 0xC2 && first < 0xE0 ? 2
+                             : first >= 0xE0 && first < 0xF0 ? 3
+                             : first >= 0xF0 && first < 0xF5 ? 4
+                                                             : 0;
+  if (length == 0 || at + length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte_at(text, at + i) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string lower(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return small;
+}
+
+std::string shown(std::string_view text) {
+  constexpr std::size_t k_most = 40;
+  std::string words;
+  std::size_t i = 0;
+  while (i < text.size() && i < k_most) {
+    const std::size_t length = character_length(text, i);
+    const bool is_control = byte_at(text, i) < 0x20 || byte_at(text, i) == 0x7F ||
+                            (length == 2 && byte_at(text, i) == 0xC2 && byte_at(text, i + 1) < 0xA0);
+    if (length == 0 || is_control) {
+      words += '?';
+    } else {
+      words += text.substr(i, length);
+    }
+    i += length == 0 ? 1 : length;
+  }
+  return "\"" + words + (i < text.size() ? "…\"" : "\"");
+}
+
+std::string to_utf8(std::string_view bytes) {
+  if (is_utf8(bytes)) return std::string(bytes);
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      text += c;
+    } else {
+      text += static_cast<char>(0xC0 | (byte >> 6));
+      text += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return text;
+}
+
+}  // namespace fusee

@@ -1,0 +1,51 @@
+#include "pipeline/thin_walls.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "fusee/base/text.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_grain = 1e-3;  // mm: a wall of just one line may be measured that much thinner
+
+Diagnostic thinner_than_a_line(const Product& product, const char* key, double value, const std::string& what) {
+  const double nozzle = product.joint.mechanism.print.nozzle;
+  return {Severity::warning, product.file.place_of(key),
+          fmt::format("{}: thinner than one line of a {} mm nozzle (print.nozzle_mm)", what, rounded(nozzle)),
+          fmt::format("try {} = {} or more (now {}), or a finer nozzle", key, rounded(nozzle),
+                      value > 0 ? rounded(value) : "automatic")};
+}
+
+/// The thinnest wall beside a groove or between two of its turns, as the checks measured it on the mesh.
+double thinnest_measured(const Product& product, double at_most) {
+  for (const Check& check : product.checks) {
+    if (check.name.starts_with("wall") || check.name.starts_with("rib")) at_most = std::min(at_most, check.value);
+  }
+  return at_most;
+}
+
+}  // namespace
+
+std::vector<Diagnostic> walls_below_a_line(const Product& product) {
+  const BodyLayout& layout = product.pulley.layout;
+  const Body& body = product.joint.mechanism.body;
+  const double line = product.joint.mechanism.print.nozzle - k_grain;
+  std::vector<Diagnostic> warnings;
+  if (layout.flange_thickness < line) {
+    warnings.push_back(
+        thinner_than_a_line(product, "body.flange_thickness_mm", body.flange_thickness,
+                            fmt::format("the flanges are {} mm thick at the lip", rounded(layout.flange_thickness))));
+  }
+  const double measured = thinnest_measured(product, layout.min_wall);
+  if (measured < line) {
+    warnings.push_back(thinner_than_a_line(product, "body.min_wall_mm", body.min_wall,
+                                           fmt::format("walls may be {} mm thick", rounded(measured))));
+  }
+  return warnings;
+}
+
+}  // namespace fusee

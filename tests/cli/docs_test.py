@@ -1,0 +1,147 @@
+"""The house of the pages: links lead somewhere, the README is short, and pages made of help texts are up to date."""
+
+import json
+import re
+import subprocess
+import sys
+import unittest
+
+import harness
+
+sys.path.insert(0, str(harness.SOURCE / "docs"))
+sys.dont_write_bytecode = True
+import update  # noqa: E402
+
+FOLDERS = ["docs", "profiles", "src", "export", "include", "tests", ".github", ".ci"]
+# Pages that docs/update.py or `fusee reproduce` writes, whose lines are the program's.
+MADE = ["docs/reference/commands.md", "docs/reference/keys.md", "docs/reference/catalogue.md", "docs/reference/columns.md",
+        "docs/reference/json.md", "docs/background/paper.md"]
+
+# Periphrases, each for a word that exists: residual, compliance, distinguishes, module, test rig …
+REPLACED = re.compile(r"\b(has no name|what is left|what stays|as it lies|it takes \d|would be possible with|tells? \w+ from|may as well be|"
+                      r"how sure|nobody|gives way|foretold|mouths?|blame[ds]?|culprits?|makings|roofs?|gables?|keels?|test model)\b", re.I)
+
+
+def files(*endings):
+    found = [path for folder in FOLDERS for path in (harness.SOURCE / folder).rglob("*") if path.suffix in endings]
+    return [*found, *(path for path in harness.SOURCE.glob("*") if path.suffix in endings)]
+
+
+def without_code(text):
+    return re.sub(r"`[^`\n]*`", "", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S))
+
+
+def written(page):
+    """The prose of a page: no code, tables, pictures and links' targets."""
+    text = re.sub(r"^(\||!\[|#|<!--).*$", "", without_code(page.read_text()), flags=re.M)
+    return re.sub(r"\]\([^)]*\)", "]", text)
+
+
+def anchors(path):
+    """Names by which a page's headings are linked, as GitHub makes them."""
+    titles = re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```", "", path.read_text(), flags=re.M | re.S), re.M)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def links(path):
+    """Each relative link of a page: the file, and the place in it."""
+    for target in re.findall(r"\]\(\s*([^)\s]+)\s*\)", without_code(path.read_text())):
+        if "://" not in target:
+            file, _, place = target.partition("#")
+            yield target, (path.parent / file).resolve() if file else path, place
+
+
+class Links(unittest.TestCase):
+    def test_lead_to_files_and_headings(self):
+        pages = files(".md")
+        self.assertGreater(len(pages), 30)
+        for page in pages:
+            for target, file, place in links(page):
+                with self.subTest(f"{page.relative_to(harness.SOURCE)}: {target}"):
+                    self.assertTrue(file.exists(), "no such file")
+                    self.assertTrue(not place or place in anchors(file), "no such heading")
+
+    def test_reach_every_page_of_docs(self):
+        reached, ahead = set(), [harness.SOURCE / "docs/README.md"]
+        while ahead:
+            page = ahead.pop()
+            if page not in reached and page.suffix == ".md":
+                reached.add(page)
+                ahead += [file for _, file, _ in links(page)]
+        self.assertEqual({str(path) for path in (harness.SOURCE / "docs").rglob("*.md")} - {str(page) for page in reached}, set())
+
+    def test_show_every_picture(self):
+        text = "".join(path.read_text() for path in files(".md"))
+        for picture in [*(harness.SOURCE / "docs/pictures").glob("*.svg"), *(harness.SOURCE / "profiles/pictures").glob("*.png")]:
+            self.assertIn(f"pictures/{picture.name})", text)
+
+
+class References(unittest.TestCase):
+    """Comments and pages cite only documents that are here."""
+
+    def test_are_to_documents_of_the_repository(self):
+        names = {path.name for path in files(".md")} | {"FILE.md"}
+        for path in files(".md", ".h", ".cpp", ".py", ".js", ".cmake", ".txt", ".toml"):
+            place = str(path.relative_to(harness.SOURCE))
+            if place == "tests/cli/docs_test.py":
+                continue
+            text = path.read_text(errors="replace")
+            with self.subTest(place):
+                self.assertEqual(set(re.findall(r"[\w-]+\.md\b", text)) - names, set())
+                self.assertEqual(re.findall(r"[A-Z]{4,} §\d", text), [])
+
+
+class Readme(unittest.TestCase):
+    LINES = (harness.SOURCE / "README.md").read_text().splitlines()
+
+    def test_has_at_most_150_lines(self):
+        self.assertLessEqual(len(self.LINES), 150)
+
+    def test_shows_the_second_command_within_two_screens(self):
+        self.assertLess(self.LINES.index(next(line for line in self.LINES if line.startswith(".ci/setup tests"))), 60)
+
+    def test_has_no_paragraph_above_five_lines(self):
+        for paragraph in without_code("\n".join(self.LINES)).split("\n\n"):
+            lines = [line for line in paragraph.splitlines() if line and not line.startswith(("|", "- ", "  "))]
+            self.assertLessEqual(len(lines), 5, paragraph)
+
+
+class Pages(unittest.TestCase):
+    def test_lines_end_at_120_columns(self):
+        for page in ["README.md", *(str(path.relative_to(harness.SOURCE)) for path in (harness.SOURCE / "docs").rglob("*.md"))]:
+            if page in MADE:
+                continue
+            for number, line in enumerate((harness.SOURCE / page).read_text().splitlines(), 1):
+                if not re.match(r"\||!\[|fusee |.*(error|warning|note): |PYTHONPATH", line):
+                    self.assertLessEqual(len(line), 120, f"{page}:{number}")
+
+    def test_have_short_sentences(self):
+        for page in self.prose():
+            for sentence in re.split(r"(?<=[.!?:;])\s|\n\n|\n\s*(?:-|\d+\.)\s", written(page)):
+                self.assertLessEqual(len(sentence.split()), 30, f"{page}: {sentence}")
+
+    def test_use_the_words_of_the_field(self):
+        """Not those that readers stumbled on: the noun exists."""
+        for page in self.prose():
+            self.assertEqual(REPLACED.findall(written(page)), [], page)
+
+    @staticmethod
+    def prose():
+        return [path for path in [harness.SOURCE / "README.md", harness.SOURCE / "profiles/README.md", *(harness.SOURCE / "docs").rglob("*.md")]
+                if str(path.relative_to(harness.SOURCE)) not in MADE]
+
+    def test_made_of_help_texts_are_current(self):
+        for path, text in update.quick_pages(harness.PROGRAM).items():
+            with self.subTest(path):
+                self.assertEqual((harness.SOURCE / path).read_text(), text, "renew it: docs/update.py build/release/fusee")
+
+    def test_name_every_file_that_is_built(self):
+        listed = "".join(re.findall(r"^\| (.*?) \|", (harness.SOURCE / "docs/reference/outputs.md").read_text(), re.M))
+        built = subprocess.run([harness.PROGRAM, "build", harness.SOURCE / "profiles/forearm.toml", "--dry-run", "--json"],
+                               capture_output=True, check=True).stdout
+        for output in json.loads(built)["outputs"]:
+            self.assertIn(f"`{output['file']}`", listed)
+
+
+if __name__ == "__main__":
+    harness.main()

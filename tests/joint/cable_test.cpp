@@ -1,0 +1,180 @@
+// A cable that rubs along its way and straightens as it is pulled. The second route is a chain of springs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/joint/equilibrium.h"
+#include "joint/rubbing_cable.h"
+#include "support/mechanisms.h"
+#include "support/rubbed_chain.h"
+
+namespace fusee {
+namespace {
+
+using testing::forearm;
+using testing::RubbedChain;
+
+/// Both routes along the same ways of motor and load; how far they part.
+struct Routes {
+  RubbedChain chain;
+  RubbingCable cable;
+  double driven = 0, load = 0;
+  double chain_at = 0, cable_at = 0;
+
+  /// The largest difference on the way.
+  double to(double driven_to, double load_to) {
+    constexpr int steps = 40;
+    double parted = 0;
+    const double driven_from = driven, load_from = load;
+    for (int i = 1; i <= steps; ++i) {
+      driven = driven_from + (driven_to - driven_from) * i / steps;
+      load = load_from + (load_to - load_from) * i / steps;
+      chain_at = chain.to(driven, load);
+      cable_at = cable.to(driven, load);
+      parted = std::max(parted, std::abs(chain_at - cable_at));
+    }
+    return parted;
+  }
+};
+
+/// Friction of the whole way is twice its mean over it.
+Routes rubbed_without_load(double mean) {
+  RatioJointError joint;
+  joint.compliance = 1;
+  joint.friction.unloaded = mean;
+  return {RubbedChain(0, 2 * mean), RubbingCable(joint, 0)};
+}
+
+TEST(RubbingCable, SlipsAsAChainDoesUnderChangingLoad) {
+  constexpr double mean = 0.1, width = 2 * mean;
+  Routes routes = rubbed_without_load(mean);
+  routes.to(2, 0);
+  const double on_the_way_up = routes.cable_at;
+  EXPECT_LT(routes.to(2, 0.5), 0.02 * width);
+  EXPECT_LT(routes.to(2, 0.3), 0.02 * width);  // taken off a little: some of the contacts slip back
+  EXPECT_LT(routes.to(2, 0.4), 0.02 * width);
+  EXPECT_LT(routes.to(2, 0), 0.02 * width);
+  EXPECT_NEAR(routes.cable_at, on_the_way_up, 0.02 * width);
+}
+
+TEST(RubbingCable, LosesAsMuchAsAChainAfterAReversal) {
+  constexpr double mean = 0.1, width = 2 * mean;
+  Routes routes = rubbed_without_load(mean);
+  routes.to(2, 0.2);
+  for (const double end : {1.0, 2.0, 0.0}) {
+    // On the way the joint of a chain stands until all contacts have slipped, that of the cable sets in bit by bit: by
+    // theory they part by a quarter of the width.
+    EXPECT_LT(routes.to(end, 0.2), 0.27 * width);
+    EXPECT_NEAR(routes.cable_at, routes.chain_at, 0.02 * width) << end;
+  }
+}
+
+TEST(RubbingCable, HoldsTheShareThatACapstanHolds) {
+  constexpr double turned = 0.2, load = 3;  // μφ of the whole way
+  RatioJointError joint;
+  joint.compliance = 1;
+  joint.friction.share = turned / 2;
+  Routes routes{RubbedChain(turned, 0), RubbingCable(joint, 0)};
+  routes.to(0, load);
+  routes.to(4, load);
+  const double chain_up = routes.chain_at, cable_up = routes.cable_at;
+  routes.to(0, load);
+  const double chain_width = routes.chain_at - chain_up + 4, cable_width = routes.cable_at - cable_up + 4;
+  // e^μφ against 1 + μφ: the cube of it over six, per μφ.
+  EXPECT_NEAR(cable_width, turned * load, 1e-12);
+  EXPECT_NEAR(chain_width, cable_width, 0.02 * cable_width);
+}
+
+TEST(RubbingCable, KeepsLessAsItStiffens) {
+  RatioJointError joint;
+  joint.compliance = 0.5;
+  joint.waves = {.most = 0.2, .rate = 2};
+  joint.friction.unloaded = 0.1;
+  const auto width = [&](double load) {
+    RubbingCable cable(joint, 0);
+    const double up = 5 - cable.to(5, load), down = -5 - cable.to(-5, load);
+    return up - down;
+  };
+  // Straightened by x/(1 + x) of 0.2: the pull of two contacts that hold by 0.0125 to 0.1875.
+  const auto deflection = [](double pull) { return 0.5 * pull + 0.2 * (1 - 1 / (1 + 2 * pull)); };
+  double mean = 0;
+  for (int i = 0; i < 8; ++i) {
+    const double held = 0.1 * (2 * i + 1) / 8;
+    mean += (deflection(1 + held) - deflection(1 - held)) / 8;
+  }
+  EXPECT_NEAR(width(1), mean, 1e-12);
+  EXPECT_GT(width(0.3), 1.3 * width(3));
+}
+
+TEST(RubbingCable, IsAPlainComplianceWithoutFriction) {
+  RatioJointError joint;
+  joint.compliance = 0.3;
+  RubbingCable cable(joint, 0);
+  EXPECT_EQ(cable.to(0.7, 0.9), 0.7 - 0.3 * 0.9);
+  EXPECT_EQ(cable.to(-0.7, 0.9), -0.7 - 0.3 * 0.9);
+}
+
+// ---- tendons --------------------------------------------------------------------------------------------------------
+
+JointModel wavy(CableStiffening waves) {
+  Mechanism mechanism = forearm();
+  mechanism.guides.mu = 0;
+  mechanism.pulley.mu = 1e12;
+  JointModel model = joint_model(mechanism);
+  model.waves = waves;
+  return model;
+}
+
+/// At home, the load coming on.
+std::vector<EquilibriumPoint> loaded(const JointModel& model, double tip_force, int steps) {
+  std::vector<JointStep> path;
+  for (int i = 0; i <= steps; ++i) path.push_back({0, tip_force * i / steps, 0});
+  return follow(model, path);
+}
+
+constexpr CableStiffening k_waves{.most = 0.4, .rate = 0.15};
+
+TEST(WavyTendon, IsLongerByWhatItsWavesGive) {
+  const std::vector<EquilibriumPoint> straight = loaded(wavy({}), 8, 20), points = loaded(wavy(k_waves), 8, 20);
+  EXPECT_GT(std::abs(points.back().theta - straight.back().theta), radians(0.05));
+  const EquilibriumPoint& home = points.front();
+  for (const auto tendon : {&EquilibriumPoint::t1, &EquilibriumPoint::t2}) {
+    const auto given = [&](double pull) { return 0.4 - 0.4 / (1 + 0.15 * pull); };
+    // Without friction one tension is all along it, and the home one says how much material there is.
+    const double strained = (home.*tendon).stretch / (home.*tendon).upper;
+    for (const EquilibriumPoint& point : points) {
+      const TendonState& state = point.*tendon;
+      if (state.upper == 0) continue;
+      EXPECT_NEAR(state.stretch - state.slack,
+                  strained * state.upper + given(state.upper) - given((home.*tendon).upper), 1e-7);
+    }
+  }
+}
+
+TEST(WavyTendon, StiffensAsItIsPulled) {
+  const auto softness = [](double force) {
+    const auto at = [&](double f) { return loaded(wavy(k_waves), f, 40).back().theta; };
+    const auto straight = [&](double f) { return loaded(wavy({}), f, 40).back().theta; };
+    return (at(force + 0.1) - at(force)) / (straight(force + 0.1) - straight(force));
+  };
+  EXPECT_GT(softness(0.1), 1.1 * softness(20));
+}
+
+TEST(WavyTendon, GivesBackItsWork) {
+  const auto missing = [](const JointModel& model) {
+    const std::vector<EquilibriumPoint> points = loaded(model, 8, 1000);
+    double load = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      load += 0.5 * (points[i].load_torque + points[i - 1].load_torque) * (points[i].theta - points[i - 1].theta);
+    return -load - points.back().stored;
+  };
+  const double held = k_waves.energy(loaded(wavy(k_waves), 8, 20).back().t2.upper);
+  EXPECT_GT(held, 0.1);
+  EXPECT_LT(std::abs(missing(wavy(k_waves)) - missing(wavy({}))), 1e-3 * held);
+}
+
+TEST(WavyTendon, StandsAtHomeWhereItWasTied) { EXPECT_NEAR(loaded(wavy(k_waves), 0, 3).back().theta, 0, 1e-12); }
+
+}  // namespace
+}  // namespace fusee

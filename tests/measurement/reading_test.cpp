@@ -1,0 +1,532 @@
+// Logs as loggers, spreadsheets and motor tools write them: clocks, units and text. Each is one motion, written in
+// many ways, that must read as the same numbers.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "fusee/base/text.h"
+#include "fusee/measurement/measurement.h"
+#include "measurement/cells.h"
+#include "measurement/units.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+constexpr int k_rows = 401;
+
+/// A joint of ratio 2 that swings five times, 20 ms from row to row.
+double time_of(int row) { return 0.02 * row; }
+double alpha_of(int row) { return 60 * std::sin(k_two_pi * 5 * row / (k_rows - 1)) + 0.003; }
+double theta_of(int row) { return 0.5 * alpha_of(row) + 0.001; }
+
+using Value = std::function<std::string(int)>;
+std::string number(double value) { return fixed(value, 6); }
+std::string whole(double value) { return fixed(std::round(value), 0); }
+Value seconds() {
+  return [](int row) { return fixed(time_of(row), 3); };
+}
+Value alpha() {
+  return [](int row) { return number(alpha_of(row)); };
+}
+Value theta() {
+  return [](int row) { return number(theta_of(row)); };
+}
+
+/// A table of such values, in rows `first` to `end`.
+std::string table(const std::string& header, const std::vector<Value>& columns, char separator = ',', int first = 0,
+                  int end = k_rows) {
+  std::string text = header + "\n";
+  for (int row = first; row < end; ++row) {
+    for (std::size_t i = 0; i < columns.size(); ++i) text += (i > 0 ? std::string(1, separator) : "") + columns[i](row);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string plain() { return table("time_s,alpha_deg,theta_deg", {seconds(), alpha(), theta()}); }
+
+struct ReadRun {
+  Measurement measurement;
+  Run run;
+  std::string notes;
+};
+
+ReadRun read(const std::string& text, const MeasurementOptions& options = {}) {
+  ReadRun result;
+  result.run = parse_run(text, "run.csv", options, result.measurement);
+  for (const std::string& note : result.measurement.notes) result.notes += note + "\n";
+  return result;
+}
+
+std::string error_of(const std::string& text, const MeasurementOptions& options = {}) {
+  try {
+    read(text, options);
+  } catch (const InputError& error) {
+    std::string all;
+    for (const Diagnostic& diagnostic : error.diagnostics()) all += to_text(diagnostic) + "\n";
+    return all;
+  }
+  return "none";
+}
+
+/// Every row, in its order, from row `first` on; angles to `within` deg.
+void expect_motion(const Run& run, double within = 1e-5, int first = 0) {
+  ASSERT_EQ(run.samples.size(), static_cast<std::size_t>(k_rows - first));
+  for (std::size_t i = 0; i < run.samples.size(); ++i) {
+    const int row = static_cast<int>(i) + first;
+    ASSERT_NEAR(degrees(run.samples[i].alpha), alpha_of(row), within) << row;
+    ASSERT_NEAR(degrees(run.samples[i].theta), theta_of(row), within) << row;
+    if (run.has_time) {
+      ASSERT_NEAR(run.samples[i].time - run.samples[0].time, time_of(row) - time_of(first), 1e-6) << row;
+    }
+  }
+}
+
+MeasurementOptions named(const std::map<std::string, std::string>& columns) {
+  MeasurementOptions options;
+  options.columns = columns;
+  return options;
+}
+
+MeasurementOptions in_units(const std::map<std::string, std::string>& units) {
+  MeasurementOptions options;
+  options.units = units;
+  return options;
+}
+
+std::size_t breaks_of(const Run& run) {
+  std::size_t breaks = 0;
+  for (const Sample& sample : run.samples) breaks += sample.after_break;
+  return breaks;
+}
+
+// ---- clocks ---------------------------------------------------------------------------------------------------------
+
+TEST(LoggedClock, GoesOnWhenItsCounterRunsOver) {
+  struct Counter {
+    const char* name;
+    double tick, size, start;  // s, counts, counts
+  };
+  for (const Counter& counter : {Counter{"time_us", 1e-6, 4294967296.0, 4294967296.0 - 3e6},
+                                 Counter{"time_ms", 1e-3, 4294967296.0, 4294967296.0 - 4000},
+                                 Counter{"time_ms", 1e-3, 65536.0, 65536.0 - 4000}}) {
+    const Value time = [&](int row) {
+      return whole(std::fmod(counter.start + std::round(time_of(row) / counter.tick), counter.size));
+    };
+    const ReadRun found = read(table(std::string(counter.name) + ",alpha_deg,theta_deg", {time, alpha(), theta()}));
+    expect_motion(found.run);
+    EXPECT_EQ(breaks_of(found.run), 0u);
+    EXPECT_THAT(found.notes, HasSubstr("the clock's counter ran over 1 time"));
+  }
+}
+
+TEST(LoggedClock, BeginsANewMotionWhereItGoesBack) {
+  // To 0, to the middle of what was logged, and by less than a row.
+  for (const double start : {0.0, 5.5, 8.975}) {
+    const Value time = [&](int row) { return fixed(row < 200 ? 5 + time_of(row) : start + time_of(row - 200), 4); };
+    const ReadRun found = read(table("time_s,alpha_deg,theta_deg", {time, alpha(), theta()}));
+    ASSERT_THAT(found.run.samples, SizeIs(k_rows)) << start;
+    expect_motion(found.run);
+    EXPECT_EQ(breaks_of(found.run), 1u);
+    EXPECT_TRUE(found.run.samples[200].after_break);
+    EXPECT_THAT(found.notes, HasSubstr("the clock goes back 1 time, first from 8.98 to "));
+  }
+}
+
+TEST(LoggedClock, SetBackByFewRowsMixesNone) {
+  const Value time = [](int row) { return fixed(row < 200 ? time_of(row) : time_of(row) - 0.05, 3); };
+  const ReadRun found = read(table("time_s,alpha_deg,theta_deg", {time, alpha(), theta()}));
+  ASSERT_THAT(found.run.samples, SizeIs(k_rows));
+  for (int row = 0; row < k_rows; ++row)
+    EXPECT_NEAR(degrees(found.run.samples[static_cast<std::size_t>(row)].alpha), alpha_of(row), 1e-5);
+  EXPECT_TRUE(found.run.samples[200].after_break);
+}
+
+TEST(LoggedClock, ThatIsNoneIsNotUsed) {
+  const Value time = [](int row) { return fixed(std::fmod(7.31 * row, 50.0), 3); };
+  const ReadRun found = read(table("time_s,alpha_deg,theta_deg", {time, alpha(), theta()}));
+  EXPECT_FALSE(found.run.has_time);
+  expect_motion(found.run);
+  EXPECT_THAT(found.notes, HasSubstr("time is not used"));
+}
+
+TEST(LoggedClock, ARestartLeavesOutTheStrokeAfterIt) {
+  // The board starts again in the middle of a stroke.
+  const Value time = [](int row) { return fixed(row < 210 ? time_of(row) : time_of(row - 210), 3); };
+  const ReadRun found = read(table("time_s,alpha_deg,theta_deg", {time, alpha(), theta()}));
+  std::size_t partial = 0;
+  for (const Stroke& stroke : found.run.strokes) {
+    if (stroke.partial && stroke.first == 210) ++partial;
+    EXPECT_FALSE(stroke.first < 210 && stroke.last >= 210);
+  }
+  EXPECT_EQ(partial, 1u);
+}
+
+TEST(LoggedTime, IsReadInTheUnitOfItsName) {
+  const auto in = [](double unit) { return Value([unit](int row) { return fixed(time_of(row) / unit, 3); }); };
+  for (const auto& [name, unit] : std::vector<std::pair<std::string, double>>{{"time_s", 1},
+                                                                              {"Time [s]", 1},
+                                                                              {"time", 1},
+                                                                              {"Time[ms]", 1e-3},
+                                                                              {"time_ms", 1e-3},
+                                                                              {"time (us)", 1e-6},
+                                                                              {"time [\xC2\xB5s]", 1e-6},
+                                                                              {"timeMs", 1e-3},
+                                                                              {"time_ns", 1e-9},
+                                                                              {"%time", 1e-9},
+                                                                              {"time_min", 60}}) {
+    // Three decimals of a minute are too coarse.
+    const Value value = unit == 60 ? Value([](int row) { return fixed(time_of(row) / 60, 9); }) : in(unit);
+    const ReadRun found = read(table(name + ",alpha_deg,theta_deg", {value, alpha(), theta()}));
+    ASSERT_TRUE(found.run.has_time) << name;
+    expect_motion(found.run);
+  }
+  for (const auto& [name, unit] : std::vector<std::pair<std::string, double>>{
+           {"millis", 1e-3}, {"Zeit in s", 1}, {"t [us]", 1e-6}, {"clock_ns", 1e-9}})
+    expect_motion(
+        read(table(name + ",alpha_deg,theta_deg", {in(unit), alpha(), theta()}), named({{"time", name}})).run);
+}
+
+TEST(LoggedTime, OfNoUnitIsFoundOrRefused) {
+  const Value millis = [](int row) { return whole(1000 * time_of(row)); };
+  const std::string text = table("time,alpha_deg,theta_deg", {millis, alpha(), theta()});
+  EXPECT_THAT(error_of(text), HasSubstr("the unit of \"time\" is not known: as s, the rows lie 20 s apart"));
+  EXPECT_THAT(error_of(text), HasSubstr("--unit time=ms"));
+  expect_motion(read(text, in_units({{"time", "ms"}})).run);
+  const Value epoch = [](int row) { return whole(1740823200000.0 + 1000 * time_of(row)); };
+  const ReadRun found = read(table("time,alpha_deg,theta_deg", {epoch, alpha(), theta()}));
+  expect_motion(found.run);
+  EXPECT_THAT(found.notes, HasSubstr("time in ms since 1970"));
+}
+
+TEST(LoggedTime, OfImplausibleStepsIsReported) {
+  const Value millis = [](int row) { return whole(1000 * time_of(row)); };
+  const std::string text = table("time_s,alpha_deg,theta_deg", {millis, alpha(), theta()});
+  EXPECT_THAT(read(text).notes, HasSubstr("the rows lie 20 s apart: if the times are in ms"));
+  EXPECT_THAT(read(plain()).notes, ::testing::Not(HasSubstr("s apart")));
+}
+
+TEST(LoggedTime, IsReadFromTimeStamps) {
+  const auto stamp = [](const std::string& before, double start, char mark, const std::string& after) {
+    return Value([=](int row) {
+      const double time = start + time_of(row);
+      const double minutes = std::floor(time / 60), rest = time - 60 * minutes;
+      std::string text = fixed(rest, 3);
+      text = (rest < 9.9995 ? "0" : "") + text;
+      text[text.find('.')] = mark;
+      const std::string minute = fixed(minutes, 0);
+      return before + (minute.size() < 2 ? "0" : "") + minute + ":" + text + after;
+    });
+  };
+  for (const Value& value : {stamp("2025-03-01T10:", 55, '.', "Z"), stamp("2025-03-01 10:", 0, '.', ""),
+                             stamp("2024-02-29T23:", 3590, '.', "+01:00"), stamp("2025/12/31 10:", 3, '.', " -0500")}) {
+    const std::string text = table("timestamp,alpha_deg,theta_deg", {value, alpha(), theta()});
+    if (text.find(":60:") != std::string::npos) continue;
+    expect_motion(read(text).run);
+  }
+  // Over midnight.
+  const Value of_day = [](int row) {
+    const double time = 86396 + time_of(row);
+    return time < 86400 ? "23:59:" + fixed(time - 86340, 3) : "00:00:0" + fixed(time - 86400, 3);
+  };
+  expect_motion(read(table("time,alpha_deg,theta_deg", {of_day, alpha(), theta()})).run);
+  EXPECT_DOUBLE_EQ(*read_time_stamp("1970-01-02T00:00:01Z"), 86401);
+  EXPECT_DOUBLE_EQ(*read_time_stamp("2025-03-01T10:00:00+02:00"), 1740816000);
+  for (const char* const text : {"2025-03-01", "10", "2025-13-01T10:00:00", "10:61", "10:00:00x", ""})
+    EXPECT_FALSE(read_time_stamp(text)) << text;
+}
+
+// ---- angles ---------------------------------------------------------------------------------------------------------
+
+Value scaled(const std::function<double(int)>& angle, double per_degree, int decimals) {
+  return [=](int row) { return fixed(angle(row) * per_degree, decimals); };
+}
+
+TEST(LoggedAngles, AreReadInTheUnitOfTheirName) {
+  struct Written {
+    const char *alpha, *theta;
+    double per_degree;
+  };
+  for (const Written& written :
+       {Written{"alpha [rad]", "theta [rad]", radians(1.0)}, Written{"alpha_rad", "theta_rad", radians(1.0)},
+        Written{"Alpha (deg)", "Theta (deg)", 1}, Written{"alpha [\xC2\xB0]", "theta in \xC2\xB0", 1},
+        Written{"alpha_mdeg", "theta_mdeg", 1000}, Written{"alpha_turns", "theta [rev]", 1.0 / 360},
+        Written{"alphaMrad", "theta mrad", 1000 * radians(1.0)}}) {
+    const std::string header = std::string("time_s,") + written.alpha + "," + written.theta;
+    expect_motion(read(table(header, {seconds(), scaled(alpha_of, written.per_degree, 9),
+                                      scaled(theta_of, written.per_degree, 9)}))
+                      .run);
+  }
+  expect_motion(
+      read(table("time_s,motor,joint", {seconds(), scaled(alpha_of, radians(1.0), 9), scaled(theta_of, 1000, 3)}),
+           [] {
+             MeasurementOptions options = named({{"alpha", "motor"}, {"theta", "joint"}});
+             options.units = {{"alpha", "rad"}, {"theta", "mdeg"}};
+             return options;
+           }())
+          .run);
+  EXPECT_THAT(error_of("alpha [furlong],theta_deg\n1,2\n"), HasSubstr("the unit of \"alpha [furlong]\" is not known"));
+}
+
+Value counts(const std::function<double(int)>& angle, double per_turn, double zero, double size = 0) {
+  return [=](int row) {
+    const double value = std::round(angle(row) / 360 * per_turn) + zero;
+    return fixed(size > 0 ? value - size * std::floor(value / size) : value, 0);
+  };
+}
+
+TEST(LoggedAngles, AreReadFromCounts) {
+  MeasurementOptions options;
+  options.ticks_per_turn = {{"alpha", 4096}, {"theta", -16384}};
+  options.zero_ticks = {{"alpha", 100}, {"theta", 2048}};
+  // Single turns that wrap, and counters of 16 and 32 bits that run over.
+  for (const double size : {4096.0, 65536.0, 4294967296.0}) {
+    const std::string text = table(
+        "time_s,alpha,theta", {seconds(), counts(alpha_of, 4096, 100, size), counts(theta_of, -16384, 2048, 4 * size)});
+    const ReadRun found = read(text, options);
+    ASSERT_THAT(found.run.samples, SizeIs(k_rows));
+    const double turns = k_two_pi * std::round((found.run.samples[0].alpha - radians(alpha_of(0))) / k_two_pi);
+    for (int row = 0; row < k_rows; ++row) {
+      const Sample& sample = found.run.samples[static_cast<std::size_t>(row)];
+      ASSERT_NEAR(degrees(sample.alpha - turns), alpha_of(row), 0.05) << row;
+      ASSERT_NEAR(degrees(sample.theta), theta_of(row), 0.02) << row;
+    }
+    EXPECT_THAT(found.notes, HasSubstr("alpha in counts of 4096 a turn, 100 at home"));
+    EXPECT_THAT(found.notes, HasSubstr("theta in counts of 16384 a turn, falling, 2048 at home"));
+  }
+}
+
+TEST(LoggedAngles, OfWholeNumbersAreNeverDegreesInSilence) {
+  const MeasurementOptions roles = named({{"alpha", "motor"}, {"theta", "joint"}});
+  const auto logged = [](double per_turn, double zero, double size = 0) {
+    return table("time_s,motor,joint",
+                 {seconds(), counts(alpha_of, per_turn, zero, size), counts(theta_of, per_turn, zero, size)});
+  };
+  const ReadRun found = read(logged(4096, 2048), roles);
+  EXPECT_NEAR(degrees(found.run.samples[100].alpha - found.run.samples[0].alpha), alpha_of(100) - alpha_of(0), 0.1);
+  EXPECT_THAT(found.notes, HasSubstr("taken as counts of 4096 a turn (--ticks-per-turn alpha=N says otherwise)"));
+  const ReadRun wrapped = read(logged(2000, 100, 2000), roles);
+  EXPECT_THAT(wrapped.notes, HasSubstr("taken as counts of 2000 a turn"));
+  EXPECT_THAT(error_of(logged(20000, 0), roles), HasSubstr("which look like counts of an encoder"));
+  EXPECT_THAT(error_of(logged(20000, 0), roles), HasSubstr("--ticks-per-turn alpha=4096"));
+  const ReadRun degrees_read = read(logged(360, 0), roles);
+  EXPECT_THAT(degrees_read.notes, HasSubstr("alpha taken as deg, as the name \"motor\" states no unit"));
+  const ReadRun with_unit = read(
+      table("time_s,alpha_deg,theta_deg", {seconds(), counts(alpha_of, 4096, 2048), counts(theta_of, 4096, 2048)}));
+  EXPECT_THAT(with_unit.notes, HasSubstr("read as degrees; if they are counts, --ticks-per-turn alpha=4096"));
+}
+
+TEST(LoggedAngles, OfNoUnitAreHeldAgainstTheDeclaredRange) {
+  const DeclaredMechanism joint = testing::forearm();
+  const MeasurementOptions expected = expecting(joint, named({{"alpha", "motor"}, {"theta", "joint"}}));
+  ASSERT_GT(expected.alpha_span, 1);
+  for (const auto& [unit, factor] : std::vector<std::pair<std::string, double>>{{"deg", 1}, {"rad", radians(1.0)}}) {
+    const double size = 0.4 * degrees(expected.alpha_span) / 60, of_theta = 0.4 * degrees(expected.theta_span) / 30;
+    const ReadRun found = read(table("time_s,motor,joint", {seconds(), scaled(alpha_of, size * factor, 9),
+                                                            scaled(theta_of, of_theta * factor, 9)}),
+                               expected);
+    EXPECT_NEAR(degrees(found.run.samples[20].alpha), size * alpha_of(20), 1e-5) << unit;
+    EXPECT_THAT(found.notes, HasSubstr("theta taken as " + unit));
+  }
+  // Positions of ROS, over several turns of a motor.
+  const ReadRun ros = read(
+      table("time_s,motor_position,joint_position", {seconds(), scaled(alpha_of, 0.2, 9), scaled(theta_of, 0.2, 9)}),
+      named({{"alpha", "motor_position"}, {"theta", "joint_position"}}));
+  EXPECT_NEAR(ros.run.samples[20].alpha, 0.2 * alpha_of(20), 1e-6);
+  EXPECT_THAT(ros.notes, HasSubstr("alpha taken as rad"));
+}
+
+// ---- loads ----------------------------------------------------------------------------------------------------------
+
+TEST(LoggedLoads, AreConverted) {
+  struct Written {
+    const char* name;
+    double load;  // of 1 in its unit
+    const char* in;
+  };
+  for (const Written& written :
+       {Written{"load_N", 1, "N"}, Written{"load_kg", 9.80665, "N"}, Written{"load [g]", 9.80665e-3, "N"},
+        Written{"load [lbf]", 4.4482216152605, "N"}, Written{"load_lb", 4.4482216152605, "N"},
+        Written{"load (kN)", 1000, "N"}, Written{"load_oz", 0.27801385095378125, "N"}, Written{"load_Nm", 1, "Nm"},
+        Written{"load_Nmm", 1, "Nmm"}, Written{"load [N\xC2\xB7m]", 1, "Nm"}, Written{"load [N*mm]", 1, "Nmm"},
+        Written{"load_Ncm", 10, "Nmm"}, Written{"load_mNm", 1, "Nmm"}, Written{"load [kgf*cm]", 98.0665, "Nmm"},
+        Written{"load_kg_cm", 98.0665, "Nmm"}, Written{"load [oz-in]", 7.061551814226043, "Nmm"},
+        Written{"load (lb in)", 112.9848290276167, "Nmm"}, Written{"load [ft.lbf]", 1355.8179483314, "Nmm"}}) {
+    for (const MeasurementOptions& options : {MeasurementOptions{}, named({{"load", written.name}})}) {
+      const ReadRun found = read(table(std::string("time_s,alpha_deg,theta_deg,") + written.name,
+                                       {seconds(), alpha(), theta(), [](int) { return "2"; }}),
+                                 options);
+      ASSERT_TRUE(found.run.has_load) << written.name;
+      EXPECT_NEAR(found.run.samples[7].load, 2 * written.load, 1e-9 * written.load) << written.name;
+      EXPECT_EQ(found.measurement.load_unit, written.in) << written.name;
+    }
+  }
+}
+
+TEST(LoggedLoads, OfSeveralRunsAreInOneUnit) {
+  const auto logged = [](const std::string& name) {
+    return table("alpha_deg,theta_deg," + name, {alpha(), theta(), [](int) { return "2"; }});
+  };
+  Measurement measurement;
+  EXPECT_EQ(parse_run(logged("load_Nmm"), "a.csv", {}, measurement).samples[3].load, 2);
+  const fusee::Run second = parse_run(logged("load_Nm"), "b.csv", {}, measurement);
+  EXPECT_EQ(second.samples[3].load, 2000);
+  EXPECT_NEAR(second.mean_load, 2000, 1e-9);
+  EXPECT_EQ(measurement.load_unit, "Nmm");
+  EXPECT_THROW(parse_run(logged("load_kg"), "c.csv", {}, measurement), InputError);
+}
+
+TEST(LoggedLoads, OfAnUnknownUnitAreRefused) {
+  const auto logged = [](const std::string& name) {
+    return table("alpha_deg,theta_deg," + name, {alpha(), theta(), [](int) { return "2"; }});
+  };
+  EXPECT_THAT(error_of(logged("load [stone]")), HasSubstr("the unit of \"load [stone]\" is not known: \"stone\""));
+  EXPECT_THAT(error_of(logged("load_stone"), named({{"load", "load_stone"}})), HasSubstr("units: N, mN, cN"));
+  EXPECT_THAT(error_of(logged("pull"), in_units({{"load", "stone"}})), HasSubstr("there is no unit \"stone\" of load"));
+  EXPECT_THAT(read(logged("load_cell")).notes, HasSubstr("column \"load_cell\" is not used"));
+  const ReadRun bare = read(logged("pull"), named({{"load", "pull"}}));
+  EXPECT_THAT(bare.notes, HasSubstr("load: taken as N, as the name \"pull\" states no unit"));
+  EXPECT_THAT(error_of("alpha_deg,theta_deg,tension1_Nm\n1,2,3\n", named({{"tension1", "tension1_Nm"}})),
+              HasSubstr("is a torque"));
+}
+
+// ---- text -----------------------------------------------------------------------------------------------------------
+
+TEST(LoggedText, HasQuotesOfRfc4180) {
+  const std::string remark = "\"he said \"\"stop\"\",\nand it; stopped\"";
+  const ReadRun found = read(table("time_s,\"Motor, deg\",\"Joint, deg\",remark",
+                                   {seconds(), alpha(), theta(), [&](int row) { return row == 7 ? remark : "\"\""; }}),
+                             named({{"alpha", "Motor, deg"}, {"theta", "Joint, deg"}}));
+  expect_motion(found.run);
+  EXPECT_EQ(found.notes, read(plain()).notes);
+  // A mark within a cell opens nothing.
+  expect_motion(read(table("time_s,alpha_deg,theta_deg,5\" arm",
+                           {seconds(), alpha(), theta(), [](int) { return std::string("7\" long"); }}))
+                    .run);
+  EXPECT_THAT(error_of("alpha_deg,theta_deg,note\n1,2,\"x\n3,4,y\n"),
+              HasSubstr("run.csv:2:1: error: a quotation mark opens a cell here and never closes it"));
+  // Lines are counted through a quoted cell.
+  EXPECT_THAT(error_of("alpha_deg,theta_deg,note\n1,2,\"x\n\ny\"\n3,z,y\n"), HasSubstr("run.csv:5:3: error"));
+}
+
+TEST(LoggedText, HasCommentsOnlyAtALinesBeginning) {
+  expect_motion(read(table("# of a bench\nsample #,time_s,alpha_deg,theta_deg,remark",
+                           {[](int row) { return std::to_string(row); }, seconds(), alpha(), theta(),
+                            [](int row) { return "#" + std::to_string(row); }}))
+                    .run);
+}
+
+TEST(LoggedText, HasAPreamble) {
+  const std::string body = plain();
+  for (const char* const above : {"Logger,v2.1\nDate,2025-03-01\n\n", "Record Length,2500\n1,2\n3,4\n",
+                                  "A \"new\" bench; by, me\n", "sep=,\n", "\"sep=,\"\r\n"}) {
+    const ReadRun found = read(above + body);
+    expect_motion(found.run);
+    if (std::string(above).find("sep") == std::string::npos) {
+      EXPECT_THAT(found.notes, HasSubstr("the header is line ")) << above;
+    }
+  }
+  const std::string wizard =
+      "DYNAMIXEL Graph,3,,,\nItemCount,3,,,\n-1,5,XX,Present Position,#ffff00\n" +
+      table("Time[ms],Realtime Tick,Present Position,Goal Position,",
+            {[](int row) { return whole(1000 * time_of(row)); }, [](int) { return "1"; }, counts(theta_of, 4096, 2048),
+             counts(alpha_of, 4096, 2048), [](int) { return ""; }});
+  const ReadRun found = read(wizard, named({{"alpha", "Goal Position"}, {"theta", "Present Position"}}));
+  ASSERT_THAT(found.run.samples, SizeIs(k_rows));
+  EXPECT_NEAR(degrees(found.run.samples[20].alpha) - 180, alpha_of(20), 0.05);
+  EXPECT_THAT(found.notes, HasSubstr("the header is line 4"));
+  // A header without the names is the one that is complained of.
+  EXPECT_THAT(error_of("Logger,v2\nOperator,me\ntime_s,motor,joint\n0,1,2\n1,2,3\n"),
+              HasSubstr("run.csv:3:1: error: there is no column alpha_deg"));
+}
+
+TEST(LoggedText, HasItsHeaderAgainAfterARestart) {
+  const std::vector<Value> columns = {seconds(), alpha(), theta()};
+  const std::string header = "time_s,alpha_deg,theta_deg";
+  const std::string rest = table("", columns, ',', 200).substr(1);
+  const ReadRun found = read(table(header, columns, ',', 0, 200) + header + "\n" + rest);
+  expect_motion(found.run);
+  EXPECT_TRUE(found.run.samples[200].after_break);
+  EXPECT_EQ(breaks_of(found.run), 1u);
+  EXPECT_THAT(found.notes, HasSubstr("the header stands again 1 time, first in line 202: a new motion begins there"));
+  // With a row cut off by the restart, and what the board prints as it starts.
+  const ReadRun booted = read(table(header, columns, ',', 0, 200) +
+                              "3.98,1\nets Jun  8 2016\nrst:0x1 (POWERON),boot:0x13\n" + header + "\n" + rest);
+  expect_motion(booted.run);
+  EXPECT_THAT(booted.notes, HasSubstr("and 3 rows before it were no rows"));
+}
+
+std::string utf16(const std::string& text, bool big) {
+  std::string bytes = big ? "\xFE\xFF" : "\xFF\xFE";
+  for (const char c : text) bytes += big ? std::string(1, '\0') + c : c + std::string(1, '\0');
+  return bytes;
+}
+
+TEST(LoggedText, IsReadInEveryEncoding) {
+  expect_motion(read(utf16(plain(), false)).run);
+  expect_motion(read(utf16(plain(), true)).run);
+  const std::vector<Value> columns = {seconds(), alpha(), theta()};
+  const std::string latin = table("Zeit in s;Motorwinkel in \xB0;Gelenkwinkel in \xB0", columns, ';');
+  const std::string hint = error_of(latin);
+  EXPECT_THAT(hint, HasSubstr("\"Motorwinkel in \xC2\xB0\""));
+  for (const char* const degree : {"\xC2\xB0", "\xB0"}) {
+    const MeasurementOptions options = named({{"time", "Zeit in s"},
+                                              {"alpha", std::string("Motorwinkel in ") + degree},
+                                              {"theta", std::string("Gelenkwinkel in ") + degree}});
+    const ReadRun found = read(latin, options);
+    expect_motion(found.run);
+    EXPECT_EQ(found.notes, read(plain()).notes);
+  }
+  std::string returns = plain();
+  for (char& c : returns) c = c == '\n' ? '\r' : c;
+  expect_motion(read(returns).run);
+}
+
+TEST(LoggedText, HasOneDecimalMark) {
+  const auto comma = [](const Value& value) {
+    return Value([value](int row) {
+      std::string text = value(row);
+      for (char& c : text) c = c == '.' ? ',' : c;
+      return text;
+    });
+  };
+  const auto quoted = [](const Value& value) { return Value([value](int row) { return "\"" + value(row) + "\""; }); };
+  const std::vector<Value> commas = {comma(seconds()), comma(alpha()), comma(theta())};
+  expect_motion(read(table("time_s;alpha_deg;theta_deg", commas, ';')).run);
+  expect_motion(read(table("time_s\talpha_deg\ttheta_deg", commas, '\t')).run);
+  expect_motion(
+      read(table("time_s,alpha_deg,theta_deg", {quoted(commas[0]), quoted(commas[1]), quoted(commas[2])})).run);
+  // Thousands: "1,020" ms.
+  const Value grouped = [](int row) {
+    const int ms = 20 * row;
+    if (ms < 1000) return "\"" + std::to_string(ms) + "\"";
+    return "\"" + std::to_string(ms / 1000) + "," + std::to_string(1000 + ms % 1000).substr(1) + "\"";
+  };
+  expect_motion(read(table("time_ms,alpha_deg,theta_deg", {grouped, alpha(), theta()})).run);
+  EXPECT_THAT(error_of("alpha_deg;theta_deg\n1,5;2,5\n2.5;3,5\n"), HasSubstr("\"2.5\" is not a number"));
+  EXPECT_THAT(error_of("alpha_deg;theta_deg\n1.5;2.5\n2,5;3.5\n"), HasSubstr("\"2,5\" is not a number"));
+}
+
+TEST(ColumnNames, StateTheirUnits) {
+  const auto unit = [](const char* name, Quantity quantity) {
+    const ColumnName parsed = parse_column_name(name, quantity);
+    return parsed.base + "|" + (parsed.unit ? std::string(parsed.unit->name) : parsed.unknown_unit);
+  };
+  EXPECT_EQ(unit("tau_out_Nm", Quantity::load), "tau_out|Nm");
+  EXPECT_EQ(unit("Load [kg]", Quantity::load), "load|kg");
+  EXPECT_EQ(unit("tau_kgf_cm", Quantity::load), "tau|kgcm");
+  EXPECT_EQ(unit("load_cell", Quantity::load), "load|cell");
+  EXPECT_EQ(unit("tipForceN", Quantity::load), "tipforce|N");
+  EXPECT_EQ(unit("/joint_states/motor/position", Quantity::angle), "/joint_states/motor/position|");
+  EXPECT_EQ(unit("motor_counts", Quantity::angle), "motor|counts");
+  EXPECT_EQ(unit("", Quantity::angle), "|");
+}
+
+}  // namespace
+}  // namespace fusee

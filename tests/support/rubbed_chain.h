@@ -1,0 +1,50 @@
+/// \file
+/// A cable as a chain of springs with a dry contact at every node, relaxed node by node: it knows neither play
+/// operators nor mean angles.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace fusee::testing {
+
+/// Springs in series from the motor to the joint, of one unit of compliance together; every node rubs on its guide.
+class RubbedChain {
+ public:
+  /// `share`: ln of the ratio of tensions that the whole way holds, as a capstan; `unloaded`: friction of the whole way
+  /// beside it.
+  RubbedChain(double share, double unloaded) : share_(share / k_nodes), unloaded_(unloaded / k_nodes) {}
+
+  /// Angle of the joint, with the motor at `driven` and the pull `load`.
+  double to(double driven, double load) {
+    constexpr double overrelaxed = 1.9, settled = 1e-10;
+    for (double moved = 1; moved > settled;) {
+      moved = 0;
+      for (int i = 0; i < k_nodes; ++i) {
+        const double before = i > 0 ? node_[i - 1] : driven, after = i + 1 < k_nodes ? node_[i + 1] : joint_;
+        const double to_motor = k_stiffness * (before - node_[i]), to_joint = k_stiffness * (node_[i] - after);
+        const double pull = to_motor - to_joint;
+        const double held = unloaded_ + std::expm1(share_) * std::max(0.0, std::min(to_motor, to_joint));
+        if (std::abs(pull) <= held) continue;
+        const double by = overrelaxed * (pull - std::copysign(held, pull)) / (2 * k_stiffness);
+        node_[i] += by;
+        moved = std::max(moved, std::abs(by));
+      }
+      const double next = node_.back() - load / k_stiffness;
+      moved = std::max(moved, std::abs(next - joint_));
+      joint_ = next;
+    }
+    return joint_;
+  }
+
+ private:
+  static constexpr int k_nodes = 64;
+  static constexpr double k_stiffness = k_nodes + 1;
+
+  double share_, unloaded_;
+  std::vector<double> node_ = std::vector<double>(k_nodes, 0.0);
+  double joint_ = 0;
+};
+
+}  // namespace fusee::testing
