@@ -112,6 +112,7 @@ void describe_errors(const Evidence& evidence, const Measurement& measurement, c
     return residuals(measurement, predict(*evidence.declared, estimate.fit.at, log, evidence.earlier));
   };
   const auto held_out_rms = [&](const Estimate& estimate) {
+    if (evidence.earlier) return std::sqrt(std::max(0.0, estimate.fit.by_run.mean_square - estimate.fit.price));
     const double square = hold_out(evidence, estimate, evidence.run_folds).mean_square;
     return std::sqrt(std::max(0.0, square - estimate.fit.price));
   };
@@ -212,7 +213,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
   calibration.noise = noise;
   const Measurement kept = part(measurement, options.hold_out, true);
   const Validated answer =
-      options.earlier ? changes_beside(evidence, workers, selection) : validated(evidence, workers, kept, selection);
+      options.earlier ? changes_beside(evidence, selection) : validated(evidence, workers, kept, selection);
   const Fit& numbers = answer.made.estimate.fit;
   calibration.dropped = answer.dropped;
   calibration.effects = found_effects(evidence, selection, numbers);

@@ -49,6 +49,7 @@ Effect change_of(const Imperfections& before, Effect effect) {
     const double value = value_of(before, parameter);
     parameter.least -= value;
     parameter.most -= value;
+    parameter.gone = -value;
   }
   add_opposite_starts(effect);
   return effect;

@@ -34,6 +34,6 @@ Validated validated(const Evidence& evidence, Workers& workers, const Measuremen
 
 /// Of two states: the numbers stand as they were selected, beside the discrepancy that both states share. By themselves
 /// they predict nothing: what the earlier state does not hold is in every run.
-Validated changes_beside(const Evidence& evidence, Workers& workers, const Selection& selection);
+Validated changes_beside(const Evidence& evidence, const Selection& selection);
 
 }  // namespace fusee

@@ -171,7 +171,7 @@ bool is_promising(const Fit& fit) { return fit.explained.log_evidence > fit.expl
 
 void hold_at_bounds(Fit& fit) {
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
-    if (at_bound(fit.at, *fit.parameters[k])) fit.J.col(static_cast<Eigen::Index>(k)).setZero();
+    if (at_end(fit.at, *fit.parameters[k])) fit.J.col(static_cast<Eigen::Index>(k)).setZero();
   }
 }
 
@@ -442,6 +442,18 @@ Fit Fitter::judged(Fit fit) const {
   return fit;
 }
 
+/// Of two states the discrepancy predicts too: what the earlier state does not hold is learnt from the other state's runs
+/// of the same load and speed, of which none is left where a whole level is left out.
+void Fitter::hold_out_of(Fit& fit) const {
+  if (evidence().earlier) {
+    fit.by_run = hold_out_beside(evidence(), fit, fit.explained.amplitudes, evidence().run_folds).with_all;
+    fit.by_factor = fit.by_run;
+    return;
+  }
+  fit.by_factor = hold_out(evidence(), fit, evidence().factor_folds);
+  fit.by_run = hold_out(evidence(), fit, evidence().run_folds);
+}
+
 void Fitter::judge(Fit& fit) const {
   fit.usable = fit.usable && is_finite(evidence(), fit);
   if (!fit.usable) return;
@@ -467,8 +479,7 @@ void Fitter::judge(Fit& fit) const {
   }
   fit.mean_square = squares / rows;
   fit.price = prices / rows;
-  fit.by_factor = hold_out(evidence(), fit, evidence().factor_folds);
-  fit.by_run = hold_out(evidence(), fit, evidence().run_folds);
+  hold_out_of(fit);
 }
 
 /// `fit` with the numbers of `effect` at zero, of what is searched where it begins.

@@ -1,6 +1,7 @@
 #include "calibration/parameters.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fusee {
 
@@ -52,9 +53,13 @@ bool contains(const EffectSet& effects, const Effect& effect) {
   return std::find(effects.begin(), effects.end(), &effect) != effects.end();
 }
 
-bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
+bool at_end(const Imperfections& at, const EffectParameter& parameter) {
   const double value = value_of(at, parameter);
   return value <= parameter.least + 1e-9 * parameter.step || value >= parameter.most - 1e-9 * parameter.step;
+}
+
+bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
+  return at_end(at, parameter) && std::abs(value_of(at, parameter) - parameter.gone) > 1e-9 * parameter.step;
 }
 
 }  // namespace fusee

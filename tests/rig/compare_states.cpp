@@ -86,7 +86,14 @@ std::string words_of(const StatePair& pair, const Comparison& comparison) {
       text += " " + number.name + " " + rounded(number.change(), 3) + " (" + rounded(number.low, 3) + " ... " +
               rounded(number.high, 3) + ")";
   }
-  return text;
+  for (const FoundEffect& effect : comparison.changes.effects) {
+    const auto is_this = [&](const StateChange& change) { return change.name == effect.name; };
+    if (std::any_of(comparison.found.begin(), comparison.found.end(), is_this)) continue;
+    text += " | not reported: " + effect.name + ", by runs " + rounded(effect.by_runs, 2) + ", held out " +
+            rounded(degrees(effect.rms_drop), 2) + " deg less";
+  }
+  return text + " | held out " + rounded(degrees(comparison.changes.before.held_out_rms), 4) + ", with the changes " +
+         rounded(degrees(comparison.changes.after.held_out_rms), 4) + " deg";
 }
 
 PairAnswer judge(const StatePair& pair, const Comparison& comparison) {

@@ -92,6 +92,7 @@ struct EffectParameter {
   bool searched = false;  ///< not fitted: only the values in Effect::starts are tried
   /// Whether the effect's other numbers leave it nothing to do, whatever it is: it is then reported as 0; null: never.
   bool (*idle)(const Imperfections& joint) = nullptr;
+  double gone = 0;  ///< where the joint has none of it: of a change, minus what there was
 };
 
 /// The prior in the number's own unit. `largest_load`: the log's largest magnitude; 0 where there is none.
