@@ -139,22 +139,20 @@ std::vector<double> sizes_by_scatter(const Evidence& evidence, const Fit& fit) {
 
 StateDifference state_difference(const Evidence& evidence, const Fit& none, const Fit& changed) {
   const Eigen::VectorXd shared = shared_discrepancy(evidence, changed);
-  double sum = 0, before = 0, after = 0, rows = 0;
+  double before = 0, after = 0, rows = 0;
   Eigen::Index at = 0;
   for (const Block& block : evidence.blocks) {
     for (const std::size_t row : block.rows) {
       const double left = shared[at++];
       if (block.run < evidence.earlier->runs) continue;
       const double apart = none.residual[static_cast<Eigen::Index>(row)] - left;
-      sum += apart;
       before += apart * apart;
       after += std::pow(changed.residual[static_cast<Eigen::Index>(row)] - left, 2);
       rows += 1;
     }
   }
   if (rows == 0) return {};
-  const double mean = sum / rows;
-  return {std::sqrt(before / rows), std::sqrt(std::max(0.0, before / rows - mean * mean)), std::sqrt(after / rows)};
+  return {std::sqrt(before / rows), std::sqrt(after / rows)};
 }
 
 }  // namespace fusee

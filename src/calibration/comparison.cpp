@@ -84,19 +84,32 @@ std::string why_not_comparable(const ComparedRuns& runs) {
   return "";
 }
 
-/// How far the joint after is from the joint before, whatever changed, by how far it moves.
-double part_of_motion(const ComparedRuns& runs, double apart) {
-  double sum = 0, squares = 0, rows = 0;
-  for (const Run& run : runs.after.runs) {
-    for (const Sample& sample : run.samples) {
-      if (!std::isfinite(sample.theta)) continue;
-      sum += sample.theta;
-      squares += sample.theta * sample.theta;
-      rows += 1;
-    }
+/// Mean square about their mean, of those that are finite.
+class Variance {
+ public:
+  void take(double value) {
+    if (!std::isfinite(value)) return;
+    sum_ += value;
+    squares_ += value * value;
+    count_ += 1;
   }
-  const double motion = rows > 0 ? std::sqrt(std::max(0.0, squares / rows - sum * sum / (rows * rows))) : 0;
-  return motion > 0 ? apart / motion : 0;
+  double value() const { return count_ > 0 ? std::max(0.0, squares_ / count_ - std::pow(sum_ / count_, 2)) : 0.0; }
+
+ private:
+  double sum_ = 0, squares_ = 0, count_ = 0;
+};
+
+/// How much further the runs after are from the joint before than its own runs, whatever changed, by how far they move;
+/// a moved zero aside.
+double part_of_motion(const ComparedRuns& runs, const std::vector<std::vector<double>>& about_before) {
+  Variance own, later, motion;
+  for (std::size_t r = 0; r < about_before.size(); ++r) {
+    for (const double residual : about_before[r]) (r < runs.before.runs.size() ? own : later).take(residual);
+  }
+  for (const Run& run : runs.after.runs) {
+    for (const Sample& sample : run.samples) motion.take(sample.theta);
+  }
+  return motion.value() > 0 ? std::sqrt(std::max(0.0, later.value() - own.value()) / motion.value()) : 0.0;
 }
 
 }  // namespace
@@ -139,7 +152,7 @@ Comparison compare_states(const DeclaredMechanism& declared, const ComparedRuns&
     return comparison;
   }
   comparison.difference = comparison.changes.difference;
-  if (const double part = part_of_motion(runs, comparison.difference.before_but_level);
+  if (const double part = part_of_motion(runs, comparison.changes.residuals_before);
       part > k_thresholds.most_changed_part) {
     comparison.verdict = ComparisonVerdict::not_comparable;
     comparison.why = "The runs after differ from the joint before by " + rounded(100 * part, 2) +

@@ -146,9 +146,8 @@ struct ErrorFigures {
 /// Rms over the later runs of what the earlier state does not show, rad: the discrepancy that both states share is taken
 /// away.
 struct StateDifference {
-  double before = 0;            ///< with the joint as it was
-  double before_but_level = 0;  ///< the same about its mean: without what moves a zero
-  double after = 0;             ///< with the changes
+  double before = 0;  ///< with the joint as it was
+  double after = 0;   ///< with the changes
 };
 
 struct Detectable {
