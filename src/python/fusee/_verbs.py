@@ -409,8 +409,8 @@ def compare(
 
     >>> import fusee, numpy
     >>> arm = fusee.read(fusee.new("forearm"))
-    >>> still = {"alpha_deg": numpy.zeros(20), "theta_deg": numpy.zeros(20)}
-    >>> fusee.compare(arm, [still], [still]).verdict
+    >>> still, moved = ({"alpha_deg": numpy.zeros(20), "theta_deg": numpy.full(20, at)} for at in (0, 0.5))
+    >>> fusee.compare(arm, [still], [moved]).verdict
     'not_testable'
     """
     joint = _of(mechanism)
@@ -432,8 +432,8 @@ def compare(
 
 
 def _state_change(said: Row) -> _values.StateChange:
-    parameters = {name: _values.ChangedParameter(*(_known(number[key]) for key in ("before", "after", "change")), _interval(number["ci95"]))
-                  for name, number in said["parameters"].items()}  # fmt: skip
+    parameters = {name: _values.ChangedParameter(_known(of["before"]), _known(of["after"]), _known(of["change"]), _interval(of["ci95"]))
+                  for name, of in said["parameters"].items()}  # fmt: skip
     return _values.StateChange(said["name"], tuple(said["group"]), said["place"], _values.Table(parameters), _known(said["rms_drop_deg"]))
 
 
