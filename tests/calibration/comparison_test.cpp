@@ -121,6 +121,28 @@ TEST(Comparison, ReportsNothingOfOneState) {
   EXPECT_LT(comparison.difference.before, 3 * k_noise);
 }
 
+/// The same with a gain and a play of each run's own.
+Measurement unrepeated(Measurement measurement, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> gain(0.0, 0.01), half_play(0.0, radians(0.05));
+  for (fusee::Run& run : measurement.runs) {
+    const double by_place = gain(random), by_direction = half_play(random);
+    for (const Stroke& stroke : run.strokes) {
+      for (std::size_t i = stroke.first; i <= stroke.last; ++i)
+        run.samples[i].theta += by_place * run.samples[i].alpha / 4 + by_direction * stroke.direction;
+    }
+  }
+  return measurement;
+}
+
+TEST(Comparison, ReportsNothingThatRunsOfOneStateDoNotRepeat) {
+  for (const unsigned seed : {1u, 4u, 6u}) {
+    const ComparedRuns same = two_states(with_play(radians(2)), with_play(radians(2)));
+    const ComparedRuns runs = both_of(unrepeated(same.before, seed), unrepeated(same.after, 100 + seed));
+    EXPECT_EQ(compare_states(geared(), runs).verdict, ComparisonVerdict::no_change) << seed;
+  }
+}
+
 TEST(Comparison, FindsPlayThatGrewAndShrank) {
   for (const auto& [before, after] : {std::pair{2.0, 3.0}, std::pair{3.0, 2.0}}) {
     const Comparison comparison =
