@@ -173,7 +173,7 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
   }
   const auto one = [](const RowFacts&) { return 1.0; };
   if (evidence.measurement.runs.size() > 1) builder.add(Factor::run, indicators(facts, &RowFacts::run, one));
-  // What runs of one state do not repeat is no difference between states. Of one run each nobody knows it.
+  // A difference between states must exceed the scatter between runs of one state. One run each does not show it.
   if (evidence.earlier && evidence.measurement.runs.size() > 2) {
     builder.add(Factor::run, curves_of_runs(facts, bent.middleCols(1, k_plain - 1), one));
     builder.add(Factor::run, curves_of_runs(facts, plain, direction));

@@ -442,8 +442,8 @@ Fit Fitter::judged(Fit fit) const {
   return fit;
 }
 
-/// Of two states the discrepancy predicts too: what the earlier state does not hold is learnt from the other state's runs
-/// of the same load and speed, of which none is left where a whole level is left out.
+/// Two states are predicted with the discrepancy: runs of the other state at the same load and speed show it. A whole
+/// level left out would leave none of them, so runs are left out one by one.
 void Fitter::hold_out_of(Fit& fit) const {
   if (evidence().earlier) {
     fit.by_run = hold_out_beside(evidence(), fit, fit.explained.amplitudes, evidence().run_folds).with_all;

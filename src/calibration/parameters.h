@@ -34,9 +34,9 @@ Imperfections without(Imperfections at, const Effect& effect);
 EffectSet without(const EffectSet& effects, const Effect& effect);
 bool contains(const EffectSet& effects, const Effect& effect);
 
-/// Whether the number cannot go on one way.
+/// True at either end of the number's range.
 bool at_end(const Imperfections& at, const EffectParameter& parameter);
-/// Whether it stands there for want of more, and not because the joint has none of it.
+/// True at an end where the data ask for more than any joint has; false where the joint has none of the effect.
 bool at_bound(const Imperfections& at, const EffectParameter& parameter);
 
 }  // namespace fusee

@@ -121,7 +121,7 @@ TEST(Comparison, ReportsNothingOfOneState) {
   EXPECT_LT(comparison.difference.before, 3 * k_noise);
 }
 
-/// The same with a gain and a play of each run's own.
+/// Each run with a gain and a play of its own.
 Measurement unrepeated(Measurement measurement, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> gain(0.0, 0.01), half_play(0.0, radians(0.05));

@@ -41,12 +41,12 @@ struct PairRequest {
   double most_missed = 100;
 };
 
-/// What a comparison says of a pair.
+/// A comparison of a pair, judged.
 struct PairAnswer {
   bool is_null = false;   ///< the pair is of one state
   bool is_right = false;  ///< nothing of one state; the true cause in a group
   bool is_alone = false;  ///< … of one
-  bool blames = false;    ///< a group without the true cause
+  bool is_false = false;  ///< … and a group without the true cause
   std::string words;
 };
 
@@ -105,7 +105,7 @@ PairAnswer judge(const StatePair& pair, const Comparison& comparison) {
     const bool holds = std::find(change.group.begin(), change.group.end(), pair.effect) != change.group.end();
     answer.is_right = answer.is_right || (holds && !answer.is_null);
     answer.is_alone = answer.is_alone || (holds && change.group.size() == 1);
-    answer.blames = answer.blames || !holds;
+    answer.is_false = answer.is_false || !holds;
   }
   return answer;
 }
@@ -138,7 +138,7 @@ std::vector<PairAnswer> work(const std::vector<PairJob>& jobs, std::size_t at_on
     try {
       const StatePair pair = make_pair(jobs[i].change, jobs[i].seed, folder / std::to_string(i));
       answer = judge(pair, compare_states(pair.joint.declared, pair.runs));
-      words = (!answer->is_right ? "MISSED " : answer->blames ? "BLAMED " : "") + answer->words;
+      words = (!answer->is_right ? "MISSED " : answer->is_false ? "FALSE " : "") + answer->words;
     } catch (const std::exception& error) {
       words = jobs[i].change + ": left out: " + error.what();
     }
@@ -187,7 +187,7 @@ int run(const std::vector<std::string>& words) {
   print("one state, nothing reported", nulls);
   print("one change, in a reported group", held);
   print("one change, alone in its group", rate_of(answers, false, &PairAnswer::is_alone));
-  print("one change, and a group without it", rate_of(answers, false, &PairAnswer::blames));
+  print("one change, and a group without it", rate_of(answers, false, &PairAnswer::is_false));
   const bool fine = (nulls.all == 0 || 100 * (1 - nulls.share()) <= request->most_false) &&
                     (held.all == 0 || 100 * (1 - held.share()) <= request->most_missed);
   return answers.empty() ? 1 : fine ? 0 : 4;
