@@ -5,6 +5,7 @@
 ///     AnalysisResult   analyze(file, options)            the transmission and the forces over the range
 ///     OptimizeResult   optimize(file, options)           better numbers for the mechanism
 ///     CalibrateResult  calibrate(file, runs, options)    measured runs: the causes of the error, a better file
+///     CompareResult    compare(file, before, after, options)  what changed between two states (pipeline/compare.h)
 ///     PlanResult       plan(file, options)               which runs to measure, what they can show
 ///     KitResult        kit(file, options)                the test rig: parts, plates, a page (pipeline/kit.h)
 ///     ModelResult      model(file, options)              the joint for simulators and firmware (pipeline/model.h)

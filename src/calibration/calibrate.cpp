@@ -3,6 +3,7 @@
 
 #include "calibration/audit.h"
 #include "calibration/catalogue.h"
+#include "calibration/changes.h"
 #include "calibration/delivered.h"
 #include "calibration/evenness.h"
 #include "calibration/expected_sizes.h"
@@ -108,9 +109,10 @@ void describe_errors(const Evidence& evidence, const Measurement& measurement, c
                      Calibration& calibration) {
   const BenchLog log = bench_log(measurement);
   const auto residuals_of = [&](const Estimate& estimate) {
-    return residuals(measurement, predict(*evidence.declared, estimate.fit.at, log));
+    return residuals(measurement, predict(*evidence.declared, estimate.fit.at, log, evidence.earlier));
   };
   const auto held_out_rms = [&](const Estimate& estimate) {
+    if (evidence.earlier) return std::sqrt(std::max(0.0, estimate.fit.by_run.mean_square - estimate.fit.price));
     const double square = hold_out(evidence, estimate, evidence.run_folds).mean_square;
     return std::sqrt(std::max(0.0, square - estimate.fit.price));
   };
@@ -125,8 +127,9 @@ void describe_errors(const Evidence& evidence, const Measurement& measurement, c
 
 /// Of what the declared joint leaves: between rows that stand far apart θ(α) bends by more than noise. As logged where
 /// the declared joint has no place.
-Measurement about_declared(const Mechanism& declared, const Measurement& measurement) {
-  const Readings model = predict(declared, {}, bench_log(measurement));
+Measurement about_declared(const Mechanism& declared, const Measurement& measurement,
+                           const std::optional<EarlierState>& earlier) {
+  const Readings model = predict(declared, {}, bench_log(measurement), earlier);
   Measurement about = measurement;
   for (std::size_t i = 0; i < about.runs.size(); ++i) {
     for (std::size_t k = 0; k < model[i].size(); ++k) {
@@ -144,6 +147,12 @@ Imperfections without_idle_numbers(const Fit& fit, const Imperfections& numbers)
     if (is_idle(*parameter, numbers)) reset(at, *parameter);
   }
   return at;
+}
+
+void describe_changes(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
+  calibration.difference = state_difference(evidence, selection.none, selection.best);
+  const std::vector<double> sizes = sizes_by_scatter(evidence, selection.best);
+  for (std::size_t i = 0; i < sizes.size(); ++i) calibration.effects[i].by_runs = sizes[i];
 }
 
 std::vector<std::string> runs_of(const Evidence& evidence, const Fold& fold) {
@@ -180,15 +189,13 @@ void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
   }
 }
 
-}  // namespace
-
-Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement,
-                      const CalibrationOptions& options) {
+Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& measurement,
+                         const CalibrationOptions& options) {
   if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty())
     return not_testable(measurement, reasons);
   const Measurement learnt_from = part(measurement, options.hold_out, false);
-  const NoiseFloor noise = noise_floor(about_declared(declared, learnt_from));
-  Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
+  const NoiseFloor noise = noise_floor(about_declared(declared, learnt_from, options.earlier));
+  Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9), options.earlier);
   evidence.floor_freedom = noise.degrees_of_freedom;
   if (evidence.blocks.size() < 2)
     return not_testable(measurement,
@@ -205,7 +212,8 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   Calibration calibration;
   calibration.noise = noise;
   const Measurement kept = part(measurement, options.hold_out, true);
-  const Validated answer = validated(evidence, workers, kept, selection);
+  const Validated answer =
+      options.earlier ? changes_beside(evidence, selection) : validated(evidence, workers, kept, selection);
   const Fit& numbers = answer.made.estimate.fit;
   calibration.dropped = answer.dropped;
   calibration.effects = found_effects(evidence, selection, numbers);
@@ -219,8 +227,10 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
     }
   }
   calibration.null_combinations = null_combinations(evidence, selection);
-  calibration.next_runs = next_runs(evidence, selection);
-  ask_for_both_sides(learnt_from, calibration.next_runs);
+  if (!options.earlier) {
+    calibration.next_runs = next_runs(evidence, selection);
+    ask_for_both_sides(learnt_from, calibration.next_runs);
+  }
   calibration.tried = selection.tried;
   calibration.detectable = detectable_sizes(evidence, workers, selection);
   calibration.identified = without_idle_numbers(numbers, numbers.at);
@@ -232,7 +242,25 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   calibration.curve = answer.made.curve;
   conclude(evidence, selection, answer.unnamed, calibration);
   hold_against(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
+  if (options.earlier) describe_changes(evidence, selection, calibration);
   return calibration;
+}
+
+}  // namespace
+
+Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement,
+                      const CalibrationOptions& options) {
+  if (!options.earlier) return by_catalogue(declared, measurement, options);
+  const JointKind kind = kind_of(declared);
+  const std::vector<Effect> changes = changes_from(options.earlier->joint, kind);
+  CalibrationOptions of_changes = options;
+  for (const Effect& effect : effects(kind)) of_changes.without.push_back(effect.name);
+  for (const Effect& change : changes) {
+    of_changes.more_effects.push_back(&change);
+    std::erase(of_changes.without, change.name);
+  }
+  for (const std::string& name : options.without) of_changes.without.push_back(name);
+  return by_catalogue(declared, measurement, of_changes);
 }
 
 }  // namespace fusee

@@ -42,7 +42,10 @@ bool can_be_seen(const Needs& needs, const Mechanism& declared, const Measuremen
 std::vector<const Effect*> catalogue(const Mechanism& declared, const Measurement& measurement,
                                      std::span<const Effect* const> more, std::span<const std::string> without) {
   std::vector<const Effect*> all(more.begin(), more.end());
-  for (const Effect& effect : effects(kind_of(declared))) all.push_back(&effect);
+  for (const Effect& effect : effects(kind_of(declared))) {
+    const auto is_replaced = [&](const Effect* other) { return other->name == effect.name; };
+    if (std::none_of(more.begin(), more.end(), is_replaced)) all.push_back(&effect);
+  }
   std::erase_if(all, [&](const Effect* effect) {
     return !effect->is_looked_for || !can_be_seen(effect->needs, declared, measurement) ||
            std::find(without.begin(), without.end(), effect->name) != without.end();

@@ -135,4 +135,12 @@ Validated validated(const Evidence& evidence, Workers& workers, const Measuremen
   }
 }
 
+Validated changes_beside(const Evidence& evidence, const Selection& selection) {
+  Validated answer;
+  answer.declared = {selection.none, {}};
+  answer.unnamed = unnamed_beside(evidence, selection.best);
+  answer.made.estimate = {selection.best, amplitudes_beside(evidence, selection.best, answer.unnamed)};
+  return answer;
+}
+
 }  // namespace fusee

@@ -32,4 +32,8 @@ struct Validated {
 /// fitted no worse than the declared joint, over all and at each level of load and speed. `kept`: runs for validation.
 Validated validated(const Evidence& evidence, Workers& workers, const Measurement& kept, Selection& selection);
 
+/// Changes between two states, as selected, beside the discrepancy that both states share. They predict nothing by
+/// themselves: every run has the discrepancy of the earlier state.
+Validated changes_beside(const Evidence& evidence, const Selection& selection);
+
 }  // namespace fusee

@@ -104,6 +104,15 @@ Eigen::MatrixXd indicators(const std::vector<RowFacts>& facts, std::size_t RowFa
   return all;
 }
 
+/// The curves times `part`, of each run its own.
+Eigen::MatrixXd curves_of_runs(const std::vector<RowFacts>& facts, const Eigen::MatrixXd& curves, const Part& part) {
+  const Eigen::MatrixXd runs = indicators(facts, &RowFacts::run, part);
+  Eigen::MatrixXd all(runs.rows(), runs.cols() * curves.cols());
+  for (Eigen::Index k = 0; k < curves.cols(); ++k)
+    all.middleCols(k * runs.cols(), runs.cols()) = curves.col(k).asDiagonal() * runs;
+  return all;
+}
+
 /// What dies away behind a reversal.
 Eigen::MatrixXd transients(const std::vector<RowFacts>& facts, const Part& part) {
   Eigen::MatrixXd all(static_cast<Eigen::Index>(facts.size()), static_cast<Eigen::Index>(k_ways.size()));
@@ -164,6 +173,11 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
   }
   const auto one = [](const RowFacts&) { return 1.0; };
   if (evidence.measurement.runs.size() > 1) builder.add(Factor::run, indicators(facts, &RowFacts::run, one));
+  // A difference between states must exceed the scatter between runs of one state. One run each does not show it.
+  if (evidence.earlier && evidence.measurement.runs.size() > 2) {
+    builder.add(Factor::run, curves_of_runs(facts, bent.middleCols(1, k_plain - 1), one));
+    builder.add(Factor::run, curves_of_runs(facts, plain, direction));
+  }
   builder.add(Factor::drift, indicators(facts, &RowFacts::run, [](const RowFacts& r) { return r.time; }));
   if (evidence.blocks.size() <= k_thresholds.most_strokes && strokes_span_places(evidence))
     builder.add(Factor::stroke, indicators(facts, &RowFacts::block, one));

@@ -366,7 +366,7 @@ class BlockMaker {
       for (const Sample& sample : run.samples) loads.take(run.has_load ? sample.load : 0.0);
     }
     load_tolerance_ = loads.any() ? 0.12 * loads.size() : 0;
-    Forward forward(*evidence.declared, evidence.log);
+    Forward forward(*evidence.declared, evidence.log, evidence.earlier);
     residual_ = evidence.theta - flat(forward({}));
   }
 
@@ -505,7 +505,7 @@ double colour_of(const Evidence& evidence, const Eigen::VectorXd& rest) {
 }  // namespace
 
 void weigh(Evidence& evidence) {
-  Forward forward(*evidence.declared, evidence.log);
+  Forward forward(*evidence.declared, evidence.log, evidence.earlier);
   const Eigen::VectorXd declared = flat(forward({}));
   Discrepancy unnamed = discrepancy_of(evidence, deflection(evidence, declared));
   const Eigen::VectorXd left = (evidence.theta - declared)(evidence.rows());
@@ -524,9 +524,11 @@ Measurement with_fewer_rows(Measurement measurement, std::size_t most_a_run) {
   return measurement;
 }
 
-Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor) {
+Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor,
+                const std::optional<EarlierState>& earlier) {
   Evidence evidence;
   evidence.declared = &declared;
+  evidence.earlier = earlier;
   evidence.floor = floor;
   std::vector<bool> counted;
   evidence.measurement = thinned(declared, measurement, counted);
@@ -535,7 +537,7 @@ Evidence gather(const DeclaredMechanism& declared, const Measurement& measuremen
   evidence.blocks = BlockMaker(evidence, counted).made();
   evidence.run_folds = run_folds(evidence);
   choose_factor_folds(evidence);
-  evidence.readings = hand_readings(declared);
+  if (!earlier) evidence.readings = hand_readings(declared);  // they are of a joint, and not of what changed
   weigh(evidence);
   return evidence;
 }

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,9 +43,10 @@ class Marginal;
 
 struct Evidence {
   const DeclaredMechanism* declared = nullptr;
-  Measurement measurement;  ///< thinned
-  BenchLog log;             ///< what drove the joint in it
-  Eigen::VectorXd theta;    ///< all runs, one after another
+  std::optional<EarlierState> earlier;  ///< of the first runs; effects are then what was added to it
+  Measurement measurement;              ///< thinned
+  BenchLog log;                         ///< what drove the joint in it
+  Eigen::VectorXd theta;                ///< all runs, one after another
   std::vector<Block> blocks;
   std::vector<Fold> run_folds;       ///< whole runs; blocks of a lone run
   std::vector<Fold> factor_folds;    ///< whole levels of load and speed where the data vary them, or as run_folds
@@ -60,7 +62,8 @@ struct Evidence {
   std::size_t rows_used() const;
 };
 
-Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor);
+Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor,
+                const std::optional<EarlierState>& earlier = {});
 
 /// Fills `marginal` from all that stands before it.
 void weigh(Evidence& evidence);

@@ -41,7 +41,8 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
     // Numbers that predict better than those of the summit may stand beside the intervals about it.
     for (std::pair<double, double>* range : {&overall, &if_only})
       *range = {std::min(range->first, value), std::max(range->second, value)};
-    const auto shown = [&](double x) { return own.shown(x, *evidence.declared); };
+    const double before = evidence.earlier ? value_of(evidence.earlier->joint, own) : 0.0;
+    const auto shown = [&](double x) { return own.shown(before + x, *evidence.declared); };
     number.value = shown(value);
     std::tie(number.low, number.high) = std::minmax({shown(overall.first), shown(overall.second)});
     std::tie(number.low_if_only, number.high_if_only) = std::minmax({shown(if_only.first), shown(if_only.second)});

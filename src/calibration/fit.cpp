@@ -148,7 +148,7 @@ bool is_promising(const Fit& fit) { return fit.explained.log_evidence > fit.expl
 
 void hold_at_bounds(Fit& fit) {
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
-    if (at_bound(fit.at, *fit.parameters[k])) fit.J.col(static_cast<Eigen::Index>(k)).setZero();
+    if (at_end(fit.at, *fit.parameters[k])) fit.J.col(static_cast<Eigen::Index>(k)).setZero();
   }
 }
 
@@ -417,6 +417,18 @@ Fit Fitter::judged(Fit fit) const {
   return fit;
 }
 
+/// Two states are predicted with the discrepancy: runs of the other state at the same load and speed show it. A whole
+/// level left out would leave none of them, so runs are left out one by one.
+void Fitter::hold_out_of(Fit& fit) const {
+  if (evidence().earlier) {
+    fit.by_run = hold_out_beside(evidence(), fit, fit.explained.amplitudes, evidence().run_folds).with_all;
+    fit.by_factor = fit.by_run;
+    return;
+  }
+  fit.by_factor = hold_out(evidence(), fit, evidence().factor_folds);
+  fit.by_run = hold_out(evidence(), fit, evidence().run_folds);
+}
+
 void Fitter::judge(Fit& fit) const {
   fit.usable = fit.usable && is_finite(evidence(), fit);
   if (!fit.usable) return;
@@ -442,8 +454,7 @@ void Fitter::judge(Fit& fit) const {
   }
   fit.mean_square = squares / rows;
   fit.price = prices / rows;
-  fit.by_factor = hold_out(evidence(), fit, evidence().factor_folds);
-  fit.by_run = hold_out(evidence(), fit, evidence().run_folds);
+  hold_out_of(fit);
 }
 
 /// `fit` with the numbers of `effect` at zero, of what is searched where it begins.

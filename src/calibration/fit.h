@@ -95,6 +95,7 @@ class Fitter {
   void take_chord(Fit& wider, Eigen::Index k, double size) const;
   Fit at(const Fit& base, const EffectSet& effects, const Imperfections& at) const;
   Fit descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const;
+  void hold_out_of(Fit& fit) const;
   void judge(Fit& fit) const;
   std::vector<Fit> started_beside(const Fit& base, const Effect& effect) const;
   double promised(const Fit& start, const Amplitudes& unnamed) const;

@@ -197,10 +197,10 @@ HeldOutBeside hold_out_beside(const Evidence& evidence, const Fit& fit, const Am
   Mask with_place = effects;
   for (std::size_t k = 0; k < used.of_place.size(); ++k)
     with_place[fitted.named + static_cast<Eigen::Index>(k)] = used.of_place[k] ? 1.0 : 0.0;
-  Folds held(fitted, evidence.floor, {effects, with_place});
+  Folds held(fitted, evidence.floor, {effects, with_place, Mask::Ones(fitted.x.size())});
   for (const Fold& fold : folds) held.leave_out(fold);
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  return {held.errors(0, nothing), held.errors(1, nothing)};
+  return {held.errors(0, nothing), held.errors(1, nothing), held.errors(2, nothing)};
 }
 
 }  // namespace fusee

@@ -30,6 +30,7 @@ std::vector<Eigen::VectorXd> numbers_without(const Evidence& evidence, const Fit
 struct HeldOutBeside {
   HeldOut effects;     ///< what the effects alone leave
   HeldOut with_place;  ///< what they leave with the discrepancy's part of place and direction alone
+  HeldOut with_all;    ///< what they leave with all of the discrepancy; of a run that was left out its own part is none
 };
 HeldOutBeside hold_out_beside(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,
                               const std::vector<Fold>& folds);

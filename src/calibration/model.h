@@ -27,7 +27,10 @@ class Model {
   Model(const Evidence& evidence, Forward& forward) : evidence_(evidence), forward_(forward) {}
 
   const Evidence& evidence() const { return evidence_; }
-  Parameters varied(const EffectSet& effects) const { return fusee::varied(*evidence_.declared, effects); }
+  /// Beside effects the free offset; of what changed since an earlier state the offset is an effect.
+  Parameters varied(const EffectSet& effects) const {
+    return evidence_.earlier ? parameters_of(effects) : fusee::varied(*evidence_.declared, effects);
+  }
   Said said(const Imperfections& at, LooseRow rest) const;
   /// dθ/dx of one parameter by a step of its own size, away from its upper bound; `residual` is what is said at `at`.
   Eigen::VectorXd slope(const Imperfections& at, const EffectParameter& parameter, const Eigen::VectorXd& residual,

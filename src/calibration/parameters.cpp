@@ -1,6 +1,7 @@
 #include "calibration/parameters.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fusee {
 
@@ -20,14 +21,19 @@ const EffectParameter* free_offset(const Mechanism& declared) {
   return declared.transmission ? &offset : nullptr;
 }
 
-Parameters varied(const Mechanism& declared, const EffectSet& effects) {
+Parameters parameters_of(const EffectSet& effects) {
   Parameters parameters;
-  if (const EffectParameter* offset = free_offset(declared)) parameters.push_back(offset);
   for (const Effect* effect : effects) {
     for (const EffectParameter& parameter : effect->parameters) {
       if (!parameter.searched) parameters.push_back(&parameter);
     }
   }
+  return parameters;
+}
+
+Parameters varied(const Mechanism& declared, const EffectSet& effects) {
+  Parameters parameters = parameters_of(effects);
+  if (const EffectParameter* offset = free_offset(declared)) parameters.insert(parameters.begin(), offset);
   return parameters;
 }
 
@@ -47,9 +53,13 @@ bool contains(const EffectSet& effects, const Effect& effect) {
   return std::find(effects.begin(), effects.end(), &effect) != effects.end();
 }
 
-bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
+bool at_end(const Imperfections& at, const EffectParameter& parameter) {
   const double value = value_of(at, parameter);
   return value <= parameter.least + 1e-9 * parameter.step || value >= parameter.most - 1e-9 * parameter.step;
+}
+
+bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
+  return at_end(at, parameter) && std::abs(value_of(at, parameter) - parameter.gone) > 1e-9 * parameter.step;
 }
 
 }  // namespace fusee

@@ -24,7 +24,9 @@ bool is_searched(const Effect& effect);
 
 /// θ = offset + α/ratio declares its offset free; null of any other joint.
 const EffectParameter* free_offset(const Mechanism& declared);
-/// What is fitted of these effects, behind the free offset.
+/// What is fitted of these effects.
+Parameters parameters_of(const EffectSet& effects);
+/// The same behind the free offset.
 Parameters varied(const Mechanism& declared, const EffectSet& effects);
 
 /// `at` without an effect.
@@ -32,6 +34,9 @@ Imperfections without(Imperfections at, const Effect& effect);
 EffectSet without(const EffectSet& effects, const Effect& effect);
 bool contains(const EffectSet& effects, const Effect& effect);
 
+/// True at either end of the number's range.
+bool at_end(const Imperfections& at, const EffectParameter& parameter);
+/// True at an end where the data ask for more than any joint has; false where the joint has none of the effect.
 bool at_bound(const Imperfections& at, const EffectParameter& parameter);
 
 }  // namespace fusee

@@ -15,7 +15,7 @@ constexpr unsigned k_most_threads = 8;
 
 Workers::Workers(const Evidence& evidence) : evidence_(evidence) {
   const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, k_most_threads);
-  for (unsigned i = 0; i < threads; ++i) forwards_.emplace_back(*evidence.declared, evidence.log);
+  for (unsigned i = 0; i < threads; ++i) forwards_.emplace_back(*evidence.declared, evidence.log, evidence.earlier);
 }
 
 void Workers::each(std::size_t count, const std::function<void(const Fitter&, std::size_t)>& job,

@@ -144,10 +144,10 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
     if (option.value.empty()) {
       app.add_flag(std::string(option.flags), switches[name]);
     } else {
-      app.add_option(std::string(option.flags), values_[name])
-          ->expected(1)
-          ->allow_extra_args(false)
-          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      CLI::Option* const added = app.add_option(std::string(option.flags), values_[name]);
+      const bool takes_several = option.value.ends_with("...");
+      takes_several ? added->expected(1, CLI::detail::expected_max_vector_size) : added->expected(1);
+      added->allow_extra_args(takes_several)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
   }
   try {

@@ -27,7 +27,7 @@ class UsageError : public std::runtime_error {
 
 struct Option {
   std::string_view flags;  ///< "-o,--out"; the last one names it
-  std::string_view value;  ///< "DIR"; "" for a switch
+  std::string_view value;  ///< "DIR"; "FILE...": all words up to the next option; "" for a switch
   std::string_view meaning;
   bool repeatable = false;
   std::string_view choices = {};  ///< "ac1015 r12": the words that it takes, where they are few

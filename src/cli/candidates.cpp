@@ -88,7 +88,7 @@ Candidates files(const std::string& ending = "") {
 
 Candidates values(const Option& option, const std::string& typed) {
   if (option.value == "KEY=VALUE") return settings(typed);
-  if (option.value == "FILE" || option.value == "DIR") return files();
+  if (option.value.starts_with("FILE") || option.value == "DIR") return files();
   if (option.value.ends_with(".toml")) return files(".toml");
   Candidates found;
   for (const std::string& word : split(option.choices, ' ')) found.words.push_back({word, ""});
@@ -129,12 +129,14 @@ Candidates all_at(const std::vector<std::string>& words, const std::string& type
   if (typed.rfind('-', 0) == 0) return names_of_options(options);
   if (!at) return names_of_commands();
   std::size_t n = 0;
+  const Option* takes_more = nullptr;  // the last option, where it takes all words up to the next
   for (std::size_t i = *at + 1; i < before.size(); ++i) {
     const Option* option = option_named(options, before[i]);
+    if (option != nullptr) takes_more = option->value.ends_with("...") ? option : nullptr;
     if (option != nullptr && !option->value.empty()) ++i;
     n += option == nullptr && before[i].rfind('-', 0) != 0 ? 1 : 0;
   }
-  return arguments(*known, n);
+  return takes_more != nullptr ? values(*takes_more, typed) : arguments(*known, n);
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ Command rewind_command();
 Command optimize_command();
 Command reproduce_command();
 Command calibrate_command();
+Command compare_command();
 Command plan_command();
 Command kit_command();
 Command model_command();

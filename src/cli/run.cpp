@@ -153,9 +153,10 @@ const Command& find_known_command(const std::string& name) {
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> all = {
-      new_command(),      explain_command(),   analyze_command(),    build_command(), check_command(), rewind_command(),
-      optimize_command(), reproduce_command(), calibrate_command(),  plan_command(),  kit_command(),   model_command(),
-      simulate_command(), replay_command(),    completion_command(), manual_command()};
+      new_command(),        explain_command(),  analyze_command(),   build_command(),     check_command(),
+      rewind_command(),     optimize_command(), reproduce_command(), calibrate_command(), compare_command(),
+      plan_command(),       kit_command(),      model_command(),     simulate_command(),  replay_command(),
+      completion_command(), manual_command()};
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fusee/joint/simulate.h"
+#include "fusee/mechanism/effect.h"
 #include "joint/lower_path_table.h"
 #include "joint/rubbing_cable.h"
 #include "joint/sensors.h"
@@ -146,6 +147,25 @@ Forward::Forward(const Mechanism& declared, const BenchLog& log, const Mechanism
   }
 }
 
+Forward::Forward(const Mechanism& declared, const BenchLog& log, const std::optional<EarlierState>& earlier)
+    : Forward(declared, log) {
+  if (!earlier) return;
+  earlier_motion_ = mechanism(earlier->joint);
+  earlier_ = earlier;
+  latest_ = {};  // later runs do not remember the earlier ones
+  // What both states do alike is not moved twice, but by the one that it is of.
+  for (std::size_t i = earlier->runs; i < log.size(); ++i) {
+    if (driven_[i] >= earlier->runs) continue;
+    driven_[i] = earlier->runs;
+    while (driven_[i] < i && !are_driven_alike(log[driven_[i]], log[i])) ++driven_[i];
+  }
+}
+
+/// The earlier state with what was added to it; as they are without one.
+Imperfections Forward::whole(const Imperfections& imperfections) const {
+  return earlier_ ? changed(earlier_->joint, imperfections, kind_of(declared_)) : imperfections;
+}
+
 JointMotion Forward::at_home(const Imperfections& at) {
   const GeometryError key = geometry_of(at);
   Geometry* known = nullptr;
@@ -263,25 +283,30 @@ const Forward::Motion& Forward::mechanism(const Imperfections& imperfections) {
   Motion& place = latest_[next_++ % latest_.size()];
   place = {key, Readings(log_.size()), Readings(log_.size())};
   const std::vector<std::size_t>& stands_for = minds_time(key) ? all_ : driven_;
+  const std::size_t first = earlier_ ? earlier_->runs : 0;
   std::vector<std::size_t> moved;
   for (const std::size_t run : all_) {
-    if (stands_for[run] == run) moved.push_back(run);
+    if (stands_for[run] == run && run >= first) moved.push_back(run);
   }
   move(key, moved, [&](std::size_t run, const EquilibriumPoint& point) {
     place.theta[run].push_back(standing(point));
     place.loose[run].push_back(play_of(point));
   });
   for (const std::size_t run : all_) {
-    place.theta[run] = place.theta[stands_for[run]];
-    place.loose[run] = place.loose[stands_for[run]];
+    const Motion& of = run < first ? *earlier_motion_ : place;
+    place.theta[run] = of.theta[stands_for[run]];
+    place.loose[run] = of.loose[stands_for[run]];
   }
   return place;
 }
 
 Readings Forward::operator()(const Imperfections& imperfections) {
-  Readings readings = mechanism(imperfections).theta;
-  for (std::size_t i = 0; i < readings.size(); ++i)
-    readings[i] = shown_by_sensor(log_[i], std::move(readings[i]), imperfections);
+  const Imperfections at = whole(imperfections);
+  Readings readings = mechanism(at).theta;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const bool is_earlier = earlier_ && i < earlier_->runs;
+    readings[i] = shown_by_sensor(log_[i], std::move(readings[i]), is_earlier ? earlier_->joint : at);
+  }
   return readings;
 }
 
@@ -306,6 +331,11 @@ std::vector<std::vector<JointState>> simulate(const Mechanism& declared, const I
 
 Readings predict(const Mechanism& declared, const Imperfections& imperfections, const BenchLog& log) {
   return Forward(declared, log)(imperfections);
+}
+
+Readings predict(const Mechanism& declared, const Imperfections& imperfections, const BenchLog& log,
+                 const std::optional<EarlierState>& earlier) {
+  return Forward(declared, log, earlier)(imperfections);
 }
 
 }  // namespace fusee

@@ -45,11 +45,14 @@ class Forward {
   Forward(const Mechanism& declared, const BenchLog& log) : Forward(declared, log, declared) {}
   /// With a pulley that was made for another joint.
   Forward(const Mechanism& declared, const BenchLog& log, const Mechanism& made_for);
+  /// With runs of an earlier state, if there is one: imperfections are then what was added to it, and act in the later
+  /// runs alone.
+  Forward(const Mechanism& declared, const BenchLog& log, const std::optional<EarlierState>& earlier);
 
   /// NaN where the mechanism has no equilibrium. Where both tendons are slack, where the joint was last pushed.
   Readings operator()(const Imperfections& imperfections);
   /// How far from there the joint could be, since nothing holds it, rad; zero where a tendon is taut.
-  const Readings& looseness(const Imperfections& imperfections) { return mechanism(imperfections).loose; }
+  const Readings& looseness(const Imperfections& imperfections) { return mechanism(whole(imperfections)).loose; }
   /// All that is known of the joint, row by row.
   std::vector<std::vector<JointState>> states(const Imperfections& imperfections);
 
@@ -65,6 +68,7 @@ class Forward {
     std::optional<JointModel> model;
   };
 
+  Imperfections whole(const Imperfections& imperfections) const;
   const Motion& mechanism(const Imperfections& imperfections);
   JointMotion at_home(const Imperfections& imperfections);
   /// Calls `found` with what every row of these runs finds; of a joint declared by a ratio only θ is known.
@@ -81,6 +85,8 @@ class Forward {
   std::vector<double> clock_;        ///< added to the time of each run
   std::vector<std::size_t> all_;     ///< runs
   std::vector<std::size_t> driven_;  ///< the first run that was driven as each is, but for its pace
+  std::optional<EarlierState> earlier_;
+  std::optional<Motion> earlier_motion_;  ///< of all runs, in the earlier state
   double first_temperature_ = 0;
   std::optional<MadePulleys> made_;
   double alpha_least_ = 0;

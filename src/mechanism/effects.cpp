@@ -121,6 +121,22 @@ Imperfections found_again(const Imperfections& before, const Imperfections& foun
   return total;
 }
 
+Imperfections changed(const Imperfections& before, const Imperfections& change, JointKind kind) {
+  Imperfections after = before;
+  // No effect of a joint declared by a ratio has its zero: the file leaves it free.
+  after.sensor.zero += change.sensor.zero;
+  for (const Effect& effect : effects(kind)) {
+    const bool changes = std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                                     [&](const EffectParameter& p) { return !p.searched && value_of(change, p) != 0; });
+    for (const EffectParameter& parameter : effect.parameters) {
+      const double first = value_of(before, parameter), second = value_of(change, parameter);
+      const double sum = std::clamp(first + second, parameter.least, parameter.most);
+      if (changes) set_value(after, parameter, parameter.searched ? second : sum);
+    }
+  }
+  return after;
+}
+
 Imperfections beyond_mechanism(const Imperfections& found, JointKind kind) {
   Imperfections rest = found;
   for (const Effect& effect : effects(kind)) {

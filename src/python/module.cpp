@@ -12,6 +12,7 @@
 #include "fusee/joint/as_it_is.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/pipeline.h"
+#include "fusee/pipeline/compare.h"
 #include "fusee/pipeline/kit.h"
 #include "python/carried.h"
 #include "python/values.h"
@@ -325,6 +326,21 @@ py::dict calibrate_joint(const CarriedMechanism& carried, const std::vector<std:
   }));
 }
 
+py::dict compare_joint(const CarriedMechanism& carried, const std::vector<std::string>& before,
+                       const std::vector<std::string>& after, const CarriedFiles& logs, const ReadingOptions& reading,
+                       const Target& target, const Stop& stop) {
+  CarriedFiles files = carried.files;
+  files.insert(logs.begin(), logs.end());
+  return to_python(made_unlocked(files, [&] {
+    CompareOptions options;
+    aim(options, target);
+    options.columns = measurement_options(reading);
+    options.progress = [&stop](const std::string&, std::optional<double>) { stop.look(); };
+    options.before_writing = [&stop] { stop.look(); };
+    return compare(carried.file, paths_of(before), paths_of(after), options);
+  }));
+}
+
 py::dict plan_bench(const CarriedMechanism& carried, const Target& target, double noise, double minutes,
                     const std::vector<double>& loads, const std::vector<double>& speeds,
                     const std::optional<std::pair<double, double>>& range, std::uint64_t seed, const Stop& stop) {
@@ -439,6 +455,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("analyze", analyze_joint);
   module.def("optimize", optimize_joint);
   module.def("calibrate", calibrate_joint);
+  module.def("compare", compare_joint);
   module.def("plan", plan_bench);
   module.def("simulate", simulate_joint);
   module.def("kit", kit_parts);

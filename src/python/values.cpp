@@ -503,6 +503,16 @@ py::dict to_python(std::shared_ptr<const CalibrateResult> result) {
   return dict;
 }
 
+py::dict to_python(std::shared_ptr<const CompareResult> result) {
+  py::dict dict;
+  dict["document"] = words(comparison_json(result->product));
+  dict["notes"] = to_python(result->product.measurement.notes);
+  dict["warnings"] = to_python(result->product.file.warnings);
+  dict["files"] = to_python(result->outputs);
+  dict["published"] = result->published;
+  return dict;
+}
+
 py::dict to_python(std::shared_ptr<const PlanResult> result) {
   const Plan& plan = result->product.plan;
   py::list steps;

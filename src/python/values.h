@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fusee/pipeline.h"
+#include "fusee/pipeline/compare.h"
 #include "fusee/pipeline/kit.h"
 
 namespace fusee::python {
@@ -37,6 +38,7 @@ py::dict to_python(std::shared_ptr<const BuildResult> result);
 py::dict to_python(std::shared_ptr<const AnalysisResult> result);
 py::dict to_python(std::shared_ptr<const OptimizeResult> result);
 py::dict to_python(std::shared_ptr<const CalibrateResult> result);
+py::dict to_python(std::shared_ptr<const CompareResult> result);
 py::dict to_python(std::shared_ptr<const PlanResult> result);
 py::dict to_python(std::shared_ptr<const SimulateResult> result);
 py::dict to_python(std::shared_ptr<const KitResult> result);

@@ -22,7 +22,7 @@ FILES = {
 OPTIMIZE = """arm.toml --set optimize.variables='["guides.ED_mm"]' --set optimize.lower='[40]' --set optimize.upper='[60]' """
 OPTIMIZE_OTHER = """optimize arm.toml --set optimize.variables='["%s"]' --set optimize.lower='[0]' --set optimize.upper='[1]'"""
 
-ALL_COMMANDS = "new.*explain.*analyze.*build.*check.*rewind.*optimize.*reproduce.*calibrate.*plan.*simulate.*replay"
+ALL_COMMANDS = "new.*explain.*analyze.*build.*check.*rewind.*optimize.*reproduce.*calibrate.*compare.*plan.*simulate.*replay"
 
 CASES = [
     # Asking for help.

@@ -44,6 +44,7 @@ class Candidates(harness.Scratch):
         self.assertEqual(self.offered("fusee build "), [":files.toml"])
         self.assertEqual(self.offered("fusee build arm.toml "), [])
         self.assertEqual(self.offered("fusee calibrate --hold-out a.csv arm.toml b.csv "), [":files.csv"])
+        self.assertEqual(self.offered("fusee compare arm.toml --before a.csv "), [":files"])
         self.assertIn("forearm", self.offered("fusee new "))
         self.assertEqual(self.offered("fusee completion "), ["bash", "zsh", "fish"])
 

@@ -25,7 +25,7 @@ class Examples(harness.Scratch):
                         self.assertLessEqual(max(map(len, done.stdout.decode().splitlines()), default=0), 80)
 
     def test_help_fits_a_terminal(self):
-        for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce", "calibrate", "plan", "kit", "simulate", "replay", "completion", "manual"]:
+        for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce", "calibrate", "compare", "plan", "kit", "simulate", "replay", "completion", "manual"]:
             for line in self.fusee(f"{command} --help").stdout.decode().splitlines():
                 self.assertLessEqual(len(line), 80, line)
 

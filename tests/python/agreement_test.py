@@ -128,6 +128,28 @@ class Agreement(harness.Scratch):
         for run in found.residuals:
             self.assertEqual(run.before_rad.shape, run.alpha_rad.shape)
 
+    def test_compare(self):
+        self.expect(["compare", "arm.toml", "--before", *RUNS[:2], "--after", RUNS[2], "-o", "theirs"], 0)
+        compared = fusee.compare(self.arm, RUNS[:2], RUNS[2:], "mine")
+        self.same_files(compared.files, "theirs")
+        self.same_files(compared.files, "mine")
+        said = json.loads((self.folder / "theirs/comparison.json").read_text())
+        self.assertEqual((compared.verdict, compared.summary), (said["verdict"], said["summary"]))
+        self.assertEqual([change.name for change in compared.changes], [change["name"] for change in said["changes"]])
+        self.assertEqual(compared.difference_rms_deg, said["difference"]["before_rms_deg"])
+
+    def test_compare_finds_a_moved_zero(self):
+        log = {"alpha_deg": np.tile(np.r_[-40:41, 39:-41:-1], 3)}
+        theta = fusee.simulate(self.arm, log, noise_deg=0.02).columns["theta_deg"]
+        later = fusee.simulate(self.arm, log, noise_deg=0.02, seed=2).columns["theta_deg"] + 0.5
+        compared = fusee.compare(self.arm, [{**log, "theta_deg": theta}], [{**log, "theta_deg": later}])
+        self.assertEqual(compared.verdict, "changed")
+        (change,) = compared.changes
+        self.assertIn("zero_offset", change.group)
+        for number in change.parameters.values():
+            self.assertLess(number.ci95[0], number.change)
+            self.assertGreater(number.ci95[1], number.change)
+
     def test_calibrate_from_columns(self):
         """Columns read as the file that holds them."""
         with open(RUNS[0]) as lines:

@@ -126,6 +126,10 @@ class Input(unittest.TestCase):
         self.refused(fusee.calibrate, self.arm, [self.folder / "run.csv"])
         for runs in ([], LOG, "run.csv", None, 3):
             self.refused(fusee.calibrate, self.arm, runs)
+        for runs in ([], LOG, "run.csv", None, 3):
+            self.refused(fusee.compare, self.arm, runs, [LOG])
+            self.refused(fusee.compare, self.arm, [LOG], runs)
+        self.refused(fusee.compare, self.arm, [self.folder / "run.csv"], [LOG])
         self.refused(fusee.calibrate, self.arm, [LOG], columns={"lod": "x"})
         self.refused(fusee.calibrate, self.arm, [LOG], columns={"load": "missing"})
         self.refused(fusee.calibrate, self.arm, [LOG], units={"alpha": "stone"})

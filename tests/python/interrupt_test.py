@@ -44,6 +44,7 @@ print("ended", time.perf_counter() - sent[0])
 WORK = {
     "calibrate": "fusee.calibrate(arm, runs)",
     "calibrate into a folder": "fusee.calibrate(arm, runs, out, force=True)",
+    "compare": "fusee.compare(arm, runs[:1], runs[1:])",
     "build": "fusee.build(arm, out, force=True)",
     "build with advice": "fusee.build(arm.with_({'pulley.r1_mm': 25}))",
     "analyze": "fusee.analyze(arm, samples=100000)",

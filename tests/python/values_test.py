@@ -30,6 +30,7 @@ def values_of(arm):
         "analysis": fusee.analyze(arm, samples=50),
         "simulation": fusee.simulate(arm, log),
         "calibration": fusee.calibrate(arm, [{**log, "theta_deg": np.zeros(81)}]),
+        "comparison": fusee.compare(arm, [{**log, "theta_deg": np.zeros(81)}], [{**log, "theta_deg": np.ones(81)}]),
         "plan": fusee.plan(arm, minutes=3),
     }
 

@@ -4,10 +4,12 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "fusee/joint/simulate.h"
 #include "fusee/measurement/measurement.h"
 #include "fusee/mechanism/effect.h"
 
@@ -18,9 +20,14 @@ struct CalibrationOptions {
       hold_out;                  ///< names of runs kept for validation only; empty: whole runs are left out in turn
   bool look_for_effects = true;  ///< false: the file is known not to be of this joint (is_plainly_a_slip())
   bool audit = true;             ///< simulate joints without what was found, and count how often it would be named
-  std::vector<const Effect*> more_effects;  ///< beside those of the program; they must outlive the call
+  /// Beside those of the program, or in the place of one of the same name; they must outlive the call.
+  std::vector<const Effect*> more_effects;
   std::vector<std::string>
       without;  ///< names of effects that are left out of the catalogue: what if none knew of them?
+  /// The first runs were made in this state. Effects are then changes: added to it, they act in the later runs alone,
+  /// beside a discrepancy that both states share. Fitted parameters are those of the later state, Calibration::identified
+  /// is what was added, and no further runs are asked for.
+  std::optional<EarlierState> earlier = {};
   std::function<void(const std::string& what, double share)> progress;
 };
 
@@ -88,6 +95,8 @@ struct FoundEffect {
   Unmodelled unmodelled;
   Evenness evenness;
   CorrectableBy correctable_by = CorrectableBy::nothing;
+  /// Of a change: its size by the standard error that the scatter from run to run gives it; infinite: not asked.
+  double by_runs = std::numeric_limits<double>::infinity();
 };
 
 /// A candidate that was tried: the evidence for it, or against.
@@ -134,6 +143,13 @@ struct ErrorFigures {
   double held_out_rms = 0;
 };
 
+/// Rms over the later runs of what the earlier state does not show, rad: the discrepancy that both states share is taken
+/// away.
+struct StateDifference {
+  double before = 0;  ///< with the joint as it was
+  double after = 0;   ///< with the changes
+};
+
 struct Detectable {
   std::string name;
   double smallest = 0;  ///< rad at the joint
@@ -160,6 +176,7 @@ struct Calibration {
   std::vector<Candidate> tried;
   NoiseFloor noise;
   ErrorFigures before, after;
+  StateDifference difference;                         ///< where CalibrationOptions::earlier is given
   std::vector<std::vector<double>> residuals_before;  ///< rad, run by run, sample by sample
   std::vector<std::vector<double>> residuals_after;
   std::vector<std::string> held_out_factors;  ///< "load", "speed"

@@ -92,6 +92,7 @@ struct EffectParameter {
   bool searched = false;  ///< not fitted: only the values in Effect::starts are tried
   /// Whether the effect's other numbers leave it nothing to do, whatever it is: it is then reported as 0; null: never.
   bool (*idle)(const Imperfections& joint) = nullptr;
+  double gone = 0;  ///< where the joint has none of it: of a change, minus what there was
 };
 
 /// The prior in the number's own unit. `largest_load`: the log's largest magnitude; 0 where there is none.
@@ -149,6 +150,9 @@ const Effect* find_effect(std::string_view name, JointKind kind);
 
 /// Both findings as one: of all effects what WhenFoundAgain says.
 Imperfections found_again(const Imperfections& before, const Imperfections& found, JointKind kind);
+/// The joint `before` with `change` added, number by number and within the bounds of each. A number that is searched is
+/// that of the change where its effect changes, and else that of `before`.
+Imperfections changed(const Imperfections& before, const Imperfections& change, JointKind kind);
 /// What stays of `found` where the expected joint of the corrected file has, or undoes, what a mechanism can have.
 Imperfections beyond_mechanism(const Imperfections& found, JointKind kind);
 

@@ -6,8 +6,8 @@
     >>> built.status
     'done'
 
-The verbs are functions: ``read``, ``synthesise``, ``build``, ``rewind``, ``check``, ``analyze``, ``optimize``, ``calibrate``, ``simulate``,
-``plan``, ``kit``. What they answer are frozen values: arrays are read-only views, units stand in the names, angles are in radians inside
+The verbs are functions: ``read``, ``synthesise``, ``build``, ``rewind``, ``check``, ``analyze``, ``optimize``, ``calibrate``, ``compare``,
+``simulate``, ``plan``, ``kit``. What they answer are frozen values: arrays are read-only views, units stand in the names, angles are in radians inside
 and in degrees where the file has them. A joint that cannot be made is a value that says why and what would do; what cannot be used is an
 ``InputError`` with all its diagnostics.
 """
@@ -20,7 +20,9 @@ from ._values import (
     Built,
     Calibration,
     Change,
+    ChangedParameter,
     Check,
+    Comparison,
     Condition,
     Effect,
     ErrorFigures,
@@ -42,6 +44,7 @@ from ._values import (
     Residual,
     Rewound,
     Simulation,
+    StateChange,
     Strength,
     Stroke,
     Synthesis,
@@ -49,7 +52,7 @@ from ._values import (
     ToleranceEffect,
     Winding,
 )
-from ._verbs import Log, analyze, build, calibrate, check, kit, optimize, plan, rewind, simulate, synthesise
+from ._verbs import Log, analyze, build, calibrate, check, compare, kit, optimize, plan, rewind, simulate, synthesise
 
 __all__ = [
     "Analysis",
@@ -57,7 +60,9 @@ __all__ = [
     "Built",
     "Calibration",
     "Change",
+    "ChangedParameter",
     "Check",
+    "Comparison",
     "Condition",
     "Diagnostic",
     "Effect",
@@ -84,6 +89,7 @@ __all__ = [
     "Residual",
     "Rewound",
     "Simulation",
+    "StateChange",
     "Strength",
     "Stroke",
     "Synthesis",
@@ -95,6 +101,7 @@ __all__ = [
     "build",
     "calibrate",
     "check",
+    "compare",
     "explain",
     "kit",
     "new",

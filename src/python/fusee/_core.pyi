@@ -58,6 +58,15 @@ def calibrate(
     arg6: bool,
     arg7: Stop,
 ) -> Dict[str, Any]: ...
+def compare(
+    arg0: CarriedMechanism,
+    arg1: Sequence[bytes],
+    arg2: Sequence[bytes],
+    arg3: Dict[bytes, bytes],
+    arg4: Tuple[Any, ...],
+    arg5: Target,
+    arg6: Stop,
+) -> Dict[str, Any]: ...
 def plan(
     arg0: CarriedMechanism,
     arg1: Target,

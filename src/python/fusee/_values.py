@@ -511,6 +511,44 @@ class Calibration(Documented):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class ChangedParameter(Value):
+    """A number of the joint in both states; its unit stands in the name under which it is listed."""
+
+    before: float
+    after: float
+    change: float
+    ci95: Tuple[float, float]  #: of the change
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StateChange(Value):
+    """A change between two states, with all that would explain it as well."""
+
+    name: str
+    group: Tuple[str, ...]
+    place: str
+    parameters: Table[str, ChangedParameter]
+    rms_drop_deg: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Comparison(Documented):
+    """What changed between two measured states of one joint. Runs that are no two states of one joint are a verdict."""
+
+    verdict: str  #: "changed", "no_change", "not_testable" or "not_comparable"
+    summary: str
+    changes: Tuple[StateChange, ...]  #: the largest first
+    difference_rms_deg: float  #: of the later state from the earlier one
+    unexplained_rms_deg: float  #: the same beside the changes
+    noise_floor_deg: float
+    json: str = dataclasses.field(repr=False)
+    files: Table[str, bytes] = dataclasses.field(repr=False)
+    notes: Tuple[str, ...] = dataclasses.field(repr=False)
+    warnings: Tuple[Diagnostic, ...]
+    published: bool
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class PlanStep(Value):
     """A run to measure, or a number to read by hand."""
 

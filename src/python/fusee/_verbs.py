@@ -381,10 +381,60 @@ def _figures(said: Row) -> _values.ErrorFigures:
     return _values.ErrorFigures(*(_known(said.get(name)) for name in ("rms_deg", "max_deg", "held_out_rms_deg")))
 
 
+def _interval(ends: abc.Sequence[Optional[float]]) -> Tuple[float, float]:
+    return _known(ends[0]), _known(ends[1])
+
+
 def _effect(said: Row) -> _values.Effect:
-    parameters = {name: _values.Parameter(_known(value["value"]), (_known(value["ci95"][0]), _known(value["ci95"][1])))
+    parameters = {name: _values.Parameter(_known(value["value"]), _interval(value["ci95"]))
                   for name, value in said["parameters"].items()}  # fmt: skip
     return _values.Effect(said["name"], tuple(said["group"]), said["place"], _values.Table(parameters), _known(said["rms_drop_deg"]))
+
+
+def compare(
+    mechanism: Mechanism,
+    before: abc.Sequence[Log],
+    after: abc.Sequence[Log],
+    folder: Optional[PathLike] = None,
+    *,
+    columns: _Words = None,
+    units: _Words = None,
+    ticks_per_turn: _Counts = None,
+    zero_ticks: _Counts = None,
+    force: bool = False,
+) -> _values.Comparison:
+    """What changed between two measured states of one joint: retensioned, reprinted, warm, worn.
+
+    Runs are files or columns as in `calibrate`, those of the earlier state before and those of the later state after. Seconds to minutes.
+
+    >>> import fusee, numpy
+    >>> arm = fusee.read(fusee.new("forearm"))
+    >>> still, moved = ({"alpha_deg": numpy.zeros(20), "theta_deg": numpy.full(20, at)} for at in (0, 0.5))
+    >>> fusee.compare(arm, [still], [moved]).verdict
+    'not_testable'
+    """
+    joint = _of(mechanism)
+    earlier, held = _logs("before", _list("before", before), "before")
+    later, more = _logs("after", _list("after", after), "after")
+    for name, runs in (("before", earlier), ("after", later)):
+        if not runs:
+            raise input_error(name, "there is no run")
+    target = _target(folder, force)
+    reading = _reading(columns, units, ticks_per_turn, zero_ticks)
+    made = heard(lambda stop: _core.compare(joint, earlier, later, {**held, **more}, reading, target, stop))
+    document = made.pop("document")
+    said = json.loads(document)
+    made["verdict"], made["summary"] = said["verdict"], said["summary"]
+    made["changes"] = tuple(_state_change(change) for change in said["changes"])
+    made["difference_rms_deg"], made["unexplained_rms_deg"] = (_known(said["difference"][name]) for name in ("before_rms_deg", "after_rms_deg"))
+    made["noise_floor_deg"] = _known(said["noise_floor_deg"])
+    return _values.Comparison(json=document, **_with_values(made))
+
+
+def _state_change(said: Row) -> _values.StateChange:
+    parameters = {name: _values.ChangedParameter(_known(of["before"]), _known(of["after"]), _known(of["change"]), _interval(of["ci95"]))
+                  for name, of in said["parameters"].items()}  # fmt: skip
+    return _values.StateChange(said["name"], tuple(said["group"]), said["place"], _values.Table(parameters), _known(said["rms_drop_deg"]))
 
 
 def plan(

@@ -1,0 +1,158 @@
+#include "calibration/changes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace fusee {
+namespace {
+
+bool has_size(const Effect& effect, const Imperfections& joint) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                     [&](const EffectParameter& p) { return !p.searched && value_of(joint, p) != 0; });
+}
+
+/// A joint has one order of each wave: a wave that is there may change in size and phase alone.
+void keep_order(const Imperfections& before, Effect& effect) {
+  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    const EffectParameter& parameter = effect.parameters[k];
+    if (!parameter.searched) continue;
+    const double order = value_of(before, parameter);
+    std::erase_if(effect.starts,
+                  [&](const std::vector<double>& start) { return start.size() > k && start[k] != order; });
+  }
+}
+
+/// What may shrink is looked for from below too.
+void add_opposite_starts(Effect& effect) {
+  const std::vector<std::vector<double>> starts = effect.starts;
+  for (std::vector<double> start : starts) {
+    bool fits = false;
+    for (std::size_t k = 0; k < start.size(); ++k) {
+      const EffectParameter& parameter = effect.parameters[k];
+      if (parameter.searched || start[k] == 0) continue;
+      start[k] = -start[k];
+      fits = start[k] > parameter.least;
+      if (!fits) break;
+    }
+    if (fits && std::find(effect.starts.begin(), effect.starts.end(), start) == effect.starts.end())
+      effect.starts.push_back(start);
+  }
+}
+
+Effect change_of(const Imperfections& before, Effect effect) {
+  if (has_size(effect, before)) keep_order(before, effect);
+  for (EffectParameter& parameter : effect.parameters) {
+    if (parameter.searched) continue;
+    const double value = value_of(before, parameter);
+    parameter.least -= value;
+    parameter.most -= value;
+    parameter.gone = -value;
+  }
+  add_opposite_starts(effect);
+  return effect;
+}
+
+}  // namespace
+
+std::vector<Effect> changes_from(const Imperfections& before, JointKind kind) {
+  std::vector<Effect> all;
+  for (const Effect& effect : effects(kind)) {
+    // A slip has one time: a second one has no place beside it.
+    if (effect.starts_in_time && has_size(effect, before)) continue;
+    all.push_back(change_of(before, effect));
+  }
+  if (kind == JointKind::ratio) all.push_back(change_of(before, *find_effect("zero_offset", JointKind::tendons)));
+  if (kind == JointKind::ratio) all.back().needs = {};
+  return all;
+}
+
+namespace {
+
+/// The discrepancy beside `fit` but for what it says of single runs and strokes, rows in use.
+Eigen::VectorXd shared_discrepancy(const Evidence& evidence, const Fit& fit) {
+  const Discrepancy& discrepancy = evidence.marginal->discrepancy();
+  Eigen::VectorXd shared = Eigen::VectorXd::Zero(discrepancy.columns.rows());
+  for (const Family& family : discrepancy.families) {
+    if (family.factor == Factor::run || family.factor == Factor::drift || family.factor == Factor::stroke) continue;
+    shared += discrepancy.columns.middleCols(family.first, family.count) *
+              fit.explained.unnamed.segment(family.first, family.count);
+  }
+  return shared;
+}
+
+}  // namespace
+
+namespace {
+
+/// Variance of the size of a change, from one state: Σ (gᵣ·eᵣ)² / (Σ gᵣ·gᵣ)² over its clusters, corrected for few.
+class ClusteredVariance {
+ public:
+  void take(std::size_t cluster, double done, double left) {
+    products_[cluster] += done * left;
+    squares_ += done * done;
+  }
+  double value() const {
+    const double count = static_cast<double>(products_.size());
+    double sum = 0;
+    for (const auto& [cluster, product] : products_) sum += product * product;
+    return squares_ > 0 && count > 1 ? count / (count - 1) * sum / (squares_ * squares_) : 0.0;
+  }
+
+ private:
+  std::map<std::size_t, double> products_;
+  double squares_ = 0;
+};
+
+/// `done`: by the change, in every run of either state; `left`: of the fit, beside the shared discrepancy.
+double size_by_scatter(const Evidence& evidence, const Eigen::VectorXd& done, const Eigen::VectorXd& left) {
+  const std::size_t first = evidence.earlier->runs, runs = evidence.measurement.runs.size();
+  std::array<ClusteredVariance, 2> states;
+  Eigen::Index at = 0;
+  for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {
+    const Block& block = evidence.blocks[b];
+    const bool is_later = block.run >= first;
+    const bool is_alone = (is_later ? runs - first : first) < 2;
+    for (const std::size_t row : block.rows)
+      states[is_later ? 1 : 0].take(is_alone ? b : block.run, done[static_cast<Eigen::Index>(row)], left[at++]);
+  }
+  const double variance = states[0].value() + states[1].value();
+  return variance > 0 ? 1.0 / std::sqrt(variance) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::vector<double> sizes_by_scatter(const Evidence& evidence, const Fit& fit) {
+  const JointKind kind = kind_of(*evidence.declared);
+  const Imperfections& before = evidence.earlier->joint;
+  Forward forward(*evidence.declared, evidence.log);
+  const Eigen::VectorXd left = fit.residual(evidence.rows()) - shared_discrepancy(evidence, fit);
+  const Eigen::VectorXd whole = flat(forward(changed(before, fit.at, kind)));
+  std::vector<double> all;
+  for (const Effect* effect : fit.effects)
+    all.push_back(
+        size_by_scatter(evidence, whole - flat(forward(changed(before, without(fit.at, *effect), kind))), left));
+  return all;
+}
+
+StateDifference state_difference(const Evidence& evidence, const Fit& none, const Fit& changed) {
+  const Eigen::VectorXd shared = shared_discrepancy(evidence, changed);
+  double before = 0, after = 0, rows = 0;
+  Eigen::Index at = 0;
+  for (const Block& block : evidence.blocks) {
+    for (const std::size_t row : block.rows) {
+      const double left = shared[at++];
+      if (block.run < evidence.earlier->runs) continue;
+      const double apart = none.residual[static_cast<Eigen::Index>(row)] - left;
+      before += apart * apart;
+      after += std::pow(changed.residual[static_cast<Eigen::Index>(row)] - left, 2);
+      rows += 1;
+    }
+  }
+  if (rows == 0) return {};
+  return {std::sqrt(before / rows), std::sqrt(after / rows)};
+}
+
+}  // namespace fusee

@@ -1,0 +1,127 @@
+#include "fusee/pipeline/compare.h"
+
+#include <filesystem>
+#include <optional>
+
+#include "base/output_list.h"
+#include "cli/command.h"
+#include "cli/measured_columns.h"
+#include "cli/steps.h"
+#include "cli/table.h"
+#include "fusee/base/text.h"
+#include "fusee/export/calibration.h"
+
+namespace fusee::cli {
+namespace {
+
+std::vector<std::filesystem::path> runs_of(const Arguments& arguments, const std::string& option) {
+  const std::vector<std::string> names = arguments.texts(option);
+  if (names.empty())
+    throw UsageError("compare needs " + option + " with one run or more",
+                     "put SPEC first: fusee compare arm.toml --before a_1.csv a_2.csv --after b_1.csv");
+  return {names.begin(), names.end()};
+}
+
+std::string changes_table(const ComparisonProduct& product) {
+  std::vector<std::vector<std::string>> rows;
+  for (const ChangeRow& row : change_rows(product))
+    rows.push_back({"  " + row.cause, row.change, row.interval, row.share});
+  if (rows.empty()) return "";
+  return "\n" + table({{"Cause"}, {"change"}, {"95 %"}, {"of the difference"}}, rows);
+}
+
+std::string difference_text(const Comparison& comparison) {
+  const auto deg = [](double value) { return fixed(degrees(value), 4); };
+  return "\n" + table({{"deg at the joint, rms"}, {"", Align::right}},
+                      {{"  difference between the states", deg(comparison.difference.before)},
+                       {"  the same beside the changes", deg(comparison.difference.after)},
+                       {"  noise floor", deg(comparison.changes.noise.rms)}});
+}
+
+std::string detectable_text(const Comparison& comparison) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Detectable& one : comparison.changes.detectable)
+    rows.push_back({"  " + one.name, fixed(degrees(one.smallest), 4)});
+  if (rows.empty()) return "";
+  return "\n" + table({{"Would have been seen, deg rms"}, {"", Align::right}}, rows);
+}
+
+std::string summary(const ComparisonProduct& product, bool verbose) {
+  const Comparison& comparison = product.comparison;
+  std::string text = wrapped(comparison_words(product), "", "");
+  if (comparison.verdict != ComparisonVerdict::changed && comparison.verdict != ComparisonVerdict::no_change)
+    return text;
+  text += changes_table(product) + difference_text(comparison);
+  return verbose ? text + detectable_text(comparison) : text;
+}
+
+std::string files_text(const CompareResult& result, const std::string& folder) {
+  if (result.outputs.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const OutputFile& file : result.outputs)
+    rows.push_back({"  " + file.name, std::to_string(file.bytes.size()) + " B"});
+  return "\n" + table({{result.published ? "Files" : "Would be written (--dry-run)"}, {"", Align::right}}, rows) +
+         "  in " + folder + "\n";
+}
+
+Reply reply_of(const CompareResult& result, const std::string& folder, bool verbose) {
+  const ComparisonProduct& product = result.product;
+  Reply reply;
+  reply.diagnostics = product.file.warnings;
+  for (const std::string& words : verbose ? product.measurement.notes : shortened_notes(product.measurement.notes))
+    reply.diagnostics.push_back(note(Severity::note, words));
+  reply.fields = parse_json(comparison_json(product));
+  if (!result.outputs.empty()) {
+    reply.fields["folder"] = folder;
+    reply.fields["published"] = result.published;
+    reply.fields["outputs"] = output_list(result.outputs);
+  }
+  if (product.comparison.verdict == ComparisonVerdict::not_comparable) {
+    reply.exit = Exit::bad_input;
+    reply.diagnostics.push_back(note(Severity::error, product.comparison.why));
+    return reply;
+  }
+  reply.text = summary(product, verbose) + files_text(result, folder);
+  return reply;
+}
+
+Reply run_compare(const Arguments& arguments, Console& console) {
+  const std::filesystem::path spec = arguments.positionals().front();
+  const auto before = runs_of(arguments, "--before"), after = runs_of(arguments, "--after");
+  Steps steps(console);
+  CompareOptions options;
+  options.columns = columns_from(arguments);
+  options.folder = arguments.text("--out").value_or("");
+  options.force = arguments.has("--force");
+  options.dry_run = arguments.has("--dry-run");
+  options.progress = [&console](const std::string& what, std::optional<double> share) {
+    console.progress(share ? progress_bar(*share) + ", " + what : what);
+  };
+  options.before_writing = steps.before_writing();
+  const CompareResult result = compare(read_mechanism(spec, arguments.settings()), before, after, options);
+  steps.end_writing();
+  return reply_of(result, options.folder.string(), console.verbose());
+}
+
+}  // namespace
+
+Command compare_command() {
+  return {
+      "compare",
+      "SPEC",
+      "what changed between two measured states of one joint",
+      "Holds runs of one joint in two states against each other: before and after it\n"
+      "was retensioned, reprinted, warmed or worn. Identifies the joint before, and\n"
+      "names the changes from there that the runs after show, by the effects that\n"
+      "'fusee calibrate' knows. What both states share cancels, and what repeated\n"
+      "runs of one state scatter by is no change. Runs are read as by calibrate. The\n"
+      "exit code is 3 where the files are no two states of one joint.",
+      with_reading_options({{"--before", "FILE...", "runs of the earlier state, one or more", true},
+                            {"--after", "FILE...", "runs of the later state, one or more", true},
+                            {"-o,--out", "DIR", "leave comparison.json and report.html there\n(default: no files)"}}),
+      {{"fusee compare arm.toml --before run_1.csv --after run_2.csv", "what changed in between"},
+       {"fusee compare arm.toml --before run_1.csv --after run_2.csv -o compared", "and a page of it"}},
+      run_compare};
+}
+
+}  // namespace fusee::cli

@@ -1,0 +1,63 @@
+#include "fusee/pipeline/compare.h"
+
+#include "fusee/joint/as_it_is.h"
+#include "pipeline/several_turns.h"
+
+namespace fusee {
+namespace {
+
+using Paths = std::vector<std::filesystem::path>;
+
+std::vector<OutputFile> outputs_of(const ComparisonProduct& product) {
+  std::vector<OutputFile> outputs = {{"comparison.json", comparison_json(product)},
+                                     {"report.html", comparison_report_html(product)}};
+  outputs.push_back({"manifest.json", comparison_manifest_json(product, outputs)});
+  return outputs;
+}
+
+/// The runs are measured against the joint that the file says is mounted; both states have it.
+void conclude(const MechanismFile& file, const Paths& before, const Paths& after, const CompareOptions& options,
+              ComparisonProduct& product) {
+  const auto step = [&](const std::string& what, std::optional<double> share = std::nullopt) {
+    if (options.progress) options.progress(what, share);
+  };
+  step("reading the runs");
+  const DeclaredMechanism expected = expected_joint(file.mechanism);
+  Paths both = before;
+  both.insert(both.end(), after.begin(), after.end());
+  product.measurement = read_measurement(both, expected, options.columns);
+  product.runs_before = before.size();
+  const ComparedRuns runs{read_measurement(before, expected, options.columns),
+                          read_measurement(after, expected, options.columns), product.measurement};
+  product.comparison =
+      compare_states(expected, runs, {.progress = [&](const std::string& what, double share) { step(what, share); }});
+}
+
+void publish(const CompareOptions& options, OutputFolder& folder, CompareResult& result) {
+  for (const OutputFile& output : result.outputs) {
+    if (options.before_writing) options.before_writing();
+    folder.stage(output);
+  }
+  folder.publish(result.product.file.warnings);
+  result.published = true;
+}
+
+}  // namespace
+
+CompareResult compare(const MechanismFile& file, const std::vector<std::filesystem::path>& before,
+                      const std::vector<std::filesystem::path>& after, const CompareOptions& options) {
+  CompareResult result;
+  result.product.file = with_doubts_and_turns(file);
+  std::optional<OutputFolder> target;
+  if (!options.folder.empty()) {
+    target.emplace(options.folder, options.force);
+    target->claim({"comparison.json", "report.html", "manifest.json"});  // a refusal should not cost a wait
+  }
+  conclude(file, before, after, options, result.product);
+  if (!target) return result;
+  result.outputs = outputs_of(result.product);
+  if (!options.dry_run) publish(options, *target, result);
+  return result;
+}
+
+}  // namespace fusee
