@@ -210,7 +210,7 @@ TEST(Selection, TellsADelayFromPlayOnlyAtTwoSpeeds) {
   const Calibration one_speed = calibrate(declared, logged(declared, truth, {{0, 1}}));
   EXPECT_EQ(one_speed.verdict, CalibrationVerdict::confounded);
   EXPECT_THAT(all_groups(one_speed), Contains("backlash"));
-  EXPECT_THAT(one_speed.next_runs, Not(IsEmpty()));
+  EXPECT_THAT(one_speed.next, Not(IsEmpty()));
   EXPECT_THAT(one_speed.null_combinations, Not(IsEmpty()));
   const Calibration two_speeds = calibrate(declared, logged(declared, truth, {{0, 1}, {0, 0.2}, {3, 1}}));
   EXPECT_EQ(two_speeds.verdict, CalibrationVerdict::explained);
