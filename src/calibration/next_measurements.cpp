@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "calibration/explanation.h"
 #include "calibration/thresholds.h"
@@ -133,10 +132,10 @@ class Proposals {
   Proposals(const Evidence& evidence, const Selection& selection, const std::vector<Alternative>& others)
       : evidence_(evidence), found_(selection.best.at), others_(others) {
     for (const PlannedRun& run : proposals(evidence)) add(run);
-    std::map<const Effect*, std::vector<const EffectParameter*>> read;
+    const std::vector<const EffectParameter*> unread = unread_numbers(*evidence.declared);
     for (const Effect* effect : effects_of(*evidence.declared)) {
       std::vector<const EffectParameter*> numbers;
-      for (const EffectParameter* number : unread_numbers(*evidence.declared)) {
+      for (const EffectParameter* number : unread) {
         const auto is = [&](const EffectParameter& own) { return &own == number; };
         if (std::any_of(effect->parameters.begin(), effect->parameters.end(), is)) numbers.push_back(number);
       }
