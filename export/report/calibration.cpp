@@ -173,6 +173,24 @@ Json correctable_json(const Correction& correction) {
   return json;
 }
 
+Json next_json(const CalibrationProduct& product) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < product.calibration.next.size(); ++i) {
+    const NextMeasurement& next = product.calibration.next[i];
+    Json json = {{"kind", next.kind()}};
+    if (next.run) json["file"] = next_file_name(product, i);
+    if (!next.readings.empty()) json["key"] = next.readings.front()->by_hand.key;
+    if (next.readings.size() > 1) {
+      for (const EffectParameter* reading : next.readings) json["keys"].push_back(reading->by_hand.key);
+    }
+    json["separates"] = next.separates;
+    json["minutes"] = nine_digits(next.minutes);
+    json["text"] = next.text();
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string calibration_json(const CalibrationProduct& product) {
@@ -200,7 +218,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["covered"] = covered_json(product);
   json["slips"] = slips_json(product.slips);
   json["detectable"] = detectable_json(calibration);
-  json["next_runs"] = calibration.next_runs;
+  json["next"] = next_json(product);
   json["null_combinations"] = calibration.null_combinations;
   json["iso230"] = {{"before", iso_json(calibration.iso_before)}, {"after", iso_json(calibration.iso_after)}};
   json["correctable"] = correctable_json(product.correction);

@@ -176,7 +176,9 @@ std::string cause_words(const CalibrationProduct& product) {
 
 /// Up to where a person knows what to do: what it tells apart, and what to write, stands below.
 std::string first_clause(const std::string& sentence) {
-  return first_upper(sentence.substr(0, std::min(sentence.find(": "), sentence.find(" and write")))) + ".";
+  std::string clause = sentence.substr(0, std::min(sentence.find(": "), sentence.find(" and write")));
+  if (!clause.empty() && clause.back() == ',') clause.pop_back();
+  return first_upper(clause) + ".";
 }
 
 /// An effect that is taken out where it is.
@@ -202,14 +204,14 @@ std::string action_words(const CalibrationProduct& product) {
   if (!product.slips.empty()) return "Check the file first: see below.";
   if (calibration.verdict == CalibrationVerdict::no_effect) return "Nothing to do.";
   const bool is_sure = calibration.verdict == CalibrationVerdict::explained;
-  if (!is_sure && !calibration.next_runs.empty()) return first_clause(calibration.next_runs.front());
+  if (!is_sure && !calibration.next.empty()) return first_clause(calibration.next.front().words);
   if (!calibration.effects.empty()) {
     const std::string repair = repair_words(largest_effect(calibration.effects), product.measurement.load_unit);
     if (!repair.empty()) return repair;
   }
   if (product.correction.has_pulley) return "Build the corrected pulley from corrected.toml.";
   if (!product.correction.table.empty()) return "Load compensation.csv into the motor's controller.";
-  return calibration.next_runs.empty() ? "" : first_clause(calibration.next_runs.front());
+  return calibration.next.empty() ? "" : first_clause(calibration.next.front().words);
 }
 
 std::string share_words(double share) {
@@ -234,10 +236,10 @@ Headline headline(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
   if (calibration.verdict == CalibrationVerdict::not_testable)
     return {"These runs decide nothing.", calibration.summary,
-            calibration.next_runs.empty() ? "" : first_clause("measure " + calibration.next_runs.front())};
+            calibration.next.empty() ? "" : first_clause(calibration.next.front().words)};
   if (calibration.verdict == CalibrationVerdict::not_repeatable)
     return {"The joint does not repeat: the same angle, direction and load give other joint angles.", "",
-            calibration.next_runs.empty() ? "" : first_clause(calibration.next_runs.front())};
+            calibration.next.empty() ? "" : first_clause(calibration.next.front().words)};
   return {problem_words(product), cause_words(product), action_words(product)};
 }
 

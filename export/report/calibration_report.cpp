@@ -192,8 +192,8 @@ std::string compensation_table(const Correction& correction) {
 std::string action_section(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
   std::string html;
-  if (!calibration.next_runs.empty())
-    html += "<h3>Measure next, what tells most first</h3>" + html_list(calibration.next_runs, "ol", "next");
+  if (!calibration.next.empty())
+    html += "<h3>Measure next, what tells most first</h3>" + html_list(next_texts(calibration), "ol", "next");
   html += "<h3>Correction</h3>" + html_list(correction_items(product)) + compensation_html(product) +
           compensation_table(product.correction);
   return html_section("actions", "What to do", html);
@@ -422,8 +422,8 @@ std::string calibration_report_html(const CalibrationProduct& product) {
           moving_section(product), residuals_section(product), rest_section(product), figures_section(product),
           evidence_section(calibration), detectable_section(calibration)})
       page.body += folded(section);
-  } else if (!calibration.next_runs.empty()) {
-    page.body += html_section("actions", "Measure next", html_list(calibration.next_runs, "ol", "next"));
+  } else if (!calibration.next.empty()) {
+    page.body += html_section("actions", "Measure next", html_list(next_texts(calibration), "ol", "next"));
   }
   page.body += folded(data_section(product.measurement));
   return html_page(page);

@@ -192,6 +192,12 @@ std::string curve_words(const CalibrationProduct& product) {
          "another pulley asks for other runs";
 }
 
+std::vector<std::string> next_texts(const Calibration& calibration) {
+  std::vector<std::string> texts;
+  for (const NextMeasurement& next : calibration.next) texts.push_back(next.text());
+  return texts;
+}
+
 std::vector<std::string> slips_words(const CalibrationProduct& product) {
   std::vector<std::string> all;
   for (const UndoneSlip& slip : product.slips) all.push_back(slip_words(slip));

@@ -28,27 +28,27 @@ std::string_view word(BenchChange change) {
       return "motor_sensor_turned";
     case BenchChange::joint_sensor_turned:
       return "joint_sensor_turned";
-    case BenchChange::doubled_pretension:
-      return "doubled_pretension";
-    case BenchChange::on_its_side:
-      return "on_its_side";
     case BenchChange::none:
       break;
   }
   return "none";
 }
 
+void add_run(const PlannedRun& run, const std::string& load_unit, Json& json) {
+  json["load" + std::string(load_unit == "N" ? "_N" : "")] = nine_digits(run.load);
+  json["speed_deg_per_s"] = angle_json(run.speed);
+  json["cycles"] = run.cycles;
+  json["dwell_s"] = nine_digits(run.dwell);
+  json["from_deg"] = angle_json(run.from);
+  json["to_deg"] = angle_json(run.to);
+  json["bench"] = word(run.change);
+}
+
 Json step_json(const Plan& plan, const PlanStep& step, const std::string& file) {
   Json json = {{"kind", step.run ? "run" : "reading"}};
   if (step.run) {
     json["file"] = file.empty() ? Json() : Json(file);
-    json["load" + std::string(plan.load_unit == "N" ? "_N" : "")] = nine_digits(step.run->load);
-    json["speed_deg_per_s"] = angle_json(step.run->speed);
-    json["cycles"] = step.run->cycles;
-    json["dwell_s"] = nine_digits(step.run->dwell);
-    json["from_deg"] = angle_json(step.run->from);
-    json["to_deg"] = angle_json(step.run->to);
-    json["bench"] = word(step.run->change);
+    add_run(*step.run, plan.load_unit, json);
   } else {
     json["key"] = step.reading->key.name;
     json["uncertainty"] = nine_digits(step.reading->by_hand.uncertainty);
@@ -100,7 +100,7 @@ std::string comments(const PlanProduct& product, std::size_t step) {
 
 std::string run_file_name(const Plan& plan, std::size_t step) {
   if (!plan.steps[step].run) return "";
-  int run = 0;
+  int run = plan.first_run - 1;
   for (std::size_t i = 0; i <= step; ++i) run += plan.steps[i].run ? 1 : 0;
   return "run_" + std::to_string(run) + ".csv";
 }

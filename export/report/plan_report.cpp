@@ -16,6 +16,8 @@
 namespace fusee {
 namespace {
 
+const char* const k_all_runs = "run_*.csv";
+
 std::string size_words(double angle) { return with_unit(degrees(angle), "deg", 2); }
 std::string minutes_words(double minutes) { return fixed(minutes, 1) + " min"; }
 
@@ -60,35 +62,41 @@ std::string step_item(const PlanProduct& product, std::size_t i) {
       "<li><div class=\"box\"></div><div><h3>" + std::to_string(i + 1) + ". " + safe_text(step.words) + "</h3>";
   if (step.run) {
     html += html_list(things_to_do(product, i), "ul", "do");
-  } else {
+  } else if (step.reading != nullptr) {
     html +=
         "<p>three times, at different places: <span class=\"value\">&#160;</span> <span "
         "class=\"value\">&#160;</span> <span class=\"value\">&#160;</span></p>";
   }
-  html += "<p class=\"tells\">" + safe_text(open_name(gain_words(step))) + "</p>";
+  const bool is_inspection = !step.run && step.reading == nullptr;
+  if (!is_inspection) html += "<p class=\"tells\">" + safe_text(open_name(gain_words(step))) + "</p>";
   return html + "</div><div class=\"when\">" + safe_text(minutes_words(step.minutes)) + " <br/>by " +
          safe_text(minutes_words(step.by)) + "</div></li>";
 }
 
-std::string steps_section(const PlanProduct& product) {
+std::string step_items(const PlanProduct& product) {
   std::string items;
   for (std::size_t i = 0; i < product.plan.steps.size(); ++i) items += step_item(product, i);
+  return "<ol class=\"steps\">" + items + "</ol>";
+}
+
+std::string steps_section(const PlanProduct& product) {
   return html_section(
       "steps", "At the bench",
       "<p class=\"lead\">In this order: each step is the one that tells most for its minutes, so whoever has "
       "to stop early has measured the best of it. Begin every run at the end of the range, coming from home; "
-      "do not touch zeros between runs unless it says so.</p><ol class=\"steps\">" +
-          items + "</ol>");
+      "do not touch zeros between runs unless it says so.</p>" +
+          step_items(product));
 }
 
-std::string after_section(const PlanProduct& product) {
+/// `runs`: as a person would give them to the command.
+std::string after_section(const PlanProduct& product, const std::string& runs) {
   const std::string spec = std::filesystem::path(product.file.path).filename().string();
   const bool reads = std::any_of(product.plan.steps.begin(), product.plan.steps.end(),
                                  [](const PlanStep& step) { return step.reading != nullptr; });
   return html_section(
       "after", "Then",
       (reads ? std::string("<p>Write what was read by hand into <code>[prior]</code> of the file, and</p>") : "") +
-          "<p><code>fusee calibrate " + safe_text(spec) + " run_*.csv</code></p>");
+          "<p><code>fusee calibrate " + safe_text(spec + " " + runs) + "</code></p>");
 }
 
 std::string causes_section(const Plan& plan) {
@@ -130,7 +138,30 @@ std::string key_numbers(const PlanProduct& product) {
 
 }  // namespace
 
-std::string plan_steps_html(const PlanProduct& product) { return steps_section(product) + after_section(product); }
+std::string plan_steps_html(const PlanProduct& product) {
+  return steps_section(product) + after_section(product, k_all_runs);
+}
+
+std::string next_html(const PlanProduct& product, const std::vector<std::string>& measured) {
+  std::string runs;
+  for (const std::string& name : measured) runs += (runs.empty() ? "" : " ") + name;
+  for (std::size_t i = 0; i < product.plan.steps.size(); ++i) {
+    if (product.plan.steps[i].run) runs += " " + run_file_name(product.plan, i);
+  }
+  return html_page(
+      {.title = "measure next",
+       .kicker = "Measure next",
+       .name = product.file.mechanism.name,
+       .source = "for <code>" + safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code>",
+       .body = html_section("steps", "At the bench",
+                            "<p class=\"lead\">The most decisive first: do it, calibrate again, and go on "
+                            "only if the answer still names more than one cause.</p>" +
+                                step_items(product)) +
+               after_section(product, runs),
+       .foot = "Angles of the motor are those its sensor shows, zero at home.",
+       .styles = {embedded::page_css, embedded::plan_css},
+       .scripts = {}});
+}
 
 std::string plan_html(const PlanProduct& product) {
   Page page{
@@ -138,7 +169,7 @@ std::string plan_html(const PlanProduct& product) {
       .kicker = "Measuring plan",
       .name = product.file.mechanism.name,
       .source = "for <code>" + safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code>",
-      .body = key_numbers(product) + steps_section(product) + after_section(product),
+      .body = key_numbers(product) + steps_section(product) + after_section(product, k_all_runs),
       .foot = "Angles of the motor are those its sensor shows, zero at home.",
       .styles = {embedded::page_css, embedded::plan_css},
       .scripts = {}};

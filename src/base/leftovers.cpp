@@ -70,16 +70,21 @@ std::vector<Leftover> leftovers_of(const fs::path& place, std::vector<Diagnostic
 int recover(const fs::path& leftover, const fs::path& place) {
   const ReplacementLock lock(place);
   const fs::path made = leftover / "new", old = leftover / "old", ready = leftover / "ready";
-  if (is_folder(ready)) return move_entries(ready, place);
-  // After an exchange, before the earlier folder had its name: other files had second names in the new folder, and what
-  // a run stages holds no folders.
-  if (!is_folder(old))
-    return is_folder(place) ? move_entries(made, place, [](const fs::path& entry) { return !is_folder(entry); }) : 0;
+  WrittenFiles written;
+  for (const fs::path& folder : {made, old, ready, place}) add_written_files(folder, written);
+  const Subfolders subfolders = subfolders_of(written);
+  if (is_folder(ready)) return move_entries(ready, place, subfolders);
+  // After an exchange, before the earlier folder had its name: other files had second names in the new folder.
+  if (!is_folder(old)) {
+    const auto is_file = [&made](const std::string& name) { return !is_folder(made / name); };
+    return is_folder(place) ? move_entries(made, place, subfolders, is_file) : 0;
+  }
   if (move_if_free(old, place)) return 1;
-  if (is_folder(made)) return move_entries(old, place);
+  if (is_folder(made)) return move_entries(old, place, subfolders);
   WrittenFiles earlier;
   add_written_files(old, earlier);
-  return move_entries(old, place, [&earlier](const fs::path& entry) { return is_unchanged(earlier, entry); });
+  return move_entries(old, place, subfolders,
+                      [&](const std::string& name) { return is_unchanged(earlier, old, name); });
 }
 
 }  // namespace
@@ -108,28 +113,59 @@ void add_files_aside(const fs::path& place, WrittenFiles& written) {
   }
 }
 
-bool is_unchanged(const WrittenFiles& written, const fs::path& file) {
-  if (!fs::is_regular_file(fs::symlink_status(file))) return false;
+bool is_unchanged(const WrittenFiles& written, const fs::path& folder, const std::string& name) {
+  if (!fs::is_regular_file(fs::symlink_status(folder / name))) return false;
   try {
-    return written.count({file.filename().string(), sha256(read_output(file, k_largest_output))}) != 0;
+    return written.count({name, sha256(read_output(folder / name, k_largest_output))}) != 0;
   } catch (const InputError&) {
     return false;
   }
 }
 
+// ---- subfolders -----------------------------------------------------------------------------------------------------
+
+void add_subfolder(const std::string& name, Subfolders& subfolders) {
+  const auto slash = name.find('/');
+  if (slash != std::string::npos && slash > 0 && name.front() != '.') subfolders.insert(name.substr(0, slash));
+}
+
+Subfolders subfolders_of(const WrittenFiles& written) {
+  Subfolders subfolders;
+  for (const auto& [name, hash] : written) add_subfolder(name, subfolders);
+  return subfolders;
+}
+
+std::vector<std::string> entries_in(const fs::path& folder, const Subfolders& subfolders) {
+  std::vector<std::string> entries;
+  for (const std::string& name : names_in(folder)) {
+    if (subfolders.count(name) == 0 || !is_folder(folder / name)) {
+      entries.push_back(name);
+      continue;
+    }
+    for (const std::string& inner : names_in(folder / name)) entries.push_back(name + "/" + inner);
+  }
+  return entries;
+}
+
+bool make_subfolder(const fs::path& folder, const std::string& name) {
+  const fs::path subfolder = (folder / name).parent_path();
+  return subfolder == folder || is_folder(subfolder) || ::mkdir(subfolder.c_str(), 0777) == 0;
+}
+
 // ---- what killed runs left ------------------------------------------------------------------------------------------
 
-int move_entries(const fs::path& from, const fs::path& to, const std::function<bool(const fs::path&)>& is_obsolete) {
+int move_entries(const fs::path& from, const fs::path& to, const Subfolders& subfolders,
+                 const std::function<bool(const std::string& name)>& is_obsolete) {
   const Descriptor source = open_folder(from), target = open_folder(to);
   if (!source.ok()) return 0;
-  std::vector<std::string> names = names_in(from);
+  std::vector<std::string> names = entries_in(from, subfolders);
   // The manifest last: where it stands, the set is whole.
   std::partition(names.begin(), names.end(), [](const std::string& name) { return name != k_manifest; });
   int moved = 0;
   bool stuck = false;
   for (const std::string& name : names) {
-    if (is_obsolete && is_obsolete(from / name)) continue;
-    const bool done = move_if_free(name, name, source.number(), target.number());
+    if (is_obsolete && is_obsolete(name)) continue;
+    const bool done = make_subfolder(to, name) && move_if_free(name, name, source.number(), target.number());
     moved += done ? 1 : 0;
     stuck = stuck || (!done && errno != EEXIST);
   }

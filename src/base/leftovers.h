@@ -30,13 +30,23 @@ using WrittenFiles = std::set<std::pair<std::string, std::string>>;
 void add_written_files(const std::filesystem::path& folder, WrittenFiles& written);
 /// Adds what the manifests in the leftovers of `place` list. Changes nothing on the disk.
 void add_files_aside(const std::filesystem::path& place, WrittenFiles& written);
-/// True for a regular file that is listed, by its name, with the bytes that it has now.
-bool is_unchanged(const WrittenFiles& written, const std::filesystem::path& file);
+/// True for a regular file that is listed as `name`, with the bytes that it has now in `folder`.
+bool is_unchanged(const WrittenFiles& written, const std::filesystem::path& folder, const std::string& name);
+
+/// Folders within an output folder: those of the names "next/run_1.csv".
+using Subfolders = std::set<std::string>;
+/// Adds the subfolder of `name`, if it has one.
+void add_subfolder(const std::string& name, Subfolders& subfolders);
+Subfolders subfolders_of(const WrittenFiles& written);
+/// Names in `folder`; of each subfolder that it holds, the names in that: "next/run_1.csv".
+std::vector<std::string> entries_in(const std::filesystem::path& folder, const Subfolders& subfolders);
+/// Makes the subfolder of `name` in `folder` where it is missing; false with errno.
+bool make_subfolder(const std::filesystem::path& folder, const std::string& name);
 
 /// Moves the entries of `from` into `to`, but those that `is_obsolete`, if given, and those whose name is taken there.
 /// Returns how many were moved, and -1 when one could not be.
-int move_entries(const std::filesystem::path& from, const std::filesystem::path& to,
-                 const std::function<bool(const std::filesystem::path&)>& is_obsolete = {});
+int move_entries(const std::filesystem::path& from, const std::filesystem::path& to, const Subfolders& subfolders,
+                 const std::function<bool(const std::string& name)>& is_obsolete = {});
 
 /// Ends what killed runs began at the folder `place`. Never throws for what lies there; the notes report what
 /// was put back, and what was ignored.

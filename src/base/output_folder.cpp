@@ -38,6 +38,14 @@ void demand_ground(fs::path folder) {
   if (::access(ground.c_str(), W_OK | X_OK) != 0) fail_output("cannot write in", ground, errno);
 }
 
+/// OutputError where something else stands in the place of a folder of outputs; a link is never followed there.
+void demand_subfolder(const fs::path& folder) {
+  if (!stands(folder) || fs::is_directory(fs::symlink_status(folder))) return;
+  tell_in_the_way(folder);
+  throw OutputError(folder.string() + " is in the way and is not a folder",
+                    "move it away, or choose another folder with -o");
+}
+
 /// Rights that a new folder would not have by itself. What a security module labels is labelled anew.
 bool has_attributes(const fs::path& folder) {
   std::string names(4096, '\0');
@@ -78,6 +86,17 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+bool is_plain(const std::string& name) {
+  return !name.empty() && name.front() != '.' && name.find('/') == std::string::npos;
+}
+
+/// A file of the folder itself, or of a folder in it.
+bool is_output_name(const std::string& name) {
+  const auto slash = name.find('/');
+  return slash == std::string::npos ? is_plain(name)
+                                    : is_plain(name.substr(0, slash)) && is_plain(name.substr(slash + 1));
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path folder, bool force)
@@ -102,13 +121,14 @@ void OutputFolder::claim(const std::vector<std::string>& names) {
     changed.clear();
     for (const std::string& name : names) {
       const fs::path target = folder_ / name;
+      if (name.find('/') != std::string::npos) demand_subfolder(target.parent_path());
       if (!stands(target)) continue;
       if (!fs::is_regular_file(fs::symlink_status(target))) {
         tell_in_the_way(target);
         throw OutputError(target.string() + " is in the way and is not a regular file",
                           "move it away, or choose another folder with -o");
       }
-      if (force_ || is_unchanged(ours_, target)) continue;
+      if (force_ || is_unchanged(ours_, folder_, name)) continue;
       const auto listed = ours_.lower_bound({name, ""});
       (listed != ours_.end() && listed->first == name ? changed : foreign).push_back(name);
     }
@@ -130,11 +150,11 @@ void OutputFolder::discard() const {
 }
 
 void OutputFolder::stage(const OutputFile& file) {
-  const bool plain = !file.name.empty() && file.name.front() != '.' && file.name.find('/') == std::string::npos;
-  demand(plain, "output name " + file.name);
+  demand(is_output_name(file.name), "output name " + file.name);
   if (!staging_) open_staging();
   demand(!contains(staged_, file.name), "staged twice: " + file.name);
   staged_.push_back(file.name);
+  if (!make_subfolder(staging_->path(), file.name)) fail_output("cannot write", staging_->path(), errno);
   write_whole(staging_->path() / file.name, file.bytes);
 }
 
@@ -151,17 +171,25 @@ fs::path OutputFolder::staged_path(const std::string& name) const { return stagi
 void OutputFolder::withdraw(const std::vector<std::string>& names) { withdrawn_ = names; }
 
 /// True for a file of an earlier run that this one does not keep.
-bool OutputFolder::is_obsolete(const fs::path& file) const {
-  return contains(withdrawn_, file.filename().string()) && is_unchanged(ours_, file);
+bool OutputFolder::is_obsolete(const fs::path& folder, const std::string& name) const {
+  return contains(withdrawn_, name) && is_unchanged(ours_, folder, name);
+}
+
+/// Of earlier runs and of this one.
+std::set<std::string> OutputFolder::subfolders() const {
+  Subfolders all = subfolders_of(ours_);
+  for (const std::string& name : staged_) add_subfolder(name, all);
+  return all;
 }
 
 /// Gives what stays in the folder a second name among the new files; false when something has none.
 bool OutputFolder::link_others() const {
   bool complete = true;
-  for (const std::string& name : names_in(place_)) {
+  for (const std::string& name : entries_in(place_, subfolders())) {
     const fs::path entry = place_ / name;
-    if (contains(staged_, name) || is_obsolete(entry) || fs::is_directory(fs::symlink_status(entry))) continue;
-    complete = ::link(entry.c_str(), (staging_->path() / name).c_str()) == 0 && complete;
+    if (contains(staged_, name) || is_obsolete(place_, name) || fs::is_directory(fs::symlink_status(entry))) continue;
+    complete = make_subfolder(staging_->path(), name) &&
+               ::link(entry.c_str(), (staging_->path() / name).c_str()) == 0 && complete;
   }
   return complete;
 }
@@ -181,7 +209,8 @@ bool OutputFolder::publish_as_folder(std::vector<Diagnostic>& notes) {
   // Of folders, of what has no second name, and of what came since. Another run may have published in between: its set
   // is the earlier one now.
   add_written_files(staging_->old(), ours_);
-  if (move_entries(staging_->old(), place_, [this](const fs::path& entry) { return is_obsolete(entry); }) >= 0) {
+  const auto obsolete = [this](const std::string& name) { return is_obsolete(staging_->old(), name); };
+  if (move_entries(staging_->old(), place_, subfolders(), obsolete) >= 0) {
     staging_->remove_old();
   } else {
     notes.push_back({Severity::warning,
@@ -201,23 +230,31 @@ void OutputFolder::publish_one_by_one() {
     if (done) return;
     const int code = errno;
     for (const std::string& name : published) ::unlink((place_ / name).c_str());
-    if (move_entries(old, place_) >= 0) staging_->remove_old();
+    remove_empty_subfolders();
+    if (move_entries(old, place_, subfolders()) >= 0) staging_->remove_old();
     fail_output("cannot write", target, code);
   };
   // The manifest goes first and comes last: where it stands, the set is whole.
-  std::vector<std::string> names = names_in(place_);
+  std::vector<std::string> names = entries_in(place_, subfolders());
   std::partition(names.begin(), names.end(), [](const std::string& name) { return name == k_manifest; });
   for (const std::string& name : names) {
-    if (!contains(staged_, name) && !is_obsolete(place_ / name)) continue;
+    if (!contains(staged_, name) && !is_obsolete(place_, name)) continue;
+    demand_done(make_subfolder(old, name), place_ / name);
     demand_done(::rename((place_ / name).c_str(), (old / name).c_str()) == 0 || errno == ENOENT, place_ / name);
   }
   demand_done(staging_->mark_ready(), staging_->path());
   for (const std::string& name : staged_) {
-    demand_done(move_if_free(staging_->path() / name, place_ / name), place_ / name);
+    demand_done(make_subfolder(place_, name) && move_if_free(staging_->path() / name, place_ / name), place_ / name);
     published.push_back(name);
   }
   flush_all({place_});
   staging_->remove_old();
+  remove_empty_subfolders();
+}
+
+/// Those whose files were withdrawn.
+void OutputFolder::remove_empty_subfolders() const {
+  for (const std::string& subfolder : subfolders()) ::rmdir((place_ / subfolder).c_str());
 }
 
 void OutputFolder::publish(std::vector<Diagnostic>& notes) {
@@ -227,6 +264,9 @@ void OutputFolder::publish(std::vector<Diagnostic>& notes) {
   claim(staged_);
   std::vector<fs::path> made;
   for (const std::string& name : staged_) made.push_back(staged_path(name));
+  for (const std::string& subfolder : subfolders()) {
+    if (stands(staged_path(subfolder))) made.push_back(staged_path(subfolder));
+  }
   flush_all(made);
   if (FileAccess* access = FileAccess::current()) {
     for (const std::string& name : staged_)

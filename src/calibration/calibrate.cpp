@@ -8,7 +8,7 @@
 #include "calibration/evenness.h"
 #include "calibration/expected_sizes.h"
 #include "calibration/explanation.h"
-#include "calibration/next_runs.h"
+#include "calibration/next_measurements.h"
 #include "calibration/thresholds.h"
 #include "calibration/unmodelled.h"
 #include "calibration/verdict.h"
@@ -60,13 +60,13 @@ void name_held_out(const Evidence& evidence, Calibration& calibration) {
   }
 }
 
-Calibration not_testable(const Measurement& measurement, const std::vector<std::string>& reasons) {
+Calibration not_testable(const DeclaredMechanism& declared, const Measurement& measurement,
+                         const std::vector<std::string>& reasons) {
   Calibration calibration;
   calibration.verdict = CalibrationVerdict::not_testable;
   for (const std::string& reason : reasons) calibration.summary += (calibration.summary.empty() ? "" : " ") + reason;
-  calibration.next_runs = {
-      "several strokes both ways over the whole range, slowly, at no load and at two loads, and one run faster"};
-  ask_for_both_sides(measurement, calibration.next_runs);
+  calibration.next = planned_measurements(declared);
+  ask_for_both_sides(measurement, calibration.next);
   return calibration;
 }
 
@@ -192,13 +192,13 @@ void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
 Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& measurement,
                          const CalibrationOptions& options) {
   if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty())
-    return not_testable(measurement, reasons);
+    return not_testable(declared, measurement, reasons);
   const Measurement learnt_from = part(measurement, options.hold_out, false);
   const NoiseFloor noise = noise_floor(about_declared(declared, learnt_from, options.earlier));
   Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9), options.earlier);
   evidence.floor_freedom = noise.degrees_of_freedom;
   if (evidence.blocks.size() < 2)
-    return not_testable(measurement,
+    return not_testable(declared, measurement,
                         {"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
   Workers workers(evidence);
   evidence.sizes =
@@ -206,7 +206,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
   Selection selection = select_effects(evidence, workers, options);
   if (!selection.none.usable)
     return not_testable(
-        measurement,
+        declared, measurement,
         {"The declared joint has no equilibrium at some of the logged angles and loads: the file and the data are not "
          "of one joint."});
   Calibration calibration;
@@ -227,10 +227,6 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
     }
   }
   calibration.null_combinations = null_combinations(evidence, selection);
-  if (!options.earlier) {
-    calibration.next_runs = next_runs(evidence, selection);
-    ask_for_both_sides(learnt_from, calibration.next_runs);
-  }
   calibration.tried = selection.tried;
   calibration.detectable = detectable_sizes(evidence, workers, selection);
   calibration.identified = without_idle_numbers(numbers, numbers.at);
@@ -241,6 +237,11 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
   validate(declared, kept, answer, calibration);
   calibration.curve = answer.made.curve;
   conclude(evidence, selection, answer.unnamed, calibration);
+  if (!options.earlier) {
+    calibration.next = next_measurements(evidence, selection, calibration);
+    ask_for_both_sides(learnt_from, calibration.next);
+  }
+  summarize(evidence, selection, calibration);
   hold_against(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
   if (options.earlier) describe_changes(evidence, selection, calibration);
   return calibration;

@@ -13,6 +13,22 @@ Eigen::VectorXd slopes_of(const Fit& fit, Eigen::Index row) {
   return fit.x.size() > 0 ? Eigen::VectorXd(fit.J.row(row).transpose()) : Eigen::VectorXd();
 }
 
+double reading_of(const HandReading& reading, const Evidence& evidence, const Imperfections& at) {
+  return reading_by_hand(*reading.parameter, at, *evidence.declared);
+}
+
+/// d(reading)/dx: a step of each number.
+Eigen::VectorXd slopes_of(const HandReading& reading, const Evidence& evidence, const Fit& fit) {
+  Eigen::VectorXd slopes(fit.x.size());
+  const double here = reading_of(reading, evidence, fit.at);
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+    Imperfections moved = fit.at;
+    set_value(moved, *fit.parameters[k], value_of(fit.at, *fit.parameters[k]) + fit.parameters[k]->step);
+    slopes[static_cast<Eigen::Index>(k)] = reading_of(reading, evidence, moved) - here;
+  }
+  return slopes;
+}
+
 void add_row(const Fit& fit, Eigen::Index row, double floor, NormalEquations& normal) {
   const Eigen::VectorXd J = slopes_of(fit, row);
   normal.JJ.noalias() += J * J.transpose();
@@ -54,15 +70,10 @@ NormalEquations sums_of(const Block& block, const Fit& fit, double floor) {
 NormalEquations sums_of_readings(const Evidence& evidence, const Fit& fit) {
   NormalEquations sums = NormalEquations::none(fit.x.size());
   for (const HandReading& reading : evidence.readings) {
-    for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
-      const EffectParameter& parameter = *fit.parameters[k];
-      if (!is_read_by(parameter, reading)) continue;
-      const auto i = static_cast<Eigen::Index>(k);
-      const double slope = parameter.step / reading.uncertainty * evidence.floor;
-      sums.JJ(i, i) += slope * slope;
-      sums.Jr[i] +=
-          slope * (reading.value - value_of(fit.at, *reading.parameter)) / reading.uncertainty * evidence.floor;
-    }
+    const double scale = evidence.floor / reading.uncertainty;
+    const Eigen::VectorXd slopes = scale * slopes_of(reading, evidence, fit);
+    sums.JJ.noalias() += slopes * slopes.transpose();
+    sums.Jr += slopes * scale * (reading.value - reading_of(reading, evidence, fit.at));
   }
   return sums;
 }
@@ -70,7 +81,7 @@ NormalEquations sums_of_readings(const Evidence& evidence, const Fit& fit) {
 double against_readings(const Evidence& evidence, const Imperfections& at) {
   double squares = 0;
   for (const HandReading& reading : evidence.readings)
-    squares += std::pow((reading.value - value_of(at, *reading.parameter)) / reading.uncertainty, 2);
+    squares += std::pow((reading.value - reading_of(reading, evidence, at)) / reading.uncertainty, 2);
   return squares;
 }
 

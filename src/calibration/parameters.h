@@ -14,11 +14,6 @@ using EffectSet = std::vector<const Effect*>;
 /// In the order of a fit's x.
 using Parameters = std::vector<const EffectParameter*>;
 
-/// Whether the reading is of this number.
-inline bool is_read_by(const EffectParameter& parameter, const HandReading& reading) {
-  return parameter.number == reading.parameter->number;
-}
-
 /// Whether where it acts has to be found: a look from where it begins says little of it.
 bool is_searched(const Effect& effect);
 

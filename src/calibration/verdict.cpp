@@ -142,7 +142,7 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
                                             "it than as declared: " +
                                                 list(calibration.dropped) + ".");
     case CalibrationVerdict::confounded:
-      return (calibration.next_runs.empty() ? "" : "Measure this first: " + calibration.next_runs.front() + ". ") +
+      return (calibration.next.empty() ? "" : "Measure this first: " + calibration.next.front().text() + ". ") +
              "The data are explained by " + names + ", and cannot tell which.";
     case CalibrationVerdict::explained:
       return "The data are explained by " + names + ".";
@@ -157,23 +157,6 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
 std::string figures(const Calibration& calibration, double floor) {
   return "Held-out error " + in_degrees(calibration.before.held_out_rms) + " before, " +
          in_degrees(calibration.after.held_out_rms) + " after, noise floor " + in_degrees(floor) + ".";
-}
-
-/// What the verdict itself asks for, beside what would split a group.
-void ask_for_runs(Calibration& calibration) {
-  for (const FoundEffect& effect : calibration.effects) {
-    const std::string& run = effect.unmodelled.separating_run;
-    const bool asked = std::count(calibration.next_runs.begin(), calibration.next_runs.end(), run) > 0;
-    if (effect.group.back() == k_unmodelled && !run.empty() && !asked) calibration.next_runs.push_back(run);
-  }
-  if (calibration.verdict == CalibrationVerdict::not_repeatable) {
-    calibration.next_runs.insert(calibration.next_runs.begin(),
-                                 "tighten what can be loose and repeat one run five times without touching anything");
-  } else if (calibration.verdict == CalibrationVerdict::unexplained) {
-    calibration.next_runs.push_back(
-        "turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run: what moves with it is the "
-        "pulley's");
-  }
 }
 
 }  // namespace
@@ -210,9 +193,13 @@ void conclude(const Evidence& evidence, const Selection& selection, const Unname
   const bool in_time = walks || (unexplained && goes_with_time(unnamed));
   take_unmodelled({unexplained || walks || selection.instead, in_time}, selection, calibration.effects);
   calibration.verdict = verdict_of(walks, unexplained, calibration.effects);
-  ask_for_runs(calibration);
-  calibration.summary =
-      finding(calibration, rest, scatter, evidence.floor, load_unit) + " " + figures(calibration, evidence.floor);
+}
+
+void summarize(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
+  const Rest rest = look_at_rest(evidence, selection.best);
+  const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
+  calibration.summary = finding(calibration, rest, scatter, evidence.floor, evidence.measurement.load_unit) + " " +
+                        figures(calibration, evidence.floor);
 }
 
 }  // namespace fusee

@@ -17,7 +17,11 @@ struct Rest {
 };
 Rest look_at_rest(const Evidence& evidence, const Fit& fit);
 
-/// Fills verdict, summary, next_runs, unexplained_rms and unexplained_where. `unnamed`: beside selection.best.
+/// Fills verdict, unexplained_rms and unexplained_where, and says where a cause may be unmodelled. `unnamed`: beside
+/// selection.best.
 void conclude(const Evidence& evidence, const Selection& selection, const Unnamed& unnamed, Calibration& calibration);
+
+/// Fills the summary, of what is concluded and asked for.
+void summarize(const Evidence& evidence, const Selection& selection, Calibration& calibration);
 
 }  // namespace fusee

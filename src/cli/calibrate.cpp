@@ -96,7 +96,8 @@ Command calibrate_command() {
           "residual, names the effects behind it that hold on data they were not fitted\n"
           "to, with those that would do as well, and leaves corrected.toml (fusee build\n"
           "makes its pulley), compensation.csv (where the motor must stand, from below and\n"
-          "from above), calibration.json and report.html. Whatever the verdict, also\n"
+          "from above), calibration.json, report.html and next/ (what to measure next: a\n"
+          "page for the bench, run files to fill in). Whatever the verdict, also\n"
           "not_testable, the exit code is 0 when the data could be read and 3 when they\n"
           "could not.",
           with_reading_options(

@@ -131,10 +131,10 @@ std::string calibration_summary(const CalibrationProduct& product, bool verbose)
   std::string text = headline_text(product) + causes_table(product) + "\n" + product.file.mechanism.name + ": " +
                      std::string(word(c.verdict)) + "\n" + wrapped(c.summary, "  ", "  ");
   text += items("A slip of the file or of the log?", slips_words(product));
-  if (c.verdict == CalibrationVerdict::not_testable) return text + items("Measure next", c.next_runs);
+  if (c.verdict == CalibrationVerdict::not_testable) return text + items("Measure next", next_texts(c));
   text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
   text += items("Cannot be told apart by these data", c.null_combinations) +
-          items("Correction", correction_texts(product)) + items("Measure next", c.next_runs);
+          items("Correction", correction_texts(product)) + items("Measure next", next_texts(c));
   if (verbose || c.verdict == CalibrationVerdict::no_effect)
     text += items("Would have been seen, at the joint, rms", detectable_texts(c));
   return verbose ? text + tried_table(c) : text;

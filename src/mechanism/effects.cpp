@@ -71,6 +71,28 @@ const Effect* find_effect(std::string_view name, JointKind kind) {
   return found == all.end() ? nullptr : &*found;
 }
 
+std::string_view word(HandTool tool) {
+  switch (tool) {
+    case HandTool::caliper:
+      return "caliper";
+    case HandTool::dial_gauge:
+      return "dial_gauge";
+    case HandTool::mark:
+      return "mark";
+    case HandTool::protractor:
+      return "protractor";
+    case HandTool::ruler:
+      return "ruler";
+    case HandTool::motor_sensor:
+      return "motor_sensor";
+  }
+  return "";
+}
+
+double reading_by_hand(const EffectParameter& parameter, const Imperfections& joint, const Mechanism& declared) {
+  return parameter.by_hand.read != nullptr ? parameter.by_hand.read(joint, declared) : value_of(joint, parameter);
+}
+
 double prior_of(const EffectParameter& parameter, double largest_load) {
   if (!(largest_load > 0)) return parameter.prior;
   switch (parameter.prior_unit) {

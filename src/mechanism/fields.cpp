@@ -723,6 +723,8 @@ void add_prior(std::vector<Field>& table) {
   reading.operator()<&Prior::EB>("prior.EB_mm", "measured by hand: [value, standard uncertainty]");
   reading.operator()<&Prior::ED>("prior.ED_mm", "the same of guides.ED_mm");
   reading.operator()<&Prior::OE>("prior.OE_mm", "the same of guides.OE_mm");
+  reading.operator()<&Prior::OE1>("prior.OE1_mm", "the same of guides.OE_mm, of the left pin alone");
+  reading.operator()<&Prior::OE2>("prior.OE2_mm", "the same of the right pin alone");
   reading.operator()<&Prior::EF>("prior.EF_mm", "the same of pulley.EF_mm");
   reading.operator()<&Prior::guide_radius>("prior.guide_radius_mm", "the same of guides.radius_mm");
   reading.operator()<&Prior::length>("prior.length_mm", "the same of joint.length_mm");
@@ -738,6 +740,18 @@ void add_prior(std::vector<Field>& table) {
   reading.operator()<&Prior::attachment2_across>("prior.attachment2_across_mm",
                                                  "the same of joint.attachment2_mm's first number");
   reading.operator()<&Prior::attachment2_along>("prior.attachment2_along_mm", "the same of its second");
+  reading.operator()<&Prior::motor_offset>("prior.motor_offset_deg",
+                                           "the same of how far the shaft stands beyond what the motor sensor shows");
+  reading.operator()<&Prior::backlash>("prior.backlash_deg", "the same of the play between motor and pulley, of alpha");
+  reading.operator()<&Prior::runout_x>("prior.runout_x_mm",
+                                       "the same of the pulley's centre off its axis, at home to the right");
+  reading.operator()<&Prior::runout_y>("prior.runout_y_mm", "the same upwards");
+  reading.operator()<&Prior::guide_give>("prior.guide_give_mm_per_N",
+                                         "the same of how far a pin moves under a newton of the tendon's force on it");
+  reading.operator()<&Prior::zero>("prior.zero_deg", "the same of what the joint sensor shows at theta = 0");
+  reading.operator()<&Prior::gain>("prior.gain_percent",
+                                   "the same of what the joint sensor shows too much from one end of the range to the "
+                                   "other");
 }
 
 std::vector<Field> make_table() {

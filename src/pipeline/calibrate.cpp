@@ -10,6 +10,8 @@ namespace fusee {
 namespace {
 
 constexpr std::size_t k_largest_spec = 1 << 20;
+constexpr int k_most_next_runs = 9;
+constexpr int k_most_earlier_runs = 99;  // of an earlier calibration
 
 /// Files to read, each once; those held out stand last.
 struct RunFiles {
@@ -104,6 +106,7 @@ std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const std:
   if (product.correction.why_no_table.empty())
     outputs.push_back({"compensation.csv", compensation_csv(product.correction)});
   outputs.push_back({"report.html", calibration_report_html(product)});
+  for (OutputFile& file : next_files(product)) outputs.push_back(std::move(file));
   outputs.push_back({"manifest.json", calibration_manifest_json(product, outputs)});
   return outputs;
 }
@@ -113,6 +116,18 @@ std::vector<std::string> output_names(const MechanismFile& file) {
                                     "manifest.json"};
   if (const auto table = law_table_name(file.mechanism)) names.push_back(*table);
   return names;
+}
+
+/// Of what is asked for next: those that may be written, or, of any earlier calibration, withdrawn.
+std::vector<std::string> with_next(std::vector<std::string> names, int first_run, int runs) {
+  for (const std::string& name : next_file_names(first_run, runs)) names.push_back(name);
+  return names;
+}
+
+int first_free_run_beside(const RunFiles& files) {
+  std::vector<std::string> names;
+  for (const auto& run : files.all) names.push_back(run.filename().string());
+  return first_free_run(names);
 }
 
 void publish(const Bench& bench, OutputFolder& folder) {
@@ -132,11 +147,14 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
   result.product.file = with_doubts_and_turns(file);
   const Bench bench{file, options, result};
   OutputFolder target(options.folder, options.force);
-  target.claim(output_names(file));  // before the work: a refusal should not cost a wait
+  const RunFiles files = run_files(runs, options.hold_out);
+  target.claim(with_next(output_names(file), first_free_run_beside(files),
+                         k_most_next_runs));  // before the work: a refusal should not cost a wait
   const std::string declared = declared_text(file, result.rewritten);
-  conclude(bench, run_files(runs, options.hold_out));
+  conclude(bench, files);
   result.outputs = outputs_of(result.product, declared);
-  target.withdraw(output_names(file));  // a correction that this run does not make
+  target.withdraw(
+      with_next(output_names(file), 1, k_most_earlier_runs));  // a correction, a run file, that this run does not make
   if (!options.dry_run) publish(bench, target);
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include "fusee/base/text.h"
 #include "fusee/joint/joint_effects.h"
+#include "plan/thresholds.h"
 
 namespace fusee {
 namespace {
@@ -29,10 +30,6 @@ std::string_view words(BenchChange change) {
       return "turn the motor's encoder on its shaft by a quarter turn";
     case BenchChange::joint_sensor_turned:
       return "turn the joint's encoder on its axis by a quarter turn";
-    case BenchChange::doubled_pretension:
-      return "double the pretension";
-    case BenchChange::on_its_side:
-      return "lay the joint on its side";
     case BenchChange::none:
       break;
   }
@@ -44,11 +41,9 @@ Mounting mounting_of(BenchChange change) {
           change == BenchChange::joint_sensor_turned ? k_quarter : 0.0};
 }
 
-ChangedJoint changed(const Mechanism& declared, const Imperfections& at, BenchChange change) {
-  ChangedJoint joint{declared, at};
-  if (change == BenchChange::doubled_pretension) joint.declared.tendon.pretension *= 2;
-  if (change == BenchChange::on_its_side) joint.at.joint.weight = {};
-  return joint;
+double setup_minutes_of(const PlannedRun& run) {
+  return (run.load != 0 ? k_bench_minutes.load : 0.0) +
+         (run.change != BenchChange::none ? k_bench_minutes.mounting : 0.0);
 }
 
 double minutes_of(const PlannedRun& run) { return run.cycles * 2 * (seconds_of_stroke(run) + run.dwell) / 60.0; }
@@ -89,18 +84,35 @@ BenchRun driven(const PlannedRun& run, int rows_a_stroke) {
   return driven;
 }
 
-std::size_t RankedMeasurement::told() const {
-  return static_cast<std::size_t>(std::count_if(margins.begin(), margins.end(), [](double m) { return m > 1; }));
-}
-double RankedMeasurement::most() const {
-  return margins.empty() ? 0.0 : *std::max_element(margins.begin(), margins.end());
+std::string_view NextMeasurement::kind() const {
+  if (run) return run->change == BenchChange::none ? "run" : "turn_sensor";
+  return readings.empty() ? "inspect" : word(readings.front()->by_hand.tool);
 }
 
-void rank(std::vector<RankedMeasurement>& measurements) {
-  std::stable_sort(measurements.begin(), measurements.end(),
-                   [](const RankedMeasurement& a, const RankedMeasurement& b) {
-                     return a.told() != b.told() ? a.told() > b.told() : a.most() > b.most();
-                   });
+std::string NextMeasurement::text() const { return gain.empty() ? words : words + ": it distinguishes " + gain; }
+
+NextMeasurement next_run(const PlannedRun& run, double slow, const std::string& load_unit) {
+  NextMeasurement next;
+  next.run = run;
+  next.words = (run.change == BenchChange::none ? "drive " : "") + words(run, slow, load_unit);
+  next.minutes = minutes_of(run) + setup_minutes_of(run);
+  return next;
+}
+
+NextMeasurement next_reading(const std::vector<const EffectParameter*>& readings) {
+  NextMeasurement next;
+  next.readings = readings;
+  for (const EffectParameter* reading : readings)
+    next.words += (next.words.empty() ? "" : "; ") + std::string(reading->by_hand.words);
+  next.minutes = k_bench_minutes.reading * static_cast<double>(readings.size());
+  return next;
+}
+
+NextMeasurement next_inspection(const std::string& words) {
+  NextMeasurement next;
+  next.words = words;
+  next.minutes = k_bench_minutes.inspection;
+  return next;
 }
 
 double rms_apart(const std::vector<std::vector<double>>& one, const std::vector<std::vector<double>>& other) {
@@ -117,15 +129,16 @@ double rms_apart(const std::vector<std::vector<double>>& one, const std::vector<
   return rows > 0 ? std::sqrt(squares / rows) : 0.0;
 }
 
-std::vector<const EffectParameter*> hand_readable(const Mechanism& declared) {
-  std::vector<const EffectParameter*> readable;
-  if (declared.transmission) return readable;
+std::vector<const EffectParameter*> unread_numbers(const DeclaredMechanism& declared) {
+  std::vector<const EffectParameter*> unread;
+  if (declared.transmission) return unread;
   for (const Effect* effect : effects_of(declared)) {
     for (const EffectParameter& parameter : effect->parameters) {
-      if (!parameter.by_hand.words.empty()) readable.push_back(&parameter);
+      if (!parameter.by_hand.words.empty() && parameter.by_hand.readings(declared).empty())
+        unread.push_back(&parameter);
     }
   }
-  return readable;
+  return unread;
 }
 
 }  // namespace fusee

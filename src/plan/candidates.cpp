@@ -127,12 +127,4 @@ std::vector<PlannedRun> candidate_runs(const Bench& bench) {
   return runs;
 }
 
-std::vector<const EffectParameter*> candidate_readings(const DeclaredMechanism& declared) {
-  std::vector<const EffectParameter*> readings = hand_readable(declared);
-  std::erase_if(readings, [&](const EffectParameter* parameter) {
-    return parameter->by_hand.readings != nullptr && !parameter->by_hand.readings(declared).empty();
-  });
-  return readings;
-}
-
 }  // namespace fusee

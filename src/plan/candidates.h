@@ -19,7 +19,4 @@ Bench bench_of(const DeclaredMechanism& declared, const PlanOptions& options);
 
 /// The first is the one that every plan begins with: slow, at the first load.
 std::vector<PlannedRun> candidate_runs(const Bench& bench);
-/// Numbers that can be read by hand and that [prior] does not have yet.
-std::vector<const EffectParameter*> candidate_readings(const DeclaredMechanism& declared);
-
 }  // namespace fusee

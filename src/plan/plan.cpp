@@ -35,7 +35,7 @@ class Planner {
       : options_(options), bench_(bench_of(declared, options)), signatures_(declared, bench_, options.noise) {
     unit_ = declared.transmission ? "" : "N";
     for (const PlannedRun& run : candidate_runs(bench_)) add(run);
-    for (const EffectParameter* reading : candidate_readings(declared)) add(*reading);
+    for (const EffectParameter* reading : unread_numbers(declared)) add(*reading);
     start_ = Information::none(signatures_.columns());
     add_known_readings(declared);
     keep_what_matters();
@@ -72,8 +72,7 @@ class Planner {
     Option option;
     option.step.run = run;
     option.step.words = words(run, bench_.speeds.front(), unit_);
-    option.step.setup = (run.load != 0 ? k_bench_minutes.load : 0.0) +
-                        (run.change != BenchChange::none ? k_bench_minutes.mounting : 0.0);
+    option.step.setup = setup_minutes_of(run);
     option.step.minutes = minutes_of(run) + option.step.setup;
     option.seen = seen;
     options_of_bench_.push_back(std::move(option));

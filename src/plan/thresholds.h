@@ -28,6 +28,7 @@ struct BenchMinutes {
   double load = 1;      ///< another weight on the cord
   double mounting = 5;  ///< an encoder turned, and home set again, twice: there and back
   double reading = 2;   ///< a caliper, with two repeats
+  double inspection = 5;
 };
 inline constexpr BenchMinutes k_bench_minutes;
 

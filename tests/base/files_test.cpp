@@ -386,6 +386,60 @@ TEST_F(Files, WithdrawsWhatAnEarlierRunWrote) {
   }
 }
 
+TEST_F(Files, SubfolderKeepsWhatWasFilledIn) {
+  for (const bool whole : {true, false}) {
+    const fs::path folder = root_ / (whole ? "whole" : "current");
+    publish(folder, {{"next/page.html", "old"}, {"next/run_1.csv", "old"}, {"next/run_2.csv", "old"}});
+    put(folder / "next/run_2.csv", "filled in");
+    fs::create_directories(folder / "next/mine");
+    put(folder / "next/mine/notes.txt", "mine");
+    std::optional<StandingIn> standing;
+    if (!whole) standing.emplace(folder);
+    for (const bool again : {true, false}) {
+      OutputFolder output(folder, false);
+      output.stage(again ? manifest_of({{"next/page.html", "new"}}) : manifest_of({}));
+      if (again) output.stage({"next/page.html", "new"});
+      output.withdraw({"next/page.html", "next/run_1.csv", "next/run_2.csv"});
+      output.publish(notes_);
+      EXPECT_EQ(fs::exists(folder / "next/page.html"), again);
+      EXPECT_FALSE(fs::exists(folder / "next/run_1.csv"));
+      EXPECT_EQ(bytes_of(folder / "next/run_2.csv"), "filled in");
+      EXPECT_EQ(bytes_of(folder / "next/mine/notes.txt"), "mine");
+    }
+  }
+}
+
+TEST_F(Files, EmptiedSubfolderGoes) {
+  for (const bool whole : {true, false}) {
+    const fs::path folder = root_ / (whole ? "whole" : "current");
+    publish(folder, {{"x.stl", "old"}, {"next/run_1.csv", "old"}});
+    std::optional<StandingIn> standing;
+    if (!whole) standing.emplace(folder);
+    OutputFolder output(folder, false);
+    output.stage(manifest_of({{"x.stl", "new"}}));
+    output.stage({"x.stl", "new"});
+    output.withdraw({"next/run_1.csv"});
+    output.publish(notes_);
+    EXPECT_FALSE(fs::exists(folder / "next"));
+  }
+}
+
+TEST_F(Files, SubfolderIsNeverALinkOrFile) {
+  fs::create_directories(root_ / "elsewhere");
+  for (const bool link : {true, false}) {
+    const fs::path folder = root_ / (link ? "link" : "file");
+    publish(folder, {{"x.stl", "old"}});
+    if (link) {
+      fs::create_directory_symlink(root_ / "elsewhere", folder / "next");
+    } else {
+      put(folder / "next", "mine");
+    }
+    EXPECT_THROW(publish(folder, {{"next/run_1.csv", "new"}}), OutputError);
+    EXPECT_EQ(bytes_of(folder / "x.stl"), "old");
+  }
+  EXPECT_TRUE(fs::is_empty(root_ / "elsewhere"));
+}
+
 TEST_F(Files, BothOfTwoRunsPublish) {
   // Both began before either published: neither may take the other's files for somebody's.
   for (const bool whole : {true, false}) {
@@ -416,7 +470,8 @@ TEST_F(Files, OutputsHaveOrdinaryRights) {
 
 TEST_F(Files, NamesStayWithinTheFolder) {
   OutputFolder output(root_ / "out", false);
-  for (const char* name : {"", "../x", "a/b", ".hidden", "/etc/x"}) EXPECT_THROW(output.stage({name, ""}), Bug) << name;
+  for (const char* name : {"", "../x", "a/../x", "a/b/c", "a/", "a/.hidden", ".hidden", "/etc/x"})
+    EXPECT_THROW(output.stage({name, ""}), Bug) << name;
   output.stage({"x", "1"});
   EXPECT_THROW(output.stage({"x", "2"}), Bug);
 }

@@ -80,7 +80,7 @@ Folder files_in(const fs::path& folder) {
   if (!fs::exists(folder)) return files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().lexically_relative(folder).string();
-    if (name.rfind(".fusee-", 0) == 0) continue;
+    if (name.rfind(".fusee-", 0) == 0 || name == "next") continue;
     std::ostringstream text;
     text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
     files[name] = text.str();
@@ -100,7 +100,8 @@ Folder set_of(const std::string& text, const std::vector<std::string>& names) {
 }
 
 std::vector<Diagnostic> publish_set(const fs::path& folder, const Folder& files,
-                                    const std::vector<std::string>& withdrawn = {"profile.csv", "pulley_p1.stl"}) {
+                                    const std::vector<std::string>& withdrawn = {"profile.csv", "pulley_p1.stl",
+                                                                                 "next/run_1.csv"}) {
   OutputFolder output(folder, false);
   for (const auto& [name, bytes] : files) output.stage({name, bytes});
   output.withdraw(withdrawn);
@@ -156,6 +157,10 @@ class Kill : public testing::TestWithParam<Ground> {
       std::ofstream(folder / "notes.txt") << "mine";
       fs::create_directory(folder / "mine");
       std::ofstream(folder / "mine" / "notes.txt") << "mine too";
+      fs::create_directory(folder / "next");
+      std::ofstream(folder / "next" / "filled.csv") << "mine";
+      fs::create_directory(folder / "next" / "mine");
+      std::ofstream(folder / "next" / "mine" / "notes.txt") << "mine as well";
     }
     return folder;
   }
@@ -164,17 +169,21 @@ class Kill : public testing::TestWithParam<Ground> {
     publish_set(folder, newer_);
   }
   Folder with_others(Folder files) const {
-    if (GetParam().others) files.insert({{"notes.txt", "mine"}, {"mine", ""}, {"mine/notes.txt", "mine too"}});
+    if (GetParam().others) files.insert(others_.begin(), others_.end());
     return files;
   }
   /// Without what is not a fusee output.
   Folder without_others(Folder files) const {
-    for (const char* name : {"notes.txt", "mine", "mine/notes.txt"}) files.erase(name);
+    for (const auto& [name, bytes] : others_) files.erase(name);
     return files;
   }
 
-  const Folder older_ = set_of("old ", {"pulley.stl", "pulley_p1.stl", "report.html"});
-  const Folder newer_ = set_of("new ", {"profile.csv", "pulley.stl", "report.html"});
+  const Folder older_ =
+      set_of("old ", {"next/page.html", "next/run_1.csv", "pulley.stl", "pulley_p1.stl", "report.html"});
+  const Folder newer_ =
+      set_of("new ", {"next/page.html", "next/run_2.csv", "profile.csv", "pulley.stl", "report.html"});
+  const Folder others_ = {{"notes.txt", "mine"},       {"mine", ""},      {"mine/notes.txt", "mine too"},
+                          {"next/filled.csv", "mine"}, {"next/mine", ""}, {"next/mine/notes.txt", "mine as well"}};
   fs::path root_;
 };
 

@@ -3,13 +3,17 @@
 
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "fusee/pipeline.h"
+#include "fusee/plan/plan.h"
 #include "pipeline/law_table_copy.h"
 
 namespace fusee {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -64,6 +68,130 @@ TEST(CalibrateVerb, LeavesEveryFile) {
   EXPECT_EQ(result.product.calibration.verdict, CalibrationVerdict::explained);
   EXPECT_THAT(steps, ElementsAre("reading the runs", "looking for slips of the file", "working out the correction"));
   for (const OutputFile& one : result.outputs) EXPECT_EQ(read_file(folder / one.name, 1 << 22), one.bytes);
+}
+
+TEST(CalibrateVerb, LeavesWhatToMeasureNext) {
+  const std::filesystem::path folder = scratch("next") / "out";
+  const std::filesystem::path data = k_rig / "e_one_sweep_only";
+  const CalibrateResult result = calibrate(read_mechanism(data / "spec.toml"), {data / "run_1.csv"}, into(folder));
+  ASSERT_FALSE(result.product.calibration.next.empty());
+  EXPECT_THAT(names(result.outputs), Contains("next/bench.html"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder / "next/bench.html"));
+  const nlohmann::json document = nlohmann::json::parse(read_file(folder / "calibration.json", 1 << 22));
+  const nlohmann::json& first = document["next"][0];
+  EXPECT_EQ(first["kind"], "caliper");
+  EXPECT_EQ(first["key"], "prior.radius_offset_mm");
+  EXPECT_THAT(first["separates"], testing::IsSupersetOf({"radius_offset", "pulley_scale"}));
+  EXPECT_GT(first["minutes"], 0);
+  EXPECT_EQ(first["text"], result.product.calibration.next.front().text());
+  EXPECT_FALSE(first.contains("file"));
+  // Read with a caliper, it is not asked for again.
+  const MechanismFile read = read_mechanism(data / "spec.toml", {{"prior.radius_offset_mm", "[-0.336, 0.005]"}});
+  const CalibrateResult after = calibrate(read, {data / "run_1.csv"}, into(folder));
+  for (const NextMeasurement& next : after.product.calibration.next)
+    EXPECT_THAT(next.words, Not(HasSubstr("radius_offset_mm")));
+}
+
+// Of what decides nothing the plan is left that a joint that was never measured has.
+TEST(CalibrateVerb, RunsThatDecideNothingAskForAPlan) {
+  const std::filesystem::path folder = scratch("still");
+  std::string still = "alpha_deg,theta_deg\n";
+  for (int i = 0; i < 50; ++i) still += "1,2\n";
+  leave(folder / "still.csv", still);
+  const MechanismFile file = read_mechanism(k_rig / "c_backlash/spec.toml");
+  const CalibrateResult result = calibrate(file, {folder / "still.csv"}, into(folder / "out"));
+  EXPECT_EQ(result.product.calibration.verdict, CalibrationVerdict::not_testable);
+  const Plan plan = plan_runs(file.mechanism);
+  ASSERT_EQ(result.product.calibration.next.size(), plan.steps.size());
+  for (std::size_t i = 0; i < plan.steps.size(); ++i)
+    EXPECT_THAT(result.product.calibration.next[i].words, HasSubstr(plan.steps[i].words));
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder / "out/next/run_1.csv"));
+}
+
+TEST(CalibrateVerb, NothingAskedForLeavesNoFolder) {
+  const std::filesystem::path folder = scratch("none_next") / "out";
+  const std::filesystem::path asked = k_rig / "e_one_sweep_only", clear = k_rig / "c_backlash";
+  calibrate(read_mechanism(asked / "spec.toml"), {asked / "run_1.csv"}, into(folder));
+  EXPECT_TRUE(std::filesystem::exists(folder / "next"));
+  const CalibrateResult result = calibrate(read_mechanism(clear / "spec.toml"), runs_in(clear), into(folder));
+  EXPECT_THAT(result.product.calibration.next, testing::IsEmpty());
+  EXPECT_THAT(calibration_json(result.product), HasSubstr("\"next\": []"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "next"));
+}
+
+/// One of each kind, of the forearm, beside run_5.csv.
+CalibrationProduct with_each_kind() {
+  CalibrationProduct product;
+  product.file = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml");
+  product.measurement.runs.resize(2);
+  product.measurement.runs[0].name = "slow.csv";
+  product.measurement.runs[1].name = "run_5.csv";
+  PlannedRun run{.from = radians(-60.0), .to = radians(70.0), .cycles = 3, .speed = radians(12.0), .load = 5};
+  PlannedRun turned = run;
+  turned.load = 0;
+  turned.change = BenchChange::joint_sensor_turned;
+  const Effect& pins = *find_effect("guide_position", JointKind::tendons);
+  product.calibration.next = {next_run(run, run.speed, "N"), next_inspection("tighten it"),
+                              next_reading({&pins.parameters[0], &pins.parameters[1]}),
+                              next_run(turned, run.speed, "N")};
+  product.calibration.next[0].separates = {"tendon_stretch", "creep"};
+  product.calibration.next[0].gain = "tendon_stretch from creep (5 × the uncertainty)";
+  return product;
+}
+
+TEST(NextMeasurements, OfEachKindInTheDocument) {
+  const nlohmann::json next = nlohmann::json::parse(calibration_json(with_each_kind()))["next"];
+  ASSERT_EQ(next.size(), 4u);
+  EXPECT_EQ(next[0]["kind"], "run");
+  EXPECT_EQ(next[0]["file"], "next/run_6.csv");
+  EXPECT_EQ(next[0]["separates"], nlohmann::json({"tendon_stretch", "creep"}));
+  EXPECT_THAT(next[0]["text"].get<std::string>(), HasSubstr("at 5 N: it distinguishes tendon_stretch from creep"));
+  EXPECT_EQ(next[1]["kind"], "inspect");
+  EXPECT_FALSE(next[1].contains("file") || next[1].contains("key"));
+  EXPECT_EQ(next[2]["kind"], "caliper");
+  EXPECT_EQ(next[2]["key"], "prior.EB_mm");
+  EXPECT_EQ(next[2]["keys"], nlohmann::json({"prior.EB_mm", "prior.OE1_mm"}));
+  EXPECT_EQ(next[3]["kind"], "turn_sensor");
+  EXPECT_EQ(next[3]["file"], "next/run_7.csv");
+}
+
+/// θ in the empty column, as by a person.
+std::string filled_in(const std::string& csv, double ratio) {
+  std::istringstream lines(csv);
+  std::string filled;
+  double theta = 0;
+  for (std::string line; std::getline(lines, line); filled += line + "\n") {
+    if (line.empty() || line[0] == '#' || line[0] == 't') continue;
+    std::size_t comma = 0;
+    for (int i = 0; i < 3; ++i) comma = line.find(',', comma) + (i < 2 ? 1 : 0);
+    theta = ratio * std::stod(line.substr(line.find(',') + 1));
+    line.insert(comma + 1, std::to_string(theta));
+  }
+  return filled;
+}
+
+TEST(NextMeasurements, AreReadWhenFilledIn) {
+  const CalibrationProduct product = with_each_kind();
+  const std::filesystem::path folder = scratch("filled");
+  const std::vector<OutputFile> files = next_files(product);
+  ASSERT_THAT(names(files), ElementsAre("next/bench.html", "next/run_6.csv", "next/run_7.csv"));
+  EXPECT_THAT(files[0].bytes, testing::AllOf(HasSubstr("slow.csv run_5.csv run_6.csv run_7.csv"),
+                                             HasSubstr("tighten it"), HasSubstr("hang"), HasSubstr("prior")));
+  std::vector<std::filesystem::path> runs;
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    runs.push_back(folder / std::filesystem::path(files[i].name).filename());
+    leave(runs.back(), filled_in(files[i].bytes, 0.2 + 0.01 * static_cast<double>(i)));
+  }
+  const Measurement read = read_measurement(runs, product.file.mechanism);
+  EXPECT_THAT(read.not_testable, testing::IsEmpty());
+  ASSERT_EQ(read.runs.size(), 2u);
+  EXPECT_NEAR(read.runs[0].mean_load, 5, 1e-9);
+  EXPECT_EQ(read.runs[0].mounting, Mounting{});
+  EXPECT_NEAR(degrees(read.runs[1].mounting.joint_sensor_turned), 90, 1e-9);
+  for (const fusee::Run& run : read.runs) {
+    EXPECT_EQ(run.strokes.size(), 6u);
+    EXPECT_NEAR(run.speed, radians(12.0), 1e-3);
+  }
 }
 
 TEST(CalibrateVerb, WhatIsThrownBeforeWritingLeavesNothing) {

@@ -79,7 +79,7 @@ TEST(RigData, one_sweep_cannot_name_a_cause_alone) {
   EXPECT_GT(found.effects[0].group.size(), 1u);
   EXPECT_TRUE(testing::Matches(Contains("pulley_scale"))(found.effects[0].group) ||
               testing::Matches(Contains("radius_offset"))(found.effects[0].group));
-  EXPECT_FALSE(found.next_runs.empty());
+  EXPECT_FALSE(found.next.empty());
 }
 
 TEST(RigData, what_no_catalogue_holds_stays_unexplained) {

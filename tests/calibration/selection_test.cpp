@@ -210,11 +210,42 @@ TEST(Selection, TellsADelayFromPlayOnlyAtTwoSpeeds) {
   const Calibration one_speed = calibrate(declared, logged(declared, truth, {{0, 1}}));
   EXPECT_EQ(one_speed.verdict, CalibrationVerdict::confounded);
   EXPECT_THAT(all_groups(one_speed), Contains("backlash"));
-  EXPECT_THAT(one_speed.next_runs, Not(IsEmpty()));
+  EXPECT_THAT(one_speed.next, Not(IsEmpty()));
   EXPECT_THAT(one_speed.null_combinations, Not(IsEmpty()));
   const Calibration two_speeds = calibrate(declared, logged(declared, truth, {{0, 1}, {0, 0.2}, {3, 1}}));
   EXPECT_EQ(two_speeds.verdict, CalibrationVerdict::explained);
   EXPECT_THAT(all_groups(two_speeds), testing::ElementsAre("backlash"));
+}
+
+// What turns with a sensor is the sensor's: no caliper and no other run says as much.
+TEST(Selection, AsksToTurnASensorThatMayBeOffCentre) {
+  const DeclaredMechanism declared = bench_joint();
+  Imperfections truth;
+  truth.motor.eccentricity_sin = radians(2);
+  truth.motor.eccentricity_cos = radians(-1);
+  const Calibration found = calibrate(declared, logged(declared, truth, {{0, 1}}));
+  ASSERT_THAT(all_groups(found), Contains("motor_sensor_eccentricity"));
+  ASSERT_GT(all_groups(found).size(), 1u);
+  const auto turned = std::find_if(found.next.begin(), found.next.end(), [](const NextMeasurement& next) {
+    return next.run && next.run->change == BenchChange::motor_sensor_turned;
+  });
+  ASSERT_NE(turned, found.next.end());
+  EXPECT_EQ(turned->kind(), "turn_sensor");
+  EXPECT_THAT(turned->separates, Contains("motor_sensor_eccentricity"));
+  EXPECT_GT(turned->separates.size(), 1u);
+}
+
+TEST(Selection, AsksForNoRunThatWasMeasured) {
+  const DeclaredMechanism declared = bench_joint();
+  Imperfections truth;
+  truth.shaft.backlash = radians(2);
+  const Calibration found = calibrate(declared, logged(declared, truth, {{0, 1}}));
+  ASSERT_FALSE(found.next.empty());
+  for (const NextMeasurement& next : found.next) {
+    const bool is_measured = next.run && next.run->load == 0 && next.run->change == BenchChange::none &&
+                             next.run->dwell == 0 && std::abs(next.run->speed - radians(30)) < radians(3);
+    EXPECT_FALSE(is_measured) << next.words;
+  }
 }
 
 TEST(Selection, ACaliperSplitsAGroup) {

@@ -6,6 +6,7 @@
 #include "calibration/catalogue.h"
 #include "calibration/explanation.h"
 #include "calibration/linear_joint.h"
+#include "calibration/next_measurements.h"
 #include "calibration/thresholds.h"
 #include "fusee/calibration/words.h"
 
@@ -46,8 +47,17 @@ class Concluded : public testing::Test {
     selection.best.effects.clear();
     for (const FoundEffect& effect : calibration.effects)
       selection.best.effects.push_back(find_effect(effect.name, JointKind::tendons));
+    selection.without.resize(calibration.effects.size());
     conclude(evidence, selection, unnamed_beside(evidence, selection.best), calibration);
+    if (calibration.next.empty()) calibration.next = next_measurements(evidence, selection, calibration);
+    summarize(evidence, selection, calibration);
     return calibration.verdict;
+  }
+
+  std::vector<std::string> next_words() const {
+    std::vector<std::string> words;
+    for (const NextMeasurement& next : calibration.next) words.push_back(next.words);
+    return words;
   }
 };
 
@@ -114,7 +124,7 @@ TEST_F(Concluded, WhatIsHardlyAheadOfSomethingWithoutANameIsNotNamedAlone) {
   calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled - 1)};
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "unmodelled"));
-  EXPECT_THAT(calibration.next_runs, testing::Contains("come from both sides"));
+  EXPECT_THAT(next_words(), testing::Contains("come from both sides"));
   EXPECT_THAT(calibration.summary,
               testing::StartsWith("Measure this first: come from both sides. The data are explained by "
                                   "backlash or an unmodelled cause that does the same"));
@@ -124,7 +134,7 @@ TEST_F(Concluded, WhatIsFarAheadOfEverythingWithoutANameIs) {
   leave(1);
   calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled + 1)};
   EXPECT_EQ(verdict(), CalibrationVerdict::explained);
-  EXPECT_THAT(calibration.next_runs, testing::Not(testing::Contains("come from both sides")));
+  EXPECT_THAT(calibration.next, testing::IsEmpty());
 }
 
 TEST_F(Concluded, OneOfSeveralHasToBeFurtherAhead) {
@@ -197,7 +207,7 @@ TEST_F(Concluded, BesideSomethingUnexplainedANameIsOfOneSizeAndDoesMore) {
   }
   EXPECT_THAT(calibration.effects.front().unmodelled.doubt, HasSubstr("of another size from run to run"));
   EXPECT_THAT(calibration.effects.back().unmodelled.doubt, HasSubstr("1.9 times as much as what stays"));
-  EXPECT_THAT(calibration.next_runs, testing::Contains("repeat one run five times"));
+  EXPECT_THAT(next_words(), testing::Contains("repeat one run five times"));
 }
 
 TEST_F(Concluded, WhereAnythingIsLikelierWithoutANameTheOthersNeedMore) {
@@ -241,7 +251,7 @@ TEST_F(Concluded, WhatIsToldByTimeIsUnsureBesideWhatDiffersFromRunToRun) {
 TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {
   leave(1);
   find({{"zero_offset", "motor_offset"}});
-  calibration.next_runs = {"drive the joint to a mark", "something else"};
+  calibration.next = {next_inspection("drive the joint to a mark"), next_inspection("something else")};
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.summary,
               testing::StartsWith("Measure this first: drive the joint to a mark. The data are explained by one of {"));
@@ -262,7 +272,7 @@ TEST_F(Concluded, ARestAboveTheNoiseIsSaidWithItsPlace) {
   EXPECT_GT(calibration.unexplained_rms, 1.5 * k_floor);
   EXPECT_THAT(calibration.unexplained_where, HasSubstr("falling"));
   EXPECT_THAT(calibration.unexplained_where, HasSubstr("57.3°"));
-  EXPECT_THAT(calibration.next_runs.back(), HasSubstr("quarter turn"));
+  EXPECT_THAT(calibration.next.back().words, HasSubstr("quarter turn"));
   EXPECT_THAT(calibration.summary, HasSubstr("° rms are left and noise makes 0.0573° of it"));
 }
 
@@ -300,9 +310,8 @@ TEST_F(Concluded, StrokesThatDoNotRepeatComeFirst) {
       selection.best.residual[static_cast<Eigen::Index>(row)] += block.stroke < 2 ? 3 * k_floor : -3 * k_floor;
   }
   find({{"backlash"}});
-  calibration.next_runs = {"something else"};
   EXPECT_EQ(verdict(), CalibrationVerdict::not_repeatable);
-  EXPECT_THAT(calibration.next_runs.front(), HasSubstr("tighten"));
+  EXPECT_THAT(calibration.next.front().words, HasSubstr("tighten"));
 }
 
 TEST(Verdicts, HaveTheContractsWords) {
@@ -384,7 +393,7 @@ TEST(Effects, ThatACaliperReadsAskForWhatItReads) {
   const std::vector<std::pair<std::string, std::string>> words = {
       {"guide_radius", "diameter with a caliper and write half of it as [prior] guide_radius_mm"},
       {"radius_offset", "write half of what both are too large together (too small: negative)"},
-      {"guide_position", "below the joint's axis the pins lie (above it: negative)"}};
+      {"guide_position", "below the joint's axis the right pin lies (above it: negative) and write [prior] OE2_mm"}};
   for (const auto& [name, expected] : words) {
     const Effect* effect = find_effect(name, JointKind::tendons);
     ASSERT_NE(effect, nullptr);

@@ -17,7 +17,7 @@ OUTPUTS = {"calibration.json", "corrected.toml", "compensation.csv", "report.htm
 RIG = harness.SOURCE / "tests/data/rig"
 # Every key of the document, whatever the verdict.
 KEYS = {
-    "": {"schema", "verdict", "effects", "noise_floor_deg", "before", "after", "held_out", "unexplained_rms_deg", "detectable", "next_runs", "iso230", "correctable"},
+    "": {"schema", "verdict", "effects", "noise_floor_deg", "before", "after", "held_out", "unexplained_rms_deg", "detectable", "next", "iso230", "correctable"},
     "before": {"rms_deg", "max_deg", "held_out_rms_deg"},
     "after": {"rms_deg", "max_deg", "held_out_rms_deg"},
     "held_out": {"factors", "runs"},
@@ -98,7 +98,12 @@ class Calibrate(harness.Scratch):
         for detectable in document["detectable"]:
             self.assertEqual(set(detectable), {"name", "smallest_deg"})
             self.assert_numbers(detectable["smallest_deg"], detectable["name"])
-        for texts in [document["next_runs"], document["held_out"]["factors"], document["held_out"]["runs"], document["null_combinations"]]:
+        for measurement in document["next"]:
+            self.assertTrue(measurement["kind"] and measurement["text"])
+            self.assertEqual("file" in measurement, measurement["kind"] in ("run", "turn_sensor"), measurement)
+            self.assert_numbers(measurement["minutes"], measurement["text"])
+            self.assertTrue(all(isinstance(name, str) for name in measurement["separates"]))
+        for texts in [document["held_out"]["factors"], document["held_out"]["runs"], document["null_combinations"]]:
             self.assertTrue(all(isinstance(text, str) and text for text in texts))
         self.assertTrue(document["summary"].strip())
 

@@ -70,7 +70,9 @@ class Scratch(unittest.TestCase):
         return self.files(folder)
 
     def files(self, folder):
-        return {path.name: Content(path.read_bytes()) for path in sorted((self.folder / folder).iterdir())}
+        """Bytes by name, of subfolders as "next/bench.html"."""
+        top = self.folder / folder
+        return {path.relative_to(top).as_posix(): Content(path.read_bytes()) for path in sorted(top.rglob("*")) if path.is_file()}
 
 
 def main():

@@ -15,8 +15,10 @@ namespace {
 namespace fs = std::filesystem;
 
 void leave(const std::vector<OutputFile>& outputs, const fs::path& folder) {
-  fs::create_directories(folder);
-  for (const OutputFile& file : outputs) write_file(folder / file.name, file.bytes, true);
+  for (const OutputFile& file : outputs) {
+    fs::create_directories((folder / file.name).parent_path());
+    write_file(folder / file.name, file.bytes, true);
+  }
 }
 
 /// Hashes are left only of whole verbs: those of a few runs are no file to accept.

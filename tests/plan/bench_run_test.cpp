@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "fusee/mechanism/fields.h"
 #include "joint/sensors.h"
+#include "support/mechanisms.h"
 
 namespace fusee {
 namespace {
@@ -87,20 +89,47 @@ TEST(TurnedEncoder, OfTheJointToo) {
     EXPECT_NEAR(error(theta, turned(sensor, turn)), error(theta + turn, sensor) - error(turn, sensor), 1e-15);
 }
 
-TEST(Ranking, PutsTheMostTellingFirst) {
-  std::vector<RankedMeasurement> all = {
-      {"none", 1, {0.5, 0.9}}, {"wide", 1, {9, 0.1}}, {"both", 1, {1.1, 1.2}}, {"wider", 1, {10, 0}}};
-  rank(all);
-  EXPECT_EQ(all[0].words, "both");
-  EXPECT_EQ(all[1].words, "wider");
-  EXPECT_EQ(all[2].words, "wide");
-  EXPECT_EQ(all[3].told(), 0u);
+TEST(NextMeasurement, OfEachKind) {
+  const NextMeasurement run = next_run(k_run, k_run.speed, "N");
+  EXPECT_EQ(run.kind(), "run");
+  EXPECT_EQ(run.words, "drive 3 cycles, slow, at 5 N");
+  EXPECT_GT(run.minutes, minutes_of(k_run)) << "the load has to be hung on";
+  PlannedRun turned = k_run;
+  turned.change = BenchChange::joint_sensor_turned;
+  EXPECT_EQ(next_run(turned, k_run.speed, "N").kind(), "turn_sensor");
+  EXPECT_GT(next_run(turned, k_run.speed, "N").minutes, run.minutes);
+  const EffectParameter& pin = find_effect("guide_radius", JointKind::tendons)->parameters.front();
+  EXPECT_EQ(next_reading({&pin}).kind(), "caliper");
+  EXPECT_EQ(next_reading({&pin}).words, pin.by_hand.words);
+  EXPECT_DOUBLE_EQ(next_reading({&pin, &pin}).minutes, 2 * next_reading({&pin}).minutes);
+  const NextMeasurement inspection = next_inspection("tighten it");
+  EXPECT_EQ(inspection.kind(), "inspect");
+  EXPECT_EQ(inspection.text(), "tighten it");
+  EXPECT_GT(inspection.minutes, 0);
+}
+
+// What is asked for can be written into the file, and is not asked for again.
+TEST(UnreadNumbers, AreReadFromTheirKeys) {
+  for (const EffectParameter* number : unread_numbers(testing::forearm())) {
+    DeclaredMechanism joint = testing::forearm();
+    const Field* field = find_field(number->by_hand.key);
+    ASSERT_NE(field, nullptr) << number->by_hand.key;
+    EXPECT_THAT(std::string(number->by_hand.words), HasSubstr("[prior] " + std::string(field->key)));
+    const auto value = [&](double written) {
+      field->numbers(joint) = {written, 0.5};
+      const std::vector<CaliperReading> readings = number->by_hand.readings(joint);
+      EXPECT_EQ(readings.size(), 1u) << field->key;
+      EXPECT_GT(readings.back().uncertainty, 0) << field->key;
+      return readings.back().value;
+    };
+    EXPECT_NE(value(2), value(1)) << field->key;
+    EXPECT_THAT(unread_numbers(joint), Not(::testing::Contains(number)));
+  }
 }
 
 TEST(BenchChanges, HaveWords) {
   EXPECT_THAT(words(BenchChange::none), IsEmpty());
-  for (const BenchChange change : {BenchChange::motor_sensor_turned, BenchChange::joint_sensor_turned,
-                                   BenchChange::doubled_pretension, BenchChange::on_its_side})
+  for (const BenchChange change : {BenchChange::motor_sensor_turned, BenchChange::joint_sensor_turned})
     EXPECT_THAT(words(change), Not(IsEmpty()));
 }
 

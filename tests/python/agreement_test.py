@@ -122,7 +122,11 @@ class Agreement(harness.Scratch):
         found = fusee.calibrate(self.arm, RUNS, "mine", audit=False)
         self.same_files(found.files, "theirs")
         self.same_files(found.files, "mine")
-        self.assertEqual(found.verdict, json.loads((self.folder / "theirs/calibration.json").read_text())["verdict"])
+        said = json.loads((self.folder / "theirs/calibration.json").read_text())
+        self.assertEqual(found.verdict, said["verdict"])
+        self.assertEqual([next.kind for next in found.next], [next["kind"] for next in said["next"]])
+        self.assertEqual(found.next[0].keys, (said["next"][0]["key"],))
+        self.assertEqual(found.next[0].separates, tuple(said["next"][0]["separates"]))
         self.assertEqual(found.corrected, fusee.read("theirs/corrected.toml"))
         self.assertEqual(len(found.residuals), 3)
         for run in found.residuals:

@@ -190,15 +190,17 @@ std::vector<std::filesystem::path> write_case(const Case& made, const std::files
   return runs;
 }
 
-Judgement calibrate_case(const Case& made, const std::filesystem::path& folder,
-                         const std::vector<std::string>& without) {
+Answer calibrate_case(const Case& made, const std::filesystem::path& folder, const std::vector<std::string>& without) {
   const std::vector<std::filesystem::path> runs = write_case(made, folder);
   const DeclaredMechanism declared = read_mechanism(folder / "spec.toml").mechanism;
   Measurement measurement = read_measurement(runs);
   compare_with_declared(declared, measurement);
   CalibrationOptions options;
   options.without = without;
-  return judge(made, calibrate(declared, measurement, options), without);
+  Answer answer;
+  answer.found = calibrate(declared, measurement, options);
+  answer.judgement = judge(made, answer.found, without);
+  return answer;
 }
 
 Bounds wilson(const Rate& rate) {

@@ -44,9 +44,14 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
 
 /// Its files; returns the runs.
 std::vector<std::filesystem::path> write_case(const Case& made, const std::filesystem::path& folder);
-/// Writes them, and calibrates what is read back.
-Judgement calibrate_case(const Case& made, const std::filesystem::path& folder,
-                         const std::vector<std::string>& without = {});
+/// What calibration makes of a case.
+struct Answer {
+  Calibration found;
+  Judgement judgement;
+};
+/// Writes its files, and calibrates what is read back.
+Answer calibrate_case(const Case& made, const std::filesystem::path& folder,
+                      const std::vector<std::string>& without = {});
 
 /// A share that was counted.
 struct Rate {

@@ -125,7 +125,7 @@ TEST(Judge, LeftOutEffectIsNeverReported) {
   const Case lash = make_case({"backlash", {"backlash"}}, 1, {Protocol::full});
   const auto folder = std::filesystem::path(::testing::TempDir()) / "left_out";
   const auto said = [&](const std::vector<std::string>& without) {
-    const std::string words = calibrate_case(lash, folder, without).words;
+    const std::string words = calibrate_case(lash, folder, without).judgement.words;
     return words.substr(words.find(':'));
   };
   EXPECT_THAT(said({}), HasSubstr("backlash"));

@@ -20,6 +20,7 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/mechanism/file.h"
+#include "rig/follow.h"
 #include "rig/judge.h"
 
 namespace fusee::rig {
@@ -39,6 +40,8 @@ constexpr const char* k_usage =
   --leave-out NAME  joints that have this effect, calibrated by a catalogue that does not; all: each in turn
   --protocol NAME   full: five runs; single: one unloaded run; random: any (full; random with --joints)
   --any-groove      the groove's friction is drawn from 0.05 to 0.5 while the file says 0.2 (always with --joints)
+  --follow N        then makes what is asked for first, and calibrates again, up to N times: how many faults stand
+                    alone before and after
   --csv DIR         leaves spec.toml, runs and truth.json of each joint there
   --no-calibration  makes the data alone
   --jobs N          joints at work at once (2)
@@ -73,6 +76,7 @@ struct Request {
   std::string leave_out;
   std::optional<Protocol> protocol;
   bool any_groove = false;
+  std::size_t follow = 0;
   std::string csv;
   bool no_calibration = false;
   bool list = false;
@@ -154,6 +158,7 @@ const std::map<std::string, Reader> k_options = {{"--seeds", number_into(&Reques
                                                  {"--first", number_into(&Request::first)},
                                                  {"--joints", number_into(&Request::joints)},
                                                  {"--jobs", number_into(&Request::jobs, 1)},
+                                                 {"--follow", number_into(&Request::follow)},
                                                  {"--most-missed", number_into(&Request::most_missed)},
                                                  {"--most-lost", number_into(&Request::most_lost)},
                                                  {"--most-blamed", number_into(&Request::most_blamed)},
@@ -236,9 +241,38 @@ std::string folder_name(const Job& job) {
   return name;
 }
 
+/// A job's judgements: before anything that was asked for was made, and after each that was.
+using Followed = std::vector<Judgement>;
+
+/// The first measurement that the rig can make, made. False where it can make none.
+bool perform_first(const std::vector<NextMeasurement>& asked, Case& made, std::string& words) {
+  for (const NextMeasurement& next : asked) {
+    if (!perform(next, made)) continue;
+    words += "\n    " + std::string(next.kind()) + ": " + next.text();
+    return true;
+  }
+  return false;
+}
+
+Followed followed(Case made, const Job& job, const Request& request, const std::filesystem::path& folder,
+                  std::string& words) {
+  Answer answer = calibrate_case(made, folder, job.without);
+  Followed all = {answer.judgement};
+  words = answer.judgement.words;
+  while (all.size() <= request.follow && perform_first(answer.found.next, made, words)) {
+    answer = calibrate_case(made, folder, job.without);
+    all.push_back(answer.judgement);
+    words += "\n    " + answer.judgement.words;
+  }
+  if (!job.row.empty()) {
+    for (Judgement& one : all) one.truth = job.row;
+  }
+  return all;
+}
+
 /// Request::jobs at work; the answers in the order of the jobs.
-std::vector<Judgement> work(const std::vector<Job>& jobs, const Request& request, const std::filesystem::path& folder) {
-  std::vector<std::optional<Judgement>> answers(jobs.size());
+std::vector<Followed> work(const std::vector<Job>& jobs, const Request& request, const std::filesystem::path& folder) {
+  std::vector<Followed> answers(jobs.size());
   std::atomic<std::size_t> next = 0;
   std::size_t done = 0;
   std::mutex console;
@@ -249,9 +283,7 @@ std::vector<Judgement> work(const std::vector<Job>& jobs, const Request& request
                                 request.joint ? &*request.joint : nullptr};
       const Case made = make_case(jobs[i].truth, jobs[i].seed, options);
       if (!request.no_calibration) {
-        answers[i] = calibrate_case(made, folder / folder_name(jobs[i]), jobs[i].without);
-        words = answers[i]->words;
-        if (!jobs[i].row.empty()) answers[i]->truth = jobs[i].row;
+        answers[i] = followed(made, jobs[i], request, folder / folder_name(jobs[i]), words);
       } else {
         write_case(made, folder / folder_name(jobs[i]));
         words = folder_name(jobs[i]);
@@ -269,11 +301,8 @@ std::vector<Judgement> work(const std::vector<Job>& jobs, const Request& request
   for (std::size_t i = 1; i < request.jobs; ++i) others.emplace_back(worker);
   worker();
   for (std::thread& other : others) other.join();
-  std::vector<Judgement> all;
-  for (std::optional<Judgement>& answer : answers) {
-    if (answer) all.push_back(std::move(*answer));
-  }
-  return all;
+  std::erase_if(answers, [](const Followed& answer) { return answer.empty(); });
+  return answers;
 }
 
 /// Emptied and removed in the end.
@@ -300,6 +329,32 @@ int list(const Request& request) {
   for (const Truth& truth : request.joint ? wide_truths(*request.joint) : all_truths())
     std::printf("%s\n", truth.name.c_str());
   return 0;
+}
+
+/// As they were after so many measurements, or after their last.
+std::vector<Judgement> judged_after(const std::vector<Followed>& all, std::size_t measurements) {
+  std::vector<Judgement> judgements;
+  for (const Followed& one : all) judgements.push_back(one[std::min(measurements, one.size() - 1)]);
+  return judgements;
+}
+
+std::string followed_table(const std::vector<Followed>& all, std::size_t follow) {
+  std::string text =
+      "| measurements that were asked for | joints that made them | named faults alone | of | held | wrong alone |\n"
+      "|--:|--:|--:|--:|--:|--:|\n";
+  for (std::size_t n = 0; n <= follow; ++n) {
+    std::size_t made = 0, alone = 0, named = 0, held = 0, wrong = 0;
+    for (const Followed& one : all) made += one.size() > n ? 1 : 0;
+    for (const Judgement& one : judged_after(all, n)) {
+      alone += one.alone;
+      named += one.named;
+      held += one.held;
+      wrong += one.wrong_alone > 0 ? 1 : 0;
+    }
+    for (const std::size_t count : {n, made, alone, named, held, wrong}) text += "| " + std::to_string(count) + " ";
+    text += "|\n";
+  }
+  return text + "\n";
 }
 
 /// The matrix with what it is made of; whether it is as good as was asked for.
@@ -330,9 +385,11 @@ int run(const std::vector<std::string>& words) {
   const std::vector<Job> jobs = jobs_of(*request);
   std::optional<ScratchFolder> scratch;
   if (request->csv.empty()) scratch.emplace();
-  const std::vector<Judgement> all =
+  const std::vector<Followed> answers =
       work(jobs, *request, scratch ? scratch->path() : std::filesystem::path(request->csv));
   if (request->no_calibration) return 0;
+  if (request->follow > 0) std::fputs(followed_table(answers, request->follow).c_str(), stdout);
+  const std::vector<Judgement> all = judged_after(answers, request->follow);
   const bool fine = report(all, *request);
   // Not every protocol shows every fault: those are left out.
   if (all.empty() || (protocol_of(*request) == Protocol::full && all.size() < jobs.size())) return 1;

@@ -109,18 +109,20 @@ class Noise {
 class Session {
  public:
   Session(const MadeJoint& joint, const Hidden& hidden, const SensorPlan& sensors, const MotionPlan& motion)
-      : hidden_(hidden),
+      : as_mounted_(hidden),
+        hidden_(hidden),
         sensors_(sensors),
         motion_(motion),
         low_(motion.reach * joint.alpha_min),
         high_(motion.reach * joint.alpha_max),
         bench_(joint, hidden),
-        drive_(hidden, high_ - low_),
+        drive_(hidden_, high_ - low_),
         reading_(hidden.reading),
         load_(hidden.load) {}
 
   Log run(const RunPlan& plan) {
     const Way way = planned_way(plan, motion_, low_, high_);
+    hidden_ = with_turned_sensors(as_mounted_, plan);
     begin(first_load(plan));
     Log log = sensed(way, follow(way));
     time_ += way.back().time + motion_.pause;
@@ -196,12 +198,7 @@ class Session {
   }
 
   /// The joint's sensor, but for noise.
-  double shown(double theta, const Moment& now) {
-    return hidden_.zero + (1.0 + hidden_.gain) * theta +
-           wave(hidden_.joint_eccentricity, 1, theta, hidden_.joint_eccentricity_phase) +
-           wave(hidden_.joint_harmonic, hidden_.joint_harmonic_order, theta, hidden_.joint_harmonic_phase) +
-           hidden_.interpolation * std::sin(hidden_.interpolation_per_turn * theta) + reading_(now);
-  }
+  double shown(double theta, const Moment& now) { return shown_by_joint_sensor(hidden_, theta) + reading_(now); }
   Log sensed(const Way& way, const Followed& followed) {
     const Track late = hidden_.lag_filter > 0 ? filtered(followed.track, hidden_.lag_filter) : followed.track;
     Noise noise(sensors_, at_.run);
@@ -221,7 +218,8 @@ class Session {
     return log;
   }
 
-  const Hidden& hidden_;
+  const Hidden& as_mounted_;
+  Hidden hidden_;
   const SensorPlan& sensors_;
   const MotionPlan& motion_;
   double low_, high_;
@@ -260,6 +258,21 @@ MadeJoint made_of_several_turns(const DeclaredMechanism& declared) {
 
 }  // namespace
 
+Hidden with_turned_sensors(Hidden hidden, const RunPlan& plan) {
+  hidden.motor_eccentricity_phase += plan.motor_turned;
+  hidden.motor_harmonic_phase += hidden.motor_harmonic_order * plan.motor_turned;
+  hidden.joint_eccentricity_phase += plan.joint_turned;
+  hidden.joint_harmonic_phase += hidden.joint_harmonic_order * plan.joint_turned;
+  return hidden;
+}
+
+double shown_by_joint_sensor(const Hidden& hidden, double theta) {
+  return hidden.zero + (1.0 + hidden.gain) * theta +
+         wave(hidden.joint_eccentricity, 1, theta, hidden.joint_eccentricity_phase) +
+         wave(hidden.joint_harmonic, hidden.joint_harmonic_order, theta, hidden.joint_harmonic_phase) +
+         hidden.interpolation * std::sin(hidden.interpolation_per_turn * theta);
+}
+
 MadeJoint make_joint(const DeclaredMechanism& declared) {
   SynthesisOptions options;
   options.tolerance = 2e-5;
@@ -278,14 +291,22 @@ std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const st
   return logs;
 }
 
-std::string csv_text(const Log& log, bool temperature) {
-  std::string text =
-      temperature ? "time_s,alpha_deg,theta_deg,load_N,temperature_C\n" : "time_s,alpha_deg,theta_deg,load_N\n";
+std::string csv_text(const Log& log, bool temperature, const RunPlan& plan) {
+  std::string header = "time_s,alpha_deg,theta_deg,load_N", mounting;
+  if (temperature) header += ",temperature_C";
+  const auto turned = [&](const char* column, double angle) {
+    if (angle == 0) return;
+    header += std::string(",") + column;
+    mounting += "," + shortest(degrees(angle));
+  };
+  turned("motor_sensor_turned_deg", plan.motor_turned);
+  turned("joint_sensor_turned_deg", plan.joint_turned);
+  std::string text = header + "\n";
   for (const Row& row : log) {
     text += fixed(row.time, 4) + "," + fixed(degrees(row.alpha), 4) + "," + fixed(degrees(row.theta), 5) + "," +
             shortest(row.load);
     if (temperature) text += "," + fixed(row.temperature, 2);
-    text += "\n";
+    text += mounting + "\n";
   }
   return text;
 }

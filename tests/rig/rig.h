@@ -116,6 +116,9 @@ struct Hidden {
   bool operator==(const Hidden&) const = default;
 };
 
+/// With its sensors turned as in `plan`, their zeros set again.
+Hidden with_turned_sensors(Hidden hidden, const RunPlan& plan);
+
 struct SensorPlan {
   double noise = radians(0.02);  ///< standard deviation
   double colour = 0;             ///< lag-1 autocorrelation of the noise
@@ -158,7 +161,11 @@ MadeJoint make_joint(const DeclaredMechanism& declared);
 std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs,
                           const SensorPlan& sensors = {}, const MotionPlan& motion = {});
 
-/// As a bench would have written it: time_s, alpha_deg, theta_deg, load_N and, if asked for, temperature_C.
-std::string csv_text(const Log& log, bool temperature = false);
+/// As a bench would have written it: time_s, alpha_deg, theta_deg, load_N, if asked for temperature_C, and how far the
+/// sensors were turned, where they were.
+std::string csv_text(const Log& log, bool temperature = false, const RunPlan& plan = {});
+
+/// What the joint's sensor shows at `theta`, but for its delay, noise and actions.
+double shown_by_joint_sensor(const Hidden& hidden, double theta);
 
 }  // namespace fusee::rig

@@ -286,7 +286,8 @@ std::vector<std::pair<std::string, std::string>> files_of(const Case& made) {
   std::vector<std::pair<std::string, std::string>> files = {{"spec.toml", write_mechanism(made.joint.declared)},
                                                             {"truth.json", truth_json(made)}};
   for (std::size_t run = 0; run < made.logs.size(); ++run) {
-    files.emplace_back("run_" + std::to_string(run + 1) + ".csv", csv_text(made.logs[run], made.sensors.temperature));
+    files.emplace_back("run_" + std::to_string(run + 1) + ".csv",
+                       csv_text(made.logs[run], made.sensors.temperature, made.plans[run]));
   }
   return files;
 }

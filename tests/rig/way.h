@@ -23,6 +23,8 @@ struct RunPlan {
   Manner manner = Manner::strokes;
   std::vector<double> levels = {};  ///< loads: of cycle after cycle in strokes; at every hold of a staircase
   int holds = 6;                    ///< places in a staircase, or at either end
+  double motor_turned = 0;          ///< the motor's sensor on its shaft since home was set, rad
+  double joint_turned = 0;          ///< the joint's sensor on its axis, the same
 };
 
 /// How all runs are made.

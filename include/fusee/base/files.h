@@ -32,7 +32,7 @@ std::string sha256(std::string_view bytes);
 
 class Staging;
 
-/// One file to be left behind: its name inside the output folder and its bytes.
+/// One file to be left behind: its name inside the output folder, or "folder/name" within that, and its bytes.
 struct OutputFile {
   std::string name;
   std::string bytes;
@@ -79,7 +79,9 @@ class OutputFolder {
  private:
   void learn_ours();
   void open_staging();
-  bool is_obsolete(const std::filesystem::path& file) const;
+  bool is_obsolete(const std::filesystem::path& folder, const std::string& name) const;
+  std::set<std::string> subfolders() const;
+  void remove_empty_subfolders() const;
   bool link_others() const;
   bool publish_as_folder(std::vector<Diagnostic>& notes);
   void publish_one_by_one();

@@ -12,6 +12,7 @@
 #include "fusee/joint/simulate.h"
 #include "fusee/measurement/measurement.h"
 #include "fusee/mechanism/effect.h"
+#include "fusee/plan/bench_run.h"
 
 namespace fusee {
 
@@ -189,7 +190,7 @@ struct Calibration {
   std::string unexplained_where;  ///< where in α, which direction, load, harmonic
   std::vector<Detectable> detectable;
   std::vector<std::string> null_combinations;  ///< accepted effects and rivals that do as well, with their numbers
-  std::vector<std::string> next_runs;          ///< the best first
+  std::vector<NextMeasurement> next;           ///< the most decisive first
   Iso230 iso_before, iso_after;
 };
 

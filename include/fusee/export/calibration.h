@@ -25,6 +25,15 @@ struct CalibrationProduct {
 };
 
 std::string calibration_json(const CalibrationProduct& product);
+/// The measurements to make next, for the bench: a page and the run files, "next/run_6.csv". None where nothing is asked
+/// for.
+std::vector<OutputFile> next_files(const CalibrationProduct& product);
+/// Of calibration.next[i]: "next/run_6.csv", numbered after the runs that were read; "" where it is no run.
+std::string next_file_name(const CalibrationProduct& product, std::size_t i);
+/// The number of the first run file of a plan beside runs of these names: one more than the largest of "run_5.csv".
+int first_free_run(const std::vector<std::string>& names);
+/// Names of next_files() with so many runs.
+std::vector<std::string> next_file_names(int first_run, int runs);
 std::string calibration_report_html(const CalibrationProduct& product);
 /// Names the files beside it, so that the next run knows them as ours.
 std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs);
@@ -68,6 +77,8 @@ std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const
 /// What the table covers of what has no name and where that holds, or why it does not; "" where nothing is without a
 /// name.
 std::string curve_words(const CalibrationProduct& product);
+/// Of every measurement to make next, the most decisive first.
+std::vector<std::string> next_texts(const Calibration& calibration);
 /// Of every slip that would explain the data, slip_words().
 std::vector<std::string> slips_words(const CalibrationProduct& product);
 /// Of notes that say the same of many files, two and how many more.

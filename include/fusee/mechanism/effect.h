@@ -53,12 +53,20 @@ struct CaliperReading {
   double uncertainty = 0;  ///< standard
 };
 
+/// What a number is read with.
+enum class HandTool { caliper, dial_gauge, mark, motor_sensor, protractor, ruler };
+std::string_view word(HandTool tool);  ///< "dial_gauge"
+
 /// How a number can be read by hand.
 struct ByHand {
   std::string_view words;  ///< what to measure and what to write; empty: it cannot
   double uncertainty = 0;  ///< of such a reading, as a rule
-  /// What [prior] of the file says of the number; null where it has no key for it.
+  /// What [prior] of the file says of the number.
   std::vector<CaliperReading> (*readings)(const DeclaredMechanism& declared) = nullptr;
+  std::string_view key = {};  ///< of the file, into which it is written: "prior.guide_radius_mm"
+  HandTool tool = HandTool::caliper;
+  /// The reading of a joint, where other numbers than its own are in it too; null: the number itself.
+  double (*read)(const Imperfections& joint, const Mechanism& declared) = nullptr;
 };
 
 /// What a number below and above zero says of the joint, where its sign alone does not: "both pulleys too small".
@@ -100,6 +108,9 @@ double prior_of(const EffectParameter& parameter, double largest_load);
 bool is_idle(const EffectParameter& parameter, const Imperfections& joint);
 /// As reported, of that joint.
 double shown_value(const EffectParameter& parameter, const Imperfections& joint, const Mechanism& declared);
+
+/// What a person would read by hand of a number of `joint`.
+double reading_by_hand(const EffectParameter& parameter, const Imperfections& joint, const Mechanism& declared);
 
 /// The number of `joint` that a parameter is.
 double value_of(const Imperfections& joint, const EffectParameter& parameter);

@@ -280,6 +280,7 @@ struct RatioTransmission {
 struct Prior {
   std::vector<double> EB, ED, OE, EF, guide_radius, length, radius_offset, pulley_scale, modulus;
   std::vector<double> drum_radius, attachment1_across, attachment1_along, attachment2_across, attachment2_along;
+  std::vector<double> OE1, OE2, motor_offset, backlash, runout_x, runout_y, guide_give, zero, gain;
 
   bool operator==(const Prior&) const = default;
 };

@@ -3,6 +3,7 @@
 /// what `fusee calibrate` says to measure next.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,17 +21,9 @@ enum class BenchChange {
   none,
   motor_sensor_turned,  ///< a quarter turn against the pulley, home set again
   joint_sensor_turned,  ///< a quarter turn against the joint, home set again
-  doubled_pretension,
-  on_its_side,  ///< the joint's axis upright: its weight does not turn it
 };
 /// "turn the joint's encoder on its axis by a quarter turn"; "" for none.
 std::string_view words(BenchChange change);
-/// The joint and what it is not, with that changed.
-struct ChangedJoint {
-  Mechanism declared;
-  Imperfections at;
-};
-ChangedJoint changed(const Mechanism& declared, const Imperfections& at, BenchChange change);
 /// How the encoders are mounted then.
 Mounting mounting_of(BenchChange change);
 
@@ -47,28 +40,37 @@ struct PlannedRun {
 
 /// Time under way and held, min.
 double minutes_of(const PlannedRun& run);
+/// What hanging its load on and turning its sensor there and back takes beside, min.
+double setup_minutes_of(const PlannedRun& run);
 /// "3 slow cycles at 5 N": `slow` is the pace that is called so.
 std::string words(const PlannedRun& run, double slow, const std::string& load_unit);
 /// Rows evenly over every stroke, `rows_a_stroke` each, and over every dwell.
 BenchRun driven(const PlannedRun& run, int rows_a_stroke);
 
-/// Something to measure, whichever kind: what the person reads, and how well it tells apart each of some pairs of
-/// explanations: 1 is just told.
-struct RankedMeasurement {
-  std::string words;
-  double minutes = 0;
-  std::vector<double> margins;
+/// A measurement that would distinguish causes that the runs so far do not.
+struct NextMeasurement {
+  std::optional<PlannedRun> run;                 ///< to drive …
+  std::vector<const EffectParameter*> readings;  ///< … or numbers of one effect to read by hand; neither: see `words`
+  std::string words;                             ///< what to do
+  std::string gain;                    ///< "backlash from creep (4 × the uncertainty)"; "" where that is not known
+  std::vector<std::string> separates;  ///< names of effects, "unmodelled" among them
+  double minutes = 0;                  ///< with what has to be changed on the bench for it
 
-  std::size_t told() const;
-  double most() const;
+  /// "run", "turn_sensor", the tool of a reading as "caliper", or "inspect".
+  std::string_view kind() const;
+  std::string text() const;  ///< `words` and `gain` as a sentence
 };
-/// The most telling first: most pairs, then the widest margin. Of equals the earlier one.
-void rank(std::vector<RankedMeasurement>& measurements);
+/// Of a run: its words and minutes. `slow`, `load_unit`: as in words().
+NextMeasurement next_run(const PlannedRun& run, double slow, const std::string& load_unit);
+/// Of readings of one effect, at least one.
+NextMeasurement next_reading(const std::vector<const EffectParameter*>& readings);
+/// Of anything else.
+NextMeasurement next_inspection(const std::string& words);
 
 /// Root mean square of what two simulations of the same rows differ by, rad; rows without an angle do not count.
 double rms_apart(const std::vector<std::vector<double>>& one, const std::vector<std::vector<double>>& other);
 
-/// Numbers of the joint that can be read by hand, of all effects that it can have.
-std::vector<const EffectParameter*> hand_readable(const Mechanism& declared);
+/// Numbers of the joint that can be read by hand and that [prior] does not have yet, of all effects that it can have.
+std::vector<const EffectParameter*> unread_numbers(const DeclaredMechanism& declared);
 
 }  // namespace fusee

@@ -75,6 +75,7 @@ struct Plan {
   double slow = 0;                   ///< rad/s
   double from = 0, to = 0;           ///< of the motor, rad
   std::string load_unit = "N";
+  int first_run = 1;  ///< number of the first run's file
 };
 
 /// The joint's law must exist over its range. What cannot be done in the minutes given is a plan without steps.

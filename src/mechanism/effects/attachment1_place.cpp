@@ -25,13 +25,13 @@ Effect attachment1_place(JointKind) {
           key::plain("attachment1_across_mm", "mm", -10000, 10000, "added to the first number of joint.attachment1_mm"),
           {"measure how far to the right of the joint's axis tendon 1 is tied at home and write [prior] "
            "attachment1_across_mm",
-           k_caliper, across1_by_caliper},
+           k_caliper, across1_by_caliper, "prior.attachment1_across_mm"},
           {"tendon 1 is tied further left", "tendon 1 is tied further right"}),
       attachment_part("along_mm", [](Imperfections& at) -> double& { return at.joint.end1.along; },
                       key::plain("attachment1_along_mm", "mm", -10000, 10000, "added to its second number"),
                       {"measure how far along the link from the joint's axis tendon 1 is tied and write [prior] "
                        "attachment1_along_mm",
-                       k_caliper, along1_by_caliper},
+                       k_caliper, along1_by_caliper, "prior.attachment1_along_mm"},
                       {"tendon 1 is tied nearer to the axis", "tendon 1 is tied further along"})};
   return effect;
 }

@@ -39,7 +39,7 @@ Effect drum_radius(JointKind) {
        .key = key::plain("drum_radius_mm", "mm", -500, 500, "added to joint.drum_radius_mm"),
        .again = WhenFoundAgain::added,
        .by_hand = {"measure the drum's diameter with a caliper and write half of it as [prior] drum_radius_mm",
-                   k_caliper, drum_by_caliper},
+                   k_half_diameter, drum_by_caliper, "prior.drum_radius_mm"},
        .sign = {"drum smaller than declared", "drum larger than declared"}}};
   return effect;
 }

@@ -1,6 +1,16 @@
 #include "fusee/mechanism/effect.h"
+#include "mechanism/effects/by_hand.h"
 
 namespace fusee {
+namespace {
+
+constexpr double k_dial = 1e-4;  // a dial gauge's 0.005 mm under 50 N, mm/N
+
+std::vector<CaliperReading> give_by_dial(const DeclaredMechanism& declared) {
+  return hand_reading_in(declared.prior.guide_give, 1.0);
+}
+
+}  // namespace
 
 Effect frame_compliance(JointKind) {
   Effect effect;
@@ -19,7 +29,11 @@ Effect frame_compliance(JointKind) {
                         .prior = 0.005,  // a printed bracket of some centimetres: 50 to 1000 N/mm
                         .shown = shown::as_is,
                         .key = key::plain("guide_give_mm_per_N", "mm_per_N", 0, 10,
-                                          "each pin moves by this along the tendon's force on it")}};
+                                          "each pin moves by this along the tendon's force on it"),
+                        .by_hand = {"hold a dial gauge against a guide pin, hang the load on the joint, and write how "
+                                    "far the pin moves per newton of the tendon's force on it as [prior] "
+                                    "guide_give_mm_per_N",
+                                    k_dial, give_by_dial, "prior.guide_give_mm_per_N", HandTool::dial_gauge}}};
   effect.starts = {{0.002}, {0.02}};
   return effect;
 }

@@ -34,7 +34,7 @@ Effect guide_radius(JointKind) {
        .key = key::plain("guide_radius_mm", "mm", -500, 500, "added to guides.radius_mm"),
        .again = WhenFoundAgain::added,
        .by_hand = {"measure the guide pins' diameter with a caliper and write half of it as [prior] guide_radius_mm",
-                   k_caliper, radius_by_caliper},
+                   k_half_diameter, radius_by_caliper, "prior.guide_radius_mm"},
        .sign = {"pins thinner than declared", "pins thicker than declared"}}};
   return effect;
 }

@@ -32,7 +32,7 @@ Effect joint_length(JointKind) {
        .key = key::plain("length_mm", "mm", -10000, 10000, "added to joint.length_mm"),
        .again = WhenFoundAgain::added,
        .by_hand = {"measure from the joint's axis to the tendons' attachment and write [prior] length_mm", k_caliper,
-                   length_by_caliper},
+                   length_by_caliper, "prior.length_mm"},
        .sign = {"shorter than declared", "longer than declared"}}};
   return effect;
 }

@@ -1,9 +1,31 @@
+#include <cmath>
+
 #include "fusee/mechanism/effect.h"
+#include "mechanism/effects/by_hand.h"
 
 namespace fusee {
 namespace {
 
-constexpr double k_square = 0.005;  // of the gain, by a square
+constexpr double k_protractor = 0.002;  // of the gain, by three readings of 0.1 degrees at both ends of 45 degrees
+
+std::vector<CaliperReading> gain_by_protractor(const DeclaredMechanism& declared) {
+  return hand_reading_in(declared.prior.gain, 0.01);
+}
+
+/// Between both ends of the range the sensor's waves are in what it shows too.
+double shown_too_much(const Imperfections& joint, const Mechanism& declared) {
+  const JointSensorError& error = joint.sensor;
+  const double low = declared.joint.theta_min, high = declared.joint.theta_max;
+  if (!(high > low)) return error.gain;
+  const auto wave = [](double theta, double sin_part, double cos_part) {
+    return sin_part * std::sin(theta) + cos_part * std::cos(theta);
+  };
+  const auto shown = [&](double theta) {
+    return wave(theta, error.eccentricity_sin, error.eccentricity_cos) +
+           wave(error.wave_order * theta, error.wave_sin, error.wave_cos);
+  };
+  return error.gain + (shown(high) - shown(low)) / (high - low);
+}
 
 }  // namespace
 
@@ -13,7 +35,7 @@ Effect joint_sensor_gain(JointKind) {
   effect.place = ChainPlace::joint_sensor;
   effect.rank = 2;
   effect.signature = "in proportion to theta, whichever way and load";
-  effect.separating_run = "read the joint's sensor against a square at two angles";
+  effect.separating_run = "hold the joint at both ends of its range against a protractor";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {};
   effect.parameters = {
@@ -25,7 +47,10 @@ Effect joint_sensor_gain(JointKind) {
        .prior = 0.02,  // potentiometers and linear Hall sensors; an encoder has none
        .shown = shown::in_percent,
        .key = key::in_percent("gain_percent", -99, 1000, "by how much the joint sensor shows too much"),
-       .by_hand = {"read the joint's sensor against a square at two angles", k_square},
+       .by_hand =
+           {"hold the joint at both ends of its range against a protractor and write what its sensor shows too much "
+            "between them, in percent, as [prior] gain_percent",
+            k_protractor, gain_by_protractor, "prior.gain_percent", HandTool::protractor, shown_too_much},
        .sign = {"it shows too little", "it shows too much"}}};
   return effect;
 }

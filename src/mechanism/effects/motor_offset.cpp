@@ -1,6 +1,16 @@
 #include "fusee/mechanism/effect.h"
+#include "mechanism/effects/by_hand.h"
 
 namespace fusee {
+namespace {
+
+constexpr double k_pulley_mark = radians(0.2);  // how well a person sets a pulley to a mark, three times
+
+std::vector<CaliperReading> motor_offset_by_mark(const DeclaredMechanism& declared) {
+  return hand_reading_in(declared.prior.motor_offset, radians(1.0));
+}
+
+}  // namespace
 
 Effect motor_offset(JointKind) {
   Effect effect;
@@ -19,7 +29,10 @@ Effect motor_offset(JointKind) {
                         .prior = radians(2.0),  // a spline tooth is 14 degrees, a mark by eye 1 to 2
                         .shown = shown::in_degrees,
                         .key = key::in_degrees("motor_offset_deg", -360, 360,
-                                               "the shaft stands this much further than the motor sensor shows")}};
+                                               "the shaft stands this much further than the motor sensor shows"),
+                        .by_hand = {"turn the motor until the pulley's mark stands at home and write what the motor's "
+                                    "sensor shows too little there as [prior] motor_offset_deg",
+                                    k_pulley_mark, motor_offset_by_mark, "prior.motor_offset_deg", HandTool::mark}}};
   return effect;
 }
 

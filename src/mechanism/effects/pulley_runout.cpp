@@ -1,6 +1,19 @@
 #include "fusee/mechanism/effect.h"
+#include "mechanism/effects/by_hand.h"
 
 namespace fusee {
+namespace {
+
+constexpr double k_hub = 0.03;  // a dial gauge on a printed hub, mm
+
+std::vector<CaliperReading> runout_x_by_dial(const DeclaredMechanism& declared) {
+  return hand_reading_in(declared.prior.runout_x, 1.0);
+}
+std::vector<CaliperReading> runout_y_by_dial(const DeclaredMechanism& declared) {
+  return hand_reading_in(declared.prior.runout_y, 1.0);
+}
+
+}  // namespace
 
 Effect pulley_runout(JointKind) {
   Effect effect;
@@ -20,7 +33,11 @@ Effect pulley_runout(JointKind) {
        .prior = 0.3,  // a printed bore over a shaft with its play and set screw
        .shown = shown::as_is,
        .key = key::plain("runout_x_mm", "mm", -100, 100, "centre of the made curves off the axis, at home"),
-       .again = WhenFoundAgain::added},
+       .again = WhenFoundAgain::added,
+       .by_hand =
+           {"hold a dial gauge against the hub, turn the pulley once, and write how far the hub's centre stands to "
+            "the right of its axis at home as [prior] runout_x_mm",
+            k_hub, runout_x_by_dial, "prior.runout_x_mm", HandTool::dial_gauge}},
       {.name = "y_mm",
        .number = [](Imperfections& at) -> double& { return at.pulley.outline.runout_y; },
        .least = -2,
@@ -29,7 +46,10 @@ Effect pulley_runout(JointKind) {
        .prior = 0.3,  // a printed bore over a shaft with its play and set screw
        .shown = shown::as_is,
        .key = key::plain("runout_y_mm", "mm", -100, 100, "the same across"),
-       .again = WhenFoundAgain::added}};
+       .again = WhenFoundAgain::added,
+       .by_hand = {"hold a dial gauge against the hub, turn the pulley once, and write how far the hub's centre stands "
+                   "above its axis at home as [prior] runout_y_mm",
+                   k_hub, runout_y_by_dial, "prior.runout_y_mm", HandTool::dial_gauge}}};
   return effect;
 }
 

@@ -4,7 +4,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_of_a_diameter = 0.003;  // of a print's size, by a caliper
+constexpr double k_of_a_diameter = 0.0015;  // of a print's size, by three readings of 0.1 mm in 40 mm
 
 std::vector<CaliperReading> by_diameters(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.pulley_scale, 1);
@@ -33,7 +33,7 @@ Effect pulley_scale(JointKind) {
        .again = WhenFoundAgain::compounded,
        .by_hand =
            {"measure two diameters of the print with a caliper and write measured per drawn as [prior] pulley_scale",
-            k_of_a_diameter, by_diameters},
+            k_of_a_diameter, by_diameters, "prior.pulley_scale"},
        .sign = {"both pulleys too small", "both pulleys too large"}}};
   return effect;
 }

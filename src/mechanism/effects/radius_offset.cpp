@@ -4,6 +4,8 @@
 namespace fusee {
 namespace {
 
+constexpr double k_two_diameters = 0.02;  // of half the sum of both, mm
+
 std::vector<CaliperReading> offset_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.radius_offset, 0);
 }
@@ -33,7 +35,7 @@ Effect radius_offset(JointKind) {
        .by_hand =
            {"measure the diameter of the pulley's groove floor and of the tendon with a caliper and write half of "
             "what both are too large together (too small: negative) as [prior] radius_offset_mm",
-            k_caliper, offset_by_caliper},
+            k_two_diameters, offset_by_caliper, "prior.radius_offset_mm"},
        .sign = {"both pulleys too small", "both pulleys too large"}}};
   return effect;
 }

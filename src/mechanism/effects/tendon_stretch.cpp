@@ -7,6 +7,8 @@ double section(double stretch, const Mechanism& declared) {
   return section_stiffness(declared.tendon) / (1.0 + stretch);
 }
 
+constexpr double k_metre = 0.1;  // of a compliance of once or twice the declared one, by a ruler
+
 std::vector<CaliperReading> by_modulus(const DeclaredMechanism& declared) {
   const std::vector<double>& modulus = declared.prior.modulus;
   if (modulus.size() != 2 || !(modulus[0] > 0)) return {};
@@ -39,17 +41,20 @@ Effect tendon_stretch(JointKind kind) {
                                                  "of a joint declared by a ratio: turned by a unit of load")}};
     return effect;
   }
-  effect.parameters = {{.name = "EA_N",
-                        .number = [](Imperfections& at) -> double& { return at.tendon.stretch; },
-                        .least = -0.9,
-                        .most = 60,
-                        .step = 0.01,
-                        .prior = 1,  // catalogue moduli of braids are known to a factor of two
-                        .shown = section,
-                        .key = key::plain("stretch", "", -0.999, 1e+06,
-                                          "the tendon's compliance beyond the declared one, per the declared one"),
-                        .again = WhenFoundAgain::compounded,
-                        .by_hand = {"", 0, by_modulus}}};
+  effect.parameters = {
+      {.name = "EA_N",
+       .number = [](Imperfections& at) -> double& { return at.tendon.stretch; },
+       .least = -0.9,
+       .most = 60,
+       .step = 0.01,
+       .prior = 1,  // catalogue moduli of braids are known to a factor of two
+       .shown = section,
+       .key = key::plain("stretch", "", -0.999, 1e+06,
+                         "the tendon's compliance beyond the declared one, per the declared one"),
+       .again = WhenFoundAgain::compounded,
+       .by_hand = {"pull a metre of the tendon with the largest load, measure how much longer it gets, and "
+                   "write the modulus as [prior] modulus_MPa",
+                   k_metre, by_modulus, "prior.modulus_MPa", HandTool::ruler}}};
   effect.starts = {{0.5}, {2.0}, {10.0}};
   return effect;
 }

@@ -1,9 +1,14 @@
 #include "fusee/mechanism/effect.h"
+#include "mechanism/effects/by_hand.h"
 
 namespace fusee {
 namespace {
 
-constexpr double k_mark = radians(0.2);  // how well a person sets a joint to a mark
+constexpr double k_mark = radians(0.1);  // how well a person sets a joint to a mark, three times
+
+std::vector<CaliperReading> zero_by_mark(const DeclaredMechanism& declared) {
+  return hand_reading_in(declared.prior.zero, radians(1.0));
+}
 
 }  // namespace
 
@@ -16,15 +21,17 @@ Effect zero_offset(JointKind) {
   effect.separating_run = "drive the joint to a mechanical stop or mark at home and read both sensors there";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true};
-  effect.parameters = {{.name = "offset_deg",
-                        .number = [](Imperfections& at) -> double& { return at.sensor.zero; },
-                        .least = -0.35,
-                        .most = 0.35,
-                        .step = 1e-3,
-                        .prior = radians(2.0),  // a magnet glued on, a mark by eye
-                        .shown = shown::in_degrees,
-                        .key = key::in_degrees("zero_deg", -360, 360, "what the joint sensor shows at theta = 0"),
-                        .by_hand = {"drive the joint to a mark at home and read its sensor there", k_mark}}};
+  effect.parameters = {
+      {.name = "offset_deg",
+       .number = [](Imperfections& at) -> double& { return at.sensor.zero; },
+       .least = -0.35,
+       .most = 0.35,
+       .step = 1e-3,
+       .prior = radians(2.0),  // a magnet glued on, a mark by eye
+       .shown = shown::in_degrees,
+       .key = key::in_degrees("zero_deg", -360, 360, "what the joint sensor shows at theta = 0"),
+       .by_hand = {"drive the joint to a mark at home and write what its sensor shows there as [prior] zero_deg",
+                   k_mark, zero_by_mark, "prior.zero_deg", HandTool::mark}}};
   return effect;
 }
 

@@ -490,6 +490,18 @@ class ErrorFigures(Value):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class NextMeasurement(Value):
+    """A measurement that would distinguish causes that these runs do not."""
+
+    kind: str  #: "run", "turn_sensor", the tool of a reading as "caliper", or "inspect"
+    text: str
+    separates: Tuple[str, ...]  #: names of effects, "unmodelled" among them
+    minutes: float
+    file: str  #: of `files`: rows to drive and to fill in; "" for what is no run
+    keys: Tuple[str, ...]  #: of the mechanism file: where what was read by hand is written
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Calibration(Documented):
     """What is off, why, and a better file. Data that decide nothing are a verdict."""
 
@@ -500,7 +512,7 @@ class Calibration(Documented):
     before: ErrorFigures
     after: ErrorFigures
     unexplained_rms_deg: float
-    next_runs: Tuple[str, ...]
+    next: Tuple[NextMeasurement, ...]  #: the most decisive first
     residuals: Tuple[Residual, ...]
     corrected: Optional[Mechanism]  #: the declared one with what was found, for build(); None where nothing was found that rows left out confirm
     json: str = dataclasses.field(repr=False)

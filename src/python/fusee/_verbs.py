@@ -367,7 +367,7 @@ def calibrate(
     made["noise_floor_deg"] = _known(said.get("noise_floor_deg"))
     made["before"], made["after"] = (_figures(said.get(name) or {}) for name in ("before", "after"))
     made["unexplained_rms_deg"] = _known(said.get("unexplained_rms_deg"))
-    made["next_runs"] = tuple(str(run) for run in said.get("next_runs", ()))
+    made["next"] = tuple(_next(measurement) for measurement in said.get("next", ()))
     file = made["files"].get("corrected.toml")
     corrected = None if file is None else _reread(mechanism, file.decode())
     return _values.Calibration(json=document, corrected=corrected, **_with_values(made))
@@ -383,6 +383,11 @@ def _figures(said: Row) -> _values.ErrorFigures:
 
 def _interval(ends: abc.Sequence[Optional[float]]) -> Tuple[float, float]:
     return _known(ends[0]), _known(ends[1])
+
+
+def _next(said: Row) -> _values.NextMeasurement:
+    keys = said.get("keys") or ([said["key"]] if "key" in said else [])
+    return _values.NextMeasurement(said["kind"], said["text"], tuple(said["separates"]), _known(said["minutes"]), said.get("file", ""), tuple(keys))
 
 
 def _effect(said: Row) -> _values.Effect:

@@ -1,0 +1,358 @@
+#include "calibration/next_measurements.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/explanation.h"
+#include "calibration/thresholds.h"
+#include "fusee/base/text.h"
+#include "fusee/joint/joint_effects.h"
+#include "fusee/joint/simulate.h"
+#include "fusee/plan/plan.h"
+#include "measurement/seen_span.h"
+
+// Each proposal is simulated with what was found and with what may be there in its place, as each was fitted. A
+// proposal is made only if its result can be given to calibrate: a run with its columns, a number with a key of [prior].
+
+namespace fusee {
+namespace {
+
+constexpr std::size_t k_most_proposals = 4;
+constexpr double k_lever_load = 0.3;    // of the pretension, as a tip force
+constexpr double k_slow_stroke = 15.0;  // s, where no time was logged
+constexpr int k_rows_a_stroke = 60;
+/// Of a pace that is clearly another one.
+constexpr double k_faster = 5.0, k_slower = 0.1;
+constexpr double k_long_dwell = 60.0;  // s: nearly two decades of creep
+/// A margin that is wider decides no better: the shorter measurement comes first then.
+constexpr double k_wide = 3.0;
+/// Of the margin that distinguishes: less is not worth the minutes.
+constexpr double k_least_told = 0.6;
+
+const Run& longest(const Measurement& measurement) {
+  return *std::max_element(measurement.runs.begin(), measurement.runs.end(),
+                           [](const Run& a, const Run& b) { return a.samples.size() < b.samples.size(); });
+}
+
+double largest_load(const Evidence& evidence) {
+  double most = 0;
+  for (const Run& run : evidence.measurement.runs) {
+    for (const Sample& sample : run.samples) most = std::max(most, run.has_load ? std::abs(sample.load) : 0.0);
+  }
+  if (most > 0 || evidence.declared->transmission) return most;
+  return std::max(1.0, std::round(k_lever_load * evidence.declared->tendon.pretension));
+}
+
+/// The strokes that were measured, without load.
+PlannedRun as_before(const Measurement& measurement) {
+  const Run& run = longest(measurement);
+  const SeenSpan seen = seen_span(measurement, &Sample::alpha);
+  PlannedRun before{.from = seen.least, .to = seen.most};
+  before.speed = run.has_time && run.speed > 0 ? run.speed : seen.size() / k_slow_stroke;
+  return before;
+}
+
+/// Whether a run at about this pace and under about this load was measured.
+bool was_measured(const PlannedRun& run, const Measurement& measurement) {
+  constexpr double k_alike = 0.2;
+  if (run.change != BenchChange::none || run.dwell > 0) return false;
+  return std::any_of(measurement.runs.begin(), measurement.runs.end(), [&](const Run& known) {
+    const double load = known.has_load ? known.mean_load : 0.0;
+    const bool is_load = std::abs(load - run.load) <= k_alike * std::max(std::abs(load), std::abs(run.load));
+    const bool is_pace = !known.has_time || std::abs(known.speed - run.speed) <= k_alike * run.speed;
+    return is_load && is_pace;
+  });
+}
+
+/// What could be driven next and was not yet, beginning from what was.
+std::vector<PlannedRun> proposals(const Evidence& evidence) {
+  const PlannedRun before = as_before(evidence.measurement);
+  const double load = largest_load(evidence);
+  std::vector<PlannedRun> all;
+  const auto add = [&](auto change) {
+    PlannedRun run = before;
+    change(run);
+    if (!was_measured(run, evidence.measurement)) all.push_back(run);
+  };
+  for (const double times : {1.0, -1.0, 2.0}) {
+    if (load > 0) add([=](PlannedRun& run) { run.load = times * load; });
+  }
+  add([](PlannedRun&) {});
+  if (longest(evidence.measurement).has_time) {
+    add([](PlannedRun& run) { run.speed *= k_faster; });
+    add([](PlannedRun& run) { run.speed *= k_slower, run.cycles = 1; });
+    add([=](PlannedRun& run) { run.load = load, run.cycles = 2, run.dwell = k_long_dwell; });
+  }
+  if (evidence.declared->transmission) return all;
+  for (const BenchChange change : {BenchChange::motor_sensor_turned, BenchChange::joint_sensor_turned})
+    add([=](PlannedRun& run) { run.change = change; });
+  return all;
+}
+
+/// What may be there in the place of an effect that was found.
+struct Alternative {
+  const Effect* found = nullptr;
+  std::string name;                   ///< of the group's member
+  const Imperfections* at = nullptr;  ///< with that in its place; where it was not fitted with nothing there
+  bool is_fitted = false;
+};
+
+/// The member of a group as it was fitted in the place of what was found; null where it was not.
+const Rival* fitted_in_place(const Selection& selection, const Effect& found, const std::string& member) {
+  const auto rival = std::find_if(selection.rivals.begin(), selection.rivals.end(), [&](const Rival& known) {
+    return known.accepted == &found && known.rival->name == member && known.fit.usable;
+  });
+  return rival == selection.rivals.end() ? nullptr : &*rival;
+}
+
+std::vector<Alternative> alternatives(const Selection& selection, const std::vector<FoundEffect>& effects) {
+  std::vector<Alternative> all;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const Effect* found = selection.best.effects[i];
+    for (const std::string& member : effects[i].group) {
+      if (member == found->name) continue;
+      if (const Rival* rival = fitted_in_place(selection, *found, member)) {
+        all.push_back({found, member, &rival->fit.at, true});
+      } else if (selection.without[i].usable) {
+        all.push_back({found, member, &selection.without[i].at, false});
+      }
+    }
+  }
+  return all;
+}
+
+/// A proposal with the margin by which it distinguishes each alternative: 1 is just distinguished.
+struct Proposal {
+  NextMeasurement next;
+  std::vector<double> margins;
+};
+
+class Proposals {
+ public:
+  Proposals(const Evidence& evidence, const Selection& selection, const std::vector<Alternative>& others)
+      : evidence_(evidence), found_(selection.best.at), others_(others) {
+    for (const PlannedRun& run : proposals(evidence)) add(run);
+    const std::vector<const EffectParameter*> unread = unread_numbers(*evidence.declared);
+    for (const Effect* effect : effects_of(*evidence.declared)) {
+      std::vector<const EffectParameter*> numbers;
+      for (const EffectParameter* number : unread) {
+        const auto is = [&](const EffectParameter& own) { return &own == number; };
+        if (std::any_of(effect->parameters.begin(), effect->parameters.end(), is)) numbers.push_back(number);
+      }
+      if (!numbers.empty()) add(numbers);
+    }
+  }
+
+  /// The best first, each for an alternative that those before it leave.
+  std::vector<NextMeasurement> best() {
+    std::vector<NextMeasurement> chosen;
+    std::vector<bool> left(others_.size(), true);
+    while (chosen.size() < k_most_proposals) {
+      const auto next = std::max_element(all_.begin(), all_.end(), [&](const Proposal& one, const Proposal& other) {
+        return is_worse(one, other, left);
+      });
+      if (next == all_.end() || told(*next, left) == 0) break;
+      describe(*next);
+      for (std::size_t i = 0; i < left.size(); ++i) left[i] = left[i] && next->margins[i] < 1;
+      chosen.push_back(next->next);
+      all_.erase(next);
+    }
+    return chosen;
+  }
+
+ private:
+  std::vector<std::vector<double>> shown(const Imperfections& at, const PlannedRun& run) const {
+    return predict(*evidence_.declared, at, {driven(run, k_rows_a_stroke)});
+  }
+
+  /// What both differ by in the run, beyond what they differ by in the slow one without load: there the data are said by
+  /// both, with a curve of the place beside either. An unmodelled cause may follow any load and pace.
+  double rms_from(const Alternative& other, const PlannedRun& run) const {
+    if (!other.is_fitted && run.change == BenchChange::none) return 0;
+    PlannedRun before = run;
+    before.load = 0;
+    before.change = BenchChange::none;
+    before.speed = as_before(evidence_.measurement).speed;
+    const auto found = shown(found_, run), instead = shown(*other.at, run);
+    auto expected = shown(found_, before);
+    const auto instead_before = shown(*other.at, before);
+    for (std::size_t k = 0; k < expected.front().size(); ++k)
+      expected.front()[k] = instead.front()[k] + expected.front()[k] - instead_before.front()[k];
+    return rms_apart(found, expected);
+  }
+
+  /// Strokes repeat one another: noise of their mean counts.
+  void add(const PlannedRun& run) {
+    const auto found = shown(found_, run);
+    const auto stands = [](double angle) { return std::isfinite(angle); };
+    if (!std::all_of(found.front().begin(), found.front().end(), stands)) return;
+    const double noise = evidence_.floor / std::sqrt(2.0 * run.cycles);
+    const std::string unit = evidence_.declared->transmission ? evidence_.measurement.load_unit : "N";
+    Proposal proposal{next_run(run, as_before(evidence_.measurement).speed, unit), {}};
+    for (const Alternative& other : others_)
+      proposal.margins.push_back(rms_from(other, run) / noise / k_thresholds.told_apart);
+    all_.push_back(std::move(proposal));
+  }
+
+  /// Readings by hand distinguish those that give a number different values.
+  void add(const std::vector<const EffectParameter*>& numbers) {
+    Proposal proposal{next_reading(numbers), {}};
+    for (const Alternative& other : others_) {
+      double squares = 0;
+      for (const EffectParameter* number : numbers) {
+        const double apart = reading_by_hand(*number, found_, *evidence_.declared) -
+                             reading_by_hand(*number, *other.at, *evidence_.declared);
+        squares += std::pow(apart / number->by_hand.uncertainty, 2);
+      }
+      proposal.margins.push_back(std::sqrt(squares) / k_thresholds.told_apart);
+    }
+    all_.push_back(std::move(proposal));
+  }
+
+  /// Of the alternatives that are left those that it distinguishes, half told ones in part.
+  static double told(const Proposal& proposal, const std::vector<bool>& left) {
+    double sum = 0;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      if (left[i] && proposal.margins[i] >= k_least_told) sum += std::min(1.0, proposal.margins[i]);
+    }
+    return sum;
+  }
+
+  /// More alternatives, then the wider of their narrowest margins, then fewer minutes.
+  static bool is_worse(const Proposal& one, const Proposal& other, const std::vector<bool>& left) {
+    const double sum = told(one, left), other_sum = told(other, left);
+    if (sum != other_sum) return sum < other_sum;
+    const auto narrowest = [&](const Proposal& proposal) {
+      double least = k_wide;
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        if (left[i] && proposal.margins[i] >= k_least_told) least = std::min(least, proposal.margins[i]);
+      }
+      return least;
+    };
+    const double margin = narrowest(one), other_margin = narrowest(other);
+    return margin != other_margin ? margin < other_margin : one.next.minutes > other.next.minutes;
+  }
+
+  void describe(Proposal& proposal) const {
+    const Effect* named = nullptr;
+    std::string told;
+    const auto separate = [&](const std::string& name) {
+      std::vector<std::string>& names = proposal.next.separates;
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+      if (proposal.margins[i] < k_least_told) continue;
+      const double apart = proposal.margins[i] * k_thresholds.told_apart;
+      const std::string unit = told.empty() ? " × the uncertainty)" : " ×)";
+      told += told.empty() ? "" : ", ";
+      if (others_[i].found != named) told += others_[i].found->name + " from ";
+      named = others_[i].found;
+      told += (others_[i].name == k_unmodelled ? "an unmodelled cause" : others_[i].name) + " (" +
+              rounded(std::min(apart, 999.0), 2) + unit;
+      separate(others_[i].found->name);
+      separate(others_[i].name);
+    }
+    proposal.next.gain = told;
+  }
+
+  const Evidence& evidence_;
+  const Imperfections& found_;
+  const std::vector<Alternative>& others_;
+  std::vector<Proposal> all_;
+};
+
+/// Of a held point: from where it was come to.
+struct Sides {
+  double alpha = 0;
+  bool rising = false, falling = false;
+};
+
+std::vector<Sides> held_points(const Measurement& measurement) {
+  const SeenSpan seen = seen_span(measurement, &Sample::alpha);
+  std::vector<Sides> points;
+  for (const Run& run : measurement.runs) {
+    if (!is_from_point_to_point(run)) continue;
+    for (const Stretch& stretch : run.stretches) {
+      const bool is_first = &stretch == &run.stretches.front();  // where it came from was not logged
+      if (!stretch.held || is_first) continue;
+      const double alpha = run.samples[stretch.first].alpha;
+      auto point = std::find_if(points.begin(), points.end(), [&](const Sides& known) {
+        return std::abs(known.alpha - alpha) <= k_one_stand * seen.size();
+      });
+      if (point == points.end()) point = points.insert(points.end(), {alpha});
+      const int direction = run.strokes[stretch.stroke].direction;
+      point->rising = point->rising || direction > 0;
+      point->falling = point->falling || direction < 0;
+    }
+  }
+  return points;
+}
+
+/// Where a run sweeps there and back; nothing where it does not.
+SeenSpan swept_both_ways(const Run& run) {
+  const auto goes = [&](int direction) {
+    return std::any_of(run.strokes.begin(), run.strokes.end(),
+                       [&](const Stroke& stroke) { return !stroke.partial && stroke.direction == direction; });
+  };
+  if (is_from_point_to_point(run) || !goes(1) || !goes(-1)) return {};
+  return seen_span(run.samples, &Sample::alpha);
+}
+
+void ask(const std::string& words, std::vector<NextMeasurement>& next) {
+  const auto is = [&](const NextMeasurement& one) { return one.words == words; };
+  if (!words.empty() && std::none_of(next.begin(), next.end(), is)) next.push_back(next_inspection(words));
+}
+
+}  // namespace
+
+void ask_for_both_sides(const Measurement& measurement, std::vector<NextMeasurement>& next) {
+  std::vector<Sides> points = held_points(measurement);
+  for (const Run& run : measurement.runs) {
+    const SeenSpan swept = swept_both_ways(run);
+    std::erase_if(points, [&](const Sides& p) { return p.alpha >= swept.least && p.alpha <= swept.most; });
+  }
+  const auto both = std::count_if(points.begin(), points.end(), [](const Sides& p) { return p.rising && p.falling; });
+  if (2 * static_cast<std::size_t>(both) >= points.size()) return;
+  ask("come to each held point from both sides, up the range and down again: from one side alone play and friction "
+      "look like an error of the place",
+      next);
+}
+
+std::vector<NextMeasurement> planned_measurements(const DeclaredMechanism& declared) {
+  const Plan plan = plan_runs(declared);
+  // A law that does not exist over the range moves nothing.
+  if (!(plan.slow > 0))
+    return {next_inspection(
+        "several strokes both ways over the whole range, slowly, at no load and at two loads, and one run faster")};
+  std::vector<NextMeasurement> next;
+  for (const PlanStep& step : plan.steps) {
+    next.push_back(step.run ? next_run(*step.run, plan.slow, plan.load_unit) : next_reading({step.reading}));
+    next.back().separates = step.sees;
+  }
+  return next;
+}
+
+std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const Selection& selection,
+                                               const Calibration& calibration) {
+  const std::vector<Alternative> others = alternatives(selection, calibration.effects);
+  std::vector<NextMeasurement> next;
+  if (!others.empty()) next = Proposals(evidence, selection, others).best();
+  // Nothing that can be simulated distinguishes them: what each effect itself asks for.
+  if (next.empty()) {
+    for (const Rival* rival : rivals_as_good(evidence, selection)) ask(rival->rival->separating_run, next);
+  }
+  for (const FoundEffect& effect : calibration.effects) {
+    if (effect.group.back() == k_unmodelled) ask(effect.unmodelled.separating_run, next);
+  }
+  if (calibration.verdict == CalibrationVerdict::not_repeatable) {
+    next.insert(next.begin(),
+                next_inspection("tighten what can be loose and repeat one run five times without touching anything"));
+  } else if (calibration.verdict == CalibrationVerdict::unexplained) {
+    ask("turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run: what moves with it is the "
+        "pulley's",
+        next);
+  }
+  return next;
+}
+
+}  // namespace fusee
