@@ -1,4 +1,4 @@
-// What a person reads first of a calibration: what the joint does wrong, why, and what to do now.
+// The first lines of a calibration: what the joint does wrong, why, and what to do now.
 
 #include <algorithm>
 #include <array>
@@ -117,7 +117,7 @@ CandidateWords candidate_words(const std::string& name, const std::vector<Fitted
 
 bool may_be_unmodelled(const FoundEffect& effect) { return effect.group.back() == k_unmodelled; }
 
-/// What else may be there, in the order of the group.
+/// Other candidates, in the order of the group.
 std::vector<CandidateWords> other_candidates(const FoundEffect& effect, const std::string& load_unit) {
   std::vector<CandidateWords> others;
   for (const std::string& member : rivals_of(effect)) {

@@ -1,4 +1,4 @@
-// What a comparison of two states leaves behind: words, comparison.json, manifest.json, report.html.
+// Outputs of a comparison of two states: words, comparison.json, manifest.json, report.html.
 
 #include "fusee/export/comparison.h"
 

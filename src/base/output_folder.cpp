@@ -175,7 +175,7 @@ bool OutputFolder::is_obsolete(const fs::path& folder, const std::string& name) 
   return contains(withdrawn_, name) && is_unchanged(ours_, folder, name);
 }
 
-/// Of earlier runs and of this one.
+/// Subfolders of earlier runs and of this one.
 std::set<std::string> OutputFolder::subfolders() const {
   Subfolders all = subfolders_of(ours_);
   for (const std::string& name : staged_) add_subfolder(name, all);

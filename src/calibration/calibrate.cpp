@@ -164,7 +164,7 @@ std::vector<std::string> runs_of(const Evidence& evidence, const Fold& fold) {
   return names;
 }
 
-/// What a correction is measured by: the runs that were kept for validation, or whole runs left out in turn. A lone run
+/// Rows that a correction is measured by: the runs that were kept for validation, or whole runs left out in turn. A lone run
 /// is judged by the numbers that its strokes were validated with.
 std::vector<LeftOut> left_out(const Evidence& evidence, const Estimate& estimate, const std::vector<std::string>& kept,
                               const Imperfections& identified) {

@@ -25,7 +25,7 @@ void keep_order(const Imperfections& before, Effect& effect) {
   }
 }
 
-/// What may shrink is looked for from below too.
+/// A number that may shrink is looked for from below too.
 void add_opposite_starts(Effect& effect) {
   const std::vector<std::vector<double>> starts = effect.starts;
   for (std::vector<double> start : starts) {

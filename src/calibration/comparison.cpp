@@ -50,7 +50,7 @@ StateChange change_of(const FoundEffect& effect, const DeclaredMechanism& declar
     const double was = part_in_use(*number, before) * shown_value(*number, before, declared);
     const double part = part_in_use(*number, after);
     ChangedParameter own{fitted.name, was, part * fitted.value, part * fitted.low - was, part * fitted.high - was};
-    // What is gone altogether is as uncertain as it was.
+    // A cause that is gone altogether is as uncertain as it was.
     const FittedParameter* fitted_before = find_fitted(comparison.before, effect.name, fitted.name);
     if (fitted_before != nullptr && value_of(after, *number) <= number->least)
       own.low = own.after - fitted_before->high, own.high = own.after - fitted_before->low;

@@ -7,11 +7,11 @@
 #include "calibration/held_out.h"
 #include "calibration/thresholds.h"
 
-// Beside something without a name the summit says what the numbers are, and leaves to what has no name what that may
-// explain as well. What a file hands over is to foretell: where runs that were left out are foretold better by numbers
-// of least squares, nothing speaks for the others, nor for an interval that does not hold them. Of a group one member
-// is there, and perhaps another beside it: where they are foretold better still by both, both are handed over, and the
-// group stays a group. What a pulley would take out is not handed over so: nobody cuts metal for a perhaps.
+// Beside an unmodelled cause the likeliest numbers leave to it all that it may explain as well. A file is to predict:
+// where runs that were left out are predicted better by numbers of least squares, nothing speaks for the others, nor
+// for an interval that does not hold them. One member of a group is there, and perhaps another beside it: where both
+// predict better still, both are handed over, and the group stays a group. A correction that a pulley would make is not
+// handed over so: metal is not cut for a perhaps.
 
 namespace fusee {
 namespace {
@@ -49,7 +49,7 @@ EffectSet perhaps_beside(const Selection& selection) {
   return all;
 }
 
-/// Of the set, or with one effect more: the one that foretells best.
+/// The set, or one with an effect more, whichever predicts best.
 Fit best_by_squares(Workers& workers, const Selection& selection) {
   Fit best = workers.one().by_squares(selection.best);
   const EffectSet perhaps = perhaps_beside(selection);
@@ -121,7 +121,7 @@ Validated validated(const Evidence& evidence, Workers& workers, const Measuremen
       return answer;
     }
     if (rows.worse_at(answer.made.estimate).empty()) return answer;
-    // What the discrepancy had taken from the numbers, or given to them, is theirs where nothing stands beside them.
+    // The part that the discrepancy had taken from the numbers, or given to them, is theirs where nothing stands beside them.
     Delivered alone = by_squares(evidence, best_by_squares(workers, selection), answer.unnamed);
     const std::string where = alone.estimate.fit.usable ? rows.worse_at(alone.estimate) : "all rows";
     if (where.empty()) {

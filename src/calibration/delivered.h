@@ -20,7 +20,7 @@ struct Delivered {
 /// `unnamed`: beside selection.best.
 Delivered delivered(const Evidence& evidence, Workers& workers, const Selection& selection, const Unnamed& unnamed);
 
-/// What is reported.
+/// The answer that is reported.
 struct Validated {
   Estimate declared;  ///< before
   Delivered made;

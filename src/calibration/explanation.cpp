@@ -12,7 +12,7 @@
 namespace fusee {
 namespace {
 
-/// Of each number of a fit: whatever else may be there, and if nothing else is.
+/// Intervals of each number of a fit: whatever else may be there, and if nothing else is.
 struct Ranges {
   std::vector<ConfidenceInterval> overall, if_only;
 };
@@ -70,7 +70,7 @@ double rms_drop(const Selection& selection, std::size_t place) {
   return std::max(0.0, std::sqrt(before.by_factor.mean_square) - std::sqrt(selection.best.by_factor.mean_square));
 }
 
-/// The same as a part of the mean square that the declared joint leaves.
+/// That fall as a part of the mean square that the declared joint leaves.
 double share(const Selection& selection, std::size_t place) {
   const double all = selection.none.by_factor.mean_square, best = selection.best.by_factor.mean_square;
   const Fit& others = selection.without[place];

@@ -15,7 +15,7 @@ namespace fusee {
 std::vector<ConfidenceInterval> intervals(const Fit& fit, double overstated = 1.0);
 /// Of `selection.best`, wider by what is not known of the other effects, and by as much as evidence is overstated.
 std::vector<ConfidenceInterval> intervals(const Selection& selection);
-/// The same if the effects of `selection.best` are all there is: by as much wider as evidence is overstated.
+/// Intervals if the effects of `selection.best` are all there is: by as much wider as evidence is overstated.
 std::vector<ConfidenceInterval> intervals_if_only(const Selection& selection);
 
 }  // namespace fusee

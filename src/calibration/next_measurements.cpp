@@ -21,12 +21,12 @@ constexpr std::size_t k_most_proposals = 4;
 constexpr double k_lever_load = 0.3;    // of the pretension, as a tip force
 constexpr double k_slow_stroke = 15.0;  // s, where no time was logged
 constexpr int k_rows_a_stroke = 60;
-/// Of a pace that is clearly another one.
+/// Ratio to a pace that is clearly another one.
 constexpr double k_faster = 5.0, k_slower = 0.1;
 constexpr double k_long_dwell = 60.0;  // s: nearly two decades of creep
 /// A margin that is wider decides no better: the shorter measurement comes first then.
 constexpr double k_wide = 3.0;
-/// Of the margin that distinguishes: less is not worth the minutes.
+/// Part of the margin that distinguishes: less is not worth the minutes.
 constexpr double k_least_told = 0.6;
 
 const Run& longest(const Measurement& measurement) {
@@ -52,7 +52,7 @@ PlannedRun as_before(const Measurement& measurement) {
   return before;
 }
 
-/// Whether a run at about this pace and under about this load was measured.
+/// True if a run at about this pace and under about this load was measured.
 bool was_measured(const PlannedRun& run, const Measurement& measurement) {
   constexpr double k_alike = 0.2;
   if (run.change != BenchChange::none || run.dwell > 0) return false;
@@ -64,7 +64,7 @@ bool was_measured(const PlannedRun& run, const Measurement& measurement) {
   });
 }
 
-/// What could be driven next and was not yet, beginning from what was.
+/// Runs that could be driven next and were not yet, beginning from those that were.
 std::vector<PlannedRun> proposals(const Evidence& evidence) {
   const PlannedRun before = as_before(evidence.measurement);
   const double load = largest_load(evidence);
@@ -89,7 +89,7 @@ std::vector<PlannedRun> proposals(const Evidence& evidence) {
   return all;
 }
 
-/// What may be there in the place of an effect that was found.
+/// Candidates in the place of an effect that was found.
 struct Alternative {
   const Effect* found = nullptr;
   std::string name;                   ///< of the group's member
@@ -165,7 +165,7 @@ class Proposals {
     return predict(*evidence_.declared, at, {driven(run, k_rows_a_stroke)});
   }
 
-  /// What both differ by in the run, beyond what they differ by in the slow one without load: there the data are said by
+  /// Difference of both in the run, beyond what they differ by in the slow one without load: there the data are said by
   /// both, with a curve of the place beside either. An unmodelled cause may follow any load and pace.
   double rms_from(const Alternative& other, const PlannedRun& run) const {
     if (!other.is_fitted && run.change == BenchChange::none) return 0;
@@ -209,7 +209,7 @@ class Proposals {
     all_.push_back(std::move(proposal));
   }
 
-  /// Of the alternatives that are left those that it distinguishes, half told ones in part.
+  /// Number of remaining alternatives that it distinguishes; half told ones count in part.
   static double told(const Proposal& proposal, const std::vector<bool>& left) {
     double sum = 0;
     for (std::size_t i = 0; i < left.size(); ++i) {
@@ -261,7 +261,7 @@ class Proposals {
   std::vector<Proposal> all_;
 };
 
-/// Of a held point: from where it was come to.
+/// The side from which a held point was come to.
 struct Sides {
   double alpha = 0;
   bool rising = false, falling = false;
@@ -288,7 +288,7 @@ std::vector<Sides> held_points(const Measurement& measurement) {
   return points;
 }
 
-/// Where a run sweeps there and back; nothing where it does not.
+/// The range in which a run sweeps there and back; nothing if it does not.
 SeenSpan swept_both_ways(const Run& run) {
   const auto goes = [&](int direction) {
     return std::any_of(run.strokes.begin(), run.strokes.end(),

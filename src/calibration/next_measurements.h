@@ -13,7 +13,7 @@ namespace fusee {
 std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const Selection& selection,
                                                const Calibration& calibration);
 
-/// Where the data decide nothing: the plan of a joint that was not measured.
+/// For data that decide nothing: the plan of a joint that was not measured.
 std::vector<NextMeasurement> planned_measurements(const DeclaredMechanism& declared);
 
 /// Adds what held points ask for that were come to from one side only, and that no run sweeps over there and back.

@@ -19,9 +19,9 @@ bool is_searched(const Effect& effect);
 
 /// θ = offset + α/ratio declares its offset free; null of any other joint.
 const EffectParameter* free_offset(const Mechanism& declared);
-/// What is fitted of these effects.
+/// The fitted numbers of these effects.
 Parameters parameters_of(const EffectSet& effects);
-/// The same behind the free offset.
+/// The fitted numbers behind the free offset.
 Parameters varied(const Mechanism& declared, const EffectSet& effects);
 
 /// `at` without an effect.

@@ -769,7 +769,7 @@ bool Selector::try_all_beside() {
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
-/// Whether one of its numbers stands at the end of its range: the data ask for more of it than any joint has, and so
+/// True if one of its numbers stands at the end of its range: the data ask for more of it than any joint has, and so
 /// for something else. Where it is searched for the end may be where it is, and what is nothing has no end.
 bool is_at_bound(const Fit& fit, const Effect& effect) {
   return std::any_of(effect.parameters.begin(), effect.parameters.end(), [&](const EffectParameter& parameter) {
@@ -778,8 +778,8 @@ bool is_at_bound(const Fit& fit, const Effect& effect) {
   });
 }
 
-/// Whether the fits differ by as much as can be seen beside what is left, and rows that were not fitted are predicted worse without the
-/// effect, the others fitted anew: whole runs, and whole levels of load and speed.
+/// True if the fits differ by as much as can be seen beside the noise that is left, and rows that were not fitted, whole
+/// runs and whole levels of load and speed, are predicted worse without the effect, the others fitted anew.
 bool predicts(const Evidence& evidence, const Fit& with, const Fit& without) {
   const double noise = std::max(evidence.floor, with.explained.amplitudes.noise);
   return rms_apart(evidence, with.residual, without.residual) > k_thresholds.least_left * noise &&
@@ -841,7 +841,7 @@ bool Selector::is_completed_beside(const Fit& others) const {
          is_without_a_part(beside_best, beside_others, evidence_.floor);
 }
 
-/// What is not sure enough to be named, with all that could stand in its place, or predicts nothing, goes, the most
+/// An effect that is not sure enough to be named, with all that could stand in its place, or predicts nothing, goes, the most
 /// doubtful first. What completes an explanation may stay with more doubt: its group will say that it may be nothing
 /// with a name. Whether something went.
 bool Selector::drop_doubtful() {
@@ -947,7 +947,7 @@ void Selector::complete_by_names() {
   }
 }
 
-/// Of names that took the place of what has none.
+/// Drops names that took the place of an unmodelled cause.
 void Selector::drop_what_predicts_nothing() {
   for (std::size_t i = 0; i < selection_.best.effects.size();) {
     leave_each_out();

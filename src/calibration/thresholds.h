@@ -200,12 +200,12 @@ struct Thresholds {
 
   // ---- two states of one joint ----
 
-  /// Of the shorter range of α, the part that both states must have shown.
+  /// Part of the shorter range of α that both states must have shown.
   double least_shared_way = 0.3;
   /// Standard errors by the scatter from run to run that a change must be large. Jaw, state Pitch_1, its runs by turns:
   /// tendon_stretch and tendon_slip are named, one state as it is.
   double least_by_runs = 5.0;
-  /// Of the joint's motion, rms: a later state that is further from the earlier one, its zero aside, is of another
+  /// Part of the joint's motion, rms: a later state that is further from the earlier one, its zero aside, is of another
   /// joint. A joint of half the ratio is at 0.5.
   double most_changed_part = 0.3;
 

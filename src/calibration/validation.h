@@ -33,7 +33,7 @@ class HeldOutRows {
   /// `kept` may have no runs. All must outlive this.
   HeldOutRows(const Evidence& evidence, const Estimate& declared, Measurement kept);
 
-  /// Where the answer predicts worse than the declared joint by more than strokes differ: on all of them ("all rows"),
+  /// The rows on which the answer predicts worse than the declared joint by more than strokes differ: on all of them ("all rows"),
   /// or on one level of load or speed ("run_3.csv"). Empty: nowhere.
   std::string worse_at(const Estimate& answer) const;
 

@@ -153,7 +153,7 @@ Forward::Forward(const Mechanism& declared, const BenchLog& log, const std::opti
   earlier_motion_ = mechanism(earlier->joint);
   earlier_ = earlier;
   latest_ = {};  // later runs do not remember the earlier ones
-  // What both states do alike is not moved twice, but by the one that it is of.
+  // A part that both states have alike is not moved twice, but by the one that it is of.
   for (std::size_t i = earlier->runs; i < log.size(); ++i) {
     if (driven_[i] >= earlier->runs) continue;
     driven_[i] = earlier->runs;

@@ -47,7 +47,7 @@ class Scatter {
 
   std::size_t count() const { return values_.size(); }
 
-  /// Of most differences, rad: up to a third of them may be jumps.
+  /// Noise of most differences, rad: up to a third of them may be jumps.
   double typical() const {
     std::vector<double> sizes;
     for (const double value : values_) sizes.push_back(std::abs(value));

@@ -118,7 +118,7 @@ std::vector<std::string> output_names(const MechanismFile& file) {
   return names;
 }
 
-/// Of what is asked for next: those that may be written, or, of any earlier calibration, withdrawn.
+/// Names with those of the next measurements: those that may be written, or, of any earlier calibration, withdrawn.
 std::vector<std::string> with_next(std::vector<std::string> names, int first_run, int runs) {
   for (const std::string& name : next_file_names(first_run, runs)) names.push_back(name);
   return names;

@@ -92,7 +92,7 @@ TEST(CalibrateVerb, LeavesWhatToMeasureNext) {
     EXPECT_THAT(next.words, Not(HasSubstr("radius_offset_mm")));
 }
 
-// Of what decides nothing the plan is left that a joint that was never measured has.
+// Data that decide nothing leave the plan that a joint that was never measured has.
 TEST(CalibrateVerb, RunsThatDecideNothingAskForAPlan) {
   const std::filesystem::path folder = scratch("still");
   std::string still = "alpha_deg,theta_deg\n";

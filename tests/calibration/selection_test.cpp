@@ -91,7 +91,7 @@ double apart(const std::vector<std::vector<double>>& one, const std::vector<std:
   return std::sqrt(squares / rows);
 }
 
-/// Of a size that moves θ by eight times the noise, rms, but no number near its end: what stands there is not named.
+/// A size that moves θ by eight times the noise, rms, but no number near its end: what stands there is not named.
 Imperfections well_seen(const DeclaredMechanism& declared, const Effect& effect) {
   constexpr double within = 0.8;
   const Measurement measurement = logged(declared, {}, k_full);
@@ -217,7 +217,7 @@ TEST(Selection, TellsADelayFromPlayOnlyAtTwoSpeeds) {
   EXPECT_THAT(all_groups(two_speeds), testing::ElementsAre("backlash"));
 }
 
-// What turns with a sensor is the sensor's: no caliper and no other run says as much.
+// An error that turns with a sensor is the sensor's: no caliper and no other run says as much.
 TEST(Selection, AsksToTurnASensorThatMayBeOffCentre) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;

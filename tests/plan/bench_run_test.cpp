@@ -108,7 +108,7 @@ TEST(NextMeasurement, OfEachKind) {
   EXPECT_GT(inspection.minutes, 0);
 }
 
-// What is asked for can be written into the file, and is not asked for again.
+// A reading that is asked for can be written into the file, and is not asked for again.
 TEST(UnreadNumbers, AreReadFromTheirKeys) {
   for (const EffectParameter* number : unread_numbers(testing::forearm())) {
     DeclaredMechanism joint = testing::forearm();

@@ -33,7 +33,7 @@ const PlannedCause& cause(const Plan& plan, const std::string& name) {
   return *found;
 }
 
-// Where θ is α by a ratio both offsets are one number: no run tells them.
+// If θ is α by a ratio, both offsets are one number: no run tells them.
 TEST(Plan, KeepsTogetherWhatIsTheSame) {
   PlanOptions one_run;
   one_run.minutes = 1.9;

@@ -1,4 +1,4 @@
-// What is asked for next, made on the rig.
+// The next measurements, made on the rig.
 #include "rig/follow.h"
 
 #include <gmock/gmock.h>

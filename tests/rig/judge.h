@@ -44,7 +44,7 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
 
 /// Its files; returns the runs.
 std::vector<std::filesystem::path> write_case(const Case& made, const std::filesystem::path& folder);
-/// What calibration makes of a case.
+/// The calibration of a case.
 struct Answer {
   Calibration found;
   Judgement judgement;

@@ -165,7 +165,7 @@ std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const st
 /// sensors were turned, where they were.
 std::string csv_text(const Log& log, bool temperature = false, const RunPlan& plan = {});
 
-/// What the joint's sensor shows at `theta`, but for its delay, noise and actions.
+/// Reading of the joint's sensor at `theta`, but for its delay, noise and actions.
 double shown_by_joint_sensor(const Hidden& hidden, double theta);
 
 }  // namespace fusee::rig

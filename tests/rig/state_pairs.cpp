@@ -23,7 +23,7 @@ struct BenchState {
   Hidden hidden;
 };
 
-/// What changes, by a size that grows with it.
+/// The change, by a size that grows with it.
 struct SizedChange {
   double first = 0;
   double most = 0;

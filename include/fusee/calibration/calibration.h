@@ -39,7 +39,7 @@ struct FittedParameter {
   double high = 0;
   double low_if_only = 0;  ///< the same if the effects that were found are all there is: never wider
   double high_if_only = 0;
-  /// What its sign says of the joint ("pins too high"), as far as the narrower interval knows it; empty where nothing
+  /// Its sign in words ("pins too high"), as far as the narrower interval knows it; empty where nothing
   /// has to be said.
   std::string sense = {};
 };
@@ -96,7 +96,7 @@ struct FoundEffect {
   Unmodelled unmodelled;
   Evenness evenness;
   CorrectableBy correctable_by = CorrectableBy::nothing;
-  /// Of a change: its size by the standard error that the scatter from run to run gives it; infinite: not asked.
+  /// A change's size by the standard error that the scatter from run to run gives it; infinite: not asked.
   double by_runs = std::numeric_limits<double>::infinity();
 };
 

@@ -28,7 +28,7 @@ std::string calibration_json(const CalibrationProduct& product);
 /// The measurements to make next, for the bench: a page and the run files, "next/run_6.csv". None where nothing is asked
 /// for.
 std::vector<OutputFile> next_files(const CalibrationProduct& product);
-/// Of calibration.next[i]: "next/run_6.csv", numbered after the runs that were read; "" where it is no run.
+/// The file of calibration.next[i]: "next/run_6.csv", numbered after the runs that were read; "" where it is no run.
 std::string next_file_name(const CalibrationProduct& product, std::size_t i);
 /// The number of the first run file of a plan beside runs of these names: one more than the largest of "run_5.csv".
 int first_free_run(const std::vector<std::string>& names);
@@ -77,7 +77,7 @@ std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const
 /// What the table covers of what has no name and where that holds, or why it does not; "" where nothing is without a
 /// name.
 std::string curve_words(const CalibrationProduct& product);
-/// Of every measurement to make next, the most decisive first.
+/// All measurements to make next, the most decisive first.
 std::vector<std::string> next_texts(const Calibration& calibration);
 /// Of every slip that would explain the data, slip_words().
 std::vector<std::string> slips_words(const CalibrationProduct& product);

@@ -26,7 +26,7 @@ std::string run_csv(const PlanProduct& product, std::size_t step);
 std::string plan_json(const PlanProduct& product);
 /// A page that a person follows at the bench: A4, boxes to tick, no network.
 std::string plan_html(const PlanProduct& product);
-/// The same of what a calibration asks for next: `measured` are the runs that it had.
+/// The page and run files of a calibration's next measurements: `measured` are the runs that it had.
 std::string next_html(const PlanProduct& product, const std::vector<std::string>& measured);
 /// Its sections of what to do, for another page that has plan.css.
 std::string plan_steps_html(const PlanProduct& product);

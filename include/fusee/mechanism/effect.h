@@ -53,7 +53,7 @@ struct CaliperReading {
   double uncertainty = 0;  ///< standard
 };
 
-/// What a number is read with.
+/// Instrument that a number is read with.
 enum class HandTool { caliper, dial_gauge, mark, motor_sensor, protractor, ruler };
 std::string_view word(HandTool tool);  ///< "dial_gauge"
 
@@ -61,7 +61,7 @@ std::string_view word(HandTool tool);  ///< "dial_gauge"
 struct ByHand {
   std::string_view words;  ///< what to measure and what to write; empty: it cannot
   double uncertainty = 0;  ///< of such a reading, as a rule
-  /// What [prior] of the file says of the number.
+  /// The entry of the number in [prior] of the file.
   std::vector<CaliperReading> (*readings)(const DeclaredMechanism& declared) = nullptr;
   std::string_view key = {};  ///< of the file, into which it is written: "prior.guide_radius_mm"
   HandTool tool = HandTool::caliper;
@@ -109,7 +109,7 @@ bool is_idle(const EffectParameter& parameter, const Imperfections& joint);
 /// As reported, of that joint.
 double shown_value(const EffectParameter& parameter, const Imperfections& joint, const Mechanism& declared);
 
-/// What a person would read by hand of a number of `joint`.
+/// A number of `joint` as a person would read it by hand.
 double reading_by_hand(const EffectParameter& parameter, const Imperfections& joint, const Mechanism& declared);
 
 /// The number of `joint` that a parameter is.

@@ -17,7 +17,7 @@ struct CompareOptions {
   std::filesystem::path folder;  ///< where the files go; empty: none are written
   bool force = false;
   bool dry_run = false;  ///< everything but writing
-  /// What is done now and, where that is known, how much of it. What it throws stops the work.
+  /// Called with the present step and, where that is known, its share. An exception of it stops the work.
   std::function<void(const std::string& what, std::optional<double> share)> progress;
   /// Called before each file is staged. What it throws leaves nothing behind.
   std::function<void()> before_writing;

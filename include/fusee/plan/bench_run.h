@@ -40,7 +40,7 @@ struct PlannedRun {
 
 /// Time under way and held, min.
 double minutes_of(const PlannedRun& run);
-/// What hanging its load on and turning its sensor there and back takes beside, min.
+/// Time to hang its load on and to turn its sensor there and back, min.
 double setup_minutes_of(const PlannedRun& run);
 /// "3 slow cycles at 5 N": `slow` is the pace that is called so.
 std::string words(const PlannedRun& run, double slow, const std::string& load_unit);
@@ -60,11 +60,11 @@ struct NextMeasurement {
   std::string_view kind() const;
   std::string text() const;  ///< `words` and `gain` as a sentence
 };
-/// Of a run: its words and minutes. `slow`, `load_unit`: as in words().
+/// A run with its words and minutes. `slow`, `load_unit`: as in words().
 NextMeasurement next_run(const PlannedRun& run, double slow, const std::string& load_unit);
-/// Of readings of one effect, at least one.
+/// Readings of one effect, at least one.
 NextMeasurement next_reading(const std::vector<const EffectParameter*>& readings);
-/// Of anything else.
+/// Any other measurement.
 NextMeasurement next_inspection(const std::string& words);
 
 /// Root mean square of what two simulations of the same rows differ by, rad; rows without an angle do not count.

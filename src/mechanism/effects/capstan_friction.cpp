@@ -9,7 +9,7 @@ double whole_friction(double added, const Mechanism& declared) {
   return there + added > 0 ? there + added : 0.0;
 }
 
-/// Of a joint declared by a ratio: RubbingCable.
+/// For a joint declared by a ratio: RubbingCable.
 std::vector<EffectParameter> friction_of_cable() {
   return {
       {.name = "share_of_load",

@@ -13,7 +13,7 @@ std::vector<CaliperReading> right_by_caliper(const DeclaredMechanism& declared) 
   return hand_reading(declared.prior.ED, declared.guides.ED);
 }
 
-/// Of one pin, `own`, or of both. The pulley's axis stays where it is declared: pins further down are pins closer to it.
+/// Place of one pin, `own`, or of both. The pulley's axis stays where it is declared: pins further down are pins closer to it.
 std::vector<CaliperReading> down_by_caliper(const DeclaredMechanism& declared, const std::vector<double>& own) {
   std::vector<CaliperReading> both = hand_reading(declared.prior.OE, declared.guides.OE);
   const std::vector<double>& EF = declared.prior.EF;

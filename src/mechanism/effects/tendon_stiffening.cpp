@@ -3,7 +3,7 @@
 namespace fusee {
 namespace {
 
-/// Of a joint declared by a ratio. Both signs, since the log's load has one of its own.
+/// For a joint declared by a ratio. Both signs, since the log's load has one of its own.
 std::vector<EffectParameter> straightening_of_ratio() {
   return {{.name = "straightened_deg",
            .number = [](Imperfections& at) -> double& { return at.ratio_joint.waves.most; },
