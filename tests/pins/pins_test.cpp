@@ -13,7 +13,6 @@
 namespace fusee::pins {
 namespace {
 
-using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 namespace fs = std::filesystem;
@@ -75,12 +74,15 @@ TEST(Pins, DoNotGoByTheCachesOfTheProcessor) {
 }
 
 TEST(Pins, AreOfRunsThatThereAre) {
-  std::vector<std::string> names;
-  for (const PinnedRun& run : runs()) names.push_back(run.name);
+  const std::vector<PinnedRun> all = runs();
+  const auto is_made = [&all](const std::string& path) {
+    return std::any_of(all.begin(), all.end(),
+                       [&path](const PinnedRun& run) { return path.starts_with(run.name + "/"); });
+  };
   for (const auto& entry : fs::directory_iterator(k_pins)) {
     if (entry.path().extension() != ".sha256") continue;
     for (const auto& [path, hash] : pinned_in(entry.path()))
-      EXPECT_THAT(names, Contains(path.substr(0, path.rfind('/')))) << path << " is pinned, and no run makes it";
+      EXPECT_TRUE(is_made(path)) << path << " is pinned, and no run makes it";
   }
 }
 
