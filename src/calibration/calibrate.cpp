@@ -155,17 +155,8 @@ void describe_changes(const Evidence& evidence, const Selection& selection, Cali
   for (std::size_t i = 0; i < sizes.size(); ++i) calibration.effects[i].by_runs = sizes[i];
 }
 
-std::vector<std::string> runs_of(const Evidence& evidence, const Fold& fold) {
-  std::vector<std::string> names;
-  for (const std::size_t block : fold) {
-    const std::string& name = evidence.measurement.runs[evidence.blocks[block].run].name;
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
-  return names;
-}
-
-/// Rows that a correction is measured by: the runs that were kept for validation, or whole runs left out in turn. A lone run
-/// is judged by the numbers that its strokes were validated with.
+/// Rows that a correction is measured by: the runs that were kept for validation, or whole runs left out in turn. A lone
+/// run is judged by the numbers that its strokes were validated with.
 std::vector<LeftOut> left_out(const Evidence& evidence, const Estimate& estimate, const std::vector<std::string>& kept,
                               const Imperfections& identified) {
   if (!kept.empty()) return {{kept, identified}};
@@ -173,7 +164,7 @@ std::vector<LeftOut> left_out(const Evidence& evidence, const Estimate& estimate
   const std::vector<Imperfections> numbers = estimates_without(evidence, estimate, evidence.run_folds);
   std::vector<LeftOut> all;
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    all.push_back({runs_of(evidence, evidence.run_folds[i]), numbers[i]});
+    all.push_back({evidence.run_names(evidence.run_folds[i]), numbers[i]});
   return all;
 }
 

@@ -314,6 +314,15 @@ Eigen::VectorXd flat(const Readings& readings) {
   return all;
 }
 
+std::vector<std::string> Evidence::run_names(const Fold& fold) const {
+  std::vector<std::string> names;
+  for (const std::size_t block : fold) {
+    const std::string& name = measurement.runs[blocks[block].run].name;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
 std::vector<Eigen::Index> Evidence::rows() const {
   std::vector<Eigen::Index> all;
   for (const Block& block : blocks) {

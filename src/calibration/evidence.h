@@ -60,6 +60,8 @@ struct Evidence {
   /// Rows in use, block by block.
   std::vector<Eigen::Index> rows() const;
   std::size_t rows_used() const;
+  /// Names of the runs that the blocks of `fold` are parts of, each once, in their order.
+  std::vector<std::string> run_names(const Fold& fold) const;
 };
 
 Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor,

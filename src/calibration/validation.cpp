@@ -16,13 +16,8 @@ constexpr double k_errors_by_chance = 2.0;
 constexpr std::size_t k_rows_a_kept_run = 400;
 
 std::string names_of(const Evidence& evidence, const Fold& fold) {
-  std::vector<std::string> names;
-  for (const std::size_t block : fold) {
-    const std::string& name = evidence.measurement.runs[evidence.blocks[block].run].name;
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
   std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  for (const std::string& name : evidence.run_names(fold)) text += (text.empty() ? "" : ", ") + name;
   return text;
 }
 
