@@ -81,7 +81,8 @@ double share(const Selection& selection, std::size_t place) {
 /// What was handed over beside the set that was found, in the first group that holds it.
 void place_beside(const Evidence& evidence, const Selection& selection, const Fit& numbers,
                   std::vector<FoundEffect>& found) {
-  const Ranges ranges{intervals(numbers), intervals(numbers)};
+  const std::vector<ConfidenceInterval> both = intervals(numbers);
+  const Ranges ranges{both, both};
   for (const Effect* effect : numbers.effects) {
     if (contains(selection.best.effects, *effect)) continue;
     const auto group = std::find_if(selection.groups.begin(), selection.groups.end(),
