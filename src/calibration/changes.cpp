@@ -83,10 +83,6 @@ Eigen::VectorXd shared_discrepancy(const Evidence& evidence, const Fit& fit) {
   return shared;
 }
 
-}  // namespace
-
-namespace {
-
 /// Variance of the size of a change, from one state: Σ (gᵣ·eᵣ)² / (Σ gᵣ·gᵣ)² over its clusters, corrected for few.
 class ClusteredVariance {
  public:

@@ -14,9 +14,9 @@ namespace fusee {
 /// shrink by as much as there was. Of a joint declared by a ratio the joint sensor's zero is one of them.
 std::vector<Effect> changes_from(const Imperfections& before, JointKind kind);
 
-/// One number for each effect of `fit`, in their order: 1 / s, where s is the standard error of the size of what it does, 1 as
-/// fitted, with runs as clusters (Liang & Zeger 1986); of a state of one run its blocks. What a joint does in one run
-/// and not in the next is no change, however small the noise within a run.
+/// One number for each effect of `fit`, in their order: 1 / s, where s is the standard error of the size of what it does,
+/// 1 as fitted, with runs as clusters (Liang & Zeger 1986); of a state of one run its blocks. What a joint does in one
+/// run and not in the next is no change, however small the noise within a run.
 std::vector<double> sizes_by_scatter(const Evidence& evidence, const Fit& fit);
 
 /// `none`: with the joint as it was, `changed`: with the changes.

@@ -121,7 +121,8 @@ Validated validated(const Evidence& evidence, Workers& workers, const Measuremen
       return answer;
     }
     if (rows.worse_at(answer.made.estimate).empty()) return answer;
-    // The part that the discrepancy had taken from the numbers, or given to them, is theirs where nothing stands beside them.
+    // The part that the discrepancy had taken from the numbers, or given to them, is theirs where nothing stands beside
+    // them.
     Delivered alone = by_squares(evidence, best_by_squares(workers, selection), answer.unnamed);
     const std::string where = alone.estimate.fit.usable ? rows.worse_at(alone.estimate) : "all rows";
     if (where.empty()) {

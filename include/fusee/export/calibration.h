@@ -60,8 +60,8 @@ std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
 
 // ---- in words, for the page and for a terminal alike ----
 
-/// "EA = 4515 N (95 %: 4479 … 4551 if nothing else is there, else 4420 … 4610)": the unit is taken from the end of the name; `load_unit` is that of the load
-/// column.
+/// "EA = 4515 N (95 %: 4479 … 4551 if nothing else is there, else 4420 … 4610)": the unit is taken from the end of the
+/// name; `load_unit` is that of the load column.
 std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit);
 /// The group without the effect itself.
 std::vector<std::string> rivals_of(const FoundEffect& effect);
