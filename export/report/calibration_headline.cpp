@@ -223,9 +223,11 @@ void add_rows(const std::string& cause, const std::vector<FittedParameter>& numb
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const FittedParameter& number = numbers[i];
     const std::string unit = name_and_unit(number.name, load_unit).unit;
-    rows.push_back({i == 0 ? cause : "", number_words(number, load_unit),
-                    readable_rounded(number.low_if_only, 3) + " … " + readable_rounded(number.high_if_only, 3) + unit,
-                    "", ""});
+    // A searched number, such as the order of a harmonic, has no interval.
+    const bool has_interval = number.low_if_only < number.high_if_only;
+    const std::string interval =
+        readable_rounded(number.low_if_only, 3) + " … " + readable_rounded(number.high_if_only, 3) + unit;
+    rows.push_back({i == 0 ? cause : "", number_words(number, load_unit), has_interval ? interval : "–", "", ""});
   }
   if (numbers.empty()) rows.push_back({cause, "", "", "", ""});
 }

@@ -62,7 +62,7 @@ std::string cause_table_section(const CalibrationProduct& product) {
             html_number_cell(row.share) + html_cell(row.corrected_by) + "</tr>";
   if (rows.empty()) return "";
   return html_section("causes", "Causes",
-                      html_table({"cause", "size", "95 %, if the only cause", "#of the error", "corrected by"}, rows));
+                      html_table({"cause", "size", "95 % if it is the only cause", "#share of the error", "corrected by"}, rows));
 }
 
 /// A section that opens where it is asked for.

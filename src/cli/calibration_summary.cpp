@@ -47,14 +47,13 @@ std::string causes_table(const CalibrationProduct& product) {
     rows.push_back({row.cause, row.size, row.interval, row.share, row.corrected_by});
   if (rows.empty()) return "";
   return "\n" +
-         table({{"cause"}, {"size"}, {"95 %, if the only cause"}, {"of the error", Align::right}, {"corrected by"}},
-               rows);
+         table({{"cause"}, {"size"}, {"95 % if alone"}, {"share", Align::right}, {"corrected by"}}, rows);
 }
 
 std::string noise_text(const Calibration& c) {
   std::string words =
       "noise floor " + deg(c.noise.rms) + (c.noise.from_repeats ? " deg, from repeats" : " deg or more: no repeats");
-  if (c.noise.rms > 0) words += "; what is left is " + rounded(c.after.rms / c.noise.rms, 3) + " times that";
+  if (c.noise.rms > 0) words += "; the residual is " + rounded(c.after.rms / c.noise.rms, 3) + " times that";
   return wrapped(words, "  ", "  ") + (c.noise_varies.empty() ? "" : wrapped(c.noise_varies, "  ", "  "));
 }
 

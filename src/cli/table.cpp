@@ -1,6 +1,8 @@
 #include "cli/table.h"
 
 #include <algorithm>
+#include <numeric>
+#include <sstream>
 
 namespace fusee::cli {
 namespace {
@@ -15,6 +17,29 @@ std::string padded(std::string_view text, std::size_t to, Align align) {
   return align == Align::left ? std::string(text) + blanks : blanks + std::string(text);
 }
 
+/// The words of `cell` in lines of at most `most` characters; a longer word has a line of its own.
+std::vector<std::string> lines_of(std::string_view cell, std::size_t most) {
+  if (width(cell) <= most) return {std::string(cell)};
+  std::vector<std::string> lines;
+  std::istringstream words{std::string(cell)};
+  for (std::string word; words >> word;) {
+    if (lines.empty() || width(lines.back()) + 1 + width(word) > most)
+      lines.push_back(word);
+    else
+      lines.back() += " " + word;
+  }
+  return lines;
+}
+
+/// Takes from the first column what the table is wider than a terminal of 80 columns, down to the column's title.
+void fit_terminal(std::vector<std::size_t>& widths, const std::vector<Column>& columns) {
+  constexpr std::size_t k_terminal = 80;
+  const std::size_t total = std::accumulate(widths.begin(), widths.end(), 2 * (widths.size() - 1));
+  if (total <= k_terminal) return;
+  const std::size_t least = width(columns[0].title), excess = total - k_terminal;
+  widths[0] = std::max(least, widths[0] - std::min(widths[0], excess));
+}
+
 }  // namespace
 
 std::string table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows) {
@@ -24,6 +49,7 @@ std::string table(const std::vector<Column>& columns, const std::vector<std::vec
     for (const auto& row : rows) widest = std::max(widest, width(row[i]));
     widths.push_back(widest);
   }
+  fit_terminal(widths, columns);
   std::string text;
   const auto add_line = [&](const auto& cell) {
     std::string line;
@@ -32,7 +58,12 @@ std::string table(const std::vector<Column>& columns, const std::vector<std::vec
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   };
   add_line([&](std::size_t i) { return columns[i].title; });
-  for (const auto& row : rows) add_line([&](std::size_t i) { return std::string_view(row[i]); });
+  for (const auto& row : rows) {
+    const std::vector<std::string> first = lines_of(row[0], widths[0]);
+    add_line([&](std::size_t i) { return i == 0 ? std::string_view(first[0]) : std::string_view(row[i]); });
+    for (std::size_t l = 1; l < first.size(); ++l)
+      add_line([&](std::size_t i) { return i == 0 ? "  " + first[l] : std::string(); });
+  }
   return text;
 }
 
