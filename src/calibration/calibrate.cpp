@@ -207,7 +207,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
       options.earlier ? changes_beside(evidence, selection) : validated(evidence, workers, kept, selection);
   const Fit& numbers = answer.made.estimate.fit;
   calibration.dropped = answer.dropped;
-  calibration.effects = found_effects(evidence, selection, numbers);
+  calibration.effects = found_effects(evidence, selection, answer.made.reported);
   if (options.audit) {
     take_audit(audit(evidence, workers, selection), calibration);
     const std::vector<Unmodelled> unmodelled = unmodelled_rivals(evidence, workers, selection);

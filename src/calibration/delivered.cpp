@@ -49,26 +49,42 @@ EffectSet perhaps_beside(const Selection& selection) {
   return all;
 }
 
-/// The set, or one with an effect more, whichever predicts best.
-Fit best_by_squares(Workers& workers, const Selection& selection) {
-  Fit best = workers.one().by_squares(selection.best);
-  const EffectSet perhaps = perhaps_beside(selection);
-  std::vector<Fit> wider(perhaps.size());
-  workers.each(perhaps.size(), [&](const Fitter& fitter, std::size_t i) {
-    const Fit start = fitter.with_effect(selection.best, *perhaps[i]);
+/// `set`, or one with one of the effects more, whichever predicts best. Numbers of least squares.
+Fit or_with_one_more(Workers& workers, Fit set, const EffectSet& effects) {
+  std::vector<Fit> wider(effects.size());
+  workers.each(effects.size(), [&](const Fitter& fitter, std::size_t i) {
+    const Fit start = fitter.with_effect(set, *effects[i]);
     if (start.usable) wider[i] = fitter.by_squares(start);
   });
-  const Foretold by_set = foretold(best);
+  const Foretold by_set = foretold(set);
   for (Fit& fit : wider) {
-    const bool is_best = fit.by_run.mean_square < best.by_run.mean_square;
-    if (fit.usable && is_best && is_better(foretold(fit), by_set)) best = std::move(fit);
+    const bool is_best = fit.by_run.mean_square < set.by_run.mean_square;
+    if (fit.usable && is_best && is_better(foretold(fit), by_set)) set = std::move(fit);
   }
-  return best;
+  return set;
 }
 
-/// Numbers of least squares go without a curve.
-Delivered by_squares(const Evidence& evidence, Fit squares, const Unnamed& unnamed) {
-  Delivered made{{std::move(squares), {}}, {}};
+/// Stands for an unmodelled cause: of a joint declared by a ratio, a curve of its angle.
+EffectSet unmodelled_curves(const Evidence& evidence) {
+  const Effect* curve = find_effect("ratio_curve", kind_of(*evidence.declared));
+  return curve == nullptr ? EffectSet{} : EffectSet{curve};
+}
+
+/// Numbers of least squares, of the set or with a member of a group more, and perhaps beside a curve.
+struct BySquares {
+  Fit reported;
+  Fit handed_over;
+};
+
+BySquares best_by_squares(const Evidence& evidence, Workers& workers, const Selection& selection) {
+  Fit named = or_with_one_more(workers, workers.one().by_squares(selection.best), perhaps_beside(selection));
+  Fit with_curve = or_with_one_more(workers, named, unmodelled_curves(evidence));
+  return {std::move(named), std::move(with_curve)};
+}
+
+/// Numbers of least squares go without an empirical curve.
+Delivered by_squares(const Evidence& evidence, BySquares squares, const Unnamed& unnamed) {
+  Delivered made{{std::move(squares.handed_over), {}}, std::move(squares.reported), {}};
   if (is_unexplained(unnamed, evidence.floor))
     made.curve.why = "the effects' numbers take away more than it would of runs that they were not fitted to";
   return made;
@@ -81,6 +97,7 @@ Delivered as_declared(const Estimate& declared, Delivered made) {
     for (double& angle : *curve) angle += moved;
   }
   made.estimate = declared;
+  made.reported = declared.fit;
   return made;
 }
 
@@ -99,12 +116,14 @@ std::size_t least_needed(const Selection& selection) {
 }  // namespace
 
 Delivered delivered(const Evidence& evidence, Workers& workers, const Selection& selection, const Unnamed& unnamed) {
-  Delivered all{{selection.best, amplitudes_beside(evidence, selection.best, unnamed)}, {}};
+  Delivered all{{selection.best, amplitudes_beside(evidence, selection.best, unnamed)}, selection.best, {}};
   if (!is_unexplained(unnamed, evidence.floor) || is_walking(stroke_scatter(evidence, selection.best))) return all;
   all.curve = empirical_curve(evidence, selection.best, unnamed);
   if (selection.best.effects.empty()) return all;
-  Fit squares = best_by_squares(workers, selection);
-  if (!squares.usable || !is_better(foretold(squares), foretold_by_summit(evidence, all.estimate, all.curve.used)))
+  BySquares squares = best_by_squares(evidence, workers, selection);
+  const Fit& handed_over = squares.handed_over;
+  if (!handed_over.usable ||
+      !is_better(foretold(handed_over), foretold_by_summit(evidence, all.estimate, all.curve.used)))
     return all;
   return by_squares(evidence, std::move(squares), unnamed);
 }
@@ -123,7 +142,7 @@ Validated validated(const Evidence& evidence, Workers& workers, const Measuremen
     if (rows.worse_at(answer.made.estimate).empty()) return answer;
     // The part that the discrepancy had taken from the numbers, or given to them, is theirs where nothing stands beside
     // them.
-    Delivered alone = by_squares(evidence, best_by_squares(workers, selection), answer.unnamed);
+    Delivered alone = by_squares(evidence, best_by_squares(evidence, workers, selection), answer.unnamed);
     const std::string where = alone.estimate.fit.usable ? rows.worse_at(alone.estimate) : "all rows";
     if (where.empty()) {
       answer.made = std::move(alone);
@@ -141,6 +160,7 @@ Validated changes_beside(const Evidence& evidence, const Selection& selection) {
   answer.declared = {selection.none, {}};
   answer.unnamed = unnamed_beside(evidence, selection.best);
   answer.made.estimate = {selection.best, amplitudes_beside(evidence, selection.best, answer.unnamed)};
+  answer.made.reported = selection.best;
   return answer;
 }
 

@@ -78,6 +78,22 @@ double share(const Selection& selection, std::size_t place) {
   return all > 0 ? std::clamp((without_it - best) / all, 0.0, 1.0) : 0.0;
 }
 
+/// Whether `effect` moves the rows in use, in that fit, by less than noise hides of as many numbers.
+bool moves_nothing(const Evidence& evidence, const Fit& fit, const Effect& effect) {
+  const std::vector<Eigen::Index> places = places_of(fit, effect);
+  const Eigen::VectorXd moved = fit.J(evidence.rows(), places) * fit.x(places);
+  const double seen = moved.squaredNorm() * evidence.marginal->worth();
+  return seen < static_cast<double>(places.size()) * evidence.floor * evidence.floor;
+}
+
+/// Takes out of the group of `found` the rivals that do nothing in its place.
+void drop_idle_members(const Evidence& evidence, const Selection& selection, const Effect& effect, FoundEffect& found) {
+  for (const Rival& rival : selection.rivals) {
+    if (rival.accepted != &effect || !moves_nothing(evidence, rival.fit, *rival.rival)) continue;
+    found.idle_did_as_well |= std::erase(found.group, rival.rival->name) > 0;
+  }
+}
+
 /// What was handed over beside the set that was found, in the first group that holds it.
 void place_beside(const Evidence& evidence, const Selection& selection, const Fit& numbers,
                   std::vector<FoundEffect>& found) {
@@ -123,6 +139,7 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
       const bool in_group = std::count(found.group.begin(), found.group.end(), rival->rival->name) > 0;
       if (rival->accepted == effect && !in_group) found.group.push_back(rival->rival->name);
     }
+    drop_idle_members(evidence, selection, *effect, found);
     for (const Rival& rival : selection.rivals) {
       const bool in_group = std::count(found.group.begin(), found.group.end(), rival.rival->name) > 0;
       if (rival.accepted != effect || !in_group) continue;

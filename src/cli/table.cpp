@@ -31,13 +31,14 @@ std::vector<std::string> lines_of(std::string_view cell, std::size_t most) {
   return lines;
 }
 
-/// Takes from the first column what the table is wider than a terminal of 80 columns, down to the column's title.
-void fit_terminal(std::vector<std::size_t>& widths, const std::vector<Column>& columns) {
-  constexpr std::size_t k_terminal = 80;
-  const std::size_t total = std::accumulate(widths.begin(), widths.end(), 2 * (widths.size() - 1));
-  if (total <= k_terminal) return;
-  const std::size_t least = width(columns[0].title), excess = total - k_terminal;
-  widths[0] = std::max(least, widths[0] - std::min(widths[0], excess));
+/// Narrows the widest columns of a table that is wider than a terminal of 80 columns.
+void fit_terminal(std::vector<std::size_t>& widths) {
+  constexpr std::size_t k_terminal = 80, k_least = 16;
+  while (std::accumulate(widths.begin(), widths.end(), 2 * (widths.size() - 1)) > k_terminal) {
+    std::size_t& widest = *std::max_element(widths.begin(), widths.end());
+    if (widest <= k_least) return;
+    --widest;
+  }
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ std::string table(const std::vector<Column>& columns, const std::vector<std::vec
     for (const auto& row : rows) widest = std::max(widest, width(row[i]));
     widths.push_back(widest);
   }
-  fit_terminal(widths, columns);
+  fit_terminal(widths);
   std::string text;
   const auto add_line = [&](const auto& cell) {
     std::string line;
@@ -59,10 +60,14 @@ std::string table(const std::vector<Column>& columns, const std::vector<std::vec
   };
   add_line([&](std::size_t i) { return columns[i].title; });
   for (const auto& row : rows) {
-    const std::vector<std::string> first = lines_of(row[0], widths[0]);
-    add_line([&](std::size_t i) { return i == 0 ? std::string_view(first[0]) : std::string_view(row[i]); });
-    for (std::size_t l = 1; l < first.size(); ++l)
-      add_line([&](std::size_t i) { return i == 0 ? "  " + first[l] : std::string(); });
+    std::vector<std::vector<std::string>> cells;
+    std::size_t lines = 1;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      cells.push_back(lines_of(row[i], widths[i]));
+      lines = std::max(lines, cells.back().size());
+    }
+    for (std::size_t l = 0; l < lines; ++l)
+      add_line([&](std::size_t i) { return l < cells[i].size() ? cells[i][l] : std::string(); });
   }
   return text;
 }

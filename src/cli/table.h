@@ -16,7 +16,8 @@ struct Column {
 };
 
 /// A title line and one line a row, columns two spaces apart, without trailing blanks. Widths count characters, not
-/// bytes. In a table wider than 80 columns the cells of the first column are wrapped.
+/// bytes. In a table wider than 80 columns the cells of the widest columns are
+/// wrapped.
 std::string table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
 
 /// What a number or a finding is called, and behind it, from `column` on or after a blank, what it is.

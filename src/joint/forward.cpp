@@ -242,7 +242,8 @@ std::vector<double> Forward::geared(std::size_t index, const Imperfections& at, 
   const BenchRow* last = &first;
   for (const BenchRow& row : run.rows) {
     const double load = load_of(row);
-    double angle = cable.to(pulley_at(row.alpha, row) / ratio, load);
+    const double driven = pulley_at(row.alpha, row) / ratio;
+    double angle = cable.to(driven, load) + at.ratio_joint.curve.added(driven, load);
     if (at.ratio_joint.drift != 0) {
       drift.hold(0.5 * (load_of(*last) + load), row.time - last->time);
       angle -= at.ratio_joint.drift * drift.crept();

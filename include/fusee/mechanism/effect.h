@@ -121,6 +121,7 @@ void reset(Imperfections& joint, const EffectParameter& parameter);
 /// What must be logged for an effect to be seen at all.
 struct Needs {
   bool tendons = false;  ///< the joint is declared with its tendons
+  bool ratio = false;    ///< the joint is declared by a ratio
   bool drum = false;     ///< the joint has a drum, and a tendon lies on it somewhere in the range
   bool end1 = false;     ///< tendon 1 has an attachment of its own, and is free of any drum somewhere in the range
   bool end2 = false;     ///< the same of tendon 2

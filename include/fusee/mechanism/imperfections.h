@@ -194,8 +194,25 @@ struct CableFriction {
   bool operator==(const CableFriction&) const = default;
 };
 
+/// A transmission whose ratio and compliance change with the angle, as a linkage behind the cable makes them. u: what
+/// the declared ratio turns the joint by from home, rad.
+struct RatioCurve {
+  double square = 0;       ///< turned by square · u² beside u, 1/rad
+  double cube = 0;         ///< and by cube · u³, 1/rad²
+  double give_slope = 0;   ///< compliance added in proportion to u, 1 per unit of load
+  double give_square = 0;  ///< and to u², 1/rad per unit of load
+
+  /// Turned beside u under `load`, rad.
+  double added(double u, double load) const {
+    return u * (u * (square + u * cube) - load * (give_slope + u * give_square));
+  }
+
+  bool operator==(const RatioCurve&) const = default;
+};
+
 /// Of a joint declared by a ratio, whose tendons are not known. rad.
 struct RatioJointError {
+  RatioCurve curve;
   double compliance = 0;      ///< turned by a unit of load
   CableStiffening waves;      ///< what a cable that lies wavy gives beside that
   CableFriction friction;     ///< of the cable along its way

@@ -33,7 +33,7 @@ Effect profile_error(JointKind) {
   effect.signature = "twice or three times per turn of the pulley, whichever way and load";
   effect.separating_run = "turn the pulley on its shaft by an eighth of a turn and repeat the slow unloaded run";
   effect.correctable_by = CorrectableBy::pulley;
-  effect.needs = {.full_turn = true};
+  effect.needs = {.tendons = true, .full_turn = true};
   effect.found_again = larger_wave;
   effect.parameters = {{.name = "sin_mm",
                         .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_sin; },

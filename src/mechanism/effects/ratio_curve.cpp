@@ -1,0 +1,53 @@
+#include "fusee/mechanism/effect.h"
+
+namespace fusee {
+namespace {
+
+EffectParameter number_of(std::string_view name, double& (*number)(Imperfections&), PriorUnit unit,
+                          std::string_view meaning) {
+  EffectParameter parameter;
+  parameter.number = number;
+  parameter.least = -1e6;
+  parameter.most = 1e6;
+  parameter.step = 1e-3;
+  parameter.prior = 0.05;  // a linkage over 60°: three degrees
+  parameter.prior_unit = unit;
+  parameter.shown = shown::as_is;
+  parameter.again = WhenFoundAgain::anew;
+  parameter.name = name;
+  parameter.key = key::plain(name, "", -1e6, 1e6, meaning);
+  return parameter;
+}
+
+}  // namespace
+
+/// Taylor series to the third power in the angle: a straight line is what the ratio declares.
+Effect ratio_curve(JointKind) {
+  Effect effect;
+  effect.name = "ratio_curve";
+  effect.place = ChainPlace::joint;
+  effect.rank = 9;
+  effect.signature = "a smooth curve of the angle, the same both ways; its part under load grows in proportion to it";
+  effect.separating_run = "re-clock each sensor by a quarter of a turn: the curve of the transmission stays";
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {.ratio = true};
+  // A sensor off centre, or a profile, makes the same curve: it stands for an unmodelled cause, and is no name.
+  effect.is_looked_for = false;
+  effect.parameters = {
+      number_of(
+          "ratio_square_per_rad", [](Imperfections& at) -> double& { return at.ratio_joint.curve.square; },
+          PriorUnit::own, "of a joint declared by a ratio: turned beside it with the angle squared"),
+      number_of(
+          "ratio_cube_per_rad2", [](Imperfections& at) -> double& { return at.ratio_joint.curve.cube; }, PriorUnit::own,
+          "and with its third power"),
+      number_of(
+          "ratio_give_slope_per_load", [](Imperfections& at) -> double& { return at.ratio_joint.curve.give_slope; },
+          PriorUnit::at_largest_load, "compliance that grows in proportion to the angle"),
+      number_of(
+          "ratio_give_square_per_load", [](Imperfections& at) -> double& { return at.ratio_joint.curve.give_square; },
+          PriorUnit::at_largest_load, "and to its square")};
+  effect.starts = {{0, 0, 0, 0}};
+  return effect;
+}
+
+}  // namespace fusee
