@@ -85,7 +85,9 @@ BySquares best_by_squares(const Evidence& evidence, Workers& workers, const Sele
 /// Numbers of least squares go without an empirical curve.
 Delivered by_squares(const Evidence& evidence, BySquares squares, const Unnamed& unnamed) {
   Delivered made{{std::move(squares.handed_over), {}}, std::move(squares.reported), {}};
-  if (is_unexplained(unnamed, evidence.floor))
+  if (made.estimate.fit.at.ratio_joint.curve != RatioCurve{})
+    made.curve.why = "what depends on the angle is in the joint that was identified, as a curve of its ratio";
+  else if (is_unexplained(unnamed, evidence.floor))
     made.curve.why = "the effects' numbers take away more than it would of runs that they were not fitted to";
   return made;
 }

@@ -21,13 +21,21 @@ struct HiddenCable {
   double unloaded = 0.8;  ///< friction of the whole way by pretension, N
   double waves = 0;       ///< deg
   double waves_rate = 0;  ///< per N
+  double linkage = 0;     ///< of a slotted lever behind the cable: the offset of its pivot by its length
 };
 
 constexpr double k_ratio = 2, k_noise = 0.02;
 
+/// A lever of length 1 turned by `u` moves a slot whose pivot stands `offset` beyond its own. deg
+double through_slot(double u, double offset) {
+  const double turned = u * k_pi / 180;
+  return std::atan2(std::sin(turned), std::cos(turned) + offset) * 180 / k_pi * (1 + offset);
+}
+
 /// Three cycles of ±60° of α under one load, five rows to the second.
 std::filesystem::path written(const HiddenCable& hidden, double load, std::mt19937& random) {
-  const std::string name = "cable_" + std::to_string(hidden.waves) + "_" + std::to_string(load) + ".csv";
+  const std::string name =
+      "cable_" + std::to_string(hidden.waves) + "_" + std::to_string(hidden.linkage) + "_" + std::to_string(load) + ".csv";
   const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / name;
   std::ofstream file(path);
   file << "time_s,alpha_deg,theta_deg,load_N\n";
@@ -37,7 +45,8 @@ std::filesystem::path written(const HiddenCable& hidden, double load, std::mt199
   constexpr int rows = 300;
   for (int i = 0; i < rows; ++i) {
     const double alpha = 60 * std::sin(2 * k_pi * 3 * i / rows), x = hidden.waves_rate * load;
-    const double theta = chain.to(alpha / k_ratio, hidden.per_N * load) - hidden.waves * x / (1 + x);
+    const double cable = chain.to(alpha / k_ratio, hidden.per_N * load) - hidden.waves * x / (1 + x);
+    const double theta = through_slot(cable, hidden.linkage);
     file << i / 5.0 << ',' << alpha << ',' << theta + noise(random) << ',' << load << '\n';
   }
   return path;
@@ -72,6 +81,15 @@ TEST(CableData, IsReadAsStretchFrictionAndStiffening) {
   ASSERT_NE(friction, nullptr) << found.summary;
   EXPECT_NEAR(friction->parameters[0].value, 0.15, 0.05);
   EXPECT_LT(found.after.held_out_rms, 0.05 * found.before.held_out_rms);
+}
+
+TEST(CableData, CurvedLinkageIsCoveredWithoutAName) {
+  HiddenCable hidden;
+  hidden.linkage = 0.6;
+  const Calibration found = calibrated(hidden);
+  EXPECT_EQ(effect(found, "ratio_curve"), nullptr);
+  EXPECT_NE(found.identified.ratio_joint.curve.cube, 0) << found.summary;
+  EXPECT_LT(found.after.held_out_rms, 0.05 * found.before.held_out_rms) << found.summary;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "fusee/mechanism/effect.h"
 #include "fusee/transmission/transmission.h"
 #include "support/mechanisms.h"
 
@@ -131,6 +132,46 @@ TEST(Simulate, OfAGearedJointKnowsAnglesAlone) {
   for (const JointState& state : states.front()) {
     EXPECT_TRUE(std::isfinite(state.theta));
     EXPECT_TRUE(std::isnan(state.motor_torque));
+  }
+}
+
+DeclaredMechanism geared(double ratio) {
+  DeclaredMechanism joint;
+  joint.transmission = RatioTransmission{ratio};
+  return joint;
+}
+
+TEST(Simulate, RatioCurveIsSeriesOfAngleAndLoad) {
+  Imperfections at;
+  at.ratio_joint.compliance = 0.004;
+  at.ratio_joint.curve = {.square = 0.03, .cube = -0.02, .give_slope = 0.002, .give_square = -0.001};
+  const BenchLog log = swept(5);
+  const Readings shown = predict(geared(2), at, log);
+  for (std::size_t i = 0; i < log[0].rows.size(); ++i) {
+    const double u = log[0].rows[i].alpha / 2;
+    const double compliance = 0.004 + 0.002 * u - 0.001 * u * u;
+    EXPECT_NEAR(shown[0][i], u + 0.03 * u * u - 0.02 * u * u * u - compliance * 5, 1e-14);
+  }
+}
+
+/// Warms up, and holds its load to the end.
+BenchLog swept_while_warming() {
+  BenchLog log = swept(5);
+  log[0].has_temperature = true;
+  for (BenchRow& row : log[0].rows) row.temperature = 20 + row.time;
+  return log;
+}
+
+TEST(Simulate, EveryEffectOfARatioMovesTheJoint) {
+  const Readings declared = predict(geared(2), {}, swept_while_warming());
+  for (const Effect& effect : effects(JointKind::ratio)) {
+    Imperfections at;
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+      const EffectParameter& own = effect.parameters[k];
+      const double searched = effect.starts.empty() ? 1.0 : effect.starts[0][k];
+      set_value(at, own, own.searched ? searched : std::min(0.1, own.most));
+    }
+    EXPECT_NE(predict(geared(2), at, swept_while_warming()), declared) << effect.name;
   }
 }
 
