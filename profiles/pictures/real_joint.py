@@ -49,7 +49,7 @@ def least_squares(runs, held, steps):
 
 
 def cable(runs, numbers):
-    """[c1] to [c4] of profiles/physics.md, all runs at once: gain, compliance, straightened, its rate, friction without
+    """[c1] to [c4] of docs/background/physics.md, all runs at once: gain, compliance, straightened, its rate, friction without
     load and share. deg and N m."""
     gain, compliance, most, rate, unloaded, share = numbers
     length = max(len(run) for run in runs)
