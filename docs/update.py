@@ -29,8 +29,7 @@ sys.dont_write_bytecode = True
 import draw  # noqa: E402
 
 # Pages whose commands are run. Those of python.md need Python's module: tests/python/pages_test.py runs them.
-PAGES = ["README.md", "profiles/calibration.md",
-         *sorted(str(path.relative_to(SOURCE)) for path in (SOURCE / "docs").rglob("*.md") if path.name != "python.md")]
+PAGES = ["README.md", *sorted(str(path.relative_to(SOURCE)) for path in (SOURCE / "docs").rglob("*.md") if path.name != "python.md")]
 LEFT_OUT = "…"
 
 # Pages that are run ---------------------------------------------------------------------------------------------------
