@@ -240,7 +240,7 @@ DOCUMENTS = [  # command, what is run
     ("plan", "fusee plan arm.toml --dry-run --json"), ("simulate", "fusee simulate arm.toml out/arm_plan/run_1.csv --json"),
     ("optimize", "fusee optimize profiles/paper_optimum.toml --method certified --dry-run --json"),
     ("calibrate", "fusee calibrate profiles/forearm.toml profiles/measured/forearm_*.csv --no-audit --dry-run --json"),
-    ("compare", "fusee compare profiles/forearm.toml --before m_1.csv m_2.csv --after profiles/measured/forearm_1.csv profiles/measured/forearm_2.csv --json"),
+    ("compare", "fusee compare profiles/forearm.toml --before m_[12].csv --after profiles/measured/forearm_[12].csv --json"),
 ]
 COMMON = ("schema", "command", "ok", "exit", "errors", "warnings")
 
