@@ -29,8 +29,7 @@ sys.dont_write_bytecode = True
 import draw  # noqa: E402
 
 # Pages whose commands are run. Those of python.md need Python's module: tests/python/pages_test.py runs them.
-PAGES = ["README.md", "profiles/calibration.md",
-         *sorted(str(path.relative_to(SOURCE)) for path in (SOURCE / "docs").rglob("*.md") if path.name != "python.md")]
+PAGES = ["README.md", *sorted(str(path.relative_to(SOURCE)) for path in (SOURCE / "docs").rglob("*.md") if path.name != "python.md")]
 LEFT_OUT = "…"
 
 # Pages that are run ---------------------------------------------------------------------------------------------------
@@ -241,7 +240,7 @@ DOCUMENTS = [  # command, what is run
     ("plan", "fusee plan arm.toml --dry-run --json"), ("simulate", "fusee simulate arm.toml out/arm_plan/run_1.csv --json"),
     ("optimize", "fusee optimize profiles/paper_optimum.toml --method certified --dry-run --json"),
     ("calibrate", "fusee calibrate profiles/forearm.toml profiles/measured/forearm_*.csv --no-audit --dry-run --json"),
-    ("compare", "fusee compare profiles/forearm.toml --before m_1.csv m_2.csv --after profiles/measured/forearm_1.csv profiles/measured/forearm_2.csv --json"),
+    ("compare", "fusee compare profiles/forearm.toml --before m_[12].csv --after profiles/measured/forearm_[12].csv --json"),
 ]
 COMMON = ("schema", "command", "ok", "exit", "errors", "warnings")
 

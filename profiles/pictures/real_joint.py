@@ -4,8 +4,8 @@
     profiles/pictures/real_joint.py RUNS [picture.svg]
 
 RUNS: a folder with run_*.csv or tool*.csv files (time_s, alpha_deg, theta_deg, tau_out_Nm). Every fourth run is held
-out; all figures and curves are of these. Prints the table of profiles/real_joint.md. Knows the equations by itself:
-no program of this project. Needs numpy. The data of the page are O'Neill, Stephens and Kowalewski's (Open Database License 1.0).
+out; all figures and curves are of these. Prints the table of docs/background/real-joint.md. Has the equations of its
+own, and runs no program of this project. Needs numpy. The data of the page are O'Neill, Stephens and Kowalewski's (Open Database License 1.0).
 """
 
 import pathlib
@@ -49,7 +49,7 @@ def least_squares(runs, held, steps):
 
 
 def cable(runs, numbers):
-    """[c1] to [c4] of profiles/physics.md, all runs at once: gain, compliance, straightened, its rate, friction without
+    """[c1] to [c4] of docs/background/physics.md, all runs at once: gain, compliance, straightened, its rate, friction without
     load and share. deg and N m."""
     gain, compliance, most, rate, unloaded, share = numbers
     length = max(len(run) for run in runs)

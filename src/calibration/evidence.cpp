@@ -25,7 +25,7 @@ constexpr std::size_t k_least_rows_a_block = 6;
 constexpr std::size_t k_rows_a_stand = 3;
 /// Ways whose ends are within this part of what α spans repeat one another. Levels of a load that goes with the motion
 /// cut strokes into pieces, two of one level at two places: what differs between these is the joint's law, and no
-/// scatter (the jaw of profiles/calibration.md).
+/// scatter (the jaw of docs/background/real-joint.md).
 constexpr double k_one_way = 0.1;
 
 /// Whole cycles, evenly spread, of so many strokes that enough rows of each are left; the ends of the others are

@@ -2,7 +2,7 @@
 /// Every number by which a calibration decides, with its reason and the experiment that it stands on.
 ///
 /// Experiments: *matrix* is tests/rig/known_truth, joints with known faults, whose outcome with these numbers stands in
-/// profiles/calibration.md; *rig data* are the six joints of tests/data/rig; *bench joint* is
+/// docs/background/calibration-results.md; *rig data* are the six joints of tests/data/rig; *bench joint* is
 /// tests/calibration/selection_test.cpp. Where only a commit is named, the number came with it and the log does not say
 /// what it was tried on: the matrix is what holds it since.
 #pragma once

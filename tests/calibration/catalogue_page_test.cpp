@@ -1,4 +1,4 @@
-// The catalogue's table in profiles/calibration.md is that of the program.
+// The table of docs/reference/effects.md is that of the program.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 namespace fusee {
 namespace {
 
-const std::filesystem::path k_profiles = std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles";
+const std::filesystem::path k_page = std::filesystem::path(FUSEE_SOURCE_DIR) / "docs/reference/effects.md";
 
 std::string numbers(const Effect& effect) {
   std::string text;
@@ -23,7 +23,7 @@ std::string corrected_by(CorrectableBy what) { return what == CorrectableBy::not
 /// As a joint with tendons has them; what a joint declared by a ratio has instead stands behind it.
 std::string catalogue_table() {
   std::string text =
-      "| place | effect | how it shows | its numbers | taken out by | what tells it from its rivals "
+      "| place | effect | how it shows | its numbers | taken out by | how to separate it "
       "|\n|---|---|---|---|---|---|\n";
   for (const Effect& effect : effects(JointKind::tendons)) {
     std::string shown = effect.is_looked_for ? numbers(effect) : "", by = corrected_by(effect.correctable_by);
@@ -38,13 +38,13 @@ std::string catalogue_table() {
 }
 
 TEST(CalibrationPage, ItsCatalogueIsThatOfTheProgram) {
-  const std::string page = read_file(k_profiles / "calibration.md", 1 << 20);
+  const std::string page = read_file(k_page, 1 << 20);
   const std::string begin = "<!-- catalogue: begin -->\n", end = "<!-- catalogue: end -->";
   const std::size_t from = page.find(begin), to = page.find(end);
   ASSERT_NE(from, std::string::npos);
   ASSERT_NE(to, std::string::npos);
   EXPECT_EQ(page.substr(from + begin.size(), to - from - begin.size()), catalogue_table())
-      << "profiles/calibration.md lags behind the catalogue: put the text above between its two marks";
+      << "docs/reference/effects.md lags behind the catalogue: put the text above between its two marks";
 }
 
 TEST(CalibrationPage, TheCatalogueHoldsEveryNameThatWasPromised) {

@@ -319,7 +319,7 @@ TEST_F(BySquares, NumbersStayWithinTheirBoundsAndTheOthersGoWithThem) {
   EXPECT_NEAR(squares.residual.mean(), 0, 1e-9);  // the best offset beside it
 }
 
-/// Of a cable joint (as the jaw in profiles/calibration.md): its loop shrinks with the load by no law that the
+/// Of a cable joint (as the jaw of docs/background/real-joint.md): its loop shrinks with the load by no law that the
 /// catalogue has.
 Measurement loop_that_shrinks(double gain = 0) {
   const std::vector<double> loads = {0, 0.01, 0.02, 0.03}, loops = {3.5, 2, 0.5, 0.5};

@@ -203,7 +203,7 @@ TEST(Covered, NothingWhereNothingIsWithoutAName) {
   EXPECT_THAT(compensation_csv(found.correction), Not(HasSubstr("empirical")));
 }
 
-// Minutes: what profiles/calibration.md says of the curve's promises.
+// Minutes: the figures of the empirical curve in docs/background/calibration-results.md.
 TEST(Covered, PromisesAreKeptOnJointsDrawn) {
   if (std::getenv("FUSEE_LONG_TESTS") == nullptr) GTEST_SKIP() << "FUSEE_LONG_TESTS is not set";
   constexpr std::uint64_t joints = 4;

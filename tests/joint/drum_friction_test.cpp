@@ -1,5 +1,5 @@
-// What rubs on a joint's drum, [d1] to [d3] of profiles/physics.md: against a string in links that shares no equation
-// with it, energy over closed loops, and its limits.
+// Friction on a joint's drum, [d1] to [d3] of docs/background/physics.md: compared with a string in links that shares
+// no equation with it, with energy over closed loops, and with its limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
