@@ -273,7 +273,7 @@ HelixSynthesis trial_curves(const Mechanism& mechanism, double tolerance) {
   SynthesisOptions options;
   options.tolerance = tolerance;
   options.stroke_steps = 36;
-  return synthesise_helix(mechanism, groove_of(mechanism), options, HelixLook::brief);
+  return synthesise_helix(mechanism, groove_of(mechanism), options, HelixAccuracy::coarse);
 }
 
 /// Of curves first, then of the body.
