@@ -66,7 +66,7 @@ class BlankBuilder {
         layout_(layout),
         heights_(heights),
         columns_(fan.columns()),
-        lip_(section.depth - 0.5 * layout.tendon_diameter) {
+        groove_edge_(section.depth - 0.5 * layout.tendon_diameter) {
     const auto& below = section.walls.below;
     const auto& above = section.walls.above;
     for (std::size_t k = below.size(); k-- > 1;) section_.push_back({below[k].offset, -below[k].dz});
@@ -131,14 +131,14 @@ class BlankBuilder {
   std::vector<Feature> features() {
     std::vector<Feature> all;
     const double foot = layout_.elephant_foot;
-    if (foot > 0) all.push_back(ring(ring_about(fan_.p1, columns_, true, lip_ - foot), 0.0));
+    if (foot > 0) all.push_back(ring(ring_about(fan_.p1, columns_, true, groove_edge_ - foot), 0.0));
     lowest_ = 0;
-    all.push_back(ring(ring_about(fan_.p1, columns_, true, lip_), foot > 0 ? rise_of(layout_, foot) : 0.0));
+    all.push_back(ring(ring_about(fan_.p1, columns_, true, groove_edge_), foot > 0 ? rise_of(layout_, foot) : 0.0));
     all.push_back(groove(fan_.p1));
-    all.push_back(ring(ring_about(fan_.p1, columns_, false, lip_), heights_.lower));
-    all.push_back(ring(ring_about(fan_.p2, columns_, true, lip_), heights_.upper));
+    all.push_back(ring(ring_about(fan_.p1, columns_, false, groove_edge_), heights_.lower));
+    all.push_back(ring(ring_about(fan_.p2, columns_, true, groove_edge_), heights_.upper));
     all.push_back(groove(fan_.p2));
-    all.push_back(ring(ring_about(fan_.p2, columns_, false, lip_), heights_.top));
+    all.push_back(ring(ring_about(fan_.p2, columns_, false, groove_edge_), heights_.top));
     highest_ = all.back().first;
     return all;
   }
@@ -436,7 +436,7 @@ class BlankBuilder {
   const BodyLayout& layout_;
   const RingHeights& heights_;
   std::size_t columns_;
-  double lip_;
+  double groove_edge_;
   std::vector<GroovePoint> section_;  // upwards, offsets from the floor
   TriangleMesh mesh_;
   std::vector<Band> bands_;
@@ -446,14 +446,14 @@ class BlankBuilder {
 
 }  // namespace
 
-Polygon rim_of(const Fan& fan, Side side, double lip) {
-  return side == Side::left ? ring_about(fan.p1, fan.columns(), true, lip)
-                            : ring_about(fan.p2, fan.columns(), false, lip);
+Polygon rim_of(const Fan& fan, Side side, double groove_edge) {
+  return side == Side::left ? ring_about(fan.p1, fan.columns(), true, groove_edge)
+                            : ring_about(fan.p2, fan.columns(), false, groove_edge);
 }
 
-double middle_step(const Fan& fan, double lip) {
-  const std::vector<Vec2> lower = ring_about(fan.p1, fan.columns(), false, lip),
-                          upper = ring_about(fan.p2, fan.columns(), true, lip);
+double middle_step(const Fan& fan, double groove_edge) {
+  const std::vector<Vec2> lower = ring_about(fan.p1, fan.columns(), false, groove_edge),
+                          upper = ring_about(fan.p2, fan.columns(), true, groove_edge);
   double step = 0;
   for (std::size_t i = 0; i < fan.columns(); ++i) step = std::max(step, (upper[i] - lower[i]).dot(unit(fan.angles[i])));
   return step;

@@ -19,10 +19,10 @@ struct RingHeights {
 };
 
 /// Outline of the lower face (P1) or the upper face (P2).
-Polygon rim_of(const Fan& fan, Side side, double lip);
+Polygon rim_of(const Fan& fan, Side side, double groove_edge);
 
 /// Largest projection of the middle flange's upper ring over its lower one, mm. The cone between them supports it.
-double middle_step(const Fan& fan, double lip);
+double middle_step(const Fan& fan, double groove_edge);
 
 /// In mm of the finished part, not scaled and not rounded to float.
 TriangleMesh helical_blank(const Fan& fan, const HelicalSection& section, const BodyLayout& layout,

@@ -16,11 +16,10 @@
 #include "coil/winding.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
-#include "solid/blame.h"
 #include "solid/boolean.h"
 #include "solid/bore.h"
 #include "solid/condition_list.h"
-#include "solid/cut_ways.h"
+#include "solid/cut_variants.h"
 #include "solid/euler.h"
 #include "solid/groove.h"
 #include "solid/heights.h"
@@ -28,6 +27,7 @@
 #include "solid/self_intersection.h"
 #include "solid/set_screw.h"
 #include "solid/size.h"
+#include "solid/support_attribution.h"
 #include "solid/tools.h"
 namespace fusee {
 namespace {
@@ -78,7 +78,7 @@ class Planner {
         section_(helical_section(mechanism)) {}
 
   HelicalPulley make(TieOffSearch search) {
-    if (plan().empty()) cut(search == TieOffSearch::brief ? k_brief_cut_ways : k_cut_ways);
+    if (plan().empty()) cut(search == TieOffSearch::brief ? k_brief_cut_variants : k_cut_variants);
     return std::move(pulley_);
   }
 
@@ -144,7 +144,7 @@ class Planner {
     BodyLayout& layout = pulley_.layout;
     layout.parts = Parts::one;
     layout.tendon_diameter = d_;
-    layout.roof_slope = section_.roof_slope;
+    layout.ceiling_slope = section_.ceiling_slope;
     layout.p1 = layout.p2 = section_.walls;
     layout.groove_depth = section_.depth;
     layout.flange_thickness = mechanism_.body.flange_thickness;
@@ -180,21 +180,23 @@ class Planner {
 
   void place_along_axis() {
     BodyLayout& layout = pulley_.layout;
-    const double flange = layout.flange_thickness, lip = section_.depth - 0.5 * d_;
+    const double flange = layout.flange_thickness, groove_edge = section_.depth - 0.5 * d_;
     const double filled = run_outs_[0].bend_radius + 2.0 * layout.pocket_radius + layout.min_wall;
     const double fall1 = std::abs(p1_.slope) * filled, fall2 = std::abs(p2_.slope) * filled;
     pulley_.p1 = placed(p1_, 0.0);
     pulley_.p2 = placed(p2_, 0.0);
-    fan_ = make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), lip, 0.5 * d_, tolerance_, filled);
+    fan_ =
+        make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), groove_edge, 0.5 * d_, tolerance_, filled);
     ends_ = {GrooveEnd{Side::left, fan_.p1.groove_back(), 1.0, -1.0, 0.0},
              GrooveEnd{Side::right, fan_.p2.groove_front(), -1.0, 1.0, 0.0}};
     for (std::size_t i = 0; i < ends_.size(); ++i)
-      run_outs_[i] = fitted_into(rim_of(fan_, ends_[i].side, lip), ends_[i], run_outs_[i], layout.min_wall);
+      run_outs_[i] = fitted_into(rim_of(fan_, ends_[i].side, groove_edge), ends_[i], run_outs_[i], layout.min_wall);
 
     layout.z_p1 = std::max(flange + section_.walls.below_width() + fall1, run_outs_[0].height());
     raise(fan_.p1, pulley_.p1, layout.z_p1);
     heights_.lower = fan_.p1.rows.front().height + section_.walls.above_width() + 0.5 * flange;
-    layout.middle_cone = layout.roof_slope > 0 ? rise_of(layout, std::max(0.0, middle_step(fan_, lip))) : 0.0;
+    layout.middle_cone =
+        layout.ceiling_slope > 0 ? rise_of(layout, std::max(0.0, middle_step(fan_, groove_edge))) : 0.0;
     heights_.upper = heights_.lower + std::max(layout.middle_cone, k_least_cone);
     raise(fan_.p2, pulley_.p2,
           heights_.upper + 0.5 * flange + section_.walls.below_width() - fan_.p2.rows.back().height);
@@ -218,16 +220,16 @@ class Planner {
   // them.
   void cover_channels() {
     const BodyLayout& layout = pulley_.layout;
-    const double lip = section_.depth - 0.5 * d_;
+    const double groove_edge = section_.depth - 0.5 * d_;
     const auto carried = [&](double rise) {
-      return layout.roof_slope > 0 ? rise / rise_of(layout, 1.0) : std::numeric_limits<double>::max();
+      return layout.ceiling_slope > 0 ? rise / rise_of(layout, 1.0) : std::numeric_limits<double>::max();
     };
     const std::array<double, 2> carried_low = {
         carried(layout.z_p1 - section_.walls.below_width() - layout.flange_thickness),
         carried(least_rise_to_fill(fan_.p2))};
     const std::array<Winding*, 2> windings = {&fan_.p1, &fan_.p2};
     for (std::size_t i = 0; i < ends_.size(); ++i) {
-      const Polygon rim = rim_of(fan_, ends_[i].side, lip);
+      const Polygon rim = rim_of(fan_, ends_[i].side, groove_edge);
       const double cover = entry_cover(rim, ends_[i], run_outs_[i]), wanted = std::max(0.0, k_channel_cover - cover);
       // The entry lies between the two groove edges.
       Winding& winding = *windings[i];
@@ -404,7 +406,7 @@ class Planner {
     const bool screw = layout.set_screw.present;
     pulley_.expected_euler = 2 - 2 * (1 + static_cast<int>(layout.bore.screw_holes.size() + ends_.size()) +
                                       (screw ? (layout.set_screw.nut_trap ? 2 : 1) : 0));
-    const int ways = cut_ways(blank.triangles.size(), wanted_ways);
+    const int ways = cut_variants(blank.triangles.size(), wanted_ways);
     for (int variant = 0; variant < ways; ++variant) {
       std::vector<TriangleMesh> tools;
       for (std::size_t i = 0; i < ends_.size(); ++i) {
@@ -473,17 +475,17 @@ HelicalSection helical_section(const Mechanism& mechanism) {
   HelicalSection section;
   section.depth = mechanism.groove_depth();
   section.rib = k_rib;
-  section.roof_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin + k_drawn_coarsely;
+  section.ceiling_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin + k_drawn_coarsely;
   const double lean = 0.5 * mechanism.body.groove_angle;
   const auto half = [&](double angle) {
     return groove_half(mechanism.body, angle, mechanism.tendon.diameter, section.depth);
   };
-  section.walls = {half(lean), half(std::max(lean, section.roof_slope))};
+  section.walls = {half(lean), half(std::max(lean, section.ceiling_slope))};
   return section;
 }
 
 double least_lead(const HelicalSection& section, double growth) {
-  const double step = section.roof_slope > 0 ? std::max(0.0, growth) * std::tan(section.roof_slope) : 0.0;
+  const double step = section.ceiling_slope > 0 ? std::max(0.0, growth) * std::tan(section.ceiling_slope) : 0.0;
   return section.width() + std::max(section.rib, step);
 }
 

@@ -78,14 +78,14 @@ Vec3 way_end(const GrooveEnd& end, const RunOutSizes& sizes) {
 }
 
 // The peaked ceiling leaves the circle where the circle is as steep as the cone.
-ChannelRing ring_across(const Vec3& middle, const Vec3& ahead, double radius, double roof_slope) {
+ChannelRing ring_across(const Vec3& middle, const Vec3& ahead, double radius, double ceiling_slope) {
   const Vec3 level = ahead.cross(Vec3::UnitZ()).normalized(), up = level.cross(ahead);
   return {middle,
           level,
           up,
           radius,
-          std::acos(std::cos(roof_slope) / up.z()),
-          middle + radius / std::cos(roof_slope) * Vec3::UnitZ()};
+          std::acos(std::cos(ceiling_slope) / up.z()),
+          middle + radius / std::cos(ceiling_slope) * Vec3::UnitZ()};
 }
 
 // Shrinks a ring nearly to a point.
@@ -153,7 +153,7 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout, 
   sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket
                                                        : share * std::max(1.75 * d, 2.0 * sizes.channel_radius);
   sizes.pocket_depth = sizes.pocket_radius;
-  sizes.roof_slope = std::max(gable_slope(layout), k_flattest_gable);
+  sizes.ceiling_slope = std::max(ridge_slope(layout), k_flattest_gable);
   sizes.cone = rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
   sizes.tip = rise_of(layout, (1.0 - k_tip) * std::min(sizes.pocket_radius, sizes.channel_radius));
   // The pocket leaves a wall to the rim.
@@ -186,7 +186,7 @@ double entry_cover(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& 
 std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes,
                                   const ChannelRoom& room) {
   // The peaked ceiling points up, away from the face, in the lower part only.
-  const double upwards = end.outward < 0 ? 1.0 / std::cos(sizes.roof_slope) : 1.0;
+  const double upwards = end.outward < 0 ? 1.0 / std::cos(sizes.ceiling_slope) : 1.0;
   std::vector<double> radii;
   for (int k = 1; k <= k_arc_steps; ++k) {
     const Vec3 place = arc_place(end, sizes, k);
@@ -235,7 +235,7 @@ std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& 
   const auto [along, towards] = directions_of(end);
   std::vector<ChannelRing> rings;
   const auto add = [&](const Vec3& middle, const Vec3& ahead, double radius) {
-    rings.push_back(ring_across(middle, ahead, radius, sizes.roof_slope));
+    rings.push_back(ring_across(middle, ahead, radius, sizes.ceiling_slope));
   };
   // The groove's end wall stands between the first two sections, in the plane of neither.
   const Vec3 entry = start_of(end) + sizes.entry_outward * Vec3(end.row.normal.x(), end.row.normal.y(), 0.0);
@@ -256,7 +256,7 @@ std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& 
   if ((last - rings.back().middle).norm() > k_shortest_way * sizes.channel_radius)
     add(last, towards, sizes.channel_radius);
   const Vec3 inwards(-end.row.normal.x(), -end.row.normal.y(), 0.0);
-  const Vec3 front = std::sin(sizes.roof_slope) * inwards + std::cos(sizes.roof_slope) * Vec3::UnitZ();
+  const Vec3 front = std::sin(sizes.ceiling_slope) * inwards + std::cos(sizes.ceiling_slope) * Vec3::UnitZ();
   rings.push_back(narrowed(rings.back(), last + sizes.channel_radius * front));
   return rings;
 }

@@ -27,7 +27,7 @@ struct RunOutSizes {
   double bend_radius = 0;  ///< radius of the arc, at most inward · √2; a straight channel continues it
   double sharpest_bend = 0;
   std::vector<double> channel_radii = {};  ///< radii along the arc, if they vary
-  double roof_slope = 0;                   ///< angle of the channel's peaked ceiling above the horizontal, rad
+  double ceiling_slope = 0;                ///< angle of the channel's peaked ceiling above the horizontal, rad
 
   /// The least distance from the face to the tendon's centre line at the groove's end.
   double height() const { return pocket_depth + cone + inward; }

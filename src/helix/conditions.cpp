@@ -44,7 +44,8 @@ Condition number_of_turns(const Transmission& planar, Side side) {
 /// Above the limiting fleet angle it touches the groove edge.
 Condition fleet(const HelixSide& side, Side which, const HelixGroove& groove, double largest_radius) {
   constexpr double k_none = 1e-9;  // tolerance of rounding about zero
-  const double limit = std::max(k_none, std::atan(groove.room_at_lip / std::sqrt(2.0 * largest_radius * groove.lip)));
+  const double limit =
+      std::max(k_none, std::atan(groove.room_at_groove_edge / std::sqrt(2.0 * largest_radius * groove.groove_edge)));
   const std::string number = which == Side::left ? "1" : "2";
   Condition condition = at_most("fleet_angle_" + number, side.fleet_at, degrees(side.fleet), degrees(limit), "deg");
   if (!condition.ok) {

@@ -64,7 +64,7 @@ void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const H
   result.closure = windings.closure;
   result.stroke = stroke_over_range(law, options.stroke_steps);
   SpiralDrawing drawing{.tolerance = options.tolerance,
-                        .reach = groove.lip + mechanism.tendon.diameter + std::max(0.0, options.drawn_out)};
+                        .reach = groove.groove_edge + mechanism.tendon.diameter + std::max(0.0, options.drawn_out)};
   if (accuracy == HelixAccuracy::coarse) drawing.largest_turn = radians(5);
   for (const Side side : {Side::left, Side::right})
     result.sides[side == Side::left ? 0 : 1] = make_side(mechanism, windings, side, result.stroke, drawing);

@@ -27,7 +27,7 @@ GrooveEnd end_on(Side side) {
 
 struct Sizes {
   double radius, bend_ratio, entry, growth;  ///< growth of the radius along the arc
-  double gable = 57.5;
+  double peak = 57.5;
 };
 
 RunOutSizes sizes_of(const Sizes& wanted) {
@@ -40,7 +40,7 @@ RunOutSizes sizes_of(const Sizes& wanted) {
   sizes.tip = 0.8 * wanted.radius * std::tan(radians(47.5));
   sizes.bend_radius = wanted.bend_ratio * wanted.radius;
   sizes.inward = std::max(sizes.bend_radius / std::sqrt(2.0), 3 * wanted.radius);
-  sizes.roof_slope = radians(wanted.gable);
+  sizes.ceiling_slope = radians(wanted.peak);
   for (int k = 1; k <= 9; ++k)
     sizes.channel_radii.push_back(
         std::min(wanted.radius, wanted.entry + wanted.growth * 0.5 * k_pi * k / 9 * sizes.bend_radius));
@@ -48,7 +48,7 @@ RunOutSizes sizes_of(const Sizes& wanted) {
 }
 
 /// Angle of the flattest upward face of the cut volume, except its faces and ends.
-double flattest_roof(const TriangleMesh& tool, const GrooveEnd& end) {
+double flattest_ceiling(const TriangleMesh& tool, const GrooveEnd& end) {
   double flattest = 0.5 * k_pi;
   for (const auto& [ia, ib, ic] : tool.triangles) {
     const Vec3 &a = tool.vertices[ia], &b = tool.vertices[ib], &c = tool.vertices[ic];
@@ -71,7 +71,7 @@ TEST(RunOut, CeilingsKeepTheirSlope) {
         const auto tool = run_out_tool(end, sizes_of(wanted), variant);
         ASSERT_TRUE(tool) << wanted.radius;
         EXPECT_FALSE(find_crossing(*tool).facets) << wanted.radius;
-        EXPECT_GT(degrees(flattest_roof(*tool, end)), 47.0) << wanted.radius << (side == Side::left ? " P1" : " P2");
+        EXPECT_GT(degrees(flattest_ceiling(*tool, end)), 47.0) << wanted.radius << (side == Side::left ? " P1" : " P2");
       }
     }
   }
@@ -80,11 +80,11 @@ TEST(RunOut, CeilingsKeepTheirSlope) {
 // The sections of the sharpest bends do not intersect one another for any steepness of the ceiling.
 TEST(RunOut, ChannelsDoNotSelfIntersect) {
   for (const Side side : {Side::left, Side::right}) {
-    for (const double gable : {57.5, 60.0, 65.0, 72.0, 80.0}) {
-      for (const Sizes& wanted : {Sizes{0.6, 2.8, 0.6, 0, gable}, Sizes{1.0, 2.8, 0.3, 0.3, gable}}) {
+    for (const double peak : {57.5, 60.0, 65.0, 72.0, 80.0}) {
+      for (const Sizes& wanted : {Sizes{0.6, 2.8, 0.6, 0, peak}, Sizes{1.0, 2.8, 0.3, 0.3, peak}}) {
         const auto tool = run_out_tool(end_on(side), sizes_of(wanted), 0);
-        ASSERT_TRUE(tool) << gable;
-        EXPECT_FALSE(find_crossing(*tool).facets) << gable;
+        ASSERT_TRUE(tool) << peak;
+        EXPECT_FALSE(find_crossing(*tool).facets) << peak;
       }
     }
   }

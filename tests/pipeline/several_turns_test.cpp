@@ -298,7 +298,7 @@ TEST(SeveralTurnsWords, MoreTurnsThanAreMadeSayHowMany) {
   const BuildResult built = made(read_profile("elbow_capstan", many));
   ASSERT_EQ(built.status, BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built),
-              HasSubstr("P1 would wind 23 turns over the range: at most 12 are made, 52 % of this"));
+              HasSubstr("P1 would wind 23 turns over the range: at most 12 are supported, 52 % of this"));
   ASSERT_FALSE(built.advice.alone.empty());
   const Change& change = built.advice.alone.front();
   EXPECT_EQ(change.key, "pulley.r1_mm");
@@ -420,7 +420,7 @@ TEST(SeveralTurnsBodies, ThatOnceWentWrong) {
 TEST(SeveralTurnsWords, AHubHasToStandOnItsFlange) {
   const BuildResult wide = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "90"}}));
   EXPECT_EQ(wide.status, BuildStatus::infeasible);
-  EXPECT_THAT(failures_of(wide), HasSubstr("the upper flange has room for a hub of"));
+  EXPECT_THAT(failures_of(wide), HasSubstr("the upper flange has space for a hub of"));
   const BuildResult thin = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "2"}}));
   EXPECT_EQ(thin.status, BuildStatus::infeasible);
   EXPECT_THAT(failures_of(thin), HasSubstr("body.hub_diameter_mm) leaves"));

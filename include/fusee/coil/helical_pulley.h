@@ -25,9 +25,9 @@ namespace fusee {
 /// The groove's cross-section, from which a synthesis chooses a lead.
 struct HelicalSection {
   GrooveWalls walls;
-  double depth = 0;       ///< height of the groove edge above the floor
-  double rib = 0;         ///< thickness of a rib at its top
-  double roof_slope = 0;  ///< angle of downward faces above the horizontal; 0: printed with supports
+  double depth = 0;          ///< height of the groove edge above the floor
+  double rib = 0;            ///< thickness of a rib at its top
+  double ceiling_slope = 0;  ///< angle of downward faces above the horizontal; 0: printed with supports
 
   double width() const { return walls.below_width() + walls.above_width(); }
 };

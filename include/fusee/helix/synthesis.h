@@ -54,8 +54,9 @@ using MinLead = std::function<double(double step)>;
 
 /// The cross-section of a mechanism's helical grooves, which the module `coil` defines.
 struct HelixGroove {
-  double lip = 0;          ///< height of the groove edge over the floor, mm
-  double room_at_lip = 0;  ///< sideways play of a tendon at the height of the groove edge, up to the nearer wall, mm
+  double groove_edge = 0;  ///< height of the groove edge over the floor, mm
+  double room_at_groove_edge =
+      0;  ///< sideways play of a tendon at the height of the groove edge, up to the nearer wall, mm
   MinLead least_lead;
 };
 

@@ -129,7 +129,7 @@ TEST(Scad, ALedgeIsAsWideAsTheConeOverItIsSteep) {
     const Product product = printed_as(parts, Flange::round);
     const std::string text = scad_text(product);
     const BodyLayout& layout = product.pulley.layout;
-    const double steep = std::tan(layout.roof_slope);
+    const double steep = std::tan(layout.ceiling_slope);
     EXPECT_NEAR(number_named(text, "upper_ledge") * steep, layout.upper_cone, 2e-5);
     if (parts == Parts::one) {
       EXPECT_GT(layout.middle_cone, 0);
