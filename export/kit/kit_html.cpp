@@ -1,4 +1,4 @@
-// kit.html: from a bag of parts to a joint that can be measured.
+// kit.html: the assembly page of the test rig.
 
 #include <algorithm>
 #include <filesystem>
@@ -24,7 +24,7 @@ const KitPart* part_named(const KitPlan& plan, const std::string& name) {
   return found == plan.parts.end() ? nullptr : &*found;
 }
 
-/// "tendon_1: from the left outer side": where on the pulley each leaves, and which way it is wound.
+/// The side of the pulley where a tendon leaves it, and its winding direction.
 std::string winding_words(Side side) {
   return side == Side::left ? "P1, the lower groove. Seen from above it leaves the pulley on its left, and is wound "
                               "counter-clockwise from "
@@ -261,7 +261,7 @@ std::vector<std::string> template_words(const KitProduct& product) {
   return words;
 }
 
-/// Of tendons that climb.
+/// For helical tendons.
 std::string heights_section(const KitProduct& product) {
   const TendonHeights& heights = *product.plan.heights;
   const bool drum = product.pulley.joint.mechanism.joint.drum_radius > 0;

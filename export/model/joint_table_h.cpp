@@ -1,4 +1,4 @@
-// A header that C99 and C++17 compile without a warning, in 32-bit arithmetic alone, without a library.
+// A header that C99 and C++17 compile without warnings, with 32-bit arithmetic only and without a library.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace model_words;
 
-/// What cannot end a comment nor go on over a line's end.
+/// Text that can neither end a comment nor continue beyond a line's end.
 std::string in_comment(const std::string& text) {
   std::string clean;
   for (const char c : cleaned_line(text)) clean += c == '*' || c == '\\' || c == '?' ? '_' : c;
@@ -77,9 +77,9 @@ class Header {
     const TableErrors& errors = table_.errors;
     std::vector<std::string> lines{"joint_table.h: " + product_.mechanism.name + ", by " + std::string(k_tool) +
                                    " model"};
-    const std::vector<std::string> source = of_curve(product_.curves.shown, product_, true);
+    const std::vector<std::string> source = of_curve(product_.curves.sensed, product_, true);
     lines.insert(lines.end(), source.begin(), source.end());
-    const AngleMap& map = product_.curves.shown.middle;
+    const AngleMap& map = product_.curves.sensed.middle;
     const auto degs = [](double angle) { return rounded(degrees(angle), 6); };
     lines.push_back("alpha (motor) from " + degs(map.alpha_min) + " to " + degs(map.alpha_max) +
                     " deg, theta (joint) from " + degs(map.theta_min) + " to " + degs(map.theta_max) +
@@ -134,16 +134,16 @@ class Header {
            "}\n\n";
   }
 
-  /// Steps of a table per unit of what it is read by.
+  /// Steps of a table per unit of its argument.
   std::string per_step(float first, float last) const {
     return c_float(static_cast<float>(table_.pieces / (double(last) - double(first))));
   }
 
-  /// The place in a table of the motor's angle.
+  /// The place of the motor's angle in a table.
   std::string motor_place(const OneWayTable& way) const {
     std::string value = motor_word();
     if (ticks()) {
-      // Clamped before the difference is taken, just beyond the ends, so that no count is too far off.
+      // Clamped just beyond the ends before the subtraction, so that no count overflows.
       const long long low = whole(std::floor(table_.unit.zero + double(way.first))) - 1,
                       high = whole(std::ceil(table_.unit.zero + double(way.last))) + 1;
       value = "(float)((count < " + std::to_string(low) + " ? " + std::to_string(low) + " : count > " +
@@ -174,7 +174,7 @@ class Header {
     const std::string half = ticks() ? "" : "0.5f * ", after = ticks() ? " / 2" : "";
     std::string sum = motor + "_up" + (ticks() ? "" : "_deg") + "(theta_deg) + " + motor + "_down" +
                       (ticks() ? "" : "_deg") + "(theta_deg)";
-    // Half of each: the sum of two counts may be too large.
+    // The mean without the sum of two counts, which may overflow.
     if (ticks()) sum = motor + "_up(theta_deg) + (" + motor + "_down(theta_deg) - " + motor + "_up(theta_deg))";
     return "/* The middle of both ways. */\nstatic inline float " + p_ + "_theta_deg(" + motor_type() + " " +
            motor_word() + ") {\n  return 0.5f * (" + p_ + "_theta_up_deg(" + motor_word() + ") + " + p_ +
