@@ -148,14 +148,14 @@ Polygon moved(Polygon points, const Vec2& shift) {
 std::vector<std::string> remarks_of(const KitProduct& product, const std::vector<KitPlate>& plates) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   std::vector<std::string> remarks{
-      mechanism.name + ": the test model's plates to cut, true size in mm",
+      mechanism.name + ": the test rig's plates to cut, true size in mm",
       "lines are the cutter's middle: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
           " mm) outside, holes half a kerf inside; the square is 10 mm wide",
       "sheets of " + rounded(mechanism.cut.plate) + " mm; plates of one name are glued one upon another"};
   for (const KitPlate& plate : plates) {
     for (const DiscHull& hole : plate.holes) {
       if (thinnest(hole) - mechanism.cut.kerf < k_least_cut)
-        remarks.push_back(plate.label + ": a hole of " + rounded(thinnest(hole), 3) + " mm is left out: drill it");
+        remarks.push_back(plate.label + ": a hole of " + rounded(thinnest(hole), 3) + " mm is omitted: drill it");
     }
   }
   return remarks;

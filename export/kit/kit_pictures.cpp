@@ -137,12 +137,12 @@ void add_pulley(std::vector<DrawnSlab>& drawn, const KitProduct& product, const 
     for (Vec2& p : shape) p += axis;
     drawn.push_back({shape, shape, low + from, low + to, {}, kind});
   };
-  const double lip = layout.groove_depth - 0.5 * d, gap = 0.6 * d;
-  add(pulley.synthesis.p1, lip, 0, layout.z_p1 - gap);
+  const double groove_edge = layout.groove_depth - 0.5 * d, gap = 0.6 * d;
+  add(pulley.synthesis.p1, groove_edge, 0, layout.z_p1 - gap);
   add(pulley.synthesis.p1, -0.5 * d, layout.z_p1 - gap, layout.z_p1 + gap);
-  add(pulley.synthesis.p2, lip, layout.z_p1 + gap, layout.z_p2 - gap);
+  add(pulley.synthesis.p2, groove_edge, layout.z_p1 + gap, layout.z_p2 - gap);
   add(pulley.synthesis.p2, -0.5 * d, layout.z_p2 - gap, layout.z_p2 + gap);
-  add(pulley.synthesis.p2, lip, layout.z_p2 + gap, layout.z_top);
+  add(pulley.synthesis.p2, groove_edge, layout.z_p2 + gap, layout.z_top);
   if (layout.hub_radius > 0)
     add_upright(drawn, disc(axis, layout.hub_radius), low + layout.z_top, low + layout.z_hub, kind);
 }

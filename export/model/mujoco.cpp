@@ -44,8 +44,8 @@ Polynomial over_arm(Polynomial p, double arm) {
 }
 
 /// tests/oracle/judge_model.py allows for this too.
-const std::string k_gives_way =
-    "MuJoCo's equalities give way a little to what pulls at them: by about 0.001 deg, driven through the range in 3 s.";
+const std::string k_compliance =
+    "MuJoCo's equalities are slightly compliant: by about 0.001 deg, driven through the range in 3 s.";
 
 std::vector<std::string> bounds_of(const ModelProduct& product) {
   const AngleMap& map = product.curves.physical.middle;
@@ -182,7 +182,7 @@ TendonText text_of(const WrappedTendon& tendon, bool ends_in_C) {
   }
   text.through("anchor_" + n);
   if (tendon.sheath_exit) {
-    text.world += "    <" + site("mouth_" + n, *tendon.sheath_exit, z);
+    text.world += "    <" + site("sheath_exit_" + n, *tendon.sheath_exit, z);
     text.through("mouth_" + n);
   }
   return text;
@@ -198,19 +198,19 @@ std::vector<std::string> way_words(const ModelProduct& product) {
                                                        : " is a polynomial of alpha (degree 4).";
   const std::string misses =
       "It misses theta(alpha) by " + at_most_deg(model.error) + " deg at most, over the whole range.";
-  const std::string draws = " The other tendon is drawn, and holds nothing:";
+  const std::string draws = " The other tendon is drawn without a constraint:";
   if (mechanism.is_papers()) {
     return {
         "Both tendons run over their pins; MuJoCo wraps them round cylinders and spheres only, so that below its pin "
         "each ends",
-        "at a point that stands still, and what pulley P" + held + " takes of tendon " + held + taken, misses + draws,
+        "at a fixed point. The length of tendon " + held + " taken in by pulley P" + held + taken, misses + draws,
         "its length follows from theta. No friction at the pins: MuJoCo's tendons have none."};
   }
   std::vector<std::string> lines{
       std::string(mechanism.joint.drum_radius > 0 ? "Tendons run over the link's drum and their "
                                                   : "Tendons run over their ") +
           pin + "s; MuJoCo wraps them round cylinders and spheres only, so that below its " + pin + " each ends",
-      "at a point that stands still, and what pulley P" + held + " takes of tendon " + held + taken};
+      "at a fixed point. The length of tendon " + held + " taken in by pulley P" + held + taken};
   const bool both = model.omission[0].empty() && model.omission[1].empty();
   lines.push_back(misses + (both ? draws : ""));
   if (both) lines.push_back("its length follows from theta.");
@@ -220,10 +220,10 @@ std::vector<std::string> way_words(const ModelProduct& product) {
   }
   if (mechanism.sheath.is_there())
     lines.push_back(
-        "Between the mouths of its sheath a tendon is drawn straight: the sheath's own way and length, its "
-        "stretch and its friction are not in this file.");
+        "Between the ends of its sheath a tendon is drawn straight: the sheath's true course and length, its "
+        "compliance and its friction are not in this file.");
   lines.push_back("No friction at drum, pins and bearings: MuJoCo's tendons have none" +
-                  std::string(pin == "idler" ? ", and idlers stand still." : "."));
+                  std::string(pin == "idler" ? ", and idlers do not turn." : "."));
   return lines;
 }
 
@@ -237,7 +237,7 @@ std::string mujoco_joint_xml(const ModelProduct& product) {
           " (a joint equality, degree 4, least largest error). It misses theta(alpha)",
       "by " + at_most_deg(fit.error) + " deg at most, over the whole range; torques by " +
           rounded(100 * fit.slope_error, 2) + " % at most.",
-      k_gives_way};
+      k_compliance};
   return opening(product, body, coupling) +
          bodies(product, body, pins(product.mechanism, 0.01 * product.mechanism.joint.R), drum(product.mechanism)) +
          "  <equality>\n    <joint joint1=\"" + (fit.of_alpha ? "theta" : "alpha") + "\" joint2=\"" +
@@ -251,7 +251,7 @@ std::string mujoco_tendons_xml(const ModelProduct& product) {
   const SimulatedBody body = body_of(product);
   const std::string held = number_of(model.constrained);
   std::vector<std::string> coupling = way_words(product);
-  coupling.push_back(k_gives_way);
+  coupling.push_back(k_compliance);
   std::string world, link = drum(mechanism), tendons;
   for (std::size_t i = 0; i < 2; ++i) {
     if (!model.omission[i].empty()) continue;

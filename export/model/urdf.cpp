@@ -57,10 +57,10 @@ std::string joint_urdf(const ModelProduct& product) {
   const Vec2 axis = pin_place(product.mechanism, Side::left, 0).pulley_axis();
   const std::string line = coefficient(product.line.p.c[1]), offset = coefficient(product.line.p.c[0]);
   const std::vector<std::string> coupling = {
-      "theta mimics alpha: all that URDF has is a straight line. The best one, least largest error, misses "
+      "theta mimics alpha: URDF supports only a straight line. The best one (minimax) misses "
       "theta(alpha) by",
       at_most_deg(product.line.error) + " deg at most, over the whole range; torques by " +
-          rounded(100 * product.line.slope_error, 2) + " % at most. joint.xml and joint_table.h are nearer."};
+          rounded(100 * product.line.slope_error, 2) + " % at most. joint.xml and joint_table.h are more accurate."};
   return head(product, coupling, body) + "  <link name=\"pulley\">\n" +
          inertial(0.01, 0, 0.6 * body.armature, 0.6 * body.armature, body.armature) +
          "    <visual>\n      <geometry><cylinder radius=\"" + number(body.pulley_radius) +
@@ -89,7 +89,7 @@ std::string ros2_control_urdf(const ModelProduct& product) {
           " % at most. A hardware component or a transmission plugin that",
       "includes joint_table.h has them without that error: position " + name + "_theta_deg(), velocity and effort by " +
           name + "_slope().",
-      "The hardware is ros2_control's mock: put your own plugin in its place."};
+      "The hardware is ros2_control's mock: replace it by your own plugin."};
   const auto interface = [](const std::string& kind, const std::string& which, double low, double high) {
     const std::string tag = kind + "_interface";
     if (!(low < high)) return "      <" + tag + " name=\"" + which + "\"/>\n";

@@ -61,25 +61,24 @@ std::vector<std::string> of_curve(const JointCurve& curve, const ModelProduct& p
   std::vector<std::string> lines;
   switch (curve.source) {
     case CurveSource::law:
-      lines.push_back("The joint as declared: theta(alpha) is the law of the file, each way the same.");
+      lines.push_back("The joint as declared: theta(alpha) is the law of the file, equal in both directions.");
       break;
     case CurveSource::identified:
       lines.push_back(
           "The joint as identified ([identified]), with the pulley that 'fusee build' makes of this file, simulated");
       lines.push_back(
-          std::string("there and back under its declared load. alpha: what the motor's sensor shows; theta: ") +
-          (shown ? "what the joint's" : "where the"));
-      lines.push_back(shown ? "sensor shows." : "joint stands, the middle of both ways.");
+          std::string("in both directions under its declared load. alpha: reading of the motor's sensor; theta: ") +
+          (shown ? "reading of" : "true"));
+      lines.push_back(shown ? "the joint's sensor." : "joint angle, mean of both directions.");
       break;
     case CurveSource::compensation:
       lines.push_back("From " + product.compensation +
-                      ", over the declared law between its rows. alpha: what the motor's sensor");
-      lines.push_back("shows; theta: what the joint's sensor shows.");
+                      ", with the shape of the declared law between its rows. alpha: reading of the");
+      lines.push_back("motor's sensor; theta: reading of the joint's sensor.");
       break;
   }
   if (curve.half_hysteresis > 0)
-    lines.push_back("Moving up and moving down lie up to 2 x " + at_most_deg(curve.half_hysteresis) +
-                    " deg apart at the joint.");
+    lines.push_back("Hysteresis at the joint: at most 2 x " + at_most_deg(curve.half_hysteresis) + " deg.");
   return lines;
 }
 
@@ -130,7 +129,7 @@ SimulatedBody body_of(const ModelProduct& product) {
                          " mm along OC, from [load]; straight up at theta = " + rounded(degrees(load.tilt)) + " deg.");
     body.words.push_back("Assumed: its moment of inertia about its centre is that of a thin rod as long as OC.");
   } else {
-    body.words.push_back("[load] has no mass: the joint's axis stands upright, and weight turns nothing.");
+    body.words.push_back("[load] has no mass: the joint's axis is taken as vertical, so that weight has no torque.");
     body.words.push_back("Assumed: the link is a rod along OC of 0.125 g a millimetre, " + rounded(body.mass) + " kg.");
   }
   body.load = (load.tip_force * mechanism.joint.R + load.torque) * 1e-3;
@@ -138,7 +137,7 @@ SimulatedBody body_of(const ModelProduct& product) {
     body.inertia += std::abs(body.load) / k_gravity * R;
     body.words.push_back("Tip force and torque of [load]: " + rounded(body.load) +
                          " N m against +theta at every angle.");
-    body.words.push_back("Assumed: they have the inertia of a weight at C that pulls as much.");
+    body.words.push_back("Assumed: they have the inertia of a weight at C with the same force.");
   }
   add_spring(body, mechanism.spring);
   double most = 0, steepest = 0, heaviest = 0;
@@ -158,8 +157,8 @@ SimulatedBody body_of(const ModelProduct& product) {
   body.armature = std::stod(rounded(std::max(k_rotor, seen), 3));
   // A position servo with a bandwidth of 20 Hz that deflects by at most 5 deg under three times the load.
   const double inertia = body.armature + seen;
-  constexpr double k_follows = k_two_pi * 20, k_gives_way = radians(5);
-  body.kp = std::max(inertia * k_follows * k_follows, 3 * most / k_gives_way);
+  constexpr double k_follows = k_two_pi * 20, k_compliance = radians(5);
+  body.kp = std::max(inertia * k_follows * k_follows, 3 * most / k_compliance);
   body.kv = 2 * std::sqrt(body.kp * inertia);
   // Constraints deflect by (1 − d) a t², with impedance d, time constant t, and a the acceleration that the load would
   // give link and motor if they were free. 1e-5 rad is a tenth of a table's allowed error.
@@ -172,10 +171,10 @@ SimulatedBody body_of(const ModelProduct& product) {
   body.constant = k_steps_per_constant * body.timestep;
   body.effort = std::max(k_least_effort, 3 * most);
   body.speed = k_speed;
-  body.words.push_back("Assumed: motor and pulley together turn like " + rounded(body.armature) +
+  body.words.push_back("Assumed: the inertia of motor and pulley together is " + rounded(body.armature) +
                        " kg m2 about alpha, no less than link and load seen from there;");
   body.words.push_back("the motor has " + rounded(body.effort) + " N m and " + rounded(body.speed) +
-                       " rad/s. Put your own in their place.");
+                       " rad/s. Replace them by your own.");
   return body;
 }
 

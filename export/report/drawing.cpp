@@ -186,7 +186,7 @@ std::string sheaths(const Mechanism& mechanism, const View& view) {
     svg += "<path d=\"" + path_data(thinned(view(sheath_curve(mechanism, side)), k_drawing_tolerance), false) + "\"/>";
   svg += "</g>";
   for (const Side side : {Side::left, Side::right})
-    svg += svg_circle("metal", view(sheath_mouth(mechanism, side)), 0.4 * width);
+    svg += svg_circle("metal", view(sheath_exit(mechanism, side)), 0.4 * width);
   return svg;
 }
 
@@ -343,7 +343,7 @@ std::string profile_legend(const Outline& outline) {
   return legend({{"curve " + colour + " whole", "active arc (pitch)"},
                  {"closing " + colour, "closing arc"},
                  {"floor main", "groove floor"},
-                 {"flange", "lip"}});
+                 {"flange", "groove edge"}});
 }
 
 // The polar drawing for comparison

@@ -43,7 +43,7 @@ Fan coarse_fan(const Product& product) {
 
 std::string run_out_array(const Product& product) {
   std::string text =
-      "// Where each groove's end goes: bend radius, middle of the knot pocket, its depth.\nrun_outs = [";
+      "// The run-out of each groove's end: bend radius, middle of the knot pocket, its depth.\nrun_outs = [";
   for (const Side side : {Side::left, Side::right}) {
     const HelicalAnchor& anchor = anchor_of(product, side);
     text += fmt::format("{}[{}, {}, {}]", side == Side::left ? "" : ", ", decimal(anchor.bend_radius),
@@ -80,9 +80,10 @@ std::string spiral_arrays(const Fan& fan, const Fan& made, double half) {
                      fan.p1.first_column, fan.p2.first_column) +
          fmt::format("filled1 = {};  // rows past P1's last end, with no groove\nfilled2 = {};  // before P2's first\n",
                      fan.p1.filled_back, fan.p2.filled_front) +
-         groove_edges_text("lips1", made.p1) + "  // how far these rows' lower and upper lip stand out at first\n" +
-         groove_edges_text("lips2", made.p2) + "\n" + rows_array("P1", fan.p1, half) + rows_array("P2", fan.p2, half) +
-         "\n";
+         groove_edges_text("edge_bulges1", made.p1) +
+         "  // initial projection of these rows' lower and upper groove edges\n" +
+         groove_edges_text("edge_bulges2", made.p2) + "\n" + rows_array("P1", fan.p1, half) +
+         rows_array("P2", fan.p2, half) + "\n";
 }
 
 /// The groove's dimensions can only be reduced, because the ribs between its turns must remain.
@@ -99,7 +100,8 @@ std::string climbing_parameters(const Product& product) {
 )",
              cleaned_line(mechanism.name)) +
          bore_and_hub(product) + "\n/* [Groove] */\n" +
-         slider_text({"groove_depth", "lip above the groove's floor: no deeper, for the ribs between the turns",
+         slider_text({"groove_depth",
+                      "height of the groove edge above the groove's floor: no deeper, for the ribs between the turns",
                       layout.groove_depth, 0.5, 0.1, layout.groove_depth}) +
          slider_text({"groove_angle", "between the walls, degrees: no wider", degrees(mechanism.body.groove_angle), 0,
                       1, degrees(mechanism.body.groove_angle)}) +

@@ -96,10 +96,10 @@ std::string parameters(const Product& product) {
       R"(// {} - a compound pulley for two tendons, in mm.
 // Made by fusee. Bottom to top: flange, groove P1, middle flange, groove P2, flange, hub. The axis is z, the joint lies towards +y.
 // Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the joint follow its law and stay as they are.
-// The engraved letters and marks of the printed part are left out.
+// The engraved letters and marks of the printed part are omitted.
 
 /* [View] */
-// the part as it is in use, or what goes to the printer, each as it lies there
+// the part as it is in use, or the parts to print, in print orientation
 show = "assembled"; // [assembled, print{}]
 
 /* [Bore] */
@@ -107,9 +107,10 @@ show = "assembled"; // [assembled, print{}]
       cleaned_line(mechanism.name), layout.parts == Parts::two ? ", P1, P2" : "");
   text += bore_and_hub(product);
   text += "\n/* [Groove] */\n";
-  text += slider_text({"groove_depth", "lip above the groove's floor", layout.groove_depth, 0.5, 0.1, 20});
+  text += slider_text(
+      {"groove_depth", "height of the groove edge above the groove's floor", layout.groove_depth, 0.5, 0.1, 20});
   text += slider_text({"groove_angle", "between the walls, degrees", degrees(body.groove_angle), 0, 1, 120});
-  text += fmt::format("// cross-section of the groove's ground\ngroove_shape = \"{}\"; // [u, v, flat]\n",
+  text += fmt::format("// cross-section of the groove's floor\ngroove_shape = \"{}\"; // [u, v, flat]\n",
                       name_of(body.groove));
   text += "\n/* [Flanges] */\n";
   text += slider_text({"flange_thickness", "of each of the three", layout.flange_thickness, 0.4, 0.1, 10});
@@ -127,15 +128,14 @@ std::string flange_numbers(const Product& product, const FlangeRims& rims) {
   const double ceiling = std::max(layout.p2.below_width(), layout.p2.above_width());
   return fmt::format("flange_shape = \"{}\";  // follow: along the groove; round\n",
                      kind == Flange::follow ? "follow" : "round") +
-         hidden("lower_margin", margins.lower, "how far the flanges stand outside of the groove's lip") +
+         hidden("lower_margin", margins.lower, "how far the flanges project outside the groove edge") +
          hidden("middle_margin", margins.middle, "the middle one outside of both") +
-         hidden("upper_margin", margins.upper, "the same of the upper one") +
-         hidden("lower_ledge", ledge(rims.groove_edge1, rims.lower),
-                "how far they stand out over it where that is most") +
+         hidden("upper_margin", margins.upper, "the upper one") +
+         hidden("lower_ledge", ledge(rims.groove_edge1, rims.lower), "their largest projection over it") +
          hidden("middle_ledge", ledge(rims.groove_edge1, rims.middle), "the middle one over P1's") +
          hidden("upper_ledge", ledge(rims.groove_edge2, rims.upper), "the upper one over P2's") +
-         hidden("mouth_rise", entry_rise(layout) + ceiling - 0.5 * layout.channel_width,
-                "of a channel's ceiling, up to where it cuts the groove's lip") +
+         hidden("entry_rise", entry_rise(layout) + ceiling - 0.5 * layout.channel_width,
+                "of a channel's ceiling, up to the groove edge") +
          hidden("min_wall", layout.min_wall, "no wall is thinner");
 }
 
@@ -152,7 +152,7 @@ std::string hidden_numbers(const Product& product, const FlangeRims& rims) {
   const BodyLayout& layout = product.pulley.layout;
   const double compensation = mechanism.material.hole_compensation;
   return "/* [Hidden] */\n" +
-         hidden("parts", layout.parts == Parts::two ? 2 : 1, "as it is printed: 2: P1 and P2 apart") +
+         hidden("parts", layout.parts == Parts::two ? 2 : 1, "number of printed parts: 2: P1 and P2 separately") +
          hidden("tendon", mechanism.tendon.diameter, "its diameter") +
          hidden("seat_ratio", mechanism.body.seat_ratio, "seat radius of a u groove per tendon diameter") +
          flange_numbers(product, rims) + bore_numbers(layout.bore, compensation) + screw_numbers(layout, compensation) +
@@ -221,7 +221,7 @@ std::string tie_off_arrays(const Product& product) {
     if (anchor.tail->pilot_diameter > 0)
       pilots.push_back(clamp_pilot_text(anchor, product.joint.mechanism.material.hole_compensation));
   }
-  return "\n// Where tendons are tied off, each with its groove (1 or 2) first." +
+  return "\n// Tie-offs of the tendons, each with its groove (1 or 2) first." +
          array_text(
              "channels",
              "middle of the knot pocket, outer edge, inner edge, both from the groove inwards, and their straight end",
@@ -229,8 +229,8 @@ std::string tie_off_arrays(const Product& product) {
          array_text("face_holes",
                     "slots to the face: the round end's middle, the way out, countersink's radius and depth, length",
                     holes) +
-         array_text("tail_slots", "slot for the tendon's tail in the face: from, to, depth, its gable's height",
-                    slots) +
+         array_text("tail_slots",
+                    "slot for the tendon's tail in the face: from, to, depth, height of its peaked ceiling", slots) +
          array_text("clamp_pilots", "hole of the tail's screw: place, diameter, depth below the face", pilots) + "\n";
 }
 

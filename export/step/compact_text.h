@@ -6,7 +6,7 @@
 
 namespace fusee {
 
-/// The same STEP file with fewer bytes: equal values (points, directions, styles) are merged, instances are renumbered
+/// Compacts a STEP file: equal values (points, directions, styles) are merged, instances are renumbered
 /// without gaps, and spaces remain in texts only.
 std::string compact_step(std::string_view text);
 

@@ -38,7 +38,7 @@ const Loaded& loaded() {
 }
 
 const StepMaker& maker() {
-  demand(loaded().maker != nullptr, "STEP asked for without its module: " + loaded().why_not);
+  demand(loaded().maker != nullptr, "STEP was requested without its module: " + loaded().why_not);
   return *loaded().maker;
 }
 
@@ -83,11 +83,11 @@ StepFile step_file(const Product& product) {
   return file;
 }
 
-StepLook look_at_step(const fs::path& path, const Product& product, double tolerance) {
+StepInspection inspect_step(const fs::path& path, const Product& product, double tolerance) {
   const BodyLayout& layout = product.pulley.layout;
   const double d = product.joint.mechanism.tendon.diameter, scale = layout.scale;
   StepQuestion question;
-  StepLook look;
+  StepInspection look;
   if (product.helix) {
     question.places = floor_places(*product.helix, d, scale);
     question.grounds = [&look, scale](const TriangleMesh& mesh) {

@@ -528,7 +528,7 @@ class ToolMaker {
   }
 
   /// The part of a body below a plane, seen along its normal.
-  static TopoDS_Shape below(const TopoDS_Shape& body, const StepPrism::Roof& ceiling) {
+  static TopoDS_Shape below(const TopoDS_Shape& body, const StepPrism::Ceiling& ceiling) {
     Bnd_Box box;
     BRepBndLib::Add(body, box);
     const double reach = 2 * std::sqrt(box.SquareExtent());
@@ -564,7 +564,7 @@ TopoDS_Shape combined(const TopoDS_Shape& body, const std::vector<StepTool>& too
   operation.SetTools(shapes);
   operation.SetRunParallel(false);
   operation.Build();
-  if (!operation.IsDone()) throw std::runtime_error("what is cut out cannot be cut out");
+  if (!operation.IsDone()) throw std::runtime_error("the cut features cannot be subtracted");
   return operation.Shape();
 }
 
@@ -647,7 +647,7 @@ std::string written(const TopoDS_Solid& solid, const StepPart& part) {
   if (!writer.Transfer(document, STEPControl_AsIs)) throw std::runtime_error("the solid cannot be written");
   const Handle(XSControl_WorkSession) session = writer.ChangeWriter().WS();
   const Handle(StepData_StepModel) model = Handle(StepData_StepModel)::DownCast(session->Model());
-  // The same part gives the same bytes: no date, no machine.
+  // Without date and machine, so that equal parts give equal bytes.
   APIHeaderSection_MakeHeader header(model);
   header.SetName(new TCollection_HAsciiString("pulley.step"));
   header.SetTimeStamp(new TCollection_HAsciiString("1970-01-01T00:00:00"));

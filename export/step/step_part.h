@@ -70,10 +70,10 @@ struct StepPrism {
   double low = 0;
   double high = 0;
   /// A plane that limits the prism, seen along its normal.
-  struct Roof {
+  struct Ceiling {
     Vec3 point, normal;
   };
-  std::optional<Roof> ceiling = {};
+  std::optional<Ceiling> ceiling = {};
 };
 
 /// A frustum between two horizontal circles.

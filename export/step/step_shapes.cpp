@@ -206,7 +206,7 @@ void add_channel(std::vector<StepTool>& tools, const Anchor& anchor, const BodyL
     const Vec2 outer = outer_of(anchor), on_wall = bend.centre + inner * outer;
     const Vec3 point(on_wall.x(), on_wall.y(), z.at(half));
     std::get<StepPrism>(straight.common.front()).ceiling =
-        StepPrism::Roof{point, Vec3(-slope * outer.x(), -slope * outer.y(), z.up)};
+        StepPrism::Ceiling{point, Vec3(-slope * outer.x(), -slope * outer.y(), z.up)};
   }
   tools.push_back(std::move(straight));
 }
@@ -244,8 +244,8 @@ void add_pocket(std::vector<StepTool>& tools, const Anchor& anchor, const BodyLa
   auto& prism = std::get<StepPrism>(tool.common.front());
   if (slope > 0)
     prism.ceiling =
-        StepPrism::Roof{Vec3(anchor.pocket.x(), anchor.pocket.y(), z.at(closed + 0.5 * layout.pocket_ceiling)),
-                        Vec3(-slope * outer.x(), -slope * outer.y(), 1)};
+        StepPrism::Ceiling{Vec3(anchor.pocket.x(), anchor.pocket.y(), z.at(closed + 0.5 * layout.pocket_ceiling)),
+                           Vec3(-slope * outer.x(), -slope * outer.y(), 1)};
   else
     prism.high = z.at(closed);
   tools.push_back(std::move(tool));

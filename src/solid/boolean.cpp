@@ -255,7 +255,7 @@ struct KeptPatches {
   std::vector<TriangleMesh> result, common;
 };
 
-// Of the second solid, only patches completely inside or outside are kept. Where the surfaces coincide, the patch of
+// Keeps patches of the second solid only if they are completely inside or outside. Where the surfaces coincide, the patch of
 // the first one is used.
 bool sort_patches(const std::vector<TriangleMesh>& patches, const TriangleMesh& solid, bool is_first,
                   Operation operation, KeptPatches& kept) {

@@ -35,7 +35,7 @@ double height_to_spare(const SetScrewLayout& screw, const BodyLayout& layout, do
 
 /// Distance from the nut's centre (the screw's axis) to the corner that points down.
 double nut_corner(const SetScrewLayout& screw);
-/// The ceiling of a horizontal hole rises to a ridge at roof_slope on both sides, so that it prints without support.
+/// The ceiling of a horizontal hole rises to a ridge at ceiling_slope on both sides, so that it prints without support.
 double teardrop_top(const SetScrewLayout& screw);
 
 }  // namespace fusee

@@ -207,7 +207,7 @@ TEST(SeveralTurnsFiles, SayWhereTheCurvesClimb) {
   EXPECT_THAT(text_of(built, "transmission.csv"), HasSubstr("slope1_deg,fleet1_deg,slope2_deg,fleet2_deg"));
   EXPECT_THAT(text_of(built, "manifest.json"), HasSubstr("joint_end_z_mm"));
   EXPECT_THAT(text_of(built, "report.html"), HasSubstr("wound several times"));
-  EXPECT_THAT(text_of(built, "report.html"), HasSubstr("<h2>The tendons climb</h2>"));
+  EXPECT_THAT(text_of(built, "report.html"), HasSubstr("<h2>The tendons in motion</h2>"));
   EXPECT_EQ(text_of(built, "plates.dxf"), "");
   EXPECT_THAT(built.product.pulley.layout.notes, Contains(HasSubstr("there is no plates.dxf")));
 }

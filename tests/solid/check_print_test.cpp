@@ -228,7 +228,7 @@ TEST(CheckPrint, RingOfStepsIsNoBridge) {
 
 TEST(CheckPrint, MeasuresSlopedMushroom) {
   EXPECT_EQ(failed(check_print(turned_part({{5, 0}, {5, 6}, {9, 7}, {9, 9}}))), "overhang unsupported_step");
-  // The same slope, but no wider than a step.
+  // A mushroom with this slope, but no wider than a step.
   EXPECT_EQ(failed(check_print(turned_part({{5, 0}, {5, 6}, {5.28, 6.07}, {5.28, 9}}))), "");
 }
 
