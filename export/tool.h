@@ -1,12 +1,12 @@
 /// \file
-/// What fusee calls itself in the files it writes.
+/// Internal: the name of the program in the files that it writes.
 #pragma once
 
 #include <string_view>
 
 namespace fusee {
 
-/// "fusee 0.1.0". base/files.cpp knows an earlier run by the first word of a manifest's "tool".
+/// "fusee 0.1.0". base/files.cpp recognises an earlier run by the first word of a manifest's "tool".
 inline constexpr std::string_view k_tool = "fusee " FUSEE_VERSION;
 
 }  // namespace fusee

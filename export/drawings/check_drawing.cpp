@@ -1,10 +1,10 @@
 /// \file
-/// Faults of a drawing that a shop's machine would trip over: one Check each, with the layer, the line in the file and
-/// the place.
+/// Checks for faults of a drawing that stop a workshop's machine: one Check each, with the layer, the line in the file
+/// and the place.
 ///
-/// Contours are what is cut. In a drawing with fusee's layers these are CUT_*, P*_PITCH, P*_FLOOR, BORE, CHECK_10MM and
-/// SHEET; in any other drawing they are all layers but ENGRAVE, NOTES and MARK_*, whose lines may end and cross as they
-/// like.
+/// Contours are the cut lines. In a drawing with fusee's layers these are CUT_*, P*_PITCH, P*_FLOOR, BORE, CHECK_10MM
+/// and SHEET. In other drawings they are all layers except ENGRAVE, NOTES and MARK_*, whose lines may end and cross
+/// anywhere.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,13 +26,13 @@
 namespace fusee {
 namespace {
 
-constexpr double k_clean_feature = 1.0;  // mm: what a laser cuts cleanly in common sheet
-constexpr double k_drawn = 1e-6;         // mm: to which a drawing's coordinates are taken
+constexpr double k_clean_feature = 1.0;  // mm, the narrowest feature that a laser cuts cleanly in common sheet
+constexpr double k_drawn = 1e-6;         // mm, resolution of a drawing's coordinates
 
 constexpr auto k_contour_layers =
     std::to_array<std::string_view>({"CUT_OUTER", "CUT_INNER", "P1_PITCH", "P2_PITCH", "P1_FLOOR", "P2_FLOOR", "BORE"});
 constexpr std::string_view k_as_declared =
-    "BORE";  // of a pulley's profile: as narrow as its shaft, and nothing to cut plates by
+    "BORE";  // of a pulley's profile: as narrow as its shaft, and not cut from plates
 constexpr auto k_frame_layers = std::to_array<std::string_view>({"CHECK_10MM", "SHEET"});
 
 template <std::size_t n>
@@ -67,7 +67,7 @@ Paths contours_of(const Drawing& drawing) {
 
 double gap_of(const DrawingPath& path) { return (path.points.front() - path.points.back()).norm(); }
 
-/// A contour was meant to be closed: its gap is narrower than anything that is cut, and most of it is no gap.
+/// True if a contour was meant to be closed: its gap is narrower than any cut feature and much shorter than its length.
 bool almost_closes(const DrawingPath& path) {
   double length = 0;
   for (std::size_t i = 1; i < path.points.size(); ++i) length += (path.points[i] - path.points[i - 1]).norm();
@@ -105,13 +105,13 @@ struct Edge {
   Vec2 left;
   Vec2 right;
   const DrawingPath* path = nullptr;
-  std::size_t index = 0;  ///< along the path
+  std::size_t index = 0;  ///< index along the path
   std::size_t last = 0;   ///< index of the path's last edge
 };
 
 bool before(const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); }
 
-/// Its corners: where it stands still, one.
+/// The corners of a path, with repeated points merged.
 Polygon corners_of(const DrawingPath& path) {
   Polygon points;
   points.reserve(path.points.size());
@@ -139,7 +139,7 @@ std::map<std::string, std::vector<Edge>> edges_by_layer(const Paths& paths) {
   return layers;
 }
 
-/// Takes the repeated edges out of `edges` and returns them: the same two ends, in either order.
+/// Removes repeated edges (the same two ends in either order) from `edges` and returns them.
 std::vector<Edge> take_duplicates(std::vector<Edge>& edges) {
   EndPoints ends;
   std::set<std::pair<std::size_t, std::size_t>> seen;
@@ -148,7 +148,7 @@ std::vector<Edge> take_duplicates(std::vector<Edge>& edges) {
   for (const Edge& edge : edges) {
     auto key = std::make_pair(ends.number(edge.left), ends.number(edge.right));
     if (key.first > key.second) std::swap(key.first, key.second);
-    // An edge shorter than the tolerance has one end, not two: it repeats nothing.
+    // An edge shorter than the tolerance has one end, not two, so it repeats no other.
     const bool fresh = key.first == key.second || seen.insert(key).second;
     (fresh ? once : again).push_back(edge);
   }
@@ -158,12 +158,12 @@ std::vector<Edge> take_duplicates(std::vector<Edge>& edges) {
 
 struct Duplicates {
   Check check;
-  std::set<const DrawingPath*> paths;  ///< each of their lines was drawn before
+  std::set<const DrawingPath*> paths;  ///< paths with lines that were drawn before
 };
 
 Duplicates check_duplicates(const Drawing& drawing) {
   Paths all;
-  // Turns that lie over one another have one plan.
+  // Helical turns above one another have the same plan.
   for (const DrawingPath& path : drawing.paths)
     if (!path.in_space) all.push_back(&path);
   std::size_t count = 0;
@@ -187,7 +187,7 @@ bool within_box(const Edge& edge, const Vec2& p) {
          p.y() <= std::max(edge.left.y(), edge.right.y());
 }
 
-/// Have the two edges any point in common?
+/// True if the two edges have a common point.
 bool touch(const Edge& a, const Edge& b) {
   const int a1 = orientation(b.left, b.right, a.left);
   const int a2 = orientation(b.left, b.right, a.right);
@@ -198,7 +198,7 @@ bool touch(const Edge& a, const Edge& b) {
          (b1 == 0 && within_box(a, b.left)) || (b2 == 0 && within_box(a, b.right));
 }
 
-/// Neighbours along a path meet in one point; it is a fault only if the second runs back over the first.
+/// Neighbours along a path meet in one point. They are faulty only if the second runs back over the first.
 bool folds_back(const Edge& a, const Edge& b) {
   if (orientation(a.left, a.right, b.left) != 0 || orientation(a.left, a.right, b.right) != 0) return false;
   return before(b.left, a.right) && before(a.left, b.right);
@@ -218,9 +218,9 @@ Vec2 crossing_point(const Edge& a, const Edge& b) {
   return a.left + u * std::clamp(cross(b.left - a.left, v) / turn, 0.0, 1.0);
 }
 
-/// Two edges that should not touch, or nothing. Shamos and Hoey's sweep: a line goes over the edges in (x, y) order and
-/// looks only at neighbours, so that n edges take n log n steps; with exact orientations the order along the line is
-/// right up to the first fault, where it stops.
+/// Two edges that touch but should not, if any. Sweep line of Shamos and Hoey: the line passes the edges in (x, y)
+/// order and compares neighbours only, so n edges take n log n steps. With exact orientations the order along the line
+/// is correct up to the first fault, where the sweep stops.
 class Sweep {
  public:
   Sweep(const std::vector<Edge>& edges, bool within_paths) : edges_(edges), within_paths_(within_paths) {}
@@ -236,7 +236,7 @@ class Sweep {
       events.push_back({edges_[i].left, false, i});
       events.push_back({edges_[i].right, true, i});
     }
-    // At one point edges begin before others end, so that two that only touch there are on the line together.
+    // At one point, edges begin before others end, so that edges which only touch there are compared.
     std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
       if (a.point != b.point) return before(a.point, b.point);
       return std::make_pair(a.ends, a.edge) < std::make_pair(b.ends, b.edge);
@@ -257,7 +257,7 @@ class Sweep {
   }
 
  private:
-  /// Is edge i below edge j where both are on the line?
+  /// True if edge i is below edge j where both are on the line.
   struct Below {
     const std::vector<Edge>* edges;
     bool operator()(std::size_t i, std::size_t j) const {
@@ -290,15 +290,15 @@ class Sweep {
   std::pair<Edge, Edge> pair_;
 };
 
-/// Turns to one side at every corner, once round: such a path meets itself nowhere. Most of a pulley's do, and are told
-/// so by their corners alone.
+/// True if the path turns to one side at every corner, once round. Such a path does not meet itself. Most paths of a
+/// pulley are convex, which avoids the sweep.
 bool is_convex(const DrawingPath& path) {
   const Polygon points = corners_of(path);
   const std::size_t n = points.size();
   if (!path.closed || n < 3) return false;
   const auto corner = [&](std::size_t i) -> const Vec2& { return points[i % n]; };
   const int side = orientation(corner(0), corner(1), corner(2));
-  int reversals = 0;  // of the way along x: two of them in each turn
+  int reversals = 0;  // changes of direction along x: two in each turn
   for (std::size_t i = 0; i < n; ++i) {
     if (side == 0 || orientation(corner(i), corner(i + 1), corner(i + 2)) != side) return false;
     reversals += before(corner(i), corner(i + 1)) != before(corner(i + 1), corner(i + 2)) ? 1 : 0;
@@ -313,7 +313,7 @@ std::optional<std::pair<Edge, Edge>> fault_within(const DrawingPath& path) {
   return Sweep(edges, true).first_fault();
 }
 
-/// Surely no two of them meet; of a great many it may be that nobody knows.
+/// True if certainly no two paths meet; may be false for very many paths without a fault.
 bool are_apart(const Paths& paths) {
   std::size_t looks_left = 100'000;
   std::vector<Box2d> boxes;
@@ -331,7 +331,7 @@ std::optional<std::pair<Edge, Edge>> fault_between(const Paths& paths) {
   if (are_apart(paths)) return std::nullopt;
   std::vector<Edge> edges;
   for (const DrawingPath* path : paths) append_edges(edges, *path);
-  take_duplicates(edges);  // they have a check of their own
+  take_duplicates(edges);  // they have their own check
   return Sweep(edges, false).first_fault();
 }
 
@@ -340,7 +340,7 @@ struct CrossingChecks {
   Check mutual;
 };
 
-/// First each contour alone; those that are whole then together, layer by layer.
+/// Checks each contour alone, and then those without faults together, layer by layer.
 CrossingChecks check_crossings(const Paths& contours) {
   std::size_t crossed = 0;
   std::string self_where;
@@ -365,7 +365,7 @@ CrossingChecks check_crossings(const Paths& contours) {
 
 // ---- Sizes ----------------------------------------------------------------------------------------------------------
 
-/// Least distance of two parallel lines that hold the polygon between them (rotating calipers on its hull).
+/// Least distance of two parallel lines that contain the polygon (rotating calipers on its hull).
 double least_width(const Polygon& polygon) {
   const Polygon hull = convex_hull(polygon);
   if (hull.size() < 3) return 0;
@@ -380,7 +380,7 @@ double least_width(const Polygon& polygon) {
   return least;
 }
 
-/// Nothing where no closed contour has a width.
+/// Empty if no closed contour has a width.
 std::optional<Check> check_smallest_feature(const Paths& contours) {
   double least = std::numeric_limits<double>::infinity();
   const DrawingPath* narrow = nullptr;
@@ -415,7 +415,7 @@ bool box_within(const Box2d& inner, const Box2d& outer) {
   return (inner.low - outer.low).minCoeff() >= -k_drawn && (outer.high - inner.high).minCoeff() >= -k_drawn;
 }
 
-/// The contours of layer `inner` must each lie within one of layer `outer`, where the drawing has such a layer.
+/// Each contour of layer `inner` must lie within one of layer `outer`, if the drawing has such a layer.
 struct Inside {
   std::string_view inner;
   std::string_view outer;
@@ -429,8 +429,7 @@ constexpr auto k_inside = std::to_array<Inside>({{"CUT_INNER", "CUT_OUTER"},
                                                  {"P2_FLOOR", "P2_PITCH"}});
 
 Check check_inside(const Drawing& drawing) {
-  // Point against edge comparisons: far more than any drawing that can be cut takes, and the end of the work on any
-  // other.
+  // Bound on comparisons of points and edges: more than any drawing that can be cut requires.
   std::size_t budget = 300'000'000;
   std::size_t outside = 0;
   std::string where;
@@ -441,14 +440,14 @@ Check check_inside(const Drawing& drawing) {
       const bool held = std::any_of(outers.begin(), outers.end(), [&](const Framed& outer) {
         budget -= std::min(budget, std::size_t{1});
         if (budget == 0 || !box_within(inner.box, outer.box)) return false;
-        if (pair.outer == "SHEET") return true;  // a rectangle: its box says all
+        if (pair.outer == "SHEET") return true;  // a rectangle: its box is sufficient
         budget -= std::min(budget, inner.path->points.size() * outer.path->points.size());
         return budget > 0 && std::all_of(inner.path->points.begin(), inner.path->points.end(),
                                          [&](const Vec2& p) { return contains(outer.path->points, p); });
       });
       if (budget == 0)
         return exactly("nothing_outside", static_cast<double>(outside + 1), 0, "1",
-                       "the drawing has too many contours to tell");
+                       "the drawing has too many contours to check");
       if (held || outside++ > 0) continue;
       where = fmt::format("not inside {}: {}", pair.outer, place(*inner.path, inner.path->points.front()));
     }
@@ -468,7 +467,7 @@ std::vector<Check> check_drawing(const Drawing& drawing) {
   Paths contours = contours_of(drawing);
   std::erase_if(contours, [&](const DrawingPath* path) { return duplicates.paths.count(path) > 0; });
   std::vector<Check> checks = {check_undrawn(drawing)};
-  // A drawing none of whose entities can be drawn has nothing to cut, and one fault.
+  // A drawing whose entities were all undrawable has no contours and already one fault.
   if (!contours.empty() || drawing.undrawn == 0) {
     checks.push_back(
         at_least("contours", static_cast<double>(contours.size()), 1, "1", "the drawing has no lines to cut"));

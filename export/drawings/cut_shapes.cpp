@@ -10,7 +10,7 @@
 namespace fusee {
 namespace {
 
-/// Offset too far, an edge runs backward: the first that does, or the number of all.
+/// The first edge that an excessive offset has inverted; the number of edges if there is none.
 std::size_t turned_edge(const Polygon& before, const Polygon& after) {
   for (std::size_t i = 0; i < before.size(); ++i) {
     const std::size_t j = (i + 1) % before.size();
@@ -28,8 +28,8 @@ Vec2 on_circle(const Vec2& point, const Vec2& neighbour, double radius) {
   return foot + (to_foot > 0 ? -half_chord : half_chord) * direction;
 }
 
-/// An offset moves chords; here the first `count` points come back onto their arc, which ends where the straight edges
-/// beside it meet it.
+/// An offset moves chords. Returns the first `count` points to their arc, which ends where the adjacent straight edges
+/// meet it.
 void put_on_arc(Polygon& points, std::size_t count, double radius) {
   const Vec2 first = on_circle(points.front(), points.back(), radius);
   const Vec2 last = on_circle(points[count - 1], points[count % points.size()], radius);
@@ -44,7 +44,7 @@ bool beyond(const Vec2& low, const Vec2& high, const Vec2& point, double margin)
 }
 
 bool near_an_edge(const Polygon& polygon, const Vec2& point, double margin) {
-  const double surely = margin * (1.0 + 1e-9);  // of an edge whose box is further off the distance need not be asked
+  const double surely = margin * (1.0 + 1e-9);  // edges whose box is further away need no exact distance
   const double left = point.x() - surely, right = point.x() + surely, below = point.y() - surely,
                above = point.y() + surely;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
@@ -65,8 +65,8 @@ BodyLayout layout_to_cut(Mechanism mechanism, const SynthesisResult& synthesis) 
   return resolve_layout(mechanism, synthesis);
 }
 
-// Its knots lie where the printed pulley's do: there may be no room for larger pockets than that one has, nor for the
-// bore of a larger shaft, which what is automatic would take where no bed widens a foot.
+// The knots keep their places from the printed pulley. Recomputed automatic sizes (without the chamfer at the bed)
+// could be larger pockets or a larger bore than fit there.
 BodyLayout layout_to_cut(const Product& product) {
   BodyLayout layout =
       product.cut_layout ? *product.cut_layout : layout_to_cut(product.joint.mechanism, product.synthesis);
@@ -92,13 +92,13 @@ Polygon offset_edges(const Polygon& polygon, double distance) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 before = outward((i + n - 1) % n);
     const Vec2 after = outward(i);
-    // The mitre's tip is (before + after)/(1 + cos); a needle's tip is cut at ten times the distance.
+    // The mitre's tip is (before + after)/(1 + cos). A needle's tip is cut off at ten times the distance.
     moved.push_back(polygon[i] + distance * (before + after) / std::max(1 + before.dot(after), 0.02));
   }
   return moved;
 }
 
-// An outline that making was corrected for may be hollow by some µm.
+// An outline corrected for errors of manufacture may be concave by some µm.
 Polygon cut_round(const Polygon& outline, double distance) {
   Polygon kept = outline;
   for (;;) {
@@ -155,7 +155,7 @@ bool Material2d::holds_box(const Vec2& low, const Vec2& size, double margin) con
   const int columns = static_cast<int>(std::ceil(size.x())) + 1;
   const int rows = static_cast<int>(std::ceil(size.y())) + 1;
   const auto at = [&](int i, int j) { return holds(low + Vec2(size.x() * i / columns, size.y() * j / rows), margin); };
-  // The corners fail first where anything does.
+  // If any point fails, usually a corner does.
   if (!at(0, 0) || !at(columns, 0) || !at(0, rows) || !at(columns, rows)) return false;
   for (int i = 0; i <= columns; ++i) {
     for (int j = 0; j <= rows; ++j) {

@@ -1,5 +1,5 @@
 /// \file
-/// The part's outlines as they are cut and not printed, and what a cutter makes of them. mm.
+/// Internal: outlines of the part for cutting instead of printing, and their compensation for the cutter. mm.
 #pragma once
 
 #include <optional>
@@ -11,23 +11,22 @@
 
 namespace fusee {
 
-/// Of the product's body, where it is known already.
+/// The layout of the product for cutting.
 BodyLayout layout_to_cut(const Product& product);
 
 /// The bore as it is cut: a circle, arcs and flats, or corners.
 Contour bore_contour(const BoreLayout& bore);
 
-/// Every edge moved outward by `distance` (inward when negative), corners mitred: exact for the polygon.
-/// Counter-clockwise in and out. Sense is lost where an edge is shorter than what is taken away: is_simple() and the
-/// area tell.
+/// Moves every edge outward by `distance` (inward if negative) with mitred corners, exactly for the polygon. Input and
+/// output are counter-clockwise. An edge shorter than its reduction is inverted, which is_simple() and the area show.
 Polygon offset_edges(const Polygon& polygon, double distance);
 
-/// Cutter's path round a plate of this outline, `distance` outside of it: offset_edges(), without the edges that would
-/// turn round in a hollow that is shorter than the cutter is wide.
+/// The cutter's path around a plate of this outline, at `distance` outside it: offset_edges() without the edges that
+/// would be inverted in a hollow narrower than the cutter.
 Polygon cut_round(const Polygon& outline, double distance);
 
-/// Cutter's path for a hole of this outline: half a kerf inside it, a circle for a circle and an arc for an arc. Null
-/// when the kerf is wider than the hole somewhere.
+/// The cutter's path for a hole of this outline: half a kerf inside it, with circles and arcs kept. Empty if the kerf
+/// is wider than the hole somewhere.
 std::optional<Contour> cut_hole(const Contour& hole, double kerf);
 
 bool contains(const Polygon& polygon, const Vec2& point);
@@ -37,9 +36,9 @@ class Material2d {
  public:
   void add_outline(const Polygon& outline);
   void add_hole(const Polygon& hole);
-  /// Is `point` in the material, `margin` or more away from every edge?
+  /// True if `point` is in the material and at least `margin` away from every edge.
   bool holds(const Vec2& point, double margin) const;
-  /// Every point of an axis-parallel box, looked at on a grid of a millimetre.
+  /// True if holds() is true for every point of an axis-parallel box, on a grid of a millimetre.
   bool holds_box(const Vec2& low, const Vec2& size, double margin) const;
 
  private:

@@ -14,21 +14,21 @@
 namespace fusee {
 namespace {
 
-constexpr double k_sagitta = 0.0007;  // of sampled curves, mm: 0.001 is promised
+constexpr double k_sagitta = 0.0007;  // of sampled curves, mm; 0.001 is guaranteed
 constexpr double k_farthest = 1e7;    // mm from the origin
 constexpr std::size_t k_most_inserts = 200'000;
-constexpr std::size_t k_most_tags = 100'000'000;  // gone through while blocks are expanded
+constexpr std::size_t k_most_tags = 100'000'000;  // processed while blocks are expanded
 constexpr int k_deepest_block = 16;
 constexpr std::size_t k_most_ignored = 64;
 constexpr std::size_t k_most_remarks = 20;
 
-/// An INSERT: a block's entities, turned, scaled and repeated in columns and rows.
+/// An INSERT: the entities of a block, turned, scaled and repeated in columns and rows.
 struct DxfInsert {
   int columns;
   int rows;
   Eigen::Matrix2d turn;
   Vec2 step;
-  Eigen::Matrix2d scaled;  ///< turn included
+  Eigen::Matrix2d scaled;  ///< includes the turn
   Vec2 point;
 
   explicit DxfInsert(const DxfValues& values)
@@ -47,13 +47,13 @@ struct DxfInsert {
   }
 };
 
-/// Meaning of an entity's values, before anything is drawn.
+/// The interpretation of an entity's values, before drawing.
 struct UnderstoodEntity {
   bool in_paper_space = false;
   std::string layer;
   DrawingPlacement place;
   std::optional<DxfInsert> insert = std::nullopt;
-  const DxfBlock* block = nullptr;  ///< of the insert
+  const DxfBlock* block = nullptr;  ///< the insert's block
   EntityCurve drawn = {};
 };
 
@@ -72,7 +72,7 @@ class DxfDrawer {
   }
 
  private:
-  /// One entity that makes no sense is left out and counted. What is too much for any drawing ends the reading.
+  /// An invalid entity is skipped and counted. Excessive numbers end the reading.
   void draw(const DxfEntity& entity, const DrawingPlacement& placement, const std::string& block_layer, int depth) {
     UnderstoodEntity understood;
     try {
@@ -99,13 +99,13 @@ class DxfDrawer {
     const DxfValues values(file_, entity.tags);
     UnderstoodEntity understood{values.integer(67, 0) == 1, std::string(values.text(8)), placement};
     if (understood.in_paper_space) return understood;
-    // Layer 0 in a block is the insert's.
+    // Layer 0 in a block stands for the insert's layer.
     if (understood.layer.empty() || understood.layer == "0") understood.layer = block_layer;
     if (values.point(210).norm() > 1e-6) {
       understood.drawn.passed_over = " out of the plane";
       return understood;
     }
-    // An entity drawn from below has its x mirrored (but for those in world coordinates).
+    // The x of an entity drawn from below is mirrored (except for those in world coordinates).
     const bool has_own_plane = entity.type != "LINE" && entity.type != "ELLIPSE" && entity.type != "SPLINE";
     if (has_own_plane && values.real(230, 1) < 0) understood.place.linear.col(0) *= -1;
     if (entity.type == "INSERT") {
@@ -133,7 +133,7 @@ class DxfDrawer {
     ignored_.insert(name.substr(1, name.size() - 2) + kind);
   }
 
-  /// Entities of one kind with the same oddity make one remark.
+  /// Entities of one kind with the same problem give one remark.
   void remark(const DxfEntity& entity, const std::string& text) {
     for (DrawingRemark& known : drawing_.remarks) {
       if (known.text != text) continue;
@@ -177,7 +177,7 @@ class DxfDrawer {
     }
   }
 
-  /// Repeated points go, and a last point that closes the curve.
+  /// Removes repeated points, and a last point that closes the curve.
   void add(const DxfEntity& entity, const std::string& layer, const SampledCurve& curve) {
     DrawingPath path{layer, std::string(entity.type), entity.line, curve.closed, {}};
     path.in_space = entity.type == "POLYLINE" && (DxfValues(file_, entity.tags).integer(70, 0) & 8) != 0;

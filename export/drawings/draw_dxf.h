@@ -1,5 +1,5 @@
 /// \file
-/// Model space of a DXF file, drawn: entities and inserted blocks as points in their places, in mm.
+/// Internal: model space of a DXF file as points in mm, with inserted blocks expanded.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace fusee {
 
-/// Paths as they come, ends that meet not joined yet. Blocks nest 16 deep at most; what would grow beyond all measure
-/// is refused. Throws InputError.
+/// Paths in the order of the file, with ends not yet joined. Blocks nest at most 16 deep, and excessive expansion is
+/// rejected. Throws InputError.
 Drawing draw_dxf(const DxfFile& dxf, const std::string& file);
 
 }  // namespace fusee

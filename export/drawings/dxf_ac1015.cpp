@@ -1,4 +1,4 @@
-// AutoCAD 2000, with every table, owner and dictionary that a strict reader looks for.
+// AutoCAD 2000, with every table, owner and dictionary that strict readers require.
 #include <algorithm>
 
 #include "export/drawings/dxf_versions.h"
@@ -6,8 +6,8 @@
 namespace fusee {
 namespace {
 
-// Everything in AC1015 has a handle and names its owner's. Those that are named from elsewhere are fixed here; table
-// records and entities count on from k_first_free.
+// Every object of AC1015 has a handle and names its owner's. Handles that other objects name are fixed here. Table
+// records and entities are numbered from k_first_free.
 enum Handle : int {
   k_layer_table = 0x1,
   k_ltype_table = 0x2,
@@ -68,7 +68,7 @@ class Ac1015Writer {
     tags_.text(9, "$MEASUREMENT");
     tags_.integer(70, 1);
     tags_.text(9, "$HANDSEED");
-    // One for each record and entity written below is less than this.
+    // Upper bound on the number of records and entities written below.
     tags_.handle(5, k_first_free + 64 + static_cast<int>(document_.layers.size() + document_.paths.size()));
     tags_.end_section();
   }
@@ -83,7 +83,7 @@ class Ac1015Writer {
   }
   void end_table() { tags_.text(0, "ENDTAB"); }
 
-  /// `handle_code` is 5 but for DIMSTYLE, whose 5 was taken.
+  /// `handle_code`: 5, except for DIMSTYLE, which uses 5 for another value.
   void begin_record(std::string_view type, std::string_view subclass, int owner, std::string_view name, int handle,
                     int handle_code = 5) {
     tags_.text(0, type);
@@ -122,7 +122,7 @@ class Ac1015Writer {
     tags_.end_section();
   }
 
-  /// The view that a program opens with: all of the drawing.
+  /// The initial view of a program: the whole drawing.
   void write_vport() {
     const Vec2 middle = 0.5 * (box_.low + box_.high);
     const double height = std::max({box_.size().y(), box_.size().x() / 1.5, 1.0}) * 1.1;
@@ -213,7 +213,7 @@ class Ac1015Writer {
     }
   }
 
-  /// In space: each vertex an entity of its own.
+  /// A polyline in space, with an entity for each vertex.
   void write_climbing(const DxfPath& path) {
     const int polyline = next_;
     begin_entity("POLYLINE", "AcDb3dPolyline", k_model_record, path.layer);

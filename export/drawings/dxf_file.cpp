@@ -18,8 +18,8 @@ class DxfFileReader {
 
  private:
   void read_sections() {
-    // dxflib 2.0 writes variables of the header behind its end: values without an entity are passed over there. A file
-    // that ends behind its entities lacks nothing but its last word.
+    // dxflib 2.0 writes header variables after the header's end, so values without an entity are skipped there. A file
+    // that ends after its entities lacks only EOF.
     for (std::optional<DxfTag> next = tags_.required(); next && !is(*next, "EOF");
          next = saw_entities_ ? tags_.next() : tags_.required()) {
       const DxfTag tag = *next;
@@ -61,7 +61,7 @@ class DxfFileReader {
     }
   }
 
-  /// Tags up to the next group 0, which is returned.
+  /// Reads tags up to the next group 0, which is returned.
   DxfTag read_tags(std::vector<DxfTag>& tags) {
     for (;;) {
       const DxfTag tag = tags_.required();

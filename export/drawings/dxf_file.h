@@ -1,5 +1,5 @@
 /// \file
-/// A DXF file as it is laid out: what its header says, its blocks, its entities, none of them understood yet.
+/// Internal: the structure of a DXF file: header, blocks and entities, not yet interpreted.
 #pragma once
 
 #include <map>
@@ -12,32 +12,32 @@
 
 namespace fusee {
 
-/// One entity as it stands in the file; the vertices of an old POLYLINE are with it.
+/// One entity of the file, with the vertices of an old POLYLINE.
 struct DxfEntity {
   std::string_view type;
   int line = 0;
   std::vector<DxfTag> tags;
   std::vector<std::vector<DxfTag>> vertices;
-  std::size_t size = 0;  ///< tags in all
+  std::size_t size = 0;  ///< number of tags
 };
 
 struct DxfBlock {
-  Vec2 base = Vec2::Zero();  ///< lies on the insert's point
+  Vec2 base = Vec2::Zero();  ///< placed at the insert's point
   std::vector<DxfEntity> entities;
 };
 
-/// Points into the bytes that it was read from.
+/// Refers to the bytes that it was read from.
 struct DxfFile {
-  std::string version;       ///< $ACADVER; "AC1009" where the file does not say
-  std::optional<int> units;  ///< $INSUNITS; −1 for what is none
+  std::string version;       ///< $ACADVER; "AC1009" if missing
+  std::optional<int> units;  ///< $INSUNITS; −1 if invalid
   std::vector<DxfEntity> entities;
   std::map<std::string, DxfBlock> blocks;
 
-  /// 1 where the file does not say.
+  /// 1 if the file gives no unit.
   double unit_in_mm() const;
 };
 
-/// Throws InputError where the layout is broken, or where there is no ENTITIES section.
+/// Throws InputError if the structure is damaged or the ENTITIES section is missing.
 DxfFile read_dxf_file(std::string_view bytes, const std::string& file);
 
 }  // namespace fusee

@@ -1,4 +1,4 @@
-// AC1009: what laser shops ask for. No handles, no owners; every polyline with its vertices one by one.
+// AC1009 for laser shops: no handles, no owners, and polylines with separate vertices.
 #include "export/drawings/dxf_versions.h"
 
 namespace fusee {

@@ -1,5 +1,5 @@
 /// \file
-/// The tags of a DXF file, one call a tag.
+/// Internal: writes the tags of a DXF file.
 #pragma once
 
 #include <initializer_list>
@@ -15,7 +15,7 @@ class DxfTagWriter {
  public:
   void text(int code, std::string_view value);
   void integer(int code, int value);
-  /// Nine decimals without trailing zeros: a reader gets it back within 1e-9 mm, and no reader meets an exponent.
+  /// Nine decimals without trailing zeros. The value is exact to 1e-9 mm, and no exponent appears.
   void real(int code, double value);
   void handle(int code, int value);
   /// x under `code`, y ten above.

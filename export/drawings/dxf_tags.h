@@ -1,5 +1,5 @@
 /// \file
-/// What DXF is made of: tags, a group code and a value on a line each. Whatever goes wrong names the line.
+/// Internal: DXF tags, which are a group code and a value on a line each. Every error names its line.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@ namespace fusee {
 struct DxfTag {
   int code = 0;
   std::string_view value;  ///< without blanks at its ends; points into the file's bytes
-  int line = 0;            ///< of the value
+  int line = 0;            ///< line of the value
 };
 
-/// Throws InputError; line 0 is the whole file.
+/// Throws InputError. Line 0 stands for the whole file.
 [[noreturn]] void fail_in_dxf(const std::string& file, int line, std::string message, std::string hint = {});
-/// What a message may show of foreign bytes: 40 of them, in quotes.
+/// At most 40 foreign bytes in quotes, for a message.
 std::string quoted_bytes(std::string_view text);
 
 /// Splits the bytes into tags. Lines end with \n, with \r\n, or in a file without any \n with \r.
@@ -28,9 +28,9 @@ class DxfTagReader {
   DxfTagReader(std::string_view bytes, const std::string& file)
       : bytes_(bytes), file_(file), line_end_(bytes.find('\n') == std::string_view::npos ? '\r' : '\n') {}
 
-  /// The next tag; a remark (999) is skipped. Null at the end of the bytes.
+  /// The next tag, skipping comments (999). Empty at the end of the bytes.
   std::optional<DxfTag> next();
-  /// The next tag; fails at the end of the bytes.
+  /// The next tag. Fails at the end of the bytes.
   DxfTag required();
 
  private:
@@ -41,13 +41,13 @@ class DxfTagReader {
   char line_end_;
   std::size_t position_ = 0;
   int line_ = 0;
-  int last_line_ = 0;  ///< of the last required tag
+  int last_line_ = 0;  ///< line of the last required tag
 };
 
 /// The value as a finite number.
 double dxf_number(const std::string& file, const DxfTag& tag);
 
-/// The first value of each group code among some tags. Numbers are checked when they are asked for.
+/// The first value of each group code among some tags. Numbers are checked on access.
 class DxfValues {
  public:
   DxfValues(const std::string& file, const std::vector<DxfTag>& tags) : file_(file), tags_(tags) {}

@@ -1,5 +1,5 @@
 /// \file
-/// A document in either of the versions of DXF that are written. dxf_text() has looked at it before.
+/// Internal: writes a document in either DXF version. dxf_text() has validated it.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ namespace fusee {
 std::string r12_text(const DxfDocument& document);
 std::string ac1015_text(const DxfDocument& document);
 
-// What both say ------------------------------------------------------------------------------------------------------
+// Common to both versions -------------------------------------------------------------------------------------------
 
 void write_remarks(DxfTagWriter& tags, const DxfDocument& document);
-/// The header's variables that both know: version, extents, units.
+/// Header variables of both versions: version, extents, units.
 void write_variables(DxfTagWriter& tags, std::string_view version, const Box2d& box);
-/// Centre and radius.
+/// Writes centre and radius.
 void write_circle_values(DxfTagWriter& tags, const RoundHole& circle);
-/// Of the one text style, which no text is written in.
+/// The values of the one text style, which no text uses.
 void write_style_values(DxfTagWriter& tags);
 
 }  // namespace fusee

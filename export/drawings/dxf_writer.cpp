@@ -7,9 +7,9 @@
 namespace fusee {
 namespace {
 
-constexpr double k_box_sagitta = 0.001;  // mm: a box is for the eye
+constexpr double k_box_sagitta = 0.001;  // mm; the box is for display only
 
-/// Comments are plain ASCII: the code page of a DXF file differs by version.
+/// Comments are plain ASCII, because the code page of a DXF file depends on its version.
 std::string ascii(const std::string& text) {
   std::string plain;
   for (const char c : text) plain += c >= ' ' && c <= '~' ? c : '?';

@@ -1,7 +1,7 @@
 /// \file
-/// A drawing of polylines and circles as DXF text: AC1015 (AutoCAD 2000) with every table, owner and dictionary that a
-/// strict reader looks for, or R12 (AC1009), which laser shops ask for. Millimetres, nine decimals. No splines or
-/// texts; an arc is a polyline's bulge; a curve that climbs is a polyline in space.
+/// Internal: a drawing of polylines and circles as DXF text. AC1015 (AutoCAD 2000) has every table, owner and
+/// dictionary that strict readers require; R12 (AC1009) is for laser shops. Millimetres, nine decimals. No splines or
+/// texts: an arc is a polyline's bulge, and a helical curve is a polyline in space.
 #pragma once
 
 #include <string>
@@ -16,15 +16,15 @@ namespace fusee {
 struct DxfLayer {
   std::string name;
   int colour = 7;       ///< AutoCAD colour index
-  bool plotted = true;  ///< false: a layer that is neither plotted nor cut
+  bool plotted = true;  ///< false for a layer that is neither plotted nor cut
 };
 
 struct DxfPath {
   std::string layer;
-  std::vector<BulgeVertex> vertices;  ///< none of a circle
+  std::vector<BulgeVertex> vertices;  ///< empty for a circle
   bool closed = true;
   std::optional<RoundHole> circle;
-  std::vector<double> heights = {};  ///< of the vertices, where it is a polyline in space
+  std::vector<double> heights = {};  ///< heights of the vertices, for a polyline in space
 };
 
 struct DxfDocument {
@@ -36,15 +36,15 @@ struct DxfDocument {
   void closed(std::string layer, const Contour& contour, const Vec2& shift = Vec2::Zero());
   void closed_arcs(std::string layer, std::vector<BulgeVertex> vertices);
   void open(std::string layer, const Polygon& points);
-  /// A polyline in space: seen from above as it is in plan.
+  /// A polyline in space whose plan view is the plane polyline.
   void in_space(std::string layer, const std::vector<Vec3>& points);
-  /// A line of single-stroke text; `origin` is its lower left corner.
+  /// A line of single-stroke text with its lower left corner at `origin`.
   void text(const std::string& layer, std::string_view text, const Vec2& origin, double height);
 };
 
 std::string dxf_text(const DxfDocument& document, DxfVersion version);
 
-/// Around all points of all paths.
+/// The box around all points of all paths.
 Box2d bounding_box(const std::vector<DxfPath>& paths);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// Which points of a drawing are the same point: within k_joined of each other. mm.
+/// Internal: identifies points of a drawing within k_joined of each other. mm.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace fusee {
 
-/// Ends nearer than this meet: what a reader of drawings may call the same point without changing a part.
+/// Largest distance of ends that meet. A reader of drawings may merge them without changing a part.
 inline constexpr double k_joined = 1e-4;
 
-/// Numbers points in the order in which they come; a point within k_joined of an earlier one gets that one's number, of
-/// several the earliest's. Constant time a point: cells of a grid, and neighbours of those that the point is next to.
+/// Numbers points in order. A point within k_joined of earlier ones gets the number of the earliest. Each takes
+/// constant time: the grid cell of the point and adjacent cells are searched.
 class EndPoints {
  public:
   std::size_t number(const Vec2& point);

@@ -33,7 +33,7 @@ EntityCurve polyline(const DxfEntity& entity, const std::string& file, const Dra
   std::vector<BulgeVertex> vertices;
   for (const std::vector<DxfTag>& tags : entity.vertices) {
     const DxfValues vertex(file, tags);
-    if (vertex.integer(70, 0) & 16) continue;  // a spline's frame, not its curve
+    if (vertex.integer(70, 0) & 16) continue;  // a spline's control frame, not its curve
     vertices.push_back({vertex.point(10), vertex.real(42, 0)});
   }
   return {sampled_bulges(vertices, flags & 1, sagitta, place)};
@@ -57,8 +57,8 @@ EntityCurve circle_or_arc(const DxfEntity& entity, const std::string& file, cons
   return {sampled_arc(arc.placed(place), sagitta)};
 }
 
-/// The ratio of the axes may be rounded above 1, or negative where the minor axis points the other way. One well above
-/// 1 is against the format, but draws an ellipse all the same.
+/// Rounding may make the ratio of the axes exceed 1, and it is negative if the minor axis points the other way. A ratio
+/// well above 1 violates the format but defines an ellipse nevertheless.
 EntityCurve ellipse(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place, double sagitta) {
   constexpr double k_rounding = 1e-6;
   const DxfValues values(file, entity.tags);

@@ -1,5 +1,5 @@
 /// \file
-/// LINE, LWPOLYLINE, POLYLINE, CIRCLE, ARC, ELLIPSE and SPLINE as points in their place in the drawing.
+/// Internal: LINE, LWPOLYLINE, POLYLINE, CIRCLE, ARC, ELLIPSE and SPLINE as points in the drawing.
 #pragma once
 
 #include <optional>
@@ -10,17 +10,17 @@
 
 namespace fusee {
 
-/// A drawing of more points than this is refused.
+/// Drawings with more points are rejected.
 inline constexpr std::size_t k_most_points = 4'000'000;
 
-/// The curve; without one, what kind of it is passed over (" mesh"; "" where the entity is no line at all).
+/// The curve, or the kind of entity that was skipped (" mesh"; "" if the entity is no line at all).
 struct EntityCurve {
   std::optional<SampledCurve> curve = std::nullopt;
   std::string passed_over = {};
-  std::string remark = {};  ///< on an odd entity that was understood all the same
+  std::string remark = {};  ///< about an unusual entity that was accepted
 };
 
-/// `sagitta`: how far chords may lie from the curve, mm. Throws InputError for numbers that make no curve.
+/// `sagitta`: largest distance of chords from the curve, mm. Throws InputError for numbers that define no curve.
 EntityCurve curve_of(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place, double sagitta);
 
 }  // namespace fusee

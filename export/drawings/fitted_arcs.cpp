@@ -33,7 +33,7 @@ Arc arc_between(const Knot& from, const Vec2& to) {
   return {from.place, to, std::tan(0.5 * std::atan2(cross(from.tangent, chord), from.tangent.dot(chord)))};
 }
 
-/// Two arcs that leave `from` and reach `to` along their tangents and meet in a third.
+/// Two arcs that leave `from` and reach `to` along their tangents and meet tangentially at a third point.
 struct Biarc {
   Arc first, second;
   Vec2 middle_tangent;
@@ -43,7 +43,7 @@ struct Biarc {
   }
 };
 
-/// Both arcs' tangents are equally long: d (t₀ + t₁) and a piece of length 2 d lead from end to end (Bolton 1975).
+/// Both arcs have equally long tangents: d (t₀ + t₁) and a segment of length 2 d lead from end to end (Bolton 1975).
 std::optional<Biarc> biarc_between(const Knot& from, const Knot& to) {
   const Vec2 across = to.place - from.place;
   const double along = across.dot(from.tangent + to.tangent), size = across.squaredNorm();
@@ -89,7 +89,7 @@ class ArcFit {
     const double turn = std::atan2(cross(start.tangent, end.tangent), start.tangent.dot(end.tangent));
     if (!(turn >= 0) || turn > k_most_turn) return std::nullopt;
     const std::optional<Biarc> biarc = biarc_between(start, end);
-    // The outline is convex, and so are its arcs.
+    // The outline is convex, so its arcs must be convex too.
     if (!biarc || !(biarc->first.bulge >= 0 && biarc->second.bulge >= 0)) return std::nullopt;
     for (std::size_t i = from + 1; i < to; ++i) {
       if (!(biarc->distance(points_[i]) <= tolerance_)) return std::nullopt;

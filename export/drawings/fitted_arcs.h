@@ -1,5 +1,5 @@
 /// \file
-/// Outlines as circles and arcs, so that a drawing has a few curves to select in place of hundreds of straight pieces.
+/// Internal: outlines as circles and arcs, so that a drawing has few curves to select instead of hundreds of segments.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace fusee {
 
-/// The circle about the axis that all of these points lie on; nothing where they lie on none.
+/// The circle about the axis through all of these points; empty if there is none.
 std::optional<RoundHole> circle_about_axis(const Polygon& points);
 
 /// parallel(outline, distance) as arcs with common tangents: biarcs through some of its points, each as long as it
-/// stays within `tolerance` (mm) of the points between. An edge without such arcs stays straight. Closed.
+/// stays within `tolerance` (mm) of the points between. Edges without such arcs stay straight. Closed.
 std::vector<BulgeVertex> fitted_arcs(const Outline& outline, double distance, double tolerance);
 
 }  // namespace fusee

@@ -41,7 +41,7 @@ class PathJoiner {
     return layer.ends[node];
   }
 
-  /// The end that goes on where `path` ends, if there is exactly one.
+  /// The end that continues `path` at its `last` end, if there is exactly one.
   std::optional<PathEnd> next(std::size_t path, bool last) {
     const std::vector<PathEnd>& ends = ends_of(path, last);
     if (ends.size() != 2) return std::nullopt;
@@ -49,7 +49,7 @@ class PathJoiner {
     return used_[other.path] ? std::nullopt : std::optional<PathEnd>(other);
   }
 
-  /// Lengthens `chain`, which ends with the `last` end of path `i`.
+  /// Extends `chain`, which ends with the `last` end of path `i`.
   void extend(Polygon& chain, std::size_t i, bool last) {
     while (const auto end = next(i, last)) {
       const Polygon& points = paths_[end->path].points;

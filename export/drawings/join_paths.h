@@ -1,5 +1,5 @@
 /// \file
-/// Open paths that go on in one another become one.
+/// Internal: joins open paths with common ends.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace fusee {
 
-/// A path that ends within k_joined (end_points.h) of where it began is closed, and that last point goes.
+/// Closes a path whose end is within k_joined (end_points.h) of its start, and removes the last point.
 void close_where_ends_meet(DrawingPath& path);
 
-/// Joins open paths of one layer where exactly two ends meet; a place where three or more meet stays open, for nobody
-/// knows which go on.
+/// Joins open paths of one layer where exactly two ends meet. A place where three or more meet stays open, because the
+/// continuation is ambiguous.
 std::vector<DrawingPath> joined_paths(std::vector<DrawingPath> paths);
 
 }  // namespace fusee

@@ -13,7 +13,7 @@ std::vector<NestedPlace> nest(const std::vector<Vec2>& sizes, const Vec2& sheet,
 
   std::vector<NestedPlace> places(sizes.size());
   Vec2 pen(gap, gap);
-  double shelf = 0;  // height of this one: its first is its tallest
+  double shelf = 0;  // height of the current shelf, given by its first rectangle
   int current = 0;
   for (const std::size_t i : order) {
     const Vec2& size = sizes[i];

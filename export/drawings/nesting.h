@@ -1,5 +1,5 @@
 /// \file
-/// Rectangles on sheets. mm.
+/// Internal: places rectangles on sheets. mm.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@ namespace fusee {
 
 struct NestedPlace {
   int sheet = 0;
-  Vec2 corner = Vec2::Zero();  ///< lower left, on its sheet
-  bool fits = true;            ///< false: larger than a sheet; it has one to itself and stands over
+  Vec2 corner = Vec2::Zero();  ///< lower left corner on its sheet
+  bool fits = true;            ///< false: larger than a sheet; it has a sheet of its own and projects over it
 };
 
-/// Shelves: the tallest first, from left to right, then the next shelf, then the next sheet. `gap` between all and to
-/// the edge. One place a size, in their order.
+/// Shelf packing: the tallest first, from left to right, then the next shelf, then the next sheet. `gap`: distance
+/// between rectangles and to the edge. Returns one place for each size, in their order.
 std::vector<NestedPlace> nest(const std::vector<Vec2>& sizes, const Vec2& sheet, double gap);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// Rectangles, circles, contours and boxes, to draw. mm.
+/// Internal: rectangles, circles, contours and boxes for drawings. mm.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@ namespace fusee {
 
 /// The axis-parallel square or rectangle from `low` to `high`, counter-clockwise.
 Polygon rectangle(const Vec2& low, const Vec2& high);
-/// A circle as a regular polygon, counter-clockwise, its corners *on* the circle; sagitta at most 0.002 mm, 24 corners
-/// at least.
+/// A circle as a regular polygon, counter-clockwise, with its corners *on* the circle; sagitta at most 0.002 mm, at
+/// least 24 corners.
 Polygon circle_polygon(const Vec2& centre, double radius);
 
-/// A closed contour: the polygon that everything is measured on, and what of it is round, for whoever draws it.
+/// A closed contour: the polygon for measurements, and its round parts for drawing.
 struct Contour {
   Polygon points;
   std::optional<RoundHole> circle;  ///< the whole contour is this circle
-  std::size_t arc_points = 0;       ///< how many of the first points lie on one arc about the origin
+  std::size_t arc_points = 0;       ///< number of the first points that lie on one arc about the origin
 };
 
 Contour circle_contour(const RoundHole& hole);
-/// What is drawn of a contour that is no circle: the arc as one edge with its bulge.
+/// The vertices of a contour that is no circle, with the arc as one edge with a bulge.
 std::vector<BulgeVertex> vertices_of(const Contour& contour);
 /// The angle from `from` to `to` about the origin, counter-clockwise, in (0, 2π]. rad.
 double turn_between(const Vec2& from, const Vec2& to);
@@ -36,7 +36,7 @@ struct Box2d {
   Vec2 high = Vec2::Zero();
   Vec2 size() const { return high - low; }
 };
-/// Smallest box around all points; both corners at the origin when there are none.
+/// The smallest box around all points; both corners at the origin if there are none.
 Box2d bounding_box(const Polygon& points);
 
 }  // namespace fusee

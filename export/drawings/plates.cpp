@@ -20,12 +20,12 @@
 namespace fusee {
 namespace {
 
-constexpr double k_least_wall = 1.0;     // what a cut leaves standing, mm
-constexpr double k_least_feature = 1.0;  // what a laser cuts cleanly, mm
-constexpr double k_groove_room = 1.1;    // of the tendon between its flanges, per diameter
+constexpr double k_least_wall = 1.0;     // least material between cuts, mm
+constexpr double k_least_feature = 1.0;  // narrowest feature that a laser cuts cleanly, mm
+constexpr double k_groove_room = 1.1;    // width between the flanges, in tendon diameters
 constexpr double k_engraving_margin = 0.5;
 
-/// What the plates are cut from, gathered once.
+/// The features of all plates, collected once.
 struct Stock {
   const Product& product;
   const Mechanism& mechanism;
@@ -48,13 +48,13 @@ struct Stock {
         floor2(parallel(made.synthesis.p2, -0.5 * mechanism.tendon.diameter)),
         wall(std::max(layout.min_wall, k_least_wall)) {
     std::vector<Polygon> holes = layout.bore.screw_holes;
-    // A recess goes through all plates, and takes the centre hole above it with it.
+    // A recess goes through all plates and includes the centre hole above it.
     if (layout.bore.horn_recess > 0) holes.erase(holes.begin());
     for (const Polygon& hole : holes) screw_holes.push_back(circle_contour(circle_within(hole)));
   }
 
   Contour pocket(const Anchor& anchor) const { return circle_contour({anchor.pocket, 2 * layout.pocket_radius}); }
-  /// What is cut into a plate's edge: channel and pocket in the groove's, or a slot to the face in its flange's.
+  /// The cuts into a plate's edge: channel and pocket in the groove's plate, or a slot to the face in its flange's.
   std::vector<Polygon> in_edge(const Anchor& anchor) const {
     std::vector<Polygon> parts{anchor.channel};
     if (!anchor.seat) parts.push_back(pocket(anchor).points);
@@ -64,7 +64,7 @@ struct Stock {
 
 // ---- Dowels ---------------------------------------------------------------------------------------------------------
 
-/// What every plate keeps: within both floors, clear of all that is cut out of any of them.
+/// The material common to all plates: within both floors, clear of all cuts.
 Material2d common_material(const Stock& stock) {
   Material2d material;
   material.add_outline(stock.floor1);
@@ -92,19 +92,18 @@ void place_dowels(Plates& plates, const Stock& stock) {
   const Material2d material = common_material(stock);
   for (const double share : {1.0, 0.85, 0.7, 0.5, 0.35}) {
     const double diameter = share * wanted;
-    if (diameter - stock.mechanism.cut.kerf < k_least_feature)
-      break;  // the cutter's path would be narrower than it can cut
+    if (diameter - stock.mechanism.cut.kerf < k_least_feature) break;  // the cutter's path would be too narrow
     const auto places = dowel_places(stock, material, diameter);
     if (!places) continue;
     plates.dowels = {places->first, places->second};
     plates.dowel_diameter = diameter;
     if (share < 1)
       plates.notes.push_back(
-          fmt::format("dowels of {} mm: there is no room for {} mm", rounded(diameter), rounded(wanted)));
+          fmt::format("dowels of {} mm: there is no space for {} mm", rounded(diameter), rounded(wanted)));
     return;
   }
   const char* why =
-      wanted - stock.mechanism.cut.kerf < k_least_feature ? "the cut would be too narrow" : "there is no room";
+      wanted - stock.mechanism.cut.kerf < k_least_feature ? "the cut would be too narrow" : "there is no space";
   plates.notes.push_back(
       fmt::format("no dowels: {} for two of {} mm; align the plates on the shaft", why, rounded(wanted)));
 }
@@ -140,11 +139,11 @@ class LayerMaker {
   void add_hole(PlateLayer& layer, const Contour& hole, const char* what) {
     const auto path = cut_hole(hole, kerf_);
     if (!path) {
-      note_once(plates_, fmt::format("the {} is left out: a kerf of {} mm is wider", what, rounded(kerf_)));
+      note_once(plates_, fmt::format("the {} is omitted: a kerf of {} mm is wider", what, rounded(kerf_)));
       return;
     }
     if (bounding_box(path->points).size().minCoeff() < k_least_feature) {
-      note_once(plates_, fmt::format("{}: the {} of {} mm is left out, the cut would be narrower than {} mm: drill it",
+      note_once(plates_, fmt::format("{}: the {} of {} mm is omitted, the cut would be narrower than {} mm: drill it",
                                      layer.name, what, rounded(bounding_box(hole.points).size().minCoeff(), 3),
                                      rounded(k_least_feature)));
       return;
@@ -153,15 +152,15 @@ class LayerMaker {
     layer.cut_holes.push_back(*path);
   }
 
-  /// Half a kerf is taken off before channel and pocket are cut out of the plate: parallel edges stay parallel, and
-  /// their corners are the mitres.
+  /// Half a kerf is subtracted before channel and pocket are cut out. Parallel edges stay parallel, and their corners
+  /// are the mitres.
   void cut_channel(PlateLayer& layer, const Anchor& anchor) {
     std::vector<Polygon> finished;
     std::vector<Polygon> path;
     for (const Polygon& part : stock_.in_edge(anchor)) {
       const auto inner = part.size() > 2 && is_simple(part) ? cut_hole({part, {}, 0}, kerf_) : std::nullopt;
       if (!inner) {
-        note_once(plates_, fmt::format("a tendon channel is left out: a kerf of {} mm is wider", rounded(kerf_)));
+        note_once(plates_, fmt::format("a tendon channel is omitted: a kerf of {} mm is wider", rounded(kerf_)));
         return;
       }
       finished.push_back(part);
@@ -170,14 +169,14 @@ class LayerMaker {
     const std::vector<Polygon> outer = difference(layer.outer.front(), finished);
     const std::vector<Polygon> cut_outer = difference(layer.cut_outer.front(), path);
     if (!is_one_plate(outer) || !is_one_plate(cut_outer)) {
-      note_once(plates_, fmt::format("{}: a tendon channel is left out, it would cut the plate in two", layer.name));
+      note_once(plates_, fmt::format("{}: a tendon channel is omitted, it would cut the plate in two", layer.name));
       return;
     }
     layer.outer = {outer.front()};
     layer.cut_outer = {cut_outer.front()};
   }
 
-  /// The rest must hang together and be open where the tendon comes in; slivers that fall out are no plate.
+  /// The remaining plate must be connected and open at the tendon's entry. Slivers are ignored.
   static bool is_one_plate(const std::vector<Polygon>& loops) {
     constexpr double k_sliver = 1.0;  // mm²
     return !loops.empty() && is_simple(loops.front()) &&
@@ -189,7 +188,7 @@ class LayerMaker {
   double kerf_;
 };
 
-/// The hub's disc, wide enough to hold the dowels.
+/// Radius of the hub's disc, wide enough for the dowels.
 double hub_radius(const Stock& stock, const Plates& plates) {
   double radius = stock.layout.hub_radius;
   for (const Vec2& dowel : plates.dowels)
@@ -279,7 +278,7 @@ void engrave(Plates& plates, std::size_t index, int total) {
       return;
     }
   }
-  plates.notes.push_back(layer.name + ": there is no room for the plate's number");
+  plates.notes.push_back(layer.name + ": there is no space for the plate's number");
 }
 
 // ---- Notes ----------------------------------------------------------------------------------------------------------
@@ -301,18 +300,17 @@ void describe_stack(Plates& plates, const Stock& stock) {
   lines.push_back(
       fmt::format("stack from plate 1 upward, numbers facing up, home marks in line; plates of {} mm", rounded(t)));
   lines.push_back(fmt::format("the grooves are {} mm wide for a tendon of {} mm", rounded(room), rounded(d)));
-  if (stock.layout.set_screw.present)
-    lines.push_back("the set screw is no part of the plates: drill it across the hub");
+  if (stock.layout.set_screw.present) lines.push_back("the plates have no set screw: drill it across the hub");
   if (std::any_of(stock.product.pulley.anchors.begin(), stock.product.pulley.anchors.end(),
                   [](const Anchor& anchor) { return anchor.tail.has_value(); }))
-    lines.push_back("the slots for the tendons' tails are no part of the plates: glue the tails down");
+    lines.push_back("the plates have no slots for the tendons' tails: glue the tails down");
   if (stock.layout.bore.horn_recess > 0)
     lines.push_back(fmt::format("the horn's recess goes through all plates; it would be {} mm deep",
                                 rounded(stock.layout.bore.horn_recess)));
   plates.notes.insert(plates.notes.begin(), lines.begin(), lines.end());
 }
 
-/// Narrow places of what is cut out.
+/// Notes narrow cut features.
 void note_small_features(Plates& plates, const Stock& stock) {
   const double narrow = stock.layout.channel_width;
   if (!stock.product.pulley.anchors.empty() && narrow < k_least_feature) {
@@ -331,8 +329,8 @@ void note_small_features(Plates& plates, const Stock& stock) {
 
 // ---- Sheets ---------------------------------------------------------------------------------------------------------
 
-/// The workshop's, or where a plate is larger the one that it takes, in whole mm: what is cut is the same, and somebody
-/// else may have a larger machine.
+/// The workshop's sheet, or the size that the largest plate requires, in whole mm. The cut is the same, and another
+/// workshop may have a larger machine.
 void choose_sheet(Plates& plates, const Cut& cut, const std::vector<Vec2>& sizes, double gap) {
   const Vec2 workshop(cut.sheet_width, cut.sheet_height);
   plates.sheet = workshop;

@@ -1,6 +1,6 @@
 /// \file
-/// The part as a stack of plates: which there are, what is cut out of each, where its number stands, and how all lie on
-/// the sheets. mm.
+/// Internal: the part as a stack of plates, with the cut features, the number of each plate and its place on the
+/// sheets. mm.
 #pragma once
 
 #include <string>
@@ -12,48 +12,48 @@
 
 namespace fusee {
 
-/// What is engraved, by the room there is: "3/8 P1 CORE", "3/8", "3".
+/// The engraved label, depending on the space: "3/8 P1 CORE", "3/8", "3".
 enum class LabelKind { name, count, number };
 
-/// Plates of one shape, one upon another. Outlines are about the axis, outer ones counter-clockwise.
+/// Stacked plates of one shape. Outlines are about the axis, outer ones counter-clockwise.
 struct PlateLayer {
   std::string name;  ///< "FLANGE 1", "P1 CORE" …
   int count = 1;
-  std::vector<Polygon> outer;      ///< as the finished plate: one, with the tendon's channels cut into it
+  std::vector<Polygon> outer;      ///< of the finished plate: one outline, with the tendon's channels cut into it
   std::vector<Contour> holes;      ///< bore, dowels, pockets
-  std::vector<Polygon> cut_outer;  ///< where the cutter's middle runs: half a kerf outside …
-  std::vector<Contour> cut_holes;  ///< … and half a kerf inside of the hole
+  std::vector<Polygon> cut_outer;  ///< path of the cutter's centre, half a kerf outside
+  std::vector<Contour> cut_holes;  ///< paths half a kerf inside the holes
   std::vector<Polygon> engraving;  ///< the home mark: open strokes
   Vec2 label = Vec2::Zero();       ///< lower left corner of the number and name
-  double label_height = 0;         ///< 0: there is no room for it
+  double label_height = 0;         ///< 0: no space
   LabelKind label_kind = LabelKind::name;
 };
 
 struct PlacedPlate {
   std::size_t layer = 0;
   int number = 1;             ///< counted from the bottom of the stack
-  Vec2 shift = Vec2::Zero();  ///< of the axis, on the drawing
+  Vec2 shift = Vec2::Zero();  ///< position of the axis on the drawing
 };
 
 struct Plates {
   std::vector<PlateLayer> layers;   ///< bottom to top
   std::vector<PlacedPlate> placed;  ///< by number
   std::vector<Vec2>
-      dowels;  ///< centres; all on different radii and not in line with the axis, so that a plate fits in one way
+      dowels;  ///< centres on different radii, not in line with the axis, so that plates fit in one orientation only
   double dowel_diameter = 0;
-  Vec2 sheet = Vec2::Zero();       ///< what they are drawn on: the workshop's, larger where a plate asks for it
+  Vec2 sheet = Vec2::Zero();       ///< the workshop's sheet, or a larger one if a plate requires it
   int sheets = 1;                  ///< side by side from x = 0, k_sheet_gap between them
-  std::vector<std::string> notes;  ///< which plates make what, and what could not be had
+  std::vector<std::string> notes;  ///< the role of the plates, and omitted features
 };
 
 inline constexpr double k_sheet_gap = 20;
 
-/// How the plates of a layer are counted: enough of them to be `height` thick, one at least.
+/// Number of plates that make at least `height`, at least one.
 int plates_for(double height, double plate);
 
 Plates make_plates(const Product& product);
 
-/// What is engraved on a plate.
+/// The label engraved on a plate.
 std::string plate_label(const Plates& plates, const PlacedPlate& plate);
 
 }  // namespace fusee

@@ -1,6 +1,6 @@
 /// \file
-/// plates.dxf: all plates flat on their sheets, ready to cut. First what is engraved, then every hole, then every
-/// outline: what is cut free may move.
+/// plates.dxf: all plates flat on their sheets, ready to cut. Engravings come first, then holes, then outlines, because
+/// a plate that is cut free may move.
 #include <algorithm>
 
 #include "export/drawings/dxf_writer.h"

@@ -31,7 +31,7 @@ ExactPolygon exact(const Polygon& polygon) {
   return result;
 }
 
-/// Rounded to doubles; what becomes one point becomes one.
+/// Rounded to double precision, with coincident points merged.
 Polygon rounded_points(const ExactPolygon& polygon) {
   constexpr double k_same = 1e-7;
   Polygon result;

@@ -1,5 +1,5 @@
 /// \file
-/// What drawings need of exact polygon geometry; the only file of this room that includes CGAL is its .cpp.
+/// Internal: exact polygon geometry for drawings. CGAL is included only by the .cpp.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace fusee {
 
-/// +1 when a, b, c turn left, −1 right, 0 when they are exactly on one line.
+/// +1 if a, b, c turn left, −1 if right, 0 if they are exactly collinear.
 int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 
-/// Does the closed polygon neither cross nor touch itself, with three corners at least?
+/// True if the closed polygon has at least three corners and neither crosses nor touches itself.
 bool is_simple(const Polygon& polygon);
 
-/// `plate` without the cutters, all simple polygons: outer outlines counter-clockwise and holes clockwise, the largest
-/// first.
+/// `plate` minus the cutters, all simple polygons. Outer outlines are counter-clockwise and holes clockwise, the
+/// largest first.
 std::vector<Polygon> difference(const Polygon& plate, const std::vector<Polygon>& cutters);
 
 }  // namespace fusee

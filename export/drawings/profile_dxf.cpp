@@ -1,6 +1,6 @@
 /// \file
-/// profile.dxf: the curves that the pulley is about, at true size about the axis, with marks that say how it sits at
-/// home. Of several turns these curves climb: polylines in space.
+/// profile.dxf: the curves of the pulley at true size about the axis, with marks of its home position. Curves of
+/// several turns are polylines in space.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,8 +20,7 @@ namespace {
 
 constexpr double k_label_height = 2.5;
 constexpr double k_label_pitch = 4.5;
-/// From the outline's points to the arcs in their place, mm: a twentieth of what the outline itself may miss the curve
-/// by.
+/// Largest distance of the arcs from the outline's points, mm: a twentieth of the outline's tolerance.
 constexpr double k_arc_tolerance = 0.0005;
 
 std::vector<DxfLayer> layers() {
@@ -38,7 +37,7 @@ std::vector<DxfLayer> layers() {
           {"CHECK_10MM", 8, false}};
 }
 
-/// A circle where the pulley is round, else arcs.
+/// A circle if the pulley is round, otherwise arcs.
 void add_curve(DxfDocument& drawing, const char* layer, const Outline& outline, double distance) {
   if (const auto circle = circle_about_axis(parallel(outline, distance))) {
     drawing.closed(layer, circle_contour(*circle));
@@ -60,7 +59,7 @@ void add_axis_and_home(DxfDocument& drawing, double bore_radius, double radius) 
   const double arm = bore_radius + 2;
   drawing.open("MARK_AXIS", {{-arm, 0}, {arm, 0}});
   drawing.open("MARK_AXIS", {{0, -arm}, {0, arm}});
-  // An arrow outside of everything, towards the joint.
+  // An arrow outside all curves, towards the joint.
   const double foot = radius + 3;
   const double tip = foot + 8;
   drawing.open("MARK_HOME", {{0, foot}, {0, tip}});
@@ -68,7 +67,7 @@ void add_axis_and_home(DxfDocument& drawing, double bore_radius, double radius) 
   drawing.text("MARK_HOME", "HOME", {2.5, tip - 4}, k_label_height);
 }
 
-/// `angle` turned by whole turns into [0, 2π).
+/// `angle` in [0, 2π), by whole turns.
 double positive(double angle) {
   const double rest = std::fmod(angle, k_two_pi);
   return rest < 0 ? rest + k_two_pi : rest;
@@ -87,7 +86,7 @@ Vec2 contact(const Outline& outline, double psi) {
   return outline.points.front().position;
 }
 
-/// Where a tendon leaves its pulley at home, and its line from there towards the pin.
+/// The take-off of a tendon at home, and its line towards the pin.
 void add_take_off(DxfDocument& drawing, const Vec2& place, double normal, const char* name) {
   Vec2 up = turned_left(unit(normal));
   if (up.y() < 0) up = -up;
@@ -97,11 +96,11 @@ void add_take_off(DxfDocument& drawing, const Vec2& place, double normal, const 
   drawing.text("MARK_TAKE_OFF", name, place + 12 * up + Vec2(out.x() < 0 ? -3.5 : 1.0, 0), k_label_height);
 }
 
-/// Ticks over the grooves at both ends of the arcs that tendons leave from. Where both pulleys are alike, one of P1's
-/// may be one of P2's: a line is drawn once.
+/// Ticks over the grooves at both ends of the active arcs. If both pulleys are alike, ticks of P1 and P2 may coincide,
+/// and the line is drawn once.
 void add_active_ends(DxfDocument& drawing, const SynthesisResult& synthesis, double d, double depth) {
   constexpr double k_same = 1e-6;
-  std::vector<Vec2> drawn;  // where they begin
+  std::vector<Vec2> drawn;  // start points of drawn ticks
   for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
     for (const std::size_t i : {outline->active_first, outline->active_last}) {
       const OutlinePoint& point = outline->points[i];
@@ -133,7 +132,7 @@ void add_legend(DxfDocument& drawing, const std::vector<std::string>& lines) {
   }
 }
 
-// Of several turns ----------------------------------------------------------------------------------------------------
+// Several turns -----------------------------------------------------------------------------------------------------
 
 std::vector<DxfLayer> spiral_layers() {
   std::vector<DxfLayer> all = {{"P1_SPIRAL", 1}, {"P2_SPIRAL", 5},        {"P1_SPARE", 9},
@@ -167,7 +166,7 @@ void add_spiral(DxfDocument& drawing, const std::string& pulley, const HelixSide
   curve("_SPIRAL_FLOOR", 0, last, -half);
 }
 
-/// The row that lies where the tendon leaves at home.
+/// The row of the take-off at home.
 const SpiralRow& home_row(const HelixSide& side, std::size_t home) {
   const double z = side.stroke[home].z;
   return *std::min_element(
@@ -191,7 +190,7 @@ void add_home_take_offs(DxfDocument& drawing, const Product& product) {
   }
 }
 
-/// Both spirals where they lie in space, above the part's lower face: seen from above, their plan.
+/// Both spirals in space, above the part's lower face. Their plan view is the plane curve.
 std::string spirals_dxf(const Product& product, DxfVersion version) {
   const Mechanism& mechanism = product.joint.mechanism;
   const HelixProduct& helix = *product.helix;

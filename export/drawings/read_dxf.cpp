@@ -1,12 +1,12 @@
 /// \file
-/// DXF in: ASCII, R12 to R2018. Straight and curved entities of model space come out as polylines in mm; open ones
-/// whose ends meet (end_points.h: within 1e-4 mm) on one layer come out joined. What is no line (text, dimensions,
-/// hatches …) is named in `ignored`.
+/// Reads DXF: ASCII, R12 to R2018. Straight and curved entities of model space become polylines in mm. Open ones whose
+/// ends meet on one layer (end_points.h: within 1e-4 mm) are joined. Other entities (text, dimensions, hatches …) are
+/// listed in `ignored`.
 ///
-/// Bytes → tags (dxf_tags.h) → header, blocks, entities (dxf_file.h) → curves in their places (draw_dxf.h, with
-/// entity_curves.h and sampled_curves.h) → chains (join_paths.h).
+/// Bytes → tags (dxf_tags.h) → header, blocks, entities (dxf_file.h) → placed curves (draw_dxf.h, with entity_curves.h
+/// and sampled_curves.h) → chains (join_paths.h).
 ///
-/// Any bytes are safe: every number is checked, blocks nest 16 deep at most, and the whole drawing may hold 4 million
+/// Safe for any bytes: every number is checked, blocks nest at most 16 deep, and the whole drawing may have 4 million
 /// points.
 #include "export/drawings/draw_dxf.h"
 #include "export/drawings/dxf_file.h"

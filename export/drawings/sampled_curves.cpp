@@ -8,7 +8,7 @@
 namespace fusee {
 namespace {
 
-constexpr int k_most_steps = 20'000;  // of one arc
+constexpr int k_most_steps = 20'000;  // per arc
 
 int arc_steps(double radius, double turn, double sagitta) {
   if (!(radius > sagitta)) return 8;
@@ -16,7 +16,7 @@ int arc_steps(double radius, double turn, double sagitta) {
   return static_cast<int>(std::clamp(steps, 2.0, static_cast<double>(k_most_steps)));
 }
 
-/// Diameter of the circle that the arc belongs to; nothing for an ellipse.
+/// Diameter of the circle that the arc belongs to; empty for an ellipse.
 std::optional<double> diameter_of(const EllipticArc& arc) {
   constexpr double k_round = 1e-9;
   const double radius = arc.u.norm();
@@ -31,7 +31,7 @@ double longest_radius(const EllipticArc& arc) {
   return std::sqrt(0.5 * (uu + vv) + std::hypot(0.5 * (uu - vv), uv));
 }
 
-/// The ends of the arc, and between them where its x or its y is extreme; rising.
+/// The ends of the arc, and its extreme points in x and y, in increasing order.
 std::vector<double> breaks_of(const EllipticArc& arc) {
   std::vector<double> breaks = {arc.from};
   for (const int axis : {0, 1}) {
@@ -44,7 +44,7 @@ std::vector<double> breaks_of(const EllipticArc& arc) {
   return breaks;
 }
 
-/// Without its first point.
+/// Appends an arc without its first point.
 void append_arc(Polygon& points, const EllipticArc& arc, double sagitta) {
   constexpr double k_same = 1e-9;  // rad
   const double turn = arc.to - arc.from;
@@ -61,7 +61,7 @@ void append_arc(Polygon& points, const EllipticArc& arc, double sagitta) {
   }
 }
 
-/// From `from` (which is not repeated) to `to`.
+/// Appends the edge from `from` (excluded) to `to`.
 void append_bulge(Polygon& points, const Vec2& from, const Vec2& to, double bulge, double sagitta,
                   const DrawingPlacement& place) {
   if (bulge != 0 && std::abs(bulge) < 1e6 && (to - from).norm() > 0) {
@@ -75,7 +75,7 @@ void append_bulge(Polygon& points, const Vec2& from, const Vec2& to, double bulg
   points.push_back(place(to));
 }
 
-/// The diameter of two half circles on one chord, which is how a polyline draws a circle.
+/// The diameter of two half circles on one chord, the polyline form of a circle.
 std::optional<double> diameter_of(const std::vector<BulgeVertex>& vertices, bool closed,
                                   const DrawingPlacement& place) {
   if (!closed || vertices.size() != 2) return std::nullopt;
@@ -84,7 +84,7 @@ std::optional<double> diameter_of(const std::vector<BulgeVertex>& vertices, bool
   return diameter_of(EllipticArc{Vec2::Zero(), radius, turned_left(radius)}.placed(place));
 }
 
-/// De Boor's recursion.
+/// De Boor's algorithm.
 Vec2 point_at(const BSpline& spline, double t, std::size_t span) {
   std::vector<Vec3> d(spline.poles.begin() + static_cast<std::ptrdiff_t>(span) - spline.degree,
                       spline.poles.begin() + static_cast<std::ptrdiff_t>(span) + 1);
@@ -100,18 +100,18 @@ Vec2 point_at(const BSpline& spline, double t, std::size_t span) {
   return d[p].head<2>() / d[p].z();
 }
 
-/// One span of a spline, halved until the middle lies on the chord.
+/// Samples one span of a spline by bisection until the middle lies on the chord.
 struct SpanSampler {
   const BSpline& spline;
   std::size_t span;
   double sagitta;
   Polygon& out;
 
-  /// Points after `from` up to and with `to`.
+  /// Points after `from` up to and including `to`.
   void sample(double t0, const Vec2& from, double t1, const Vec2& to, int depth = 0) {
     const double tm = 0.5 * (t0 + t1);
     const Vec2 middle = point_at(spline, tm, span);
-    // The first halvings are made anyway: an inflection may put the middle on the chord.
+    // The first bisections are unconditional: an inflection may put the middle on the chord.
     const bool flat = (middle - 0.5 * (from + to)).norm() <= sagitta;
     if (depth >= 12 || (flat && depth >= 2)) {
       out.push_back(to);

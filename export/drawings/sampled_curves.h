@@ -1,6 +1,6 @@
 /// \file
-/// Arcs, bulges and B-splines as points in the drawing, so close that no chord leaves its curve by more than `sagitta`.
-/// Of arcs the extreme points along x and y are among them, so that a box round the points is a box round the curve.
+/// Internal: arcs, bulges and B-splines as points in the drawing. Chords deviate from the curve by at most `sagitta`.
+/// The extreme points of arcs along x and y are included, so that the box of the points is the box of the curve.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ namespace fusee {
 struct SampledCurve {
   Polygon points;
   bool closed = false;                            ///< the last point joins the first and is not repeated
-  std::optional<double> diameter = std::nullopt;  ///< of a whole circle
+  std::optional<double> diameter = std::nullopt;  ///< for a whole circle
 };
 
 /// Plane affine map: coordinates of an entity → drawing, mm.
@@ -38,7 +38,7 @@ struct EllipticArc {
   }
 };
 SampledCurve sampled_arc(const EllipticArc& arc, double sagitta);
-/// A vertex and the bulge of the edge that leaves it: tan of a quarter of that arc's turning, 0 when straight.
+/// A vertex and the bulge of the edge that leaves it: tan of a quarter of the arc's angle, 0 if straight.
 struct BulgeVertex {
   Vec2 place = Vec2::Zero();
   double bulge = 0;
@@ -46,13 +46,13 @@ struct BulgeVertex {
 SampledCurve sampled_bulges(const std::vector<BulgeVertex>& vertices, bool closed, double sagitta,
                             const DrawingPlacement& place = {});
 
-/// A (rational) B-spline. Its knots never fall, and are degree + 1 more than its poles.
+/// A (rational) B-spline. Its knots do not decrease, and there are degree + 1 more knots than poles.
 struct BSpline {
   int degree = 0;
   std::vector<double> knots;
   std::vector<Vec3> poles;  ///< (x w, y w, w), w > 0
 };
-/// Stops early where more than `most_points` came of it.
+/// Stops early with more than `most_points` points.
 SampledCurve sampled_spline(const BSpline& spline, double sagitta, std::size_t most_points);
 
 }  // namespace fusee

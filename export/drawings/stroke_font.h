@@ -1,5 +1,5 @@
 /// \file
-/// Text as open polylines: what a laser engraves in one pass, and what needs no font on the reader's machine. mm.
+/// Internal: text as open polylines, which a laser engraves in one pass and which require no font. mm.
 #pragma once
 
 #include <string_view>
@@ -9,8 +9,8 @@
 
 namespace fusee {
 
-/// Strokes of one line of text, its lower left corner at `origin`, capitals `height` tall. Lower case is drawn as
-/// capitals; a character without a glyph leaves a space.
+/// Strokes of one line of text with its lower left corner at `origin` and capitals of height `height`. Lower case is
+/// drawn as capitals. A character without a glyph leaves a space.
 std::vector<Polygon> stroke_text(std::string_view text, const Vec2& origin, double height);
 /// Width of that line.
 double stroke_text_width(std::string_view text, double height);

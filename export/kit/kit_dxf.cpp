@@ -1,5 +1,5 @@
-// kit.dxf: base plate, scale, link and bracket as plates to cut, nested on sheets. First what is engraved, then holes,
-// then outlines: what is cut free may move.
+// kit.dxf: base plate, scale, link and bracket as plates to cut, nested on sheets. Engravings come first, then holes,
+// then outlines, because a plate that is cut free may move.
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr double k_sheet_margin = 4;
 constexpr double k_note_height = 3;
-constexpr double k_engraving_depth = 0.61;  // a slab no thicker is engraved and not cut
-constexpr double k_least_cut = 1.0;         // what a laser cuts cleanly, mm
+constexpr double k_engraving_depth = 0.61;  // a slab up to this thickness is engraved instead of cut
+constexpr double k_least_cut = 1.0;         // narrowest feature that a laser cuts cleanly, mm
 
 /// One shape of plate.
 struct KitPlate {
@@ -41,7 +41,7 @@ std::string capitals(std::string name) {
   return name;
 }
 
-/// A part's slabs that are one piece each, bottom to top.
+/// Adds the slabs of a part that consist of one piece each, bottom to top.
 void add_plates(std::vector<KitPlate>& plates, const KitPart& part, double thickness) {
   const std::size_t first = plates.size();
   for (const Slab& slab : part.body.slabs) {
@@ -85,7 +85,7 @@ double thinnest(const DiscHull& hull) {
   return bounding.size().minCoeff();
 }
 
-/// Where the plate's name has room: from its lower left upwards.
+/// A place for the plate's name, searched from its lower left upwards.
 std::optional<Vec2> label_corner(const KitPlate& plate) {
   Material2d material;
   material.add_outline(outline_of(plate.rim));
@@ -148,14 +148,14 @@ Polygon moved(Polygon points, const Vec2& shift) {
 std::vector<std::string> remarks_of(const KitProduct& product, const std::vector<KitPlate>& plates) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   std::vector<std::string> remarks{
-      mechanism.name + ": the test model's plates to cut, true size in mm",
+      mechanism.name + ": the test rig's plates to cut, true size in mm",
       "lines are the cutter's middle: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
           " mm) outside, holes half a kerf inside; the square is 10 mm wide",
       "sheets of " + rounded(mechanism.cut.plate) + " mm; plates of one name are glued one upon another"};
   for (const KitPlate& plate : plates) {
     for (const DiscHull& hole : plate.holes) {
       if (thinnest(hole) - mechanism.cut.kerf < k_least_cut)
-        remarks.push_back(plate.label + ": a hole of " + rounded(thinnest(hole), 3) + " mm is left out: drill it");
+        remarks.push_back(plate.label + ": a hole of " + rounded(thinnest(hole), 3) + " mm is omitted: drill it");
     }
   }
   return remarks;

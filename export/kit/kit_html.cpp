@@ -1,4 +1,4 @@
-// kit.html: from a bag of parts to a joint that can be measured.
+// kit.html: the assembly page of the test rig.
 
 #include <algorithm>
 #include <filesystem>
@@ -24,7 +24,7 @@ const KitPart* part_named(const KitPlan& plan, const std::string& name) {
   return found == plan.parts.end() ? nullptr : &*found;
 }
 
-/// "tendon_1: from the left outer side": where on the pulley each leaves, and which way it is wound.
+/// The side of the pulley where a tendon leaves it, and its winding direction.
 std::string winding_words(Side side) {
   return side == Side::left ? "P1, the lower groove. Seen from above it leaves the pulley on its left, and is wound "
                               "counter-clockwise from "
@@ -90,7 +90,7 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   KitStep link;
   link.title = "Link";
   link.parts = {"link", "post", "magnet_cap"};
-  link.words = {"Press both bearings (" + sizes.bearing->name + ") into the link from above, against its lip.",
+  link.words = {"Press both bearings (" + sizes.bearing->name + ") into the link from above, against its ledge.",
                 "Push the post through the hole at C from above and screw its flange down.",
                 "Link onto the axle, nut on top: it holds the inner rings, and the link turns freely.",
                 "Press the magnet into the cap, flush with its outer face, and screw the cap over the nut."};
@@ -102,7 +102,7 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   tendons.tendons = true;
   tendons.words = {
       "Tendon 2 over pin D, between its collars, to the post: a bowline round its waist, free to turn.",
-      "Tendon 1 over pin B to the post's mouth, up through it, along the link, once round the slide's screw and "
+      "Tendon 1 over pin B to the post's lower end, up through it, along the link, once round the slide's screw and "
       "under its washer.",
       "The tensioner's screw through the wall at the link's end into the nut in the slide: turn it until, at home, "
       "tendon 1 "
@@ -126,11 +126,10 @@ std::string pictures(const KitProduct& product) {
   for (std::size_t i = 0; i < steps.size(); ++i)
     html += "<div><h3>" + std::to_string(i + 1) + ". " + safe_text(steps[i].title) + "</h3>" +
             inline_svg(kit_picture(product, steps, i)) + html_list(steps[i].words, "ol") + "</div>";
-  return html_section(
-      "assembly", "Step by step",
-      "<p class=\"lead\">Drawn from the parts themselves. What comes to it is coloured: blue is printed, sand is "
-      "bought.</p><div class=\"pictures\">" +
-          html + "</div>");
+  return html_section("assembly", "Step by step",
+                      "<p class=\"lead\">Drawn from the parts themselves. Added parts are coloured: blue: print, tan: "
+                      "buy.</p><div class=\"pictures\">" +
+                          html + "</div>");
 }
 
 std::string tendon_section(const KitProduct& product) {
@@ -141,7 +140,7 @@ std::string tendon_section(const KitProduct& product) {
     const auto own =
         std::find_if(tendon.begin(), tendon.end(), [&](const TendonLength& one) { return one.side == cut.side; });
     rows += "<tr>" + html_cell(left ? "Tendon 1" : "Tendon 2") +
-            html_cell(left ? "P1 → pin B → the post’s mouth → slide" : "P2 → pin D → round the post") +
+            html_cell(left ? "P1 → pin B → the post’s lower end → slide" : "P2 → pin D → round the post") +
             html_number_cell(mm(cut.between_knots)) + html_number_cell(mm(cut.cut, 0)) +
             html_number_cell(readable(degrees(own->spare_lap), 0) + "°") + html_cell(winding_words(cut.side)) + "</tr>";
   }
@@ -173,11 +172,11 @@ std::string parts_section(const KitProduct& product) {
                              " mm") +
             html_cell(kit_file_name(part, "stl") + (part.plate ? ", kit.dxf" : "")) + "</tr>";
   }
-  return html_section(
-      "parts", "To print, or to cut",
-      "<p class=\"lead\">As they lie in their files, without supports; each as .3mf too. The pulley itself is made by "
-      "<code>fusee build</code>.</p>" +
-          html_table({"#", "part", "# size", "file"}, rows));
+  return html_section("parts", "To print, or to cut",
+                      "<p class=\"lead\">In the orientation of the files, without supports; each as .3mf too. The "
+                      "pulley itself is built by "
+                      "<code>fusee build</code>.</p>" +
+                          html_table({"#", "part", "# size", "file"}, rows));
 }
 
 std::string items_section(const KitProduct& product) {
@@ -211,10 +210,11 @@ std::string fit_section(const KitProduct& product) {
             html_number_cell(counts ? readable(condition.limit, 0) : mm(condition.limit, 2)) +
             html_number_cell(readable(degrees(condition.alpha), 1) + "°") + "</tr>";
   }
-  return html_section("fit", "What keeps clear of what",
-                      "<p class=\"lead\">The least over the whole range, and where.</p><div class=\"pictures\"><div>" +
-                          inline_svg(kit_plan_view(product)) + "</div><div>" +
-                          html_table({"", "# distance", "# at least", "# α"}, rows) + "</div></div>");
+  return html_section(
+      "fit", "Clearances",
+      "<p class=\"lead\">The smallest value over the whole range, and its place.</p><div class=\"pictures\"><div>" +
+          inline_svg(kit_plan_view(product)) + "</div><div>" +
+          html_table({"", "# distance", "# at least", "# α"}, rows) + "</div></div>");
 }
 
 std::string key_section(const KitProduct& product) {
@@ -232,16 +232,16 @@ std::string key_section(const KitProduct& product) {
   return html_section("numbers", "In short", numbers.html());
 }
 
-// ---- plates to drill by
+// ---- plates to drill
 
 std::vector<std::string> template_words(const KitProduct& product) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   const bool idlers = mechanism.guides.kind == GuideKind::idler;
   const bool climbs = product.plan.heights.has_value();
   std::vector<std::string> words{
-      "Drill base and link by their plates, or cut them (kit.dxf): every hole stands where the file has its axis.",
+      "Drill base and link by their plates, or cut them (kit.dxf): every hole is at the axis given in the file.",
       idlers ? climbs && !mechanism.guides.collar
-                   ? "Smooth rollers onto bolts at B and D, over all heights between which the tendons climb there."
+                   ? "Smooth rollers onto bolts at B and D, over the whole height range of the tendons there."
                    : "Idlers onto bolts at B and D, their grooves at the heights of both tendons."
              : "Rods into B and D, upright: the tendons run on their outer sides.",
       "The motor with the pulley at the large hole, P1 towards the base."};
@@ -255,13 +255,13 @@ std::vector<std::string> template_words(const KitProduct& product) {
         "between two turns.");
   if (mechanism.sheath.is_there())
     words.push_back(
-        "Sheaths from beside the pins, straight down there, to the mouths over the pulley. Their length and "
-        "bends are the file’s; the part of the base with the pulley may stand anywhere.");
+        "Sheaths from beside the pins, straight down there, to the sheath exits above the pulley. Their length and "
+        "bends are the file’s; the part of the base with the pulley may be mounted anywhere.");
   words.push_back("At home the link’s hole C stands straight away from the pulley over the axle.");
   return words;
 }
 
-/// Of tendons that climb.
+/// For helical tendons.
 std::string heights_section(const KitProduct& product) {
   const TendonHeights& heights = *product.plan.heights;
   const bool drum = product.pulley.joint.mechanism.joint.drum_radius > 0;
@@ -275,7 +275,7 @@ std::string heights_section(const KitProduct& product) {
             (drum ? html_number_cell(between(heights.drum)) : std::string()) + "</tr>";
   std::vector<std::string> heads{"", "# its end on the link", "# on its guide"};
   if (drum) heads.emplace_back("# both on the drum");
-  return html_section("heights", "How high the tendons run",
+  return html_section("heights", "Heights of the tendons",
                       "<p class=\"lead\">Above the pulley’s lower face, of the tendon’s centre line, over the whole "
                       "range.</p>" +
                           html_table(heads, rows));
@@ -300,7 +300,7 @@ std::string template_sections(const KitProduct& product) {
   for (const Condition& condition : product.plan.conditions)
     rows += "<tr>" + html_cell(plain_name(condition.name)) + html_number_cell(mm(condition.value, 2)) +
             html_number_cell(mm(condition.limit, 2)) + "</tr>";
-  return html_section("assembly", "Where everything stands",
+  return html_section("assembly", "Layout",
                       "<div class=\"pictures\"><div>" + inline_svg(kit_template_view(product)) + "</div><div>" +
                           html_list(template_words(product), "ol") + "</div></div>") +
          html_section(
@@ -321,8 +321,8 @@ std::string kit_html(const KitProduct& product) {
     notes = "<section class=\"warnings\">" + html_list(product.plan.notes) + "</section>";
   const std::string spec = std::filesystem::path(product.pulley.file.path).filename().string();
   const bool drilled = product.plan.drilled;
-  Page page{.title = "test model",
-            .kicker = "Test model",
+  Page page{.title = "test rig",
+            .kicker = "Test rig",
             .name = product.pulley.joint.mechanism.name,
             .source = "for <code>" + safe_text(spec) + "</code>",
             .body = notes + (drilled ? std::string() : key_section(product)) +
@@ -330,7 +330,7 @@ std::string kit_html(const KitProduct& product) {
                     (drilled ? template_sections(product)
                              : pictures(product) + tendon_section(product) + fit_section(product)) +
                     plan_steps_html(product.bench),
-            .foot = "Lengths in mm. What was not measured is said to be assumed.",
+            .foot = "Lengths in mm. Values that were not measured are marked as assumed.",
             .styles = {embedded::page_css, embedded::plan_css, embedded::kit_css, embedded::figure_css},
             .scripts = {}};
   return html_page(page);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double k_picture_width = 520, k_picture_height = 420;
 
-/// A convex thing with holes, upright or not, where it stands.
+/// A convex slab with holes, in place, vertical or not.
 struct DrawnSlab {
   Polygon below, above;
   double low = 0, high = 0;
@@ -45,7 +45,7 @@ class Projection {
   }
 };
 
-/// Onto the paper.
+/// Maps to the paper.
 class Paper {
  public:
   void include(const Vec2& p) {
@@ -137,12 +137,12 @@ void add_pulley(std::vector<DrawnSlab>& drawn, const KitProduct& product, const 
     for (Vec2& p : shape) p += axis;
     drawn.push_back({shape, shape, low + from, low + to, {}, kind});
   };
-  const double lip = layout.groove_depth - 0.5 * d, gap = 0.6 * d;
-  add(pulley.synthesis.p1, lip, 0, layout.z_p1 - gap);
+  const double groove_edge = layout.groove_depth - 0.5 * d, gap = 0.6 * d;
+  add(pulley.synthesis.p1, groove_edge, 0, layout.z_p1 - gap);
   add(pulley.synthesis.p1, -0.5 * d, layout.z_p1 - gap, layout.z_p1 + gap);
-  add(pulley.synthesis.p2, lip, layout.z_p1 + gap, layout.z_p2 - gap);
+  add(pulley.synthesis.p2, groove_edge, layout.z_p1 + gap, layout.z_p2 - gap);
   add(pulley.synthesis.p2, -0.5 * d, layout.z_p2 - gap, layout.z_p2 + gap);
-  add(pulley.synthesis.p2, lip, layout.z_p2 + gap, layout.z_top);
+  add(pulley.synthesis.p2, groove_edge, layout.z_p2 + gap, layout.z_top);
   if (layout.hub_radius > 0)
     add_upright(drawn, disc(axis, layout.hub_radius), low + layout.z_top, low + layout.z_hub, kind);
 }
@@ -189,7 +189,7 @@ Figure kit_picture(const KitProduct& product, const std::vector<KitStep>& steps,
     if (step.pulley) add_pulley(drawn, product, kind);
     if (step.tendons) lines = tendon_lines(product);
   }
-  // What stands higher hides what is below it, and at one height what is nearer.
+  // Higher slabs are drawn over lower ones, and at equal height the nearer ones over the further ones.
   const auto nearness = [](const DrawnSlab& slab) {
     double y = 1e9;
     for (const Vec2& p : slab.below) y = std::min(y, p.y());
@@ -261,7 +261,7 @@ Figure kit_plan_view(const KitProduct& product) {
 
 namespace {
 
-/// Its pitch curve, or of several turns the one that its tendon leaves at home.
+/// The pitch curve of a side; for several turns, the turn that its tendon leaves at home.
 Outline at_home(const Product& product, Side side) {
   if (!product.helix) return side == Side::left ? product.synthesis.p1 : product.synthesis.p2;
   const HelixSide& helix = product.helix->synthesis.sides.at(side == Side::left ? 0 : 1);

@@ -1,5 +1,5 @@
 /// \file
-/// The model as it grows, in parallel projection, drawn from the parts' own outlines.
+/// Internal: assembly pictures of the test rig in parallel projection, drawn from the parts' outlines.
 #pragma once
 
 #include <string>
@@ -13,21 +13,22 @@ namespace fusee {
 /// A step of the assembly.
 struct KitStep {
   std::string title;
-  std::vector<std::string> parts;  ///< names of the parts that come to it
-  bool motor = false;              ///< what else comes to it
+  std::vector<std::string> parts;  ///< names of the parts added
+  bool motor = false;              ///< other additions
   bool rods = false;
   bool pulley = false;
   bool tendons = false;
-  std::vector<std::string> words;  ///< what to do
+  std::vector<std::string> words;  ///< instructions
 };
 
-/// What is there after step `last`; what comes with it stands out.
+/// The rig after step `last`, with the added parts highlighted.
 Figure kit_picture(const KitProduct& product, const std::vector<KitStep>& steps, std::size_t last);
 
-/// The joint from above, with the room that the link takes over the range.
+/// The joint from above, with the area that the link covers over the range.
 Figure kit_plan_view(const KitProduct& product);
 
-/// The same of a joint whose kit is plates to drill by: drum, ends, pins or idlers, sheaths and their mouths, pulley.
+/// The top view of a joint whose kit is plates to drill: drum, attachments, pins or idlers, sheaths and their exits,
+/// pulley.
 Figure kit_template_view(const KitProduct& product);
 
 }  // namespace fusee

@@ -13,7 +13,7 @@
 namespace fusee {
 namespace {
 
-/// To a micrometre: the last digits of a sum tell nothing.
+/// Rounded to a micrometre, because the last digits of a sum are meaningless.
 double to_hand(double value) { return std::round(1000 * value) / 1000 + 0.0; }
 
 std::string csv_quoted(const std::string& words) {

@@ -1,5 +1,5 @@
-// Draco: vertices quantised on a grid over the bounding cube, or floats where no grid leaves the mesh a solid;
-// connectivity by edgebreaker.
+// Draco: vertices quantised on a grid over the bounding cube, or floats if no grid keeps the mesh a solid. Connectivity
+// by edgebreaker.
 
 #include <draco/compression/encode.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
@@ -23,7 +23,7 @@ namespace {
 
 // Writing ------------------------------------------------------------------------------------------------------------
 
-/// A float holds 24 bits: a finer grid would show nothing more, and Draco's tables grow with the grid.
+/// A float holds 24 bits. A finer grid gains nothing, and Draco's tables grow with the grid.
 constexpr int k_most_bits = 24;
 
 /// Draco's grid: 2^bits − 1 steps along the longest side of the bounding box.
@@ -33,7 +33,7 @@ struct Grid {
   int bits = 1;
 
   double step() const { return range / (std::ldexp(1.0, bits) - 1.0); }
-  /// Half the diagonal of a cell: no vertex moves by more.
+  /// Half the diagonal of a cell, the largest displacement of a vertex.
   double reach() const { return 0.5 * std::numbers::sqrt3 * step(); }
   Vec3 snapped(const Vec3& v) const {
     return origin + step() * ((v - origin) / step() + Vec3::Constant(0.5)).array().floor().matrix();
@@ -45,10 +45,9 @@ TriangleMesh snapped(TriangleMesh mesh, const Grid& grid) {
   return mesh;
 }
 
-/// Does every face still look to its side? Thin ones collapse or turn over on a grid that is fine enough for the
-/// tolerance.
+/// True if every face keeps its orientation. Thin faces may collapse or turn over on a grid that meets the tolerance.
 bool keeps_faces(const TriangleMesh& mesh, const TriangleMesh& on_grid) {
-  constexpr double k_least_share = 0.1;  // of its area
+  constexpr double k_least_share = 0.1;  // relative to its area
   const auto area_vector = [](const std::vector<Vec3>& v, const std::array<std::uint32_t, 3>& t) {
     return Vec3((v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]));
   };
@@ -59,8 +58,8 @@ bool keeps_faces(const TriangleMesh& mesh, const TriangleMesh& on_grid) {
   });
 }
 
-/// The coarsest grid that is within the tolerance and leaves every face on its side; none where not even the finest
-/// does: then the floats are kept as they are.
+/// The coarsest grid within the tolerance that keeps the orientation of every face. Empty if even the finest does not,
+/// and floats are used.
 std::optional<Grid> grid_for(const TriangleMesh& mesh, double tolerance) {
   const Bounds box = bounds(mesh);
   Grid grid{box.low, (box.high - box.low).maxCoeff(), 1};
@@ -92,10 +91,10 @@ void fill(draco::Mesh& to, const TriangleMesh& mesh) {
 
 // Reading ------------------------------------------------------------------------------------------------------------
 
-/// Entropy coding lets a few bytes announce any number of faces, and Draco allocates what is announced. A real mesh
-/// takes more than a byte a face; this much leaves room for the most regular.
+/// Entropy coding lets a few bytes announce any number of faces, and Draco allocates the announced number. A real mesh
+/// takes more than a byte for each face. The bound admits the most regular meshes.
 constexpr std::uint64_t k_most_faces_per_byte = 64;
-/// Of decoded attributes; a real mesh takes below 20.
+/// Bound on the ratio of decoded attributes to the file's size; below 20 for real meshes.
 constexpr std::uint64_t k_most_unpacking = 256;
 
 std::uint64_t announced_by_sequential(draco::DecoderBuffer buffer) {
@@ -108,13 +107,13 @@ std::uint64_t announced_by_sequential(draco::DecoderBuffer buffer) {
 std::uint64_t announced_by_edgebreaker(draco::DecoderBuffer buffer) {
   std::uint32_t vertices = 0;
   std::uint32_t faces = 0;
-  std::uint8_t seams = 0;  // attributes with a connectivity of their own
+  std::uint8_t seams = 0;  // attributes with separate connectivity
   if (!draco::DecodeVarint(&vertices, &buffer) || !draco::DecodeVarint(&faces, &buffer) || !buffer.Decode(&seams))
     return 0;
   return std::uint64_t{std::max(vertices, faces)} * (1 + seams);
 }
 
-/// One of Draco's decoders that looks at what is announced before it is allocated.
+/// A Draco decoder that checks the announced numbers before allocation.
 template <class Decoder, std::uint64_t (*announced)(draco::DecoderBuffer)>
 class Bounded : public Decoder {
  public:
@@ -156,7 +155,7 @@ draco::DracoHeader read_header(const Source& source) {
   constexpr std::size_t k_geometry = 7;
   if (header.encoder_type != draco::TRIANGULAR_MESH)
     fail_at_byte(source, k_geometry, "expected a mesh, found a cloud of points");
-  // Earlier streams announce their numbers in other ways, which the bounds above do not know.
+  // Earlier bitstreams announce their numbers in other ways, which the bounds above do not cover.
   if (header.version_major != 2 || header.version_minor != 2) {
     fail_at_byte(
         source, k_version,
@@ -174,14 +173,14 @@ void decode(const Source& source, draco::Mesh& mesh) {
     const draco::Status status = Decoder(source.bytes.size()).Decode(options, &buffer, &mesh);
     if (status.ok()) return;
     reason = status.error_msg_string();
-  } catch (const std::exception& error) {  // of a container that was asked for too much
+  } catch (const std::exception& error) {  // thrown by a container for an excessive size
     reason = error.what();
   }
   fail_at_byte(source, static_cast<std::size_t>(std::max<std::int64_t>(0, buffer.decoded_size())),
                fmt::format("Draco cannot decode this: {}", reason));
 }
 
-/// Not by ConvertValue(): it looks at a flag that Draco takes from the file as it stands there.
+/// Replaces ConvertValue(), which trusts a flag from the file.
 template <class Number>
 std::vector<Vec3> positions_of(const Source& source, const draco::Mesh& mesh, const draco::PointAttribute& position) {
   std::vector<Vec3> positions;
@@ -241,8 +240,8 @@ DracoFile read_back(std::string bytes) {
 
 }  // namespace
 
-// A grid is judged by what comes out of the file: faces that lie close together can come to cross, all on their sides
-// still, and Draco's own arithmetic rounds once more.
+// A grid is checked on the decoded file: close faces may cross without changing their orientation, and Draco's
+// arithmetic rounds again.
 DracoFile draco_file(const TriangleMesh& mesh, double tolerance) {
   for (std::optional<Grid> grid = grid_for(mesh, tolerance); grid && grid->bits <= k_most_bits; ++grid->bits) {
     DracoFile file = read_back(encoded(mesh, grid));
@@ -253,7 +252,7 @@ DracoFile draco_file(const TriangleMesh& mesh, double tolerance) {
 
 std::string draco_bytes(const TriangleMesh& mesh, double tolerance) { return draco_file(mesh, tolerance).bytes; }
 
-/// Where attributes have seams Draco holds a point for each side; they are one again by their position.
+/// At seams of attributes Draco stores a point for each side. They are welded by position.
 TriangleMesh read_drc(const Source& source) {
   const draco::DracoHeader header = read_header(source);
   draco::Mesh mesh;

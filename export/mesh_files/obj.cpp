@@ -1,4 +1,4 @@
-// Wavefront OBJ: vertices and polygons of a text; everything else it may hold is passed over.
+// Wavefront OBJ: vertices and polygons of a text. All other statements are skipped.
 
 #include <fmt/format.h>
 
@@ -20,13 +20,14 @@ constexpr std::array<std::string_view, 41> k_passed_over = {
     "hole",   "scrv",   "sp",     "end", "con",  "bevel", "c_interp", "d_interp", "lod",  "shadow_obj", "trace_obj",
     "ctech",  "stech",  "call",   "csh", "bsp",  "bzp",   "cdc",      "cdp"};
 
-/// The greatest vertex number that a face names, and where: vertices may follow their faces.
+/// The greatest vertex number of a face, and its place. Vertices may follow their faces.
 struct GreatestIndex {
   std::int64_t index = -1;
   Place place;
 };
 
-/// The next word of a statement. A backslash at the end of a line, behind a blank or not, continues it on the next.
+/// The next word of a statement. A backslash at the end of a line, with or without a blank before it, continues the
+/// statement on the next line.
 std::string_view statement_word(TextScanner& text) {
   std::string_view word = text.word();
   while ((word.empty() || word == "\\") && text.is_continued() && text.next_line()) word = text.word();
@@ -62,8 +63,8 @@ void read_face(TextScanner& text, TriangleMesh& mesh, GreatestIndex& greatest) {
 }
 
 void put_line(fmt::memory_buffer& to, const Vec3& v) {
-  // Adding zero takes the sign off a negative one. Nine digits read back as the same float, and as a double lie so near
-  // to it that volumes agree with the STL's: of a pulley of 0.3 m the shortest such texts were 1e-7 of it off.
+  // Adding zero removes the sign of a negative zero. Nine digits read back as the same float. As doubles they are so
+  // close to it that volumes agree with the STL's: with the shortest such texts, a pulley of 0.3 m was 1e-7 off.
   fmt::format_to(std::back_inserter(to), "v {:.9g} {:.9g} {:.9g}\n", float(v.x()) + 0.0F, float(v.y()) + 0.0F,
                  float(v.z()) + 0.0F);
 }

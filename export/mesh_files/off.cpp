@@ -1,5 +1,5 @@
-// Geomview OFF in text: counts, vertices, faces. Words count, not lines, except that a face's colour ends with its
-// line.
+// Geomview OFF in text: counts, vertices, faces. The format counts words, not lines, except that a face's colour ends
+// with its line.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ namespace {
 struct OffHeader {
   std::uint64_t vertices = 0;
   std::uint64_t faces = 0;
-  std::size_t words_a_vertex = 3;  ///< coordinates, and the values that the keyword's prefix declares
+  std::size_t words_a_vertex = 3;  ///< coordinates, plus the values declared by the keyword's prefix
 };
 
 std::uint64_t count(const TextScanner& text, std::string_view word, std::string_view expected) {
@@ -24,8 +24,8 @@ std::uint64_t count(const TextScanner& text, std::string_view word, std::string_
   return static_cast<std::uint64_t>(value);
 }
 
-/// Skips the number of edges. It follows on the line of the faces' number or alone on the next one; some
-/// writers leave it out.
+/// Skips the number of edges. It follows on the line of the faces' number or alone on the next one. Some writers omit
+/// it.
 void pass_edge_count(TextScanner& text) {
   if (!text.word().empty()) return;
   TextScanner ahead = text;
@@ -56,8 +56,8 @@ std::size_t words_left(TextScanner& text) {
   return words;
 }
 
-/// Writers add values that the keyword does not declare, or leave some out. A vertex a line is what such a file has in
-/// common with a plain one: as many lines as vertices follow, with equally many words.
+/// Writers add values that the keyword does not declare, or omit some. Such a file still has one vertex on each line:
+/// as many lines as vertices follow, with equal numbers of words.
 bool has_a_vertex_a_line(TextScanner text, std::uint64_t vertices) {
   if (!text.word().empty()) return false;
   std::size_t words = 0;
@@ -97,7 +97,7 @@ void read_face(TextScanner& text, TriangleMesh& mesh, std::vector<std::uint32_t>
   if (const auto expected = add_fan(text.source(), mesh, corners)) text.fail(*expected);
 }
 
-/// A colour ends with its line. Where there are fewer lines than faces, faces share lines and have no colours.
+/// A colour ends with its line. If there are fewer lines than faces, faces share lines and have no colours.
 void read_faces(TextScanner& text, const OffHeader& header, TriangleMesh& mesh) {
   const bool have_lines = text.lines_ahead(header.faces) == header.faces;
   mesh.triangles.reserve(header.faces);

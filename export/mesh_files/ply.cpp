@@ -44,7 +44,7 @@ std::size_t size_of(Scalar type) {
 
 enum class Encoding { ascii, little_endian, big_endian };
 
-/// What a property of a vertex or a face is to a mesh.
+/// The meaning of a property of a vertex or a face for a mesh.
 enum class Role { none, x, y, z, corners };
 
 struct Property {
@@ -66,7 +66,7 @@ struct Element {
     }
     return false;
   }
-  /// Bytes that one of them takes at least.
+  /// Least number of bytes of one element.
   std::size_t least_size(Encoding encoding) const {
     std::size_t size = 0;
     for (const Property& p : properties) {
@@ -180,8 +180,7 @@ Header read_header(const Source& source, TextScanner& text) {
 
 // ---- Values: two sources of the same numbers ------------------------------------------------------------------------
 
-/// Words count, not lines. Only where each row has a line of its own, values that the header does not declare are
-/// passed over at its end.
+/// The format counts words, not lines. If each row has a line of its own, undeclared values at its end are skipped.
 class AsciiValues {
  public:
   AsciiValues(TextScanner& text, std::uint64_t rows)
@@ -197,7 +196,7 @@ class AsciiValues {
   bool has_a_row_a_line_;
 };
 
-/// Elements without properties take no room in the text.
+/// Elements without properties take no space in the text.
 std::uint64_t rows_of(const Header& header) {
   std::uint64_t rows = 0;
   for (const Element& element : header.elements) rows += element.properties.empty() ? 0 : element.count;
@@ -267,7 +266,7 @@ class BinaryValues {
 
 // Elements -----------------------------------------------------------------------------------------------------------
 
-/// Fails unless `value` is a whole number in [0, limit).
+/// Fails unless `value` is an integer in [0, limit).
 template <class Values>
 std::uint64_t whole(const Values& values, double value, double limit, std::string_view what) {
   if (!(value >= 0 && value < limit && value == std::floor(value))) {
@@ -284,7 +283,7 @@ class ElementReader {
 
   TriangleMesh read() {
     for (const Element& element : header_.elements) {
-      // Elements without properties take no space, however many there are.
+      // Elements without properties take no space in any number.
       if (element.properties.empty()) continue;
       if (element.name == "vertex") mesh_.vertices.reserve(mesh_.vertices.size() + element.count);
       if (element.name == "face") mesh_.triangles.reserve(mesh_.triangles.size() + element.count);

@@ -1,4 +1,4 @@
-// Which format is it? Content first, since names lie; the name's ending where content does not tell.
+// Chooses the format: by content first, because names may be wrong, then by the name's ending.
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Null where the content does not tell.
+/// Null if the content is ambiguous.
 Reader reader_by_content(const Source& source) {
   if (is_binary_stl(source.bytes)) return read_stl;
   if (source.bytes.starts_with("PK\x03\x04") || source.bytes.starts_with("PK\x05\x06")) return read_threemf;
@@ -69,7 +69,7 @@ void demand_room(const Source& source, std::size_t offset, std::uint64_t count, 
                            least_bytes, left));
 }
 
-/// Vertices that no facet uses have no size, no place and need not be finite.
+/// Unused vertices do not affect size or position and may be infinite.
 TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
   constexpr auto k_unused = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(mesh.vertices.size(), k_unused);

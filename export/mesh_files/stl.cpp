@@ -25,7 +25,7 @@ constexpr std::size_t k_header_size = 80;
 constexpr std::size_t k_facets_start = 84;
 constexpr std::size_t k_facet_size = 50;
 
-/// Words that end a normal: none of them can be part of it.
+/// Words that end a normal and cannot be part of it.
 constexpr auto k_keywords =
     std::to_array<std::string_view>({"facet", "loop", "vertex", "endloop", "endfacet", "solid", "endsolid"});
 
@@ -33,7 +33,7 @@ using Float3 = std::array<float, 3>;
 
 Float3 to_floats(const Vec3& v) { return {float(v.x()), float(v.y()), float(v.z())}; }
 
-/// Unit normal of a facet; zero where it has none.
+/// Unit normal of a facet; zero for a degenerate one.
 Vec3 facet_normal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   const Vec3& a = mesh.vertices[triangle[0]];
   const Vec3 across = (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
@@ -54,9 +54,9 @@ bool has_high_byte(std::string_view bytes) {
   return std::any_of(bytes.begin(), bytes.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });
 }
 
-/// admesh and PrusaSlicer take a binary STL for ASCII unless a byte > 127 stands within 128 bytes after the header.
-/// Almost every facet has one, those that look down always (the sign of their normal). Where the first facets have
-/// none, one that has changes places with the first.
+/// admesh and PrusaSlicer treat a binary STL as ASCII unless a byte > 127 occurs within 128 bytes after the header.
+/// Almost every facet has one, downward facets always (the sign of their normal). If the first facets have none, one
+/// that has is swapped with the first.
 void tell_from_ascii(std::string& bytes) {
   constexpr std::size_t k_looked_at = 128;
   const std::string_view facets = std::string_view(bytes).substr(k_facets_start);
@@ -92,8 +92,8 @@ void expect(TextScanner& text, std::string_view keyword) {
   if (!is_word(text.flowing_word(), keyword)) text.fail(fmt::format("'{}'", keyword));
 }
 
-/// The normal is redundant, since the corners' order gives it. Writers leave it out, or write "nan", "-nan(ind)" or
-/// "1.#QNAN" for it: up to "outer" anything goes that is no other keyword.
+/// The normal is redundant, because the corners' order gives it. Writers omit it, or write "nan", "-nan(ind)" or
+/// "1.#QNAN". Up to "outer", anything but another keyword is accepted.
 void pass_normal(TextScanner& text) {
   std::string_view word = text.flowing_word();
   for (; !word.empty() && !is_word(word, "outer"); word = text.flowing_word()) {
@@ -116,7 +116,7 @@ void read_ascii_facet(TextScanner& text, TriangleMesh& soup) {
   soup.triangles.push_back({end - 3, end - 2, end - 1});
 }
 
-/// A name may hold the word "facet", but neither "facet normal" nor "facet outer".
+/// A name may contain the word "facet", but neither "facet normal" nor "facet outer".
 bool is_name_over(TextScanner ahead) {
   const std::string_view word = ahead.word();
   if (!is_word(word, "facet")) return is_word(word, "endsolid");
@@ -124,7 +124,7 @@ bool is_name_over(TextScanner ahead) {
   return is_word(next, "normal") || is_word(next, "outer");
 }
 
-/// Skips the name behind "solid" or "endsolid". It ends with its line, or before a facet or "endsolid" on that line.
+/// Skips the name after "solid" or "endsolid". It ends with its line, or before a facet or "endsolid" on that line.
 void pass_name(TextScanner& text) {
   while (!is_name_over(text) && !text.word().empty()) {
   }
@@ -149,7 +149,7 @@ TriangleMesh read_ascii_stl(const Source& source) {
 }
 
 bool starts_with_solid(const Source& source) {
-  // A binary header may start with "solid" too, but text holds no zero byte.
+  // A binary header may start with "solid" too, but text contains no zero byte.
   constexpr std::size_t k_looked_at = k_facets_start + k_facet_size;
   return source.bytes.substr(0, k_looked_at).find('\0') == std::string_view::npos &&
          is_word(TextScanner(source).flowing_word(), "solid");
@@ -161,9 +161,8 @@ std::uint32_t announced_facets(std::string_view bytes) {
   return count;
 }
 
-/// How many facets a binary file holds. A writer that did not know the count left 0 or −1, and the size tells; bytes
-/// behind the announced facets are passed over unless they are facets themselves. Nothing where count and size
-/// contradict.
+/// Number of facets of a binary file. A writer that did not know it left 0 or −1, and the size gives it. Bytes after
+/// the announced facets are skipped unless they are facets. Empty if count and size contradict.
 std::optional<std::size_t> binary_facets(std::string_view bytes) {
   if (bytes.size() < k_facets_start) return std::nullopt;
   const std::size_t announced = announced_facets(bytes);
@@ -175,7 +174,7 @@ std::optional<std::size_t> binary_facets(std::string_view bytes) {
   return std::nullopt;
 }
 
-/// The file is neither an ASCII STL nor a whole binary one.
+/// The file is neither an ASCII STL nor a complete binary one.
 [[noreturn]] void fail_binary_size(const Source& source) {
   const std::size_t size = source.bytes.size();
   if (size < k_facets_start) {

@@ -19,7 +19,7 @@ bool parse(std::string_view word, Number& value) {
   return error == std::errc{} && end == word.data() + word.size();
 }
 
-/// "20,5" and "-0,25e3": a number but for its comma.
+/// "20,5" and "-0,25e3": a number with a decimal comma.
 bool has_decimal_comma(std::string_view word) {
   std::string with_point(word);
   const std::size_t comma = with_point.find(',');

@@ -1,5 +1,5 @@
-// 3MF: a zip of XML parts. Core specification 1.3. The reader also follows the paths of the production extension
-// (objects in other parts), and refuses models that require an extension with geometry of its own.
+// 3MF: a zip of XML parts, core specification 1.3. The reader also follows the paths of the production extension
+// (objects in other parts), and rejects models that require an extension with its own geometry.
 
 #include <fmt/format.h>
 
@@ -55,8 +55,8 @@ std::string model_xml(const TriangleMesh& mesh, const std::string& name) {
 )",
       title, k_tool);
   for (const Vec3& v : mesh.vertices) {
-    // Adding zero takes the sign off a negative one. The shortest text that reads back as the same float has at most 9
-    // digits.
+    // Adding zero removes the sign of a negative zero. The shortest text that reads back as the same float has at most
+    // 9 digits.
     put("<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n", float(v.x()) + 0.0F, float(v.y()) + 0.0F, float(v.z()) + 0.0F);
   }
   put("    </vertices>\n    <triangles>\n");
@@ -70,20 +70,21 @@ std::string model_xml(const TriangleMesh& mesh, const std::string& name) {
 
 /// A model of 128 MiB has about two million triangles.
 constexpr std::uint64_t k_largest_part = std::uint64_t{128} << 20;
-/// Text of coordinates packs 5 to 20 times; a part that unpacks to more than this many times the whole file is a bomb.
+/// Text of coordinates is compressed 5 to 20 times. A part that expands to more than this many times the file is a zip
+/// bomb.
 constexpr std::uint64_t k_most_inflation = 100;
 constexpr std::uint64_t k_always_unpacked = std::uint64_t{1} << 20;
-/// Components within components …
+/// Deepest nesting of components.
 constexpr int k_deepest = 32;
 
-/// Extensions that add nothing to the geometry but paths, which are followed.
+/// Extensions that add nothing to the geometry except paths, which are followed.
 constexpr auto k_known_extensions =
     std::to_array<std::string_view>({"http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
                                      "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
                                      "http://schemas.microsoft.com/3dmanufacturing/production/2015/06",
                                      "http://schemas.3mf.io/3dmanufacturing/trianglesets/2021/07"});
 
-/// Without blanks at its ends: XML Schema's numbers may have them.
+/// Without blanks at its ends, which XML Schema permits for numbers.
 std::string_view collapsed(std::string_view text) {
   constexpr std::string_view k_blanks = " \t\r\n";
   const std::size_t first = text.find_first_not_of(k_blanks);
@@ -96,7 +97,7 @@ pugi::xml_node child(const pugi::xml_node& node, std::string_view name) {
   return node.find_child([&](const pugi::xml_node& candidate) { return local_name(candidate.name()) == name; });
 }
 
-/// Only children of this name, whatever its prefix.
+/// Visits only children of this name, with any prefix.
 template <class Visit>
 void for_children(const pugi::xml_node& node, std::string_view name, const Visit& visit) {
   for (const pugi::xml_node& candidate : node.children()) {
@@ -104,7 +105,7 @@ void for_children(const pugi::xml_node& node, std::string_view name, const Visit
   }
 }
 
-/// A place, a turn and a scale: p → linear · p + shift.
+/// An affine placement: p → linear · p + shift.
 struct Placement {
   Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
   Vec3 shift = Vec3::Zero();
@@ -113,7 +114,7 @@ struct Placement {
   bool mirrors() const { return linear.determinant() < 0; }
 };
 
-/// One part of the archive. Its attributes read with their place in it.
+/// One part of the archive, whose attributes are read with their place.
 struct ModelPart {
   std::string path;
   std::string text;  ///< pugixml points into it
@@ -143,7 +144,7 @@ class ThreemfReader {
   std::int64_t integer(const ModelPart& part, const pugi::xml_node& node, const char* attribute) const;
   Placement placement(const ModelPart& part, const pugi::xml_node& node) const;
 
-  /// The object that an item of the build or a component names, placed.
+  /// Adds the object named by an item of the build or a component, at its place.
   void add_reference(ModelPart& part, const pugi::xml_node& reference, const Placement& outer, int depth);
   void add_object(ModelPart& part, const pugi::xml_node& object, const Placement& place, int depth);
   void add_vertices(ModelPart& part, const pugi::xml_node& mesh, const Placement& place);
@@ -155,7 +156,7 @@ class ThreemfReader {
   std::map<std::string, std::unique_ptr<ModelPart>> parts_;
   std::uint64_t unpacked_left_;
   std::uint64_t elements_left_ = 0;
-  std::size_t left_out_ = 0;  ///< objects that are no part of the solid
+  std::size_t left_out_ = 0;  ///< objects that are not part of the solid
   TriangleMesh mesh_;
 };
 
@@ -212,7 +213,7 @@ ModelPart& ThreemfReader::part(const std::string& path) {
   return *slot;
 }
 
-/// A required extension describes a part of the object: without it the mesh would be another body, or none.
+/// Without a required extension the mesh would be another body, or none.
 void ThreemfReader::refuse_unknown_extensions(const ModelPart& part, const pugi::xml_node& model) const {
   const Source required{model.attribute("requiredextensions").value(), source_.name};
   TextScanner words(required);
@@ -228,7 +229,7 @@ void ThreemfReader::refuse_unknown_extensions(const ModelPart& part, const pugi:
   }
 }
 
-/// Supports and other auxiliary objects stand beside the solid, or in its way.
+/// Supports and other auxiliary objects are not part of the solid.
 bool ThreemfReader::is_of_the_solid(const ModelPart& part, const pugi::xml_node& object) const {
   const std::string_view type = collapsed(object.attribute("type").value());
   if (type.empty() || type == "model" || type == "surface") return true;
@@ -289,7 +290,7 @@ Placement ThreemfReader::placement(const ModelPart& part, const pugi::xml_node& 
   return place;
 }
 
-/// Objects may be placed many times, in components of components: what comes of it stays in proportion to the file.
+/// Objects may be placed many times, in components of components. The total is bounded by the file's size.
 void ThreemfReader::spend(ModelPart& part, const pugi::xml_node& node) {
   if (elements_left_ == 0) fail(part, node, "places its objects too often: the mesh would be far larger than the file");
   --elements_left_;
@@ -345,7 +346,7 @@ void ThreemfReader::add_triangles(ModelPart& part, const pugi::xml_node& mesh, c
         fail(part, triangle, fmt::format("expected {} from 0 to {}, found {}", k_names[k], count - 1, index));
       corners[k] = static_cast<std::uint32_t>(first + static_cast<std::size_t>(index));
     }
-    // A mirror image would look inward.
+    // A mirror image would face inward.
     if (place.mirrors()) std::swap(corners[1], corners[2]);
     mesh_.triangles.push_back(corners);
   });

@@ -1,4 +1,4 @@
-// What was written is read as another program reads it, and followed over the range.
+// Reads the written files as other programs do, and compares them with the joint over the range.
 
 #include <algorithm>
 #include <charconv>
@@ -50,7 +50,8 @@ double error_of_joint_xml(const ModelProduct& product, const std::vector<OutputF
   const pugi::xml_document document = xml_of(outputs, "joint.xml");
   const pugi::xml_node equality = document.child("mujoco").child("equality").child("joint");
   const bool of_alpha = std::string_view(equality.attribute("joint2").value()) == "alpha";
-  return measured({of_alpha, {numbers_in(equality.attribute("polycoef").value())}}, product.curves.stands.middle).error;
+  return measured({of_alpha, {numbers_in(equality.attribute("polycoef").value())}}, product.curves.physical.middle)
+      .error;
 }
 
 pugi::xml_node named(const pugi::xml_node& parent, const char* kind, const std::string& name) {
@@ -65,7 +66,7 @@ Vec2 point_in(const pugi::xml_node& node) {
   return 1e3 * Vec2(values[0], values[1]);
 }
 
-/// The tendon of the equality, with what MuJoCo has of it.
+/// The error of the tendon equality, with the values that MuJoCo has.
 double error_of_tendons_xml(const ModelProduct& product, const std::vector<OutputFile>& outputs) {
   const pugi::xml_document document = xml_of(outputs, "joint_tendons.xml");
   const pugi::xml_node root = document.child("mujoco"), world = root.child("worldbody");
@@ -95,14 +96,14 @@ double error_of_tendons_xml(const ModelProduct& product, const std::vector<Outpu
     c *= arm;
     arm *= coef;
   }
-  return tendon_error(tendon, length, product.curves.stands.middle);
+  return tendon_error(tendon, length, product.curves.physical.middle);
 }
 
 double error_of_urdf(const ModelProduct& product, const std::vector<OutputFile>& outputs) {
   const pugi::xml_document document = xml_of(outputs, "joint.urdf");
   const pugi::xml_node mimic = named(document.child("robot"), "joint", "theta").child("mimic");
   return measured({true, {{mimic.attribute("offset").as_double(), mimic.attribute("multiplier").as_double()}}},
-                  product.curves.stands.middle)
+                  product.curves.physical.middle)
       .error;
 }
 
@@ -111,7 +112,7 @@ double error_of_ros2_control(const ModelProduct& product, const std::vector<Outp
   const pugi::xml_node joint = document.child("robot").child("ros2_control").child("transmission").child("joint");
   const double reduction = joint.child("mechanical_reduction").text().as_double(),
                offset = joint.child("offset").text().as_double();
-  return measured({true, {{offset, 1 / reduction}}}, product.curves.stands.middle).error;
+  return measured({true, {{offset, 1 / reduction}}}, product.curves.physical.middle).error;
 }
 
 // ---- tables ---------------------------------------------------------------------------------------------------------
@@ -138,7 +139,7 @@ JointTable table_in(const std::string& bytes) {
   return table;
 }
 
-/// Entries of the arrays of a header, one after the other.
+/// Entries of all arrays of a header, in order.
 std::vector<float> entries_in(std::string_view header) {
   std::vector<float> values;
   for (std::size_t at = header.find("= {"); at != std::string_view::npos; at = header.find("= {", at + 1)) {
@@ -173,7 +174,7 @@ std::size_t differing_entries(const ModelProduct& product, const std::string& he
   return differing;
 }
 
-/// Entries that do not grow (fall, where counts fall as α grows).
+/// Number of entries that do not increase (decrease, for counts that decrease as α increases).
 std::size_t standing_still(const JointTable& table) {
   std::size_t count = 0;
   const bool falls = table.unit.per_turn < 0;
@@ -189,11 +190,11 @@ std::size_t standing_still(const JointTable& table) {
 }  // namespace
 
 std::vector<Check> check_model(const ModelProduct& product, const std::vector<OutputFile>& outputs) {
-  // What nine digits leave.
+  // Rounding to nine digits.
   constexpr double k_last_digits = 1e-8;  // rad
   std::vector<Check> checks;
   const auto in_degrees = [&](const std::string& name, double error, double limit) {
-    // Beyond the ninth decimal it is another number from another compiler.
+    // Beyond the ninth decimal, the number depends on the compiler.
     const double said = std::isfinite(error) ? std::round(1e9 * degrees(error)) / 1e9 : error;
     checks.push_back(at_most(name, said, degrees(limit), "deg"));
   };
@@ -205,7 +206,7 @@ std::vector<Check> check_model(const ModelProduct& product, const std::vector<Ou
   in_degrees("joint_ros2_control_urdf_theta_error", error_of_ros2_control(product, outputs),
              product.line.error + k_last_digits);
   const JointTable read = table_in(bytes_of(outputs, "joint_table.json"));
-  const TableErrors errors = measured(read, product.curves.shown);
+  const TableErrors errors = measured(read, product.curves.sensed);
   in_degrees("joint_table_json_theta_error", errors.theta, product.most_table_error);
   in_degrees("joint_table_json_returned_theta_error", errors.returned, product.most_table_error);
   checks.push_back(exactly("joint_table_json_not_growing", static_cast<double>(standing_still(read)), 0, "1"));

@@ -1,4 +1,4 @@
-// A header that C99 and C++17 compile without a warning, in 32-bit arithmetic alone, without a library.
+// A header that C99 and C++17 compile without warnings, with 32-bit arithmetic only and without a library.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace model_words;
 
-/// What cannot end a comment nor go on over a line's end.
+/// Text that can neither end a comment nor continue beyond a line's end.
 std::string in_comment(const std::string& text) {
   std::string clean;
   for (const char c : cleaned_line(text)) clean += c == '*' || c == '\\' || c == '?' ? '_' : c;
@@ -77,39 +77,39 @@ class Header {
     const TableErrors& errors = table_.errors;
     std::vector<std::string> lines{"joint_table.h: " + product_.mechanism.name + ", by " + std::string(k_tool) +
                                    " model"};
-    const std::vector<std::string> source = of_curve(product_.curves.shown, product_, true);
+    const std::vector<std::string> source = of_curve(product_.curves.sensed, product_, true);
     lines.insert(lines.end(), source.begin(), source.end());
-    const AngleMap& map = product_.curves.shown.middle;
+    const AngleMap& map = product_.curves.sensed.middle;
     const auto degs = [](double angle) { return rounded(degrees(angle), 6); };
     lines.push_back("alpha (motor) from " + degs(map.alpha_min) + " to " + degs(map.alpha_max) +
                     " deg, theta (joint) from " + degs(map.theta_min) + " to " + degs(map.theta_max) +
-                    " deg; beyond its ends every table stands still.");
+                    " deg; beyond its ends every table is constant.");
     lines.push_back("Straight lines between " + std::to_string(table_.pieces + 1) +
                     " entries, in 32-bit arithmetic, miss that by");
     lines.push_back("  " + at_most_deg(errors.theta) + " deg at most in theta read from the motor,");
     lines.push_back("  " + at_most_deg(errors.returned) +
-                    " deg at most in the theta at which the motor leaves the joint when sent to what is read");
+                    " deg at most in the theta that results at the motor angle read");
     lines.push_back("  from theta (" + at_most_deg(errors.motor) + " deg at most at the motor).");
     if (ticks()) {
       const double half = k_pi / std::abs(table_.unit.per_turn);
       double steepest = 0;
       for (const float slope : table_.slope) steepest = std::max(steepest, double(slope));
       lines.push_back("Motor in counts: " + rounded(std::abs(table_.unit.per_turn), 9) + " a turn, " +
-                      (table_.unit.per_turn < 0 ? "fewer" : "more") + " as alpha grows, " + zero() +
-                      " at alpha = 0. They go on over the end of a turn:");
-      lines.push_back("an encoder that begins anew each turn goes through " + p_ + "_unwrap(). A whole count is " +
-                      at_most_deg(half * steepest) + " deg of theta off at most.");
+                      (table_.unit.per_turn < 0 ? "fewer" : "more") + " as alpha increases, " + zero() +
+                      " at alpha = 0. They continue over the end of a turn:");
+      lines.push_back("pass the reading of an encoder that restarts each turn through " + p_ +
+                      "_unwrap(). A whole count is " + at_most_deg(half * steepest) + " deg of theta off at most.");
     }
     lines.push_back(
         "Slope: d(theta)/d(alpha) = joint speed per motor speed = motor torque per joint torque without friction.");
     if (table_.ways.size() > 1)
       lines.push_back(
-          "_up: the motor came from below (alpha grew), _down: from above; without either: the middle of both.");
+          "_up: the motor came from below (alpha increased), _down: from above; without either: the mean of both.");
     if (table_.holding.empty()) {
-      lines.push_back("[load] of the file is empty: there is no torque to hold it.");
+      lines.push_back("[load] of the file is empty: no torque is required to hold it.");
     } else {
       lines.push_back(
-          "Holding torque: what the motor needs towards +alpha to hold [load] of the file, without friction, N mm.");
+          "Holding torque: motor torque towards +alpha that holds [load] of the file, without friction, N mm.");
     }
     std::string text = "/*\n";
     for (const std::string& line : lines) text += " * " + in_comment(line) + "\n";
@@ -134,16 +134,16 @@ class Header {
            "}\n\n";
   }
 
-  /// Steps of a table per unit of what it is read by.
+  /// Steps of a table per unit of its argument.
   std::string per_step(float first, float last) const {
     return c_float(static_cast<float>(table_.pieces / (double(last) - double(first))));
   }
 
-  /// The place in a table of the motor's angle.
+  /// The place of the motor's angle in a table.
   std::string motor_place(const OneWayTable& way) const {
     std::string value = motor_word();
     if (ticks()) {
-      // Clamped before the difference is taken, just beyond the ends, so that no count is too far off.
+      // Clamped just beyond the ends before the subtraction, so that no count overflows.
       const long long low = whole(std::floor(table_.unit.zero + double(way.first))) - 1,
                       high = whole(std::ceil(table_.unit.zero + double(way.last))) + 1;
       value = "(float)((count < " + std::to_string(low) + " ? " + std::to_string(low) + " : count > " +
@@ -162,7 +162,7 @@ class Header {
     const std::string theta = p_ + "_theta" + way, motor = p_ + (ticks() ? "_count" : "_alpha") + way;
     return "/* The joint's angle, deg. */\nstatic inline float " + theta + "_deg(" + motor_type() + " " + motor_word() +
            ") {\n  return " + p_ + "_between(" + theta + "_table, " + motor_place(table) +
-           ");\n}\n\n/* Where the motor must stand for it. */\nstatic inline " + motor_type() + " " + motor +
+           ");\n}\n\n/* The motor angle for a joint angle. */\nstatic inline " + motor_type() + " " + motor +
            (ticks() ? "" : "_deg") + "(float theta_deg) {\n" +
            motor_value(p_ + "_between(" + p_ + "_motor" + way + "_table, (theta_deg - (" + c_float(table_.theta_first) +
                        ")) * " + per_step(table_.theta_first, table_.theta_last) + ")") +
@@ -174,9 +174,9 @@ class Header {
     const std::string half = ticks() ? "" : "0.5f * ", after = ticks() ? " / 2" : "";
     std::string sum = motor + "_up" + (ticks() ? "" : "_deg") + "(theta_deg) + " + motor + "_down" +
                       (ticks() ? "" : "_deg") + "(theta_deg)";
-    // Half of each: the sum of two counts may be too large.
+    // The mean without the sum of two counts, which may overflow.
     if (ticks()) sum = motor + "_up(theta_deg) + (" + motor + "_down(theta_deg) - " + motor + "_up(theta_deg))";
-    return "/* The middle of both ways. */\nstatic inline float " + p_ + "_theta_deg(" + motor_type() + " " +
+    return "/* The mean of both directions. */\nstatic inline float " + p_ + "_theta_deg(" + motor_type() + " " +
            motor_word() + ") {\n  return 0.5f * (" + p_ + "_theta_up_deg(" + motor_word() + ") + " + p_ +
            "_theta_down_deg(" + motor_word() + "));\n}\n\nstatic inline " + motor_type() + " " + motor +
            (ticks() ? "" : "_deg") + "(float theta_deg) {\n  return " +

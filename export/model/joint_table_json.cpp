@@ -29,7 +29,7 @@ Json coefficients(const Polynomial& p) {
   return list;
 }
 
-/// Rounded up: a bound.
+/// Rounded up, as a bound.
 double bound_deg(double angle) { return std::stod(at_most_deg(angle)); }
 
 std::string_view word(CurveSource source) {
@@ -59,9 +59,9 @@ std::string joint_table_json(const ModelProduct& product) {
   const JointTable& table = product.table;
   Json json = {
       {"schema", 1}, {"tool", std::string(k_tool)}, {"input", input_of(product)}, {"name", product.mechanism.name}};
-  json["source"] = word(product.curves.shown.source);
+  json["source"] = word(product.curves.sensed.source);
   json["what"] = Json::array();
-  for (const std::string& line : of_curve(product.curves.shown, product, true)) json["what"].push_back(line);
+  for (const std::string& line : of_curve(product.curves.sensed, product, true)) json["what"].push_back(line);
   json["motor_unit"] = {
       {"name", table.unit.ticks ? "count" : "deg"}, {"per_turn", table.unit.per_turn}, {"zero", table.unit.zero}};
   json["pieces"] = table.pieces;
@@ -102,8 +102,8 @@ std::string model_manifest_json(const ModelProduct& product, const std::vector<O
   json["status"] = all_ok(product.checks) ? "done" : "check_failed";
   json["input"] = input_of(product);
   json["name"] = product.mechanism.name;
-  json["simulators_follow"] = word(product.curves.stands.source);
-  json["table_follows"] = word(product.curves.shown.source);
+  json["simulators_follow"] = word(product.curves.physical.source);
+  json["table_follows"] = word(product.curves.sensed.source);
   json["notes"] = product.notes;
   json["checks"] = Json::array();
   for (const Check& check : product.checks)

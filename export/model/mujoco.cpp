@@ -1,4 +1,4 @@
-// MJCF in m, kg, s and rad; the frame is the mechanism's, z towards the viewer: α and θ turn clockwise, about −z.
+// MJCF in m, kg, s and rad. The frame is the mechanism's, with z towards the viewer: α and θ turn clockwise, about −z.
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +17,11 @@ namespace {
 
 using namespace model_words;
 
-/// As stiff as MuJoCo's constraints are.
+/// Solver parameters for the stiffest stable constraints.
 std::string stiff(const SimulatedBody& body) {
   return "solref=\"" + number(body.constant) + " 1\" solimp=\"0.9999 0.9999 0.001\"";
 }
-constexpr double k_tendon_height = 0.004;  // m, above and below the middle plane: seen apart, nothing else
+constexpr double k_tendon_height = 0.004;  // m, above and below the middle plane, for display only
 
 std::string metres(double mm) { return number(mm * 1e-3); }
 std::string place(const Vec2& at, double z = 0) { return metres(at.x()) + " " + metres(at.y()) + " " + number(z); }
@@ -33,7 +33,7 @@ std::string numbers(const std::vector<double>& values) {
   return text;
 }
 
-/// A polynomial of a length per angle as one of a length per length: `arm` times the angle.
+/// Converts a polynomial of a length per angle to one per length: `arm` times the angle.
 Polynomial over_arm(Polynomial p, double arm) {
   double power = 1e-3;
   for (double& c : p.c) {
@@ -43,12 +43,12 @@ Polynomial over_arm(Polynomial p, double arm) {
   return p;
 }
 
-/// What MuJoCo's judge allows for, too (tests/oracle/judge_model.py).
-const std::string k_gives_way =
-    "MuJoCo's equalities give way a little to what pulls at them: by about 0.001 deg, driven through the range in 3 s.";
+/// tests/oracle/judge_model.py allows for this too.
+const std::string k_compliance =
+    "MuJoCo's equalities are slightly compliant: by about 0.001 deg, driven through the range in 3 s.";
 
 std::vector<std::string> bounds_of(const ModelProduct& product) {
-  const AngleMap& map = product.curves.stands.middle;
+  const AngleMap& map = product.curves.physical.middle;
   const auto degs = [](double angle) { return rounded(degrees(angle), 6); };
   return {"alpha (motor) from " + degs(map.alpha_min) + " to " + degs(map.alpha_max) + " deg, theta (joint) from " +
           degs(map.theta_min) + " to " + degs(map.theta_max) + " deg."};
@@ -57,7 +57,7 @@ std::vector<std::string> bounds_of(const ModelProduct& product) {
 std::string opening(const ModelProduct& product, const SimulatedBody& body, const std::vector<std::string>& coupling) {
   const Mechanism& mechanism = product.mechanism;
   std::vector<std::string> lines{mechanism.name + ", by " + std::string(k_tool) + " model"};
-  for (const auto& more : {of_curve(product.curves.stands, product, false), bounds_of(product), coupling, body.words})
+  for (const auto& more : {of_curve(product.curves.physical, product, false), bounds_of(product), coupling, body.words})
     lines.insert(lines.end(), more.begin(), more.end());
   const double tilt = mechanism.load.tilt;
   const std::string gravity =
@@ -70,11 +70,11 @@ std::string opening(const ModelProduct& product, const SimulatedBody& body, cons
          "\"/>\n  <default>\n    <geom contype=\"0\" conaffinity=\"0\" group=\"1\"/>\n  </default>\n";
 }
 
-/// Where pulley and link stand; `world` and `link` are what else stands there.
+/// Pulley and link; `world` and `link` are additional elements.
 std::string bodies(const ModelProduct& product, const SimulatedBody& body, const std::string& world,
                    const std::string& link) {
   const Mechanism& mechanism = product.mechanism;
-  const AngleMap& map = product.curves.stands.middle;
+  const AngleMap& map = product.curves.physical.middle;
   const Vec2 axis = pin_place(mechanism, Side::left, 0).pulley_axis();
   const std::string thin = number(0.03 * mechanism.joint.R * 1e-3);
   const double J = body.armature, I = body.inertia;
@@ -99,7 +99,7 @@ std::string bodies(const ModelProduct& product, const SimulatedBody& body, const
 }
 
 std::string ending(const ModelProduct& product, const SimulatedBody& body) {
-  const AngleMap& map = product.curves.stands.middle;
+  const AngleMap& map = product.curves.physical.middle;
   std::string text = "  <actuator>\n    <position name=\"motor\" joint=\"alpha\" kp=\"" + number(body.kp) + "\" kv=\"" +
                      number(body.kv) + "\" ctrlrange=\"" + number(map.alpha_min) + " " + number(map.alpha_max) +
                      "\" forcerange=\"" + number(-body.effort) + " " + number(body.effort) + "\"/>\n";
@@ -127,7 +127,7 @@ std::string pins(const Mechanism& mechanism, double rho_if_none) {
   return text;
 }
 
-/// Of joint.xml: where the tendons come from is drawn, and holds nothing.
+/// For joint.xml: the drum from which the tendons come, for display only.
 std::string drum(const Mechanism& mechanism) {
   if (!(mechanism.joint.drum_radius > 0)) return "";
   const Attachment& centre = mechanism.joint.drum_centre;
@@ -143,7 +143,7 @@ std::string side_site(const std::string& name, const Vec2& at, double z) {
   return "site name=\"" + name + "\" pos=\"" + place(at, z) + "\" size=\"0.0005\" rgba=\"0 0 0 0\"/>\n";
 }
 
-/// Sites of the world and of the link, and what a tendon goes through.
+/// Sites of the world and of the link, and the path of a tendon.
 struct TendonText {
   std::string world, link, way;
 
@@ -181,49 +181,49 @@ TendonText text_of(const WrappedTendon& tendon, bool ends_in_C) {
     text.through("over_" + n);
   }
   text.through("anchor_" + n);
-  if (tendon.mouth) {
-    text.world += "    <" + site("mouth_" + n, *tendon.mouth, z);
+  if (tendon.sheath_exit) {
+    text.world += "    <" + site("sheath_exit_" + n, *tendon.sheath_exit, z);
     text.through("mouth_" + n);
   }
   return text;
 }
 
-/// What the tendons run over, and what of that MuJoCo cannot have.
+/// Describes the tendons' path, and the parts of it that MuJoCo cannot represent.
 std::vector<std::string> way_words(const ModelProduct& product) {
   const TendonModel& model = *product.tendons;
   const Mechanism& mechanism = product.mechanism;
-  const std::string held = number_of(model.held);
+  const std::string held = number_of(model.constrained);
   const std::string pin = mechanism.guides.kind == GuideKind::idler ? "idler" : "pin";
   const std::string taken = model.length.c.size() == 2 ? " is its radius times alpha: P" + held + " is round."
                                                        : " is a polynomial of alpha (degree 4).";
   const std::string misses =
       "It misses theta(alpha) by " + at_most_deg(model.error) + " deg at most, over the whole range.";
-  const std::string draws = " The other tendon is drawn, and holds nothing:";
+  const std::string draws = " The other tendon is drawn without a constraint:";
   if (mechanism.is_papers()) {
     return {
         "Both tendons run over their pins; MuJoCo wraps them round cylinders and spheres only, so that below its pin "
         "each ends",
-        "at a point that stands still, and what pulley P" + held + " takes of tendon " + held + taken, misses + draws,
+        "at a fixed point. The length of tendon " + held + " taken in by pulley P" + held + taken, misses + draws,
         "its length follows from theta. No friction at the pins: MuJoCo's tendons have none."};
   }
   std::vector<std::string> lines{
       std::string(mechanism.joint.drum_radius > 0 ? "Tendons run over the link's drum and their "
                                                   : "Tendons run over their ") +
           pin + "s; MuJoCo wraps them round cylinders and spheres only, so that below its " + pin + " each ends",
-      "at a point that stands still, and what pulley P" + held + " takes of tendon " + held + taken};
-  const bool both = model.left_out[0].empty() && model.left_out[1].empty();
+      "at a fixed point. The length of tendon " + held + " taken in by pulley P" + held + taken};
+  const bool both = model.omission[0].empty() && model.omission[1].empty();
   lines.push_back(misses + (both ? draws : ""));
   if (both) lines.push_back("its length follows from theta.");
   for (std::size_t i = 0; i < 2; ++i) {
-    if (!model.left_out[i].empty())
-      lines.push_back("Tendon " + std::to_string(i + 1) + " is not in this file: " + model.left_out[i] + ".");
+    if (!model.omission[i].empty())
+      lines.push_back("Tendon " + std::to_string(i + 1) + " is not in this file: " + model.omission[i] + ".");
   }
   if (mechanism.sheath.is_there())
     lines.push_back(
-        "Between the mouths of its sheath a tendon is drawn straight: the sheath's own way and length, its "
-        "stretch and its friction are not in this file.");
+        "Between the ends of its sheath a tendon is drawn straight: the sheath's true course and length, its "
+        "compliance and its friction are not in this file.");
   lines.push_back("No friction at drum, pins and bearings: MuJoCo's tendons have none" +
-                  std::string(pin == "idler" ? ", and idlers stand still." : "."));
+                  std::string(pin == "idler" ? ", and idlers do not turn." : "."));
   return lines;
 }
 
@@ -237,7 +237,7 @@ std::string mujoco_joint_xml(const ModelProduct& product) {
           " (a joint equality, degree 4, least largest error). It misses theta(alpha)",
       "by " + at_most_deg(fit.error) + " deg at most, over the whole range; torques by " +
           rounded(100 * fit.slope_error, 2) + " % at most.",
-      k_gives_way};
+      k_compliance};
   return opening(product, body, coupling) +
          bodies(product, body, pins(product.mechanism, 0.01 * product.mechanism.joint.R), drum(product.mechanism)) +
          "  <equality>\n    <joint joint1=\"" + (fit.of_alpha ? "theta" : "alpha") + "\" joint2=\"" +
@@ -249,12 +249,12 @@ std::string mujoco_tendons_xml(const ModelProduct& product) {
   const TendonModel& model = *product.tendons;
   const Mechanism& mechanism = product.mechanism;
   const SimulatedBody body = body_of(product);
-  const std::string held = number_of(model.held);
+  const std::string held = number_of(model.constrained);
   std::vector<std::string> coupling = way_words(product);
-  coupling.push_back(k_gives_way);
+  coupling.push_back(k_compliance);
   std::string world, link = drum(mechanism), tendons;
   for (std::size_t i = 0; i < 2; ++i) {
-    if (!model.left_out[i].empty()) continue;
+    if (!model.omission[i].empty()) continue;
     const WrappedTendon& tendon = model.tendons[i];
     const TendonText text = text_of(tendon, !(i == 0 ? mechanism.joint.attachment1 : mechanism.joint.attachment2));
     world += text.world;
@@ -263,8 +263,8 @@ std::string mujoco_tendons_xml(const ModelProduct& product) {
                metres(std::max(0.5 * mechanism.tendon.diameter, 0.004 * mechanism.joint.R)) +
                "\" rgba=\"0.8 0.2 0.2 1\">\n" + text.way + "    </spatial>\n";
   }
-  // Of the size of the true moment arm: MuJoCo makes a constraint as soft as the inertia of both sides, unscaled, asks
-  // for.
+  // The coefficient has the size of the true moment arm: MuJoCo scales a constraint's softness by the unscaled inertia
+  // of both sides.
   const double arm = std::stod(rounded(body.pulley_radius, 3));
   const double drawn = mechanism.seen_pitch_radius() > 0 ? 0 : 0.01 * mechanism.joint.R;
   return opening(product, body, coupling) + bodies(product, body, pins(mechanism, drawn) + world, link) +

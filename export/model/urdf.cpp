@@ -33,9 +33,9 @@ std::string hinge(const std::string& name, const std::string& child, const std::
          number(speed) + "\"/>\n" + more + "  </joint>\n";
 }
 
-/// The limits of the joint by those of the motor.
+/// The limits of the joint follow from those of the motor.
 std::string theta_joint(const ModelProduct& product, const SimulatedBody& body, const std::string& more) {
-  const AngleMap& map = product.curves.stands.middle;
+  const AngleMap& map = product.curves.physical.middle;
   const double slope = product.line.p.c[1];
   return hinge("theta", "link", "0 0 0", map.theta_min, map.theta_max, std::stod(rounded(body.effort / slope)),
                std::stod(rounded(body.speed * slope)), more);
@@ -43,7 +43,7 @@ std::string theta_joint(const ModelProduct& product, const SimulatedBody& body, 
 
 std::string head(const ModelProduct& product, const std::vector<std::string>& coupling, const SimulatedBody& body) {
   std::vector<std::string> lines{product.mechanism.name + ", by " + std::string(k_tool) + " model"};
-  for (const auto& more : {of_curve(product.curves.stands, product, false), coupling, body.words})
+  for (const auto& more : {of_curve(product.curves.physical, product, false), coupling, body.words})
     lines.insert(lines.end(), more.begin(), more.end());
   return "<?xml version=\"1.0\"?>\n" + xml_comment(lines) + "<robot name=\"" + xml_attribute(product.mechanism.name) +
          "\">\n  <link name=\"base_link\"/>\n";
@@ -53,14 +53,14 @@ std::string head(const ModelProduct& product, const std::vector<std::string>& co
 
 std::string joint_urdf(const ModelProduct& product) {
   const SimulatedBody body = body_of(product);
-  const AngleMap& map = product.curves.stands.middle;
+  const AngleMap& map = product.curves.physical.middle;
   const Vec2 axis = pin_place(product.mechanism, Side::left, 0).pulley_axis();
   const std::string line = coefficient(product.line.p.c[1]), offset = coefficient(product.line.p.c[0]);
   const std::vector<std::string> coupling = {
-      "theta mimics alpha: all that URDF has is a straight line. The best one, least largest error, misses "
+      "theta mimics alpha: URDF supports only a straight line. The best one (minimax) misses "
       "theta(alpha) by",
       at_most_deg(product.line.error) + " deg at most, over the whole range; torques by " +
-          rounded(100 * product.line.slope_error, 2) + " % at most. joint.xml and joint_table.h are nearer."};
+          rounded(100 * product.line.slope_error, 2) + " % at most. joint.xml and joint_table.h are more accurate."};
   return head(product, coupling, body) + "  <link name=\"pulley\">\n" +
          inertial(0.01, 0, 0.6 * body.armature, 0.6 * body.armature, body.armature) +
          "    <visual>\n      <geometry><cylinder radius=\"" + number(body.pulley_radius) +
@@ -73,12 +73,12 @@ std::string joint_urdf(const ModelProduct& product) {
 }
 
 // ros2_control reads <ros2_control> from the robot's description: interfaces of a joint, and transmissions that a
-// hardware component loads by their plugin's name. SimpleTransmission has joint = actuator/reduction + offset, velocity
-// and effort by the same reduction: a straight line once more. A joint that mimics another cannot be commanded, so that
-// the motor is an actuator here and no joint.
+// hardware component loads by their plugin's name. SimpleTransmission has joint = actuator/reduction + offset, with
+// velocity and effort by the same reduction, which is a straight line. A joint that mimics another cannot be commanded,
+// so the motor is an actuator here and not a joint.
 std::string ros2_control_urdf(const ModelProduct& product) {
   const SimulatedBody body = body_of(product);
-  const AngleMap& map = product.curves.stands.middle;
+  const AngleMap& map = product.curves.physical.middle;
   const std::string name = product.prefix;
   const std::vector<std::string> coupling = {
       "For ros2_control: joint theta, and a SimpleTransmission from the actuator to it: theta = "
@@ -89,7 +89,7 @@ std::string ros2_control_urdf(const ModelProduct& product) {
           " % at most. A hardware component or a transmission plugin that",
       "includes joint_table.h has them without that error: position " + name + "_theta_deg(), velocity and effort by " +
           name + "_slope().",
-      "The hardware is ros2_control's mock: put your own plugin in its place."};
+      "The hardware is ros2_control's mock: replace it by your own plugin."};
   const auto interface = [](const std::string& kind, const std::string& which, double low, double high) {
     const std::string tag = kind + "_interface";
     if (!(low < high)) return "      <" + tag + " name=\"" + which + "\"/>\n";

@@ -28,12 +28,12 @@ std::string c_prefix(const std::string& name) {
 namespace model_words {
 namespace {
 
-/// A round bar of 8 mm that tapers nowhere: what a printed or bought link of this length weighs about.
+/// A uniform round bar of 8 mm: the approximate weight of a printed or bought link of this length.
 constexpr double k_link_per_mm = 0.125e-3;  // kg
-/// Of a small geared servo at its output, pulley included.
+/// Inertia of a small geared servo at its output, pulley included.
 constexpr double k_rotor = 1e-3;            // kg m²
 constexpr double k_least_effort = 1;        // N m
-constexpr double k_steps_per_constant = 4;  // two is the least that a simulator takes
+constexpr double k_steps_per_constant = 4;  // two is the least that a simulator accepts
 constexpr double k_speed = 6.283;           // rad/s: 60 rpm
 
 }  // namespace
@@ -51,7 +51,7 @@ std::string c_float(float value) {
 
 std::string at_most_deg(double angle) {
   const double value = std::abs(degrees(angle));
-  constexpr double k_rounding = 1e-6;  // below that is what the last digits do
+  constexpr double k_rounding = 1e-6;  // below this only rounding remains
   if (!(value > k_rounding)) return "0.000001";
   const double scale = std::pow(10.0, 1 - std::floor(std::log10(value)));
   return rounded(std::ceil(value * scale * (1 - 1e-9)) / scale, 3);
@@ -61,24 +61,24 @@ std::vector<std::string> of_curve(const JointCurve& curve, const ModelProduct& p
   std::vector<std::string> lines;
   switch (curve.source) {
     case CurveSource::law:
-      lines.push_back("The joint as declared: theta(alpha) is the law of the file, each way the same.");
+      lines.push_back("The joint as declared: theta(alpha) is the law of the file, equal in both directions.");
       break;
     case CurveSource::identified:
       lines.push_back(
           "The joint as identified ([identified]), with the pulley that 'fusee build' makes of this file, simulated");
       lines.push_back(
-          std::string("there and back under its declared load. alpha: what the motor's sensor shows; theta: ") +
-          (shown ? "what the joint's" : "where the"));
-      lines.push_back(shown ? "sensor shows." : "joint stands, the middle of both ways.");
+          std::string("in both directions under its declared load. alpha: reading of the motor's sensor; theta: ") +
+          (shown ? "reading of" : "true"));
+      lines.push_back(shown ? "the joint's sensor." : "joint angle, mean of both directions.");
       break;
     case CurveSource::compensation:
       lines.push_back("From " + product.compensation +
-                      ", over the declared law between its rows. alpha: what the motor's sensor");
-      lines.push_back("shows; theta: what the joint's sensor shows.");
+                      ", with the shape of the declared law between its rows. alpha: reading of the");
+      lines.push_back("motor's sensor; theta: reading of the joint's sensor.");
       break;
   }
-  if (curve.loop > 0)
-    lines.push_back("Moving up and moving down lie up to 2 x " + at_most_deg(curve.loop) + " deg apart at the joint.");
+  if (curve.half_hysteresis > 0)
+    lines.push_back("Hysteresis at the joint: at most 2 x " + at_most_deg(curve.half_hysteresis) + " deg.");
   return lines;
 }
 
@@ -98,7 +98,7 @@ std::string xml_attribute(const std::string& text) { return escape_html(cleaned_
 
 namespace {
 
-/// A spring's torque is k (θ − rest), or the same at every angle.
+/// A spring's torque is k (θ − rest), or constant.
 void add_spring(SimulatedBody& body, const Spring& spring) {
   if (spring == Spring{}) return;
   if (spring.stiffness == 0) {
@@ -129,7 +129,7 @@ SimulatedBody body_of(const ModelProduct& product) {
                          " mm along OC, from [load]; straight up at theta = " + rounded(degrees(load.tilt)) + " deg.");
     body.words.push_back("Assumed: its moment of inertia about its centre is that of a thin rod as long as OC.");
   } else {
-    body.words.push_back("[load] has no mass: the joint's axis stands upright, and weight turns nothing.");
+    body.words.push_back("[load] has no mass: the joint's axis is taken as vertical, so that weight has no torque.");
     body.words.push_back("Assumed: the link is a rod along OC of 0.125 g a millimetre, " + rounded(body.mass) + " kg.");
   }
   body.load = (load.tip_force * mechanism.joint.R + load.torque) * 1e-3;
@@ -137,11 +137,11 @@ SimulatedBody body_of(const ModelProduct& product) {
     body.inertia += std::abs(body.load) / k_gravity * R;
     body.words.push_back("Tip force and torque of [load]: " + rounded(body.load) +
                          " N m against +theta at every angle.");
-    body.words.push_back("Assumed: they have the inertia of a weight at C that pulls as much.");
+    body.words.push_back("Assumed: they have the inertia of a weight at C with the same force.");
   }
   add_spring(body, mechanism.spring);
   double most = 0, steepest = 0, heaviest = 0;
-  const AngleMap& map = product.curves.stands.middle;
+  const AngleMap& map = product.curves.physical.middle;
   constexpr int looks = 20;
   for (int i = 0; i <= looks; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / looks), g = map.slope(alpha);
@@ -152,17 +152,16 @@ SimulatedBody body_of(const ModelProduct& product) {
   }
   const Transmission law(mechanism);
   body.pulley_radius = law.at_alpha(0).t1.p * 1e-3;
-  // What a motor sees of the link, and the rotor of a motor that is fit for it: matched, or a small servo's at its
-  // output.
+  // The link's inertia at the motor, plus the rotor of a matched motor, or a small servo's at its output.
   const double link = body.inertia + body.mass * body.lever * body.lever, seen = link * steepest * steepest;
   body.armature = std::stod(rounded(std::max(k_rotor, seen), 3));
-  // A position servo that follows at 20 Hz, and gives way by 5 deg at most under three times the load.
+  // A position servo with a bandwidth of 20 Hz that deflects by at most 5 deg under three times the load.
   const double inertia = body.armature + seen;
-  constexpr double k_follows = k_two_pi * 20, k_gives_way = radians(5);
-  body.kp = std::max(inertia * k_follows * k_follows, 3 * most / k_gives_way);
+  constexpr double k_follows = k_two_pi * 20, k_compliance = radians(5);
+  body.kp = std::max(inertia * k_follows * k_follows, 3 * most / k_compliance);
   body.kv = 2 * std::sqrt(body.kp * inertia);
-  // Constraints give way by (1 - d) a t²: d their impedance, t their time constant, a what the load would turn link and
-  // motor with, were they free. 1e-5 rad is a tenth of what a table may miss.
+  // Constraints deflect by (1 − d) a t², with impedance d, time constant t, and a the acceleration that the load would
+  // give link and motor if they were free. 1e-5 rad is a tenth of a table's allowed error.
   constexpr double k_softness = 1e-4, k_give = 1e-5;
   const double turned = heaviest * (1 / link + 1 / body.armature);
   const double most_constant = turned > 0 ? std::sqrt(k_give / (k_softness * turned)) : 1;
@@ -172,10 +171,10 @@ SimulatedBody body_of(const ModelProduct& product) {
   body.constant = k_steps_per_constant * body.timestep;
   body.effort = std::max(k_least_effort, 3 * most);
   body.speed = k_speed;
-  body.words.push_back("Assumed: motor and pulley together turn like " + rounded(body.armature) +
+  body.words.push_back("Assumed: the inertia of motor and pulley together is " + rounded(body.armature) +
                        " kg m2 about alpha, no less than link and load seen from there;");
   body.words.push_back("the motor has " + rounded(body.effort) + " N m and " + rounded(body.speed) +
-                       " rad/s. Put your own in their place.");
+                       " rad/s. Replace them by your own.");
   return body;
 }
 

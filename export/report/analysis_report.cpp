@@ -1,4 +1,4 @@
-// The page of an analysis: the joint moves, and what it bears, what it misses its angle by, and why.
+// The page of an analysis: the moving joint, its loads, its angular error and the causes of that error.
 
 #include <algorithm>
 #include <filesystem>
@@ -35,7 +35,7 @@ std::string key_numbers_of(const AnalysisResult& result, const Mechanism& mechan
   numbers.add("By the paper’s chain", with_unit(result.largest_paper_tension.value, "N"),
               at_words(result.largest_paper_tension.alpha));
   if (result.strength)
-    numbers.add("The tendon bears", with_unit(result.strength->tension, "N"),
+    numbers.add("Strength of the tendon", with_unit(result.strength->tension, "N"),
                 with_unit(result.strength->at_knot, "N") + " at a knot");
   numbers.add("Motor torque", with_unit(result.largest_torque.value, "N mm"), at_words(result.largest_torque.alpha));
   numbers.add("Between directions", with_unit(degrees(result.hysteresis.value), "deg"),
@@ -92,7 +92,7 @@ std::string plots(const AnalysisResult& result, const Mechanism& mechanism) {
   return "<div class=\"plots\">" + html + "</div>";
 }
 
-/// The figures two by two under the mechanism's name.
+/// The figures two by two below the mechanism's name.
 Figure picture_of(const MechanismFile& file, const AnalysisResult& result) {
   constexpr double k_head = 34, k_gap = 24;
   const std::string& name = file.mechanism.name;
@@ -173,7 +173,7 @@ std::string analysis_html(const MechanismFile& file, const AnalysisResult& resul
        .body = said_section(said) + html_section("numbers", "Key numbers", key_numbers_of(result, file.mechanism)) +
                html_section("moving", "The joint moves", moving.empty() ? "" : std::string(k_moving_words) + moving) +
                html_section("forces", "Over the range", plots(result, file.mechanism)) +
-               html_section("budget", "What makes the joint miss its angle", sources_table(result.sources)) +
+               html_section("budget", "Causes of the angular error", sources_table(result.sources)) +
                html_section("tolerances", "Tolerances",
                             "<p class=\"lead\">Each dimension within " + safe_text(with_unit(options.tolerance, "mm")) +
                                 " (95 %): joint angle and slack stay within these.</p>" +

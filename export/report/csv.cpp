@@ -1,5 +1,5 @@
-// Tables for a spreadsheet: comma-separated, a header line with the units in the names, numbers with a point and six
-// decimals. A cell is empty where there is no such number.
+// Tables for a spreadsheet: comma-separated, with a header line that has the units in the names, and six decimals.
+// Missing numbers are empty cells.
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ void put_row(std::string& table, std::span<const double> values) {
   table += '\n';
 }
 
-/// A closed curve's normal turns once from its first point to its last, and its height is its groove's.
+/// The normal of a closed curve turns once from its first to its last point, and its height is constant.
 void put_outline(std::string& table, const Outline& outline, double z) {
   const std::string pulley = std::string(pulley_name(outline.side)) + ",";
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
@@ -51,7 +51,7 @@ void put_spiral(std::string& table, Side side, const Spiral& spiral, const Spira
   }
 }
 
-/// Planar forces are the level parts of tensions along a sloped path: of the path of the tendon that carries.
+/// Ratio of a planar force to the tension along the sloped path of the tendon that carries.
 double sloped_cosine(const Product& product, std::size_t i, const PaperForces& forces) {
   if (!product.helix) return 1.0;
   const std::size_t carries = forces.T2 > 0 ? 1 : 0;
@@ -70,7 +70,7 @@ struct AsBuilt {
   double slack = k_none;
 };
 
-/// The rewound pulley at `alpha`, between its points; none outside them.
+/// The rewound pulley at `alpha`, interpolated; empty outside its points.
 AsBuilt as_built_at(const std::vector<RewindPoint>& points, double alpha) {
   constexpr double k_same_alpha = 1e-9;
   const auto right = std::lower_bound(points.begin(), points.end(), alpha - k_same_alpha,
@@ -85,10 +85,10 @@ AsBuilt as_built_at(const std::vector<RewindPoint>& points, double alpha) {
 
 }  // namespace
 
-/// angle_deg is the direction of the point from the axis, normal_deg that of the tendon's outward normal there; both
-/// counter-clockwise from x at home. active: 1 where a tendon leaves the pulley within the range. turn_deg is the
-/// normal's direction unrolled: it grows from row to row of a pulley, over all its turns. z_mm is the height of the
-/// tendon's centre line above the part's lower face, in the finished part.
+/// angle_deg: direction of the point from the axis. normal_deg: direction of the tendon's outward normal there. Both
+/// counter-clockwise from x at home. active: 1 on the active arc. turn_deg: the normal's direction unrolled over all
+/// turns, increasing from row to row. z_mm: height of the tendon's centre line above the part's lower face, in the
+/// finished part.
 std::string profile_csv(const Product& product) {
   std::string table = "pulley,angle_deg,x_mm,y_mm,radius_of_curvature_mm,active,normal_deg,turn_deg,z_mm\n";
   if (product.helix) {
@@ -102,7 +102,8 @@ std::string profile_csv(const Product& product) {
   return table;
 }
 
-/// Places as in profile_csv(). Programs that make a closed spline of a table ask for its first point at the end again.
+/// Coordinates as in profile_csv(). Programs that make a closed spline of a table require the first point again at the
+/// end.
 std::string pitch_curve_csv(const Product& product, Side side) {
   const bool left = side == Side::left;
   std::string table = "x_mm,y_mm,z_mm\n";
@@ -121,8 +122,8 @@ std::string pitch_curve_csv(const Product& product, Side side) {
   return table;
 }
 
-/// r1 and r2 are the moment arms of the tendons about the pulley's axis, m1 and m2 those about the joint; forces as in
-/// transmission/tension.h; the last two columns as the tendons wound on the mesh that was written have it.
+/// r1 and r2: moment arms of the tendons about the pulley's axis; m1 and m2: about the joint. Forces as in
+/// transmission/tension.h. The last two columns are results of the tendons wound on the written mesh.
 std::string transmission_csv(const Product& product) {
   std::string table =
       "alpha_deg,theta_deg,r1_mm,r2_mm,m1_mm,m2_mm,gamma2_deg,T2_N,phi_deg,Tb_N,elongation_mm,theta_error_deg,"

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: numbers as all tables have them.
+/// Internal: the number format of all tables.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace fusee {
 
-/// Six decimals; empty where there is no such number.
+/// Six decimals; empty for a number that is not finite.
 inline std::string csv_cell(double value) { return std::isfinite(value) ? fixed(value, 6) : std::string(); }
 
 }  // namespace fusee

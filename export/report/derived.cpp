@@ -18,7 +18,7 @@ bool is_same(const Field& field, const DeclaredMechanism& a, const DeclaredMecha
       return field.get_text(a) == field.get_text(b);
     case FieldKind::numbers:
     case FieldKind::texts:
-      return true;  // lists ask and are not made
+      return true;  // lists are input and never derived
   }
   return true;
 }

@@ -1,5 +1,5 @@
 /// \file
-/// Which numbers of a made pulley are not those that its file declares, because the joint was identified to be another.
+/// Internal: numbers of a pulley that differ from its file's because the joint was identified.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace fusee {
 
-/// What was made for, key by key of the file.
+/// The design values, key by key of the file.
 struct DerivedNumbers {
-  DeclaredMechanism made;            ///< the file with the numbers of the joint as it is
-  std::vector<const Field*> fields;  ///< whose value there is not the declared one, in the order of the file
+  DeclaredMechanism made;            ///< the file with the numbers of the identified joint
+  std::vector<const Field*> fields;  ///< fields with a value other than the declared one, in the order of the file
 };
 
-/// No fields where nothing was identified that moves a number.
+/// No fields if no identified number differs.
 DerivedNumbers derived_numbers(const DeclaredMechanism& declared, const JointAsItIs& joint);
 
-/// "-30 to 30 deg", "table".
+/// A field's value in words, such as "-30 to 30 deg" or "table".
 std::string field_words(const Field& field, const DeclaredMechanism& mechanism);
 
 }  // namespace fusee

@@ -24,7 +24,7 @@ struct View {
     low = low.cwiseMin(point - Vec2(margin, margin));
     high = high.cwiseMax(point + Vec2(margin, margin));
   }
-  /// Fits what was included into a width and a height at (left, top).
+  /// Fits the included points into a width and a height at (left, top).
   void fit(double left, double top, double width, double height) {
     const Vec2 size = (high - low).cwiseMax(Vec2(1e-6, 1e-6));
     scale = std::min(width / size.x(), height / size.y());
@@ -82,7 +82,7 @@ double pulley_reach(const SynthesisResult& synthesis) {
   return std::max(circumradius(parallel(synthesis.p1, 0)), circumradius(parallel(synthesis.p2, 0)));
 }
 
-/// px.
+/// A box in px.
 struct PaperBox {
   double left, top, width, height;
 };
@@ -92,7 +92,7 @@ View fitted(View view, const PaperBox& frame) {
   return view;
 }
 
-/// Room for the joint at each of these angles.
+/// A view that contains the joint at each of these angles.
 View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const std::vector<double>& thetas,
                     const PaperBox& frame) {
   View view;
@@ -113,14 +113,14 @@ View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis
   return fitted(view, frame);
 }
 
-/// The pulley alone, larger: on the whole mechanism it is small.
+/// The pulley alone, enlarged.
 View pulley_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const PaperBox& frame) {
   View view;
   view.include(pulley_axis(mechanism), pulley_reach(synthesis));
   return fitted(view, frame);
 }
 
-/// Turned with the pulley, a group of its own: the outlines as they lie at home.
+/// A group that turns with the pulley: the outlines at home.
 std::string pulley_group(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, double alpha) {
   const Vec2 axis = pulley_axis(mechanism);
   const Vec2 centre = view(axis);
@@ -131,7 +131,7 @@ std::string pulley_group(const Mechanism& mechanism, const SynthesisResult& synt
     for (Vec2& point : points) point += axis;
     svg += curve("thin " + ink(outline->side), view, points);
   }
-  // The home mark: it points to +y at α = 0.
+  // The home mark, which points to +y at α = 0.
   svg += svg_line("axis-line", centre, centre - Vec2(0, pulley_reach(synthesis) * view.scale + 7));
   return svg + svg_circle("metal", centre, 3) + "</g>";
 }
@@ -140,7 +140,7 @@ std::string tendon_name(Side side) { return side == Side::left ? "tendon1" : "te
 
 std::string tendon_group(const TendonTrace& trace, const View& view, const Mechanism& mechanism, Side side) {
   const double width = std::max(2.0, mechanism.tendon.diameter * view.scale);
-  // Dashes as long as the line is wide: where tendon 2 covers tendon 1, both are seen.
+  // Dashes as long as the line is wide, so that tendon 1 is visible below tendon 2.
   const std::string dashes =
       side == Side::right ? ";stroke-dasharray:" + svg_number(3 * width) + " " + svg_number(1.6 * width) : "";
   std::string svg =
@@ -175,7 +175,7 @@ std::string pins(const Mechanism& mechanism, const View& view) {
   return svg;
 }
 
-/// Wide, pale and under everything else, with a ring at each mouth.
+/// A wide, pale line below everything else, with a ring at each exit.
 std::string sheaths(const Mechanism& mechanism, const View& view) {
   if (!mechanism.sheath.is_there()) return "";
   const double width = std::max(13.0, 4.0 * mechanism.tendon.diameter * view.scale);
@@ -186,7 +186,7 @@ std::string sheaths(const Mechanism& mechanism, const View& view) {
     svg += "<path d=\"" + path_data(thinned(view(sheath_curve(mechanism, side)), k_drawing_tolerance), false) + "\"/>";
   svg += "</g>";
   for (const Side side : {Side::left, Side::right})
-    svg += svg_circle("metal", view(sheath_mouth(mechanism, side)), 0.4 * width);
+    svg += svg_circle("metal", view(sheath_exit(mechanism, side)), 0.4 * width);
   return svg;
 }
 
@@ -225,7 +225,7 @@ Figure mechanism_figure(const Mechanism& mechanism, const SynthesisResult& synth
   Figure figure{k_panel_width, k_panel_height + k_detail_height, "The mechanism at " + angles, {}, {}};
   figure.body = svg_words("heading", {4, 18}, angles) + scene(mechanism, synthesis, whole, pose) +
                 scale_bar(whole, {6, k_panel_height - 8});
-  // An svg within the svg cuts off what does not belong to the detail.
+  // A nested svg clips the detail.
   figure.body += "<svg x=\"1\" y=\"" + svg_number(k_panel_height) + "\" width=\"" + svg_number(k_panel_width - 2) +
                  "\" height=\"" + svg_number(k_detail_height - 1) + "\">" + scene(mechanism, synthesis, detail, pose) +
                  scale_bar(detail, {10, k_detail_height - 14}) + "</svg>";
@@ -234,9 +234,9 @@ Figure mechanism_figure(const Mechanism& mechanism, const SynthesisResult& synth
   return figure;
 }
 
-// The same, to be moved -----------------------------------------------------------------------------------------------
+// The joint to be moved -----------------------------------------------------------------------------------------------
 
-/// The place nearest to α = 0; `stroke` is not empty.
+/// The place nearest to α = 0. `stroke` must not be empty.
 const TransmissionPoint& home_of(const std::vector<TransmissionPoint>& stroke) {
   return *std::min_element(stroke.begin(), stroke.end(),
                            [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
@@ -343,10 +343,11 @@ std::string profile_legend(const Outline& outline) {
   return legend({{"curve " + colour + " whole", "active arc (pitch)"},
                  {"closing " + colour, "closing arc"},
                  {"floor main", "groove floor"},
-                 {"flange", "lip"}});
+                 {"flange", "groove edge"}});
 }
 
-// The polar drawing beside it ---------------------------------------------------------------------------------------
+// The polar drawing for comparison
+// --------------------------------------------------------------------------------------
 
 /// A place of the active arc in polar coordinates about the axis.
 struct PolarPlace {
@@ -355,7 +356,7 @@ struct PolarPlace {
   double r = 0;
 };
 
-/// r against α: what the paper draws.
+/// r against α, as the paper draws it.
 std::vector<PolarPlace> polar_drawing(const std::vector<TransmissionPoint>& stroke, Side side) {
   const auto tendon = [side](const TransmissionPoint& point) -> const TendonPoint& {
     return side == Side::left ? point.t1 : point.t2;
@@ -373,7 +374,7 @@ bool is_round(const std::vector<PolarPlace>& drawing) {
   return most->r - least->r < 1e-9 * most->r;
 }
 
-/// Of the active arc in the direction of `angle`; NaN where only the closing arc lies there.
+/// Radius of the active arc in the direction of `angle`; NaN on the closing arc.
 double radius_towards(const Outline& outline, double angle) {
   const Vec2 direction = unit(angle);
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
@@ -386,9 +387,9 @@ double radius_towards(const Outline& outline, double angle) {
   return std::nan("");
 }
 
-/// So that `difference` is seen beside a radius of `r`: 1, 2, 5, 10 …
+/// A magnification 1, 2, 5, 10 … that makes `difference` visible beside a radius of `r`.
 double magnification(double difference, double r) {
-  constexpr double k_seen = 0.22;  // of the radius
+  constexpr double k_seen = 0.22;  // relative to the radius
   const double most = k_seen * r / difference;
   double factor = std::pow(10.0, std::floor(std::log10(most)));
   for (const double step : {5.0, 2.0}) {
@@ -427,15 +428,15 @@ Figure profile_figure(const Mechanism& mechanism, const Outline& outline, const 
   if (outline.points.size() < 3) return figure;
   const double radius = 0.5 * mechanism.tendon.diameter;
   const Polygon floor = parallel(outline, -radius);
-  const Polygon lip = parallel(outline, pulley.layout.groove_depth - radius);
+  const Polygon groove_edge = parallel(outline, pulley.layout.groove_depth - radius);
   View view;
-  for (const Vec2& point : lip) view.include(point);
+  for (const Vec2& point : groove_edge) view.include(point);
   const double low = view.low.x(), high = view.high.x();
   const double reach = std::max(view.high.cwiseAbs().maxCoeff(), view.low.cwiseAbs().maxCoeff());
   view.include({0, 1.12 * reach});
   view.fit(34, 66, k_profile_width - 68, k_profile_height - 118);
   figure.body = svg_words("heading", {4, 18}, name + ", seen from +z at home") + profile_legend(outline);
-  figure.body += curve("flange", view, lip, true) + curve("floor main", view, floor, true);
+  figure.body += curve("flange", view, groove_edge, true) + curve("floor main", view, floor, true);
   figure.body += anchors(view, pulley, outline.side) + bore(view, pulley.layout) + axes(view, reach);
   figure.body +=
       curve("closing " + ink(outline.side), view, arc_points(outline, outline.active_last, outline.active_first));
@@ -455,7 +456,7 @@ std::optional<Figure> polar_figure(const SynthesisResult& synthesis, Side side) 
   const std::vector<PolarPlace> drawing = polar_drawing(synthesis.stroke, side);
   if (is_round(drawing)) return std::nullopt;
   std::vector<Vec2> drawn;
-  std::vector<PolarPlace> apart;  // of the drawing from the profile
+  std::vector<PolarPlace> apart;  // difference of the drawing from the profile
   PolarPlace most;
   for (const PolarPlace& place : drawing) {
     drawn.push_back(place.r * unit(place.angle));

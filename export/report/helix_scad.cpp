@@ -1,4 +1,4 @@
-// The rows of both grooves on one fan of directions, as src/coil lays them for the mesh, coarser; the program joins
+// The rows of both grooves on one fan of directions, coarser than the mesh of src/coil. The OpenSCAD program joins
 // them.
 #include "export/report/helix_scad.h"
 
@@ -19,10 +19,10 @@ using namespace scad;
 
 namespace {
 
-// OpenSCAD's exact arithmetic takes about a millisecond a point: fewer rows than the mesh has.
+// OpenSCAD's exact arithmetic takes about a millisecond per point, so there are fewer rows than in the mesh.
 constexpr double k_climbing_sagitta = 0.02;
 
-/// Of the tendon that is wound last at the lower face (P1), or first at the upper one (P2).
+/// The anchor at the lower face (P1) or the upper face (P2).
 const HelicalAnchor& anchor_of(const Product& product, Side side) {
   const std::vector<HelicalAnchor>& all = product.helix->pulley.anchors;
   return *std::find_if(all.begin(), all.end(), [side](const HelicalAnchor& anchor) { return anchor.side == side; });
@@ -32,7 +32,7 @@ Fan coarse_fan(const Product& product) {
   const HelixProduct& helix = *product.helix;
   const BodyLayout& layout = product.pulley.layout;
   const double half = 0.5 * layout.tendon_diameter;
-  // Solid about the channel and its pocket.
+  // Length of solid around the channel and its pocket.
   double filled = 0;
   for (const HelicalAnchor& anchor : helix.pulley.anchors)
     filled = std::max(filled, anchor.bend_radius + 2.0 * anchor.pocket_radius + layout.min_wall);
@@ -43,7 +43,7 @@ Fan coarse_fan(const Product& product) {
 
 std::string run_out_array(const Product& product) {
   std::string text =
-      "// Where each groove's end goes: bend radius, middle of the knot pocket, its depth.\nrun_outs = [";
+      "// The run-out of each groove's end: bend radius, middle of the knot pocket, its depth.\nrun_outs = [";
   for (const Side side : {Side::left, Side::right}) {
     const HelicalAnchor& anchor = anchor_of(product, side);
     text += fmt::format("{}[{}, {}, {}]", side == Side::left ? "" : ", ", decimal(anchor.bend_radius),
@@ -66,11 +66,11 @@ std::string rows_array(const char* name, const Winding& winding, double half) {
   return text + "];\n";
 }
 
-std::string lips_text(const char* name, const Winding& winding) {
+std::string groove_edges_text(const char* name, const Winding& winding) {
   return fmt::format("{} = [{}, {}];", name, decimal(winding.bulge_low), decimal(winding.bulge_high));
 }
 
-/// `made`: the fan that the part was cut from, which knows how far its lips stand out.
+/// `made`: the fan that the part was cut from, which has the projections of its groove edges.
 std::string spiral_arrays(const Fan& fan, const Fan& made, double half) {
   return "// The groove floors from end to end: x, y, the direction in which the floor looks, degrees, and the height "
          "of "
@@ -80,11 +80,13 @@ std::string spiral_arrays(const Fan& fan, const Fan& made, double half) {
                      fan.p1.first_column, fan.p2.first_column) +
          fmt::format("filled1 = {};  // rows past P1's last end, with no groove\nfilled2 = {};  // before P2's first\n",
                      fan.p1.filled_back, fan.p2.filled_front) +
-         lips_text("lips1", made.p1) + "  // how far these rows' lower and upper lip stand out at first\n" +
-         lips_text("lips2", made.p2) + "\n" + rows_array("P1", fan.p1, half) + rows_array("P2", fan.p2, half) + "\n";
+         groove_edges_text("edge_bulges1", made.p1) +
+         "  // initial projection of these rows' lower and upper groove edges\n" +
+         groove_edges_text("edge_bulges2", made.p2) + "\n" + rows_array("P1", fan.p1, half) +
+         rows_array("P2", fan.p2, half) + "\n";
 }
 
-/// What a groove is like has to leave the ribs between its turns: it can only be made smaller.
+/// The groove's dimensions can only be reduced, because the ribs between its turns must remain.
 std::string climbing_parameters(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const BodyLayout& layout = product.pulley.layout;
@@ -98,7 +100,8 @@ std::string climbing_parameters(const Product& product) {
 )",
              cleaned_line(mechanism.name)) +
          bore_and_hub(product) + "\n/* [Groove] */\n" +
-         slider_text({"groove_depth", "lip above the groove's floor: no deeper, for the ribs between the turns",
+         slider_text({"groove_depth",
+                      "height of the groove edge above the groove's floor: no deeper, for the ribs between the turns",
                       layout.groove_depth, 0.5, 0.1, layout.groove_depth}) +
          slider_text({"groove_angle", "between the walls, degrees: no wider", degrees(mechanism.body.groove_angle), 0,
                       1, degrees(mechanism.body.groove_angle)}) +

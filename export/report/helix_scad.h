@@ -1,5 +1,5 @@
 /// \file
-/// pulley.scad of a pulley of several turns.
+/// Internal: pulley.scad of a multi-turn pulley.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// manifest.json: what was made from what, what was measured on it, and the SHA-256 of every file beside it.
+// manifest.json: the input, the measurements of the result, and the SHA-256 of every other file.
 
 #include <cmath>
 #include <filesystem>
@@ -15,10 +15,10 @@
 namespace fusee {
 namespace {
 
-/// JSON knows no NaN and no infinity.
+/// JSON has no NaN and no infinity.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// Degrees and per cents come of a multiplication: without its last digits 30° is 30, as it was written.
+/// Conversions to degrees and per cent add rounding errors. Without the last digits, 30° is 30 as in the file.
 Json as_written(double value) {
   constexpr int k_digits = 12;
   double rounded_value = value;
@@ -29,7 +29,7 @@ Json as_written(double value) {
   return number(rounded_value);
 }
 
-/// For a ruler.
+/// Rounded to a micrometre.
 Json to_micrometre(double millimetres) { return number(std::round(1000.0 * millimetres) / 1000.0); }
 
 Json field_value(const Field& field, const DeclaredMechanism& mechanism) {
@@ -46,14 +46,14 @@ Json field_value(const Field& field, const DeclaredMechanism& mechanism) {
       return field.get_text(mechanism) == "true";
     case FieldKind::numbers:
     case FieldKind::texts: {
-      DeclaredMechanism copy = mechanism;  // lists are reached through a reference that may write
+      DeclaredMechanism copy = mechanism;  // list fields are accessed through a mutable reference
       return field.kind == FieldKind::numbers ? Json(field.numbers(copy)) : Json(field.texts(copy));
     }
   }
   return nullptr;
 }
 
-/// Every number as declared, in the file's units, defaults and --set included: the input file alone does not tell.
+/// Every number as declared, in the file's units, with defaults and --set, which the input file alone does not contain.
 Json mechanism_json(const DeclaredMechanism& mechanism) {
   Json tables = Json::object();
   for (const Field& field : fields()) {
@@ -65,7 +65,7 @@ Json mechanism_json(const DeclaredMechanism& mechanism) {
   return tables;
 }
 
-/// What of these numbers was made otherwise, the joint having been identified to be another.
+/// The design values that differ from the declared ones, because the joint was identified.
 Json derived_json(const Product& product) {
   const DerivedNumbers derived = derived_numbers(product.file.mechanism, product.joint);
   Json keys = Json::object();
@@ -101,13 +101,13 @@ Json fleet_json(const HelicalRewind& as_built) {
           {"max_fleet_angle_at_alpha_deg", number(degrees(as_built.max_fleet_at))}};
 }
 
-/// The grooves' planes in the mesh as written, shrinkage compensation included.
+/// The grooves' planes in the written mesh, with shrinkage compensation.
 Json grooves_json(const BodyLayout& layout) {
   return {{{"pulley", "P1"}, {"z_mm", number(layout.z_p1 * layout.scale)}},
           {{"pulley", "P2"}, {"z_mm", number(layout.z_p2 * layout.scale)}}};
 }
 
-/// Of several turns: in the mesh as written, too, up from its lower face. z_mm is the middle of what the range winds.
+/// For several turns, also in the written mesh, from its lower face upwards. z_mm: the middle of the working arc.
 Json helical_groove_json(const Product& product, Side which) {
   const bool left = which == Side::left;
   const HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);
@@ -147,7 +147,7 @@ Json tendons_json(const Product& product) {
   return list;
 }
 
-/// What goes to the printer, each as it lies there.
+/// The parts to print, in print orientation.
 Json print_json(const Pulley& pulley) {
   Json list = Json::array();
   if (pulley.parts.empty()) list.push_back({{"file", "pulley.stl"}});
@@ -156,7 +156,7 @@ Json print_json(const Pulley& pulley) {
   return list;
 }
 
-/// What the knots on the pulley bear, where that is most.
+/// The largest loads of the knots on the pulley.
 Json knots_json(const Product& product) {
   const Holding& holding = product.holding;
   const auto known = [](const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); };
@@ -191,7 +191,7 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
   manifest["schema"] = 1;
   manifest["tool"] = k_tool;
   manifest["status"] = all_ok(product.checks) ? "done" : "check_failed";
-  // The name alone: the same input gives the same bytes wherever it lies.
+  // The name without its folder: the same input gives the same bytes in any place.
   manifest["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
                        {"sha256", product.file.sha256}};
   manifest["grooves"] = product.helix ? helical_grooves_json(product) : grooves_json(product.pulley.layout);
@@ -206,7 +206,7 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
   manifest["notes"] = notes_json(product);
   manifest["checks"] = checks_json(product.checks);
   manifest["outputs"] = output_list(outputs);
-  // A name that is no UTF-8 is written all the same, with U+FFFD in its place.
+  // A name that is no UTF-8 is written with U+FFFD in place of invalid bytes.
   return json_text(manifest, 1);
 }
 

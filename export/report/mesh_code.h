@@ -1,5 +1,5 @@
 /// \file
-/// A triangle mesh small enough to stand inside a page: 16-bit positions, differences, base64. viewer.js is the reader.
+/// Internal: a compact triangle mesh for a page: 16-bit positions, differences, base64. viewer.js reads it.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,11 @@
 
 namespace fusee {
 
-/// Every triangle of the mesh, in order. Positions are rounded to `step`: at most step/2 in each coordinate.
+/// Encodes every triangle of the mesh, in order. Positions are rounded to `step`, with an error of at most step/2 in
+/// each coordinate.
 ///
-/// bytes: for each corner a varint `newest − index`, where `newest` is the number of vertices met so far; 0 is a new
-/// vertex, and three zigzag varints follow: its coordinates less those of the vertex met before, in steps.
+/// bytes: for each corner a varint `newest − index`, where `newest` is the number of vertices so far. 0 is a new
+/// vertex, followed by three zigzag varints: its coordinates minus those of the previous vertex, in steps.
 struct MeshCode {
   std::string base64;
   std::size_t vertices = 0;
@@ -21,7 +22,7 @@ struct MeshCode {
   double step = 0;  ///< mm
 };
 
-/// Nothing for a mesh that is empty or broken (an index out of range, a number that is not finite).
+/// Empty for a mesh that is empty or invalid (an index out of range, a number that is not finite).
 std::optional<MeshCode> encode_mesh(const TriangleMesh& mesh);
 
 }  // namespace fusee

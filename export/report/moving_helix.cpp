@@ -10,7 +10,7 @@
 namespace fusee {
 namespace {
 
-// A drawing needs fewer rows than a part.
+// A drawing requires fewer rows than a part.
 constexpr double k_drawn_turn = radians(4.0);
 
 std::string number_text(double value, int decimals) {
@@ -24,7 +24,7 @@ std::string numbers_text(std::size_t count, int decimals, Number number) {
   return text + "]";
 }
 
-/// x, y, height and turn of rows that are far enough apart.
+/// x, y, height and turn of rows with a minimum spacing.
 std::string drawn_rows(const Spiral& spiral, const SpiralPlace& place) {
   std::string text = "[";
   double drawn = -1e9;
@@ -43,7 +43,7 @@ std::string side_json(const Product& product, std::size_t i) {
   const HelixSide& side = helix.synthesis.sides.at(i);
   const SpiralPlace& place = i == 0 ? helix.pulley.p1 : helix.pulley.p2;
   const std::vector<TransmissionPoint>& stroke = product.synthesis.stroke;
-  // Per mm towards the joint, which is less than one of the path's own plane.
+  // Per mm towards the joint, which is shorter than the path in its own plane.
   const auto climb = [&](std::size_t k) {
     const TendonPoint& tendon = i == 0 ? stroke[k].t1 : stroke[k].t2;
     return -place.direction * std::tan(side.stroke[k].slope) / std::abs(std::cos(tendon.lower_normal));

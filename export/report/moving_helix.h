@@ -1,5 +1,5 @@
 /// \file
-/// The tendons of a pulley of several turns as a person turns it: seen from the side, where they climb.
+/// Internal: the moving side view of the tendons of a multi-turn pulley.
 #pragma once
 
 #include <string>
@@ -9,12 +9,13 @@
 
 namespace fusee {
 
-/// HTML, what a page says over it.
+/// HTML above the drawing.
 inline constexpr std::string_view k_climbing_words =
-    "<p class=\"lead\">From the side, the joint to the right: pitch curves as they turn, thick what is wound of each "
-    "tendon, and both paths from where they leave to the guides, to scale. The part above turns with it.</p>";
+    "<p class=\"lead\">From the side, with the joint to the right, to scale: the turning pitch curves, the wound part "
+    "of "
+    "each tendon (thick), and both paths from the take-offs to the guides. The part above turns too.</p>";
 
-/// HTML of a section's inside. Needs moving_helix.js and page.css.
+/// The HTML inside a section. Requires moving_helix.js and page.css.
 std::string moving_helix(const Product& product);
 
 }  // namespace fusee

@@ -1,4 +1,4 @@
-// The tendons climb: from the slider's α, both spirals turned and seen from the side, and where the tendons leave them.
+// Side view of both helical tendons for the slider's α: the turned spirals, and the take-offs of the tendons.
 // Lengths in mm, angles in degrees; right is +y, towards the joint, up is the pulley's axis.
 (() => {
   const box = document.querySelector(".climbing");
@@ -33,7 +33,7 @@
     return { i, u: (alpha - data.alpha[i]) / (data.alpha[i + 1] - data.alpha[i]) };
   };
   const between = (values, { i, u }) => values[i] + u * (values[i + 1] - values[i]);
-  // Rows lie in growing turns; the tendon is tied at P1's last and at P2's first.
+  // Rows are in order of increasing turn. Tendons are tied at P1's last row and P2's first row.
   const row_at = (rows, z) => {
     const falls = rows[0][2] > rows[rows.length - 1][2];
     let i = 0;
@@ -50,7 +50,7 @@
     before = alpha;
     const place = place_of(alpha), c = Math.cos(alpha * radian), s = Math.sin(alpha * radian), turns = [], heights = [];
     data.sides.forEach((side, which) => {
-      // α turns it clockwise, seen from above; nearer to the eye is +x.
+      // α turns it clockwise, seen from above. +x points to the viewer.
       const seen = row => [...px(row[1] * c - row[0] * s, row[2]), row[0] * c + row[1] * s];
       const runs = (rows, front) => {
         let text = "", run = [];

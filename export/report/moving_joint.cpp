@@ -13,9 +13,9 @@
 namespace fusee {
 namespace {
 
-// What the page computes with --------------------------------------------------------------------------------------
+// Data for the page's computations ------------------------------------------------------------------------------------
 
-/// JSON knows no NaN.
+/// JSON has no NaN.
 std::string json_number(double value, int decimals) {
   return std::isfinite(value) ? trimmed_fixed(value, decimals) : "null";
 }
@@ -25,7 +25,7 @@ std::string json_point(const Vec2& point) {
   return "[" + json_number(point.x(), k_decimals) + "," + json_number(point.y(), k_decimals) + "]";
 }
 
-/// "name":[…], a number an item.
+/// "name":[…], one number for each item.
 template <typename Items, typename Number>
 std::string json_numbers(const std::string& name, const Items& items, int decimals, Number number) {
   std::string text = "\"" + name + "\":[";
@@ -50,7 +50,7 @@ std::string json_outline(const Outline& outline) {
 
 bool is_held(const EquilibriumPoint& point) { return point.status != EquilibriumStatus::no_equilibrium; }
 
-/// The joint under its load, on one of the ways through the stroke.
+/// The joint under its load, in one direction of the stroke.
 std::string json_way(const std::vector<StrokePoint>& loaded, EquilibriumPoint StrokePoint::*way) {
   const auto numbers = [&](const std::string& key, int decimals, auto value) {
     return json_numbers(key, loaded, decimals, [&](const StrokePoint& point) {
@@ -68,7 +68,7 @@ std::string json_way(const std::vector<StrokePoint>& loaded, EquilibriumPoint St
          numbers("theta", 5, [](const EquilibriumPoint& point) { return degrees(point.theta); }) + "}";
 }
 
-/// By load.
+/// One entry for each load.
 std::string json_strokes(const std::vector<LoadedStroke>& strokes) {
   std::string text = json_numbers("loads", strokes, 4, [](const LoadedStroke& stroke) { return stroke.load; });
   for (const bool rising : {true, false}) {
@@ -101,7 +101,7 @@ std::string json_effect(const RehearsedEffect& effect) {
   return text + "]}";
 }
 
-/// Where a tendon ends, and over which angle it lies on the drum at home: less than nothing while it is free of it.
+/// The end of a tendon, and its angle on the drum at home, which is negative while it is clear of the drum.
 std::string json_end(const Mechanism& mechanism, Side side) {
   const PinPlace place = pin_place(mechanism, side, mechanism.guide_pitch_radius());
   double lies = -1e3, normal = 0;
@@ -120,12 +120,12 @@ std::string json_ends(const Mechanism& mechanism) {
          "," + json_end(mechanism, Side::right) + "],";
 }
 
-/// Between pins and pulley.
+/// The points at which the sheaths end beside the pulley.
 std::string json_sheaths(const Mechanism& mechanism) {
   if (!mechanism.sheath.is_there()) return "";
   const auto points_of = [&mechanism](Side side) { return all_of(sheath_curve(mechanism, side), json_point); };
-  return "\"mouths\":[" + json_point(sheath_mouth(mechanism, Side::left)) + "," +
-         json_point(sheath_mouth(mechanism, Side::right)) + "],\"sheaths\":[[" + points_of(Side::left) + "],[" +
+  return "\"exits\":[" + json_point(sheath_exit(mechanism, Side::left)) + "," +
+         json_point(sheath_exit(mechanism, Side::right)) + "],\"sheaths\":[[" + points_of(Side::left) + "],[" +
          points_of(Side::right) + "]],";
 }
 
@@ -148,9 +148,9 @@ std::string motion_json(const Mechanism& mechanism, const SynthesisResult& synth
          ",\"effects\":[" + all_of(effects, json_effect) + "]}";
 }
 
-// What a person sees -----------------------------------------------------------------------------------------------
+// Visible elements ----------------------------------------------------------------------------------------------------
 
-/// `name` is where moving_joint.js puts the number.
+/// `name`: key by which moving_joint.js finds the number.
 std::string number_row(const std::string& words, const std::string& name) {
   return "<div><dt>" + words + "</dt><dd data-show=\"" + name + "\">–</dd></div>";
 }
@@ -177,7 +177,7 @@ std::string load_controls(const std::vector<LoadedStroke>& strokes) {
   return controls(slider("Load at the tip", "load", strokes.front().load, strokes.back().load, 0));
 }
 
-/// A slider for how much of it there is: 1 is what was found.
+/// A slider for the size of an effect, where 1 is the identified size.
 std::string effect_controls(const RehearsedEffect& effect, std::size_t number) {
   std::string units, names;
   for (const FittedParameter& parameter : effect.shares.front().parameters) {
@@ -223,7 +223,7 @@ std::string moving_joint(const Mechanism& mechanism, const SynthesisResult& synt
 
 namespace {
 
-/// Whether all words of `asked` ("drum+sheath") are those of a joint.
+/// True if all words of `asked` ("drum+sheath") apply to the joint.
 bool is_for(std::string_view asked, const std::vector<std::string_view>& words) {
   const std::size_t plus = asked.find('+');
   if (plus != std::string_view::npos)
@@ -231,7 +231,7 @@ bool is_for(std::string_view asked, const std::vector<std::string_view>& words) 
   return std::find(words.begin(), words.end(), asked) != words.end();
 }
 
-/// Lines that end in `//=` and words are for joints of all of these words alone.
+/// Keeps the lines that apply to a joint: those that end in `//=` and words require all of these words.
 std::string lines_for(const std::vector<std::string_view>& words) {
   std::string script;
   std::string_view rest = embedded::moving_joint_js;

@@ -1,7 +1,7 @@
-// The joint moves: from the slider's α, θ by the declared law; then both tendons as taut strings over pins and pulley,
-// by geometry alone (export/report/tendon_trace.cpp does the same). Lengths in mm, angles in degrees.
-// A line that ends in a mark is on pages of joints without, or with, a drum or attachments of their own, and of those whose //=source
-// tendons run from pin to pulley, or through sheaths: joint_script(). //=source
+// The moving joint: θ for the slider's α by the declared law, then both tendons as taut strings over pins and pulley, by
+// geometry alone (as in export/report/tendon_trace.cpp). Lengths in mm, angles in degrees.
+// A line that ends in a mark is kept on pages of the joints that the mark names: plain (the paper's layout), drum (a drum or separate //=source
+// attachments), pin (tendons from pin to pulley) or sheath (tendons through sheaths). See joint_script(). //=source
 (() => {
   const box = document.querySelector(".moving");
   if (!box) return;
@@ -14,7 +14,7 @@
   const add = (p, q, k = 1) => [p[0] + k * q[0], p[1] + k * q[1]];
   const nearer = a => a - 2 * Math.PI * Math.round(a / (2 * Math.PI));
 
-  // The place of the stroke: interval and share of it.
+  // The place of the stroke: interval and fraction.
   const place_of = alpha => {
     let low = 0, high = count - 1;
     while (high - low > 1) { const middle = low + high >> 1; if (data.alpha[middle] <= alpha) low = middle; else high = middle; }
@@ -43,7 +43,7 @@
     return Array.from({ length: steps + 1 }, (_, k) => add(centre, unit(from + (to - from) * k / steps), data.rho)); //=plain
     return Array.from({ length: steps + 1 }, (_, k) => add(centre, unit(from + (to - from) * k / steps), radius)); //=drum
   };
-  // The three stretches of a tendon: C to the middle of the pin, on to the take-off, and what is wound.
+  // The three segments of a tendon: from C to the middle of the pin, to the take-off, and the wound part.
   const tendon_at = (which, alpha, theta) => {
     const { sign, end, points } = data.outlines[which], pin = data.pins[which], n = points.length;
     const c = [data.R * Math.sin(theta), data.R * Math.cos(theta)], upper = tangent(pin, c, true, sign); //=plain
@@ -52,7 +52,7 @@
     const over = lies > 0 ? arc([0, 0], upper + sign * lies, upper, data.drum) : []; //=drum
     const on_pulley = k => add(data.axis, turned(points[k], -alpha));
     const reference = tangent(pin, data.axis, false, sign); //=pin
-    const onto = p => { const d = add(p, data.mouths[which], -1); return Math.atan2(d[1], d[0]) + sign * Math.PI / 2; }; //=sheath
+    const onto = p => { const d = add(p, data.exits[which], -1); return Math.atan2(d[1], d[0]) + sign * Math.PI / 2; }; //=sheath
     const reference = onto(data.axis), off = sign > 0 ? 0 : Math.PI; //=sheath
     let first = 0, outermost = -Infinity;
     for (let k = 0; k < n; k++) {
@@ -128,7 +128,7 @@
 
   const size_of = k => within(data.effects[k].shares.map(share => share.share), number_in("effect" + k));
 
-  // Where the joint really is, so many times as far off that it is seen.
+  // The true joint angle, with its error magnified until it is visible.
   const furthest = data.effects.reduce((most, effect) => most + Math.max(...["rising", "falling"].flatMap(way => effect.shares[2][way].flat()).map(Math.abs)), 0);
   const magnified = [50, 20, 10, 5, 2].find(times => times * furthest < 12) || 1;
   for (const scene of data.effects.length ? scenes : []) {

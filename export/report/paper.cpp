@@ -178,7 +178,7 @@ std::string figures_section(const Reproduction& all) {
   return text;
 }
 
-/// Names and hashes of the files, so that a later run knows them for its own.
+/// Names and hashes of the files, by which a later run recognises them.
 std::string manifest_of(const std::vector<OutputFile>& files) {
   Json json = {{"schema", 1}, {"tool", k_tool}};
   json["outputs"] = output_list(files);

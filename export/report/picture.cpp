@@ -1,4 +1,4 @@
-// The few functions of librsvg and cairo that are called, as their C interfaces declare them (librsvg 2.46, cairo 1.2
+// Declarations of the functions of librsvg and cairo that are called, as in their C interfaces (librsvg 2.46, cairo 1.2
 // and later).
 
 #include "export/report/picture.h"
@@ -32,7 +32,7 @@ Function* required(const SystemLibrary& library, const char* name) {
 
 class Renderer {
  public:
-  /// A surface of cairo, which is destroyed here.
+  /// Draws on a cairo surface and destroys it.
   void draw(const std::string& svg, void* surface, double width, double height, bool on_white) const {
     void* const context = create_(surface);
     if (on_white) {
@@ -89,8 +89,8 @@ class Renderer {
   void (*destroy_surface_)(void*) = required<void(void*)>(cairo_, "cairo_surface_destroy");
 };
 
-/// The colours of figure.css are CSS variables, which librsvg does not know: the first value of each, that of a light
-/// page, is put in its place.
+/// The colours of figure.css are CSS variables, which librsvg does not support. Each is replaced by its first value,
+/// that of a light page.
 std::string with_colours(std::string svg) {
   std::map<std::string, std::string> values;
   for (std::size_t at = svg.find("--"); at != std::string::npos; at = svg.find("--", at + 2)) {

@@ -1,15 +1,15 @@
 /// \file
-/// An SVG as PNG or PDF. librsvg and cairo of the system draw it; they are loaded for this alone, so that nothing else
-/// depends on them.
+/// Internal: an SVG as PNG or PDF, drawn by the system's librsvg and cairo. They are loaded on demand, so that nothing
+/// else depends on them.
 #pragma once
 
 #include <string>
 
 namespace fusee {
 
-/// On white, two dots a pixel of the SVG. InputError where the libraries are not installed, or refuse.
+/// On white, two dots for each pixel of the SVG. Throws InputError if the libraries are not installed, or fail.
 std::string png_of(const std::string& svg, double width, double height);
-/// One page of the SVG's size, 96 of its pixels an inch. The same errors.
+/// One page of the SVG's size, at 96 pixels an inch. Throws like png_of().
 std::string pdf_of(const std::string& svg, double width, double height);
 
 }  // namespace fusee

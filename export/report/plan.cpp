@@ -16,10 +16,10 @@
 namespace fusee {
 namespace {
 
-/// Enough for every stroke's shape, and for a person who sets them one by one.
+/// Enough for the shape of every stroke, and for a person who sets them one by one.
 constexpr int k_rows_a_stroke = 120;
 
-/// Four digits: what is right to some tens of per cent.
+/// Four digits, for values with an uncertainty of some tens of per cent.
 Json size(double value) { return std::isfinite(value) ? Json(std::stod(rounded(value, 4))) : Json(); }
 
 std::string_view word(BenchChange change) {

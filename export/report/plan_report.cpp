@@ -1,4 +1,4 @@
-// plan.html: what a person does at the bench, step by step, and what it will show.
+// plan.html: the instructions for the bench, step by step, and the expected results.
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ std::string names_of(const std::vector<std::string>& names) {
   return text;
 }
 
-/// What has to be done for a run, in the order in which it is done.
+/// Instructions for a run, in order.
 std::vector<std::string> things_to_do(const PlanProduct& product, std::size_t step) {
   const PlannedRun& run = *product.plan.steps[step].run;
   std::vector<std::string> things;
@@ -82,13 +82,13 @@ std::string step_items(const PlanProduct& product) {
 std::string steps_section(const PlanProduct& product) {
   return html_section(
       "steps", "At the bench",
-      "<p class=\"lead\">In this order: each step is the one that tells most for its minutes, so whoever has "
+      "<p class=\"lead\">In this order: each step is the most informative one for its minutes, so whoever has "
       "to stop early has measured the best of it. Begin every run at the end of the range, coming from home; "
       "do not touch zeros between runs unless it says so.</p>" +
           step_items(product));
 }
 
-/// `runs`: as a person would give them to the command.
+/// `runs`: the arguments of the command.
 std::string after_section(const PlanProduct& product, const std::string& runs) {
   const std::string spec = std::filesystem::path(product.file.path).filename().string();
   const bool reads = std::any_of(product.plan.steps.begin(), product.plan.steps.end(),
@@ -110,7 +110,7 @@ std::string causes_section(const Plan& plan) {
   }
   return html_section(
       "causes", "What these runs can show",
-      "<p class=\"lead\">At the joint, rms over the runs: what each cause does at its usual size, the least of "
+      "<p class=\"lead\">At the joint, rms over the runs: the effect of each cause at its usual size, the smallest "
       "it that would be seen, the least that could be named alone, and what it could not be told from.</p>"
       "<div class=\"scroll\"><table><thead><tr><th>cause</th><th class=\"number\">usual</th><th "
       "class=\"number\">seen from</th><th class=\"number\">alone from</th><th>not told from</th></tr></thead><tbody>" +
@@ -176,7 +176,7 @@ std::string plan_html(const PlanProduct& product) {
   if (!product.plan.beyond.empty())
     page.body += html_section("more", "What more minutes would buy", html_list(more_items(product.plan.beyond)));
   page.body += causes_section(product.plan) +
-               html_section("blame", "How often a name would be false", html_list(blame_words(product.plan))) +
+               html_section("false_positives", "False-positive rate", html_list(false_positive_words(product.plan))) +
                left_out_section(product.plan);
   return html_page(page);
 }

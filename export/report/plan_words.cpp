@@ -15,16 +15,16 @@ std::string list_of(const std::vector<std::string>& words, const std::string& be
 
 }  // namespace
 
-std::vector<std::string> blame_words(const Plan& plan) {
+std::vector<std::string> false_positive_words(const Plan& plan) {
   if (plan.one.worlds == 0) return {};
-  return {"in " + joints(plan.nothing.worlds) + "as declared, these runs would have blamed something in " +
+  return {"in " + joints(plan.nothing.worlds) + "as declared, these runs would have reported a false cause in " +
               std::to_string(plan.nothing.blamed),
           "in " + joints(plan.one.worlds) +
               "with one of these causes, of its usual sizes, they would have named it alone in " +
               std::to_string(plan.one.alone) + ", in a group in " + std::to_string(plan.one.group) +
-              ", and blamed something else in " + std::to_string(plan.one.blamed),
+              ", and reported a false cause in " + std::to_string(plan.one.blamed),
           "in " + joints(plan.unknown.worlds) +
-              "with a cause that the catalogue is without, they would have blamed something else in " +
+              "with a cause outside the catalogue, they would have reported a false cause in " +
               std::to_string(plan.unknown.blamed)};
 }
 
@@ -32,7 +32,7 @@ std::string gain_words(const PlanStep& step) {
   std::string text;
   if (!step.sees.empty()) text = "sees " + list_of(step.sees, ", ");
   if (!step.tells.empty()) text += std::string(text.empty() ? "" : "; ") + "tells " + list_of(step.tells, "; ");
-  return text.empty() ? "makes surer what is told already" : text;
+  return text.empty() ? "reduces the uncertainty of what is distinguished already" : text;
 }
 
 std::string minute_words(const PlanStep& step, const std::string& gain) {

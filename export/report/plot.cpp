@@ -10,7 +10,7 @@ namespace fusee {
 namespace {
 
 constexpr double k_small_font = 12;
-/// What is larger (or not a number) is left off the paper: no axis could show it beside anything else.
+/// Larger values and NaN are not drawn, because no axis could show them together with others.
 constexpr double k_largest = 1e15;
 
 struct Range {
@@ -25,7 +25,7 @@ struct Range {
   double span() const { return high - low; }
 };
 
-/// Widened about its middle to `least` and beyond what a double can resolve; [0, 1] when nothing is in it.
+/// Widened about its middle to `least` and to the resolution of a double; [0, 1] if it is empty.
 Range usable(Range range, double least) {
   if (!(range.low <= range.high)) return {0, 1};
   const double size = std::max(std::abs(range.low), std::abs(range.high));
@@ -35,7 +35,7 @@ Range usable(Range range, double least) {
   return span > range.span() ? Range{middle - 0.5 * span, middle + 0.5 * span} : range;
 }
 
-/// Where values go on paper.
+/// Maps values to the paper.
 struct Frame {
   Range x, y;
   double left, top, width, height;
@@ -79,7 +79,7 @@ Frame make_frame(const Plot& plot) {
   frame.y_ticks = nice_ticks(wanted.low, wanted.high, 5, plot.y.unit);
   frame.y = {frame.y_ticks.front(), frame.y_ticks.back()};
   frame.x_ticks = nice_ticks(frame.x.low, frame.x.high, 7, plot.x.unit);
-  // The stroke fills the width: ticks beyond its ends would only be empty space.
+  // The stroke fills the width, because ticks beyond its ends would only add empty space.
   const double slop = 1e-9 * frame.x.span();
   std::erase_if(frame.x_ticks, [&](double t) { return t < frame.x.low - slop || t > frame.x.high + slop; });
   double label_width = 0;
@@ -153,7 +153,7 @@ std::string legend(const Plot& plot) {
   return svg;
 }
 
-/// Values beyond the frame (an axis with a forced end) end the line at the frame: SVG clips what is outside by `clip`.
+/// Lines end at the frame if the axis has a forced end: SVG clips them by `clip`.
 std::string curves(const Plot& plot, const Frame& frame) {
   std::string svg;
   for (const PlotSeries& series : plot.series) {
@@ -202,7 +202,7 @@ std::string marks(const Plot& plot, const Frame& frame) {
   return svg;
 }
 
-/// What the read-out needs to turn places back into values.
+/// Data for the read-out to convert places back into values.
 std::string readout_attributes(const Plot& plot, const Frame& frame) {
   std::string values;
   for (const double value :
@@ -227,7 +227,7 @@ std::vector<double> nice_ticks(double low, double high, int count, const std::st
       break;
     }
   }
-  // A hair of tolerance: an end that is on a tick but for rounding needs no further tick.
+  // Tolerance for an end that differs from a tick by rounding only.
   const double first = std::floor(low / step + 1e-9);
   const double last = std::max(std::ceil(high / step - 1e-9), first + 1);
   std::vector<double> ticks;
@@ -239,8 +239,8 @@ int tick_decimals(double step) {
   return std::clamp(static_cast<int>(-std::floor(std::log10(std::abs(step)) + 1e-9)), 0, 12);
 }
 
-// The height of the narrowest strip of a given slope about the points is a convex function of the slope: its minimum is
-// found by thirds, between the least and the largest slope of any chord between neighbours.
+// The height of the narrowest strip of a given slope about the points is a convex function of the slope. Its minimum is
+// found by ternary search between the smallest and the largest slope of chords between neighbours.
 BestLine best_line(const std::vector<Vec2>& points) {
   const auto strip = [&](double slope) {
     Range range;

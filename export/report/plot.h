@@ -1,5 +1,6 @@
 /// \file
-/// Line plots as plain values: title, axes with units, series, limits, marks → one figure. Nothing here knows a pulley.
+/// Internal: line plots as plain values: title, axes with units, series, limits, marks → one figure. Independent of
+/// pulleys.
 #pragma once
 
 #include <limits>
@@ -11,35 +12,34 @@
 
 namespace fusee {
 
-/// Of a point: breaks the line.
+/// A point that breaks the line.
 inline constexpr double k_gap = std::numeric_limits<double>::quiet_NaN();
 
-/// Colour and line style of a series; told apart in print and by the colour-blind too.
+/// Colour and line style of a series, distinguishable in black and white and for colour-blind readers.
 enum class Ink { main, p1, p2, third };
 
 struct PlotAxis {
   std::string label;          ///< "pulley angle α"
-  std::string unit;           ///< "mm", "°" … or "" for a plain number
+  std::string unit;           ///< "mm", "°" … or "" for a dimensionless number
   std::optional<double> low;  ///< force the end of the axis
   std::optional<double> high;
-  double least_span =
-      0;  ///< an axis is never stretched beyond this, so that rounding noise does not look like a result
+  double least_span = 0;  ///< least span of the axis, so that rounding noise is not magnified
 };
 
 struct PlotSeries {
-  std::string name;  ///< in the legend; "": not in the legend, no read-out
+  std::string name;  ///< "": no legend and no read-out
   Ink ink = Ink::main;
   std::vector<Vec2> points;  ///< a point that is not finite breaks the line
   bool thin = false;         ///< secondary
 };
 
-/// A horizontal line: a limit, with its words at the right end.
+/// A horizontal line for a limit, with its label at the right end.
 struct PlotLimit {
   double y = 0;
   std::string words;
 };
 
-/// A single point worth a name.
+/// A labelled point.
 struct PlotMark {
   Vec2 at;
   std::string words;
@@ -60,9 +60,11 @@ struct Plot {
 Figure plot_figure(const Plot& plot);
 
 /// Evenly spaced round numbers, the first <= low and the last >= high; about `count` of them. Steps are 1, 2, 5 × 10^k,
-/// or for `unit` "°" also 15, 30, 45, 90. Needs finite low < high.
+/// and for `unit` "°" also 15, 30, 45, 90. Requires finite low < high.
 std::vector<double> nice_ticks(double low, double high, int count, const std::string& unit = {});
-/// The straight line that leaves the points least (minimax), and by how much: |y − (offset + slope x)| <= deviation.
+/// The minimax line of the points and its deviation:
+/// y − (offset + slope x)
+/// <= deviation.
 struct BestLine {
   double slope = 0;
   double offset = 0;
@@ -70,7 +72,7 @@ struct BestLine {
 };
 BestLine best_line(const std::vector<Vec2>& points);
 
-/// Decimals that a tick label of this step needs.
+/// Number of decimals for a tick label of this step.
 int tick_decimals(double step);
 
 }  // namespace fusee

@@ -1,14 +1,14 @@
-// ---- printing: what looks down is made steep where nothing may hang ----
+// ---- printing: downward faces are steep unless supports are printed ----
 //= one turn
-slope = supports ? 0 : overhang_deg + 2.5;  // slicers take up to a degree more for too flat
+slope = supports ? 0 : overhang_deg + 2.5;  // slicers reject slopes up to a degree steeper than their threshold
 //= several turns
-slope = supports ? 0 : overhang_deg + 4;  // slicers take up to a degree more for too flat, and draw what climbs coarsely
+slope = supports ? 0 : overhang_deg + 4;  // slicers reject slopes up to a degree steeper than their threshold, and draw helical faces coarsely
 //= both
 function rise(width) = width * tan(slope > 0 ? slope : 45);
-// of a ceiling or a cone, which may be flat where supports hold it
-function roof(width) = slope > 0 ? rise(width) : 0;
-// of two roofs that meet over a slit
-gable_slope = slope > 0 ? min(slope + 10, 80) : 45;
+// height of a ceiling or a cone, which may be flat if supports are printed
+function ceiling(width) = slope > 0 ? rise(width) : 0;
+// slope of two ceilings that meet in a ridge over a slit
+ridge_slope = slope > 0 ? min(slope + 10, 80) : 45;
 //= one turn
 apart = parts == 2;
 //= both
@@ -26,35 +26,35 @@ function ground(lean) =
   [[0, 0.7 * tendon]];
 function wall(lean) = let (
     corners = ground(lean),
-    below_lip = [for (k = [0 : len(corners) - 1]) if (k == 0 || corners[k][0] < groove_depth) corners[k]],
-    last = below_lip[len(below_lip) - 1])
-  concat(below_lip, [[groove_depth, last[1] + (groove_depth - last[0]) * tan(lean)]]);
+    below_edge = [for (k = [0 : len(corners) - 1]) if (k == 0 || corners[k][0] < groove_depth) corners[k]],
+    last = below_edge[len(below_edge) - 1])
+  concat(below_edge, [[groove_depth, last[1] + (groove_depth - last[0]) * tan(lean)]]);
 function width(wall) = wall[len(wall) - 1][1];
 lower_wall = wall(groove_angle / 2);
-roof_wall = wall(max(groove_angle / 2, slope));
+ceiling_wall = wall(max(groove_angle / 2, slope));
 //= one turn
-// P1 is printed turned over where it is printed for itself
-p1_below = apart ? roof_wall : lower_wall;
-p1_above = apart ? lower_wall : roof_wall;
+// P1 is printed turned over if it is printed separately
+p1_below = apart ? ceiling_wall : lower_wall;
+p1_above = apart ? lower_wall : ceiling_wall;
 p2_below = lower_wall;
-p2_above = roof_wall;
+p2_above = ceiling_wall;
 
 // ---- heights ----
-lower_cone = apart ? roof(lower_ledge) : 0;
-middle_cone = apart ? 0 : roof(middle_ledge);
-upper_cone = roof(upper_ledge);
-// a channel's ceiling leaves 0.3 mm of the flange over it, in the middle of the pulley and where it opens at the lip
-over_channel = channel_width / 2 + roof(channel_width) + 0.3;
-over_mouth = max(0, channel_width / 2 + mouth_rise - max(width(lower_wall), width(roof_wall))) + 0.3;
-roof_flange = max(flange_thickness, slope > 0 ? over_mouth : 0);
+lower_cone = apart ? ceiling(lower_ledge) : 0;
+middle_cone = apart ? 0 : ceiling(middle_ledge);
+upper_cone = ceiling(upper_ledge);
+// a channel's ceiling leaves 0.3 mm of the flange over it, in the middle of the pulley and at its entry in the groove edge
+over_channel = channel_width / 2 + ceiling(channel_width) + 0.3;
+over_entry = max(0, channel_width / 2 + entry_rise - max(width(lower_wall), width(ceiling_wall))) + 0.3;
+ceiling_flange = max(flange_thickness, slope > 0 ? over_entry : 0);
 over_pocket = channel_width / 2 + rise(knot_pocket) + min_wall;
-z_p1 = apart ? max(roof_flange + lower_cone + width(p1_below), over_channel) : flange_thickness + width(p1_below);
+z_p1 = apart ? max(ceiling_flange + lower_cone + width(p1_below), over_channel) : flange_thickness + width(p1_below);
 z_middle = z_p1 + width(p1_above) + middle_cone;
-// where P2 begins
+// lower end of P2
 z_mate = apart ? z_middle + flange_thickness
-               : max(z_middle + roof_flange, z_p1 + over_channel, slope > 0 ? z_p1 + over_pocket : 0);
+               : max(z_middle + ceiling_flange, z_p1 + over_channel, slope > 0 ? z_p1 + over_pocket : 0);
 z_p2 = z_mate + (apart ? flange_thickness : 0) + width(p2_below);
-z_top = z_p2 + max(width(p2_above) + upper_cone + roof_flange, over_channel);
+z_top = z_p2 + max(width(p2_above) + upper_cone + ceiling_flange, over_channel);
 //= both
 has_hub = hub_diameter > 0 && hub_height > 0;
 bore_edge = (bore + hole_compensation) / 2;
@@ -68,7 +68,7 @@ n = len(P1);
 function parallel(P, out) = [for (p = P) [p[0] + out * cos(p[2]), p[1] + out * sin(p[2])]];
 function circle_like(r) = [for (p = P1) r * [cos(p[2]), sin(p[2])]];
 function reach(P, out) = max([for (p = parallel(P, out)) norm(p)]);
-// how far a floor reaches in its own direction, and along it
+// reach of a floor in its normal's direction, and along the tangent
 function support(p) = p[0] * cos(p[2]) + p[1] * sin(p[2]);
 function aside(p) = -p[0] * sin(p[2]) + p[1] * cos(p[2]);
 blend = 0.5;
@@ -85,11 +85,11 @@ reach2 = reach(P2, groove_depth);
 lower = is_round ? circle_like(reach1 + lower_margin) : parallel(P1, groove_depth);
 middle = is_round ? circle_like(max(reach1, reach2) + middle_margin) : around_both(groove_depth + middle_margin);
 upper = is_round ? circle_like(reach2 + upper_margin) : parallel(P2, groove_depth);
-// of the middle flange, where P2 is printed for itself
+// outline of the middle flange if P2 is printed separately
 under_p2 = upper;
 
 // ---- the body: rings [z, outline] from bottom to top, skinned ----
-// the chamfer at the bed leaves 0.2 mm of the lip
+// the chamfer at the bed leaves 0.2 mm of the groove edge
 foot = max(0, min(elephant_foot, groove_depth - 0.2, (flange_thickness - 0.2) / rise(1)));
 function chamfered(rim) = [for (i = [0 : n - 1]) rim[i] - foot * [cos(P1[i][2]), sin(P1[i][2])]];
 function on_bed_rings(z, rim) = concat(foot > 0 ? [[z, chamfered(rim)]] : [], [[z + rise(foot), rim]]);
@@ -111,9 +111,8 @@ p2_rings = concat(
   [[z_top, upper]]);
 
 //= both
-// The body between outlines of equally many corners, one over the other; the first and the last are seen whole from their
-// first corner. OpenSCAD wants to see its faces turn
-// clockwise: which way that is here, the sign of the volume tells.
+// The body between outlines with equal numbers of corners, one above the other. The first and the last are star-shaped
+// about their first corner. OpenSCAD requires faces that turn clockwise. The sign of the volume gives the direction.
 module strip(sections) {
   count = len(sections[0]);
   last = (len(sections) - 1) * count;
@@ -123,7 +122,7 @@ module strip(sections) {
     [for (k = [0 : count : last - 1]) for (c = [0 : count - 1]) let (a = k + c, b = k + (c + 1) % count)
       each [[a, b + count, b], [a, a + count, b + count]]]);
   volume = [for (f = faces) 1] * [for (f = faces) points[f[0]] * cross(points[f[1]], points[f[2]])];
-  // a line of sight goes in and out at each flange: the preview has to know how often at most
+  // a line of sight enters and leaves each flange: the preview requires the largest number
   polyhedron(points, volume < 0 ? faces : [for (f = faces) [f[0], f[2], f[1]]], convexity = 6);
 }
 
@@ -135,12 +134,12 @@ module skin(rings) {
 }
 
 //= both
-// On its own, for a wide bore makes it stand over the flange.
+// Separate from the body, because a wide bore makes it overhang the flange.
 module hub() {
   translate([0, 0, z_top]) linear_extrude(z_hub - z_top) polygon(circle_like(hub_radius));
 }
 
-// ---- what is cut out ----
+// ---- cut features ----
 // A printer's corners cut inside of a curve, so that a round hole comes out too small. This hole is a polygon around
 // the circle: its sides touch the circle of diameter d from outside, and a shaft of that diameter fits.
 module polyhole(d, sides) {
@@ -166,13 +165,13 @@ module bore_outline() {
 
 // A recess narrows in a cone to the hole of its centre screw: both seen along the same rays from the axis.
 module recess_cone() {
-  mouth = len(horn_teeth) > 0 ? horn_teeth : [for (a = horn_rays) edge_of_hole(bore + hole_compensation, a)];
+  rim = len(horn_teeth) > 0 ? horn_teeth : [for (a = horn_rays) edge_of_hole(bore + hole_compensation, a)];
   hole = [for (a = horn_rays) edge_of_hole(horn_holes[0][2] + hole_compensation, a)];
-  ledge = max([for (k = [0 : len(hole) - 1]) norm(mouth[k] - hole[k])]);
+  ledge = max([for (k = [0 : len(hole) - 1]) norm(rim[k] - hole[k])]);
   // its ends are round, for a strip's are seen whole from a corner; they lie within the recess and the hole
   end = [for (a = horn_rays) horn_holes[0][2] / 4 * [cos(a), sin(a)]];
   top = horn_recess + rise(ledge);
-  strip([at(end, horn_recess - 0.5), at(mouth, horn_recess - 0.001), at(mouth, horn_recess), at(hole, top), at(end, top + 0.5)]);
+  strip([at(end, horn_recess - 0.5), at(rim, horn_recess - 0.001), at(rim, horn_recess), at(hole, top), at(end, top + 0.5)]);
 }
 
 module bore_hole() {
@@ -186,21 +185,21 @@ module bore_hole() {
 // Blind holes: a cone closes each.
 module dowel_holes() {
   d = dowel_pin + hole_compensation;
-  end = min(z_p2 + dowel_end, z_top - 0.6 - roof(d / 2));
+  end = min(z_p2 + dowel_end, z_top - 0.6 - ceiling(d / 2));
   for (place = dowels) translate([place[0], place[1], 0]) {
     translate([0, 0, -1]) linear_extrude(end + 1) round_hole(d);
     if (slope > 0) translate([0, 0, end - 0.001]) linear_extrude(rise(d / 2), scale = 0.05) round_hole(d);
   }
 }
 
-// Does the face that this pulley's pockets open on lie on the bed, with nothing to support what hangs over it?
+// True if the face that this pulley's pockets open on lies on the bed, where nothing supports overhangs.
 function on_bed(groove) = groove == 1 && !apart && slope > 0;
 
-// The channel as it is printed, with a ceiling that rises from its inner edge to its outer one.
+// The channel in print orientation, with a ceiling that rises from its inner edge to its outer one.
 module channel(t) {
   half = channel_width / 2;
   translate([0, 0, t[0] == 1 ? z_p1 : z_p2]) mirror([0, 0, t[0] == 1 && apart ? 1 : 0]) {
-    strip([for (k = [0 : len(t[2]) - 1]) let (outer = t[2][k], inner = t[3][k], ridge = half + roof(norm(outer - inner)))
+    strip([for (k = [0 : len(t[2]) - 1]) let (outer = t[2][k], inner = t[3][k], ridge = half + ceiling(norm(outer - inner)))
       [[inner[0], inner[1], -half], [outer[0], outer[1], -half], [outer[0], outer[1], ridge], [inner[0], inner[1], half]]]);
     if (knot_pocket > 0) pocket(t);
   }
@@ -214,11 +213,11 @@ function pocket_outline(r, walled) = let (
     [r * [cos(back), sin(back)], [-r - 0.07, half], [-r - 0.07, -half], r * [cos(back), -sin(back)]],
     [for (k = [len(side) - 1 : -1 : 1]) [side[k][0], -side[k][1]]]);
 
-// From the nearer face; where that lies on the bed its roof rises like the channel's.
+// From the nearer face. If that lies on the bed, its ceiling rises like the channel's.
 module pocket(t) {
   inner_end = t[3][len(t[3]) - 1];
   outward = (t[1] - inner_end) / norm(t[1] - inner_end);
-  // where nothing runs straight into the pocket: across the channel's end
+  // if no straight leads into the pocket: across the channel's end
   ahead = norm(t[4]) > 0 ? t[4] / norm(t[4]) : outward[0] * [0, 1] - outward[1] * [1, 0];
   r = knot_pocket / 2;
   open = t[0] == 2 ? z_hub - z_p2 + 1 : apart ? z_p1 + 1 : -z_p1 - 1;
@@ -234,7 +233,8 @@ module from_face(groove) {
   translate([0, 0, groove == 1 ? 0 : z_top]) mirror([0, 0, groove == 1 ? 0 : 1]) children();
 }
 
-// A countersunk slot to the groove, round at its floor and open to the rim: over a hole the groove's roof could not grow.
+// A countersunk slot to the groove, round at its floor and open to the rim. Over a closed hole the groove's ceiling
+// would begin in mid-air.
 module face_hole(t) {
   radius = channel_width / 2;
   normal = [cos(t[2]), sin(t[2])];
@@ -245,7 +245,7 @@ module face_hole(t) {
   around = [for (k = [0 : facets - 1]) [cos(360 * (k + 0.3) / facets), sin(360 * (k + 0.3) / facets)]];
   from_face(t[0]) {
     strip([at(slot, -outside), at(slot, to_groove + 0.03)]);
-    // it narrows into the slot's end, on along one slope
+    // it narrows into the slot's end along one slope
     if (t[4] > 0) strip([
       at([for (p = around) t[1] - (t[3] - radius) * normal + t[3] * p], -outside - 0.5),
       at([for (p = around) t[1] - (t[3] - radius) * normal + t[3] * p], 0),
@@ -253,7 +253,7 @@ module face_hole(t) {
   }
 }
 
-// A slot for the tail, flush in the face, with a gable where that lies on the bed.
+// A slot for the tail, flush in the face, with a peaked ceiling if that lies on the bed.
 module tail_slot(t) {
   along = (t[2] - t[1]) / norm(t[2] - t[1]);
   across = channel_width / 2 * [-along[1], along[0]];
@@ -269,12 +269,12 @@ module clamp_pilot(t) {
 }
 
 //= both
-// Round below, a roof above: it prints lying down without support. In the middle of the hub, or where its roof has a wall
-// over it, or where the nut has room below.
+// Round below, with a peaked ceiling: it prints horizontally without support. In the middle of the hub, or lower so that
+// its ceiling has a wall above it, or higher so that the nut has clearance below.
 module screw_hole() {
-  top = screw_hole / 2 / cos(gable_slope);
+  top = screw_hole / 2 / cos(ridge_slope);
   z = max(min((z_top + z_hub) / 2, z_hub - top - min_wall), z_top + (nut_trap ? nut_width / sqrt(3) : screw_hole / 2));
-  below = [for (k = [0 : facets]) let (a = 90 + gable_slope + (360 - 2 * gable_slope) * k / facets)
+  below = [for (k = [0 : facets]) let (a = 90 + ridge_slope + (360 - 2 * ridge_slope) * k / facets)
     screw_hole / 2 * [cos(a), sin(a)]];
   translate([0, 0, z]) rotate([0, 0, screw_angle]) rotate([90, 0, 90])
     linear_extrude(hub_radius + 1, convexity = 4) polygon(concat(below, [[0, top]]));
@@ -285,8 +285,8 @@ module screw_hole() {
 
 //= one turn
 // ---- the part ----
-// Both pulleys as one (0), P1 (1) or P2 (2), where they stand in the whole. One difference: what is cut out is put
-// together first, for that is small and quick.
+// Both pulleys as one (0), P1 (1) or P2 (2), at their positions in the whole. One difference: the cut features are
+// united first, because they are small and this is fast.
 module part(piece) {
   function has(groove) = piece == 0 || piece == groove;
   difference() {
@@ -306,7 +306,7 @@ module part(piece) {
   }
 }
 
-// As it lies on the printer: on the face that meets the other one.
+// In print orientation: on the mating face.
 module lying(piece) {
   rotate([piece == 1 ? 180 : 0, 0, 0]) translate([0, 0, -z_mate]) part(piece);
 }
@@ -324,28 +324,28 @@ scale(print_scale) {
 }
 //= several turns
 // ---- the turns: rows of the groove's section, one behind the other, over and under one another every `columns` rows ----
-// A row is [x, y, direction in which the floor looks, height]; both grooves fall as that direction grows. Where a groove
-// ends its rows go on, filled to the lip: the tendon dives there.
+// A row is [x, y, direction in which the floor looks, height]; both grooves fall as that direction grows. Rows continue
+// beyond the end of a groove, filled to its edge: the tendon dives there.
 section = concat(
   [for (k = [len(lower_wall) - 1 : -1 : 0]) [lower_wall[k][0], -lower_wall[k][1]]],
-  [for (p = roof_wall) p]);
+  [for (p = ceiling_wall) p]);
 m = len(section);
 last1 = len(P1) - 1;
 last2 = len(P2) - 1;
 function looks(row) = [cos(row[2]), sin(row[2])];
 function out_of(row, out) = [row[0], row[1]] + out * looks(row);
 function lifted(p, z) = [p[0], p[1], z];
-// Filled rows' lips stand out over the channel's mouth, and go back with the ring's blend.
+// The groove edges of filled rows project over the channel's entry, and decline with the ring's blend.
 function fill_share(j, last, front, back) =
   j < front ? (front - j) / front : j + back > last ? (j + back - last) / back : 0;
-function stands_out(share, k, lips) =
-  share == 0 ? 0 : k == 0 ? lips[0] * (1 - blend(share)) : k == m - 1 ? lips[1] * (1 - blend(share)) : 0;
-function row_points(P, front, back, lips) =
+function stands_out(share, k, edge_bulges) =
+  share == 0 ? 0 : k == 0 ? edge_bulges[0] * (1 - blend(share)) : k == m - 1 ? edge_bulges[1] * (1 - blend(share)) : 0;
+function row_points(P, front, back, edge_bulges) =
   [for (j = [0 : len(P) - 1]) let (share = fill_share(j, len(P) - 1, front, back)) for (k = [0 : m - 1])
-    lifted(out_of(P[j], section[k][0] + stands_out(share, k, lips)), P[j][3] + section[k][1])];
+    lifted(out_of(P[j], section[k][0] + stands_out(share, k, edge_bulges)), P[j][3] + section[k][1])];
 
-// A closed ring about the outermost turn of an open spiral: on the second half of its way it goes over to where the turn
-// began. Point i is in column i.
+// A closed ring about the outermost turn of an open spiral. In its second half it moves to the start of the turn. Point i
+// is in column i.
 function blend(share) = let (t = max(0, min(1, 2 * share - 1))) t * t * (3 - 2 * t);
 function ring(P, first_column, from_back, out) = let (
     last = len(P) - 1,
@@ -381,10 +381,10 @@ function winding(first, last, first_column, filled_front, filled_back, below, ab
     // its two end walls
     [for (k = [1 : m - 2]) let (a = first + filled_front * m) [a, a + k, a + k + 1]],
     [for (k = [1 : m - 2]) let (a = first + (last - filled_back) * m) [a, a + k + 1, a + k]],
-    // ribs: from a turn's upper lip to the lower lip of the turn over it
+    // ribs: from a turn's upper groove edge to the lower edge of the turn above
     [for (j = [0 : last - n - 1]) let (low = first + (j + n) * m + m - 1, high = first + j * m)
       each quad(low, low + m, high + m, high)],
-    // from the ring below to the lowest turn, and from the highest to the ring above; where the spiral ends, past its end
+    // from the ring below to the lowest turn, and from the highest to the ring above; at the spiral's end, past its end
     [for (j = [last - n + 1 : last - 1]) let (c = (first_column + j) % n, a = first + j * m)
       each quad(below + c, below + after(c), a + m, a)],
     let (j = last - n, c = (first_column + j) % n, r0 = below + after(c), r1 = first + (j + 1) * m,
@@ -397,7 +397,7 @@ function winding(first, last, first_column, filled_front, filled_back, below, ab
       [[l0, r0, r1], [l0, r1, r2], [l0, r2, l1], [l1, r2, r3]]);
 
 module body() {
-  points = concat(row_points(P1, 0, filled1, lips1), row_points(P2, filled2, 0, lips2), [for (r = rings) each r]);
+  points = concat(row_points(P1, 0, filled1, edge_bulges1), row_points(P2, filled2, 0, edge_bulges2), [for (r = rings) each r]);
   rim = first_ring + (count - 4) * columns;
   faces = concat(
     [[for (c = [columns - 1 : -1 : 0]) first_ring + c]],
@@ -406,7 +406,7 @@ module body() {
     between(rim + columns, rim + 2 * columns),
     winding(first2, last2, first_column2, filled2, 0, rim + 2 * columns, rim + 3 * columns),
     [[for (c = [0 : columns - 1]) rim + 3 * columns + c]]);
-  // OpenSCAD wants to see its faces turn clockwise
+  // OpenSCAD requires faces that turn clockwise
   polyhedron(points, [for (f = faces) [for (k = [len(f) - 1 : -1 : 0]) f[k]]], convexity = 20);
 }
 
@@ -417,9 +417,9 @@ function circle_like(r) = [for (k = [0 : 95]) r * [cos(3.75 * k), sin(3.75 * k)]
 channel = channel_width / 2;
 pocket = max(knot_pocket / 2, 1.05 * channel);
 
-// A circle in the plane across `ahead` under a gable with its ridge upright over the middle: a ball with a cone on it,
-// carried along.
-channel_slope = max(gable_slope, 57.5);
+// A circle in the plane across `ahead` below a peaked ceiling whose ridge is vertically over the centre: the section of the
+// volume that a ball with a cone on it sweeps.
+channel_slope = max(ridge_slope, 57.5);
 function tube(centre, ahead, r) = let (
     level = [ahead[1], -ahead[0], 0] / norm([ahead[0], ahead[1]]),
     up = cross(level, ahead),
@@ -443,7 +443,7 @@ module run_out(t) {
     [for (x = [-0.02, 0.06]) tube(start + x * along, along, min(tendon / 2, channel))],
     [for (k = [1 : 9]) let (a = 10 * k)
       tube(start + bend * (sin(a) * along + (1 - cos(a)) * towards), cos(a) * along + sin(a) * towards, channel)],
-    // into the lower pocket; before the upper one it ends in a point: straight across it would have a ceiling
+    // into the lower pocket; before the upper one it ends in a point, because a flat end would have a ceiling
     t[2] < 0 ? [tube(top + 0.8 * channel * towards, towards, channel)]
              : concat(norm(top - arc_end) > 0.05 * channel ? [end] : [], [[for (p = end) front + 0.05 * (p - front)]])));
   around = [for (k = [0 : facets - 1]) [cos(360 * (k + 0.23) / facets), sin(360 * (k + 0.23) / facets)]];
@@ -454,7 +454,7 @@ module run_out(t) {
 }
 
 // ---- the part ----
-// One difference: what is cut out is put together first, for that is small and quick.
+// One difference: the cut features are united first, because they are small and this is fast.
 scale(print_scale) difference() {
   union() {
     body();

@@ -1,4 +1,4 @@
-/// report.html: everything a person wants to know of a pulley before printing it, on one page that needs nothing else.
+/// report.html: all information about a pulley before printing, on one self-contained page.
 #include "fusee/export/report.h"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ std::string verdict_words(const Product& product) {
            with_unit(product.as_built.max_slack, "mm") + limit_words(find_check(product, "slack")) +
            (paper ? " (reported, not judged)" : "") + ". All " + count + " checks hold.";
   }
-  return "Not to be made as it is: " + std::to_string(failed.size()) + " of " + count + " checks failed. " +
+  return "Do not build it unchanged: " + std::to_string(failed.size()) + " of " + count + " checks failed. " +
          joined(failed, "; ") + ".";
 }
 
@@ -127,7 +127,7 @@ std::string_view law_words(Law law) {
     case Law::table:
       return "θ(α) from a table";
     case Law::torque:
-      return "wanted torque of the motor";
+      return "target torque of the motor";
   }
   return "";
 }
@@ -197,7 +197,7 @@ std::string key_numbers(const Product& product) {
     numbers.add("Sheaths", with_unit(sheath.length, "mm", 6),
                 "bends " + readable_rounded(degrees(sheath.bend), 4) + "°, μ " + readable_rounded(sheath.mu, 3) + ", " +
                     (sheath.stiffness > 0 ? with_unit(sheath.stiffness, "N/mm") : "rigid") + "; drawn shorter");
-    numbers.add("Mouths", "± " + with_unit(sheath.exit_across, "mm", 6),
+    numbers.add("Sheath exits", "± " + with_unit(sheath.exit_across, "mm", 6),
                 with_unit(sheath.exit_above, "mm", 6) + " above G");
   }
   if (guides.kind == GuideKind::idler) {
@@ -227,12 +227,12 @@ std::string key_numbers(const Product& product) {
 
 std::string vector_words(const Vec3& v) { return shortest(v.x()) + " " + shortest(v.y()) + " " + shortest(v.z()); }
 
-/// Middle and half height of what a groove takes along the axis.
+/// Middle and half height of a groove along the axis.
 struct GrooveBand {
   double middle = 0, half = 0;
 };
 
-/// Of one that climbs, from its first turn to its last one, with the ribs between them.
+/// For a helical groove, from its first turn to its last one, including the ribs between them.
 GrooveBand groove_band(const Product& product, Side which) {
   const bool left = which == Side::left;
   const BodyLayout& layout = product.pulley.layout;
@@ -245,7 +245,7 @@ GrooveBand groove_band(const Product& product, Side which) {
   return {0.5 * (first + last), 0.5 * std::abs(last - first) + half};
 }
 
-/// With the least radius at which it is tinted.
+/// Text for tinting a groove, with the least radius of the tint.
 std::string groove_words(const Product& product, Side which) {
   const BodyLayout& layout = product.pulley.layout;
   const GrooveBand band = groove_band(product, which);
@@ -261,7 +261,7 @@ std::string part_view(const Product& product) {
       std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(product, Side::left) +
       "\" data-groove2=\"" + groove_words(product, Side::right) + "\"></canvas>";
   html +=
-      "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Slanted</button><button "
+      "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Isometric</button><button "
       "data-view=\"top\">Top</button>"
       "<button data-view=\"side\">Side</button><button data-view=\"below\">Below</button>"
       "<button data-view=\"half\" aria-pressed=\"false\">Cut open</button></div>"
@@ -282,7 +282,7 @@ Pose pose_near(const SynthesisResult& synthesis, double theta) {
   return {nearest->alpha, nearest->theta};
 }
 
-/// Both ends, home and one more between; evenly spread where home is an end.
+/// Both ends, home and one more between; evenly spaced if home is an end.
 std::vector<Pose> poses(const Product& product) {
   const SynthesisResult& synthesis = product.synthesis;
   if (synthesis.stroke.empty()) return {};
@@ -295,7 +295,7 @@ std::vector<Pose> poses(const Product& product) {
   return result;
 }
 
-/// Where the tendons end, and what they run over on their way to the pulley.
+/// Text for the tendons' ends and their path to the pulley.
 std::string way_words(const Mechanism& mechanism) {
   if (mechanism.is_papers()) return "from C over the pin to the pulley";
   std::string words = mechanism.joint.is_plain() ? "from C" : "from their ends on the link";
@@ -338,8 +338,8 @@ std::string mechanism_panels(const Product& product) {
 
 std::string moving_section(const Product& product) {
   if (product.helix)
-    return "<section id=\"moving\"><h2>The tendons climb</h2>" + std::string(k_climbing_words) + moving_helix(product) +
-           "</section>";
+    return "<section id=\"moving\"><h2>The tendons in motion</h2>" + std::string(k_climbing_words) +
+           moving_helix(product) + "</section>";
   const std::string joint = moving_joint(product.joint.mechanism, product.synthesis, product.holding.loaded);
   if (joint.empty()) return "";
   return "<section id=\"moving\"><h2>The joint moves</h2>" + std::string(k_moving_words) + joint + "</section>";
@@ -348,9 +348,10 @@ std::string moving_section(const Product& product) {
 std::string torques_section(const Product& product) {
   const std::vector<Plot> plots = torque_plots(product);
   if (plots.empty()) return "";
-  return "<section id=\"torques\"><h2>Torques</h2><p class=\"lead\">What the motor is wanted to turn with, and what it "
-         "takes: without friction, from the angles of the pulley as it was wound; and with stretch and friction, α "
-         "growing and falling.</p><div class=\"plots\">" +
+  return "<section id=\"torques\"><h2>Torques</h2><p class=\"lead\">The target torque of the motor, and the torque "
+         "that it "
+         "requires: without friction, from the angles of the pulley as wound; and with stretch and friction, for α "
+         "increasing and decreasing.</p><div class=\"plots\">" +
          all_in_divs(plots) + "</div></section>";
 }
 
@@ -401,7 +402,7 @@ std::string knot_row(const KnotHold& knot, const Holding& holding) {
 
 std::string strength_words(const Product& product) {
   const std::optional<Strength>& strength = product.holding.strength;
-  if (!strength) return "What the tendon bears is not known: set tendon.strength_N.";
+  if (!strength) return "The tendon’s strength is not known: set tendon.strength_N.";
   const bool declared = strength->source == "tendon.strength_N";
   return "It bears " + with_unit(strength->tension, "N") + " without a knot (" +
          (declared ? "" : "an estimate: the catalogue’s ") + safe_text(strength->source) + ") and " +
@@ -413,9 +414,9 @@ std::string knot_table(const Product& product) {
   std::string rows;
   for (const KnotHold& knot : product.holding.knots) rows += knot_row(knot, product.holding);
   if (rows.empty()) return "";
-  return "<h3>Knots on the pulley</h3><div class=\"scroll\"><table><thead><tr><th></th><th class=\"number\">Most at "
-         "α</th><th class=\"number\">Tendon carries</th><th class=\"number\">Wrap left</th><th "
-         "class=\"number\">Knot bears</th><th class=\"number\">Of its strength</th></tr></thead><tbody>" +
+  return "<h3>Knots on the pulley</h3><div class=\"scroll\"><table><thead><tr><th></th><th class=\"number\">Largest at "
+         "α</th><th class=\"number\">Tendon carries</th><th class=\"number\">Wrap</th><th "
+         "class=\"number\">Knot carries</th><th class=\"number\">Of its strength</th></tr></thead><tbody>" +
          rows +
          "</tbody></table></div><p class=\"hint\">The wrap φ between take-off and tie-off leaves T·e<sup>−μφ</sup> to "
          "the knot, μ = " +
@@ -424,7 +425,7 @@ std::string knot_table(const Product& product) {
          strength_words(product) + "</p>";
 }
 
-/// How the pulley gets onto what turns it.
+/// Instructions for mounting the pulley on its shaft or horn.
 std::string mounting(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const std::string home = " with P1 below and the home mark pointing to +y: the way that C lies from O at home.";
@@ -440,16 +441,16 @@ std::string mounting(const Product& product) {
          std::to_string(horn.bolt_count) + " holes on " + readable_rounded(horn.bolt_circle) + " mm)" + home;
 }
 
-/// Why a round bore has corners, where it is round.
+/// Explains why a round bore has corners; "" if it has none.
 std::string polyhole_words(const BoreLayout& bore) {
   if (!bore.circle) return "";
   return " The bore is a polygon of " + std::to_string(bore.outline.size()) +
-         " sides on purpose: a printer’s corners cut inside of a curve, and a circle would come out too small. Its "
+         " sides on purpose: printed corners cut inside a curve, so a circle would come out too small. Its "
          "sides touch the circle of " +
          with_unit(bore.circle->diameter, "mm") + ": try the shaft in it.";
 }
 
-/// How a tendon is led from its pulley to its end.
+/// Instructions for routing a tendon from its pulley to its end.
 std::string lead_words(const Mechanism& mechanism) {
   const std::string pin = mechanism.guides.kind == GuideKind::idler ? "idler " : "pin ";
   const std::string over = mechanism.sheath.is_there() ? "through its sheath, over the " : "up over the ";
@@ -462,7 +463,7 @@ std::string lead_words(const Mechanism& mechanism) {
 std::vector<std::string> steps(const Product& product) {
   const BodyLayout& layout = product.pulley.layout;
   std::vector<std::string> items{
-      "Print it standing on its lower flange, as it lies in the files: the groove walls need no support. Use enough "
+      "Print it on its lower flange, in the orientation of the files: the groove walls require no support. Use enough "
       "walls that grooves and anchors are solid."};
   if (layout.scale != 1) {
     items.push_back("The files are already " + readable((layout.scale - 1) * 100, 2) +
@@ -483,7 +484,7 @@ std::vector<std::string> steps(const Product& product) {
   return items;
 }
 
-/// The joint was identified to be another than declared: what of the file is not what was made.
+/// A table of the design values that differ from the declared ones, for an identified joint.
 std::string derived_table(const Product& product) {
   const DerivedNumbers derived = derived_numbers(product.file.mechanism, product.joint);
   std::string rows;
@@ -493,11 +494,11 @@ std::string derived_table(const Product& product) {
             safe_text(field_words(*field, derived.made)) + "</td></tr>";
   }
   if (rows.empty()) return "";
-  return "<h3>Declared and made</h3><div class=\"scroll\"><table><thead><tr><th>Key</th><th "
-         "class=\"number\">Declared</th><th class=\"number\">As made</th></tr></thead><tbody>" +
+  return "<h3>Declared and built</h3><div class=\"scroll\"><table><thead><tr><th>Key</th><th "
+         "class=\"number\">Declared</th><th class=\"number\">Built</th></tr></thead><tbody>" +
          rows +
-         "</tbody></table></div><p class=\"hint\">What the file’s [identified] says of the joint is put in: with these "
-         "numbers the joint as it is follows the declared law.</p>";
+         "</tbody></table></div><p class=\"hint\">These numbers include the file’s [identified] table: with them the "
+         "identified joint follows the declared law.</p>";
 }
 
 std::string files_table(const Product& product) {
@@ -512,12 +513,12 @@ std::string files_table(const Product& product) {
                               {"profile.csv, transmission.csv", "the curves and the stroke as tables"},
                               {"profile_p1.csv, profile_p2.csv", "points of each pitch curve, for a spline in CAD"},
                               {"manifest.json", "the checks and the files’ hashes, for programs"}};
-  std::string html = "<h3>Files beside this one</h3><div class=\"scroll\"><table><tbody>";
+  std::string html = "<h3>Other files</h3><div class=\"scroll\"><table><tbody>";
   const bool has_step = std::any_of(product.checks.begin(), product.checks.end(),
                                     [](const Check& check) { return check.name.rfind("step_", 0) == 0; });
   if (has_step) html += "<tr><td><code>pulley.step</code></td><td>the part for CAD</td></tr>";
   for (const File& file : k_files) {
-    // Plates have no grooves that climb.
+    // A multi-turn pulley has no plates.
     if (product.helix && file.name == "plates.dxf") continue;
     html += "<tr><td><code>" + std::string(file.name) + "</code></td><td>" + std::string(file.words) + "</td></tr>";
   }
@@ -533,7 +534,7 @@ std::string making(const Product& product) {
 }
 
 std::string source_words(const MechanismFile& file) {
-  // Without its folder: the same input gives the same page, wherever it lies.
+  // Without its folder: the same input gives the same page in any place.
   const std::string file_name = std::filesystem::path(file.path).filename().string();
   std::string words = file_name.empty() ? "" : "from <code>" + safe_text(file_name) + "</code>";
   if (!file.sha256.empty()) words += " (SHA-256 " + safe_text(file.sha256.substr(0, 12)) + "…)";
@@ -542,8 +543,7 @@ std::string source_words(const MechanismFile& file) {
 
 std::string conditions(const Product& product) {
   std::string html = "<h3>Over the stroke</h3>" + conditions_table(product.synthesis.conditions, true);
-  if (!product.pulley.conditions.empty())
-    html += "<h3>Of the body</h3>" + conditions_table(product.pulley.conditions, false);
+  if (!product.pulley.conditions.empty()) html += "<h3>Body</h3>" + conditions_table(product.pulley.conditions, false);
   return html;
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// The text files beside this one, compiled in by embed.cmake.
+/// Internal: the text files of this folder, compiled in by embed.cmake.
 #pragma once
 
 #include <string_view>
@@ -8,13 +8,13 @@ namespace fusee::embedded {
 
 extern const std::string_view page_html;  ///< the page, with {{parts}} to be filled in
 extern const std::string_view page_css;
-extern const std::string_view calibration_css;  ///< beside page_css
-extern const std::string_view plan_css;         ///< the same, of a measuring plan
-extern const std::string_view figure_css;       ///< of every Figure
+extern const std::string_view calibration_css;  ///< in addition to page_css
+extern const std::string_view plan_css;         ///< in addition to page_css, for a measuring plan
+extern const std::string_view figure_css;       ///< for every Figure
 extern const std::string_view viewer_js;        ///< the part in 3-D
 extern const std::string_view readout_js;       ///< values under the pointer in plots
-extern const std::string_view moving_helix_js;  ///< the same of several turns
+extern const std::string_view moving_helix_js;  ///< the side view of several turns
 extern const std::string_view moving_joint_js;  ///< the joint under the slider
-extern const std::string_view pulley_scad;      ///< the program under its parameters and arrays
+extern const std::string_view pulley_scad;      ///< the program, which follows its parameters and arrays
 
 }  // namespace fusee::embedded

@@ -61,7 +61,7 @@ Plot deviation_plot(const std::vector<Vec2>& theta, const BestLine& line) {
   return plot;
 }
 
-/// Over the unrolled direction of the normal: what the range winds.
+/// Curvature over the unrolled direction of the normal, for the working arc.
 PlotSeries curvature_of_turns(const HelixSide& helix, Side side) {
   PlotSeries series{std::string(pulley_name(side)), side == Side::left ? Ink::p1 : Ink::p2, {}};
   for (std::size_t i = helix.spiral.first_used; i <= helix.spiral.last_used; ++i)
@@ -69,7 +69,7 @@ PlotSeries curvature_of_turns(const HelixSide& helix, Side side) {
   return series;
 }
 
-/// Points of the arc (active or closing), a gap where the other one is.
+/// Points of one arc (active or closing), with a gap for the other one.
 PlotSeries curvature_series(const Outline& outline, bool active) {
   const bool left = outline.side == Side::left;
   PlotSeries series{
@@ -82,8 +82,8 @@ PlotSeries curvature_series(const Outline& outline, bool active) {
   return series;
 }
 
-/// The closing arc may be nearly straight, and a bridged hollow of the polar drawing is: what most of the tendon lies
-/// on counts.
+/// Upper end of the axis. The closing arc, and a bridged hollow of the polar drawing, may be nearly straight, so the
+/// axis shows the radii of most of the active arc.
 std::optional<double> highest_shown(std::vector<double> radii) {
   if (radii.empty()) return std::nullopt;
   std::sort(radii.begin(), radii.end());
@@ -120,7 +120,7 @@ Plot curvature_plot(const Product& product) {
   plot.y.high = highest_shown(active_radii);
   const Tendon& tendon = product.joint.mechanism.tendon;
   if (tendon.bend_ratio > 0)
-    plot.limits = {{0.5 * tendon.diameter * (tendon.bend_ratio + 1), "smallest bend advised for this tendon"}};
+    plot.limits = {{0.5 * tendon.diameter * (tendon.bend_ratio + 1), "smallest advised bend radius for this tendon"}};
   return plot;
 }
 
@@ -129,7 +129,7 @@ std::vector<PlotLimit> both_limits(const Check* check) {
   return {{check->limit, "limit"}, {-check->limit, "limit"}};
 }
 
-/// A single curve over α of what the wound tendons gave, between its limits, its worst point named.
+/// A curve over α of the wound tendons' result, between its limits, with its worst point labelled.
 Plot as_built_plot(const Product& product, const std::string& title, const PlotAxis& y, const Check* check,
                    const std::function<double(const RewindPoint&)>& value) {
   Plot plot{title, k_alpha_axis, y, {{title, Ink::main, {}}}, both_limits(check), {}};
@@ -180,8 +180,8 @@ std::vector<Vec2> wanted_torque(const Mechanism& mechanism) {
   return points;
 }
 
-/// What holds the load on the pulley as it was wound: load · dθ/dα, by differences of the wound angles over some
-/// degrees. The corners of facets, some 0.001° high, would be all that shows over less.
+/// The torque that balances the load on the pulley as wound: load · dθ/dα, by differences of the wound angles over some
+/// degrees. Over less, the corners of facets, some 0.001° high, would dominate.
 std::vector<Vec2> torque_as_wound(const Product& product) {
   const std::vector<RewindPoint>& wound = product.as_built.points;
   constexpr double k_over = radians(4);
@@ -229,7 +229,7 @@ Plot load_plot(const Product& product) {
   };
   const auto spring = [&](double theta) { return mechanism.spring.torque(theta); };
   const auto all = [&](double theta) { return law_load_torque(mechanism, theta).value; };
-  Plot plot{"What it holds, at the joint", k_theta_axis, {"torque against +θ", "N·mm", {}, {}, 1}, {}, {}, {}};
+  Plot plot{"Load at the joint", k_theta_axis, {"torque against +θ", "N·mm", {}, {}, 1}, {}, {}, {}};
   const bool sprung = mechanism.spring != Spring{};
   plot.series = {{sprung ? "weight, force and spring" : "weight and force", Ink::main, over_theta(all)}};
   if (!sprung) return plot;

@@ -1,7 +1,7 @@
 /// \file
-/// pulley.scad: the part as an OpenSCAD program that a person can read and change. Written here are the parameters at
-/// its top and its arrays: the groove floors, and where tendons are tied off. The program itself is the file
-/// pulley.scad beside this one: it computes all else by the same formulas as src/solid, which it must agree with.
+/// pulley.scad: the part as an OpenSCAD program that a person can read and change. This file writes its parameters and
+/// arrays: the groove floors and the tie-offs. The program itself is the file pulley.scad in this folder. It uses the
+/// formulas of src/solid and must agree with them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,7 +16,7 @@
 #include "fusee/export/report.h"
 #include "solid/body.h"
 #include "solid/bore.h"
-#include "solid/mouths.h"
+#include "solid/channel_entries.h"
 
 namespace fusee {
 
@@ -24,17 +24,17 @@ using namespace scad;
 
 namespace {
 
-// OpenSCAD's exact arithmetic takes about a millisecond a point: fewer points than the mesh has, and no edge further
-// from the curve than this.
+// OpenSCAD's exact arithmetic takes about a millisecond per point. There are fewer points than in the mesh, with edges
+// within this distance of the curve.
 constexpr double k_sagitta = 0.015;
 constexpr double k_widest_turn = radians(4);
 
-/// Points that stay: the furthest from the axis and all extremes in x and y, for neither a round flange nor the box
-/// must shrink, and between them as many as both curves need.
+/// Indices of points to keep: the furthest from the axis and all extremes in x and y, so that neither a round flange
+/// nor the bounding box shrinks, and between them as many as both curves require.
 std::vector<std::size_t> kept_points(const Outline& p1, const Outline& p2, const FlangeRims& rims) {
   const std::size_t n = p1.points.size();
   std::set<std::size_t> fixed_points{0};
-  for (const Polygon& curve : {rims.lip1, rims.lip2, rims.middle}) {
+  for (const Polygon& curve : {rims.groove_edge1, rims.groove_edge2, rims.middle}) {
     const auto keep_furthest = [&](const auto& reach) {
       const auto furthest = std::max_element(curve.begin(), curve.end(),
                                              [&](const Vec2& a, const Vec2& b) { return reach(a) < reach(b); });
@@ -71,23 +71,23 @@ std::string floor_array(const char* name, const Outline& outline, double d, cons
   return text + "];\n";
 }
 
-/// How far the flanges stand outside the lips: body.h chooses it.
+/// Margins of the flanges outside the groove edges, which body.h chooses.
 struct RimMargins {
   double lower = 0, middle = 0, upper = 0;
 };
 
-RimMargins rim_margins(const FlangeRims& rims, const Outline& p1, const Outline& p2, double lip, Flange kind) {
-  const double r1 = circumradius(rims.lip1), r2 = circumradius(rims.lip2);
+RimMargins rim_margins(const FlangeRims& rims, const Outline& p1, const Outline& p2, double groove_edge, Flange kind) {
+  const double r1 = circumradius(rims.groove_edge1), r2 = circumradius(rims.groove_edge2);
   if (kind == Flange::round)
     return {circumradius(rims.lower) - r1, circumradius(rims.middle) - std::max(r1, r2), circumradius(rims.upper) - r2};
   const Vec2& n = p1.points[0].normal;
   const double h1 = p1.points[0].position.dot(n), h2 = p2.points[0].position.dot(n);
   const double blend = 0.5;
-  const double around = std::max(h1, h2) + blend * std::log1p(std::exp(-std::abs(h1 - h2) / blend)) + lip;
+  const double around = std::max(h1, h2) + blend * std::log1p(std::exp(-std::abs(h1 - h2) / blend)) + groove_edge;
   return {0, rims.middle[0].dot(n) - around, 0};
 }
 
-/// What of the shaft and the screw this part has none of is no parameter, but a number that the program reads.
+/// Features of shaft and screw that the part lacks become fixed numbers instead of parameters.
 std::string parameters(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const Body& body = mechanism.body;
@@ -96,10 +96,10 @@ std::string parameters(const Product& product) {
       R"(// {} - a compound pulley for two tendons, in mm.
 // Made by fusee. Bottom to top: flange, groove P1, middle flange, groove P2, flange, hub. The axis is z, the joint lies towards +y.
 // Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the joint follow its law and stay as they are.
-// The engraved letters and marks of the printed part are left out.
+// The engraved letters and marks of the printed part are omitted.
 
 /* [View] */
-// the part as it is in use, or what goes to the printer, each as it lies there
+// the part as it is in use, or the parts to print, in print orientation
 show = "assembled"; // [assembled, print{}]
 
 /* [Bore] */
@@ -107,9 +107,10 @@ show = "assembled"; // [assembled, print{}]
       cleaned_line(mechanism.name), layout.parts == Parts::two ? ", P1, P2" : "");
   text += bore_and_hub(product);
   text += "\n/* [Groove] */\n";
-  text += slider_text({"groove_depth", "lip above the groove's floor", layout.groove_depth, 0.5, 0.1, 20});
+  text += slider_text(
+      {"groove_depth", "height of the groove edge above the groove's floor", layout.groove_depth, 0.5, 0.1, 20});
   text += slider_text({"groove_angle", "between the walls, degrees", degrees(body.groove_angle), 0, 1, 120});
-  text += fmt::format("// cross-section of the groove's ground\ngroove_shape = \"{}\"; // [u, v, flat]\n",
+  text += fmt::format("// cross-section of the groove's floor\ngroove_shape = \"{}\"; // [u, v, flat]\n",
                       name_of(body.groove));
   text += "\n/* [Flanges] */\n";
   text += slider_text({"flange_thickness", "of each of the three", layout.flange_thickness, 0.4, 0.1, 10});
@@ -120,21 +121,21 @@ std::string flange_numbers(const Product& product, const FlangeRims& rims) {
   const Mechanism& mechanism = product.joint.mechanism;
   const Flange kind = mechanism.body.flange;
   const BodyLayout& layout = product.pulley.layout;
-  const double lip = layout.groove_depth - 0.5 * mechanism.tendon.diameter;
-  const RimMargins margins = rim_margins(rims, product.synthesis.p1, product.synthesis.p2, lip, kind);
-  // Of 45°, as high as it is wide.
+  const double groove_edge = layout.groove_depth - 0.5 * mechanism.tendon.diameter;
+  const RimMargins margins = rim_margins(rims, product.synthesis.p1, product.synthesis.p2, groove_edge, kind);
+  // A ledge at 45°, as high as it is wide.
   const auto ledge = [](const Polygon& inner, const Polygon& outer) { return cone_height(inner, outer, radians(45)); };
-  const double roof = std::max(layout.p2.below_width(), layout.p2.above_width());
+  const double ceiling = std::max(layout.p2.below_width(), layout.p2.above_width());
   return fmt::format("flange_shape = \"{}\";  // follow: along the groove; round\n",
                      kind == Flange::follow ? "follow" : "round") +
-         hidden("lower_margin", margins.lower, "how far the flanges stand outside of the groove's lip") +
+         hidden("lower_margin", margins.lower, "how far the flanges project outside the groove edge") +
          hidden("middle_margin", margins.middle, "the middle one outside of both") +
-         hidden("upper_margin", margins.upper, "the same of the upper one") +
-         hidden("lower_ledge", ledge(rims.lip1, rims.lower), "how far they stand out over it where that is most") +
-         hidden("middle_ledge", ledge(rims.lip1, rims.middle), "the middle one over P1's") +
-         hidden("upper_ledge", ledge(rims.lip2, rims.upper), "the upper one over P2's") +
-         hidden("mouth_rise", mouth_rise(layout) + roof - 0.5 * layout.channel_width,
-                "of a channel's ceiling, up to where it cuts the groove's lip") +
+         hidden("upper_margin", margins.upper, "the upper one") +
+         hidden("lower_ledge", ledge(rims.groove_edge1, rims.lower), "their largest projection over it") +
+         hidden("middle_ledge", ledge(rims.groove_edge1, rims.middle), "the middle one over P1's") +
+         hidden("upper_ledge", ledge(rims.groove_edge2, rims.upper), "the upper one over P2's") +
+         hidden("entry_rise", entry_rise(layout) + ceiling - 0.5 * layout.channel_width,
+                "of a channel's ceiling, up to the groove edge") +
          hidden("min_wall", layout.min_wall, "no wall is thinner");
 }
 
@@ -151,7 +152,7 @@ std::string hidden_numbers(const Product& product, const FlangeRims& rims) {
   const BodyLayout& layout = product.pulley.layout;
   const double compensation = mechanism.material.hole_compensation;
   return "/* [Hidden] */\n" +
-         hidden("parts", layout.parts == Parts::two ? 2 : 1, "as it is printed: 2: P1 and P2 apart") +
+         hidden("parts", layout.parts == Parts::two ? 2 : 1, "number of printed parts: 2: P1 and P2 separately") +
          hidden("tendon", mechanism.tendon.diameter, "its diameter") +
          hidden("seat_ratio", mechanism.body.seat_ratio, "seat radius of a u groove per tendon diameter") +
          flange_numbers(product, rims) + bore_numbers(layout.bore, compensation) + screw_numbers(layout, compensation) +
@@ -159,14 +160,14 @@ std::string hidden_numbers(const Product& product, const FlangeRims& rims) {
          fmt::format("print_scale = {};  // a print shrinks by as much\n\n", fixed(layout.scale, 9));
 }
 
-/// `name = [row, row …];`, a row a line.
+/// `name = [row, row …];`, one row on each line.
 std::string array_text(const char* name, const char* words, const std::vector<std::string>& rows) {
   return fmt::format("\n// {}\n{} = [{}{}];\n", words, name, rows.empty() ? "" : "\n  ", fmt::join(rows, ",\n  "));
 }
 
 int groove_of(const Anchor& anchor) { return anchor.side == Side::left ? 1 : 2; }
 
-/// From where the channel begins to run straight into its pocket, to the end of its inner edge.
+/// From the start of the channel's straight to the end of its inner edge.
 Vec2 straight_run(const Polygon& inner, const Vec2& pocket) {
   const Vec2 outward = (pocket - inner.back()).normalized();
   const auto first = std::find_if(inner.begin(), inner.end(), [&](const Vec2& point) {
@@ -175,11 +176,11 @@ Vec2 straight_run(const Polygon& inner, const Vec2& pocket) {
   return inner.back() - *first;
 }
 
-/// The mouth runs along the outer edge and back along the inner one.
+/// The entry's outline runs along the outer edge and back along the inner one.
 std::string channel_text(const Anchor& anchor) {
-  const auto half = static_cast<std::ptrdiff_t>(anchor.mouth.size() / 2);
-  const Polygon outer(anchor.mouth.begin(), anchor.mouth.begin() + half);
-  const Polygon inner(anchor.mouth.rbegin(), anchor.mouth.rbegin() + half);
+  const auto half = static_cast<std::ptrdiff_t>(anchor.entry.size() / 2);
+  const Polygon outer(anchor.entry.begin(), anchor.entry.begin() + half);
+  const Polygon inner(anchor.entry.rbegin(), anchor.entry.rbegin() + half);
   return fmt::format("[{}, {},\n   {},\n   {},\n   {}]", groove_of(anchor), point_text(anchor.pocket),
                      points_text(outer), points_text(inner), point_text(straight_run(inner, anchor.pocket)));
 }
@@ -197,7 +198,7 @@ std::string face_hole_text(const Anchor& anchor, const Outline& outline) {
 std::string tail_slot_text(const Anchor& anchor) {
   const TailSlot& slot = *anchor.tail;
   return fmt::format("[{}, {}, {}, {}, {}]", groove_of(anchor), point_text(slot.from), point_text(slot.to),
-                     decimal(slot.depth), decimal(slot.roof));
+                     decimal(slot.depth), decimal(slot.ceiling));
 }
 
 std::string clamp_pilot_text(const Anchor& anchor, double compensation) {
@@ -220,7 +221,7 @@ std::string tie_off_arrays(const Product& product) {
     if (anchor.tail->pilot_diameter > 0)
       pilots.push_back(clamp_pilot_text(anchor, product.joint.mechanism.material.hole_compensation));
   }
-  return "\n// Where tendons are tied off, each with its groove (1 or 2) first." +
+  return "\n// Tie-offs of the tendons, each with its groove (1 or 2) first." +
          array_text(
              "channels",
              "middle of the knot pocket, outer edge, inner edge, both from the groove inwards, and their straight end",
@@ -228,8 +229,8 @@ std::string tie_off_arrays(const Product& product) {
          array_text("face_holes",
                     "slots to the face: the round end's middle, the way out, countersink's radius and depth, length",
                     holes) +
-         array_text("tail_slots", "slot for the tendon's tail in the face: from, to, depth, its gable's height",
-                    slots) +
+         array_text("tail_slots",
+                    "slot for the tendon's tail in the face: from, to, depth, height of its peaked ceiling", slots) +
          array_text("clamp_pilots", "hole of the tail's screw: place, diameter, depth below the face", pilots) + "\n";
 }
 

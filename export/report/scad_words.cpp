@@ -44,7 +44,7 @@ std::string tick_box(const char* name, const char* words, bool value) {
   return fmt::format("// {}\n{} = {};\n", words, name, value);
 }
 
-/// What else a D or a keyway is made of.
+/// The further parameters of a D bore or a keyway.
 std::string flat_sliders(const BoreLayout& bore, double compensation) {
   const double radius = 0.5 * shaft_diameter(bore, compensation);
   const double top = bore.outline.back().y() - 0.5 * compensation;
@@ -77,8 +77,8 @@ std::string points_text(const Polygon& points) {
 
 const char* name_of(Groove groove) { return groove == Groove::u ? "u" : groove == Groove::v ? "v" : "flat"; }
 
-// A slider moves its number onto its steps: they are made so fine that the part's own number is one of them.
-// 0.001 mm is finer than anything that makes the part.
+// A slider snaps its number to its steps, so the steps are fine enough to contain the part's own number. 0.001 mm is
+// finer than any manufacture.
 std::string slider_text(const Slider& slider) {
   const double value = std::round(slider.value * 1000) / 1000;
   const auto between = [&](double step) { return std::abs(std::remainder(value - slider.low, step)) > 1e-9; };
@@ -129,9 +129,8 @@ std::string tie_offs_and_printing(const Product& product) {
   text += slider_text({"knot_pocket", "diameter, 0: none", 2 * layout.pocket_radius, 0, 0.1, 20});
   text += "// corners of round things\nfacets = 24; // [12:4:96]\n";
   text += "\n/* [Printing] */\n";
-  text += tick_box("supports", "the printer makes supports, and nothing is made steep to need none",
-                   mechanism.print.supports);
-  text += slider_text({"overhang_deg", "the flattest slope above the horizontal that a face looking down may have",
+  text += tick_box("supports", "the printer makes supports, so downward faces may be flat", mechanism.print.supports);
+  text += slider_text({"overhang_deg", "least slope of a downward face above the horizontal",
                        degrees(mechanism.print.overhang), 20, 1, 75});
   text += slider_text({"elephant_foot", "chamfer at the print bed", layout.elephant_foot, 0, 0.05, 2}) + "\n";
   return text;
@@ -173,7 +172,7 @@ std::string bore_numbers(const BoreLayout& bore, double compensation) {
   return text + fmt::format("horn_holes = [{}];  // of its screws: x, y, diameter\n", fmt::join(holes, ", "));
 }
 
-// Lines that begin with a mark say whose the following ones are: those of "both" come first.
+// Lines that begin with a mark say which turns the following lines are for. Those of "both" come first.
 std::string program_for(std::string_view turns) {
   constexpr std::string_view k_mark = "//= ";
   std::string program;

@@ -1,5 +1,5 @@
 /// \file
-/// Parts of pulley.scad that pulleys of one turn and of several have in common.
+/// Internal: parts of pulley.scad common to one-turn and multi-turn pulleys.
 #pragma once
 
 #include <string>
@@ -18,12 +18,12 @@ const char* name_of(Groove groove);
 /// A number of the Customizer with its slider, in mm or degrees.
 struct Slider {
   const char* name;
-  const char* words;  ///< what the Customizer says above it
+  const char* words;  ///< comment above it in the Customizer
   double value, low, step, high;
 };
 std::string slider_text(const Slider& slider);
 
-/// A number that the program reads and no slider moves.
+/// A number of the program without a slider.
 std::string hidden(const char* name, double value, const char* words);
 
 /// Sections of the Customizer.
@@ -33,7 +33,7 @@ std::string tie_offs_and_printing(const Product& product);
 std::string bore_numbers(const BoreLayout& bore, double compensation);
 std::string screw_numbers(const BodyLayout& layout, double compensation);
 
-/// What of the file pulley.scad, which is beside this one, pulleys of these turns take: "one turn" or "several turns".
+/// The part of the file pulley.scad in this folder for these turns: "one turn" or "several turns".
 std::string program_for(std::string_view turns);
 
 }  // namespace fusee::scad

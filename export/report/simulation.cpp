@@ -59,7 +59,7 @@ std::vector<SimulationColumn> simulation_columns(const Simulation& simulation) {
     add("loose_deg", [](const Sample&, const JointState& state) { return degrees(state.loose); });
   }
   add("joint_deg", [](const Sample&, const JointState& state) { return degrees(state.theta); });
-  // As they were logged: the next reader has to know.
+  // In the logged form, which the next reader requires.
   const auto add_mounting = [&](std::string_view role, double turned) {
     if (turned != 0)
       add(std::string(role) + "_deg", [turned](const Sample&, const JointState&) { return degrees(turned); });

@@ -114,7 +114,7 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& points, double tolerance) {
     for (std::size_t i = first + 1; i < last; ++i) {
       const Vec2 offset = points[i] - points[first];
       const double distance = length > 0 ? std::abs(cross(chord, offset)) / length : offset.norm();
-      // Written so that NaN is kept: what is broken shall be seen.
+      // Written so that NaN is kept and invalid points remain visible.
       if (!(distance <= worst)) {
         worst = distance;
         split = i;

@@ -23,19 +23,19 @@ constexpr PlainName k_plain_names[] = {
     {"law_grows_P#", "θ grows with α, as P# sees it"},
     {"radius_P#", "P#’s groove floor stays clear of the axis"},
     {"line_reaches_pin_@", "Pin @ lies beyond the tendon’s reach on P#"},
-    {"line_reaches_mouth_#", "Sheath #’s mouth lies beyond the tendon’s reach on P#"},
+    {"line_reaches_mouth_#", "Sheath #’s exit lies beyond the tendon’s reach on P#"},
     {"tendon_on_pin_@", "Tendon # stays on pin @ (wrap angle)"},
     {"take_off_advances_P#", "The take-off point never turns back on P#"},
     {"convex_floor_P#", "P#’s groove floor is convex (its smallest radius)"},
     {"free_span_#", "Tendon # has a free span between P# and its pin"},
-    {"one_turn_P#", "P# fits into one turn (room for anchors and closing arc)"},
+    {"one_turn_P#", "P# fits into one turn (space for anchors and closing arc)"},
     {"turns_P#", "Turns that the range winds on P#"},
     {"on_drum_all_the_way", "No tendon leaves the joint’s drum within the range"},
     {"sloped_paths_close", "The tendons keep their length along their sloped paths"},
     {"spare_turns_P#", "P#’s spare turns are convex (smallest radius of the floor)"},
-    {"neighbouring_turns_P#", "Lead of P#: room for groove, rib and step from turn to turn"},
-    {"fleet_angle_#", "Tendon #’s fleet angle, below that at which it lies on the lip"},
-    {"closing_arc_P#", "P#’s closing arc has room to turn"},
+    {"neighbouring_turns_P#", "Lead of P#: space for groove, rib and step from turn to turn"},
+    {"fleet_angle_#", "Tendon #’s fleet angle, below that at which it touches the groove edge"},
+    {"closing_arc_P#", "P#’s closing arc has space to turn"},
     // solid: conditions of the body
     {"groove_depth", "Depth of the grooves"},
     {"flange_thickness", "Thickness of the flanges"},
@@ -43,20 +43,20 @@ constexpr PlainName k_plain_names[] = {
     {"bore_wall_P#", "Wall between the bore and P#’s groove floor"},
     {"hub_wall", "Wall between the bore and the hub’s side"},
     {"hub_on_flange", "Radius of the hub, on the upper flange"},
-    {"anchor_P#", "Room for the anchors of P#"},
+    {"anchor_P#", "Space for the anchors of P#"},
     {"channel_width", "Width of the tie-off channels"},
     {"channel_height", "Material above the tie-off channels"},
     {"channel_floor", "Material below the tie-off channels"},
-    {"set_screw", "Room for the set screw"},
+    {"set_screw", "Space for the set screw"},
     {"set_screw_wall", "Wall around the set screw’s nut"},
     {"set_screw_height", "Height for the set screw in the hub"},
     {"pin_clear_@", "Gap between the flanges and pin @"},
-    {"mouth_clear_#", "Gap between the flanges and the mouth of sheath #"},
+    {"mouth_clear_#", "Gap between the flanges and the exit of sheath #"},
     {"horn_recess", "Depth of the horn’s recess"},
     {"horn_holes", "Web between the horn’s holes"},
     // solid, export, pipeline: checks
     {"facets", "Facets"},
-    {"indices_out_of_range", "Facets that name a missing vertex"},
+    {"indices_out_of_range", "Facets that refer to a missing vertex"},
     {"vertices_not_finite", "Vertices that are not finite numbers"},
     {"self_intersections", "Self-intersections"},
     {"euler_number", "Euler number (as many through holes as planned)"},
@@ -81,14 +81,15 @@ constexpr PlainName k_plain_names[] = {
     {"slack_reported", "Slack or stretch of tendon 2 as built (method “paper”: reported only)"},
 };
 
-/// Checks of one file among others.
+/// Checks of one file among several.
 constexpr PlainName k_prefixes[] = {{"obj_", "pulley.obj"},
                                     {"3mf_", "pulley.3mf"},
                                     {"drc_", "pulley.drc"},
                                     {"profile_dxf_", "profile.dxf"},
                                     {"plates_dxf_", "plates.dxf"}};
 
-/// "2" for "convex_floor_P2" and "tendon_on_pin_D" when `pattern` is theirs; ' ' without a wildcard; 0: not theirs.
+/// "2" for "convex_floor_P2" and "tendon_on_pin_D" if they match `pattern`; ' ' without a wildcard; 0 if they do not
+/// match.
 char matched_side(std::string_view name, std::string_view pattern) {
   if (name == pattern) return ' ';
   if (name.size() != pattern.size() || name.substr(0, name.size() - 1) != pattern.substr(0, pattern.size() - 1))
@@ -98,7 +99,7 @@ char matched_side(std::string_view name, std::string_view pattern) {
   return found == std::string_view::npos ? '\0' : "12"[found];
 }
 
-/// Of the file that a check is about, in k_prefixes; its size when about none of them.
+/// Index in k_prefixes of the file that a check is about; the size of k_prefixes if it is about none.
 std::size_t file_index(std::string_view name) {
   const auto found = std::find_if(std::begin(k_prefixes), std::end(k_prefixes),
                                   [&](const PlainName& file) { return name.substr(0, file.name.size()) == file.name; });
@@ -117,7 +118,8 @@ std::string cell(std::string_view classes, const std::string& html) {
   return (classes.empty() ? std::string("<td>") : "<td class=\"" + std::string(classes) + "\">") + html + "</td>";
 }
 
-/// What was asked of the value. Neither a Check nor a Condition says; its value, its limit and its outcome together do.
+/// The relation required of the value. Neither a Check nor a Condition stores it, but its value, limit and outcome
+/// imply it.
 std::string_view relation(double value, double limit, bool ok, std::string_view unit) {
   if (value == limit || !std::isfinite(value)) return "";
   if (!ok && unit == "1") return "";
@@ -134,7 +136,7 @@ std::string name_cell(const std::string& words, const std::string& remark) {
   return cell("", html);
 }
 
-/// Checks under one heading, their names plain already.
+/// Checks under one heading, with readable names.
 struct CheckGroup {
   std::string title;
   std::vector<Check> checks;
@@ -181,7 +183,7 @@ std::string with_unit(double value, std::string_view unit, int digits) {
 }
 
 std::string checks_tables(const std::vector<Check>& checks) {
-  // What failed comes first: nobody should have to look for it.
+  // Failed checks come first.
   std::vector<CheckGroup> groups{{"Failed", {}}, {"As built", {}}, {"The part, in pulley.stl", {}}};
   for (const PlainName& file : k_prefixes) groups.push_back({std::string(file.words), {}});
   for (const Check& check : checks) {
@@ -205,7 +207,7 @@ std::string conditions_table(const std::vector<Condition>& conditions, bool over
       "<th class=\"number\">Value</th><th class=\"number\">Limit</th><th "
       "class=\"number\">Margin</th></tr></thead><tbody>";
   for (const Condition& condition : conditions) {
-    // A condition without numbers: there is a dead centre or there is none.
+    // A condition without numbers: there either is a dead centre or not.
     const bool plain = condition.value == condition.limit;
     const double distance = std::abs(condition.value - condition.limit);
     html += row_start(condition.ok) + name_cell(plain_name(condition.name), condition.ok ? "" : condition.message);

@@ -1,5 +1,5 @@
 /// \file
-/// Checks and conditions as tables that a person can read.
+/// Internal: readable tables of checks and conditions.
 #pragma once
 
 #include <string>
@@ -11,14 +11,15 @@
 
 namespace fusee {
 
-/// "free_span_1" → "Free span of tendon 1": a table of known names; any other name with its underscores opened.
+/// "free_span_1" → "Free span of tendon 1", from a table of known names. Any other name is shown with spaces for
+/// underscores.
 std::string plain_name(std::string_view name);
 /// "mm", "°" for "deg", "" for "1".
 std::string shown_unit(std::string_view unit);
-/// Value and unit, "0.004°", "0.003 mm", "12".
+/// Value and unit: "0.004°", "0.003 mm", "12".
 std::string with_unit(double value, std::string_view unit, int digits = 3);
 
-/// Grouped by the file that they are about; what failed in a group of its own, first.
+/// Grouped by file, with failed checks in a group of their own, first.
 std::string checks_tables(const std::vector<Check>& checks);
 /// `over_stroke`: with a column for the α at which each is tightest.
 std::string conditions_table(const std::vector<Condition>& conditions, bool over_stroke);

@@ -9,8 +9,8 @@
 namespace fusee {
 namespace {
 
-// An end's share of the cut: a stopper knot takes about a dozen diameters (figure-eight; assumed), and a tail to pull
-// it tight with.
+// Share of the cut for one end: a stopper knot takes about a dozen diameters (figure-eight; assumed), plus a tail to
+// pull it tight.
 constexpr double k_knot_ratio = 12.0;
 constexpr double k_tail = 50.0;
 constexpr double k_cut_grain = 5.0;
@@ -25,9 +25,10 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
 
   const bool sheathed = mechanism.sheath.is_there();
   const double rho = sheathed ? 0.0 : mechanism.seen_pitch_radius();
-  const Vec2 pin = sheathed ? sheath_mouth(mechanism, anchor.side) : pin_centre(mechanism, anchor.side);
+  const Vec2 pin = sheathed ? sheath_exit(mechanism, anchor.side) : pin_centre(mechanism, anchor.side);
   const Vec2 axis = pulley_axis(mechanism);
-  // Nearest is enough: what a step along the tangent adds to the arc it takes from the span.
+  // The nearest point is sufficient: a step along the tangent is longer on the arc and shorter on the span by the same
+  // length.
   const std::size_t contact = index_at_normal(outline, tendon.lower_normal);
   const double to_pin = (pin - axis - outline.points[contact].position).norm();
   const double lower_span = std::sqrt(std::max(0.0, (to_pin - rho) * (to_pin + rho)));

@@ -1,5 +1,5 @@
 /// \file
-/// How long to cut the tendons and where their knots lie, at home.
+/// Internal: lengths to which tendons are cut, and places of their knots, at home.
 #pragma once
 
 #include <vector>
@@ -10,23 +10,25 @@
 
 namespace fusee {
 
-/// What a person measures off, the same wherever it is said.
+/// Lengths to be measured off.
 struct TendonLength {
   Side side = Side::left;
   Vec2 joint_knot;           ///< C, in the frame of the mechanism, mm
-  Vec3 pulley_knot;          ///< middle of the knot pocket, in the frame of the mesh, mm
+  Vec3 pulley_knot;          ///< centre of the knot pocket, in the frame of the mesh, mm
   double between_knots = 0;  ///< along the tendon's centre line, mm
-  double cut = 0;          ///< between the knots, both knots, and a tail of 50 mm at each end to pull with; whole 5 mm
-  double lap_at_home = 0;  ///< on the groove between the anchor and where it leaves at home, rad
-  double spare_lap = 0;    ///< on the groove between the anchor and the last point of contact at full pay-out, rad
+  /// Length between the knots, both knots, and a tail of 50 mm at each end to pull with; whole 5 mm
+  double cut = 0;
+  double lap_at_home = 0;  ///< angle on the groove between the anchor and the take-off at home, rad
+  /// Angle on the groove between the anchor and the last point of contact at full pay-out, rad
+  double spare_lap = 0;
 };
 
-/// What a knot and the tail to pull it tight with take of a tendon, mm.
+/// Length of a knot and the tail to pull it tight, mm.
 double tendon_end(const Tendon& tendon);
-/// The next length that is easily measured off, mm.
+/// The next length that is convenient to measure, mm.
 double cut_length(double needed);
 
-/// Of each tendon whose pulley has an anchor.
+/// One entry for each tendon whose pulley has an anchor.
 std::vector<TendonLength> tendon_lengths(const Product& product);
 
 }  // namespace fusee

@@ -10,7 +10,7 @@ namespace fusee {
 namespace {
 
 /// Outward normal of the line through `point` that touches the circle and has it on its inner side: the tendon passes
-/// the circle's outer side, away from `point` along the direction of travel. `sign` is mirror_sign of the side; NaN
+/// the circle's outer side, away from `point` along the direction of travel. `sign` is mirror_sign of the side. NaN
 /// inside the circle.
 double tangent_normal(const Vec2& centre, double rho, const Vec2& point, bool point_above, double sign) {
   const Vec2 to_point = point - centre;
@@ -25,12 +25,12 @@ struct PulleyContact {
   double normal = 0;      ///< of the lower span, in the world, rad
 };
 
-/// The common outer tangent of the pin (or the line through the sheath's mouth) and the turned pitch polygon: the
-/// outermost of the tangents from the vertices.
+/// The common outer tangent of the pin (or of the sheath's exit) and the turned pitch polygon: the outermost of the
+/// tangents from the vertices.
 std::optional<PulleyContact> pulley_contact(const Mechanism& mechanism, const Outline& outline, double alpha) {
   const double sign = mirror_sign(outline.side);
   const bool sheathed = mechanism.sheath.is_there();
-  const Vec2 pin = sheathed ? sheath_mouth(mechanism, outline.side) : pin_centre(mechanism, outline.side);
+  const Vec2 pin = sheathed ? sheath_exit(mechanism, outline.side) : pin_centre(mechanism, outline.side);
   const Vec2 axis = pulley_axis(mechanism);
   const double rho = sheathed ? 0.0 : mechanism.guide_pitch_radius();
   // Measured from the tangent towards the axis, so that the comparison never crosses ±π.
@@ -51,8 +51,7 @@ std::optional<PulleyContact> pulley_contact(const Mechanism& mechanism, const Ou
   return best;
 }
 
-/// Vertices from `first` to the anchor's end of the active arc; just `first` when it already lies at or beyond that
-/// end.
+/// Vertices from `first` to the anchor's end of the active arc; only `first` if it already lies at or beyond that end.
 std::vector<std::size_t> wound_indices(const Outline& outline, std::size_t first) {
   const std::size_t n = outline.points.size();
   const std::size_t last = outline.anchor_end();
@@ -63,7 +62,7 @@ std::vector<std::size_t> wound_indices(const Outline& outline, std::size_t first
   const std::size_t active_steps = steps_between(forward ? outline.active_first : outline.active_last, last);
   const std::size_t steps = steps_between(first, last);
   std::vector<std::size_t> indices{first};
-  // A take-off a vertex beyond the active arc's unwound end still winds all of it.
+  // A take-off one vertex beyond the active arc's unwound end still winds all of it.
   if (steps > active_steps + 2) return indices;
   for (std::size_t k = 1; k <= steps; ++k) indices.push_back(forward ? (first + k) % n : (first + n - k) % n);
   return indices;
@@ -92,14 +91,14 @@ Vec2 pin_centre(const Mechanism& mechanism, Side side) {
   return side == Side::left ? Vec2(-guides.EB, -guides.OE) : Vec2(guides.ED, -guides.OE - guides.D_below_B);
 }
 
-Vec2 sheath_mouth(const Mechanism& mechanism, Side side) {
+Vec2 sheath_exit(const Mechanism& mechanism, Side side) {
   return pulley_axis(mechanism) + Vec2(mirror_sign(side) * mechanism.sheath.exit_across, mechanism.sheath.exit_above);
 }
 
 std::vector<Vec2> sheath_curve(const Mechanism& mechanism, Side side) {
   const double sign = mirror_sign(side);
   const Vec2 from = pin_centre(mechanism, side) + Vec2(sign * mechanism.guide_pitch_radius(), 0.0),
-             to = sheath_mouth(mechanism, side);
+             to = sheath_exit(mechanism, side);
   const double reach = 0.5 * (to - from).norm();
   const Vec2 down(0.0, -reach), outwards(0.9 * sign * reach, 0.0);
   const Vec2 first = from + down, second = to - down + outwards;
@@ -119,9 +118,9 @@ Vec2 attachment(const Mechanism& mechanism, Side side, double theta) {
   return place.R * Vec2(std::sin(angle), std::cos(angle));
 }
 
-// The tendon as a taut string over what is drawn: first the tangent from C to the pin, then the common tangent of the
-// pin and the pitch polygon, then along the polygon. Only α and θ come from the transmission; that the path's length
-// stays the same over the stroke is therefore a test of synthesis and drawing together.
+// The tendon as a taut string over the drawn shapes: the tangent from C to the pin, the common tangent of the pin and
+// the pitch polygon, then along the polygon. Only α and θ come from the transmission. A constant length of the path
+// over the stroke therefore tests both synthesis and drawing.
 std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outline& outline, double alpha,
                                         double theta) {
   if (outline.points.size() < 3) return std::nullopt;

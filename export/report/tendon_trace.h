@@ -1,6 +1,6 @@
 /// \file
-/// Positions of the mechanism's points at one place of the stroke, and the path of a tendon over them. Frame of the
-/// mechanism file (docs/reference/mechanism-file.md), mm.
+/// Internal: positions of the mechanism's points at one place of the stroke, and the path of a tendon over them. Frame
+/// of the mechanism file (docs/reference/mechanism-file.md), mm.
 #pragma once
 
 #include <optional>
@@ -12,35 +12,35 @@
 
 namespace fusee {
 
-/// G.
+/// The axis G.
 Vec2 pulley_axis(const Mechanism& mechanism);
-/// B or D.
+/// The pin B or D.
 Vec2 pin_centre(const Mechanism& mechanism, Side side);
-/// Where its sheath ends, beside the pulley; what a tendon comes to its pulley from. There must be a sheath.
-Vec2 sheath_mouth(const Mechanism& mechanism, Side side);
-/// A sheath as it is drawn: from the pin's outer side, straight down, to its mouth. Nobody knows its way, and its
-/// length is the file's.
+/// Exit of a tendon's sheath beside the pulley. Requires a sheath.
+Vec2 sheath_exit(const Mechanism& mechanism, Side side);
+/// The curve of a sheath in drawings: from the pin's outer side, straight down, to its exit. Its true course is
+/// unknown, and its length is the file's.
 std::vector<Vec2> sheath_curve(const Mechanism& mechanism, Side side);
-/// Where a tendon ends: C, or its own attachment.
+/// The end of a tendon: C, or its own attachment.
 Vec2 attachment(const Mechanism& mechanism, Side side, double theta);
 
 /// One tendon at one place of the stroke, in the frame of the mechanism: C → pin → pulley → along the groove to
 /// `wound_to`.
 ///
-/// Found on the sampled outline by geometry alone (tangents to circles and polygons), not from the transmission's
-/// formulas.
+/// Computed on the sampled outline by geometry alone (tangents to circles and polygons), independently of the
+/// transmission's formulas.
 struct TendonTrace {
-  Vec2 attachment;               ///< C, or the tendon's own
+  Vec2 attachment;               ///< C, or the tendon's own attachment
   Vec2 onto_pin;                 ///< tangent point of the upper span
-  Vec2 off_pin;                  ///< tangent point of the lower span, or where it goes into its sheath
-  Vec2 take_off;                 ///< where it leaves the pulley
+  Vec2 off_pin;                  ///< tangent point of the lower span, or the entrance of the sheath
+  Vec2 take_off;                 ///< take-off from the pulley
   std::vector<Vec2> free_path;   ///< attachment … take_off, with the arcs over drum and pin, through its sheath
   std::vector<Vec2> wound_path;  ///< take_off … the anchor's end of the active arc
   double free_length = 0;        ///< exact on the pin's arc, with the sheath's own length, mm
   double wound_length = 0;       ///< along the polygon, mm
 };
 
-/// Nothing when there is no such path: C or the pulley within the pin's circle, fewer than three points in the outline.
+/// Empty if there is no such path: C or the pulley within the pin's circle, or fewer than three points in the outline.
 std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outline& outline, double alpha, double theta);
 
 }  // namespace fusee

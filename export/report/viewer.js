@@ -1,11 +1,11 @@
-// The part in 3-D: WebGL 2 and nothing else; without it a still picture. Right-handed throughout; z is the pulley's axis.
+// The part in 3-D by WebGL 2, or a still picture without it. Right-handed throughout; z is the pulley's axis.
 (() => {
   const stage = document.querySelector(".stage");
   if (!stage) return;
   const canvas = stage.querySelector("canvas"), missing = stage.querySelector(".missing");
   const gl = canvas.getContext("webgl2", { antialias: true, stencil: true, preserveDrawingBuffer: true });
 
-  // The code of export/report/mesh_code.h.
+  // Decodes the format of export/report/mesh_code.h.
   const bytes = Uint8Array.from(atob(document.getElementById("mesh").textContent.trim()), c => c.charCodeAt(0));
   const data = canvas.dataset, low = data.low.split(" ").map(Number), step = Number(data.step), corners = 3 * Number(data.triangles);
   const index = new Uint32Array(corners), place = [];
@@ -20,7 +20,7 @@
     for (let k = 0; k < 3; k++) { const z = varint(); before[k] += z & 1 ? -(z + 1) / 2 : z / 2; place.push(low[k] + step * before[k]); }
   }
 
-  // Corner normals: the mean over the faces about a vertex that meet at less than the crease angle; edges where they do not.
+  // Corner normals: the mean over the faces about a vertex that meet at less than the crease angle. Others form edges.
   const faces = corners / 3, normals = new Float32Array(corners), count = place.length / 3;
   const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
   const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -50,7 +50,7 @@
   const colour = name => { const h = getComputedStyle(stage).getPropertyValue(name).trim(); return [1, 3, 5].map(i => parseInt(h.slice(i, i + 2), 16) / 255); };
   const home = { turn: -65, lift: 32, zoom: 1, x: 0, y: 0, half: false };
   const view = { ...home };
-  let spin = 0;  // α of the pulley: seen from a camera that goes round the other way
+  let spin = 0;  // α of the pulley, shown by a camera that turns the other way
   const fit = () => {
     const ratio = Math.min(devicePixelRatio || 1, 2), size = [canvas.clientWidth, canvas.clientHeight].map(n => Math.max(1, Math.round(n * ratio)));
     if (canvas.width !== size[0] || canvas.height !== size[1]) [canvas.width, canvas.height] = size;
@@ -72,7 +72,7 @@
     return { matrix, eye, side, above };
   };
 
-  // A part that is tall for its width is seen whole.
+  // The view also contains a part that is taller than wide.
   const { matrix: at_first } = camera(canvas.clientWidth / Math.max(1, canvas.clientHeight));
   let reach = 0;
   for (let i = 0; i < place.length; i += 3) {
@@ -81,7 +81,7 @@
   }
   home.zoom = view.zoom = Math.min(1, .98 / reach);
 
-  // Without WebGL: faces that look this way, the furthest first.
+  // Without WebGL: faces towards the viewer, the furthest first.
   const still = () => {
     const pen = canvas.getContext("2d"), [w, h] = fit(), { matrix, eye, side, above } = camera(w / h), order = [];
     const ink = ["--metal", "--p1", "--p2"].map(colour), tints = ink.map((c, k) => c.map((v, i) => k ? .45 * ink[0][i] + .55 * v : v));
@@ -158,7 +158,7 @@
     gl.uniform1i(uniform("plain"), 0); gl.uniform1f(uniform("lift"), 0);
     const paint = (shape, kind, n) => { gl.bindVertexArray(shape); gl.drawArrays(kind, 0, n); };
     const plain = name => { gl.uniform1i(uniform("plain"), 1); gl.uniform3fv(uniform("tint"), colour(name)); };
-    if (view.half) {  // The face of the cut: where a ray meets more faces that look away than towards us, the plane lies inside the part.
+    if (view.half) {  // The cut face: if a ray meets more faces directed away than towards the viewer, the plane lies inside the part.
       gl.enable(gl.STENCIL_TEST); gl.disable(gl.CULL_FACE); gl.disable(gl.DEPTH_TEST); gl.colorMask(false, false, false, false);
       gl.stencilFunc(gl.ALWAYS, 0, 255); gl.stencilOpSeparate(gl.FRONT, gl.KEEP, gl.KEEP, gl.DECR_WRAP); gl.stencilOpSeparate(gl.BACK, gl.KEEP, gl.KEEP, gl.INCR_WRAP);
       paint(body, gl.TRIANGLES, corners);
@@ -167,7 +167,7 @@
       gl.disable(gl.STENCIL_TEST); gl.enable(gl.CULL_FACE);
     }
     paint(body, gl.TRIANGLES, corners);
-    gl.uniform1f(uniform("lift"), 8e-5);  // edges lie on faces: a hair towards the eye, so that they are seen
+    gl.uniform1f(uniform("lift"), 8e-5);  // edges lie on faces and are moved slightly towards the viewer
     plain("--edge"); paint(wires, gl.LINES, edges.length / 3);
   };
   let waiting = false;
@@ -188,7 +188,7 @@
   });
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, e => fingers.delete(e.pointerId));
   canvas.addEventListener("contextmenu", e => e.preventDefault());
-  // The wheel belongs to the page until the view was clicked.
+  // The wheel scrolls the page until the view was clicked.
   canvas.addEventListener("wheel", e => { if (document.activeElement === canvas || e.ctrlKey) { e.preventDefault(); zoom(Math.exp(-0.0015 * e.deltaY)); } }, { passive: false });
   const set = change => { Object.assign(view, change); redraw(); };
   const keys = { ArrowLeft: () => orbit(-6, 0), ArrowRight: () => orbit(6, 0), ArrowUp: () => orbit(0, -6), ArrowDown: () => orbit(0, 6), "+": () => zoom(1.15), "=": () => zoom(1.15), "-": () => zoom(1 / 1.15), Home: () => set({ ...home, half: view.half }) };

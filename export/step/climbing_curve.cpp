@@ -8,7 +8,7 @@
 namespace fusee {
 namespace {
 
-// Over this much of its way a lip grows to its bulge: a column of the grid.
+// Turn over which a groove edge grows to its bulge: one column of the grid.
 constexpr double k_bulge_turn = radians(5);
 
 double polynomial(const std::array<double, 6>& powers, double u) {
@@ -23,10 +23,10 @@ double slope_of(const std::array<double, 6>& powers, double u) {
   return value;
 }
 
-/// On the second half of the way.
+/// A smooth step on the second half of the way.
 double late_step(double share) { return smooth_step(2.0 * share - 1.0); }
 
-/// From 0.
+/// Integral from 0.
 double integral_of(const std::array<double, 6>& powers, double u) {
   double value = 0;
   for (std::size_t k = 6; k > 0; --k) value = value * u + powers[k - 1] / static_cast<double>(k);
@@ -35,7 +35,7 @@ double integral_of(const std::array<double, 6>& powers, double u) {
 
 }  // namespace
 
-// Hermite's polynomial of degree 5 has h, h' and h'' = ρ − h of both rows.
+// The Hermite polynomial of degree 5 with the values h, h' and h'' = ρ − h of both rows.
 ClimbingCurve::ClimbingCurve(const Spiral& spiral, const SpiralPlace& place) : climb_(place.direction * spiral.slope) {
   for (std::size_t i = 0; i + 1 < spiral.rows.size(); ++i) {
     const SpiralRow &a = spiral.rows[i], &b = spiral.rows[i + 1];
@@ -92,7 +92,7 @@ double ClimbingGroove::bulge(double turn, bool low) const {
   return most * smooth_step(past / std::min(k_bulge_turn, 0.25 * whole)) * (1.0 - late_step(past / whole));
 }
 
-// As the grid's (coil/helical_blank.cpp): on the half where there is most room it leaves the turn for where that began.
+// As in coil/helical_blank.cpp: the ring leaves the turn in the half with the most clearance and returns to its start.
 Vec2 ClimbingGroove::ring(double direction, bool lowest, double outward) const {
   const double first = lowest ? filled_to_ : filled_from_, inwards = lowest ? -1.0 : 1.0;
   const double away = inwards * (direction - first);

@@ -1,5 +1,5 @@
 /// \file
-/// The pitch curve of a groove that climbs, between the rows of its spiral and beyond its ends.
+/// Internal: the pitch curve of a helical groove, between the rows of its spiral and beyond its ends.
 #pragma once
 
 #include <array>
@@ -12,41 +12,42 @@
 
 namespace fusee {
 
-/// By its support function h(ψ) as SupportCurve, over all turns: X = h n + h' t, and with s = h' + ∫ h dψ the height.
+/// Given by its support function h(ψ) over all turns, as in SupportCurve: X = h n + h' t. The height follows from s =
+/// h' + ∫ h dψ.
 class ClimbingCurve {
  public:
   ClimbingCurve(const Spiral& spiral, const SpiralPlace& place);
 
-  /// (x, y, height). Beyond the rows the last piece goes on.
+  /// (x, y, height). The last piece is extrapolated beyond the rows.
   Vec3 at(double turn) const;
 
  private:
   struct Piece {
     double turn = 0, width = 0;
-    std::array<double, 6> support = {};  ///< h over u from 0 to 1, by its powers
-    double height = 0;                   ///< where u is 0
+    std::array<double, 6> support = {};  ///< powers of h over u from 0 to 1
+    double height = 0;                   ///< height at u = 0
   };
 
   std::vector<Piece> pieces_;
   double climb_ = 0;  ///< height per planar length
 };
 
-/// From 0 at 0 to 1 at 1, two derivatives are 0 at both.
+/// From 0 at 0 to 1 at 1, with two zero derivatives at both ends.
 double smooth_step(double share);
 
-/// A groove of the part with what its lips do beyond its ends: they go on as the turn before did.
+/// A groove of the part, including the continuation of its edges beyond its ends, which follow the turn before.
 class ClimbingGroove {
  public:
   ClimbingGroove(const Spiral& spiral, const SpiralPlace& place, const Winding& winding);
 
   double begin() const { return begin_; }
   double end() const { return end_; }
-  /// As far as the groove is filled up to its lips.
+  /// Turns up to which the groove is filled up to its edges.
   double filled_from() const { return filled_from_; }
   double filled_to() const { return filled_to_; }
 
   Vec3 at(double turn) const;
-  /// By how much a lip stands out over what is filled.
+  /// Projection of a groove edge over the filled rows.
   double bulge(double turn, bool low) const;
   /// A closed ring at the distance `outward`, about the lowest or the highest turn, in the direction of a normal.
   Vec2 ring(double direction, bool lowest, double outward) const;

@@ -12,8 +12,8 @@
 namespace fusee {
 namespace {
 
-/// Values without an identity of their own: two that say the same are the same. An edge that is cut into pieces has one
-/// curve, and a face one surface.
+/// Entities without an identity, which can be merged if they are equal. The pieces of a divided edge share one curve,
+/// and those of a face one surface.
 constexpr std::array<std::string_view, 21> k_values{"",  // of several types
                                                     "CARTESIAN_POINT",
                                                     "DIRECTION",
@@ -36,13 +36,13 @@ constexpr std::array<std::string_view, 21> k_values{"",  // of several types
                                                     "SURFACE_STYLE_USAGE",
                                                     "PRESENTATION_STYLE_ASSIGNMENT"};
 
-/// Statements end with a semicolon outside of texts, which stand in quotes ('' is a quote).
+/// Statements end with a semicolon outside texts, which are in quotes ('' is a quote).
 std::vector<std::string> statements_of(std::string_view text) {
   std::vector<std::string> statements(1);
   bool in_text = false;
   for (const char c : text) {
     if (c == '\'') in_text = !in_text;
-    // A long text is broken into lines: what breaks it is no part of it.
+    // Line breaks within a long text are not part of it.
     if (in_text ? c == '\n' || c == '\r' : std::isspace(static_cast<unsigned char>(c)) != 0) continue;
     if (!in_text && c == ';') {
       statements.emplace_back();
@@ -54,18 +54,18 @@ std::vector<std::string> statements_of(std::string_view text) {
   return statements;
 }
 
-/// Ten digits: of a part of half a metre, 5e-8 mm.
+/// Ten digits: 5e-8 mm for a part of half a metre.
 std::string short_number(std::string_view number) {
   char text[32];
   const double value = std::strtod(std::string(number).c_str(), nullptr);
   std::snprintf(text, sizeof text, "%.10G", value == 0 ? 0.0 : value);
   std::string shorter = text;
-  // A real has its point in any case.
+  // A real always contains a point.
   if (shorter.find('.') == std::string::npos) shorter.insert(std::min(shorter.find('E'), shorter.size()), ".");
   return shorter.size() < number.size() ? shorter : std::string(number);
 }
 
-/// Its reals, which are told from whole numbers by their points.
+/// Shortens reals, which are distinguished from integers by their points.
 std::string with_short_numbers(std::string_view statement) {
   std::string text;
   bool in_text = false;
@@ -82,7 +82,7 @@ std::string with_short_numbers(std::string_view statement) {
   return text;
 }
 
-/// `statement` with each #number replaced by what `renamed` makes of it.
+/// `statement` with each #number replaced by `renamed` of it.
 template <typename Rename>
 std::string with_references(std::string_view statement, const Rename& renamed) {
   std::string text;
@@ -109,7 +109,7 @@ bool is_value(const Instance& instance) {
   return std::find(k_values.begin(), k_values.end(), type) != k_values.end();
 }
 
-/// Until none is left that says what an earlier one does: a vector is the same when its direction is.
+/// Repeats until all instances differ, because a vector becomes equal when its direction is.
 void merge_values(std::vector<Instance>& instances) {
   while (true) {
     std::unordered_map<std::string_view, std::size_t> first;

@@ -6,8 +6,8 @@
 
 namespace fusee {
 
-/// The same STEP file with fewer bytes: values that stand twice (points, directions, styles) once, instances numbered
-/// anew without gaps, and no space but in its texts.
+/// Compacts a STEP file: equal values (points, directions, styles) are merged, instances are renumbered
+/// without gaps, and spaces remain in texts only.
 std::string compact_step(std::string_view text);
 
 }  // namespace fusee

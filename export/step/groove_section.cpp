@@ -8,19 +8,19 @@
 namespace fusee {
 namespace {
 
-// The straight was made to touch the arc, by other sums.
+// The straight was constructed to touch the arc, in other arithmetic.
 constexpr double k_touches = 1e-7;
-// An arc of one span has a weight that is well away from 0 up to here.
+// Up to this angle an arc of one span has a weight well away from 0.
 constexpr double k_widest_seat = radians(150);
 
-/// How far one wall's arc turns before it runs on straight; null where the lip cuts it off before.
+/// Angle of one wall's arc before its straight part; empty if the groove edge cuts the arc off.
 std::optional<double> seat_turn(const std::vector<GroovePoint>& wall, double radius) {
-  const GroovePoint &lip = wall.back(), &last = wall[wall.size() - 2];
-  const double lean = std::atan2(lip.dz - last.dz, lip.offset - last.offset);
-  // The straight touches the arc: it stands as far from its middle.
+  const GroovePoint &groove_edge = wall.back(), &last = wall[wall.size() - 2];
+  const double lean = std::atan2(groove_edge.dz - last.dz, groove_edge.offset - last.offset);
+  // The straight touches the arc: its distance from the centre equals the radius.
   const double apart = std::abs((radius - last.offset) * std::sin(lean) + last.dz * std::cos(lean));
   const double end = radius * (1 - std::sin(lean));
-  if (std::abs(apart - radius) > k_touches || end > lip.offset - 1e-3) return std::nullopt;
+  if (std::abs(apart - radius) > k_touches || end > groove_edge.offset - 1e-3) return std::nullopt;
   return 0.5 * k_pi - lean;
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// A groove across: from lip to lip, with the arc of its seat where that is round.
+/// Internal: a groove's cross-section from edge to edge, with the arc of a round seat.
 #pragma once
 
 #include <optional>
@@ -13,13 +13,13 @@ namespace fusee {
 /// The arc of a groove's seat in its section.
 struct Seat {
   double radius = 0;
-  double below = 0, above = 0;  ///< how far the arc turns to both sides of the floor, rad
+  double below = 0, above = 0;  ///< angles of the arc on both sides of the floor, rad
 
-  /// Where the arc is cut: one of a single span has a weight that is well away from 0. From −below to above.
+  /// Split angles of the arc, from −below to above. A single span keeps a weight well away from 0.
   std::vector<double> angles() const;
 };
 
-/// Null: the groove is drawn straight from corner to corner.
+/// Empty if the groove is drawn straight from corner to corner.
 std::optional<Seat> seat_of(const GrooveWalls& walls, const Mechanism& mechanism);
 
 }  // namespace fusee

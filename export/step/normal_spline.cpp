@@ -13,21 +13,21 @@ namespace {
 
 constexpr int k_order = k_step_degree + 1;
 constexpr double k_first_span = radians(30);
-/// Of a circle within reach that is drawn by the normals, mm: it has to meet the true one.
+/// Error of a circle within reach that is drawn by the normals, mm. It has to meet the exact circle.
 constexpr double k_circle_tolerance = 2e-6;
-/// Nothing is gained by shorter ones: directions of the samples themselves are as near as this beside a bridge.
+/// Shorter spans gain nothing: the samples' own directions can be this close beside a bridge.
 constexpr double k_shortest_span = radians(0.01);
 constexpr std::size_t k_most_spans = 300;
 constexpr int k_samples_a_span = 13;
 constexpr double k_share_of_worst = 0.25;
-/// Two kinks nearer than this are one.
+/// Kinks closer than this are merged.
 constexpr double k_same_kink = radians(0.002);
-/// Where a curve's mean radius is this many times those of both samples beside, it runs straight.
+/// Ratio of a curve's mean radius to those of both adjacent samples above which the curve is straight.
 constexpr double k_straight_beside = 3;
-/// What the normals of a straight turn by: its middle stands out by an eighth of that, 1e-5 of its length.
+/// Turn of the normals over a straight: its middle projects by an eighth of that, 1e-5 of its length.
 constexpr double k_straight_turn = radians(0.005);
 
-/// A knot and how often it counts.
+/// A knot and its multiplicity.
 struct Break {
   double psi = 0;
   int times = 1;
@@ -39,7 +39,7 @@ std::size_t span_of(const std::vector<double>& knots, double psi) {
   return static_cast<std::size_t>(above - knots.begin()) - 1;
 }
 
-/// The basis functions that are not 0 at ψ, by the recursion of Cox and de Boor; the first is number span − degree.
+/// The non-zero basis functions at ψ, by the recursion of Cox and de Boor. The first has the number span − degree.
 std::array<double, k_order> basis_at(const std::vector<double>& knots, std::size_t span, double psi) {
   std::array<double, k_order> values{1.0};
   std::array<double, k_order> left{}, right{};
@@ -84,8 +84,7 @@ std::vector<Break> first_breaks(double from, double to, const std::vector<double
   return breaks;
 }
 
-/// Least squares through samples, both ends met exactly, and both tangents' lengths too: pieces side by side then join
-/// as smoothly as the curve.
+/// Least squares fit of samples, with exact ends and end tangents. Adjacent pieces then join as smoothly as the curve.
 class SectorFit {
  public:
   explicit SectorFit(const SplineWish& wish) : wish_(wish) {}
@@ -129,8 +128,8 @@ class SectorFit {
     return spline;
   }
 
-  /// The spans within which the spline is too far off, the worst first: a place that is bent sharply makes its
-  /// neighbours swing, which are well when it is.
+  /// The spans with an excessive error, the worst first. A sharp bend makes its neighbours oscillate until it is
+  /// resolved.
   std::vector<std::size_t> coarse_spans(const JointSpline& spline, const std::vector<Break>& breaks) const {
     constexpr int k_looks = 24;
     std::vector<double> errors;
@@ -169,7 +168,7 @@ class SectorFit {
   const SplineWish& wish_;
 };
 
-/// Spans were halved where they were too long: of the breaks between, those that are not needed are left out.
+/// Removes the knots that are unnecessary after refinement.
 std::vector<Break> thinned(const SectorFit& sector, std::vector<Break> breaks) {
   for (std::size_t i = 1; i + 1 < breaks.size();) {
     std::vector<Break> fewer = breaks;
@@ -189,7 +188,7 @@ std::vector<double> radii_beside(const std::vector<double>& psi, const std::vect
     means.push_back((points[i + 1] - points[i]).norm() / (psi[i + 1] - psi[i]));
   for (std::size_t i = 0; i < means.size(); ++i) {
     const auto [less, more] = std::minmax(means[i], means[i == 0 ? means.size() - 1 : i - 1]);
-    // Beside a straight its own side's counts.
+    // Beside a straight, the radius of the curved side is used.
     radii.push_back(more > k_straight_beside * less ? less : 2 * less * more / (less + more));
   }
   return radii;
@@ -217,8 +216,8 @@ SupportCurve::SupportCurve(std::vector<double> psi, std::vector<Vec2> points, st
   psi_.push_back(psi.back());
 }
 
-// Hermite's polynomial of degree 5 over u from 0 to 1, which has the radii of both ends; where that is no convex curve,
-// as beside a bridge over a hollow, of degree 3 without them.
+// The Hermite polynomial of degree 5 over u from 0 to 1 with the radii of both ends. If the curve is then not convex,
+// as beside a bridge over a hollow, degree 3 without the radii.
 void SupportCurve::add(const Sample& from, const Sample& to) {
   constexpr int k_looks = 8;
   const double width = to.psi - from.psi;
@@ -262,8 +261,8 @@ Vec2 SupportCurve::at(double psi) const {
   return found.support * unit(psi) + found.slope * turned_left(unit(psi));
 }
 
-// Both circles of curvature and the line that touches them from outside: n · (c1 − c0) = r0 − r1. Its direction is one,
-// and its normals turn by k_straight_turn here, so that it has a place among the parameters.
+// The common outer tangent of both circles of curvature: n · (c1 − c0) = r0 − r1. It has a single direction. Its
+// normals are turned by k_straight_turn, so that it has an extent in the parameter.
 std::optional<std::pair<SupportCurve::Sample, SupportCurve::Sample>> SupportCurve::straight_between(const Sample& from,
                                                                                                     const Sample& to) {
   const double width = to.psi - from.psi, mean = (to.point - from.point).norm() / width;

@@ -1,5 +1,5 @@
 /// \file
-/// Closed convex curves known at sampled normals, as B-splines over the normal's direction.
+/// Internal: closed convex curves, known at sampled normals, as B-splines over the normal's direction.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,12 +14,12 @@
 
 namespace fusee {
 
-/// A curve by its support function h(ψ): its point with the normal n is h n + h' t. Between samples a polynomial that
-/// has h, h' and h'' of both ends. A straight between two of them runs within a turn of 0.005° about its own direction.
+/// A curve by its support function h(ψ): its point with the normal n is h n + h' t. Between samples h is a polynomial
+/// with the values h, h' and h'' of both ends. A straight between two samples turns by 0.005° about its own direction.
 class SupportCurve {
  public:
   /// Points of a curve with outward normals in the directions `psi`, increasing within a turn. `radii`: of curvature;
-  /// none: taken from the points.
+  /// if empty, computed from the points.
   SupportCurve(std::vector<double> psi, std::vector<Vec2> points, std::vector<double> radii);
 
   Vec2 at(double psi) const;
@@ -46,32 +46,32 @@ class SupportCurve {
   Look look(std::size_t interval, double width, double u) const;
   Look look_at(double psi) const;
 
-  std::vector<double> psi_;                     ///< the first a turn on at the end
-  std::vector<std::array<double, 6>> support_;  ///< h over u, by its powers, of each interval
+  std::vector<double> psi_;                     ///< the first direction is repeated, a turn on, at the end
+  std::vector<std::array<double, 6>> support_;  ///< powers of h over u for each interval
   std::vector<double> kinks_;
 };
 
-/// Several curves on one knot vector, their coordinates side by side.
+/// Several curves on one knot vector, with their coordinates side by side.
 struct JointSpline {
   std::vector<double> knots;
-  Eigen::MatrixXd poles;  ///< a row each
+  Eigen::MatrixXd poles;  ///< one row each
 
   Eigen::RowVectorXd at(double psi) const;
 };
 
-/// What such a spline is to follow over ψ.
+/// The function over ψ to be fitted by such a spline.
 struct SplineWish {
   std::function<Eigen::RowVectorXd(double psi)> at;
-  std::function<Eigen::RowVectorXd(double psi)> slope;  ///< asked at both ends, from inside
-  /// How far off what was found at ψ is, 1: as far as it may be.
+  std::function<Eigen::RowVectorXd(double psi)> slope;  ///< evaluated at both ends, from inside
+  /// Error of the fit at ψ in units of the tolerance.
   std::function<double(const Eigen::RowVectorXd& found, double psi)> off;
 };
 
-/// Knots are added until nothing is too far off. `kinks`: directions at which no more than the tangent is continuous.
-/// Null where that takes too many.
+/// Inserts knots until the tolerance is met. `kinks`: directions with tangent continuity only. Empty if too many knots
+/// would be needed.
 std::optional<JointSpline> fit(const SplineWish& wish, double from, double to, const std::vector<double>& kinks);
 
-/// The curve over one sector and its normals, on the same knots: a parallel curve's poles are position + distance ·
+/// The curve over one sector and its normals on the same knots. The poles of a parallel curve are position + distance ·
 /// normal.
 struct NormalSpline {
   std::vector<double> knots;
@@ -81,9 +81,8 @@ struct NormalSpline {
   StepSpline parallel(double distance) const;
 };
 
-/// Knots are added until no point of the curve is off by more than `tolerance`, and none of a circle of radius `reach`
-/// that its normals draw by more than 2e-6 mm.
-/// `kinks`: directions at which no more than the tangent is continuous. Null where that takes too many.
+/// Inserts knots until the error is at most `tolerance`, and the error of a circle of radius `reach` drawn by the
+/// normals at most 2e-6 mm. `kinks`: directions with tangent continuity only. Empty if too many knots would be needed.
 std::optional<NormalSpline> fit(const SupportCurve& curve, double from, double to, const std::vector<double>& kinks,
                                 double tolerance, double reach);
 

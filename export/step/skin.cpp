@@ -16,32 +16,32 @@
 #include "fusee/base/units.h"
 #include "solid/heights.h"
 
-// The outer surface is made of strands: closed rings, and the corners of both grooves' sections, each over all its
-// turns. Directions of the normal at which a groove ends, and some between, are marks; a strand's place number j stands
-// at mark j mod their count, turns counted on. From mark to mark all strands are splines on one knot vector. Between
-// two strands that stand one over the other lie cells, and cells that go on across a mark are one face.
+// The outer surface consists of strands: closed rings, and the corners of both grooves' sections over all turns. Marks
+// are the directions of the normal at which a groove ends, and some between. A strand's place number j is at mark j mod
+// the number of marks, counted over all turns. Between marks all strands are splines on one knot vector. Between two
+// vertically adjacent strands lie cells. Cells that continue across a mark form one face.
 //
-// Beyond a groove's end its two lips go on, as far as the part is filled there, and then to the straight between what
-// is below and above: where they reach it, at one more mark, they end on the side of the face that goes on alone.
+// Beyond a groove's end its two edges continue as far as the part is filled, and then to the straight between the
+// strands below and above. There, at one more mark, they end on the side of the face that continues.
 
 namespace fusee {
 namespace {
 
 constexpr double k_floor_tolerance = 6e-5;
 constexpr double k_other_tolerance = 2e-3;
-/// What offsets may lose by the normals, mm.
+/// Largest error of offsets by the normals, mm.
 constexpr double k_normal_tolerance = 1e-5;
-constexpr double k_inside = 1e-4;  // rad, of one-sided slopes
+constexpr double k_inside = 1e-4;  // rad, step of one-sided slopes
 constexpr double k_same_mark = 1e-6;
-/// From where a groove is no longer filled to where its lips end: about so far.
+/// Approximate turn from the end of a groove's fill to the end of its edges.
 constexpr double k_run = radians(45), k_shortest_run = radians(25), k_longest_run = radians(75);
-/// Lips end before they meet their groove again.
+/// Groove edges end before they reach their groove again.
 constexpr double k_furthest_end = radians(340);
 constexpr double k_widest_face = radians(190);
 constexpr double k_near_middle = radians(30);
-constexpr double k_bent = 4e-6;  // mm: what rounding to the grain may do
+constexpr double k_bent = 4e-6;  // mm, the effect of rounding to the resolution
 
-/// A corner of the section, from the tendon's centre line, and what leads on to the next one.
+/// A corner of the section, relative to the tendon's centre line, and the curve to the next one.
 struct SectionCorner {
   double outward = 0, dz = 0;
   bool arc = false;
@@ -91,11 +91,11 @@ struct RimRing {
 /// A ring, or a corner of a groove's section.
 struct Strand {
   int groove = -1;
-  std::size_t number = 0;   ///< of the ring or of the corner
-  int first = 0, last = 0;  ///< places at which it begins and ends
+  std::size_t number = 0;   ///< number of the ring or of the corner
+  int first = 0, last = 0;  ///< first and last place
 };
 
-/// A strand's place, and its piece from there to the next one.
+/// A place of a strand, and its piece from there to the next one.
 struct Place {
   std::size_t strand = 0;
   int at = 0;
@@ -104,22 +104,23 @@ struct Place {
   bool operator==(const Place& other) const { return strand == other.strand && at == other.at; }
 };
 
-/// What a groove has beside its curve.
+/// The positions of a groove's ends and edges.
 struct Wound {
-  int begin = 0, end = 0;          ///< places of its ends
-  int lips_from = 0, lips_to = 0;  ///< of its lips' ends
-  double lips_first = 0, lips_last = 0;
-  double held_first = 0, held_last = 0;  ///< up to where they go on as the groove did
-  std::size_t strand = 0;                ///< the first of its section
+  int begin = 0, end = 0;                          ///< places of its ends
+  int groove_edges_from = 0, groove_edges_to = 0;  ///< places of its edges' ends
+  double groove_edges_first = 0, groove_edges_last = 0;
+  double held_first = 0, held_last = 0;  ///< turns up to which the edges follow the groove
+  std::size_t strand = 0;                ///< first strand of its section
   std::size_t ring_below = 0, ring_above = 0;
-  std::vector<double> cuts;  ///< directions at which faces beside it end
+  std::vector<double> cuts;  ///< directions at which adjacent faces end
 };
 
 struct Sector {
   double from = 0, to = 0;
   JointSpline spline;
-  std::map<Place, Eigen::Index> columns;  ///< by strand and place: of lips past their ends, of rings, and by the first
-                                          ///< corner's strand of a groove's curve
+  /// By strand and place: of groove edges past their ends, of rings, and, under the first corner's strand, of a groove's
+  /// curve.
+  std::map<Place, Eigen::Index> columns;
 };
 
 struct Cell {
@@ -135,7 +136,7 @@ class SkinBuilder {
         plan_(*product.helix->pulley.plan),
         layout_(product.pulley.layout),
         corners_(section_corners(plan_.section, mechanism_)),
-        lip_(corners_.front().outward),
+        groove_edge_(corners_.front().outward),
         grooves_{{ClimbingGroove(product.helix->synthesis.sides[0].spiral, product.helix->pulley.p1, plan_.fan.p1),
                   ClimbingGroove(product.helix->synthesis.sides[1].spiral, product.helix->pulley.p2, plan_.fan.p2)}} {}
 
@@ -184,8 +185,8 @@ class SkinBuilder {
     return direction;
   }
 
-  /// A turn at which lips end, past `from` in the direction `onwards`.
-  double lips_end(double end, double from, double onwards) {
+  /// A turn at which groove edges end, past `from` in the direction `onwards`.
+  double groove_edges_end(double end, double from, double onwards) {
     const double furthest = end + onwards * k_furthest_end;
     for (const double known : marks_) {
       double past = onwards * (known - from);
@@ -232,20 +233,20 @@ class SkinBuilder {
       const double most = k_furthest_end - k_shortest_run;
       wound.held_last = std::min(groove.filled_to(), groove.end() + most);
       wound.held_first = std::max(groove.filled_from(), groove.begin() - most);
-      wound.lips_last = lips_end(groove.end(), wound.held_last, 1.0);
-      wound.lips_first = lips_end(groove.begin(), wound.held_first, -1.0);
+      wound.groove_edges_last = groove_edges_end(groove.end(), wound.held_last, 1.0);
+      wound.groove_edges_first = groove_edges_end(groove.begin(), wound.held_first, -1.0);
     }
     for (std::size_t g = 0; g < 2; ++g) add_cuts(wound_[g], grooves_[g]);
     std::sort(marks_.begin(), marks_.end());
 
     const double foot = layout_.elephant_foot;
-    if (foot > 0) add_ring({0, true, lip_ - foot, 0});
-    wound_[0].ring_below = add_ring({0, true, lip_, foot > 0 ? rise_of(layout_, foot) : 0.0});
+    if (foot > 0) add_ring({0, true, groove_edge_ - foot, 0});
+    wound_[0].ring_below = add_ring({0, true, groove_edge_, foot > 0 ? rise_of(layout_, foot) : 0.0});
     add_groove(0);
-    wound_[0].ring_above = add_ring({0, false, lip_, plan_.heights.lower});
-    wound_[1].ring_below = add_ring({1, true, lip_, plan_.heights.upper});
+    wound_[0].ring_above = add_ring({0, false, groove_edge_, plan_.heights.lower});
+    wound_[1].ring_below = add_ring({1, true, groove_edge_, plan_.heights.upper});
     add_groove(1);
-    wound_[1].ring_above = add_ring({1, false, lip_, plan_.heights.top});
+    wound_[1].ring_above = add_ring({1, false, groove_edge_, plan_.heights.top});
   }
 
   std::size_t add_ring(const RimRing& ring) {
@@ -258,27 +259,27 @@ class SkinBuilder {
     Wound& wound = wound_[g];
     wound.begin = place_of(grooves_[g].begin());
     wound.end = place_of(grooves_[g].end());
-    wound.lips_from = place_of(wound.lips_first);
-    wound.lips_to = place_of(wound.lips_last);
+    wound.groove_edges_from = place_of(wound.groove_edges_first);
+    wound.groove_edges_to = place_of(wound.groove_edges_last);
     wound.strand = strands_.size();
     for (std::size_t k = 0; k < corners_.size(); ++k) {
-      const bool is_lip = k == 0 || k + 1 == corners_.size();
-      strands_.push_back(
-          {static_cast<int>(g), k, is_lip ? wound.lips_from : wound.begin, is_lip ? wound.lips_to : wound.end});
+      const bool is_groove_edge = k == 0 || k + 1 == corners_.size();
+      strands_.push_back({static_cast<int>(g), k, is_groove_edge ? wound.groove_edges_from : wound.begin,
+                          is_groove_edge ? wound.groove_edges_to : wound.end});
     }
   }
 
   bool is_ring(std::size_t strand) const { return strands_[strand].groove < 0; }
   bool in_groove(std::size_t g, int place) const { return place >= wound_[g].begin && place < wound_[g].end; }
-  std::size_t low_lip(std::size_t g) const { return wound_[g].strand; }
-  std::size_t high_lip(std::size_t g) const { return wound_[g].strand + corners_.size() - 1; }
+  std::size_t low_groove_edge(std::size_t g) const { return wound_[g].strand; }
+  std::size_t high_groove_edge(std::size_t g) const { return wound_[g].strand + corners_.size() - 1; }
 
   Place place(std::size_t strand, int at) const {
     return {strand, is_ring(strand) ? static_cast<int>(sector_of(at)) : at};
   }
   Place next(const Place& here) const { return place(here.strand, here.at + 1); }
 
-  /// What stands in a sector, upwards; grooves fall as they turn.
+  /// The strands in a sector, upwards. Grooves descend as they turn.
   std::vector<Place> stack_in(std::size_t sector) const {
     std::vector<Place> stack;
     for (std::size_t strand = 0; strand < strands_.size(); ++strand) {
@@ -287,12 +288,12 @@ class SkinBuilder {
         continue;
       }
       const auto g = static_cast<std::size_t>(strands_[strand].groove);
-      if (strand != low_lip(g)) continue;
-      for (int at = wound_[g].lips_to - 1; at >= wound_[g].lips_from; --at) {
+      if (strand != low_groove_edge(g)) continue;
+      for (int at = wound_[g].groove_edges_to - 1; at >= wound_[g].groove_edges_from; --at) {
         if (sector_of(at) != sector) continue;
         for (std::size_t k = 0; k < corners_.size(); ++k) {
-          const bool is_lip = k == 0 || k + 1 == corners_.size();
-          if (is_lip || in_groove(g, at)) stack.push_back({strand + k, at});
+          const bool is_groove_edge = k == 0 || k + 1 == corners_.size();
+          if (is_groove_edge || in_groove(g, at)) stack.push_back({strand + k, at});
         }
       }
     }
@@ -307,34 +308,34 @@ class SkinBuilder {
     return {point.x(), point.y(), ring.z};
   }
 
-  Vec3 lip_at(std::size_t g, double turn, bool low, double bulge = 0) const {
+  Vec3 groove_edge_at(std::size_t g, double turn, bool low, double bulge = 0) const {
     const SectionCorner& corner = low ? corners_.front() : corners_.back();
     const Vec2 out = (corner.outward + bulge) * unit(turn);
     return grooves_[g].at(turn) + Vec3(out.x(), out.y(), corner.dz);
   }
 
-  /// What is below and above the lips beyond their groove's end.
+  /// The strands below and above the groove edges beyond their groove's end.
   std::pair<Vec3, Vec3> around(std::size_t g, double turn, bool back) const {
-    if (back) return {ring_at(wound_[g].ring_below, turn), lip_at(g, turn - k_two_pi, true)};
-    return {lip_at(g, turn + k_two_pi, false), ring_at(wound_[g].ring_above, turn)};
+    if (back) return {ring_at(wound_[g].ring_below, turn), groove_edge_at(g, turn - k_two_pi, true)};
+    return {groove_edge_at(g, turn + k_two_pi, false), ring_at(wound_[g].ring_above, turn)};
   }
 
-  /// How far up between the two a lip ends.
+  /// The relative height between the two at which a groove edge ends.
   double share_of(std::size_t g, bool low, bool back) const {
     const double turn = back ? wound_[g].held_last : wound_[g].held_first;
     const auto [below, above] = around(g, turn, back);
-    return (lip_at(g, turn, low).z() - below.z()) / (above.z() - below.z());
+    return (groove_edge_at(g, turn, low).z() - below.z()) / (above.z() - below.z());
   }
 
-  Vec3 free_lip(std::size_t g, double turn, bool low) const {
+  Vec3 free_groove_edge(std::size_t g, double turn, bool low) const {
     const ClimbingGroove& groove = grooves_[g];
     const bool back = turn > 0.5 * (groove.begin() + groove.end());
     const double from = back ? wound_[g].held_last : wound_[g].held_first;
-    const double to = back ? wound_[g].lips_last : wound_[g].lips_first;
+    const double to = back ? wound_[g].groove_edges_last : wound_[g].groove_edges_first;
     const double gone = smooth_step((turn - from) / (to - from));
     const auto [below, above] = around(g, turn, back);
     const double share = share_of(g, low, back);
-    return (1.0 - gone) * lip_at(g, turn, low, groove.bulge(turn, low)) +
+    return (1.0 - gone) * groove_edge_at(g, turn, low, groove.bulge(turn, low)) +
            gone * ((1.0 - share) * below + share * above);
   }
 
@@ -364,7 +365,7 @@ class SkinBuilder {
       const double step = std::abs(psi - sector.from) < std::abs(psi - sector.to) ? k_inside : -k_inside;
       return (4.0 * wish.at(psi + step) - 3.0 * wish.at(psi) - wish.at(psi + 2.0 * step)) / (2.0 * step);
     };
-    const double reach = std::max(std::abs(lip_), 0.5 * mechanism_.tendon.diameter);
+    const double reach = std::max(std::abs(groove_edge_), 0.5 * mechanism_.tendon.diameter);
     wish.off = [&](const Row& found, double psi) {
       const Row wanted = wish.at(psi);
       double worst = reach * (found - wanted).head<2>().norm() / k_normal_tolerance;
@@ -382,21 +383,21 @@ class SkinBuilder {
     sectors_.push_back(std::move(sector));
   }
 
-  /// Of a ring or a free lip itself, of a groove its centre line.
+  /// The strand itself for a ring or a free groove edge, the centre line for a groove.
   Vec3 base_at(const Place& here, double psi) const {
     const Strand& strand = strands_[here.strand];
     if (strand.groove < 0) return ring_at(here.strand, psi);
     const auto g = static_cast<std::size_t>(strand.groove);
     const double turn = psi + k_two_pi * turns_of(here.at);
-    return in_groove(g, here.at) ? grooves_[g].at(turn) : free_lip(g, turn, strand.number == 0);
+    return in_groove(g, here.at) ? grooves_[g].at(turn) : free_groove_edge(g, turn, strand.number == 0);
   }
 
-  /// Poles of a piece, of `outward` and `dz` from a groove's centre line.
+  /// Poles of a piece at the offsets `outward` and `dz` from a groove's centre line.
   std::vector<Vec3> poles_of(const Place& here, double outward, double dz) const {
     const Sector& sector = sectors_[sector_of(here.at)];
     const Strand& strand = strands_[here.strand];
     const bool wound = strand.groove >= 0 && in_groove(static_cast<std::size_t>(strand.groove), here.at);
-    const Place base = wound ? Place{low_lip(static_cast<std::size_t>(strand.groove)), here.at} : here;
+    const Place base = wound ? Place{low_groove_edge(static_cast<std::size_t>(strand.groove)), here.at} : here;
     const Eigen::Index column = sector.columns.at(base);
     std::vector<Vec3> poles;
     for (Eigen::Index i = 0; i < sector.spline.poles.rows(); ++i) {
@@ -433,7 +434,7 @@ class SkinBuilder {
     return false;
   }
 
-  /// Whether a strand's speed changes from a piece to the next one: the two are then no smooth curve over ψ.
+  /// True if a strand's speed changes at the next place, so that the two pieces are no smooth curve over ψ.
   bool is_bent_after(const Place& here) const {
     const std::vector<Vec3> before = poles_of(here), after = poles_of(next(here));
     const std::vector<double>& knots = sectors_[sector_of(here.at)].spline.knots;
@@ -461,7 +462,7 @@ class SkinBuilder {
     }
   }
 
-  /// Places on the side of a cell, upwards: where it is a neighbour of several cells theirs too.
+  /// Places on the side of a cell, upwards, including those of all adjacent cells.
   std::vector<Place> side_of(const Cell& cell, bool after) const {
     const Place low = after ? next(cell.low) : cell.low, high = after ? next(cell.high) : cell.high;
     const Strand &below = strands_[cell.low.strand], &above = strands_[cell.high.strand];
@@ -482,13 +483,13 @@ class SkinBuilder {
         for (const Place& here : side_of(cell, after)) corner_of_.emplace(here, 0);
       }
     }
-    // Lips that end do so on the straight between their neighbours.
+    // Ending groove edges end on the straight between their neighbours.
     for (auto& [here, corner] : corner_of_) {
       corner = skin_.corners.size();
       skin_.corners.push_back(position_of(here));
     }
     for (std::size_t g = 0; g < 2; ++g) {
-      for (const bool back : {false, true}) put_lips_on_straight(g, back);
+      for (const bool back : {false, true}) put_groove_edges_on_straight(g, back);
     }
   }
 
@@ -497,22 +498,22 @@ class SkinBuilder {
     return poles_of({here.strand, here.at - 1}).back();
   }
 
-  void put_lips_on_straight(std::size_t g, bool back) {
-    const int end = back ? wound_[g].lips_to : wound_[g].lips_from;
-    const Place below = back ? place(wound_[g].ring_below, end) : Place{high_lip(g), end + count()};
-    const Place above = back ? Place{low_lip(g), end - count()} : place(wound_[g].ring_above, end);
+  void put_groove_edges_on_straight(std::size_t g, bool back) {
+    const int end = back ? wound_[g].groove_edges_to : wound_[g].groove_edges_from;
+    const Place below = back ? place(wound_[g].ring_below, end) : Place{high_groove_edge(g), end + count()};
+    const Place above = back ? Place{low_groove_edge(g), end - count()} : place(wound_[g].ring_above, end);
     const Vec3 from = skin_.corners[corner_of_.at(below)], to = skin_.corners[corner_of_.at(above)];
     for (const bool low : {true, false}) {
       const double share = share_of(g, low, back);
-      const Place lip{low ? low_lip(g) : high_lip(g), end};
-      skin_.corners[corner_of_.at(lip)] = (1.0 - share) * from + share * to;
+      const Place groove_edge{low ? low_groove_edge(g) : high_groove_edge(g), end};
+      skin_.corners[corner_of_.at(groove_edge)] = (1.0 - share) * from + share * to;
     }
   }
 
   // ---- edges ----
 
-  /// A strand's pieces from one place to another as one curve: where they join their tangents are equal, and a pole
-  /// there is between its neighbours.
+  /// A strand's pieces from one place to another as one curve. Their tangents are equal at the joins, so the pole there
+  /// lies between its neighbours and is removed.
   StepSkin::Curve joined(const Place& from, int pieces, double outward, double dz, bool is_edge) const {
     StepSkin::Curve curve;
     double shift = 0;
@@ -528,7 +529,7 @@ class SkinBuilder {
         curve.poles = std::move(poles);
         continue;
       }
-      // The pole at the join and one from each side are two: multiplicity degree − 1.
+      // Two poles, one from each side, remain at the join: multiplicity degree − 1.
       curve.poles.pop_back();
       curve.knots.resize(curve.knots.size() - 2);
       curve.poles.insert(curve.poles.end(), poles.begin() + 1, poles.end());
@@ -603,7 +604,7 @@ class SkinBuilder {
     return {known->second, false, {}, {}};
   }
 
-  /// Up the side of a cell at parameter u.
+  /// Edges up the side of a cell at parameter u.
   std::vector<StepSkin::Use> edges_up(const Cell& cell, bool after, double u) {
     const std::vector<Place> places = side_of(cell, after);
     if (is_arc(cell)) {
@@ -678,21 +679,21 @@ class SkinBuilder {
     skin_.faces.push_back({std::move(patch), {std::move(loop)}});
   }
 
-  /// Where a groove's section stops; `along`: the face looks on along the curve, or back.
+  /// The end of a groove's section; `along`: +1 if the face looks along the curve, −1 if against it.
   void add_end_wall(std::size_t g, int at, double along) {
     std::vector<StepSkin::Use> loop;
     for (std::size_t k = 0; k + 1 < corners_.size(); ++k) {
       const Place low{wound_[g].strand + k, at}, high{wound_[g].strand + k + 1, at};
       loop.push_back(corners_[k].arc ? arc(low, high) : straight(corner_of_.at(low), corner_of_.at(high)));
     }
-    loop.push_back(straight(corner_of_.at({high_lip(g), at}), corner_of_.at({low_lip(g), at})));
-    // Inwards and upwards turn about the tangent against the clock as it comes.
+    loop.push_back(straight(corner_of_.at({high_groove_edge(g), at}), corner_of_.at({low_groove_edge(g), at})));
+    // Inwards and upwards turn counter-clockwise about the tangent.
     std::vector<StepSkin::Use> turned;
     append(turned, loop, along < 0);
     const Vec2 tangent = turned_left(unit(turn_at(at)));
-    skin_.faces.push_back(
-        {StepSkin::Plane{skin_.corners[corner_of_.at({low_lip(g), at})], along * Vec3(tangent.x(), tangent.y(), 0)},
-         {std::move(turned)}});
+    skin_.faces.push_back({StepSkin::Plane{skin_.corners[corner_of_.at({low_groove_edge(g), at})],
+                                           along * Vec3(tangent.x(), tangent.y(), 0)},
+                           {std::move(turned)}});
   }
 
   std::vector<StepSkin::Use> ring_loop(std::size_t strand) {
@@ -738,7 +739,7 @@ class SkinBuilder {
     skin_.faces.push_back({StepSkin::Plane{Vec3(0, 0, top), Vec3::UnitZ()}, std::move(loops)});
   }
 
-  /// In two halves.
+  /// A circle in two halves.
   std::vector<StepSkin::Use> circle(double radius, double z) {
     const std::size_t first = skin_.corners.size();
     skin_.corners.emplace_back(radius, 0, z);
@@ -752,7 +753,7 @@ class SkinBuilder {
   const HelicalPlan& plan_;
   const BodyLayout& layout_;
   std::vector<SectionCorner> corners_;
-  double lip_;
+  double groove_edge_;
   std::array<ClimbingGroove, 2> grooves_;
   std::array<Wound, 2> wound_;
   std::vector<double> marks_;

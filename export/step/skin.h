@@ -7,10 +7,10 @@
 
 namespace fusee {
 
-/// The body of a pulley of several turns, not scaled yet. InputError: too large.
+/// The body of a multi-turn pulley, not yet scaled. Throws InputError if it is too large.
 StepSkin helical_skin(const Product& product);
 
-/// What is cut out of it beside what every pulley has: the ways to the knots.
+/// The run-outs to the knots, which are cut in addition to the features of every pulley.
 std::vector<StepTool> run_out_cuts(const Product& product);
 
 }  // namespace fusee

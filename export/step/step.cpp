@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the exact floor, mm.
+/// Largest error of the floor, mm.
 constexpr double k_floor_limit = 1e-4;
 
 struct Loaded {
@@ -38,11 +38,11 @@ const Loaded& loaded() {
 }
 
 const StepMaker& maker() {
-  demand(loaded().maker != nullptr, "STEP asked for without its module: " + loaded().why_not);
+  demand(loaded().maker != nullptr, "STEP was requested without its module: " + loaded().why_not);
   return *loaded().maker;
 }
 
-/// Of the tendons' own arc, which no tie-off is cut into, from what a file has there.
+/// Error of the section of a file along the active arc, which no tie-off cuts.
 double floor_error(const Outline& outline, double tendon_diameter, double scale, const Polygon& floor) {
   if (floor.empty()) return std::numeric_limits<double>::infinity();
   const NearestSegment nearest({floor});
@@ -54,7 +54,7 @@ double floor_error(const Outline& outline, double tendon_diameter, double scale,
   return worst;
 }
 
-/// On the floors of grooves that climb, where the tendons lie: half a tendon inside of every row of the spirals.
+/// Places on the floors of helical grooves under the tendons: half a tendon inside every row of the spirals.
 std::vector<Vec3> floor_places(const HelixProduct& helix, double tendon_diameter, double scale) {
   std::vector<Vec3> places;
   const SpiralPlace* const lies[] = {&helix.pulley.p1, &helix.pulley.p2};
@@ -83,11 +83,11 @@ StepFile step_file(const Product& product) {
   return file;
 }
 
-StepLook look_at_step(const fs::path& path, const Product& product, double tolerance) {
+StepInspection inspect_step(const fs::path& path, const Product& product, double tolerance) {
   const BodyLayout& layout = product.pulley.layout;
   const double d = product.joint.mechanism.tendon.diameter, scale = layout.scale;
   StepQuestion question;
-  StepLook look;
+  StepInspection look;
   if (product.helix) {
     question.places = floor_places(*product.helix, d, scale);
     question.grounds = [&look, scale](const TriangleMesh& mesh) {

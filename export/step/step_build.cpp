@@ -18,26 +18,26 @@
 namespace fusee {
 namespace {
 
-// A groove's floor is promised within 1e-4 mm; rims carry nothing.
+// A groove's floor is guaranteed within 1e-4 mm. Rims carry no function.
 constexpr double k_groove_tolerance = 6e-5;
 constexpr double k_rim_tolerance = 1e-3;
-// Rows are recognised in the body's rings, which were made by the same sums.
+// Tolerance for recognising rows among the body's rings, which were computed in the same way.
 constexpr double k_same = 1e-7;
-// Sectors are cut this far apart at least, rad.
+// Least distance of sector cuts, rad.
 constexpr double k_narrowest_sector = radians(75);
-// The kernel's time for a cut grows with the part's size over its smallest feature: a radius of 0.4 m takes a minute.
+// The kernel's time for a cut grows with the ratio of part size to smallest feature: a radius of 0.4 m takes a minute.
 constexpr double k_largest_radius = 400;
 
 /// A family of parallel curves.
 struct Base {
   std::vector<Vec2> points;        ///< at the outlines' normals
-  std::vector<double> radii = {};  ///< of curvature, where they are known
+  std::vector<double> radii = {};  ///< of curvature, if known
   std::vector<std::size_t> kinks = {};
   double tolerance = k_groove_tolerance;
   std::vector<NormalSpline> fits = {};  ///< one for each sector
 };
 
-/// A ring of the body as one of its base's parallels; base null: a circle about the axis, at the distance from it.
+/// A ring of the body as a parallel of a base curve; base null: a circle about the axis, of the radius `distance`.
 struct Parallel {
   Base* base = nullptr;
   double distance = 0;
@@ -105,7 +105,7 @@ class StepBuilder {
   }
 
  private:
-  // As far from tie-offs as there is room: no cut crosses what is cut out beside it.
+  // Sector cuts are as far from tie-offs as possible, so that they cross no cut feature.
   void choose_sectors() {
     constexpr int k_looks = 360;
     const auto room_at = [&](double psi) {
@@ -172,7 +172,7 @@ class StepBuilder {
     return {};
   }
 
-  /// A groove's rings with a round seat in place of its corners; how many rings of the stack these were, 0: no such
+  /// Adds a groove's rings with a round seat instead of its corners. Returns the number of rings used; 0 if no such
   /// groove begins here.
   std::size_t add_groove_at(const RingStack& stack, std::size_t k) {
     for (const bool left : {true, false}) {
@@ -181,7 +181,7 @@ class StepBuilder {
       const std::size_t rings = walls.below.size() + walls.above.size() - 2;
       const auto seat = seat_of(walls, mechanism_);
       if (!seat || stack.rings[k].z != plane - walls.below_width()) continue;
-      // The flange's own ring may stand at the lip's height.
+      // The flange's own ring may have the height of the groove edge.
       if (k + rings > stack.rings.size() || stack.rings[k + rings - 1].z != plane + walls.above_width()) continue;
       const Parallel low = parallel_of(stack.rings[k]), high = parallel_of(stack.rings[k + rings - 1]);
       if (low.base != high.base || std::abs(low.distance - high.distance) > k_same) continue;
@@ -193,10 +193,11 @@ class StepBuilder {
     return 0;
   }
 
-  void add_seat(const Parallel& lip, double plane, const Seat& seat) {
-    const double floor = lip.distance - layout_.groove_depth;
+  void add_seat(const Parallel& groove_edge, double plane, const Seat& seat) {
+    const double floor = groove_edge.distance - layout_.groove_depth;
     const auto on_arc = [&](double angle, double radius) {
-      return Parallel{lip.base, floor + seat.radius - radius * std::cos(angle), plane + radius * std::sin(angle)};
+      return Parallel{groove_edge.base, floor + seat.radius - radius * std::cos(angle),
+                      plane + radius * std::sin(angle)};
     };
     const auto add_arc = [&](double from, double to) {
       if (from == -seat.below) add(on_arc(from, seat.radius));
@@ -209,7 +210,7 @@ class StepBuilder {
       band.seat_z = layout_.scale * plane;
       band.corner_z = layout_.scale * corner.z;
       band.weight = std::cos(half);
-      if (lip.base) band.corner = pieces_of(corner);
+      if (groove_edge.base) band.corner = pieces_of(corner);
     };
     const std::vector<double> angles = seat.angles();
     for (std::size_t i = 0; i + 1 < angles.size(); ++i) add_arc(angles[i], angles[i + 1]);
@@ -275,7 +276,7 @@ StepPart climbing_part(const Product& product) {
   return part;
 }
 
-// ---- to the size in which it is printed ----
+// ---- scaling to the printed size ----
 
 void scale(StepContour& contour, double by) {
   contour.start *= by;
@@ -291,7 +292,7 @@ void scale(StepPrism& prism, double by) {
   prism.high *= by;
   scale(prism.outer, by);
   for (StepContour& loop : prism.inner) scale(loop, by);
-  if (prism.roof) prism.roof->point *= by;
+  if (prism.ceiling) prism.ceiling->point *= by;
 }
 
 void scale(StepFrustum& frustum, double by) {

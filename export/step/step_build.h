@@ -6,7 +6,7 @@
 
 namespace fusee {
 
-/// The finished pulley in the values that its STEP file is written from. InputError: too large.
+/// The finished pulley in the plain values of its STEP file. Throws InputError if it is too large.
 StepPart step_part(const Product& product);
 
 }  // namespace fusee

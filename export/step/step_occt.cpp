@@ -1,6 +1,6 @@
 /// \file
-/// The module `fusee-step`: plain values → a solid of OpenCASCADE → AP214, and such a file read again. The one file
-/// that knows OpenCASCADE; it knows no pulley.
+/// The module `fusee-step`: converts plain values to an OpenCASCADE solid and AP214, and reads such a file back. It is
+/// the only file that includes OpenCASCADE, and it has no pulley types.
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Common.hxx>
@@ -88,13 +88,13 @@
 namespace fusee {
 namespace {
 
-// Of rows that are nearly the same: a circle, and the spline over another row's knots that stands for it.
+// Tolerance of sewing nearly equal rows: a circle, and the spline over another row's knots that represents it.
 constexpr double k_sewn = 1e-5;
-// A file's floors are drawn this finely, mm and rad.
+// Sagitta of a file's floors, mm, and angle, rad.
 constexpr double k_floor_sagitta = 1e-5;
 constexpr double k_floor_turn = 0.02;
 constexpr double k_same_height = 1e-9;
-// From corner to corner of what is read, mm.
+// Largest diagonal of a file, mm.
 constexpr double k_largest = 5000;
 
 gp_Pnt point_at(const Vec2& point, double z) { return {point.x(), point.y(), z}; }
@@ -102,7 +102,7 @@ gp_Pnt point_at(const Vec3& point) { return {point.x(), point.y(), point.z()}; }
 gp_Vec vector_along(const Vec3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 gp_Ax3 about_axis(double z) { return {gp_Pnt(0, 0, z), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0)}; }
 
-/// Distinct knots and how often each counts.
+/// Distinct knots and their multiplicities.
 struct Knots {
   TColStd_Array1OfReal values;
   TColStd_Array1OfInteger times;
@@ -150,7 +150,7 @@ void take_knots_of(const Handle(Geom_BSplineCurve) & curve, const Handle(Geom_BS
   curve->InsertKnots(values, times, 1e-12, false);
 }
 
-/// Through rows of poles over one knot vector; one row more than the degree across.
+/// A surface through rows of poles over one knot vector; one row more than the degree across.
 Handle(Geom_BSplineSurface)
     surface_through(const std::vector<Handle(Geom_BSplineCurve)>& rows, const std::vector<double>& weights) {
   const int across = static_cast<int>(rows.size()), along = rows.front()->NbPoles();
@@ -320,7 +320,7 @@ class SkinMaker {
   }
 
  private:
-  // What rounding to the grain leaves between faces that meet.
+  // Gap between adjacent faces by rounding to the resolution.
   static constexpr double k_joined = 5e-6;
 
   TopoDS_Edge edge_of(const StepSkin::Edge& edge) {
@@ -392,7 +392,7 @@ class SkinMaker {
     return made;
   }
 
-  // Straight among the face's parameters, as fast as the edge.
+  // A straight line in the face's parameters, with the speed of the edge.
   void place_on(const TopoDS_Face& face, const TopoDS_Edge& edge, const StepSkin::Use& use) {
     double from = 0, to = 0;
     BRep_Tool::Range(edge, from, to);
@@ -413,7 +413,7 @@ class SkinMaker {
   std::vector<TopoDS_Edge> edges_;
 };
 
-// ---- what is cut out of it ----
+// ---- cut features ----
 
 class ToolMaker {
  public:
@@ -427,7 +427,7 @@ class ToolMaker {
     fixed.FixOrientation();
     const TopoDS_Shape body =
         BRepPrimAPI_MakePrism(fixed.Face(), vector_along((prism.high - prism.low) * prism.z)).Shape();
-    return prism.roof ? below(body, *prism.roof) : body;
+    return prism.ceiling ? below(body, *prism.ceiling) : body;
   }
 
   TopoDS_Shape operator()(const StepFrustum& frustum) const {
@@ -491,8 +491,8 @@ class ToolMaker {
   }
 
  private:
-  /// The circle from the gable's left foot down and round to its right one, both sides of the gable, and what joins its
-  /// feet.
+  /// The circle from the left foot of the peaked ceiling down and round to its right foot, both sides of the ceiling,
+  /// and the line between its feet.
   struct RingEdges {
     TopoDS_Edge circle, right, left, chord;
   };
@@ -527,14 +527,14 @@ class ToolMaker {
     return wire.Wire();
   }
 
-  /// Of a plane, seen along its normal.
-  static TopoDS_Shape below(const TopoDS_Shape& body, const StepPrism::Roof& roof) {
+  /// The part of a body below a plane, seen along its normal.
+  static TopoDS_Shape below(const TopoDS_Shape& body, const StepPrism::Ceiling& ceiling) {
     Bnd_Box box;
     BRepBndLib::Add(body, box);
     const double reach = 2 * std::sqrt(box.SquareExtent());
-    const gp_Pln plane(point_at(roof.point), gp_Dir(vector_along(roof.normal)));
+    const gp_Pln plane(point_at(ceiling.point), gp_Dir(vector_along(ceiling.normal)));
     const TopoDS_Face face = BRepBuilderAPI_MakeFace(plane, -reach, reach, -reach, reach);
-    const gp_Vec down = -2 * reach * vector_along(roof.normal.normalized());
+    const gp_Vec down = -2 * reach * vector_along(ceiling.normal.normalized());
     const TopoDS_Shape kept = BRepPrimAPI_MakePrism(face, down).Shape();
     return BRepAlgoAPI_Common(body, kept).Shape();
   }
@@ -564,7 +564,7 @@ TopoDS_Shape combined(const TopoDS_Shape& body, const std::vector<StepTool>& too
   operation.SetTools(shapes);
   operation.SetRunParallel(false);
   operation.Build();
-  if (!operation.IsDone()) throw std::runtime_error("what is cut out cannot be cut out");
+  if (!operation.IsDone()) throw std::runtime_error("the cut features cannot be subtracted");
   return operation.Shape();
 }
 
@@ -575,8 +575,8 @@ TopoDS_Solid only_solid(const TopoDS_Shape& shape) {
   return TopoDS::Solid(solids(1));
 }
 
-/// Where a cut meets a face whose parameter runs unevenly, the kernel walks in steps of microns: the same curves with
-/// fewer poles. What is isoparametric is left as it is.
+/// If a cut meets a face with an uneven parameter, the kernel walks in steps of microns. Replaces such curves by equal
+/// ones with fewer poles, except isoparametric ones.
 void shorten_curves(const TopoDS_Shape& shape) {
   constexpr int k_many_poles = 30, k_most_pieces = 20;
   constexpr double k_near = 1e-6;
@@ -618,7 +618,7 @@ const Zone& zone_of(const TopoDS_Face& face, const StepPart& part) {
   return 0.5 * (low + high) < part.z_mate ? zones[0] : zones[1];
 }
 
-/// Names of the faces, by shape: a file is written by a document of shapes with attributes.
+/// Names of the faces, by shape. A file is written from a document of shapes with attributes.
 std::string written(const TopoDS_Solid& solid, const StepPart& part) {
   const Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
   const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
@@ -647,7 +647,7 @@ std::string written(const TopoDS_Solid& solid, const StepPart& part) {
   if (!writer.Transfer(document, STEPControl_AsIs)) throw std::runtime_error("the solid cannot be written");
   const Handle(XSControl_WorkSession) session = writer.ChangeWriter().WS();
   const Handle(StepData_StepModel) model = Handle(StepData_StepModel)::DownCast(session->Model());
-  // The same part, the same bytes: no date, no machine.
+  // Without date and machine, so that equal parts give equal bytes.
   APIHeaderSection_MakeHeader header(model);
   header.SetName(new TCollection_HAsciiString("pulley.step"));
   header.SetTimeStamp(new TCollection_HAsciiString("1970-01-01T00:00:00"));
@@ -664,7 +664,7 @@ std::string written(const TopoDS_Solid& solid, const StepPart& part) {
   return bytes.str();
 }
 
-/// Nothing is said but by what is returned.
+/// Suppresses the kernel's messages. Errors are reported by return values only.
 void be_silent() { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream)); }
 
 std::string write(const StepPart& part, std::string& complaint) {
@@ -702,7 +702,7 @@ int unpaired_edges(const TopoDS_Shape& shape) {
   return unpaired;
 }
 
-/// Does the boundary of the face's mesh run along its edges, all of them?
+/// True if the boundary of the face's mesh runs along all of its edges.
 bool mesh_closes(const TopoDS_Face& face) {
   using Link = std::pair<int, int>;
   const auto link = [](int a, int b) { return Link(std::min(a, b), std::max(a, b)); };
@@ -729,7 +729,7 @@ bool mesh_closes(const TopoDS_Face& face) {
   return boundary == along_edges;
 }
 
-/// `finely`: enough to find grooves in it, and for the wall that a channel leaves of a groove's end, 0.02 mm thin.
+/// `finely`: fine enough to find grooves in the mesh, and the wall of 0.02 mm that a channel leaves of a groove's end.
 int open_faces(const TopoDS_Shape& shape, bool finely) {
   const double sagitta = finely ? 0.01 : 0.05, turn = finely ? 0.2 : 0.3;
   BRepMesh_IncrementalMesh(shape, sagitta, false, turn, false);
@@ -761,7 +761,7 @@ double area_of(const Polygon& points) {
   return area;
 }
 
-/// The loop of the section that surrounds most. Its curves are `smooth`, or chords.
+/// The loop of the section with the largest area. Its curves are `smooth`, or chords.
 Polygon floor_at(const TopoDS_Shape& shape, double z, bool smooth) {
   BRepAlgoAPI_Section section(shape, gp_Pln(about_axis(z)), false);
   section.Approximation(smooth);
@@ -782,13 +782,13 @@ Polygon floor_at(const TopoDS_Shape& shape, double z, bool smooth) {
   return largest;
 }
 
-/// Where no smooth curve is found, as between the halves of elbow_idlers, chords are near enough for its size.
+/// If no smooth curve is found, as between the halves of elbow_idlers, chords are accurate enough for its size.
 Polygon floor_at(const TopoDS_Shape& shape, double z) {
   Polygon floor = floor_at(shape, z, true);
   return floor.empty() ? floor_at(shape, z, false) : floor;
 }
 
-/// Nodes of the faces' meshes, each once, and triangles that look outwards.
+/// Distinct nodes of the faces' meshes, and triangles that face outwards.
 TriangleMesh mesh_of(const TopoDS_Shape& shape) {
   TriangleMesh mesh;
   for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
@@ -813,7 +813,7 @@ TriangleMesh mesh_of(const TopoDS_Shape& shape) {
   return mesh;
 }
 
-/// Nodes of faces' meshes by the cells of a lattice: where to begin to look for the place next to a point.
+/// Nodes of the faces' meshes in a lattice of cells: start points for nearest-point searches.
 class Nearest {
  public:
   explicit Nearest(const TopoDS_Shape& shape) {
@@ -831,19 +831,19 @@ class Nearest {
     }
   }
 
-  /// From the surfaces that have a node nearby; infinite where none has.
+  /// Distance from the surfaces that have a node nearby; infinite if there is none.
   double distance(const gp_Pnt& point) const {
     double best = std::numeric_limits<double>::infinity();
     for (const auto& [surface, start] : beside(point)) best = std::min(best, descended(point, *start.second));
     return best;
   }
 
-  /// The point of a surface nearby that is in the same half-plane that ends in the axis, and in it nearest to the axis:
-  /// of a level ground its middle. The point itself where there is none.
+  /// The surface point nearby in the same half-plane through the axis that is nearest to the axis; the middle of a
+  /// level ground. The point itself if there is none.
   gp_Pnt ground(const gp_Pnt& point) const {
-    // Ends of walls lie as low as the level ground between them.
+    // The ends of walls are as low as the level ground between them.
     constexpr double k_level = 1e-5;
-    // Further away another turn lies.
+    // Points further away belong to another turn.
     constexpr double k_near = 0.25;
     gp_Pnt best = point;
     double least = std::numeric_limits<double>::infinity();
@@ -872,7 +872,7 @@ class Nearest {
             static_cast<int>(std::floor(point.Z() / k_cell))};
   }
 
-  /// Of every surface with nodes nearby the nearest one.
+  /// The nearest node of every surface with nodes nearby.
   std::map<std::size_t, std::pair<double, const Node*>> beside(const gp_Pnt& point) const {
     std::map<std::size_t, std::pair<double, const Node*>> of_surface;
     const Cell middle = cell_of(point);
@@ -896,10 +896,10 @@ class Nearest {
 
   struct Crossing {
     gp_Pnt place;
-    bool inside = false;  ///< of the patch
+    bool inside = false;  ///< inside the patch
   };
 
-  /// On a patch along u, its lowest place in the point's half-plane, and whether it is level all across.
+  /// The lowest place of a patch along u in the point's half-plane, and true if it is level across the patch.
   static std::optional<std::pair<gp_Pnt, bool>> lowest_on(const Geom_Surface& surface, const gp_Pnt& point,
                                                           const Node& start) {
     constexpr int k_narrowings = 24;
@@ -925,8 +925,8 @@ class Nearest {
     return std::pair(lowest->place, is_level);
   }
 
-  /// Where the row v crosses the point's half-plane, by Newton's steps from u on. A half-plane may cross some rows just
-  /// past the end of a patch: it goes on a little.
+  /// The crossing of row v with the point's half-plane, by Newton's method from u. A half-plane may cross some rows
+  /// slightly beyond the end of a patch, so the row is extended slightly.
   static std::optional<Crossing> across(const Geom_Surface& surface, const gp_Pnt& point, double& u, double v) {
     constexpr int k_steps = 20;
     constexpr double k_near = 1e-10;
@@ -951,7 +951,7 @@ class Nearest {
     return std::nullopt;
   }
 
-  /// Gauss and Newton's steps to where the way to the point stands across the surface.
+  /// Gauss-Newton iteration to the perpendicular foot on the surface.
   double descended(const gp_Pnt& point, const Node& start) const {
     constexpr int k_steps = 12;
     const Geom_Surface& surface = *surfaces_[start.surface];
@@ -988,7 +988,7 @@ StepReading read(const std::string& path, const StepQuestion& question) {
     if (shape.IsNull()) return reading;
     Bnd_Box box;
     BRepBndLib::Add(shape, box);
-    // In other units it would be cut into triangles for ever.
+    // A file in another unit would take too long to triangulate.
     if (std::sqrt(box.SquareExtent()) > k_largest) return reading;
     TopTools_IndexedMapOfShape solids, edges, faces;
     TopExp::MapShapes(shape, TopAbs_SOLID, solids);
@@ -1000,7 +1000,7 @@ StepReading read(const std::string& path, const StepQuestion& question) {
     reading.unpaired_edges = unpaired_edges(shape);
     reading.is_valid = BRepCheck_Analyzer(shape).IsValid();
     GProp_GProps volume, area;
-    // Its usual Gauss points are 2 % off on long trimmed splines.
+    // Its default Gauss points are 2 % off on long trimmed splines.
     BRepGProp::VolumeProperties(shape, volume, 1e-5);
     BRepGProp::SurfaceProperties(shape, area);
     reading.volume = volume.Mass();

@@ -1,9 +1,9 @@
 /// \file
-/// The part as pulley.step has it, in plain values: what fusee knows of it, for what writes it and knows no pulley
-/// (step_occt.cpp). mm as printed, rad.
+/// Internal: the part for pulley.step in plain values, the interface between fusee and the module step_occt.cpp, which
+/// has no pulley types. mm as printed, rad.
 ///
-/// The body is a stack of closed rows about the axis, joined by bands, each cut at the same directions into pieces
-/// without a seam. A row's parameter is the direction ψ of its outward normal, on every row: all edges of a band lie at
+/// The body is a stack of closed rows about the axis, joined by bands. All are cut at the same directions into pieces
+/// without a seam. The parameter of every row is the direction ψ of its outward normal, so all edges of a band lie at
 /// constant parameters of its surface.
 #pragma once
 
@@ -21,26 +21,27 @@ namespace fusee {
 
 inline constexpr int k_step_degree = 5;
 
-/// A clamped B-spline of that degree over ψ.
+/// A clamped B-spline of the given degree over ψ.
 struct StepSpline {
-  std::vector<double> knots;  ///< each as often as it counts
+  std::vector<double> knots;  ///< repeated by multiplicity
   std::vector<Vec2> poles;
 };
 
 struct StepRow {
   double z = 0;
   double radius = 0;                    ///< > 0: a circle about the axis
-  std::vector<StepSpline> pieces = {};  ///< of a row that is none, one for each sector
+  std::vector<StepSpline> pieces = {};  ///< of a row that is no circle, one for each sector
 };
 
 enum class StepZone { p1, p2, hub };
 
-/// What joins a row and the next one.
+/// The surface between a row and the next one.
 struct StepBand {
-  /// Ruled, unless both rows are circles; on each one's own knots.
+  /// Ruled, unless both rows are circles. Each row has its own knots.
   std::vector<StepSpline> lower = {}, upper = {};
-  /// A groove's seat, an arc in every half-plane through the axis along the normal: the row of its corners, with their
-  /// weight; seat_radius 0: straight. Where both rows are circles the torus' middle stands at this radius and height.
+  /// A groove's seat: in every half-plane through the axis along the normal, an arc given by the row of its corners and
+  /// their weight. seat_radius 0: straight. If both rows are circles, the torus has its centre at this radius and
+  /// height.
   double seat_radius = 0;
   double seat_middle = 0;
   double seat_z = 0;
@@ -49,7 +50,7 @@ struct StepBand {
   std::vector<StepSpline> corner = {};
 };
 
-/// Closed; from point to point straight, or an arc through `via`.
+/// A closed contour of straight segments and arcs through `via`.
 struct StepContour {
   struct Piece {
     Vec2 to;
@@ -59,7 +60,7 @@ struct StepContour {
   std::vector<Piece> pieces = {};
 };
 
-/// outer without the others, from `low` to `high` along `z`, seen with `x` to the right.
+/// The prism of `outer` minus the other contours, from `low` to `high` along `z`, seen with `x` to the right.
 struct StepPrism {
   Vec3 origin = Vec3::Zero();
   Vec3 x = Vec3::UnitX();
@@ -68,14 +69,14 @@ struct StepPrism {
   std::vector<StepContour> inner = {};
   double low = 0;
   double high = 0;
-  /// Nothing of it stands beyond this plane, seen along its normal.
-  struct Roof {
+  /// A plane that limits the prism, seen along its normal.
+  struct Ceiling {
     Vec3 point, normal;
   };
-  std::optional<Roof> roof = {};
+  std::optional<Ceiling> ceiling = {};
 };
 
-/// Between two horizontal circles.
+/// A frustum between two horizontal circles.
 struct StepFrustum {
   Vec2 low_centre = Vec2::Zero(), high_centre = Vec2::Zero();
   double low = 0, high = 0;
@@ -90,20 +91,20 @@ struct StepTurned {
   double turn = 0;
 };
 
-/// A section of a channel: a circle in the plane of `level` and `up`, open by `gap` to both sides of its top, and the
-/// gable over it up to `ridge`.
+/// A section of a channel: a circle in the plane of `level` and `up`, open by `gap` on both sides of its top, below a
+/// peaked ceiling with its ridge at `ridge`.
 struct StepRing {
   Vec3 middle, level, up;
   double radius = 0;
   double gap = 0;
   Vec3 ridge;
 };
-/// Through rings; the part up to the second is straight.
+/// A channel through rings; the part up to the second ring is straight.
 struct StepChannel {
   std::vector<StepRing> rings = {};
 };
 
-/// What all of these have in common.
+/// Any of these solids.
 using StepSolid = std::variant<StepPrism, StepFrustum, StepTurned, StepChannel, TriangleMesh>;
 struct StepTool {
   std::vector<StepSolid> common;
@@ -114,20 +115,20 @@ struct StepHub {
   double high = 0;
 };
 
-/// A body whose rows climb: faces with their corners and edges, each edge between two faces.
+/// A body with helical rows: faces with corners and edges, each edge between two faces.
 struct StepSkin {
-  /// What an edge runs along from its first corner to its last.
+  /// The curve of an edge from its first corner to its last.
   struct Straight {};
   struct Curve {
     std::vector<double> knots;
     std::vector<Vec3> poles;
   };
-  /// Through the corner of its two tangents, with that one's weight.
+  /// Through the corner of its two tangents, with the weight of that corner.
   struct Arc {
     Vec3 corner;
     double weight = 1;
   };
-  /// About the axis, counter-clockwise.
+  /// A circle about the axis, counter-clockwise.
   struct Round {
     double radius = 0;
     double from = 0, to = 0;
@@ -143,13 +144,13 @@ struct StepSkin {
   struct Cylinder {
     double radius = 0;
   };
-  /// Rows of poles over one knot vector, from below; the middle one of three with a weight.
+  /// Rows of poles over one knot vector, from below. The middle one of three has a weight.
   struct Patch {
     std::vector<double> knots;
     std::vector<std::vector<Vec3>> rows;
     double weight = 1;
   };
-  /// An edge of a face, and where it runs among the parameters of a patch, as the edge does.
+  /// An edge of a face, and its course in the parameters of a patch.
   struct Use {
     std::size_t edge = 0;
     bool backwards = false;
@@ -157,7 +158,7 @@ struct StepSkin {
   };
   struct Face {
     std::variant<Plane, Cylinder, Patch> surface;
-    std::vector<std::vector<Use>> loops;  ///< seen from outside the first counter-clockwise, others clockwise
+    std::vector<std::vector<Use>> loops;  ///< seen from outside, the first counter-clockwise, others clockwise
   };
 
   std::vector<Vec3> corners = {};
@@ -169,42 +170,42 @@ struct StepPart {
   std::string name;
   std::vector<double> sectors;  ///< directions at which the rows are cut, and the first a turn on
   std::vector<StepRow> rows;    ///< from the bottom up
-  std::vector<StepBand> bands;  ///< one less
+  std::vector<StepBand> bands;  ///< one fewer than rows
   std::optional<StepHub> hub = {};
-  std::optional<StepSkin> skin = {};  ///< in place of rows, bands and hub
+  std::optional<StepSkin> skin = {};  ///< replaces rows, bands and hub
   std::vector<StepTool> cuts = {};
   std::vector<StepTool> raised = {};
-  double z_mate = 0;  ///< between P1 and P2
-  double z_top = 0;   ///< of P2
+  double z_mate = 0;  ///< boundary of P1 and P2
+  double z_top = 0;   ///< upper end of P2
 };
 
-/// What is asked of a written file beside.
+/// Measurements requested of a written file.
 struct StepQuestion {
   std::vector<double> planes = {};  ///< heights of sections
-  std::vector<Vec3> places = {};    ///< how far they are from its surface
-  /// Where in its mesh grooves have their grounds, more or less; null: nowhere.
+  std::vector<Vec3> places = {};    ///< places whose distance from the surface is measured
+  /// Approximate places of groove grounds in the file's mesh; null: none.
   std::function<std::vector<Vec3>(const TriangleMesh& mesh)> grounds = {};
 };
 
-/// What a written file is, read again.
+/// Properties of a written file after reading it back.
 struct StepReading {
   int solids = 0;
   int edges = 0;
-  int unpaired_edges = 0;  ///< that are not on two faces
+  int unpaired_edges = 0;  ///< edges that do not belong to two faces
   int faces = 0;
-  int open_faces = 0;     ///< whose mesh does not close with its edges
-  bool is_valid = false;  ///< to the kernel's own check
+  int open_faces = 0;     ///< faces whose mesh does not end at their edges
+  bool is_valid = false;  ///< by the kernel's own check
   double volume = 0;
   double area = 0;
-  std::vector<Polygon> sections;  ///< the outermost loops at the planes, within some 1e-5 mm; empty: there is none
+  std::vector<Polygon> sections;  ///< the outermost loops at the planes, within some 1e-5 mm; empty: none
   std::vector<double> distances;  ///< of the places from the surface
-  /// The surface itself in the half-planes of the grounds: its lowest places, and of a level ground the middle.
+  /// The lowest places of the surface in the half-planes of the grounds; the middle of a level ground.
   std::vector<Vec3> grounds;
 };
 
-/// What the module `fusee-step` exports under this name.
+/// The symbol exported by the module `fusee-step`.
 struct StepMaker {
-  /// The file's bytes; empty: `complaint` says what did not go.
+  /// The file's bytes; if empty, `complaint` gives the error.
   std::string (*write)(const StepPart& part, std::string& complaint);
   StepReading (*read)(const std::string& path, const StepQuestion& question);
 };

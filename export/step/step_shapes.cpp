@@ -34,7 +34,7 @@ StepTool cylinder(const Vec2& centre, double radius, double low, double high) {
 
 // ---- along the axis ----
 
-/// What its first points describe is an arc about the axis.
+/// The bore's outline; its first points may describe an arc about the axis.
 StepContour bore_contour(const BoreLayout& bore) {
   if (bore.arc_points < 3) return contour_of(bore.outline);
   const auto last = static_cast<std::ptrdiff_t>(bore.arc_points) - 1;
@@ -51,9 +51,9 @@ StepTool bore_between(const BoreLayout& bore, double low, double high) {
   return prism_between(bore_contour(bore), low, high);
 }
 
-/// The cone above a horn's recess; of a toothed one with the mesh's facets.
-StepTool recess_roof(const BoreLayout& bore) {
-  const double low = bore.horn_recess, high = low + bore.horn_roof;
+/// The cone above a horn's recess; for a toothed one with the mesh's facets.
+StepTool recess_ceiling(const BoreLayout& bore) {
+  const double low = bore.horn_recess, high = low + bore.horn_ceiling;
   if (bore.circle) {
     const RoundHole hole = circle_within(bore.screw_holes.front());
     return {{StepFrustum{hole.centre, hole.centre, low, high, 0.5 * bore.circle->diameter, 0.5 * hole.diameter}}};
@@ -67,7 +67,7 @@ void add_bore(std::vector<StepTool>& tools, const BodyLayout& layout) {
   const double top = layout.z_hub + k_overshoot;
   if (bore.horn_recess > 0) {
     tools.push_back(bore_between(bore, -k_overshoot, bore.horn_recess));
-    if (bore.horn_roof > 0) tools.push_back(recess_roof(bore));
+    if (bore.horn_ceiling > 0) tools.push_back(recess_ceiling(bore));
   } else {
     tools.push_back(bore_between(bore, -k_overshoot, top));
   }
@@ -83,8 +83,9 @@ void add_dowels(std::vector<StepTool>& tools, const DowelLayout& dowels) {
   const double radius = 0.5 * dowels.hole_diameter;
   for (const Vec2& place : dowels.places) {
     tools.push_back(cylinder(place, radius, -k_overshoot, dowels.z_end));
-    if (dowels.roof > 0)
-      tools.push_back({{StepFrustum{place, place, dowels.z_end, dowels.z_end + dowels.roof, radius, k_tip * radius}}});
+    if (dowels.ceiling > 0)
+      tools.push_back(
+          {{StepFrustum{place, place, dowels.z_end, dowels.z_end + dowels.ceiling, radius, k_tip * radius}}});
   }
 }
 
@@ -97,7 +98,8 @@ void add_set_screw(std::vector<StepTool>& tools, const BodyLayout& layout) {
   hole.origin = {0, 0, screw.z};
   hole.x = {across.x(), across.y(), 0};
   hole.z = {out.x(), out.y(), 0};
-  const Vec2 left = radius * unit(0.5 * k_pi + screw.roof_slope), right = radius * unit(0.5 * k_pi - screw.roof_slope);
+  const Vec2 left = radius * unit(0.5 * k_pi + screw.ceiling_slope),
+             right = radius * unit(0.5 * k_pi - screw.ceiling_slope);
   hole.outer = {left, {{right, Vec2(0, -radius)}, {Vec2(0, teardrop_top(screw)), {}}, {left, {}}}};
   hole.high = layout.hub_radius + k_overshoot;
   tools.push_back({{hole}});
@@ -110,14 +112,14 @@ void add_set_screw(std::vector<StepTool>& tools, const BodyLayout& layout) {
 
 // ---- tie-offs ----
 
-/// From the groove's plane upwards as it is printed, to where it lies in the part.
+/// From the groove's plane upwards in print orientation to the position in the part.
 struct Upwards {
   double plane = 0;
   double up = 1;
   double at(double height) const { return plane + up * height; }
 };
 
-/// Points of a channel's edge as lines and, where they lie on the arc about its bend, arcs.
+/// Appends points of a channel's edge as lines and, on the arc about its bend, as arcs.
 void append_edge(StepContour& contour, const Polygon& edge, const ChannelBend& bend, double radius) {
   constexpr double k_on_it = 1e-7;
   const auto on_arc = [&](const Vec2& point) { return std::abs((point - bend.centre).norm() - radius) < k_on_it; };
@@ -148,10 +150,10 @@ struct ChannelPlan {
 
 ChannelPlan plan_of(const Anchor& anchor, double half_width) {
   const ChannelBend& bend = *anchor.bend;
-  const auto half = static_cast<std::ptrdiff_t>(anchor.mouth.size() / 2);
-  const Polygon outer(anchor.mouth.begin(), anchor.mouth.begin() + half);
-  const Polygon inner(anchor.mouth.rbegin(), anchor.mouth.rbegin() + half);
-  // Of the inner edge, which is an arc and a straight, as far as the arc goes.
+  const auto half = static_cast<std::ptrdiff_t>(anchor.entry.size() / 2);
+  const Polygon outer(anchor.entry.begin(), anchor.entry.begin() + half);
+  const Polygon inner(anchor.entry.rbegin(), anchor.entry.rbegin() + half);
+  // The arc's part of the inner edge, which is an arc and a straight.
   std::size_t arc = 0;
   const double inner_radius = bend.radius - half_width;
   while (arc + 1 < inner.size() && std::abs((inner[arc + 1] - bend.centre).norm() - inner_radius) < 1e-7) ++arc;
@@ -171,19 +173,19 @@ ChannelPlan plan_of(const Anchor& anchor, double half_width) {
   return plan;
 }
 
-/// Across the straight, away from the bend's centre.
+/// Direction across the straight, away from the bend's centre.
 Vec2 outer_of(const Anchor& anchor) {
   return (anchor.pocket - anchor.bend->straight * anchor.bend->heading - anchor.bend->centre).normalized();
 }
 
-/// Its ceiling rises from the inner wall outwards: a cone about the bend's centre, and a plane.
+/// The channel's ceiling rises from the inner wall outwards: a cone about the bend's centre, and a plane.
 void add_channel(std::vector<StepTool>& tools, const Anchor& anchor, const BodyLayout& layout, const Upwards& z) {
   const ChannelBend& bend = *anchor.bend;
   const double width = layout.channel_width, half = bend.half_height;
-  const double slope = layout.channel_roof / width;
+  const double slope = layout.channel_ceiling / width;
   const ChannelPlan plan = plan_of(anchor, 0.5 * width);
   double reach = 0;
-  for (const Vec2& point : anchor.mouth) reach = std::max(reach, (point - bend.centre).norm());
+  for (const Vec2& point : anchor.entry) reach = std::max(reach, (point - bend.centre).norm());
   const double far = reach + 1, inner = bend.radius - 0.5 * width;
   const double highest = half + slope * (far - inner) + 1;
   StepTool bent = prism_between(plan.bent, z.at(-half), z.at(slope > 0 ? highest : half));
@@ -203,13 +205,13 @@ void add_channel(std::vector<StepTool>& tools, const Anchor& anchor, const BodyL
   if (slope > 0) {
     const Vec2 outer = outer_of(anchor), on_wall = bend.centre + inner * outer;
     const Vec3 point(on_wall.x(), on_wall.y(), z.at(half));
-    std::get<StepPrism>(straight.common.front()).roof =
-        StepPrism::Roof{point, Vec3(-slope * outer.x(), -slope * outer.y(), z.up)};
+    std::get<StepPrism>(straight.common.front()).ceiling =
+        StepPrism::Ceiling{point, Vec3(-slope * outer.x(), -slope * outer.y(), z.up)};
   }
   tools.push_back(std::move(straight));
 }
 
-/// A circle, and where the channel's slope would meet it too sharply a tab in which the channel ends.
+/// A circle, with a tab at the channel's end if the channel's slope would meet the circle too sharply.
 StepContour pocket_contour(const Anchor& anchor, const BodyLayout& layout) {
   const ChannelBend& bend = *anchor.bend;
   const double radius = layout.pocket_radius;
@@ -217,7 +219,7 @@ StepContour pocket_contour(const Anchor& anchor, const BodyLayout& layout) {
   const auto place = [&](double along, double across) -> Vec2 {
     return anchor.pocket + along * bend.heading + across * outer;
   };
-  if (!(layout.channel_roof > 0 && bend.straight > radius + k_deeper))
+  if (!(layout.channel_ceiling > 0 && bend.straight > radius + k_deeper))
     return {place(radius, 0), {{place(-radius, 0), place(0, radius)}, {place(radius, 0), place(0, -radius)}}};
   const double half = half_tab(layout.channel_width, radius), behind = std::sqrt(radius * radius - half * half);
   return {place(-behind, half),
@@ -236,19 +238,20 @@ void add_pocket(std::vector<StepTool>& tools, const Anchor& anchor, const BodyLa
     return;
   }
   StepTool tool = prism_between(pocket_contour(anchor, layout), z.at(-layout.z_p1 - k_overshoot),
-                                z.at(closed + layout.pocket_roof + 1));
-  const double slope = 0.5 * layout.pocket_roof / layout.pocket_radius;
+                                z.at(closed + layout.pocket_ceiling + 1));
+  const double slope = 0.5 * layout.pocket_ceiling / layout.pocket_radius;
   const Vec2 outer = outer_of(anchor);
   auto& prism = std::get<StepPrism>(tool.common.front());
   if (slope > 0)
-    prism.roof = StepPrism::Roof{Vec3(anchor.pocket.x(), anchor.pocket.y(), z.at(closed + 0.5 * layout.pocket_roof)),
-                                 Vec3(-slope * outer.x(), -slope * outer.y(), 1)};
+    prism.ceiling =
+        StepPrism::Ceiling{Vec3(anchor.pocket.x(), anchor.pocket.y(), z.at(closed + 0.5 * layout.pocket_ceiling)),
+                           Vec3(-slope * outer.x(), -slope * outer.y(), 1)};
   else
     prism.high = z.at(closed);
   tools.push_back(std::move(tool));
 }
 
-/// Seen from the face, which lies at 0: depths.
+/// Coordinates seen from the face, which lies at 0: depths.
 struct FromFace {
   double face = 0;
   double in = 1;
@@ -298,7 +301,7 @@ void add_tail(std::vector<StepTool>& tools, const Anchor& anchor, const BodyLayo
   prism.z = {along.x(), along.y(), 0};
   const double half = 0.5 * slot.width;
   Polygon section{{-half, -face.in * k_overshoot}, {half, -face.in * k_overshoot}, {half, face.in * slot.depth}};
-  if (slot.roof > 0) section.emplace_back(0, face.in * (slot.depth + slot.roof));
+  if (slot.ceiling > 0) section.emplace_back(0, face.in * (slot.depth + slot.ceiling));
   section.emplace_back(-half, face.in * slot.depth);
   prism.outer = contour_of(section);
   prism.high = (slot.to - slot.from).norm();
@@ -365,7 +368,7 @@ double round_holes_leave(const Pulley& pulley) {
   if (bore.circle)
     volume += facets_beyond_circle(bore.circle->diameter) * (bore.horn_recess > 0 ? bore.horn_recess : layout.z_hub);
   for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) {
-    const double below = bore.horn_recess > 0 && k == 0 ? bore.horn_recess + bore.horn_roof : 0;
+    const double below = bore.horn_recess > 0 && k == 0 ? bore.horn_recess + bore.horn_ceiling : 0;
     volume += facets_beyond_circle(circle_within(bore.screw_holes[k]).diameter) * (layout.z_hub - below);
   }
   for (std::size_t k = 0; k < layout.dowels.places.size(); ++k)

@@ -124,8 +124,8 @@ std::string model_summary(const ModelResult& made, const ModelOptions& options) 
   const JointTable& table = product.table;
   std::string text = product.mechanism.name + ": the joint for other programs\n";
   text += std::string("  table             ") +
-          (product.curves.shown.source == CurveSource::law ? "of the declared law"
-           : product.curves.shown.source == CurveSource::identified
+          (product.curves.sensed.source == CurveSource::law ? "of the declared law"
+           : product.curves.sensed.source == CurveSource::identified
                ? "of the joint as identified, from below and from above"
                : "of " + product.compensation + ", from below and from above") +
           "\n";
@@ -133,15 +133,16 @@ std::string model_summary(const ModelResult& made, const ModelOptions& options) 
   if (product.with_polynomial)
     text += "    joint.xml       " + deg_text(product.equality.error) + " (polynomial of degree 4)\n";
   if (product.tendons)
-    text += "    joint_tendons.xml " + deg_text(product.tendons->error) + " (tendon " +
-            (product.tendons->held == Side::left ? "1" : "2") +
-            (product.tendons->tendons[product.tendons->held == Side::left ? 0 : 1].drum > 0 ? " on the drum)\n"
-                                                                                            : " over its pin)\n");
+    text +=
+        "    joint_tendons.xml " + deg_text(product.tendons->error) + " (tendon " +
+        (product.tendons->constrained == Side::left ? "1" : "2") +
+        (product.tendons->tendons[product.tendons->constrained == Side::left ? 0 : 1].drum > 0 ? " on the drum)\n"
+                                                                                               : " over its pin)\n");
   text += "    joint.urdf      " + deg_text(product.line.error) + " (a straight line; joint_ros2_control.urdf too)\n";
   text += "    joint_table.h   " + deg_text(std::max(table.errors.theta, table.errors.returned)) + " (" +
           std::to_string(table.pieces + 1) + " entries; joint_table.json too)\n";
-  if (product.curves.stands.loop > 0)
-    text += "  simulators follow the middle of both ways: " + deg_text(product.curves.stands.loop) +
+  if (product.curves.physical.half_hysteresis > 0)
+    text += "  simulators follow the middle of both ways: " + deg_text(product.curves.physical.half_hysteresis) +
             " beside each at most\n";
   if (options.dry_run) return text + "  files             none written (--dry-run)\n";
   if (!made.published)
@@ -178,7 +179,7 @@ Reply run_model(const Arguments& arguments, Console& console) {
   reply.fields["folder"] = options.folder.string();
   reply.fields["published"] = made.published;
   reply.fields["theta_error_deg"] = errors_json(product);
-  reply.fields["loop_deg"] = degrees(product.curves.stands.loop);
+  reply.fields["loop_deg"] = degrees(product.curves.physical.half_hysteresis);
   reply.fields["checks"] = to_json(product.checks);
   reply.fields["outputs"] = output_list(made.outputs);
   if (made.ending == ModelEnding::check_failed) {

@@ -118,7 +118,7 @@ std::string summary(const PlanProduct& product) {
                      " causes could be named alone\n" + steps_text(plan) + "\n" + causes_text(plan);
   text += listed("Not told apart", group_words(plan));
   text += listed("More minutes", minute_words(plan.beyond));
-  return text + listed("How often a name would be false", blame_words(plan));
+  return text + listed("False-positive rate", false_positive_words(plan));
 }
 
 void refuse_short_time(const PlanResult& result, const std::string& path, Reply& reply) {

@@ -14,17 +14,17 @@ namespace fusee {
 namespace {
 
 constexpr std::size_t k_gauge_planes = 360;
-// Grooves are at least this deep: smaller grounds are chords of something else.
+// Grooves are at least this deep. Shallower minima are chords of other faces.
 constexpr double k_least_groove = 0.3;
-// What floats and the formats' own grains take of a thickness.
+// Loss of a measured thickness by rounding to float and by the file formats.
 constexpr double k_grain_of_gauge = 1e-4;
-// Ribs are measured at this share of a groove's depth: above, a chord may lie under the lip.
+// Ribs are measured at this fraction of a groove's depth. Higher up, a chord may lie below the groove edge.
 constexpr double k_share_of_depth = 0.9;
-// Between volumes of the same facets, relative.
+// Relative difference between volumes of the same facets.
 constexpr double k_volume_grain = 1e-5;
 
-// The least of something, and where.
-struct Least {
+// The smallest value and its place.
+struct Minimum {
   double value = std::numeric_limits<double>::infinity();
   Vec3 at = Vec3::Zero();
 
@@ -38,7 +38,7 @@ struct Least {
   }
 };
 
-// In the finished part's sizes.
+// Measures thicknesses in the finished part's sizes.
 class PartGauge {
  public:
   PartGauge(const TriangleMesh& mesh, const HelicalPulley& pulley, const HelicalSection& section)
@@ -74,13 +74,13 @@ class PartGauge {
                const std::vector<FloorPlace>& floors) {
     for (std::size_t i = 0; i < floors.size(); ++i) {
       const FloorPlace& floor = floors[i];
-      depth_.note(std::min(floor.low_lip, floor.high_lip) - floor.r, angle, floor.r, floor.z);
+      depth_.note(std::min(floor.low_crest, floor.high_crest) - floor.r, angle, floor.r, floor.z);
       wall_.note(floor.r - bore_at(pieces, floor.z), angle, floor.r, floor.z);
       if (i > 0) rib_.note(thickness_between(outline, floors[i - 1], floor), angle, floor.r, floor.z);
     }
   }
 
-  // Height over which the outline stands out further than the nearer floor's groove is deep.
+  // Height over which the outline projects further than the nearer floor's groove is deep.
   double thickness_between(const std::vector<OutlinePiece>& outline, const FloorPlace& low,
                            const FloorPlace& high) const {
     const double level = std::min(low.r, high.r) + k_share_of_depth * section_.depth;
@@ -95,7 +95,7 @@ class PartGauge {
     return thickness;
   }
 
-  // How far the bore, or a horn's hole, reaches at this height.
+  // Radius of the bore, or of a horn's hole, at this height.
   double bore_at(const std::vector<OutlinePiece>& pieces, double z) const {
     double reach = layout_.bore.radius;
     for (const Polygon& hole : layout_.bore.screw_holes) reach = std::max(reach, circumradius(hole));
@@ -109,7 +109,7 @@ class PartGauge {
 
   const BodyLayout& layout_;
   const HelicalSection& section_;
-  Least rib_, depth_, wall_;
+  Minimum rib_, depth_, wall_;
 };
 
 }  // namespace

@@ -10,12 +10,12 @@
 namespace fusee {
 namespace {
 
-// Pieces shorter than this along the axis have no height.
+// Pieces shorter than this along the axis count as level.
 constexpr double k_level = 1e-7;
-// The ground of a floor's band is level to what a float holds of a large part.
+// Radius variation within a floor's band, by float rounding of a large part.
 constexpr double k_ground = 1e-3;
 
-// Where the half-plane in direction (c, s) cuts a facet.
+// Adds the cut of a facet by the half-plane in direction (c, s).
 void cut(const std::array<const Vec3*, 3>& corners, double c, double s, std::vector<OutlinePiece>& pieces) {
   std::array<double, 3> aside{};
   for (std::size_t k = 0; k < 3; ++k) aside[k] = c * corners[k]->y() - s * corners[k]->x();
@@ -41,13 +41,14 @@ double radius_at(const OutlinePiece& piece, double z) {
   return piece.r0 + (piece.r1 - piece.r0) * (z - piece.z0) / (piece.z1 - piece.z0);
 }
 
-// From one half-plane to the next a floor goes on within this (mm), and within what a floor at 45° to its radius goes
-// on by.
+// Largest step of a floor from one half-plane to the next (mm), in addition to the step of a floor at 45° to its
+// radius.
 constexpr double k_next = 0.4;
-// A groove's end wall stands across the groove, a half-plane may cut it at an angle: so much of a turn is no floor yet.
+// A groove's end wall stands across the groove and a half-plane may cut it at an angle. This angle at each end is
+// omitted.
 constexpr double k_end_of_groove = radians(4);
 
-// The same floors of all half-planes, joined from one to the next.
+// Joins the floors of neighbouring half-planes to traces.
 class FloorJoiner {
  public:
   explicit FloorJoiner(const std::vector<std::vector<FloorPlace>>& floors) : floors_(floors), planes_(floors.size()) {
@@ -174,11 +175,11 @@ std::vector<OutlinePiece> outermost(std::vector<OutlinePiece> pieces) {
 std::vector<FloorPlace> floors_of(const std::vector<OutlinePiece>& outline, double least_rise) {
   std::vector<FloorPlace> floors;
   if (outline.empty()) return floors;
-  // Down from a crest to the lowest ground so far; up from there by the least rise, and it was a floor.
+  // From each crest, follow the outline down to the lowest ground. A rise of at least `least_rise` ends a floor.
   double crest = outline.front().r0, crest_z = outline.front().z0;
   double ground = crest, from = crest_z, to = crest_z;
   bool is_down = false;
-  const auto look = [&](double z, double r) {
+  const auto follow = [&](double z, double r) {
     if (r < ground - k_ground) {
       ground = r;
       from = to = z;
@@ -200,14 +201,14 @@ std::vector<FloorPlace> floors_of(const std::vector<OutlinePiece>& outline, doub
       is_down = false;
       crest = ground = r;
       crest_z = from = to = z;
-    } else if (!is_down && !floors.empty() && floors.back().high_lip < r) {
-      floors.back().high_lip = r;
-      floors.back().high_lip_z = z;
+    } else if (!is_down && !floors.empty() && floors.back().high_crest < r) {
+      floors.back().high_crest = r;
+      floors.back().high_crest_z = z;
     }
   };
   for (const OutlinePiece& piece : outline) {
-    look(piece.z0, piece.r0);
-    look(piece.z1, piece.r1);
+    follow(piece.z0, piece.r0);
+    follow(piece.z1, piece.r1);
   }
   return floors;
 }

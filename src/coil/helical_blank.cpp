@@ -13,11 +13,11 @@
 #include "fusee/base/units.h"
 #include "solid/caps.h"
 
-// The outer surface is a fan of columns, one for each common direction of the normal. Up a column stand, one over the
-// other: the lower face's rim, P1's turns, the middle flange's two rings, P2's turns, the upper face's rim. From column
-// to column a turn goes on as the next row of its groove, a ring as itself: each strip between two columns is a ladder
-// of bands, section by section and rib by rib, so that a rib belongs to the turn under it and to the one over it. Only
-// where a groove begins or ends has one side of a strip two more corners, and the groove's section is closed by a wall.
+// The outer surface is a fan of columns, one for each common direction of the normal. A column holds, upwards: the
+// lower face's rim, P1's turns, the middle flange's two rings, P2's turns, the upper face's rim. From column to column
+// a turn continues as the next row of its groove, and a ring as itself. Each strip between two columns is therefore a
+// ladder of bands, section by section and rib by rib. A rib belongs to both the turn below it and the turn above it.
+// Where a groove begins or ends, one side of a strip has two more corners, and a wall closes the groove's section.
 
 namespace fusee {
 namespace {
@@ -25,24 +25,24 @@ namespace {
 using Index = std::uint32_t;
 using Facet = std::array<Index, 3>;
 
-// How a hub's circle is drawn: its sagitta.
+// Sagitta of the hub's circle.
 constexpr double k_hub_sagitta = 0.01;
 
-// Where in its turn a ring begins to leave the outermost turn for where it has to end, of 2π; and where on the rows
-// that are filled the bulge over a channel begins to go back.
+// Fraction of a turn after which a ring leaves the outermost turn towards its end. Also the fraction of the filled rows
+// after which the bulge over a channel declines.
 constexpr double k_blend_from = 0.5;
 
-// Beside a groove's end at most this part of a turn's columns is joined anew.
+// Largest fraction of a turn's columns that is re-triangulated beside a groove's end.
 constexpr std::size_t k_share_of_turn = 4;
 
-// 0 up to k_blend_from of the way, 1 after all of it.
+// Smooth step: 0 up to k_blend_from, 1 at share 1.
 double blend(double share) {
   const double t = std::clamp((share - k_blend_from) / (1.0 - k_blend_from), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
 
-// A closed ring that follows the outermost turn of a groove, lowest or highest: a turn of an open spiral, so that it
-// leaves it on the half where there is most room beside it, for the place where the turn began.
+// A closed ring that follows a groove's outermost turn, the lowest or highest. A turn of a spiral is open, so the ring
+// leaves it in the half with the most clearance and returns to the place where the turn began.
 std::vector<Vec2> ring_about(const Winding& winding, std::size_t columns, bool lowest, double outward) {
   const bool from_front = lowest != winding.falls;
   const std::size_t last = winding.rows.size() - 1;
@@ -66,7 +66,7 @@ class BlankBuilder {
         layout_(layout),
         heights_(heights),
         columns_(fan.columns()),
-        lip_(section.depth - 0.5 * layout.tendon_diameter) {
+        groove_edge_(section.depth - 0.5 * layout.tendon_diameter) {
     const auto& below = section.walls.below;
     const auto& above = section.walls.above;
     for (std::size_t k = below.size(); k-- > 1;) section_.push_back({below[k].offset, -below[k].dz});
@@ -74,24 +74,24 @@ class BlankBuilder {
   }
 
   TriangleMesh build() {
-    std::vector<Ladder> ladder = features();
+    std::vector<Feature> ladder = features();
     for (std::size_t i = 0; i < columns_; ++i) add_strip(ladder, i);
-    sew_bands();
+    triangulate_bands();
     add_end_walls(ladder);
     add_faces();
     return std::move(mesh_);
   }
 
  private:
-  // What goes up through the strips: a ring, or a groove with all its turns.
-  struct Ladder {
+  // An element that rises through the strips: a ring, or a groove with all its turns.
+  struct Feature {
     const Winding* winding = nullptr;  // null: a ring
     Index first = 0;                   // a ring's first vertex
     std::vector<Index> rows = {};      // a groove's: the first of each row
   };
 
-  // A ring's vertex or a turn's section in one column: first to last, upwards.
-  struct Rung {
+  // One column's part of a ladder: a ring's vertex or a turn's section, from `low` to `high`.
+  struct Segment {
     Index low = 0, high = 0;
   };
 
@@ -100,22 +100,22 @@ class BlankBuilder {
     return static_cast<Index>(mesh_.vertices.size() - 1);
   }
 
-  Ladder ring(const std::vector<Vec2>& plan, double z) {
-    const Ladder here{nullptr, static_cast<Index>(mesh_.vertices.size()), {}};
+  Feature ring(const std::vector<Vec2>& plan, double z) {
+    const Feature here{nullptr, static_cast<Index>(mesh_.vertices.size()), {}};
     for (const Vec2& point : plan) add(point, z);
     rings_.push_back(here.first);
     return here;
   }
 
-  // A filled row has its two lips alone.
-  Ladder groove(const Winding& winding) {
-    Ladder here{&winding, 0, {}};
+  // A filled row consists of the two groove edges only.
+  Feature groove(const Winding& winding) {
+    Feature here{&winding, 0, {}};
     for (std::size_t j = 0; j < winding.rows.size(); ++j) {
       const WindingRow& row = winding.rows[j];
       here.rows.push_back(static_cast<Index>(mesh_.vertices.size()));
       for (std::size_t k = 0; k < section_.size(); ++k) {
-        const bool is_lip = k == 0 || k + 1 == section_.size();
-        if (winding.is_filled(j) && !is_lip) continue;
+        const bool is_groove_edge = k == 0 || k + 1 == section_.size();
+        if (winding.is_filled(j) && !is_groove_edge) continue;
         const GroovePoint& point = section_[k];
         const double bulge = winding.is_filled(j) ? bulge_of(winding, j, k == 0) : 0.0;
         add(row.position + (point.offset + bulge - 0.5 * layout_.tendon_diameter) * row.normal, row.height + point.dz);
@@ -128,27 +128,27 @@ class BlankBuilder {
     return (low ? winding.bulge_low : winding.bulge_high) * (1.0 - blend(winding.share_of_fill(row)));
   }
 
-  std::vector<Ladder> features() {
-    std::vector<Ladder> all;
+  std::vector<Feature> features() {
+    std::vector<Feature> all;
     const double foot = layout_.elephant_foot;
-    if (foot > 0) all.push_back(ring(ring_about(fan_.p1, columns_, true, lip_ - foot), 0.0));
+    if (foot > 0) all.push_back(ring(ring_about(fan_.p1, columns_, true, groove_edge_ - foot), 0.0));
     lowest_ = 0;
-    all.push_back(ring(ring_about(fan_.p1, columns_, true, lip_), foot > 0 ? rise_of(layout_, foot) : 0.0));
+    all.push_back(ring(ring_about(fan_.p1, columns_, true, groove_edge_), foot > 0 ? rise_of(layout_, foot) : 0.0));
     all.push_back(groove(fan_.p1));
-    all.push_back(ring(ring_about(fan_.p1, columns_, false, lip_), heights_.lower));
-    all.push_back(ring(ring_about(fan_.p2, columns_, true, lip_), heights_.upper));
+    all.push_back(ring(ring_about(fan_.p1, columns_, false, groove_edge_), heights_.lower));
+    all.push_back(ring(ring_about(fan_.p2, columns_, true, groove_edge_), heights_.upper));
     all.push_back(groove(fan_.p2));
-    all.push_back(ring(ring_about(fan_.p2, columns_, false, lip_), heights_.top));
+    all.push_back(ring(ring_about(fan_.p2, columns_, false, groove_edge_), heights_.top));
     highest_ = all.back().first;
     return all;
   }
 
-  Rung rung(const Ladder& groove, std::size_t row) const {
+  Segment segment(const Feature& groove, std::size_t row) const {
     const Index first = groove.rows[row];
     return {first, first + (groove.winding->is_filled(row) ? 1 : static_cast<Index>(section_.size() - 1))};
   }
 
-  // Rows of a groove in a column, upwards.
+  // The rows of a groove in a column, upwards.
   std::vector<std::size_t> rows_in(const Winding& winding, std::size_t column) const {
     std::vector<std::size_t> rows;
     for (std::size_t j = (column + columns_ - winding.first_column) % columns_; j < winding.rows.size(); j += columns_)
@@ -159,9 +159,9 @@ class BlankBuilder {
 
   void triangle(Index a, Index b, Index c) { mesh_.triangles.push_back({a, b, c}); }
 
-  // A band joins what a strip's two columns have one over the other: the column on the left (of smaller angle) and the
-  // one on the right, both upwards, between what they stand on and what they end in; seen from outside the right one is
-  // on the right hand. Where a groove begins or ends in the right column or the left, that one has two corners more.
+  // A band joins two columns of a strip: the left one (smaller angle) and the right one, both upwards between the
+  // elements below and above. Seen from outside, the right column is on the right. A column in which a groove begins or
+  // ends has two more corners.
   struct Band {
     std::vector<Index> left, right;
     bool is_plain() const { return left.size() == 2 && right.size() == 2; }
@@ -170,7 +170,7 @@ class BlankBuilder {
   using Edge = std::pair<Index, Index>;
   using BandsByEdge = std::map<Edge, std::size_t>;
 
-  // What a triangle costs: its last side, and much more where it does not look outwards.
+  // Cost of a triangle: its last side, plus a large penalty if it does not face outwards.
   double cost_of(const Facet& facet) const {
     constexpr double k_fold = 1e6, k_edge_on = 0.02;
     const Vec3 &p = mesh_.vertices[facet[0]], &q = mesh_.vertices[facet[1]], &r = mesh_.vertices[facet[2]];
@@ -179,9 +179,9 @@ class BlankBuilder {
     return (r - p).norm() + (is_fold ? k_fold : 0.0);
   }
 
-  // Of all triangulations of a loop, counter-clockwise from outside, the one with the shortest sides, none of it
-  // folded.
-  void sew(const std::vector<Index>& loop) {
+  // Triangulates a loop, counter-clockwise from outside, with the least total side length and no folded triangle
+  // (dynamic programming over sub-polygons).
+  void triangulate_loop(const std::vector<Index>& loop) {
     const std::size_t n = loop.size();
     std::vector<double> cost(n * n, 0.0);
     std::vector<std::size_t> middle(n * n, 0);
@@ -210,12 +210,12 @@ class BlankBuilder {
     }
   }
 
-  // Places of one normal on two turns need not lie over one another. Strips between them are flat all the same; but
-  // where a groove's end stands between the turn before and a ring, it may stand across strips beside it: so many of
-  // them are joined anew, the nearest corners to one another.
-  void sew_bands() {
+  // Points with one normal on two turns need not lie above one another. Strips between them are flat nevertheless. A
+  // groove's end between the turn before and a ring may stand across neighbouring strips, so these strips are
+  // re-triangulated between nearest corners.
+  void triangulate_bands() {
     BandsByEdge with_left, with_right;
-    std::vector<bool> sewn(bands_.size(), false);
+    std::vector<bool> triangulated(bands_.size(), false);
     for (std::size_t k = 0; k < bands_.size(); ++k) {
       if (!bands_[k].is_plain()) continue;
       with_left[{bands_[k].left.front(), bands_[k].left.back()}] = k;
@@ -223,18 +223,18 @@ class BlankBuilder {
     }
     for (std::size_t k = 0; k < bands_.size(); ++k) {
       if (bands_[k].is_plain()) continue;
-      sewn[k] = true;
-      sew(loop_about(bands_[k], with_left, with_right, sewn));
+      triangulated[k] = true;
+      triangulate_loop(loop_about(bands_[k], with_left, with_right, triangulated));
     }
     for (std::size_t k = 0; k < bands_.size(); ++k) {
-      if (sewn[k]) continue;
+      if (triangulated[k]) continue;
       const Band& band = bands_[k];
-      sew({band.left.front(), band.right.front(), band.right.back(), band.left.back()});
+      triangulate_loop({band.left.front(), band.right.front(), band.right.back(), band.left.back()});
     }
   }
 
   std::vector<Index> loop_about(const Band& band, const BandsByEdge& with_left, const BandsByEdge& with_right,
-                                std::vector<bool>& sewn) const {
+                                std::vector<bool>& triangulated) const {
     const bool on_right = band.right.size() > 2;
     const std::vector<Index>&ended = on_right ? band.right : band.left, &whole = on_right ? band.left : band.right;
     const BandsByEdge& bands = on_right ? with_right : with_left;
@@ -243,27 +243,26 @@ class BlankBuilder {
       lows.push_back(edge.first);
       highs.push_back(edge.second);
       const auto found = bands.find(edge);
-      if (found == bands.end() || sewn[found->second] || lows.size() > columns_ / k_share_of_turn) break;
+      if (found == bands.end() || triangulated[found->second] || lows.size() > columns_ / k_share_of_turn) break;
       if (is_beside(edge, ended, whole)) break;
-      sewn[found->second] = true;
+      triangulated[found->second] = true;
       const std::vector<Index>& next = on_right ? bands_[found->second].left : bands_[found->second].right;
       edge = {next.front(), next.back()};
     }
-    // From the end's column on they run to the right where the end is on the left, and to the left where it is not.
+    // From the end's column, the corners run to the right if the end is on the left, and to the left otherwise.
     if (on_right) std::swap(lows, highs);
     lows.insert(lows.end(), highs.rbegin(), highs.rend());
     return lows;
   }
 
-  // What a column with a groove's end has below and above, from the band that goes on beside the end: the one that
-  // does not end in the ring.
+  // The corners below and above a groove's end in its column, from the adjacent band that does not end in the ring.
   std::vector<Index> beside_end(const std::vector<Index>& ended, bool low) const {
     const bool under_ring = lies_under_ring(ended);
     if (low) return under_ring ? std::vector<Index>{ended[0]} : std::vector<Index>{ended[2], ended[1], ended[0]};
     return under_ring ? std::vector<Index>{ended[1], ended[2], ended[3]} : std::vector<Index>{ended[3]};
   }
 
-  // Whether the groove's end leaves this edge on the side that it comes from, by half a column.
+  // True if the groove's end departs from this edge towards its own side by at least half a column.
   bool is_beside(const Edge& edge, const std::vector<Index>& ended, const std::vector<Index>& whole) const {
     const auto at = [&](Index v) { return mesh_.vertices[v]; };
     const bool under_ring = lies_under_ring(ended);
@@ -275,25 +274,25 @@ class BlankBuilder {
     });
   }
 
-  // A groove's end lies under or over the ring that follows it.
+  // True if a groove's end lies under the ring that follows it, false if over it.
   bool lies_under_ring(const std::vector<Index>& ended) const {
     return std::any_of(rings_.begin(), rings_.end(), [&](Index first) {
       return ended.back() >= first && ended.back() < first + static_cast<Index>(columns_);
     });
   }
 
-  // Everything in a strip from below.
-  void add_strip(const std::vector<Ladder>& ladder, std::size_t i) {
+  // Adds all bands of a strip, from below.
+  void add_strip(const std::vector<Feature>& ladder, std::size_t i) {
     const std::size_t next = (i + 1) % columns_;
     std::vector<Index> left, right;  // since the last feature of both columns
-    const auto meet = [&](Rung on_left, Rung on_right) {
+    const auto meet = [&](Segment on_left, Segment on_right) {
       left.push_back(on_left.low);
       right.push_back(on_right.low);
       if (left.size() > 1) bands_.push_back({left, right});
       left = {on_left.high};
       right = {on_right.high};
     };
-    for (const Ladder& step : ladder) {
+    for (const Feature& step : ladder) {
       if (step.winding == nullptr) {
         const Index a = step.first + static_cast<Index>(i), b = step.first + static_cast<Index>(next);
         meet({a, a}, {b, b});
@@ -303,21 +302,22 @@ class BlankBuilder {
     }
   }
 
-  void add_groove(const Ladder& groove, const std::vector<std::size_t>& on_left,
+  void add_groove(const Feature& groove, const std::vector<std::size_t>& on_left,
                   const std::vector<std::size_t>& on_right, std::vector<Index>& left, std::vector<Index>& right,
                   const auto& meet) {
     std::size_t l = 0, r = 0;
     const std::size_t last = groove.winding->rows.size() - 1;
     while (l < on_left.size() || r < on_right.size()) {
       if (l < on_left.size() && on_left[l] == last) {
-        const Rung end = rung(groove, on_left[l++]);
+        const Segment end = segment(groove, on_left[l++]);
         left.insert(left.end(), {end.low, end.high});
       } else if (r < on_right.size() && on_right[r] == 0) {
-        const Rung end = rung(groove, on_right[r++]);
+        const Segment end = segment(groove, on_right[r++]);
         right.insert(right.end(), {end.low, end.high});
       } else {
-        demand(l < on_left.size() && r < on_right.size() && on_right[r] == on_left[l] + 1, "turns that do not go on");
-        meet(rung(groove, on_left[l]), rung(groove, on_right[r]));
+        demand(l < on_left.size() && r < on_right.size() && on_right[r] == on_left[l] + 1,
+               "turns that do not continue");
+        meet(segment(groove, on_left[l]), segment(groove, on_right[r]));
         add_step(groove, on_left[l]);
         ++l;
         ++r;
@@ -325,9 +325,9 @@ class BlankBuilder {
     }
   }
 
-  // From a row to the next one.
-  void add_step(const Ladder& groove, std::size_t row) {
-    const Rung a = rung(groove, row), b = rung(groove, row + 1);
+  // Adds the band from a row to the next one.
+  void add_step(const Feature& groove, std::size_t row) {
+    const Segment a = segment(groove, row), b = segment(groove, row + 1);
     if (groove.winding->is_filled(row) || groove.winding->is_filled(row + 1)) {
       triangle(a.low, b.low, b.high);
       triangle(a.low, b.high, a.high);
@@ -339,12 +339,12 @@ class BlankBuilder {
     }
   }
 
-  // The section is convex towards the axis: a fan from its lower lip.
-  void add_end_walls(const std::vector<Ladder>& ladder) {
-    for (const Ladder& groove : ladder) {
+  // The section is convex towards the axis: a triangle fan from its lower edge point closes it.
+  void add_end_walls(const std::vector<Feature>& ladder) {
+    for (const Feature& groove : ladder) {
       if (groove.winding == nullptr) continue;
-      const Rung begin = rung(groove, groove.winding->filled_front);
-      const Rung end = rung(groove, groove.winding->rows.size() - 1 - groove.winding->filled_back);
+      const Segment begin = segment(groove, groove.winding->filled_front);
+      const Segment end = segment(groove, groove.winding->rows.size() - 1 - groove.winding->filled_back);
       for (Index k = 1; begin.low + k < begin.high; ++k) triangle(begin.low, begin.low + k, begin.low + k + 1);
       for (Index k = 1; end.low + k < end.high; ++k) triangle(end.low, end.low + k + 1, end.low + k);
     }
@@ -361,7 +361,7 @@ class BlankBuilder {
     return indices;
   }
 
-  // loops[0] without the others, all at one height.
+  // Fills loops[0] minus the other loops, all at one height.
   void face(const std::vector<std::vector<Index>>& loops, bool up) {
     std::vector<Polygon> polygons;
     std::vector<Index> index;
@@ -380,7 +380,7 @@ class BlankBuilder {
     }
   }
 
-  // Between two levels of a loop that runs counter-clockwise; `outward`: the solid is inside of it.
+  // Adds the wall between two levels of a counter-clockwise loop. `outward`: the solid is inside it.
   void wall(const std::vector<Index>& low, const std::vector<Index>& high, bool outward) {
     for (std::size_t i = 0; i < low.size(); ++i) {
       const std::size_t n = (i + 1) % low.size();
@@ -436,7 +436,7 @@ class BlankBuilder {
   const BodyLayout& layout_;
   const RingHeights& heights_;
   std::size_t columns_;
-  double lip_;
+  double groove_edge_;
   std::vector<GroovePoint> section_;  // upwards, offsets from the floor
   TriangleMesh mesh_;
   std::vector<Band> bands_;
@@ -446,14 +446,14 @@ class BlankBuilder {
 
 }  // namespace
 
-Polygon rim_of(const Fan& fan, Side side, double lip) {
-  return side == Side::left ? ring_about(fan.p1, fan.columns(), true, lip)
-                            : ring_about(fan.p2, fan.columns(), false, lip);
+Polygon rim_of(const Fan& fan, Side side, double groove_edge) {
+  return side == Side::left ? ring_about(fan.p1, fan.columns(), true, groove_edge)
+                            : ring_about(fan.p2, fan.columns(), false, groove_edge);
 }
 
-double middle_step(const Fan& fan, double lip) {
-  const std::vector<Vec2> lower = ring_about(fan.p1, fan.columns(), false, lip),
-                          upper = ring_about(fan.p2, fan.columns(), true, lip);
+double middle_step(const Fan& fan, double groove_edge) {
+  const std::vector<Vec2> lower = ring_about(fan.p1, fan.columns(), false, groove_edge),
+                          upper = ring_about(fan.p2, fan.columns(), true, groove_edge);
   double step = 0;
   for (std::size_t i = 0; i < fan.columns(); ++i) step = std::max(step, (upper[i] - lower[i]).dot(unit(fan.angles[i])));
   return step;

@@ -1,5 +1,5 @@
 /// \file
-/// The body before anything is cut out of it: one structured grid, closed by flat faces, bore and hub.
+/// Internal: the body before cuts, as one structured grid closed by flat faces, bore and hub.
 #pragma once
 
 #include "coil/winding.h"
@@ -10,21 +10,21 @@
 
 namespace fusee {
 
-/// Heights of the rings between which the grooves lie, and by how much the lowest is chamfered.
+/// Heights of the rings that bound the grooves. The lowest ring is chamfered.
 struct RingHeights {
   double lower = 0;  ///< of the middle flange
-  double upper = 0;  ///< of the middle flange: a cone in between where P2 stands out over P1
+  double upper = 0;  ///< of the middle flange; a cone joins both rings where P2 projects over P1
   double top = 0;
   double hub_top = 0;
 };
 
-/// The lower face's outline, P1's, or the upper one's.
-Polygon rim_of(const Fan& fan, Side side, double lip);
+/// Outline of the lower face (P1) or the upper face (P2).
+Polygon rim_of(const Fan& fan, Side side, double groove_edge);
 
-/// How far the middle flange's upper ring stands out over its lower one, mm; the cone between them carries it.
-double middle_step(const Fan& fan, double lip);
+/// Largest projection of the middle flange's upper ring over its lower one, mm. The cone between them supports it.
+double middle_step(const Fan& fan, double groove_edge);
 
-/// Not scaled; in double.
+/// In mm of the finished part, not scaled and not rounded to float.
 TriangleMesh helical_blank(const Fan& fan, const HelicalSection& section, const BodyLayout& layout,
                            const RingHeights& heights);
 

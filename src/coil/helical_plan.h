@@ -1,5 +1,5 @@
 /// \file
-/// What a helical pulley was made from, for what draws it once more by other means (export/step). mm, not yet scaled.
+/// Internal: the values a helical pulley was built from, for other representations (export/step). mm, not yet scaled.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct HelicalPlan {
   Fan fan;
   HelicalSection section;
   RingHeights heights;
-  std::array<GrooveEnd, 2> ends;  ///< at which the tendons are tied: P1's last, P2's first
+  std::array<GrooveEnd, 2> ends;  ///< the ends at which the tendons are tied: P1's last, P2's first
   std::array<RunOutSizes, 2> run_outs;
 };
 

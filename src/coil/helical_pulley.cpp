@@ -16,11 +16,10 @@
 #include "coil/winding.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
-#include "solid/blame.h"
 #include "solid/boolean.h"
 #include "solid/bore.h"
 #include "solid/condition_list.h"
-#include "solid/cut_ways.h"
+#include "solid/cut_variants.h"
 #include "solid/euler.h"
 #include "solid/groove.h"
 #include "solid/heights.h"
@@ -28,31 +27,31 @@
 #include "solid/self_intersection.h"
 #include "solid/set_screw.h"
 #include "solid/size.h"
+#include "solid/support_attribution.h"
 #include "solid/tools.h"
 namespace fusee {
 namespace {
 
-// A rib of two lines of a nozzle of 0.4 mm, and what printers lose of one.
+// A rib of two lines of a 0.4 mm nozzle, plus the loss of a typical printer.
 constexpr double k_rib = 0.9;
-// Diameters to try for an automatic bore, and walls: as of one-turn pulleys.
+// Diameters and walls tried for an automatic bore, as for one-turn pulleys.
 constexpr std::array<double, 6> k_bore_diameters{5.0, 4.0, 3.0, 2.5, 2.0, 1.5};
-// Slicers draw a layer's outline no finer than this (PrusaSlicer's resolution, mm, at layers of 0.2 mm), and the
-// grooves' flanks of one layer by other corners than the next: on slopes of 2.5° more than is asked for, PrusaSlicer
-// put supports under 3 of 64 parts (seed 17001). 0.2/tan(46°) − 0.0125 = 0.2/tan(47.9°), and as much is left as on
-// other parts.
+// Slicers simplify outlines to this resolution (PrusaSlicer: 0.0125 mm at layers of 0.2 mm), and neighbouring layers of
+// a groove's flank get different corners. On slopes of 2.5° above the requested one PrusaSlicer put supports under 3 of
+// 64 parts (seed 17001). 0.2/tan(46°) − 0.0125 = 0.2/tan(47.9°), which leaves the margin of other parts.
 constexpr double k_drawn_coarsely = radians(1.5);
 constexpr double k_most_wall = 1.2, k_wall_of_radius = 0.12, k_thinnest_wall = 0.4;
-// Of an automatic knot pocket, where there is no room for all of it: knots are 2.5 to 3 tendons thick.
+// Fractions of the automatic knot pocket tried if the full size does not fit. Knots are 2.5 to 3 tendons thick.
 constexpr std::array k_pocket_shares{1.0, 0.9, 0.8, 0.72};
-// What the chamfer at the bed leaves of the lip.
-constexpr double k_left_of_lip = 0.2;
-// Between a channel and the outside.
+// Height of the groove edge that the chamfer at the bed leaves.
+constexpr double k_least_groove_edge = 0.2;
+// Minimum material between a channel and the outside.
 constexpr double k_channel_cover = 0.25;
-// A channel from a shallower groove stays open too long for its roof to be carried.
+// In a shallower groove a channel stays open too long for its ceiling to be supported.
 constexpr double k_least_depth_of_tendon = 2.0 / 3.0;
-// What rounding may take of a size that is just large enough.
+// Tolerance of rounding for a size at its limit.
 constexpr double k_grain = 1e-6;
-// The middle flange's two rings are never one, whatever stands on them.
+// Minimum height of the cone between the middle flange's two rings, which keeps them distinct.
 constexpr double k_least_cone = 0.2;
 
 Condition condition_of(std::string name, bool ok, double value, double limit, std::string message) {
@@ -79,11 +78,11 @@ class Planner {
         section_(helical_section(mechanism)) {}
 
   HelicalPulley make(TieOffSearch search) {
-    if (plan().empty()) cut(search == TieOffSearch::brief ? k_brief_cut_ways : k_cut_ways);
+    if (plan().empty()) cut(search == TieOffSearch::brief ? k_brief_cut_variants : k_cut_variants);
     return std::move(pulley_);
   }
 
-  /// What does not hold.
+  /// Returns the conditions that fail.
   std::vector<Condition> plan() {
     if (!spirals_are_whole()) return failed_of(pulley_.conditions);
     lay_out();
@@ -109,13 +108,13 @@ class Planner {
       const auto stands_still = [](const SpiralRow& a, const SpiralRow& b) { return !(b.turn > a.turn); };
       const bool grows = rows.size() >= 2 && std::adjacent_find(rows.begin(), rows.end(), stands_still) == rows.end();
       const double turn = grows ? rows.back().turn - rows.front().turn : 0.0;
-      // A little more than a turn, so that every column has a row.
+      // Slightly more than a turn, so that every column has a row.
       constexpr double k_least_turn = k_two_pi + radians(10);
       Condition condition = condition_of(
           fmt::format("whole_turn_{}", pulley_name(side)), turn >= k_least_turn, degrees(turn), degrees(k_least_turn),
-          grows ? fmt::format("{}'s groove is {:.0f}° long, a helical one takes {:.0f}° (body.spare_turns)",
+          grows ? fmt::format("{}'s groove is {:.0f}° long, a helical one requires {:.0f}°. Increase body.spare_turns",
                               pulley_name(side), degrees(turn), degrees(k_least_turn))
-                : fmt::format("{}'s pitch curve runs straight somewhere: a helical groove cannot follow it yet",
+                : fmt::format("{}'s pitch curve is straight at one place: a helical groove cannot follow it yet",
                               pulley_name(side)));
       condition.unit = "deg";
       pulley_.conditions.push_back(condition);
@@ -140,12 +139,12 @@ class Planner {
   }
   double least_floor() const { return std::min(floor_radius(p1_), floor_radius(p2_)); }
 
-  // All but heights, bore and hub.
+  // Sets the layout except heights, bore and hub.
   void lay_out() {
     BodyLayout& layout = pulley_.layout;
     layout.parts = Parts::one;
     layout.tendon_diameter = d_;
-    layout.roof_slope = section_.roof_slope;
+    layout.ceiling_slope = section_.ceiling_slope;
     layout.p1 = layout.p2 = section_.walls;
     layout.groove_depth = section_.depth;
     layout.flange_thickness = mechanism_.body.flange_thickness;
@@ -153,10 +152,10 @@ class Planner {
     layout.min_wall = mechanism_.body.min_wall > 0
                           ? mechanism_.body.min_wall
                           : std::clamp(k_wall_of_radius * least_floor(), k_thinnest_wall, k_most_wall);
-    layout.elephant_foot = std::clamp(
-        std::min(section_.depth - k_left_of_lip, (layout.flange_thickness - k_left_of_lip) / rise_of(layout, 1.0)), 0.0,
-        mechanism_.material.elephant_foot);
-    layout.notes.push_back("no marks, no slots for the tails: a pulley of several turns is made without");
+    layout.elephant_foot = std::clamp(std::min(section_.depth - k_least_groove_edge,
+                                               (layout.flange_thickness - k_least_groove_edge) / rise_of(layout, 1.0)),
+                                      0.0, mechanism_.material.elephant_foot);
+    layout.notes.push_back("multi-turn pulleys have no marks and no slots for the tails");
   }
 
   void size_run_outs(double share) {
@@ -166,10 +165,12 @@ class Planner {
     layout.channel_width = 2.0 * sizes.channel_radius;
     layout.pocket_radius = sizes.pocket_radius;
     if (share < 1.0 && mechanism_.body.knot_pocket <= 0)
-      layout.notes.push_back(fmt::format("little room: knot pockets of {}", mm(2.0 * sizes.pocket_radius)));
+      layout.notes.push_back(
+          fmt::format("knot pockets reduced to {} for lack of space", mm(2.0 * sizes.pocket_radius)));
   }
 
-  // Both fall as the turn grows: the ends that stay wound, P1's last and P2's first, are the outer ones.
+  // Both heights fall as the turn grows. The ends that stay wound, P1's last and P2's first, are therefore the outer
+  // ones.
   SpiralPlace placed(const Spiral& spiral, double lowest_at) const {
     SpiralPlace place;
     place.direction = spiral.slope > 0 ? -1.0 : 1.0;
@@ -179,21 +180,23 @@ class Planner {
 
   void place_along_axis() {
     BodyLayout& layout = pulley_.layout;
-    const double flange = layout.flange_thickness, lip = section_.depth - 0.5 * d_;
+    const double flange = layout.flange_thickness, groove_edge = section_.depth - 0.5 * d_;
     const double filled = run_outs_[0].bend_radius + 2.0 * layout.pocket_radius + layout.min_wall;
     const double fall1 = std::abs(p1_.slope) * filled, fall2 = std::abs(p2_.slope) * filled;
     pulley_.p1 = placed(p1_, 0.0);
     pulley_.p2 = placed(p2_, 0.0);
-    fan_ = make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), lip, 0.5 * d_, tolerance_, filled);
+    fan_ =
+        make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), groove_edge, 0.5 * d_, tolerance_, filled);
     ends_ = {GrooveEnd{Side::left, fan_.p1.groove_back(), 1.0, -1.0, 0.0},
              GrooveEnd{Side::right, fan_.p2.groove_front(), -1.0, 1.0, 0.0}};
     for (std::size_t i = 0; i < ends_.size(); ++i)
-      run_outs_[i] = fitted_into(rim_of(fan_, ends_[i].side, lip), ends_[i], run_outs_[i], layout.min_wall);
+      run_outs_[i] = fitted_into(rim_of(fan_, ends_[i].side, groove_edge), ends_[i], run_outs_[i], layout.min_wall);
 
     layout.z_p1 = std::max(flange + section_.walls.below_width() + fall1, run_outs_[0].height());
     raise(fan_.p1, pulley_.p1, layout.z_p1);
     heights_.lower = fan_.p1.rows.front().height + section_.walls.above_width() + 0.5 * flange;
-    layout.middle_cone = layout.roof_slope > 0 ? rise_of(layout, std::max(0.0, middle_step(fan_, lip))) : 0.0;
+    layout.middle_cone =
+        layout.ceiling_slope > 0 ? rise_of(layout, std::max(0.0, middle_step(fan_, groove_edge))) : 0.0;
     heights_.upper = heights_.lower + std::max(layout.middle_cone, k_least_cone);
     raise(fan_.p2, pulley_.p2,
           heights_.upper + 0.5 * flange + section_.walls.below_width() - fan_.p2.rows.back().height);
@@ -212,22 +215,23 @@ class Planner {
     heights_.hub_top = layout.z_hub;
   }
 
-  // In a shallow groove a channel would break through the lips, and leave a hanging tooth of its roof: it grows wide as
-  // it goes in, and the lips stand out over its mouth, as far as what is below carries them.
+  // In a shallow groove a channel would break through the groove edges and leave an unsupported tooth of its ceiling.
+  // It therefore widens along the way, and the groove edges over its entry project as far as the faces below support
+  // them.
   void cover_channels() {
     const BodyLayout& layout = pulley_.layout;
-    const double lip = section_.depth - 0.5 * d_;
+    const double groove_edge = section_.depth - 0.5 * d_;
     const auto carried = [&](double rise) {
-      return layout.roof_slope > 0 ? rise / rise_of(layout, 1.0) : std::numeric_limits<double>::max();
+      return layout.ceiling_slope > 0 ? rise / rise_of(layout, 1.0) : std::numeric_limits<double>::max();
     };
     const std::array<double, 2> carried_low = {
         carried(layout.z_p1 - section_.walls.below_width() - layout.flange_thickness),
         carried(least_rise_to_fill(fan_.p2))};
     const std::array<Winding*, 2> windings = {&fan_.p1, &fan_.p2};
     for (std::size_t i = 0; i < ends_.size(); ++i) {
-      const Polygon rim = rim_of(fan_, ends_[i].side, lip);
-      const double cover = mouth_cover(rim, ends_[i], run_outs_[i]), wanted = std::max(0.0, k_channel_cover - cover);
-      // The mouth lies between the two lips.
+      const Polygon rim = rim_of(fan_, ends_[i].side, groove_edge);
+      const double cover = entry_cover(rim, ends_[i], run_outs_[i]), wanted = std::max(0.0, k_channel_cover - cover);
+      // The entry lies between the two groove edges.
       Winding& winding = *windings[i];
       winding.bulge_low = std::clamp(carried_low[i], 0.0, wanted);
       winding.bulge_high = std::min(2.0 * wanted - winding.bulge_low, winding.bulge_low + carried(section_.width()));
@@ -238,7 +242,7 @@ class Planner {
     }
   }
 
-  // Where a groove ends, from the turn that lies beside its end.
+  // Axial distance to the turn beside the groove's end.
   double axial_lead(std::size_t i) const {
     const std::vector<WindingRow>& rows = i == 0 ? fan_.p1.rows : fan_.p2.rows;
     const std::size_t end = i == 0 ? rows.size() - 1 - fan_.p1.filled_back : fan_.p2.filled_front;
@@ -246,7 +250,7 @@ class Planner {
     return std::abs(rows[end].height - rows[beside].height);
   }
 
-  // Height between the lips of the filled rows and of the turn below them, that their own step does not take.
+  // Minimum height between the edges of the filled rows and of the turn below, reduced by the height of their own step.
   double least_rise_to_fill(const Winding& winding) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < winding.filled_front && j + fan_.columns() < winding.rows.size(); ++j) {
@@ -262,19 +266,19 @@ class Planner {
     for (WindingRow& row : winding.rows) row.height += by;
   }
 
-  // Within which every turn of P2 reaches, and the upper face's rim, which leaves the outermost turn.
+  // Radius within which every turn of P2 and the upper face's rim lie. That rim leaves the outermost turn.
   double upper_rim() const {
     double room = face_rim(Side::right);
     for (const WindingRow& row : fan_.p2.rows) room = std::min(room, row.position.norm() + section_.depth - 0.5 * d_);
     return room;
   }
   double face_rim(Side side) const { return inradius(rim_of(fan_, side, section_.depth - 0.5 * d_)); }
-  // What a bore goes through.
+  // Largest radius available to the bore.
   double least_radius() const {
     return std::min({least_floor(), face_rim(Side::left) - pulley_.layout.elephant_foot, face_rim(Side::right)});
   }
 
-  // How near to the axis a pocket comes.
+  // Minimum distance of a pocket from the axis.
   double pocket_inside(std::size_t i) const {
     return pocket_place(ends_[i], run_outs_[i]).norm() - run_outs_[i].pocket_radius;
   }
@@ -295,7 +299,7 @@ class Planner {
       }
     }
   }
-  // Of the bore and a horn's holes.
+  // Largest radius of the bore and a horn's holes.
   double reach() const {
     double furthest = pulley_.layout.bore.radius;
     for (const Polygon& hole : pulley_.layout.bore.screw_holes)
@@ -311,25 +315,26 @@ class Planner {
     free_end(Side::right, p2_.rows.back().s - p2_.rows[p2_.last_used].s, p2_.rows[p2_.last_used].rho);
     const double bore_wall = least_radius() - reach();
     add("bore_wall", bore_wall, layout.min_wall,
-        fmt::format("the bore leaves {} to a groove's floor or a face's rim, it takes {} (body.min_wall_mm)",
-                    wall_words(bore_wall), mm(layout.min_wall)));
+        fmt::format(
+            "the bore leaves {} to a groove's floor or a face's rim, at least {} is required (body.min_wall_mm)",
+            wall_words(bore_wall), mm(layout.min_wall)));
     if (auto flat = flat_off_shaft(mechanism_.body, layout.bore.shaft)) pulley_.conditions.push_back(std::move(*flat));
     for (Condition& condition : hub_conditions(mechanism_, layout, upper_rim()))
       pulley_.conditions.push_back(std::move(condition));
     if (auto tall = too_tall(layout)) pulley_.conditions.push_back(std::move(*tall));
     for (std::size_t i = 0; i < ends_.size(); ++i) knot_pocket(i);
     add("groove_depth_at_knot", section_.depth, k_least_depth_of_tendon * d_,
-        fmt::format("a groove of {} (body.groove_depth_mm) leaves the channel to the knot open, it takes two thirds of "
-                    "the tendon's diameter: {}",
+        fmt::format("a groove of {} (body.groove_depth_mm) leaves the channel to the knot open, at least two thirds of "
+                    "the tendon's diameter is required: {}",
                     mm(section_.depth), mm(k_least_depth_of_tendon * d_)));
     if (layout.bore.horn_recess > 0)
       pulley_.conditions.push_back(
           condition_of("horn_recess", false, layout.bore.horn_recess, 0.0,
-                       "a pulley of several turns takes a flat horn or a shaft: one that sinks "
-                       "in (horn.boss_height_mm, horn.spline_length_mm) is not made yet"));
+                       "a multi-turn pulley requires a flat horn or a shaft: a horn that sinks in "
+                       "(horn.boss_height_mm, horn.spline_length_mm) is not supported yet"));
     if (mechanism_.print.parts == Parts::two)
       pulley_.conditions.push_back(
-          condition_of("parts", false, 2, 1, "a pulley of several turns is printed in one part (print.parts)"));
+          condition_of("parts", false, 2, 1, "a multi-turn pulley is printed in one part (print.parts)"));
   }
 
   double wall_inside(std::size_t i) const {
@@ -350,7 +355,8 @@ class Planner {
     const auto pulley = pulley_name(ends_[i].side);
     const auto one = [&](const std::string& name, double wall, const std::string& to) {
       add(fmt::format("{}_{}", name, pulley), wall, layout.min_wall - k_grain,
-          fmt::format("{}'s knot pocket of {} (body.knot_pocket_mm) leaves {} to {}, it takes {} (body.min_wall_mm)",
+          fmt::format("{}'s knot pocket of {} (body.knot_pocket_mm) leaves {} to {}, at least {} is required "
+                      "(body.min_wall_mm)",
                       pulley, mm(2.0 * layout.pocket_radius), wall_words(wall), to, mm(layout.min_wall)));
     };
     one("knot_pocket", wall_inside(i), "the bore or the hub");
@@ -374,16 +380,16 @@ class Planner {
     if (place == nullptr) return;
     add(fmt::format("neighbouring_turns_{}", pulley_name(side)), lead, needed - k_grain,
         fmt::format(
-            "{}'s turns lie {} apart at {:.0f}°, a groove, its rib and the step between them take {} (body.lead_mm)",
+            "{}'s turns are {} apart at {:.0f}°, a groove, its rib and the step between them require {} (body.lead_mm)",
             pulley_name(side), mm(lead), degrees(std::remainder(place->turn, k_two_pi)), mm(needed)));
   }
 
-  // The straight tendon must rise over the lip before the groove ends.
+  // The straight tendon must rise above the groove edge before the groove ends.
   void free_end(Side side, double there, double rho) {
     const double rise = section_.depth, needed = std::sqrt(rise * (2.0 * rho + rise));
     add(fmt::format("free_end_{}", pulley_name(side)), there, needed,
         fmt::format(
-            "{}'s groove ends {} beyond the arc that the tendon leaves from, it takes {} for the tendon to clear the "
+            "{}'s groove ends {} beyond the tendon's working arc, at least {} is required for the tendon to clear the "
             "end (body.spare_turns)",
             pulley_name(side), mm(there), mm(needed)));
   }
@@ -400,7 +406,7 @@ class Planner {
     const bool screw = layout.set_screw.present;
     pulley_.expected_euler = 2 - 2 * (1 + static_cast<int>(layout.bore.screw_holes.size() + ends_.size()) +
                                       (screw ? (layout.set_screw.nut_trap ? 2 : 1) : 0));
-    const int ways = cut_ways(blank.triangles.size(), wanted_ways);
+    const int ways = cut_variants(blank.triangles.size(), wanted_ways);
     for (int variant = 0; variant < ways; ++variant) {
       std::vector<TriangleMesh> tools;
       for (std::size_t i = 0; i < ends_.size(); ++i) {
@@ -412,13 +418,13 @@ class Planner {
       if (cut_with(blank, volume, tools)) return;
     }
     if (!unprintable_.empty()) {
-      pulley_.conditions.push_back(does_not_print(mechanism_.name, unprintable_, "however its run-outs are cut"));
+      pulley_.conditions.push_back(does_not_print(mechanism_.name, unprintable_, "for any variant of its run-outs"));
       return;
     }
     pulley_.conditions.push_back(
         condition_of("features", false, 0, 1,
-                     fmt::format("run-outs and screw run into one another: none of {} ways to cut "
-                                 "them leaves a solid",
+                     fmt::format("run-outs and screw intersect one another: none of {} cut variants leaves a valid "
+                                 "solid",
                                  ways)));
   }
 
@@ -426,14 +432,14 @@ class Planner {
     std::vector<TriangleMesh> cutters;
     for (const TriangleMesh& tool : tools) {
       cutters.push_back(scaled(tool));
-      // What crosses itself cannot be cut with: it may never end.
+      // Boolean operations with a self-intersecting cutter may not terminate.
       if (find_crossing(cutters.back()).facets) return false;
     }
     auto cut = subtract_each(blank, cutters);
     if (!cut) return false;
     for (const double common : cut->common_volumes) volume -= common;
     std::vector<Check> checks = check_mesh(cut->mesh);
-    // A chip that comes off, or a way through that nobody planned, is no pulley either.
+    // Reject a cut that detaches a chip or opens an unplanned passage.
     if (!all_ok(checks) || euler_number(cut->mesh) != pulley_.expected_euler || !prints(cut->mesh)) return false;
     pulley_.mesh = std::move(cut->mesh);
     pulley_.mesh_checks = std::move(checks);
@@ -460,7 +466,7 @@ class Planner {
   Fan fan_;
   RingHeights heights_;
   std::array<GrooveEnd, 2> ends_;
-  std::vector<Vec3> unprintable_;  ///< of the cut that was tried last
+  std::vector<Vec3> unprintable_;  ///< unprintable places of the last cut
 };
 
 }  // namespace
@@ -469,25 +475,24 @@ HelicalSection helical_section(const Mechanism& mechanism) {
   HelicalSection section;
   section.depth = mechanism.groove_depth();
   section.rib = k_rib;
-  section.roof_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin + k_drawn_coarsely;
+  section.ceiling_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin + k_drawn_coarsely;
   const double lean = 0.5 * mechanism.body.groove_angle;
   const auto half = [&](double angle) {
     return groove_half(mechanism.body, angle, mechanism.tendon.diameter, section.depth);
   };
-  section.walls = {half(lean), half(std::max(lean, section.roof_slope))};
+  section.walls = {half(lean), half(std::max(lean, section.ceiling_slope))};
   return section;
 }
 
 double least_lead(const HelicalSection& section, double growth) {
-  const double step = section.roof_slope > 0 ? std::max(0.0, growth) * std::tan(section.roof_slope) : 0.0;
+  const double step = section.ceiling_slope > 0 ? std::max(0.0, growth) * std::tan(section.ceiling_slope) : 0.0;
   return section.width() + std::max(section.rib, step);
 }
 
 std::string HelicalPulley::brief() const {
   if (made)
-    return fmt::format("a body of several turns, {} facets, {:.1f} cm³", mesh.triangles.size(),
-                       expected_volume / 1000.0);
-  std::string text = "no such body of several turns can be made";
+    return fmt::format("a multi-turn body, {} facets, {:.1f} cm³", mesh.triangles.size(), expected_volume / 1000.0);
+  std::string text = "this multi-turn body cannot be built";
   for (const Condition& condition : conditions) {
     if (!condition.ok) text += "; " + condition.message;
   }

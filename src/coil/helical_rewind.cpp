@@ -11,19 +11,20 @@
 #include "fusee/base/units.h"
 #include "profile/string_above.h"
 
-// The second route. A string is laid on what half-planes found of a groove's floor: in plan round the corners of an
-// open polygon, half its thickness off them; along the axis at the height of the floor's band. Its free path is
-// straight when it is unrolled.
+// Independent check of the synthesis. A string is laid on the groove floors that half-planes found. In plan it goes
+// round the corners of an open polygon at half its thickness; along the axis it has the height of the floor's band. Its
+// free path is straight when unrolled.
 
 namespace fusee {
 namespace {
 
-// A groove has at least this depth; what is shallower is a chamfer's edge or a chord.
+// Least depth of a groove. Shallower minima are chamfer edges or chords.
 constexpr double k_least_depth = 0.3;
-// Places on either side over which a groove's slope is measured, a fifth of a turn: of few corners its floor's steps
-// are seen, and each adds to a steep tendon's length (0.04° of a joint with r1 of 3.2 mm and a lead of 6.9 mm).
+// Number of places on either side over which a groove's slope is averaged, a fifth of a turn. With few corners the
+// floor's steps would show, and each adds to a steep tendon's length (0.04° of a joint with r1 of 3.2 mm and a lead of
+// 6.9 mm).
 constexpr std::size_t k_slope_window = 160;
-// Sides of a polygon that turn by less against each other are one: what a float leaves of a straight line, rad.
+// Polygon sides that turn by less against each other are one side: rounding of a straight line to float, rad.
 constexpr double k_straight = 1e-4;
 
 double turn_at(const FloorLine& line, std::size_t i) {
@@ -31,8 +32,8 @@ double turn_at(const FloorLine& line, std::size_t i) {
   return std::abs(cross(before, after)) / (before.norm() * after.norm());
 }
 
-// Where two sides of a floor's polygon meet between places i and i + 1, each seen beyond them; null where no side can
-// be told from what half-planes cut off its corners.
+// The corner between places i and i + 1 at which two sides of a floor's polygon meet when extended. Empty if a side
+// cannot be distinguished from a chord that half-planes cut off.
 std::optional<Vec3> corner_after(const FloorLine& line, std::size_t i) {
   if (turn_at(line, i) < k_straight || turn_at(line, i + 1) < k_straight || turn_at(line, i - 1) > k_straight ||
       turn_at(line, i + 2) > k_straight)
@@ -46,8 +47,8 @@ std::optional<Vec3> corner_after(const FloorLine& line, std::size_t i) {
   return Vec3(corner.x(), corner.y(), line[i].z() + share * (line[i + 1].z() - line[i].z()));
 }
 
-// Half-planes cut off the corners of the polygon: a string on what they leave would be short by up to a tenth of a
-// millimetre in ten turns.
+// Restores the corners that half-planes cut off. Without them a string would be up to a tenth of a millimetre too short
+// in ten turns.
 FloorLine with_corners(const FloorLine& line) {
   FloorLine whole;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -82,14 +83,14 @@ class HelicalString {
     home_length_ = length(0.0);
   }
 
-  // Moves the pulley; by less than half a turn.
+  // Turns the pulley by less than half a turn.
   void turn_to(double alpha) {
     alpha_ = alpha;
     const Vec2 pin = above_.guide_seen_from_pulley(alpha);
     find_corner(pin);
     normal_ = turned_near(tangent_normal(pin), edge_normals_[corner_]);
     span_ = above_.lower_span(pin, plan(corner_));
-    if (!(span_ > 0)) throw InputError("", "the groove floor of " + pulley() + " swallows its guide pin");
+    if (!(span_ > 0)) throw InputError("", "the guide pin of " + pulley() + " lies inside its groove floor");
     take_off_ = centre_line_at(along_[corner_] + half_ * normal_);
   }
 
@@ -97,7 +98,7 @@ class HelicalString {
   double excess(double theta) const { return length(theta) - home_length_; }
   std::string name() const { return hand_ > 0 ? "tendon 2" : "tendon 1"; }
 
-  // Between the free path and the groove where it leaves it.
+  // Fleet angle: between the free path and the groove at the take-off.
   double fleet(double theta) const {
     const double rise = end_height_ - take_off_.height;
     return std::atan2(rise, sloping(theta)) - std::atan(hand_ * take_off_.slope);
@@ -120,8 +121,8 @@ class HelicalString {
   double planar(double theta) const { return span_ + above_.length(theta, normal_ - alpha_); }
   double sloping(double theta) const { return collar_ ? span_ : planar(theta); }
 
-  // Corner by corner: arcs of half the thickness about corners, edges between them. Floors rise along the edges alone,
-  // the tendon over both: its slope is that of several corners.
+  // The centre line consists of arcs of half the thickness about corners and of edges between them. Floors rise along
+  // the edges only, the tendon along both, so its slope is averaged over several corners.
   void lay_centre_line() {
     const std::size_t last = floor_.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
@@ -147,10 +148,10 @@ class HelicalString {
             slope_between(a, b)};
   }
 
-  // On the right the knot is where the groove begins, on the left where it ends.
+  // On the right the knot is at the beginning of the groove, on the left at its end.
   void start(double home_from_knot) {
     const double wanted = hand_ > 0 ? edge_normals_.front() + home_from_knot : edge_normals_.back() - home_from_knot;
-    // The same direction as the span has at home, on the turn that is wanted.
+    // The direction of the span at home, on the requested turn.
     double normal = wanted;
     for (int round = 0; round < 3; ++round) {
       const auto edge = std::lower_bound(edge_normals_.begin(), edge_normals_.end(), normal);
@@ -161,7 +162,7 @@ class HelicalString {
 
   double tangent_normal(const Vec2& pin) const { return above_.lower_normal(pin, plan(corner_)); }
 
-  // Walks to the corner whose tangent leaves its neighbours inside.
+  // Walks to the corner whose tangent has both neighbours on its inner side.
   void find_corner(const Vec2& pin) {
     for (std::size_t steps = 0; steps < floor_.size(); ++steps) {
       if (corner_ == 0 || corner_ + 1 >= floor_.size())
@@ -175,7 +176,7 @@ class HelicalString {
       else
         return;
     }
-    // Two neighbours that each point to the other, by rounding: both are right.
+    // By rounding, two neighbours may each point to the other. Both are correct.
   }
 
   FloorLine floor_;
@@ -238,7 +239,7 @@ class Winder {
     }
   }
 
-  // In small steps, so that turns are counted without a jump.
+  // Turns in small steps, so that turns are counted without a jump.
   void turn_to(double alpha) {
     const int steps = 1 + static_cast<int>(std::abs(alpha - alpha_) / radians(10));
     for (int k = 1; k <= steps; ++k) {

@@ -13,30 +13,30 @@
 namespace fusee {
 namespace {
 
-// Thinner channels close in the print (the same bound as of one-turn pulleys' channels).
+// Narrower channels close in the print (the bound of one-turn pulleys' channels).
 constexpr double k_least_channel = 0.6;
-// The channel begins this far before the groove's end: its wall is gone there for sure. Its gable rises higher than the
-// groove's upper wall and leaves a tooth hanging from that, so far out of the end wall.
+// The channel begins this far before the groove's end, so that the end wall is removed completely. Its peaked ceiling
+// rises above the groove's upper wall and leaves a tooth there, which ends this far beyond the end wall.
 constexpr double k_before_end = 0.02;
 constexpr double k_past_end = 0.06;
 constexpr int k_channel_facets = 14;
 constexpr int k_pocket_facets = 28;
 constexpr int k_arc_steps = 9;
-// Of its radius, of a channel from its arc straight on.
+// Least length of a straight channel after the arc, in channel radii.
 constexpr double k_shortest_way = 0.05;
-// Arcs bend no sharper than this, of the tendon; in these steps one is looked for that fits.
+// Sharpest bend of an arc, in tendon diameters. k_bends steps are tried from the gentlest to it.
 constexpr double k_sharpest_bend = 2.0;
-// And of the channel's radius: seen from above, the flanks of its gable do not meet on the inside of the bend. They
-// would at 2.46, where one that rises has turned by 78°.
+// Sharpest bend in channel radii: seen from above, the flanks of the peaked ceiling must not meet on the inside of the
+// bend. They would at 2.46, where a rising channel has turned by 78°.
 constexpr double k_bend_of_channel = 2.8;
-// Channels dive at 45°: a gable as flat as that would have its ridge in the next section.
+// Channels dive at 45°. The ridge of a ceiling that flat would lie in the next section.
 constexpr double k_flattest_gable = radians(57.5);
 constexpr int k_bends = 5;
-// What a pocket's cone narrows to, of its channel.
+// Radius of the tip of a pocket's cone, in channel radii.
 constexpr double k_tip = 0.2;
 constexpr double k_step_inward = 0.05;
 
-// Ring of a tube about `centre`, its plane spanned by two unit vectors.
+// A ring of a tube about `centre` in the plane of two unit vectors.
 std::vector<Vec3> ring_of(const Vec3& centre, const Vec3& across, const Vec3& up, double radius, int facets,
                           double start) {
   std::vector<Vec3> ring;
@@ -47,7 +47,7 @@ std::vector<Vec3> ring_of(const Vec3& centre, const Vec3& across, const Vec3& up
   return ring;
 }
 
-// Along: the tendon's way at the groove's end. Towards: from there inwards and to the face, at 45°.
+// `along`: the tendon's direction at the groove's end. `towards`: inwards and to the face, at 45°.
 struct Directions {
   Vec3 along, towards;
 };
@@ -71,31 +71,31 @@ Vec3 arc_place(const GrooveEnd& end, const RunOutSizes& sizes, int step) {
   return arc_point(end, sizes.bend_radius, arc_turn(step));
 }
 
-// Where the channel is as far inwards as it goes, in the middle of the pocket.
+// The innermost point of the channel, in the middle of the pocket.
 Vec3 way_end(const GrooveEnd& end, const RunOutSizes& sizes) {
   const double straight = std::sqrt(2.0) * sizes.inward - sizes.bend_radius;
   return arc_point(end, sizes.bend_radius, 0.5 * k_pi) + straight * directions_of(end).towards;
 }
 
-// The gable leaves the circle where that is as steep as the cone.
-ChannelRing ring_across(const Vec3& middle, const Vec3& ahead, double radius, double roof_slope) {
+// The peaked ceiling leaves the circle where the circle is as steep as the cone.
+ChannelRing ring_across(const Vec3& middle, const Vec3& ahead, double radius, double ceiling_slope) {
   const Vec3 level = ahead.cross(Vec3::UnitZ()).normalized(), up = level.cross(ahead);
   return {middle,
           level,
           up,
           radius,
-          std::acos(std::cos(roof_slope) / up.z()),
-          middle + radius / std::cos(roof_slope) * Vec3::UnitZ()};
+          std::acos(std::cos(ceiling_slope) / up.z()),
+          middle + radius / std::cos(ceiling_slope) * Vec3::UnitZ()};
 }
 
-// Nearly to a point.
+// Shrinks a ring nearly to a point.
 ChannelRing narrowed(const ChannelRing& ring, const Vec3& to) {
   constexpr double k_left = 0.05;
   const auto nearly = [&](const Vec3& place) -> Vec3 { return to + k_left * (place - to); };
   return {nearly(ring.middle), ring.level, ring.up, k_left * ring.radius, ring.gap, nearly(ring.ridge)};
 }
 
-// A channel's section in space, `facets` chords of its circle.
+// Points of a channel's section in space, with `facets` chords of its circle.
 std::vector<Vec3> points_of(const ChannelRing& ring, int facets) {
   std::vector<Vec3> points;
   for (int k = 0; k <= facets; ++k) {
@@ -113,7 +113,7 @@ TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, int vari
   return strip(sections);
 }
 
-// A thick flange makes it deeper.
+// A thick flange makes the pocket deeper.
 double pocket_depth(const GrooveEnd& end, const RunOutSizes& sizes) {
   return std::abs(end.face - end.row.height) - sizes.cone - sizes.inward;
 }
@@ -129,17 +129,17 @@ TriangleMesh pocket_of(const GrooveEnd& end, const RunOutSizes& sizes, int varia
   return strip(sections);
 }
 
-// The mouth stays a little inside of the groove's section: the channel then cuts the groove's end wall alone, and no
-// face of it runs along the groove's. In a round seat it stands where the tendon lies, in others a little further out,
-// where their walls leave room.
-void set_mouth(RunOutSizes& sizes, const Body& body, double d) {
+// The entry stays slightly inside the groove's section. The channel then cuts the groove's end wall only, and none of
+// its faces coincides with the groove's. In a round seat it is centred on the tendon; in others it lies further out,
+// where their walls leave clearance.
+void set_entry(RunOutSizes& sizes, const Body& body, double d) {
   constexpr double k_inside = 0.03, k_further_out = 0.15, k_least = 0.5;  // of the tendon
   double radius = body.seat_ratio;
   if (body.groove != Groove::u) {
-    sizes.mouth_outward = k_further_out * d;
+    sizes.entry_outward = k_further_out * d;
     radius = k_least + k_further_out * std::sin(0.5 * body.groove_angle);
   }
-  sizes.mouth_radius = std::min(std::max(radius - k_inside, k_least) * d, sizes.channel_radius);
+  sizes.entry_radius = std::min(std::max(radius - k_inside, k_least) * d, sizes.channel_radius);
 }
 
 }  // namespace
@@ -149,11 +149,11 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout, 
   RunOutSizes sizes;
   sizes.channel_radius =
       0.5 * (mechanism.body.anchor_hole > 0 ? mechanism.body.anchor_hole : std::max(d + 0.3, k_least_channel));
-  set_mouth(sizes, mechanism.body, d);
+  set_entry(sizes, mechanism.body, d);
   sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket
                                                        : share * std::max(1.75 * d, 2.0 * sizes.channel_radius);
   sizes.pocket_depth = sizes.pocket_radius;
-  sizes.roof_slope = std::max(gable_slope(layout), k_flattest_gable);
+  sizes.ceiling_slope = std::max(ridge_slope(layout), k_flattest_gable);
   sizes.cone = rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
   sizes.tip = rise_of(layout, (1.0 - k_tip) * std::min(sizes.pocket_radius, sizes.channel_radius));
   // The pocket leaves a wall to the rim.
@@ -179,14 +179,14 @@ double rim_wall(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& siz
   return distance_to_edges(rim, pocket_place(end, sizes)) - sizes.pocket_radius;
 }
 
-double mouth_cover(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes) {
-  return distance_to_edges(rim, end.row.position) - sizes.mouth_outward - sizes.mouth_radius;
+double entry_cover(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes) {
+  return distance_to_edges(rim, end.row.position) - sizes.entry_outward - sizes.entry_radius;
 }
 
 std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes,
                                   const ChannelRoom& room) {
-  // Its gable points up: away from the face only in the lower part.
-  const double upwards = end.outward < 0 ? 1.0 / std::cos(sizes.roof_slope) : 1.0;
+  // The peaked ceiling points up, away from the face, in the lower part only.
+  const double upwards = end.outward < 0 ? 1.0 / std::cos(sizes.ceiling_slope) : 1.0;
   std::vector<double> radii;
   for (int k = 1; k <= k_arc_steps; ++k) {
     const Vec3 place = arc_place(end, sizes, k);
@@ -194,13 +194,13 @@ std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, cons
     const double to_neighbour = room.neighbour + std::abs(place.z() - end.row.height) - room.cover;
     double radius = std::min(to_rim - room.cover, sizes.channel_radius);
     if (to_rim - radius < room.reach + room.cover) radius = std::min(radius, to_neighbour / upwards);
-    radii.push_back(std::clamp(radius, radii.empty() ? sizes.mouth_radius : radii.back(), sizes.channel_radius));
+    radii.push_back(std::clamp(radius, radii.empty() ? sizes.entry_radius : radii.back(), sizes.channel_radius));
   }
   return radii;
 }
 
 RunOutSizes fitted_into(const Polygon& rim, const GrooveEnd& end, RunOutSizes sizes, double wall) {
-  // Not so gentle that the rim turns away from under the channel.
+  // A gentler arc would leave the rim, which curves away from it.
   const double gentlest = std::clamp(end.row.rho / std::sqrt(2.0), sizes.sharpest_bend, sizes.bend_radius);
   sizes.bend_radius = gentlest;
   const double furthest = end.row.position.dot(end.row.normal);
@@ -235,19 +235,19 @@ std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& 
   const auto [along, towards] = directions_of(end);
   std::vector<ChannelRing> rings;
   const auto add = [&](const Vec3& middle, const Vec3& ahead, double radius) {
-    rings.push_back(ring_across(middle, ahead, radius, sizes.roof_slope));
+    rings.push_back(ring_across(middle, ahead, radius, sizes.ceiling_slope));
   };
-  // The groove's end wall stands between the first two, in the plane of neither.
-  const Vec3 mouth = start_of(end) + sizes.mouth_outward * Vec3(end.row.normal.x(), end.row.normal.y(), 0.0);
+  // The groove's end wall stands between the first two sections, in the plane of neither.
+  const Vec3 entry = start_of(end) + sizes.entry_outward * Vec3(end.row.normal.x(), end.row.normal.y(), 0.0);
   for (const double place : {-k_before_end - 0.003 * variant, k_past_end + 0.005 * variant})
-    add(mouth + place * along, along, sizes.mouth_radius);
+    add(entry + place * along, along, sizes.entry_radius);
   for (int k = 1; k <= k_arc_steps; ++k) {
     const double turn = arc_turn(k);
     add(arc_place(end, sizes, k), std::cos(turn) * along + std::sin(turn) * towards,
         sizes.channel_radii[static_cast<std::size_t>(k - 1)]);
   }
-  // Straight on, into the pocket. What lies below the face ends in a point where ball and cone meet in front: straight
-  // across it would have a ceiling as flat as the way is.
+  // A straight channel continues into the pocket. Below the lower face it ends in a point where ball and cone meet in
+  // front. A flat end would have a ceiling as shallow as the channel.
   const Vec3 last = way_end(end, sizes);
   if (end.outward < 0) {
     add(last + 0.8 * sizes.channel_radius * towards, towards, sizes.channel_radius);
@@ -256,7 +256,7 @@ std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& 
   if ((last - rings.back().middle).norm() > k_shortest_way * sizes.channel_radius)
     add(last, towards, sizes.channel_radius);
   const Vec3 inwards(-end.row.normal.x(), -end.row.normal.y(), 0.0);
-  const Vec3 front = std::sin(sizes.roof_slope) * inwards + std::cos(sizes.roof_slope) * Vec3::UnitZ();
+  const Vec3 front = std::sin(sizes.ceiling_slope) * inwards + std::cos(sizes.ceiling_slope) * Vec3::UnitZ();
   rings.push_back(narrowed(rings.back(), last + sizes.channel_radius * front));
   return rings;
 }

@@ -9,14 +9,15 @@
 namespace fusee {
 namespace {
 
-// Ends of grooves nearer than this share a column: a column so thin would be a sliver, and this much of a run-out is
-// nothing.
+// Groove ends closer than this share a column: a narrower column would be a sliver, and the difference is negligible
+// for a run-out.
 constexpr double k_same_column = 0.004;
-// The fan is a little finer than the tolerance asks: radii of curvature are those of the columns alone.
+// Fraction of the tolerance that the fan uses, because radii of curvature are sampled at columns only.
 constexpr double k_share_of_tolerance = 0.9;
 constexpr double k_widest_column = radians(8);
 
-// Filled rows begin so far behind a groove's end wall: the lips stand out over the channel from its mouth on. mm
+// Distance from a groove's end wall to the first filled row, so that the groove edges cover the channel from its entry
+// on. mm
 constexpr double k_behind_end = 0.1;
 
 double into_turn(double angle, double first) { return angle - k_two_pi * std::floor((angle - first) / k_two_pi); }
@@ -37,7 +38,7 @@ std::vector<double> marks_of(const SpiralCurve& p1, const SpiralCurve& p2) {
   return marks;
 }
 
-// The steps between two marks follow the density that curvature asks for: each takes an equal share of its integral.
+// Columns between two marks follow the density that curvature requires: each takes an equal share of its integral.
 void add_columns(std::vector<double>& angles, double from, double to, const auto& step_at) {
   constexpr int k_probes = 64;
   std::vector<double> count{0.0};
@@ -85,8 +86,8 @@ Winding winding_on(const std::vector<double>& angles, const SpiralCurve& curve, 
     WindingRow row = curve.at(turn_of(j));
     const double before = j > 0 ? turn_of(j) - turn_of(j - 1) : turn_of(j + 1) - turn_of(j);
     const double after = turn_of(j + 1) - turn_of(j);
-    // The floor's chords are ρ step³/24 shorter than its arcs, half of that each side of a row: moving it out by x
-    // lengthens them by x (before + after)/2.
+    // The floor's chords are ρ step³/24 shorter than its arcs, half of that on each side of a row. Moving the row out
+    // by x lengthens them by x (before + after)/2.
     const double out = (before * before - before * after + after * after) / 24.0;
     row.position += (row.rho - floor_inward) * out * row.normal;
     winding.rows.push_back(row);
@@ -95,7 +96,7 @@ Winding winding_on(const std::vector<double>& angles, const SpiralCurve& curve, 
   return winding;
 }
 
-// The place `row`, a turn away, moved as far as the turn before has moved at the groove's end.
+// `row` of the adjacent turn, shifted as the turn before was shifted at the groove's end.
 WindingRow moved_on(WindingRow row, const WindingRow& end, const WindingRow& turn_before) {
   row.position += end.position - turn_before.position;
   row.height += end.height - turn_before.height;
@@ -138,7 +139,7 @@ double SpiralCurve::Between::rho() const { return a.rho + (b.rho - a.rho) * std:
 WindingRow SpiralCurve::at(double turn) const {
   const Between here = between(turn);
   const auto& [a, b, step, u] = here;
-  // Hermite's cubics: places and derivatives dX/dψ = ρ t, dz/dψ = ρ tan λ.
+  // Cubic Hermite interpolation with derivatives dX/dψ = ρ t, dz/dψ = ρ tan λ.
   const double from = (1 + 2 * u) * (1 - u) * (1 - u), to = u * u * (3 - 2 * u);
   const double out_of = u * (1 - u) * (1 - u) * step, into = u * u * (u - 1) * step;
   WindingRow row;

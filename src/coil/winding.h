@@ -1,5 +1,5 @@
 /// \file
-/// Spirals on a common fan of normals: the rows of the helical grid.
+/// Internal: both spirals on a common fan of normals, which gives the rows of the helical grid.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace fusee {
 
-/// A place on the pitch curve, in the part's frame.
+/// A point on the pitch curve, in the part's frame.
 struct WindingRow {
   Vec2 position = Vec2::Zero();
   Vec2 normal = Vec2::UnitX();
@@ -20,20 +20,20 @@ struct WindingRow {
   double height = 0;
 };
 
-/// A spiral at any turn: cubic through its rows' places, tangents and radii of curvature.
+/// A spiral evaluated at any turn: cubic through the positions, tangents and radii of curvature of its rows.
 class SpiralCurve {
  public:
   SpiralCurve(const Spiral& spiral, const SpiralPlace& place) : spiral_(spiral), place_(place) {}
 
   double begin() const { return spiral_.rows.front().turn; }
   double end() const { return spiral_.rows.back().turn; }
-  /// A little beyond the ends is extrapolated.
+  /// Extrapolates slightly beyond the ends.
   WindingRow at(double turn) const;
-  /// The largest radius of curvature within a turn's distance, of all turns with this normal.
+  /// The largest radius of curvature of all turns with this normal, within a turn's distance.
   double largest_rho(double turn) const;
 
  private:
-  /// Two neighbouring rows, the turn from one to the other, and the share of it that is gone.
+  /// Two neighbouring rows, the turn between them, and the fraction of it at a place.
   struct Between {
     const SpiralRow &a, &b;
     double step, u;
@@ -46,21 +46,21 @@ class SpiralCurve {
   SpiralPlace place_;
 };
 
-/// One groove's rows on the fan: row j has the normal of column (first_column + j) mod columns.
+/// The rows of one groove on the fan: row j has the normal of column (first_column + j) mod columns.
 struct Winding {
   std::size_t first_column = 0;
   std::vector<WindingRow> rows;
-  bool falls = false;  ///< as the turn grows
-  /// Rows at either end that go on as the turn before did, in which the groove is filled up to its lips: a channel that
-  /// leaves the groove has solid about it.
+  bool falls = false;  ///< height falls as the turn grows
+  /// Numbers of rows at either end that continue the turn before, where the groove is filled up to its edges. They
+  /// surround a channel that leaves the groove with solid.
   std::size_t filled_front = 0, filled_back = 0;
 
-  /// How far the lower and the upper lip of the first filled rows stand out over the others, mm.
+  /// Projection of the lower and upper groove edge of the first filled rows over the other rows, mm.
   double bulge_low = 0, bulge_high = 0;
 
   const WindingRow& groove_front() const { return rows[filled_front]; }
   const WindingRow& groove_back() const { return rows[rows.size() - 1 - filled_back]; }
-  /// 0 … 1 from the groove's end to the last filled row.
+  /// Fraction of the way from the groove's end (0) to the last filled row (1).
   double share_of_fill(std::size_t row) const {
     return row < filled_front
                ? static_cast<double>(filled_front - row) / static_cast<double>(filled_front)
@@ -69,17 +69,17 @@ struct Winding {
   bool is_filled(std::size_t row) const { return row < filled_front || row + filled_back >= rows.size(); }
 };
 
-/// Normals that both grooves have rows at, the ends of both among them.
+/// The normals at which both grooves have rows, including the ends of both.
 struct Fan {
-  std::vector<double> angles;  ///< over one turn, growing
+  std::vector<double> angles;  ///< over one turn, in growing order
   Winding p1, p2;
 
   std::size_t columns() const { return angles.size(); }
 };
 
-/// No chord of a curve parallel to the pitch curves, up to `outward` of them, has a sagitta larger than `tolerance`.
-/// `filled`: how far P1's end and P2's beginning are followed by filled rows, at least, mm.
-/// Rows stand outward of the curve by a third of a chord's sagitta: the polygon is then as long as the curve is.
+/// Chords of any curve parallel to the pitch curves, up to `outward` of them, have a sagitta of at most `tolerance`.
+/// `filled`: least length of filled rows that follow P1's end and precede P2's beginning, mm. Rows lie outward of the
+/// curve by a third of a chord's sagitta, so that the polygon is as long as the curve.
 Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double tolerance,
              double filled);
 

@@ -34,41 +34,42 @@ Condition number_of_turns(const Transmission& planar, Side side) {
   Condition condition = at_most("turns_" + pulley, furthest, turns, k_most_turns, "1");
   if (!condition.ok) {
     condition.message = pulley + " would wind " + rounded(turns, 3) + " turns over the range: at most " +
-                        rounded(k_most_turns) + " are made, " + rounded(100.0 * k_most_turns / turns, 2) +
+                        rounded(k_most_turns) + " are supported, " + rounded(100.0 * k_most_turns / turns, 2) +
                         " % of this range";
   }
   return condition;
 }
 
-/// Where the tendon's end stands too far up or down the lip of the groove that it leaves is where it lies: a straight
-/// tendon has risen by a groove's depth h after √(2ρh), and gone aside by as much times tan δ.
+/// A straight tendon rises by a groove's depth h over the length √(2ρh) and moves aside by that length times tan δ.
+/// Above the limiting fleet angle it touches the groove edge.
 Condition fleet(const HelixSide& side, Side which, const HelixGroove& groove, double largest_radius) {
-  constexpr double k_none = 1e-9;  // what rounding makes of none
-  const double limit = std::max(k_none, std::atan(groove.room_at_lip / std::sqrt(2.0 * largest_radius * groove.lip)));
+  constexpr double k_none = 1e-9;  // tolerance of rounding about zero
+  const double limit =
+      std::max(k_none, std::atan(groove.room_at_groove_edge / std::sqrt(2.0 * largest_radius * groove.groove_edge)));
   const std::string number = which == Side::left ? "1" : "2";
   Condition condition = at_most("fleet_angle_" + number, side.fleet_at, degrees(side.fleet), degrees(limit), "deg");
   if (!condition.ok) {
-    condition.message = "tendon " + number + " leaves its groove at " + rounded(degrees(side.fleet), 3) +
-                        "° to it at " + at_alpha_text(side.fleet_at) + " and lies on the groove's lip from " +
+    condition.message = "tendon " + number + " leaves its groove at a fleet angle of " +
+                        rounded(degrees(side.fleet), 3) + "° at " + at_alpha_text(side.fleet_at) + ": above " +
                         rounded(degrees(limit), 3) +
-                        "° on: a longer EF, a smaller lead or fewer turns make it less, a wider groove "
-                        "(body.groove_angle_deg) takes more";
+                        "° it touches the groove edge. Increase pulley.EF_mm, reduce body.lead_mm or the number of "
+                        "turns, or increase body.groove_angle_deg";
   }
   return condition;
 }
 
-Condition room_for_turns(const Mechanism& mechanism, const Climb& climb, Side side) {
+Condition room_for_turns(const Mechanism& mechanism, const HelixGeometry& geometry, Side side) {
   const std::string pulley(pulley_name(side));
   Condition condition;
   condition.name = "neighbouring_turns_" + pulley;
-  condition.value = climb.slope * climb.circumference;
-  condition.limit = climb.needed_lead;
+  condition.value = geometry.slope * geometry.circumference;
+  condition.limit = geometry.needed_lead;
   condition.unit = "mm";
   condition.ok = condition.value >= condition.limit * (1.0 - 1e-9);
   if (!condition.ok) {
     condition.message =
         "a lead of " + rounded(mechanism.body.lead, 4) + " mm (body.lead_mm) is too small: groove, rib " +
-        "and the step between neighbouring turns of " + pulley + " need " + rounded(climb.needed_lead, 4) + " mm";
+        "and the step between neighbouring turns of " + pulley + " require " + rounded(geometry.needed_lead, 4) + " mm";
   }
   return condition;
 }
@@ -85,11 +86,9 @@ Condition spare_turns(const Mechanism& mechanism, const Spiral& spiral, Side sid
   condition.ok = condition.value > condition.limit;
   if (!condition.ok) {
     condition.message = "the spare turns of " + pulley +
-                        " cannot go on from the range's ends as convex curves: the "
-                        "floor's radius falls to " +
+                        " cannot continue beyond the range as convex curves: the floor's radius falls to " +
                         rounded(condition.value, 3) +
-                        " mm (more spare turns, or a radius "
-                        "that changes more slowly there)";
+                        " mm. Increase body.spare_turns, or choose a law whose radius changes more slowly there";
   }
   return condition;
 }
@@ -98,8 +97,8 @@ Condition closure(const Windings& windings) {
   constexpr double k_limit = 0.002;
   Condition condition = at_most("sloped_paths_close", 0, windings.closure, k_limit, "mm");
   if (!condition.ok) {
-    condition.message = "the curves' lengths along their sloped paths do not settle: " + rounded(windings.closure, 3) +
-                        " mm are left (a law with sharp bends, or a path too steep)";
+    condition.message = "the tendon lengths along the sloped paths do not converge: the residual is " +
+                        rounded(windings.closure, 3) + " mm (a law with sharp bends, or a path too steep)";
   }
   return condition;
 }
@@ -116,7 +115,7 @@ std::vector<Condition> turn_conditions(const Mechanism& mechanism, const Transmi
       condition.alpha = planar.alpha(mirror_sign(side) * kink);
       condition.ok = false;
       condition.message = "a tendon leaves the joint's drum at " + at_alpha_text(condition.alpha) +
-                          ": a pulley of several turns is made only where it stays on it, or off it";
+                          ": with a multi-turn pulley it must stay on the drum, or off it, over the whole range";
       conditions.push_back(condition);
     }
   }
@@ -133,7 +132,7 @@ std::vector<Condition> helix_conditions(const Mechanism& mechanism, const HelixS
     for (std::size_t k = helix.spiral.first_used; k <= helix.spiral.last_used; ++k)
       largest = std::max(largest, helix.spiral.rows[k].rho);
     conditions.push_back(spare_turns(mechanism, helix.spiral, side));
-    conditions.push_back(room_for_turns(mechanism, windings.climbs[i], side));
+    conditions.push_back(room_for_turns(mechanism, windings.geometry[i], side));
     conditions.push_back(fleet(helix, side, groove, largest));
   }
   return conditions;
@@ -144,9 +143,10 @@ std::vector<std::string> helix_warnings(const HelixSynthesis& made) {
   for (const Side side : k_sides) {
     const HelixSide& helix = made.sides[side == Side::left ? 0 : 1];
     if (helix.fleet <= k_warned_fleet) continue;
-    warnings.push_back("tendon " + std::string(side == Side::left ? "1" : "2") + " leaves its groove at up to " +
-                       rounded(degrees(helix.fleet), 3) + "° to it (" + at_alpha_text(helix.fleet_at) +
-                       "): above 2° it wears, and may climb the groove's wall; a longer EF or a smaller lead help");
+    warnings.push_back(
+        "tendon " + std::string(side == Side::left ? "1" : "2") + " leaves its groove at a fleet angle of up to " +
+        rounded(degrees(helix.fleet), 3) + "° (" + at_alpha_text(helix.fleet_at) +
+        "): above 2° it wears and may climb the groove's wall. Increase pulley.EF_mm or reduce body.lead_mm.");
   }
   return warnings;
 }

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: what several turns ask for beside what every curve does.
+/// Internal: conditions of several turns, in addition to those of every pitch curve.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace fusee {
 
-/// As soon as the planar curves are known to be possible, and before they are wound: the number of turns.
+/// Conditions on the number of turns. They need the planar curves only and are checked before winding.
 std::vector<Condition> turn_conditions(const Mechanism& mechanism, const Transmission& planar);
-/// Of what was wound.
+/// Conditions on the wound curves.
 std::vector<Condition> helix_conditions(const Mechanism& mechanism, const HelixSynthesis& made,
                                         const Windings& windings, const HelixGroove& groove);
 std::vector<std::string> helix_warnings(const HelixSynthesis& made);

@@ -6,13 +6,13 @@
 namespace fusee {
 namespace {
 
-struct Drawn {
+struct SpiralSample {
   double psi;
   SpiralPoint point;
 };
 
-/// Over a stretch between two directions, both among them.
-void add_points(std::vector<Drawn>& points, const PitchSpiral& curve, double begin, double end,
+/// Adds points from `begin` to `end`, both included.
+void add_points(std::vector<SpiralSample>& points, const PitchSpiral& curve, double begin, double end,
                 const SpiralDrawing& drawing) {
   const auto add = [&](double psi) { points.push_back({psi, curve.at(psi)}); };
   double psi = begin;
@@ -21,7 +21,7 @@ void add_points(std::vector<Drawn>& points, const PitchSpiral& curve, double beg
     const double radius = points.back().point.curve.radius + drawing.reach;
     psi += std::min(drawing.largest_turn, std::sqrt(8.0 * drawing.tolerance / radius));
   }
-  // The last two steps are shared evenly: none is next to nothing.
+  // The last two steps are made equal, so that none is close to zero.
   if (points.size() > 1 && points.back().psi > begin) {
     points.pop_back();
     add(0.5 * (points.back().psi + end));
@@ -31,7 +31,7 @@ void add_points(std::vector<Drawn>& points, const PitchSpiral& curve, double beg
 }  // namespace
 
 Spiral draw_spiral(const PitchSpiral& curve, Side side, double slope, const SpiralDrawing& drawing) {
-  std::vector<Drawn> points;
+  std::vector<SpiralSample> points;
   add_points(points, curve, curve.begin(), curve.working_begin(), drawing);
   const std::size_t first = points.size();
   add_points(points, curve, curve.working_begin(), curve.working_end(), drawing);

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: a spiral's curve as rows.
+/// Internal: samples a spiral's curve as rows.
 #pragma once
 
 #include "helix/pitch_spiral.h"
@@ -8,8 +8,8 @@ namespace fusee {
 
 struct SpiralDrawing {
   double tolerance = 0.01;             ///< sagitta, mm
-  double reach = 0;                    ///< of the outermost parallel curve that the tolerance holds for, mm
-  double largest_turn = radians(1.5);  ///< from row to row
+  double reach = 0;                    ///< distance of the outermost parallel curve that keeps the tolerance, mm
+  double largest_turn = radians(1.5);  ///< largest angle from row to row
 };
 
 Spiral draw_spiral(const PitchSpiral& curve, Side side, double slope, const SpiralDrawing& drawing);

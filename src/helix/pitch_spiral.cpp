@@ -8,20 +8,20 @@ namespace {
 
 constexpr int k_samples = 192;
 
-/// 1 … 0 over the spare turns, level at both ends, with its derivatives.
-struct Fade {
+/// Weight that falls from 1 to 0 over the spare turns with zero slope at both ends, and its derivatives.
+struct Taper {
   double w = 0, d1 = 0, d2 = 0;
 };
 
-Fade fade(double u, double length) {
+Taper taper(double u, double length) {
   const double x = u / length;
   return {1.0 - x * x * (3.0 - 2.0 * x), -6.0 * x * (1.0 - x) / length, -6.0 * (1.0 - 2.0 * x) / (length * length)};
 }
 
 /// ∫ sin u w(u) du from 0, Simpson's rule.
-double faded_integral(double u, double length) {
+double tapered_integral(double u, double length) {
   constexpr int k_steps = 64;
-  const auto value = [length](double v) { return std::sin(v) * fade(v, length).w; };
+  const auto value = [length](double v) { return std::sin(v) * taper(v, length).w; };
   double sum = value(0.0) + value(u);
   for (int i = 1; i < k_steps; ++i) sum += (i % 2 == 1 ? 4.0 : 2.0) * value(u * i / k_steps);
   return sum * u / (3.0 * k_steps);
@@ -50,7 +50,7 @@ FreePath PitchSpiral::free_path(const TakeOff& take_off) const {
   return path;
 }
 
-// L + σ = q + const.
+// From the length balance L + σ = q + const.
 double PitchSpiral::sigma(const TakeOff& take_off) const {
   return lengthened(take_off.stroke.alpha) - lengthened(home_.stroke.alpha) - free_path(take_off).whole +
          free_path(home_).whole;
@@ -85,14 +85,14 @@ SpiralPoint PitchSpiral::at(double psi) const {
 SpiralPoint PitchSpiral::beyond(double turned, const SpiralPoint& from, double direction) const {
   const double u = std::min(turned, spare_);
   const double d = direction * from.curve.dh;
-  const Fade w = fade(u, spare_);
+  const Taper w = taper(u, spare_);
   const double slope = d * (std::cos(u) * w.w + std::sin(u) * w.d1);
   SpiralPoint point;
   point.curve.psi = from.curve.psi + direction * u;
   point.curve.h = from.curve.h + d * std::sin(u) * w.w;
   point.curve.dh = direction * slope;
   point.curve.radius = from.curve.h + d * (2.0 * std::cos(u) * w.d1 + std::sin(u) * w.d2);
-  const double length = slope - d + from.curve.h * u + d * faded_integral(u, spare_);
+  const double length = slope - d + from.curve.h * u + d * tapered_integral(u, spare_);
   point.sigma = from.sigma + direction * length;
   return point;
 }

@@ -1,5 +1,6 @@
 /// \file
-/// Internal: one side's pitch curve over all its turns, in the right-hand image of its tendon, in the pulley's frame.
+/// Internal: one side's pitch curve over all its turns, in the pulley's frame. The left side is mirrored to a
+/// right-hand one.
 #pragma once
 
 #include <array>
@@ -10,20 +11,20 @@
 
 namespace fusee {
 
-/// A place of the curve, and how much of the tendon lies between it and where the tendon leaves at home.
+/// A point of the curve, and the length of tendon between it and the take-off at home.
 struct SpiralPoint {
   CurvePoint curve;
   double sigma = 0;  ///< in plan, growing with ψ, mm
 };
 
-/// What of a tendon is not wound, in plan.
+/// Planar lengths of the free part of a tendon.
 struct FreePath {
   double whole = 0;    ///< from its end on the joint to the pulley, mm
-  double sloping = 0;  ///< of that, what rises: all of it, or with collars what lies below the guide
+  double sloping = 0;  ///< the part that rises: all of it, or with collars the part below the guide
 };
 
-/// Beyond the working arc either end runs on for the spare turns, and becomes a circle about the axis on the way: its
-/// normal's distance is p + p' sin u w(u), w falling from 1 to 0. Refers to its take-offs: keep them alive.
+/// Beyond the working arc, either end continues for the spare turns and approaches a circle about the axis. The
+/// distance of its normal is p + p' sin u w(u), with w falling from 1 to 0. Keeps a reference to the take-offs.
 class PitchSpiral {
  public:
   /// `lengthening`: q of the side, null for a planar tendon.
@@ -36,9 +37,9 @@ class PitchSpiral {
   const std::vector<TakeOff>& samples() const { return samples_; }
   SpiralPoint at_home() const { return {home_.curve, 0.0}; }
 
-  /// Of the working arc and of the spare turns.
+  /// `psi` within the working arc or the spare turns.
   SpiralPoint at(double psi) const;
-  /// Of a take-off.
+  /// Wound length at a take-off, relative to home. mm
   double sigma(const TakeOff& take_off) const;
   FreePath free_path(const TakeOff& take_off) const;
 

@@ -15,23 +15,23 @@ namespace {
 HelixSide make_side(const Mechanism& mechanism, const Windings& windings, Side which,
                     const std::vector<TransmissionPoint>& stroke, const SpiralDrawing& drawing) {
   const std::size_t i = which == Side::left ? 0 : 1;
-  const Climb& climb = windings.climbs[i];
+  const HelixGeometry& geometry = windings.geometry[i];
   const TakeOffs take_offs(*windings.transmission, which);
   const PitchSpiral curve(mechanism, take_offs, i == 0 ? &windings.paths->q1 : &windings.paths->q2);
   HelixSide side;
-  side.spiral = draw_spiral(curve, which, climb.slope, drawing);
+  side.spiral = draw_spiral(curve, which, geometry.slope, drawing);
   side.turns = (curve.working_end() - curve.working_begin()) / k_two_pi;
-  side.circumference = climb.circumference;
-  side.lead = climb.slope * climb.circumference;
-  // Of the spiral's first row: P1 is drawn from its image's end.
+  side.circumference = geometry.circumference;
+  side.lead = geometry.slope * geometry.circumference;
+  // σ of the spiral's first row. P1 is drawn from the end of its mirrored curve.
   const double sigma0 = curve.at(which == Side::left ? curve.end() : curve.begin()).sigma;
-  const double home = -climbing(which) * climb.slope * sigma0;
-  side.attachment_z = home - climb.below;
+  const double home = -climb_sign(which) * geometry.slope * sigma0;
+  side.attachment_z = home - geometry.below;
   for (const TransmissionPoint& point : stroke) {
     const TakeOff take_off = take_offs.at(mirror_sign(which) * point.theta);
     const double sigma = curve.sigma(take_off);
-    HelixPoint at = helix_point(climb, which, curve.free_path(take_off), sigma);
-    at.z = home + climbing(which) * climb.slope * sigma;
+    HelixPoint at = helix_point(geometry, which, curve.free_path(take_off), sigma);
+    at.z = home + climb_sign(which) * geometry.slope * sigma;
     side.stroke.push_back(at);
     if (std::abs(at.fleet) <= side.fleet) continue;
     side.fleet = std::abs(at.fleet);
@@ -49,13 +49,13 @@ void append(std::vector<Condition>& conditions, std::vector<Condition> more) {
 }
 
 void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const HelixGroove& groove,
-                     const SynthesisOptions& options, HelixLook closely) {
+                     const SynthesisOptions& options, HelixAccuracy accuracy) {
   const Transmission planar(mechanism);
   result.conditions = attempt(mechanism, planar, Turns::many).conditions;
   if (!all_hold(result.conditions)) return;
   append(result.conditions, turn_conditions(mechanism, planar));
   if (!all_hold(result.conditions)) return;
-  const Windings windings = wind(mechanism, groove.least_lead, closely);
+  const Windings windings = wind(mechanism, groove.least_lead, accuracy);
   const Transmission& law = *windings.transmission;
   const Attempt tried = attempt(mechanism, law, Turns::many);
   result.conditions = tried.conditions;
@@ -64,8 +64,8 @@ void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const H
   result.closure = windings.closure;
   result.stroke = stroke_over_range(law, options.stroke_steps);
   SpiralDrawing drawing{.tolerance = options.tolerance,
-                        .reach = groove.lip + mechanism.tendon.diameter + std::max(0.0, options.drawn_out)};
-  if (closely == HelixLook::brief) drawing.largest_turn = radians(5);
+                        .reach = groove.groove_edge + mechanism.tendon.diameter + std::max(0.0, options.drawn_out)};
+  if (accuracy == HelixAccuracy::coarse) drawing.largest_turn = radians(5);
   for (const Side side : {Side::left, Side::right})
     result.sides[side == Side::left ? 0 : 1] = make_side(mechanism, windings, side, result.stroke, drawing);
   append(result.conditions, helix_conditions(mechanism, result, windings, groove));
@@ -78,9 +78,9 @@ void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const H
 }  // namespace
 
 HelixSynthesis synthesise_helix(const Mechanism& mechanism, const HelixGroove& groove, const SynthesisOptions& options,
-                                HelixLook closely) {
+                                HelixAccuracy accuracy) {
   HelixSynthesis result;
-  synthesise_into(result, mechanism, groove, options, closely);
+  synthesise_into(result, mechanism, groove, options, accuracy);
   return result;
 }
 

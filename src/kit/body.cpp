@@ -39,7 +39,7 @@ double least_radius(const DiscHull& hull) {
       ->radius;
 }
 
-/// Between any two of a slab's loops.
+/// Least distance between any two of a slab's loops.
 double least_gap(const std::vector<Polygon>& loops) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -51,7 +51,7 @@ double least_gap(const std::vector<Polygon>& loops) {
   return least;
 }
 
-/// Where each of a slab's rings begins among the mesh's vertices.
+/// Number of the first mesh vertex of each ring of a slab.
 using Firsts = std::vector<std::uint32_t>;
 
 class StackMesh {
@@ -95,13 +95,13 @@ class StackMesh {
     mesh_.triangles.push_back(turned_round ? std::array{a, c, b} : std::array{a, b, c});
   }
 
-  /// The flat faces between what ends at `z` and what begins there. The rings of what begins: a loop that goes on has
-  /// the ring that it had.
+  /// Adds the flat faces between loops that end at `z` and loops that begin there. Returns the rings of the latter; a
+  /// continued loop keeps its ring.
   Firsts begin(const std::vector<Polygon>& next, double z, const std::vector<Polygon>& before, const Firsts& firsts) {
     std::vector<bool> goes_on(before.size(), false);
     Firsts next_firsts;
     std::vector<Polygon> rims;
-    std::vector<std::uint32_t> vertex;  // of each rim's corner
+    std::vector<std::uint32_t> vertex;  // of each rim corner
     const auto add_rim = [&](const Polygon& loop, std::uint32_t first) {
       rims.push_back(loop);
       for (std::uint32_t i = 0; i < loop.size(); ++i) vertex.push_back(first + i);
@@ -125,7 +125,7 @@ class StackMesh {
     for (const Polygon& rim : rims) corners.insert(corners.end(), rim.begin(), rim.end());
     for (const auto& [a, b, c] : triangulate(rims)) {
       const Vec2 middle = (corners[a] + corners[b] + corners[c]) / 3;
-      add(vertex[a], vertex[b], vertex[c], !is_within(before, middle));  // what begins looks down
+      add(vertex[a], vertex[b], vertex[c], !is_within(before, middle));  // beginning loops face down
     }
     return next_firsts;
   }
@@ -150,7 +150,7 @@ Polygon outline_of(const DiscHull& hull, double grow) {
   Polygon points;
   points.reserve(static_cast<std::size_t>(hull.corners));
   for (int i = 0; i < hull.corners; ++i) {
-    // Half a step off the axes: there two discs of a box are equally far.
+    // Half a step off the axes, where two discs of a box would be equally far.
     const Vec2 normal = unit(k_two_pi * (i + 0.5) / hull.corners);
     const auto furthest = std::max_element(hull.discs.begin(), hull.discs.end(), [&](const Disc& a, const Disc& b) {
       return a.centre.dot(normal) + a.radius < b.centre.dot(normal) + b.radius;
@@ -161,7 +161,7 @@ Polygon outline_of(const DiscHull& hull, double grow) {
   return points;
 }
 
-// No screw and no pin is as thin.
+// Thinner holes are engraved lines: no screw and no pin is as thin.
 constexpr double k_finest_hole = 0.4;  // radius
 
 SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
@@ -171,7 +171,7 @@ SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
     for (SlabLoop& loop : changed.loops) {
       if (!loop.hole) continue;
       const double least = least_radius(loop.hull);
-      // Lines are engraved for the eye: they stay as far apart as they are.
+      // Engraved lines keep their distances.
       if (least < k_finest_hole) continue;
       const double wider = std::max(0.5 * trim.hole, 0.1 - least);
       const double more = wider + (least + wider) * (1 / std::cos(k_pi / loop.hull.corners) - 1);
@@ -179,7 +179,7 @@ SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
       loop.grow_high += more;
     }
     double foot = std::min(trim.elephant_foot, 0.5 * (slab.high - slab.low) / trim.foot_slope);
-    // A thin wall gets a small one.
+    // A thin wall gets a smaller chamfer.
     if (result.slabs.empty() && foot > 0) foot = std::min(foot, 0.25 * least_gap(outlines(changed, false)));
     for (const SlabLoop& loop : slab.loops) foot = std::min(foot, loop.hole ? foot : 0.9 * least_radius(loop.hull));
     if (result.slabs.empty() && foot > 0) {

@@ -1,4 +1,4 @@
-// The fit coupon: a flat piece on which every fit of a kit is there in five steps.
+// The fit coupon: a flat piece with every fit of a kit in five steps.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ constexpr double k_peg = 3;  // radius
 
 double column(int step) { return 12 + step * k_pitch; }
 
-/// Of the holes, mm: a shaft that one has.
+/// Shaft diameter of the holes, mm: the mechanism's, or a default.
 double tried_shaft(const Mechanism& mechanism) {
   const double shaft = mechanism.body.bore_diameter > 0 ? mechanism.body.bore_diameter : 5;
   return std::clamp(shaft, 2.0, 8.0);
@@ -60,10 +60,10 @@ std::vector<CouponReading> coupon_readings(const Mechanism& mechanism) {
        "the number of the first peg that turns when pushed",
        "above 3: the printer squeezes too much. Lower its flow first; then material.hole_compensation_mm 0.1 larger"},
       {"its length, across the middle of its height",
-       "measured with a caliper: " + rounded(k_length) + " mm were meant",
+       "measured with a caliper: " + rounded(k_length) + " mm is nominal",
        "material.shrinkage_percent = 100 × (1 − measured / " + rounded(k_length) + ")"},
       {"its width at the bed and at its upper face", "both, with a caliper",
-       "material.elephant_foot_mm = half of what it is wider at the bed"}};
+       "material.elephant_foot_mm = half of the additional width at the bed"}};
 }
 
 }  // namespace fusee

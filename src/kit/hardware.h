@@ -1,5 +1,5 @@
 /// \file
-/// Internal: screws, and which go with which bearing. mm
+/// Internal: screws, and their choice for bearings. mm
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@ inline constexpr std::array<Thread, 5> k_threads{{{"M2", 2, 2.3, 1.7, 1.9, 4.0, 
                                                   {"M5", 5, 5.3, 4.3, 4.25, 8.0, 4.7},
                                                   {"M8", 8, 8.4, 6.9, 6.5, 13.0, 6.8}}};
 
-/// The largest thread that is no thicker; the smallest where all are.
+/// The largest thread no thicker than `diameter`, or the smallest one.
 const Thread& thread_within(double diameter);
-/// From the middle of a nut to its corner.
+/// Distance from the centre of a nut to its corner.
 double nut_corner_radius(const Thread& thread);
-/// "M3 × 16": the next length that is made.
+/// Name with the next stock length, such as "M3 × 16".
 std::string screw_words(const Thread& thread, double length);
-/// The next length that is made, mm.
+/// The next stock length, mm.
 double stock_length(double length);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: how a motor is held under a base plate: its holes, the room that it takes, what it is screwed on with. mm
+/// Internal: the motor mount under a base plate: holes, space and fasteners. mm
 #pragma once
 
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace fusee {
 
-/// The first of the catalogue with such a shaft or horn; null: none.
+/// The first motor of the catalogue with the mechanism's shaft or horn; null if there is none.
 const MotorType* motor_for(const Mechanism& mechanism, const BodyLayout& layout);
-/// Towards the joint.
+/// Direction of the motor's front, towards the joint.
 Vec2 motor_front(const Vec2& pulley);
-/// Through the plate.
+/// Holes through the plate.
 std::vector<SlabLoop> motor_holes(const MotorType& motor, const Vec2& pulley, const Vec2& front);
-/// From its body and its screws to a place seen from the pulley's axis, in the plane: below 0 within.
+/// Distance in the plane from the motor's body and screws to a place relative to the pulley's axis, negative inside.
 double beside_motor(const MotorType& motor, const Vec2& off, const Vec2& front);
-/// What of the base plate is there for it.
+/// Corners of the part of the base plate that supports the motor.
 std::vector<Disc> motor_corners(const MotorType& motor, const Vec2& pulley, const Vec2& front);
 void buy_motor(KitPlan& plan, const MotorType& motor, double plate);
 

@@ -19,12 +19,12 @@ SlabLoop round_hole(const Vec2& place, double diameter) { return hole(disc(place
 
 DiscHull hull_of(std::vector<Disc> discs, int corners = 96) { return {std::move(discs), corners}; }
 
-/// Upright, with a hole.
+/// A vertical tube.
 SlabBody tube(double radius, double bore, double height) {
   return {{{0, height, {edge(disc({0, 0}, radius)), round_hole({0, 0}, bore)}}}};
 }
 
-/// The direction in which the link points at a joint angle, and to its right.
+/// The direction of the link at a joint angle, and the direction to its right.
 struct LinkFrame {
   Vec2 along, across;
 };
@@ -46,7 +46,7 @@ DiscHull link_hull(const KitSizes& sizes, double R) {
   return hull_of(discs, 144);
 }
 
-/// It lies behind the axis, where the link's pointer is.
+/// The scale lies behind the axis, at the link's pointer.
 DiscHull scale_hull(const KitPlan& plan, const Joint& joint) {
   const KitSizes& sizes = plan.sizes;
   std::vector<Disc> discs{{{0, 0}, sizes.axle_tube + 3}};
@@ -164,7 +164,7 @@ class PartMaker {
          {{{0, 0}, sizes_.scale_low, false, false}},
          1,
          true});
-    const double ring = sizes_.link_low - sizes_.scale_low - sizes_.scale_plate + sizes_.lip;
+    const double ring = sizes_.link_low - sizes_.scale_low - sizes_.scale_plate + sizes_.ledge;
     add({"bearing_ring",
          "ring under the inner ring of the lower bearing",
          tube(0.5 * sizes_.bearing->spacer, sizes_.axle->clearance, ring),
@@ -192,7 +192,7 @@ class PartMaker {
     return {{lower, upper}};
   }
 
-  /// Lines every `graduation`, longer ones with a number as often as there is room.
+  /// Lines every `graduation`, and longer ones with a number where there is space.
   std::vector<DiscHull> graduation() const {
     std::vector<DiscHull> lines;
     const double step = sizes_.graduation, tip = sizes_.pointer;
@@ -220,9 +220,9 @@ class PartMaker {
       through.push_back(round_hole({x * sizes_.cap_screws, 0}, k_threads.front().tapping));
       through.push_back(round_hole({x * sizes_.post_screws, R}, small.tapping));
     }
-    Slab lip{0, sizes_.lip, {rim, round_hole({0, 0}, lip_hole())}};
-    Slab seat{sizes_.lip, top, {rim, round_hole({0, 0}, sizes_.bearing->outer)}};
-    for (Slab* slab : {&lip, &seat}) slab->loops.insert(slab->loops.end(), through.begin(), through.end());
+    Slab ledge{0, sizes_.ledge, {rim, round_hole({0, 0}, ledge_hole())}};
+    Slab seat{sizes_.ledge, top, {rim, round_hole({0, 0}, sizes_.bearing->outer)}};
+    for (Slab* slab : {&ledge, &seat}) slab->loops.insert(slab->loops.end(), through.begin(), through.end());
     const double inner = 0.5 * sizes_.slide_width + 0.25, outer = half_width(sizes_) - 0.5, end = sizes_.link_end;
     const double wall_inner = 0.5 * small.clearance;
     Slab rails{top, top + 4, {}}, walls{top + 4, top + tensioner_height(small), {}};
@@ -236,7 +236,7 @@ class PartMaker {
     }
     add({"link",
          "link of length R, on both bearings, with the tensioner's guide",
-         {{lip, seat, rails, walls}},
+         {{ledge, seat, rails, walls}},
          {{{0, 0}, sizes_.link_low, false, true}},
          1,
          true});
@@ -244,16 +244,16 @@ class PartMaker {
     slide();
   }
 
-  double lip_hole() const {
+  double ledge_hole() const {
     return sizes_.bearing->outer - std::min(2.0, 0.5 * (sizes_.bearing->outer - sizes_.bearing->spacer));
   }
   double slide_start() const { return mechanism_.joint.R + sizes_.post + 2.5; }
 
-  /// It hangs down from its flange, and is printed standing on it.
+  /// The post hangs down from its flange and is printed standing on it.
   void post() {
     const Thread& small = *sizes_.small;
     const double top = sizes_.link_low + sizes_.link + sizes_.flange;
-    const double cone = sizes_.post - sizes_.waist, mouth = 0.4;
+    const double cone = sizes_.post - sizes_.waist, chamfer_height = 0.4;
     const double waist = top - sizes_.z_tendon2 - 0.5 * sizes_.tendon_gap, below = waist + sizes_.tendon_gap;
     const double end = top - sizes_.post_low;
     const double rise = cone * steepness();
@@ -267,8 +267,8 @@ class PartMaker {
     flange.loops.push_back(edge(hull_of(plate, 72)));
     SlabLoop narrow = stem, widening = stem, widened = bore;
     narrow.grow_low = narrow.grow_high = widening.grow_low = -cone;
-    widened.grow_high = mouth;
-    const double chamfer = end - mouth;
+    widened.grow_high = chamfer_height;
+    const double chamfer = end - chamfer_height;
     add({"post",
          "post at C: tendon 2 is tied round it, tendon 1 goes up through it",
          {{flange,
@@ -396,8 +396,7 @@ SlideLengths slide_lengths(const Thread& thread) {
   return {2 * thread.head_radius + 1.5, 2.5, thread.nut_height + 0.5, 3.0};
 }
 
-// At the slope that a printer bears slicers round the last layer the wrong way: PrusaSlicer takes 45° for less than
-// 46°.
+// At the printer's limit, rounding makes slicers add supports: PrusaSlicer treats 45° as below 46°.
 double post_steepness(const Mechanism& mechanism) {
   return std::tan(std::clamp(mechanism.print.overhang + radians(8), radians(53), radians(80)));
 }
@@ -459,7 +458,7 @@ PrintTrim trim_of(const Mechanism& mechanism, const BodyLayout& layout) {
 }  // namespace
 
 TriangleMesh printed_mesh(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout) {
-  // What the coupon shows is what the printer does by itself.
+  // The coupon is not compensated, because it measures the printer's errors.
   if (part.places.empty()) return mesh_of(part.body);
   return mesh_of(trimmed(part.body, trim_of(mechanism, layout)), layout.scale);
 }

@@ -15,16 +15,16 @@ namespace fusee {
 namespace {
 
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
-constexpr double k_clear = 0.5;  // between what moves past each other: a desktop printer is right to 0.2 mm
-constexpr int k_places = 49;     // of the stroke that distances are looked at in
+constexpr double k_clear = 0.5;  // clearance of moving parts: a desktop printer is accurate to 0.2 mm
+constexpr int k_places = 49;     // number of places of the stroke at which distances are checked
 
-/// A rod that shops have, mm.
+/// True for commercial rod diameters, mm.
 bool is_stock_rod(double diameter) {
   constexpr std::array k_rods{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0};
   return std::any_of(k_rods.begin(), k_rods.end(), [=](double rod) { return std::abs(rod - diameter) < 0.02; });
 }
 
-/// Below 0 within; beyond it no more than the true distance.
+/// Distance outside a convex polygon, negative inside; a lower bound near corners.
 double outside_of(const Polygon& convex, const Vec2& point) {
   double most = -k_infinite;
   for (std::size_t i = 0; i < convex.size(); ++i) {
@@ -41,7 +41,7 @@ double distance_to_path(const std::vector<Vec2>& path, const Vec2& point) {
   return least;
 }
 
-/// Of a tendon's centre line, from C to where it meets its pulley.
+/// Centre line of a tendon from C to its take-off on the pulley.
 std::vector<Vec2> tendon_path(const Mechanism& mechanism, const TransmissionPoint& at, Side side) {
   const double rho = mechanism.guide_pitch_radius(), sign = mirror_sign(side);
   const PinPlace place = pin_place(mechanism, side, rho);
@@ -51,13 +51,13 @@ std::vector<Vec2> tendon_path(const Mechanism& mechanism, const TransmissionPoin
           pin + rho * unit(tendon.lower_normal), place.pulley_axis() + tendon.p * unit(tendon.lower_normal)};
 }
 
-/// The mechanism's places and paths, looked up once.
+/// Positions and tendon paths of the mechanism, computed once.
 struct Scene {
   const Mechanism& mechanism;
   Vec2 pulley;
   std::array<Vec2, 2> pins;
   std::vector<TransmissionPoint> stroke;
-  std::array<std::vector<std::vector<Vec2>>, 2> paths;  ///< of either tendon, at each place of the stroke
+  std::array<std::vector<std::vector<Vec2>>, 2> paths;  ///< of both tendons, at each place of the stroke
   double longest = 0;                                   ///< free length of a tendon, mm
 
   explicit Scene(const Mechanism& given) : mechanism(given) {
@@ -79,8 +79,8 @@ struct Scene {
   }
 };
 
-/// A value over the stroke where it is least.
-struct Least {
+/// The minimum of a value over the stroke, and its place.
+struct Minimum {
   double value = k_infinite;
   double alpha = 0;
   void see(double other, double where) {
@@ -101,9 +101,9 @@ void size_axle(KitSizes& sizes, const BearingType& bearing) {
 
 void size_pulley(KitSizes& sizes, const Mechanism& mechanism, const SynthesisResult& synthesis,
                  const BodyLayout& layout) {
-  const double lip = layout.groove_depth - 0.5 * mechanism.tendon.diameter;
+  const double groove_edge = layout.groove_depth - 0.5 * mechanism.tendon.diameter;
   for (const Outline* outline : {&synthesis.p1, &synthesis.p2})
-    sizes.pulley_radius = std::max(sizes.pulley_radius, circumradius(parallel(*outline, lip)));
+    sizes.pulley_radius = std::max(sizes.pulley_radius, circumradius(parallel(*outline, groove_edge)));
   sizes.pulley_radius = std::max(sizes.pulley_radius, layout.hub_radius);
   sizes.motor = motor_for(mechanism, layout);
   const double heads = sizes.motor ? sizes.motor->head + 0.5 : 0.0;
@@ -140,9 +140,9 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   const Thread &small = *sizes.small, &cap_screw = k_threads.front();
   sizes.scale_low = std::max(pins_top, sizes.pulley_high) + 1.5;
   sizes.scale_plate = 3;
-  sizes.lip = k_wall;
+  sizes.ledge = k_wall;
   sizes.link_low = sizes.scale_low + sizes.scale_plate + 1.5;
-  sizes.link = sizes.lip + 2 * bearing.width;
+  sizes.link = sizes.ledge + 2 * bearing.width;
   sizes.recess = std::max(nut_corner_radius(*sizes.axle), 0.5 * sizes.board->magnet) + 0.6;
   sizes.cap_screws = std::max(0.5 * bearing.outer, sizes.recess) + 0.5 * cap_screw.clearance + 0.9;
   sizes.cap = sizes.recess + k_wall;
@@ -177,8 +177,8 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
 class Conditions {
  public:
   explicit Conditions(KitPlan& plan) : plan_(plan) {}
-  /// `short_by` is put for "{}" in `change`.
-  void at_least(const std::string& name, const Least& found, double limit, const std::string& what,
+  /// Replaces "{}" in `change` by the missing distance.
+  void at_least(const std::string& name, const Minimum& found, double limit, const std::string& what,
                 const std::string& change) {
     Condition condition;
     condition.name = name;
@@ -191,8 +191,8 @@ class Conditions {
       std::string hint = change;
       if (const auto place = hint.find("{}"); place != std::string::npos)
         hint.replace(place, 2, trimmed_fixed(std::ceil(10 * (limit - found.value)) / 10, 1) + " mm");
-      condition.message = what + ": " + rounded(found.value, 3) + " mm are left, " + rounded(limit, 3) +
-                          " mm are needed (α = " + rounded(degrees(found.alpha), 3) + "°); " + hint;
+      condition.message = what + ": the distance is " + rounded(found.value, 3) + " mm, at least " + rounded(limit, 3) +
+                          " mm is required (α = " + rounded(degrees(found.alpha), 3) + "°); " + hint;
     }
     plan_.conditions.push_back(condition);
   }
@@ -201,17 +201,17 @@ class Conditions {
   KitPlan& plan_;
 };
 
-/// Of a tendon to a round thing.
-Least tendon_past(const Scene& scene, int tendon, const Vec2& place, double radius) {
-  Least least;
+/// Clearance of a tendon from a circle.
+Minimum tendon_past(const Scene& scene, int tendon, const Vec2& place, double radius) {
+  Minimum least;
   for (std::size_t i = 0; i < scene.stroke.size(); ++i)
     least.see(distance_to_path(scene.paths[tendon][i], place) - radius - 0.5 * scene.mechanism.tendon.diameter,
               scene.stroke[i].alpha);
   return least;
 }
 
-Least post_past(const Scene& scene, const KitSizes& sizes, const Vec2& place, double radius) {
-  Least least;
+Minimum post_past(const Scene& scene, const KitSizes& sizes, const Vec2& place, double radius) {
+  Minimum least;
   for (const TransmissionPoint& at : scene.stroke)
     least.see(
         (scene.mechanism.joint.R * Vec2(std::sin(at.theta), std::cos(at.theta)) - place).norm() - sizes.post - radius,
@@ -219,101 +219,104 @@ Least post_past(const Scene& scene, const KitSizes& sizes, const Vec2& place, do
   return least;
 }
 
-void look_at_axle(Conditions& look, const Scene& scene, const KitPlan& plan) {
+void check_axle(Conditions& checks, const Scene& scene, const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
   const Vec2 axis(0, 0);
-  const auto fixed = [](double value) { return Least{value, 0}; };
-  look.at_least("axle_beside_pulley", fixed(scene.pulley.norm() - sizes.pulley_radius - sizes.axle_tube), k_clear,
-                "the joint's axle stands in the pulley",
-                "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
-                    " by {}, or a smaller pulley (pulley.r1_mm, body.groove_depth_mm)");
+  const auto fixed = [](double value) { return Minimum{value, 0}; };
+  checks.at_least("axle_beside_pulley", fixed(scene.pulley.norm() - sizes.pulley_radius - sizes.axle_tube), k_clear,
+                  "the joint's axle stands in the pulley",
+                  "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
+                      " by {}, or a smaller pulley (pulley.r1_mm, body.groove_depth_mm)");
   for (const int tendon : {0, 1}) {
-    look.at_least("axle_beside_tendon_" + std::to_string(tendon + 1), tendon_past(scene, tendon, axis, sizes.axle_tube),
-                  k_clear, "tendon " + std::to_string(tendon + 1) + " meets the joint's axle",
-                  std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") +
-                      " larger by {}, or a smaller range (joint.range_deg)");
-    look.at_least(std::string("axle_beside_pin_") + (tendon == 0 ? "B" : "D"),
-                  fixed(scene.pins[tendon].norm() - sizes.axle_tube - plan.pins[tendon].collar), k_clear,
-                  std::string("pin ") + (tendon == 0 ? "B" : "D") + " stands in the joint's axle",
-                  std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") + " larger by {}");
+    checks.at_least("axle_beside_tendon_" + std::to_string(tendon + 1),
+                    tendon_past(scene, tendon, axis, sizes.axle_tube), k_clear,
+                    "tendon " + std::to_string(tendon + 1) + " meets the joint's axle",
+                    std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") +
+                        " larger by {}, or a smaller range (joint.range_deg)");
+    checks.at_least(std::string("axle_beside_pin_") + (tendon == 0 ? "B" : "D"),
+                    fixed(scene.pins[tendon].norm() - sizes.axle_tube - plan.pins[tendon].collar), k_clear,
+                    std::string("pin ") + (tendon == 0 ? "B" : "D") + " stands in the joint's axle",
+                    std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") + " larger by {}");
   }
   if (sizes.motor) {
     const double beside = beside_motor(*sizes.motor, axis - scene.pulley, sizes.motor_front);
-    look.at_least("axle_beside_motor", fixed(beside - sizes.axle->head_radius), k_clear,
-                  "the screw of the joint's axle stands in the motor (" + sizes.motor->name + ")",
-                  "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
-                      " by {}, or a smaller motor (body.shaft, body.horn)");
+    checks.at_least("axle_beside_motor", fixed(beside - sizes.axle->head_radius), k_clear,
+                    "the screw of the joint's axle stands in the motor (" + sizes.motor->name + ")",
+                    "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
+                        " by {}, or a smaller motor (body.shaft, body.horn)");
   }
 }
 
-void look_at_pins(Conditions& look, const Scene& scene, const KitPlan& plan) {
+void check_pins(Conditions& checks, const Scene& scene, const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
   for (const int pin : {0, 1}) {
     const KitPin& own = plan.pins[pin];
     const std::string name(1, pin == 0 ? 'B' : 'D'), key = pin == 0 ? "guides.EB_mm" : "guides.ED_mm";
-    look.at_least("pin_" + name + "_beside_pulley",
-                  {(own.place - scene.pulley).norm() - own.collar - sizes.pulley_radius, 0}, k_clear,
-                  "pin " + name + " stands in the pulley", "pulley.EF_mm larger by {}, or " + key + " larger");
-    look.at_least("pin_" + name + "_beside_post", post_past(scene, sizes, own.place, own.collar), k_clear,
-                  "the post at C meets pin " + name, key + " larger by {}, or a smaller range (joint.range_deg)");
-    look.at_least("pin_" + name + "_beside_tendon_" + (pin == 0 ? "2" : "1"),
-                  tendon_past(scene, 1 - pin, own.place, own.collar), k_clear,
-                  std::string("tendon ") + (pin == 0 ? "2" : "1") + " meets pin " + name, key + " larger by {}");
-    look.at_least("pin_" + name + "_low_collar", {own.gap_low, 0}, 0.6,
-                  "there is no room for a collar below the tendon on pin " + name,
-                  "body.flange_thickness_mm larger by {}");
+    checks.at_least("pin_" + name + "_beside_pulley",
+                    {(own.place - scene.pulley).norm() - own.collar - sizes.pulley_radius, 0}, k_clear,
+                    "pin " + name + " stands in the pulley", "pulley.EF_mm larger by {}, or " + key + " larger");
+    checks.at_least("pin_" + name + "_beside_post", post_past(scene, sizes, own.place, own.collar), k_clear,
+                    "the post at C meets pin " + name, key + " larger by {}, or a smaller range (joint.range_deg)");
+    checks.at_least("pin_" + name + "_beside_tendon_" + (pin == 0 ? "2" : "1"),
+                    tendon_past(scene, 1 - pin, own.place, own.collar), k_clear,
+                    std::string("tendon ") + (pin == 0 ? "2" : "1") + " meets pin " + name, key + " larger by {}");
+    checks.at_least("pin_" + name + "_low_collar", {own.gap_low, 0}, 0.6,
+                    "there is no space for a collar below the tendon on pin " + name,
+                    "body.flange_thickness_mm larger by {}");
     if (sizes.motor) {
       const double radius = own.screw ? own.screw->head_radius : own.radius + k_wall;
-      look.at_least("pin_" + name + "_beside_motor",
-                    {beside_motor(*sizes.motor, own.place - scene.pulley, sizes.motor_front) - radius, 0}, k_clear,
-                    "pin " + name + " stands in the motor (" + sizes.motor->name + ")", "pulley.EF_mm larger by {}");
+      checks.at_least("pin_" + name + "_beside_motor",
+                      {beside_motor(*sizes.motor, own.place - scene.pulley, sizes.motor_front) - radius, 0}, k_clear,
+                      "pin " + name + " stands in the motor (" + sizes.motor->name + ")", "pulley.EF_mm larger by {}");
     }
   }
-  look.at_least("pins_apart", {(scene.pins[0] - scene.pins[1]).norm() - plan.pins[0].collar - plan.pins[1].collar, 0},
-                k_clear, "both pins stand in each other", "guides.EB_mm and guides.ED_mm larger by {}");
+  checks.at_least("pins_apart", {(scene.pins[0] - scene.pins[1]).norm() - plan.pins[0].collar - plan.pins[1].collar, 0},
+                  k_clear, "both pins overlap", "guides.EB_mm and guides.ED_mm larger by {}");
 }
 
-void look_at_link(Conditions& look, const Scene& scene, const KitPlan& plan) {
+void check_link(Conditions& checks, const Scene& scene, const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
   const double R = scene.mechanism.joint.R;
-  look.at_least("post_beside_pulley", post_past(scene, sizes, scene.pulley, sizes.pulley_radius), k_clear,
-                "the post at C meets the pulley", "pulley.EF_mm or joint.length_mm larger by {}");
-  look.at_least("post_beside_axle", {R - sizes.post - sizes.axle_tube, 0}, k_clear, "the post at C meets the axle",
-                "joint.length_mm larger by {}");
-  look.at_least("post_beside_magnet", {R - (sizes.post + 1) - sizes.cap, 0}, k_clear,
-                "the post at C meets the magnet's cap", "joint.length_mm larger by {}");
-  look.at_least("post_beside_bearing", {R - sizes.post - 0.5 * sizes.bearing->outer, 0}, k_wall,
-                "the hole for the post at C meets the bearing", "joint.length_mm larger by {}");
+  checks.at_least("post_beside_pulley", post_past(scene, sizes, scene.pulley, sizes.pulley_radius), k_clear,
+                  "the post at C meets the pulley", "pulley.EF_mm or joint.length_mm larger by {}");
+  checks.at_least("post_beside_axle", {R - sizes.post - sizes.axle_tube, 0}, k_clear, "the post at C meets the axle",
+                  "joint.length_mm larger by {}");
+  checks.at_least("post_beside_magnet", {R - (sizes.post + 1) - sizes.cap, 0}, k_clear,
+                  "the post at C meets the magnet's cap", "joint.length_mm larger by {}");
+  checks.at_least("post_beside_bearing", {R - sizes.post - 0.5 * sizes.bearing->outer, 0}, k_wall,
+                  "the hole for the post at C meets the bearing", "joint.length_mm larger by {}");
   const double waist_low =
       sizes.z_tendon2 - 0.5 * sizes.tendon_gap - post_steepness(scene.mechanism) * (sizes.post - sizes.waist) - 0.4;
-  look.at_least("tendons_apart_on_post", {waist_low - sizes.post_low, 0}, k_clear,
-                "both tendons are too near each other to be tied to one post", "body.flange_thickness_mm larger by {}");
+  checks.at_least("tendons_apart_on_post", {waist_low - sizes.post_low, 0}, k_clear,
+                  "both tendons are too close to each other to be tied to one post",
+                  "body.flange_thickness_mm larger by {}");
   const Polygon scale = scale_outline(plan, scene.mechanism);
-  Least post;
+  Minimum post;
   for (const TransmissionPoint& at : scene.stroke)
     post.see(outside_of(scale, R * Vec2(std::sin(at.theta), std::cos(at.theta))) - sizes.post, at.alpha);
-  look.at_least("post_beside_scale", post, k_clear, "the post at C meets the scale",
-                "joint.length_mm larger by {}, or a smaller range (joint.range_deg)");
+  checks.at_least("post_beside_scale", post, k_clear, "the post at C meets the scale",
+                  "joint.length_mm larger by {}, or a smaller range (joint.range_deg)");
   const double magnet = sizes.link_low + sizes.link + sizes.cap_height;
-  look.at_least("tensioner_below_board",
-                {magnet + sizes.board->gap - sizes.link_low - sizes.link - tensioner_height(*sizes.small), 0}, k_clear,
-                "the tensioner meets the board", "another board (profiles/catalogue/boards.toml)");
-  look.at_least("scale_over_pins", {sizes.scale_low - std::max(plan.pins[0].top, plan.pins[1].top), 0}, k_clear,
-                "a pin meets the scale", "");
-  look.at_least("scale_over_pulley", {sizes.scale_low - sizes.pulley_high, 0}, k_clear, "the pulley meets the scale",
-                "");
-  look.at_least("link_over_scale", {sizes.link_low - sizes.scale_low - sizes.scale_plate, 0}, k_clear,
-                "the link meets the scale", "");
-  look.at_least("tendon_1_over_base",
-                {sizes.z_tendon1 - 0.5 * scene.mechanism.tendon.diameter - (sizes.motor ? sizes.motor->head : 0.0), 0},
-                k_clear, "tendon 1 meets the motor's screws", "body.flange_thickness_mm larger by {}");
+  checks.at_least("tensioner_below_board",
+                  {magnet + sizes.board->gap - sizes.link_low - sizes.link - tensioner_height(*sizes.small), 0},
+                  k_clear, "the tensioner meets the board", "another board (profiles/catalogue/boards.toml)");
+  checks.at_least("scale_over_pins", {sizes.scale_low - std::max(plan.pins[0].top, plan.pins[1].top), 0}, k_clear,
+                  "a pin meets the scale", "");
+  checks.at_least("scale_over_pulley", {sizes.scale_low - sizes.pulley_high, 0}, k_clear, "the pulley meets the scale",
+                  "");
+  checks.at_least("link_over_scale", {sizes.link_low - sizes.scale_low - sizes.scale_plate, 0}, k_clear,
+                  "the link meets the scale", "");
+  checks.at_least(
+      "tendon_1_over_base",
+      {sizes.z_tendon1 - 0.5 * scene.mechanism.tendon.diameter - (sizes.motor ? sizes.motor->head : 0.0), 0}, k_clear,
+      "tendon 1 meets the motor's screws", "body.flange_thickness_mm larger by {}");
 }
 
 // Feet ----------------------------------------------------------------------------------------------------------------
 
 double foot_radius(const KitSizes& sizes) { return 0.5 * sizes.foot->clearance + k_wall; }
 
-/// The room round a place for a foot, less what it needs.
+/// Clearance of a place for a foot, minus the foot's own size.
 class FootRoom {
  public:
   FootRoom(const Scene& scene, const KitPlan& plan) : scene_(scene), plan_(plan) {
@@ -342,7 +345,7 @@ class FootRoom {
   }
 
  private:
-  /// Behind the axis, where the scale's lines are.
+  /// True behind the axis, where the scale's lines are.
   bool on_scale(const Vec2& place, double own) const {
     const double theta = std::atan2(-place.x(), -place.y()), more = radians(15);
     return place.norm() < plan_.sizes.pointer + k_scale_reach + own &&
@@ -354,11 +357,11 @@ class FootRoom {
   std::vector<Polygon> links_;
 };
 
-/// The nearest place to the joint's axis, on the right (+1) or on the left.
+/// The place nearest to the joint's axis, on the right (+1) or on the left (−1).
 std::optional<Vec2> foot_on(const FootRoom& room, double side, double reach) {
   for (double radius = 8; radius < reach; radius += 1) {
     for (int step = 0; step < 21; ++step) {
-      // From straight to the side, in turn below and above it.
+      // Starts straight to the side and alternates below and above.
       const double angle = radians(step % 2 ? -5.0 * ((step + 1) / 2) : 2.0 * (step / 2));
       const Vec2 place = radius * Vec2(side * std::cos(angle), std::sin(angle));
       if (room.holds(place)) return place;
@@ -369,7 +372,7 @@ std::optional<Vec2> foot_on(const FootRoom& room, double side, double reach) {
 
 // Base ----------------------------------------------------------------------------------------------------------------
 
-/// All that stands on the base plate or under it, with its radius.
+/// All features on or under the base plate, with their radii.
 std::vector<Disc> on_base(const Scene& scene, const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
   std::vector<Disc> all{{{0, 0}, sizes.axle_tube}, {scene.pulley, 8}};
@@ -402,21 +405,21 @@ KitPlan with_bearing(const Scene& scene, const SynthesisResult& synthesis, const
   size_pulley(sizes, scene.mechanism, synthesis, layout);
   plan.pins = {pin_of(sizes, scene, Side::left), pin_of(sizes, scene, Side::right)};
   size_link(sizes, scene, std::max(plan.pins[0].top, plan.pins[1].top));
-  Conditions look(plan);
-  look.at_least("pin_radius", {scene.mechanism.guides.radius, 0}, k_least_pin, "a pin so thin cannot be made",
-                "guides.radius_mm " + rounded(k_least_pin) + " or more");
-  look_at_axle(look, scene, plan);
-  look_at_pins(look, scene, plan);
+  Conditions checks(plan);
+  checks.at_least("pin_radius", {scene.mechanism.guides.radius, 0}, k_least_pin, "a pin this thin is not sold",
+                  "guides.radius_mm " + rounded(k_least_pin) + " or more");
+  check_axle(checks, scene, plan);
+  check_pins(checks, scene, plan);
   const FootRoom room(scene, plan);
   const double reach = 60 + 2.5 * std::max(scene.mechanism.joint.R, scene.pulley.norm() + sizes.pulley_radius);
   for (const double side : {-1.0, 1.0}) {
     if (const auto place = foot_on(room, side, reach)) plan.feet.push_back(*place);
   }
-  look.at_least("feet", {static_cast<double>(plan.feet.size()), 0}, 2,
-                "there is no place for the feet of scale and bracket beside link, tendons and pulley",
-                "a smaller range (joint.range_deg) or a longer pulley.EF_mm");
+  checks.at_least("feet", {static_cast<double>(plan.feet.size()), 0}, 2,
+                  "there is no place for the feet of scale and bracket beside link, tendons and pulley",
+                  "a smaller range (joint.range_deg) or a longer pulley.EF_mm");
   plan.conditions.back().unit = "1";
-  look_at_link(look, scene, plan);
+  check_link(checks, scene, plan);
   place_legs(scene, plan);
   plan.status = failed_of(plan.conditions).empty() ? KitStatus::made : KitStatus::impossible;
   return plan;
@@ -427,14 +430,14 @@ void add_notes(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layo
   if (!sizes.motor) {
     plan.notes.push_back(
         "no motor of the catalogue has this " + std::string(mechanism.body.bore == Bore::horn ? "horn" : "shaft") +
-        ": the base plate has only a hole for it; hold yours so that the pulley's lower face stands " +
+        ": the base plate has only a hole for it. Mount yours so that the pulley's lower face is " +
         rounded(sizes.pulley_low, 3) + " mm above the plate, or add it to profiles/catalogue/motors.toml");
   } else if (sizes.motor->shaft > 0) {
     const double needed =
         sizes.base + sizes.pulley_low + (layout.set_screw.present ? layout.set_screw.z + 1.5 : 0.5 * layout.z_hub);
     if (needed > sizes.motor->shaft_length)
-      plan.notes.push_back("the motor's shaft has to reach " + rounded(std::ceil(needed), 3) + " mm above its face, " +
-                           rounded(sizes.motor->shaft_length, 3) + " mm are usual: buy one with a long shaft" +
+      plan.notes.push_back("the motor's shaft must reach " + rounded(std::ceil(needed), 3) + " mm above its face, " +
+                           rounded(sizes.motor->shaft_length, 3) + " mm is usual: buy one with a long shaft" +
                            (layout.set_screw.present ? ", or set body.hub_height_mm = 0 and press the pulley on" : ""));
   }
   constexpr double k_usual_bed = 220;
@@ -445,8 +448,9 @@ void add_notes(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layo
                          " mm, larger than the bed of most printers: cut it (kit.dxf)");
   for (const KitPin& pin : plan.pins) {
     if (!pin.screw && !is_stock_rod(2 * pin.radius))
-      plan.notes.push_back("no shop has rods of " + rounded(2 * pin.radius, 4) +
-                           " mm: take the shank of a drill for pin " + (pin.side == Side::left ? "B" : "D"));
+      plan.notes.push_back("rods of " + rounded(2 * pin.radius, 4) +
+                           " mm are not sold: use the shank of a drill for pin " +
+                           (pin.side == Side::left ? "B" : "D"));
   }
 }
 
@@ -464,7 +468,7 @@ KitPlan plan_kit(const Mechanism& mechanism, const SynthesisResult& synthesis, c
   const std::vector<BearingType>& all = bearing_types();
   KitPlan plan;
   for (const BearingType& bearing : all) {
-    // Wider than a third of R is clumsy.
+    // Bearings wider than a third of R are avoided.
     if (bearing.outer > mechanism.joint.R / 3 && &bearing != &all.back()) continue;
     plan = with_bearing(scene, synthesis, layout, bearing);
     if (plan.made()) break;

@@ -1,5 +1,5 @@
-// What a joint of the wider class, or of tendons that climb, is drilled by: plates with every axis where the file has
-// it, and its drum.
+// Kits for joints outside the paper's layout and for helical tendons: plates to drill with every axis at its place, and
+// the drum.
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +20,9 @@ namespace {
 
 constexpr double k_between_holes = 1.2;  // three lines of a 0.4 mm nozzle
 constexpr double k_plate = 4;
-constexpr double k_lip = 1.2;       // below the bearings, and round a spacer
-constexpr double k_beside = 0.5;    // of what moves past it
-constexpr double k_round_hole = 5;  // of a plate, beside its holes
+constexpr double k_ledge = 1.2;     // ledge below the bearings and around a spacer
+constexpr double k_beside = 0.5;    // clearance of moving parts
+constexpr double k_round_hole = 5;  // radius of a plate around its holes
 constexpr double k_hole_at_C = 1.6;
 
 struct NamedHole {
@@ -31,13 +31,13 @@ struct NamedHole {
   double radius = 0;
 };
 
-/// Both tendons may end in one hole.
+/// Merges holes at one place, because both tendons may end in one hole.
 void add_hole(std::vector<NamedHole>& holes, const NamedHole& hole) {
   const auto same = [&hole](const NamedHole& other) { return (other.place - hole.place).norm() < 1e-6; };
   if (std::none_of(holes.begin(), holes.end(), same)) holes.push_back(hole);
 }
 
-void look_between(KitPlan& plan, const std::vector<NamedHole>& holes) {
+void check_distances(KitPlan& plan, const std::vector<NamedHole>& holes) {
   for (std::size_t i = 0; i < holes.size(); ++i) {
     for (std::size_t k = i + 1; k < holes.size(); ++k) {
       Condition apart;
@@ -47,14 +47,14 @@ void look_between(KitPlan& plan, const std::vector<NamedHole>& holes) {
       apart.unit = "mm";
       apart.ok = apart.value >= apart.limit;
       if (!apart.ok)
-        apart.message = "between the holes of " + holes[i].name + " and " + holes[k].name + " " +
-                        rounded(apart.value, 3) + " mm are left, " + rounded(apart.limit, 3) + " mm are needed";
+        apart.message = "the holes of " + holes[i].name + " and " + holes[k].name + " are " + rounded(apart.value, 3) +
+                        " mm apart, at least " + rounded(apart.limit, 3) + " mm is required";
       plan.conditions.push_back(apart);
     }
   }
 }
 
-/// A plate round its holes, and round `more`.
+/// A plate around its holes and around the discs of `more`.
 SlabBody plate_of(const std::vector<NamedHole>& holes, std::vector<Disc> more) {
   Slab plate{0, k_plate, {}};
   for (const NamedHole& hole : holes) {
@@ -83,7 +83,7 @@ class TemplateMaker {
     pin.limit = k_least_pin;
     pin.unit = "mm";
     pin.ok = pin.value >= pin.limit;
-    if (!pin.ok) pin.message = "a pin so thin cannot be made: guides.radius_mm " + rounded(k_least_pin) + " or more";
+    if (!pin.ok) pin.message = "a pin this thin is not sold: guides.radius_mm " + rounded(k_least_pin) + " or more";
     plan_.conditions.push_back(pin);
     base();
     link();
@@ -95,12 +95,12 @@ class TemplateMaker {
     }
     plan_.parts.push_back({"fit_coupon", "the fit coupon: print it first", coupon_body(mechanism_), {}, 1, false});
     plan_.tendons[1].side = Side::right;
-    plan_.notes.push_back(std::string(plan_.heights ? "of a pulley wound several times"
-                                                    : "of a joint with a drum, ends of its own, idlers or sheaths") +
-                          " the kit has plates to drill by, true to size, with the seats of its bearings and its "
-                          "motor's holes" +
-                          (plan_.heights && !has_drum() ? "" : ", and the drum") +
-                          ": no scale, tensioner or encoder mount");
+    plan_.notes.push_back(
+        std::string(plan_.heights ? "for a multi-turn pulley"
+                                  : "for a joint with a drum, separate attachments, idlers or sheaths") +
+        " the kit has plates to drill, true to size, with the seats of its bearings and its "
+        "motor's holes" +
+        (plan_.heights && !has_drum() ? "" : ", and the drum") + ": no scale, tensioner or encoder mount");
     return plan_;
   }
 
@@ -110,19 +110,19 @@ class TemplateMaker {
     return own ? Vec2(own->across, own->along) : Vec2(0, mechanism_.joint.R);
   }
 
-  /// Two of them lie in the link, beside the tendons' ends, and the ring on which they stand goes through the drum.
+  /// Two bearings lie in the link, beside the tendons' ends. The ring on which they stand passes through the drum.
   const BearingType* largest_bearing() const {
     const Joint& joint = mechanism_.joint;
     double room = joint.R - k_hole_at_C;
     for (const auto& end : {joint.attachment1, joint.attachment2})
       room = std::min(room, end_of(end).norm() - tie(mechanism_));
     for (const BearingType& bearing : bearing_types()) {
-      const bool drum_holds = joint.drum_radius == 0 || ring_hole(bearing) + k_lip <= joint.drum_radius;
+      const bool drum_holds = joint.drum_radius == 0 || ring_hole(bearing) + k_ledge <= joint.drum_radius;
       if (0.5 * bearing.outer + k_between_holes <= room && drum_holds) return &bearing;
     }
     return nullptr;
   }
-  /// Radius of the room for that ring, which stands still.
+  /// Radius of the opening for that ring, which does not rotate.
   static double ring_hole(const BearingType& bearing) { return 0.5 * bearing.spacer + k_beside; }
   double hole_in_drum() const { return bearing_ ? ring_hole(*bearing_) : 0.5 * axle_.clearance; }
 
@@ -149,8 +149,8 @@ class TemplateMaker {
       pin.radius = pin.collar = mechanism_.guides.radius;
       holes.push_back({side == Side::left ? "pin_B" : "pin_D", pin.place, pin_hole});
       if (!place.mouth) continue;
-      const Vec2 mouth = place.pulley_axis() + Vec2(sign * place.mouth->across, place.mouth->above);
-      holes.push_back({side == Side::left ? "mouth_1" : "mouth_2", mouth, ferrule()});
+      const Vec2 exit = place.pulley_axis() + Vec2(sign * place.mouth->across, place.mouth->above);
+      holes.push_back({side == Side::left ? "mouth_1" : "mouth_2", exit, ferrule()});
     }
     const Vec2 pulley = pin_place(mechanism_, Side::left, 0).pulley_axis();
     const MotorType* motor = motor_that_fits(holes, pulley);
@@ -160,7 +160,7 @@ class TemplateMaker {
     const double shaft = mechanism_.body.bore == Bore::horn ? 0.5 * horn_of(mechanism_).bolt_circle + 5
                                                             : 0.5 * shaft_of(mechanism_, layout_) + 0.5;
     if (!motor) holes.push_back({"pulley_axis", pulley, shaft});
-    look_between(plan_, holes);
+    check_distances(plan_, holes);
     SlabBody plate = plate_of(holes, more);
     if (motor) {
       for (SlabLoop& loop : motor_holes(*motor, pulley, motor_front(pulley)))
@@ -168,7 +168,7 @@ class TemplateMaker {
       buy_motor(plan_, *motor, k_plate);
     }
     plan_.parts.push_back({"base_template",
-                           "base: axis, guides and pulley, where the file has them",
+                           "base: axis, guides and pulley at the file's positions",
                            std::move(plate),
                            {{{0, 0}, -k_plate, false, false}},
                            1,
@@ -177,8 +177,8 @@ class TemplateMaker {
     buy_guides();
   }
 
-  /// Null where there is none of the catalogue, or it would stand where another axis does: then the plate has a hole
-  /// for the pulley's axis alone.
+  /// Null if the catalogue has no suitable motor or if it would collide with another axis. The plate then has only a
+  /// hole for the pulley's axis.
   const MotorType* motor_that_fits(const std::vector<NamedHole>& holes, const Vec2& pulley) {
     const MotorType* motor = motor_for(mechanism_, layout_);
     if (!motor) {
@@ -188,9 +188,9 @@ class TemplateMaker {
     for (const NamedHole& hole : holes) {
       const double beside = beside_motor(*motor, hole.place - pulley, motor_front(pulley));
       if (beside - hole.radius >= k_between_holes) continue;
-      plan_.notes.push_back("the motor " + motor->name + " would stand in the hole of " + hole.name +
-                            ": the base has only a hole for its axis; a longer pulley.EF_mm or a smaller motor "
-                            "(body.shaft, body.horn) has room");
+      plan_.notes.push_back("the motor " + motor->name + " would overlap the hole of " + hole.name +
+                            ": the base has only a hole for its axis. Increase pulley.EF_mm or choose a smaller motor "
+                            "(body.shaft, body.horn)");
       return nullptr;
     }
     return motor;
@@ -206,10 +206,10 @@ class TemplateMaker {
     if (!bearing_) {
       plan_.items.push_back({1, "axle of the joint, " + std::string(axle_.name), "through base, drum and link"});
       plan_.notes.push_back(
-          "no ball bearing of the catalogue has room beside the tendons' ends: the link turns on the axle");
+          "no ball bearing of the catalogue fits beside the tendons' ends: the link turns on the axle");
       return;
     }
-    const double ring = (has_drum() ? drum_height() : 0.0) + k_beside + k_lip;
+    const double ring = (has_drum() ? drum_height() : 0.0) + k_beside + k_ledge;
     plan_.parts.push_back(
         {"bearing_ring",
          has_drum() ? "ring under the inner ring of the lower bearing, through the drum"
@@ -228,8 +228,8 @@ class TemplateMaker {
 
   double ferrule() const { return std::max(1.5, mechanism_.tendon.diameter); }
 
-  /// Of a guide whose tendon climbs, or stands between collars.
-  std::string climb_words() const {
+  /// Text for guides whose tendons are helical or run between collars.
+  std::string height_words() const {
     if (!plan_.heights) return "";
     const auto of = [this](std::size_t i, const std::string& name) {
       const TendonHeights::Span& on = plan_.heights->guides.at(i);
@@ -239,7 +239,7 @@ class TemplateMaker {
     };
     return "; " + of(0, "B") + " mm, " + of(1, "D") + " mm above the pulley's lower face";
   }
-  /// Above and below a tendon's centre line.
+  /// Clearance above and below a tendon's centre line.
   double margin() const { return mechanism_.tendon.diameter + 1; }
 
   void buy_guides() {
@@ -249,13 +249,14 @@ class TemplateMaker {
           {2,
            std::string(plan_.heights && !guides.collar ? "roller" : "idler") + " on a ball bearing, ⌀ " +
                rounded(2 * guides.radius, 4) + (plan_.heights && !guides.collar ? "" : " at its groove's floor"),
-           "B and D, on " + std::string(thread_within(guides.bearing_radius).name) + " bolts" + climb_words()});
+           "B and D, on " + std::string(thread_within(guides.bearing_radius).name) + " bolts" + height_words()});
     else
       plan_.items.push_back(
-          {2, "steel rod ⌀ " + rounded(2 * guides.radius, 4), "pins B and D, pressed into the base" + climb_words()});
+          {2, "steel rod ⌀ " + rounded(2 * guides.radius, 4), "pins B and D, pressed into the base" + height_words()});
     if (mechanism_.sheath.is_there())
-      plan_.items.push_back({2, "Bowden sheath, " + rounded(mechanism_.sheath.length, 4) + " mm, with ferrules",
-                             "from pin to mouth; the pulley's part of the base may be cut off and stand elsewhere"});
+      plan_.items.push_back(
+          {2, "Bowden sheath, " + rounded(mechanism_.sheath.length, 4) + " mm, with ferrules",
+           "from pin to sheath exit; the pulley's part of the base may be cut off and mounted elsewhere"});
   }
 
   void link() {
@@ -264,9 +265,9 @@ class TemplateMaker {
     add_hole(holes, {"end_1", end_of(joint.attachment1), tie(mechanism_)});
     add_hole(holes, {"end_2", end_of(joint.attachment2), tie(mechanism_)});
     add_hole(holes, {"C", {0, joint.R}, k_hole_at_C});
-    look_between(plan_, holes);
+    check_distances(plan_, holes);
     const double drum = joint.drum_radius, ring = bearing_ ? k_beside : 0.0;
-    const double on_axle = bearing_ ? holes.front().radius + k_lip : axle_.head_radius + 2;
+    const double on_axle = bearing_ ? holes.front().radius + k_ledge : axle_.head_radius + 2;
     SlabBody plate = plate_of(holes, {{{0, 0}, std::max(drum, on_axle)}});
     if (bearing_) seat_bearings(plate);
     plan_.parts.push_back({"link_template",
@@ -276,7 +277,7 @@ class TemplateMaker {
                            1,
                            true});
     if (!has_drum()) return;
-    look_between(plan_, {{"drum", {2 * drum, 0}, drum}, {"axle", {0, 0}, hole_in_drum()}});
+    check_distances(plan_, {{"drum", {2 * drum, 0}, drum}, {"axle", {0, 0}, hole_in_drum()}});
     plan_.parts.push_back(
         {"drum",
          "drum of the joint, as wide as both tendons: fixed to the link",
@@ -286,23 +287,23 @@ class TemplateMaker {
          false});
   }
 
-  /// The plate as high as both bearings, on a lip that leaves their inner rings free.
+  /// Makes the plate as high as both bearings, with a ledge that leaves their inner rings free.
   void seat_bearings(SlabBody& plate) const {
     Slab& seat = plate.slabs.front();
-    Slab lip = seat;
-    for (SlabLoop& loop : lip.loops) {
+    Slab ledge = seat;
+    for (SlabLoop& loop : ledge.loops) {
       if (loop.hole && loop.hull.discs.front().centre == Vec2(0, 0))
         loop.hull = disc({0, 0}, 0.5 * bearing_->outer - 0.25 * (bearing_->outer - bearing_->spacer));
     }
-    lip.high = k_lip;
-    seat.low = k_lip;
-    seat.high = k_lip + 2 * bearing_->width;
-    plate.slabs.insert(plate.slabs.begin(), std::move(lip));
+    ledge.high = k_ledge;
+    seat.low = k_ledge;
+    seat.high = k_ledge + 2 * bearing_->width;
+    plate.slabs.insert(plate.slabs.begin(), std::move(ledge));
   }
 
   const Mechanism& mechanism_;
   const BodyLayout& layout_;
-  const BearingType* bearing_;  ///< null: the link turns on the axle itself
+  const BearingType* bearing_;  ///< null: the link turns directly on the axle
   const Thread& axle_;
   KitPlan plan_;
 };

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t k_most_rows = 100000;
 constexpr std::size_t k_most_problems = 20;
-constexpr const char* k_hint = "it is what 'fusee calibrate' leaves: theta_deg,alpha_up_deg,alpha_down_deg";
+constexpr const char* k_hint = "expected is a file of 'fusee calibrate': theta_deg,alpha_up_deg,alpha_down_deg";
 
 std::string_view without_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
@@ -68,13 +68,13 @@ class CompensationReader {
       const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), values[i]);
       if (error != std::errc() || end != cell.data() + cell.size() || std::abs(values[i]) > 1e6 ||
           std::isnan(values[i]))
-        return fail(line, "'" + std::string(cell.substr(0, 40)) + "' is no angle in degrees");
+        return fail(line, "'" + std::string(cell.substr(0, 40)) + "' is not an angle in degrees");
     }
     const TwoWayRow row{radians(values[0]), radians(values[1]), radians(values[2])};
     if (!rows_.empty()) {
       const TwoWayRow& last = rows_.back();
       if (!(row.theta > last.theta && row.up > last.up && row.down > last.down))
-        return fail(line, "all three angles must grow from row to row");
+        return fail(line, "all three angles must increase from row to row");
     }
     if (rows_.size() == k_most_rows) return fail(line, "more than " + std::to_string(k_most_rows) + " rows");
     rows_.push_back(row);

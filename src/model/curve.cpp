@@ -10,9 +10,9 @@
 namespace fusee {
 namespace {
 
-constexpr int k_looks = 2000;  ///< places of the range at which a law is looked at
+constexpr int k_samples = 2000;  ///< number of places at which a law is checked
 
-/// Of rows that grow in both columns, the other one at a place; the end's beyond an end.
+/// Linear interpolation in rows that increase in both columns; constant beyond the ends.
 double between_rows(const std::vector<LawRow>& rows, double at, double LawRow::*from, double LawRow::*to) {
   if (!(at > rows.front().*from)) return rows.front().*to;
   if (!(at < rows.back().*from)) return rows.back().*to;
@@ -24,9 +24,9 @@ double between_rows(const std::vector<LawRow>& rows, double at, double LawRow::*
 
 // ---- an identified joint --------------------------------------------------------------------------------------------
 
-/// There and back, at rest everywhere: home → top → bottom → top → bottom. The first two strokes take up play.
+/// A quasi-static motion home → top → bottom → top → bottom. The first two strokes take up play.
 BenchRun sweep(double low, double high) {
-  constexpr int steps = 600;  // a stroke; straight lines between them miss a smooth curve by a millionth of its range
+  constexpr int steps = 600;  // per stroke; linear interpolation is accurate to a millionth of the range
   BenchRun run;
   const auto stroke = [&run](double from, double to) {
     for (int i = 1; i <= steps; ++i) run.rows.push_back({0, std::lerp(from, to, double(i) / steps), 0, 0});
@@ -39,8 +39,8 @@ BenchRun sweep(double low, double high) {
   return run;
 }
 
-/// Rows of one stroke, by growing α, as far as the joint moves on.
-std::vector<LawRow> moved(const BenchRun& run, const std::vector<JointState>& states, bool up, bool shown) {
+/// The rows of one stroke, by increasing α, with a moving joint.
+std::vector<LawRow> increasing_rows(const BenchRun& run, const std::vector<JointState>& states, bool up, bool shown) {
   const std::size_t count = run.rows.size(), steps = (count - 1) / 4;
   std::vector<LawRow> rows;
   for (std::size_t i = up ? count - 2 * steps - 1 : count - steps - 1; i < (up ? count - steps : count); ++i) {
@@ -48,7 +48,7 @@ std::vector<LawRow> moved(const BenchRun& run, const std::vector<JointState>& st
     if (std::isfinite(theta)) rows.push_back({run.rows[i].alpha, theta});
   }
   if (!up) std::reverse(rows.begin(), rows.end());
-  // What stands still until play is taken up says nothing of the motion.
+  // Rows at rest, while play is taken up, are removed.
   std::vector<LawRow> growing;
   for (const LawRow& row : rows) {
     if (growing.empty() || row.theta > growing.back().theta + 1e-9) growing.push_back(row);
@@ -58,7 +58,8 @@ std::vector<LawRow> moved(const BenchRun& run, const std::vector<JointState>& st
 
 std::vector<TwoWayRow> both_ways_of(const BenchRun& run, const std::vector<JointState>& states, const Joint& joint,
                                     bool shown) {
-  const std::vector<LawRow> up = moved(run, states, true, shown), down = moved(run, states, false, shown);
+  const std::vector<LawRow> up = increasing_rows(run, states, true, shown),
+                            down = increasing_rows(run, states, false, shown);
   if (up.size() < 2 || down.size() < 2) return {};
   const double low = std::max({up.front().theta, down.front().theta, joint.theta_min});
   const double high = std::min({up.back().theta, down.back().theta, joint.theta_max});
@@ -99,7 +100,7 @@ AngleMap angle_map(std::vector<LawRow> rows) {
   const auto shared = std::make_shared<const std::vector<LawRow>>(std::move(rows));
   map.theta = [shared](double alpha) { return between_rows(*shared, alpha, &LawRow::alpha, &LawRow::theta); };
   map.alpha = [shared](double theta) { return between_rows(*shared, theta, &LawRow::theta, &LawRow::alpha); };
-  // Over a piece that is longer than those between rows: their corners are no slope of the joint.
+  // Computed over a longer piece than the row spacing, because the corners between rows are no property of the joint.
   map.slope = [theta = map.theta, low = map.alpha_min, high = map.alpha_max](double alpha) {
     const double half = (high - low) / 60;
     const double from = std::max(low, std::min(alpha, high) - half), to = std::min(high, std::max(alpha, low) + half);
@@ -143,15 +144,15 @@ JointCurve two_way_curve(const std::vector<TwoWayRow>& rows, CurveSource source)
   for (const LawRow& row : middle) {
     for (const AngleMap& way : *curve.ways) {
       if (row.alpha >= way.alpha_min && row.alpha <= way.alpha_max)
-        curve.loop = std::max(curve.loop, std::abs(way.theta(row.alpha) - row.theta));
+        curve.half_hysteresis = std::max(curve.half_hysteresis, std::abs(way.theta(row.alpha) - row.theta));
     }
   }
   return curve;
 }
 
 bool grows(const Transmission& law) {
-  for (int i = 0; i <= k_looks; ++i) {
-    if (!(law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), double(i) / k_looks)).g > 0)) return false;
+  for (int i = 0; i <= k_samples; ++i) {
+    if (!(law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), double(i) / k_samples)).g > 0)) return false;
   }
   return law.alpha_max() > law.alpha_min();
 }
@@ -165,7 +166,7 @@ std::optional<JointCurves> joint_curves(const DeclaredMechanism& declared) {
   const DeclaredMechanism joint = expected_joint(declared);
   if (Transmission(joint).dead_centre()) return std::nullopt;
   const double beyond =
-      2 * declared.identified.shaft.backlash + 0.03 * (law.alpha_max() - law.alpha_min());  // where it turns round
+      2 * declared.identified.shaft.backlash + 0.03 * (law.alpha_max() - law.alpha_min());  // margin for the reversal
   const BenchRun run = sweep(law.alpha_min() - beyond, law.alpha_max() + beyond);
   const std::vector<JointState> states =
       simulate(joint, beyond_mechanism(declared.identified, kind_of(declared)), {run}).front();

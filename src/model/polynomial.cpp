@@ -9,9 +9,9 @@
 namespace fusee {
 namespace {
 
-constexpr int k_points = 1000;  ///< places of the range that a fit looks at
+constexpr int k_points = 1000;  ///< number of samples of a fit
 
-/// T_0(t) … of Chebyshev.
+/// The Chebyshev polynomials T_0(t) … T_degree(t).
 Eigen::VectorXd chebyshev(double t, int degree) {
   Eigen::VectorXd values(degree + 1);
   values(0) = 1;
@@ -20,7 +20,7 @@ Eigen::VectorXd chebyshev(double t, int degree) {
   return values;
 }
 
-/// The polynomial in t = (x − middle)/half as one in x.
+/// Converts a polynomial in t = (x − middle)/half to one in x.
 Polynomial in_x(const Eigen::VectorXd& c, double middle, double half) {
   const auto degree = static_cast<int>(c.size()) - 1;
   using Row = std::vector<double>;
@@ -40,7 +40,7 @@ Polynomial in_x(const Eigen::VectorXd& c, double middle, double half) {
     for (std::size_t i = 0; i < before.size(); ++i) next[i] -= before[i];
     before = std::exchange(now, std::move(next));
   }
-  // What rounding leaves where there is nothing.
+  // Removes coefficients that are zero up to rounding.
   const double most = std::abs(middle) + std::abs(half), scale = c.lpNorm<Eigen::Infinity>();
   double power = 1;
   for (double& value : sum) {
@@ -50,7 +50,7 @@ Polynomial in_x(const Eigen::VectorXd& c, double middle, double half) {
   return {sum};
 }
 
-/// `entering` takes the place of a point of the reference, so that signs go on alternating.
+/// Replaces a point of the reference by `entering` so that signs keep alternating.
 void exchange(std::vector<std::size_t>& reference, const std::vector<double>& errors, std::size_t entering) {
   const auto above = std::upper_bound(reference.begin(), reference.end(), entering);
   const bool positive = errors[entering] > 0;
@@ -74,7 +74,7 @@ void exchange(std::vector<std::size_t>& reference, const std::vector<double>& er
   }
 }
 
-/// Where α = p(θ) has `alpha`, from a start near it.
+/// Solves α = p(θ) for θ by Newton's method from a nearby start.
 double solved(const Polynomial& p, double alpha, double start) {
   double theta = start;
   for (int i = 0; i < 20; ++i) {
@@ -121,8 +121,9 @@ double Polynomial::slope(double x) const {
   return value;
 }
 
-// On degree + 2 of the points the best polynomial misses by the same amount with alternating signs, which is a linear
-// system. The point that it misses most enters, until it is one of them: the amount grows with each exchange.
+// On degree + 2 of the points, the best polynomial has equal errors with alternating signs, which gives a linear
+// system. The point with the largest error enters this reference until it belongs to it. The error of the reference
+// increases with each exchange.
 PolynomialFit least_largest_error(const std::vector<FitPoint>& points, int degree) {
   const std::size_t n = static_cast<std::size_t>(degree) + 2;
   demand(points.size() > n && points.back().x > points.front().x,

@@ -51,10 +51,10 @@ JointTable table_of(const JointCurve& curve, const Mechanism& mechanism, const M
   return table;
 }
 
-/// As the header does it, in 32 bits throughout.
+/// As in the generated header, in 32-bit arithmetic throughout.
 float read_at(const std::vector<float>& entries, float value, float first, float last) {
   const float per_step = static_cast<float>((static_cast<double>(entries.size()) - 1) / (double(last) - double(first)));
-  return looked_up(entries, (value - first) * per_step);
+  return interpolated(entries, (value - first) * per_step);
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ float read_at(const std::vector<float>& entries, float value, float first, float
 double MotorUnit::of(double alpha) const { return zero + alpha / k_two_pi * per_turn; }
 double MotorUnit::alpha(double shown) const { return (shown - zero) / per_turn * k_two_pi; }
 
-float looked_up(const std::vector<float>& table, float at) {
+float interpolated(const std::vector<float>& table, float at) {
   const auto last = static_cast<float>(table.size() - 1);
   if (!(at > 0.0f)) return table.front();
   if (!(at < last)) return table.back();
@@ -72,7 +72,7 @@ float looked_up(const std::vector<float>& table, float at) {
 }
 
 TableErrors measured(const JointTable& table, const JointCurve& curve) {
-  constexpr int looks = 8;  // a piece: the middle, where a straight line misses a bend most, and its thirds
+  constexpr int looks = 8;  // per piece: the middle, where a linear piece has its largest error, and others
   TableErrors errors;
   for (std::size_t way = 0; way < table.ways.size(); ++way) {
     const AngleMap& map = way_of(curve, way);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int k_places = 1000;
 
-/// In the right-hand image, where θ is positive towards the pin's side.
+/// A tendon above its pin, mirrored to a right-hand one, where θ is positive towards the pin's side.
 struct Span {
   double length =
       0;  ///< its end to the tangent point, and on round the pin to its rightmost point; mm, but for a constant
@@ -23,7 +23,7 @@ struct Span {
 
 Vec2 mirrored(const Vec2& point, Side side) { return {mirror_sign(side) * point.x(), point.y()}; }
 
-/// Where a point of the link is, of the image.
+/// Position of a point of the link at the joint angle, mirrored.
 Vec2 at_angle(const Vec2& home, double theta) {
   const double c = std::cos(theta), s = std::sin(theta);
   return {c * home.x() + s * home.y(), c * home.y() - s * home.x()};
@@ -33,30 +33,30 @@ Span span_at(const WrappedTendon& tendon, double theta) {
   const Vec2 pin = mirrored(tendon.pin, tendon.side);
   const Vec2 to_end = at_angle(mirrored(tendon.end, tendon.side), theta) - pin;
   const double distance = to_end.norm();
-  // From straight up, so that no turn is lost where the end comes down beside the pin.
+  // Measured from the vertical, so that no turn is lost when the end comes down beside the pin.
   const double towards = 0.5 * k_pi + std::atan2(-to_end.x(), to_end.y());
   const double normal = towards - std::acos(std::min(1.0, tendon.rho / distance));
   return {std::sqrt(std::max(0.0, (distance - tendon.rho) * (distance + tendon.rho))) + tendon.rho * normal, normal};
 }
 
-/// What the joint takes in of it, but for a constant. A drum winds as much as it turns.
+/// Length that the joint takes in, up to a constant. A drum takes in its radius times the angle.
 double length_at(const WrappedTendon& tendon, double theta) {
   return tendon.drum > 0 ? -tendon.drum * theta : span_at(tendon, theta).length;
 }
 
-/// −dL/dθ: how far the span passes from O, mm.
+/// −dL/dθ: distance of the span from O, mm.
 double arm_at(const WrappedTendon& tendon, double theta) {
   if (tendon.drum > 0) return tendon.drum;
   const Vec2 end = at_angle(mirrored(tendon.end, tendon.side), theta), normal = unit(span_at(tendon, theta).normal);
   return end.dot(normal);
 }
 
-constexpr double k_always_wrapped = radians(10);  // so far on a tendon goes that it lies on its cylinder at every angle
+constexpr double k_always_wrapped = radians(10);  // least angle of wrap at the cylinder at every joint angle
 
-/// From the pin on: the point that stands still, on the pin's outer side; through a sheath. `least`, `most`: of the
-/// normals at which the tendon comes to the pin.
-void lay_off_pin(WrappedTendon& tendon, const PinPlace& place, double least, double most, double R) {
-  // Into a sheath it goes straight down, where that still wraps it.
+/// Sets the fixed point below the pin, on its outer side, and the sheath. `least`, `most`: range of the normals at
+/// which the tendon reaches the pin.
+void set_anchor(WrappedTendon& tendon, const PinPlace& place, double least, double most, double R) {
+  // It enters a sheath straight down, if it is still wrapped then.
   const bool down = place.mouth && least > radians(1);
   const double leaving = down ? 0.0 : least - k_always_wrapped;
   const Vec2 normal = unit(leaving), onwards(normal.y(), -normal.x());
@@ -67,13 +67,13 @@ void lay_off_pin(WrappedTendon& tendon, const PinPlace& place, double least, dou
   tendon.outer = mirrored(place.pin() + 3 * tendon.rho * unit(0.5 * (most + leaving)), tendon.side);
   tendon.home_length += reach - tendon.rho * leaving;
   if (!place.mouth) return;
-  const Vec2 mouth = place.pulley_axis() + Vec2(place.mouth->across, place.mouth->above);
-  tendon.mouth = mirrored(mouth, tendon.side);
-  tendon.home_length += (mouth - anchor).norm();
+  const Vec2 exit = place.pulley_axis() + Vec2(place.mouth->across, place.mouth->above);
+  tendon.sheath_exit = mirrored(exit, tendon.side);
+  tendon.home_length += (exit - anchor).norm();
 }
 
-/// A tendon that is never on a drum.
-void lay_free(WrappedTendon& tendon, const PinPlace& place, const AngleMap& map, double R) {
+/// Sets up a tendon that is never on a drum.
+void set_free_tendon(WrappedTendon& tendon, const PinPlace& place, const AngleMap& map, double R) {
   double least = k_pi, most = -k_pi;
   for (int i = 0; i <= k_places; ++i) {
     const double theta = mirror_sign(tendon.side) * std::lerp(map.theta_min, map.theta_max, double(i) / k_places);
@@ -82,19 +82,19 @@ void lay_free(WrappedTendon& tendon, const PinPlace& place, const AngleMap& map,
     most = std::max(most, normal);
   }
   tendon.home_length = span_at(tendon, 0).length;
-  lay_off_pin(tendon, place, least, most, R);
+  set_anchor(tendon, place, least, most, R);
 }
 
-// What lies on the drum reaches from where it touches the drum, which the link carries along, to where it leaves it for
-// the pin, which stands still. So much of it as is covered at every angle is as long at each: places on the link that
-// the tendon goes straight through, near to each other. Wrapped between two places on the drum's surface MuJoCo takes
-// now one way round, now the other (3.14.0).
-void lay_on_drum(WrappedTendon& tendon, const PinPlace& place, const AngleMap& map, double R) {
+// A tendon on the drum touches it from a point that moves with the link up to the point from which it leaves for the
+// fixed pin. The part that is covered at every angle has constant length. It is represented by points of the link,
+// close together. If MuJoCo wraps a tendon between two points on the drum's surface, it alternates between the two ways
+// round (3.14.0).
+void set_tendon_on_drum(WrappedTendon& tendon, const PinPlace& place, const AngleMap& map, double R) {
   const double sign = mirror_sign(tendon.side);
   const UpperSpan home = upper_span(place, 0), low = upper_span(place, sign * map.theta_min),
                   high = upper_span(place, sign * map.theta_max);
   const double least = std::min(low.on_drum, high.on_drum), always = std::max(0.0, least - k_always_wrapped);
-  // Just outside, as everything must be that simulators wrap round something.
+  // Slightly outside, as simulators require for points near a wrapping cylinder.
   constexpr double k_outside = 1e-6, k_chord = radians(10);
   const double rho = place.drum, just = rho * (1 + k_outside);
   tendon.drum = rho;
@@ -109,12 +109,12 @@ void lay_on_drum(WrappedTendon& tendon, const PinPlace& place, const AngleMap& m
       mirrored(0.5 * (rho * unit(home.normal) + place.pin() + place.rho * unit(home.normal)), tendon.side);
   tendon.home_length = home.length;
   if (chords > 0) tendon.home_length += 2 * just * chords * std::sin(0.5 * always / chords) - rho * always;
-  lay_off_pin(tendon, place, home.normal, home.normal, R);
+  set_anchor(tendon, place, home.normal, home.normal, R);
 }
 
-/// Why simulators cannot have it, or "". They wrap a tendon the shorter way round a cylinder, and ask for a point of it
-/// between two cylinders.
-std::string lay(WrappedTendon& tendon, const Mechanism& mechanism, Side side, const AngleMap& map) {
+/// Returns the reason why simulators cannot represent the tendon, or "". Simulators wrap a tendon the shorter way round
+/// a cylinder, and require a point of it between two cylinders.
+std::string set_tendon(WrappedTendon& tendon, const Mechanism& mechanism, Side side, const AngleMap& map) {
   const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
   tendon.side = side;
   tendon.pin = mirrored(place.pin(), side);
@@ -124,26 +124,25 @@ std::string lay(WrappedTendon& tendon, const Mechanism& mechanism, Side side, co
   const double sign = mirror_sign(side), low = std::min(sign * map.theta_min, sign * map.theta_max),
                high = std::max(sign * map.theta_min, sign * map.theta_max);
   const auto leaves = lift_off(place);
-  if (leaves && place.drum_off != 0) return "it lies on a drum whose centre goes round the joint";
+  if (leaves && place.drum_off != 0) return "it lies on a drum whose centre moves with the joint";
   if (leaves && low < *leaves && *leaves < high)
-    return "it leaves the drum within the range, and simulators ask for a point that stands still between two "
+    return "it leaves the drum within the range, and simulators require a fixed point between two "
            "cylinders";
   constexpr double k_most_wrap = radians(170);
   if (leaves && high <= *leaves) {
-    lay_on_drum(tendon, place, map, mechanism.joint.R);
+    set_tendon_on_drum(tendon, place, map, mechanism.joint.R);
     if (std::min(*leaves - high, k_always_wrapped) + high - low > k_most_wrap)
       return "it is wound on the drum by nearly half a turn, and simulators wrap it the shorter way";
   } else {
-    lay_free(tendon, place, map, mechanism.joint.R);
+    set_free_tendon(tendon, place, map, mechanism.joint.R);
   }
-  // The judges' joints lie round it by less; beyond half a turn the other way round would be the shorter one.
+  // The joints of the tests stay below this. Beyond half a turn the other way round would be the shorter one.
   if (tendon.rho > 0 && tendon.most_wrap > k_most_wrap)
-    return "it lies round nearly half of its pin, and simulators wrap it the shorter way";
+    return "it wraps nearly half of its pin, and simulators wrap it the shorter way";
   return "";
 }
 
-/// Whether this path has the moment arms that the transmission knows: whatever else a joint's tendons run over, there
-/// they differ.
+/// True if the path has the moment arms of the transmission. They differ if the tendons run over anything else.
 bool has_arms(const WrappedTendon& tendon, double R, const Transmission& law) {
   for (int i = 0; i <= 8; ++i) {
     const TransmissionPoint point = law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 8.0));
@@ -154,20 +153,20 @@ bool has_arms(const WrappedTendon& tendon, double R, const Transmission& law) {
   return true;
 }
 
-struct Held {
+struct LengthFit {
   Polynomial length;
   double error = 0;
 };
 
-/// What the pulley takes of a tendon, as a polynomial of α of as low a degree as does.
-Held fit_length(const WrappedTendon& tendon, const AngleMap& map) {
+/// The length that the pulley takes in of a tendon, as a polynomial of α of the lowest sufficient degree.
+LengthFit fit_length(const WrappedTendon& tendon, const AngleMap& map) {
   const double home = length_at(tendon, 0), sign = mirror_sign(tendon.side);
   std::vector<FitPoint> points;
   for (int i = 0; i <= k_places; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / k_places), theta = sign * map.theta(alpha);
     points.push_back({alpha, length_at(tendon, theta) - home, 1 / std::abs(arm_at(tendon, theta))});
   }
-  constexpr double k_exact = 1e-9;  // rad: round to the last digits that a fit has
+  constexpr double k_exact = 1e-9;  // rad, near the rounding of a fit
   PolynomialFit fit = least_largest_error(points, 1);
   if (fit.error > k_exact) fit = least_largest_error(points, k_equality_degree);
   return {fit.p, fit.error};
@@ -200,20 +199,20 @@ std::optional<TendonModel> tendon_model(const Mechanism& mounted, const AngleMap
   for (const Side side : {Side::left, Side::right}) {
     const std::size_t i = side == Side::left ? 0 : 1;
     WrappedTendon& tendon = model.tendons[i];
-    model.left_out[i] = lay(tendon, mounted, side, map);
-    if (model.left_out[i].empty() && !has_arms(tendon, mounted.joint.R, law))
-      model.left_out[i] = "it does not run straight to its pin";
-    if (!model.left_out[i].empty()) {
-      why_not = "tendon " + std::string(i == 0 ? "1" : "2") + ": " + model.left_out[i];
+    model.omission[i] = set_tendon(tendon, mounted, side, map);
+    if (model.omission[i].empty() && !has_arms(tendon, mounted.joint.R, law))
+      model.omission[i] = "it does not run straight to its pin";
+    if (!model.omission[i].empty()) {
+      why_not = "tendon " + std::string(i == 0 ? "1" : "2") + ": " + model.omission[i];
       continue;
     }
-    if (const Held held = fit_length(tendon, map); held.error < model.error) {
-      model.held = side;
+    if (const LengthFit held = fit_length(tendon, map); held.error < model.error) {
+      model.constrained = side;
       model.length = held.length;
       model.error = held.error;
     }
   }
-  if (!model.left_out[0].empty() && !model.left_out[1].empty()) return std::nullopt;
+  if (!model.omission[0].empty() && !model.omission[1].empty()) return std::nullopt;
   return model;
 }
 

@@ -150,7 +150,7 @@ std::vector<Check> draco_checks(const Workshop& shop, const TriangleMesh& mesh, 
 /// A solid that CAD can use, and tendons wound on its floors.
 std::vector<Check> step_checks(const Workshop& shop) {
   const Product& product = shop.result.product;
-  StepLook look = look_at_step(shop.folder.staged_path(k_step), product, shop.options.tolerance);
+  StepInspection look = inspect_step(shop.folder.staged_path(k_step), product, shop.options.tolerance);
   std::vector<Check> checks = std::move(look.checks);
   if (!all_ok(checks)) return checks;
   const RewindResult wound = product.helix

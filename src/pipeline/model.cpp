@@ -38,7 +38,7 @@ void take_compensation(ModelProduct& product, const ModelOptions& options) {
   const auto path = options.compensation ? options.compensation : compensation_beside(product.file);
   if (!path || path->empty()) return;
   const std::vector<TwoWayRow> rows = read_compensation(read_file(*path, k_largest_csv), path->string());
-  product.curves.shown = two_way_curve(refined(rows, Transmission(product.file.mechanism)), CurveSource::compensation);
+  product.curves.sensed = two_way_curve(refined(rows, Transmission(product.file.mechanism)), CurveSource::compensation);
   product.compensation = path->filename().string();
 }
 
@@ -46,7 +46,7 @@ void take_compensation(ModelProduct& product, const ModelOptions& options) {
 void demand_countable(const ModelProduct& product, const MotorUnit& unit) {
   if (!unit.ticks) return;
   double most = 0;
-  for (const double alpha : {product.curves.shown.middle.alpha_min, product.curves.shown.middle.alpha_max})
+  for (const double alpha : {product.curves.sensed.middle.alpha_min, product.curves.sensed.middle.alpha_max})
     most = std::max(most, std::abs(unit.of(1.1 * alpha)));
   if (most > 2e9)
     throw InputError("--ticks-per-turn", "counts of this joint go up to " + rounded(most) + ": more than 32 bits hold",
@@ -74,7 +74,7 @@ bool has_polynomial(const DeclaredMechanism& mechanism, double most) {
   const Transmission law(mechanism);
   if (law.dead_centre() || !grows(law)) return false;
   const auto curves = joint_curves(mechanism);
-  return curves && fit_equality(curves->stands.middle).error <= most;
+  return curves && fit_equality(curves->physical.middle).error <= most;
 }
 
 std::vector<ModelChange> changes_for_polynomial(const ModelProduct& product, const ModelOptions& options) {
@@ -98,7 +98,7 @@ std::vector<ModelChange> changes_for_polynomial(const ModelProduct& product, con
 
 std::vector<ModelChange> changes_for_table(const ModelProduct& product, const ModelOptions& options) {
   for (double most = 2 * options.most_table_error; most < radians(k_largest_limit_deg); most *= 2) {
-    if (const auto table = joint_table(product.curves.shown, product.mechanism, options.unit, most))
+    if (const auto table = joint_table(product.curves.sensed, product.mechanism, options.unit, most))
       return {{"--max-table-error-deg " + limit_deg(std::max(table->errors.theta, table->errors.returned))}};
   }
   return {};
@@ -149,7 +149,7 @@ bool find_curves(ModelResult& result, const ModelOptions& options) {
 
 bool find_fits(ModelResult& result, const ModelOptions& options) {
   ModelProduct& product = result.product;
-  const AngleMap& map = product.curves.stands.middle;
+  const AngleMap& map = product.curves.physical.middle;
   product.equality = fit_equality(map);
   product.line = fit_line(map);
   product.tendons = tendon_model(product.mechanism, map, product.without_tendons);
@@ -159,7 +159,7 @@ bool find_fits(ModelResult& result, const ModelOptions& options) {
   }
   if (!product.tendons) product.notes.push_back("no joint_tendons.xml: " + product.without_tendons);
   for (std::size_t i = 0; product.tendons && i < 2; ++i) {
-    if (const std::string& why = product.tendons->left_out[i]; !why.empty())
+    if (const std::string& why = product.tendons->omission[i]; !why.empty())
       product.notes.push_back("joint_tendons.xml is without tendon " + std::to_string(i + 1) + ": " + why);
   }
   if (options.with_polynomial && !(product.equality.error <= options.most_error)) {
@@ -168,7 +168,7 @@ bool find_fits(ModelResult& result, const ModelOptions& options) {
     return false;
   }
   begin_step(options, "making tables");
-  const auto table = joint_table(product.curves.shown, product.mechanism, options.unit, options.most_table_error);
+  const auto table = joint_table(product.curves.sensed, product.mechanism, options.unit, options.most_table_error);
   if (!table) {
     result.ending = ModelEnding::table_off;
     result.changes = changes_for_table(product, options);

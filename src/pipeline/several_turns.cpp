@@ -25,7 +25,8 @@ HelixGroove groove_of(const Mechanism& mechanism) {
   const HelicalSection section = helical_section(mechanism);
   const double d = mechanism.tendon.diameter;
   // In the part a later turn lies below the one before.
-  return {section.depth, std::min(room_at_lip(section.walls.below, d), room_at_lip(section.walls.above, d)),
+  return {section.depth,
+          std::min(room_at_groove_edge(section.walls.below, d), room_at_groove_edge(section.walls.above, d)),
           [section](double step) { return least_lead(section, -step); }};
 }
 
@@ -273,7 +274,7 @@ HelixSynthesis trial_curves(const Mechanism& mechanism, double tolerance) {
   SynthesisOptions options;
   options.tolerance = tolerance;
   options.stroke_steps = 36;
-  return synthesise_helix(mechanism, groove_of(mechanism), options, HelixLook::brief);
+  return synthesise_helix(mechanism, groove_of(mechanism), options, HelixAccuracy::coarse);
 }
 
 /// Of curves first, then of the body.

@@ -11,24 +11,26 @@
 namespace fusee {
 namespace {
 
-// The mouth begins this many tendon diameters past the arc that the tendon leaves from, or past what is asked for.
+// Distances from the end of the active arc (or of the requested wrap) at which a channel entry may begin, in tendon
+// diameters.
 constexpr std::array<double, 5> k_laps{1.6, 2.5, 4.0, 6.0, 9.0};
-// What counts as a tendon's diameter there is at least this share of the channel's width.
+// Least value of that tendon diameter, relative to the channel's width.
 constexpr double k_least_lap = 0.6;
-// The straight of a near tie-off is at most this many fillets long.
+// Longest straight of a near tie-off, in fillet radii.
 constexpr double k_near_fillets = 6.0;
-// A channel begins no nearer to a point of the outline than this share of a chord: the body's edges run along the
-// points' normals, and where one lay in the wall of the mouth, the cut would come apart when it is rounded to floats.
+// Least distance between a channel's start and a point of the outline, relative to a chord. The body's edges run along
+// the points' normals. If one lay in the wall of the entry, rounding to floats would separate the cut.
 constexpr double k_from_point = 0.15;
-// Between a channel and the floor that a tendon lies on.
+// Clearance between a channel and the floor that a tendon lies on.
 constexpr double k_floor_gap = 0.05;
-// What is skipped because it cannot have room is skipped by this share less than it could be, for rounding.
+// Rounding margin for skipping straights that cannot have enough space.
 constexpr double k_skip_margin = 1e-6;
-// So many straights are tried at most: on a pulley of 2 m with a thin tendon a refusal took half a minute.
+// Largest number of straights tried. On a pulley of 2 m with a thin tendon a rejection took half a minute.
 constexpr double k_most_straights = 400;
-// A knot's pocket of less than this many widths of its channel is none.
+// Least radius of a knot's pocket, in channel widths.
 constexpr double k_least_room = 0.55;
-// Walls are kept to a floor of about this many points: chords of a circle of 50 mm lie within 4 µm of it.
+// Approximate number of floor points to which walls are measured. The chords of a circle of 50 mm lie within 4 µm of
+// it.
 constexpr std::size_t k_floor_points = 256;
 
 class AnchorSearch {
@@ -36,7 +38,7 @@ class AnchorSearch {
   AnchorSearch(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach, const LapRange& laps)
       : site_(site), ground_(site.ground), arc_(ground_.arc(wound_end)), wanted_(wanted), reach_(reach), laps_(laps) {}
 
-  // From short paths to long ones, so that the first with all the room wanted is the one to take.
+  // Searches from short to long paths and stops at the first one with the requested pocket.
   std::optional<AnchorPath> run() {
     if (wanted_ < k_least_room * site_.width) return std::nullopt;
     constexpr std::array<double, 6> turns{70, 85, 55, 100, 115, 40};
@@ -53,7 +55,7 @@ class AnchorSearch {
   }
 
  private:
-  // True when a path with all the room wanted was found. A longer straight runs through all that a shorter one meets.
+  // Returns true if a path with the requested pocket was found. A longer straight meets all obstacles of a shorter one.
   bool try_straights(const Station& station, double turn) {
     const double longest = reach_ == AnchorReach::near ? k_near_fillets * site_.fillet : 2.0 * ground_.radius();
     const double step = std::max(0.5 * site_.width, longest / k_most_straights);
@@ -71,7 +73,8 @@ class AnchorSearch {
       path.room = room_at(pocket, depth, straight);
       const double least = best_ ? std::max(best_->room, k_least_room * site_.width) : k_least_room * site_.width;
       if (!(path.room >= k_least_room * site_.width) || (best_ && path.room <= best_->room)) {
-        // Room grows no faster than the straight, and the depth does not dip on the way: the floor is convex.
+        // The pocket grows no faster than the straight, and the depth has no dip on the way, because the floor is
+        // convex.
         promising = straight + (1.0 - k_skip_margin) * (least - path.room);
         continue;
       }
@@ -91,13 +94,14 @@ class AnchorSearch {
     return room;
   }
 
-  // The floor that the tendon lies on is what most channels come too near to, and their straights before their arcs.
+  // Most channels fail at the floor that the tendon lies on, and most of these with their straight, so both are tested
+  // first.
   bool channel_fits(const AnchorPath& path) const {
     if (is_at_floor({{path.pocket() - path.straight * path.heading(), path.pocket(), 0.5 * site_.width}})) return false;
     const std::vector<Bar> bars = path.bars(site_.width);
     if (is_at_floor(bars)) return false;
-    // What is cut bulges out over the chords of the arc, and over both sides of the straight at the pocket: in a joint
-    // of 24 mm 0.35 µm of a wall of 0.4 mm were lost to that.
+    // The cut bulges out over the chords of the arc and over both sides of the straight at the pocket. In a joint of 24
+    // mm this consumed 0.35 µm of a wall of 0.4 mm.
     const double bulge = path.fillet * (1.0 - std::cos(0.5 * path.turn / k_fillet_steps));
     const auto keeps = [this](const Bar& bar, double wall) {
       return std::all_of(site_.holes.begin(), site_.holes.end(),
@@ -259,31 +263,31 @@ int pocket_facets(double radius) {
   return std::clamp(static_cast<int>(std::ceil(k_pi / std::acos(1.0 - std::min(0.5, 0.02 / radius)))), 12, 64);
 }
 
-// Corners in the order: outer edge, pocket from the outer edge round to the inner one, inner edge backwards, and the
-// pocket's mouth.
+// Order of the corners: outer edge, pocket from the outer edge round to the inner one, inner edge backwards, and the
+// pocket's opening.
 Keyhole keyhole(const AnchorPath& path, double width, double radius, int facets) {
   demand(radius > 0.5 * width, "a pocket narrower than its channel");
   const Vec2 centre = path.pocket(), heading = path.heading(), inner = -path.outer();
-  const double mouth = std::asin(0.5 * width / radius);
+  const double entry = std::asin(0.5 * width / radius);
   const auto on_pocket = [&](double angle) {
     return Vec2(centre + radius * (std::cos(angle) * heading + std::sin(angle) * inner));
   };
   std::vector<Vec2> points = path.edge(0.5 * width, k_fillet_steps);
   const auto pocket_first = static_cast<std::uint32_t>(points.size());
-  for (int k = 0; k <= facets; ++k) points.push_back(on_pocket((k_pi - mouth) * (2.0 * k / facets - 1.0)));
+  for (int k = 0; k <= facets; ++k) points.push_back(on_pocket((k_pi - entry) * (2.0 * k / facets - 1.0)));
   const auto inner_first = static_cast<std::uint32_t>(points.size());
   std::vector<Vec2> back = path.edge(-0.5 * width, k_fillet_steps);
   points.insert(points.end(), back.rbegin(), back.rend());
-  const auto mouth_first = static_cast<std::uint32_t>(points.size());
+  const auto opening_first = static_cast<std::uint32_t>(points.size());
   points.push_back(on_pocket(k_pi));
 
   Keyhole result;
-  for (std::uint32_t i = 0; i < mouth_first; ++i) result.outline.push_back(i);
+  for (std::uint32_t i = 0; i < opening_first; ++i) result.outline.push_back(i);
   for (std::uint32_t i = pocket_first; i < inner_first; ++i) result.pocket.push_back(i);
-  result.pocket.push_back(mouth_first);
+  result.pocket.push_back(opening_first);
   for (std::uint32_t i = 0; i <= pocket_first; ++i) result.channel.push_back(i);
-  result.channel.push_back(mouth_first);
-  for (std::uint32_t i = inner_first - 1; i < mouth_first; ++i) result.channel.push_back(i);
+  result.channel.push_back(opening_first);
+  for (std::uint32_t i = inner_first - 1; i < opening_first; ++i) result.channel.push_back(i);
   result.points = std::move(points);
   if (path.sense < 0) {
     for (auto* loop : {&result.outline, &result.pocket, &result.channel}) std::reverse(loop->begin(), loop->end());

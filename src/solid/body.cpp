@@ -11,13 +11,13 @@
 namespace fusee {
 namespace {
 
-// How far a rim stands outside what it must contain: more than any facet's sagitta, less than anyone would see.
+// Distance of a rim from the outlines it must contain: larger than any facet's sagitta, too small to notice.
 constexpr double k_rim_margin = 0.2;
 constexpr double k_hub_sagitta = 0.01;
-// Width of the blend where the middle flange changes from following one lip to following the other.
+// Width of the transition of the middle flange from one groove edge to the other.
 constexpr double k_blend = 0.5;
 
-// The circle at the same normals.
+// A circle sampled at the outline's normals.
 Polygon circle_like(const Outline& outline, double radius) {
   Polygon points;
   points.reserve(outline.points.size());
@@ -25,7 +25,7 @@ Polygon circle_like(const Outline& outline, double radius) {
   return points;
 }
 
-// The hub's own circle, as fine as it needs to be.
+// The hub's circle, with enough points for its sagitta.
 Polygon circle(double radius) {
   const int sides = std::max(24, static_cast<int>(std::ceil(k_pi / std::acos(1.0 - k_hub_sagitta / radius))));
   Polygon points;
@@ -33,7 +33,7 @@ Polygon circle(double radius) {
   return points;
 }
 
-// Is each flat quad between two loops of equal normals free of folds?
+// True if every flat quad between two loops of equal normals is free of folds.
 bool strictly_outside(const Polygon& outer, const Polygon& inner) {
   const std::size_t n = inner.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -46,9 +46,9 @@ bool strictly_outside(const Polygon& outer, const Polygon& inner) {
   return true;
 }
 
-// Round both outlines by the smooth maximum of their support functions, h = τ log(e^{h1/τ} + e^{h2/τ}). Its radius of
-// curvature h + h'' is the weighted mean of both plus w1 w2 (h1' − h2')²/τ > 0, so it is convex; its point is h n + h'
-// t with h' = w1 h1' + w2 h2'.
+// Outline around both curves: the smooth maximum of their support functions, h = τ log(e^{h1/τ} + e^{h2/τ}). Its radius
+// of curvature h + h'' is the weighted mean of both plus w1 w2 (h1' − h2')²/τ > 0, so it is convex. Its point is h n +
+// h' t with h' = w1 h1' + w2 h2'.
 Polygon around_both(const Outline& p1, const Outline& p2, double offset, double margin) {
   Polygon points;
   points.reserve(p1.points.size());
@@ -65,8 +65,8 @@ Polygon around_both(const Outline& p1, const Outline& p2, double offset, double 
   return points;
 }
 
-// The first rim of growing margin that is strictly outside: coarse outlines need more than fine ones. `outside` becomes
-// false where none is.
+// The first rim of increasing margin that is strictly outside. Coarse outlines require larger margins. Sets `outside`
+// to false if no margin suffices.
 template <typename MakeRim>
 Polygon grown_until_outside(const MakeRim& make_rim, const Polygon& a, const Polygon& b, bool& outside) {
   double margin = k_rim_margin;
@@ -104,48 +104,50 @@ class StackBuilder {
  private:
   bool apart() const { return layout_.parts == Parts::two; }
 
-  // A ring that is already there is not added again.
+  // Skips a ring that equals the previous one.
   void add(double z, Polygon points) {
     if (!stack_.rings.empty() && stack_.rings.back().z == z && stack_.rings.back().points == points) return;
     stack_.rings.push_back({z, std::move(points)});
   }
 
-  // Up to the middle flange: its bottom where the part is one, the face that P2 lies on where it is two.
+  // Adds all rings up to the middle flange: to its bottom in one part, to the mating face with P2 in two.
   void add_p1() {
     if (apart()) {
       add(0.0, rims_.lower);
     } else {
       add_foot(0.0, rims_.lower);
     }
-    const double lip_low = layout_.z_p1 - layout_.p1.below_width(), lip_high = layout_.z_p1 + layout_.p1.above_width();
-    if (kind_ == Flange::round) add(lip_low - layout_.lower_cone, rims_.lower);
+    const double groove_edge_low = layout_.z_p1 - layout_.p1.below_width(),
+                 groove_edge_high = layout_.z_p1 + layout_.p1.above_width();
+    if (kind_ == Flange::round) add(groove_edge_low - layout_.lower_cone, rims_.lower);
     add_groove(p1_, layout_.z_p1, layout_.p1);
-    add(lip_high + layout_.middle_cone, rims_.middle);
+    add(groove_edge_high + layout_.middle_cone, rims_.middle);
     if (!apart()) return;
     add(layout_.z_mate - rise_of(layout_, layout_.elephant_foot), rims_.middle);
     add(layout_.z_mate, foot_of(rims_.middle));
   }
 
   void add_p2() {
-    const double lip_low = layout_.z_p2 - layout_.p2.below_width(), lip_high = layout_.z_p2 + layout_.p2.above_width();
+    const double groove_edge_low = layout_.z_p2 - layout_.p2.below_width(),
+                 groove_edge_high = layout_.z_p2 + layout_.p2.above_width();
     if (apart()) {
       add_foot(layout_.z_mate, rims_.under2);
-      if (kind_ == Flange::round) add(lip_low, rims_.under2);
+      if (kind_ == Flange::round) add(groove_edge_low, rims_.under2);
     } else {
-      add(lip_low, rims_.middle);
+      add(groove_edge_low, rims_.middle);
     }
     add_groove(p2_, layout_.z_p2, layout_.p2);
-    if (kind_ == Flange::round) add(lip_high + layout_.upper_cone, rims_.upper);
+    if (kind_ == Flange::round) add(groove_edge_high + layout_.upper_cone, rims_.upper);
     add(layout_.z_top, rims_.upper);
   }
 
-  // The edge on the bed is chamfered by the width to which a first layer spreads.
+  // Chamfers the edge on the bed by the width to which a first layer spreads.
   void add_foot(double bed, const Polygon& rim) {
     add(bed, foot_of(rim));
     add(bed + rise_of(layout_, layout_.elephant_foot), rim);
   }
 
-  // Every point moved inward along the normal that all rings share.
+  // Moves every point inward along the normal that all rings share.
   Polygon foot_of(Polygon rim) const {
     for (std::size_t i = 0; i < rim.size(); ++i) rim[i] -= layout_.elephant_foot * p1_.points[i].normal;
     return rim;
@@ -172,14 +174,15 @@ class StackBuilder {
       stack_.through.push_back({bore.screw_holes[k], recessed && k == 0 ? stack_.recess.back().z : low, high});
   }
 
-  // Its ceiling would be a ring about the centre screw's hole, which no printer bridges: a cone leads up into the hole.
+  // A flat ceiling would be a ring about the centre screw's hole, which no printer bridges. A cone leads up into the
+  // hole instead.
   std::vector<Ring> recess(double top) const {
     const BoreLayout& bore = layout_.bore;
-    if (bore.horn_roof <= 0) return {{0.0, bore.outline}, {bore.horn_recess, bore.outline}};
+    if (bore.horn_ceiling <= 0) return {{0.0, bore.outline}, {bore.horn_recess, bore.outline}};
     const RecessCone cone = recess_cone(bore);
     return {{0.0, cone.rim},
             {bore.horn_recess, cone.rim},
-            {bore.horn_recess + bore.horn_roof, cone.hole},
+            {bore.horn_recess + bore.horn_ceiling, cone.hole},
             {top, cone.hole}};
   }
 
@@ -192,7 +195,7 @@ class StackBuilder {
   RingStack stack_;
 };
 
-// Of a point from the line through an edge.
+// Distance of a point from the line through an edge.
 double gap_to_line(const Vec2& point, const Vec2& a, const Vec2& b) {
   return std::abs(cross(b - a, point - a)) / (b - a).norm();
 }
@@ -202,26 +205,26 @@ double gap_to_line(const Vec2& point, const Vec2& a, const Vec2& b) {
 FlangeRims flange_rims(const Outline& p1, const Outline& p2, double tendon_diameter, double groove_depth, Flange kind) {
   demand(p1.points.size() == p2.points.size() && p1.points.size() >= 3,
          "outlines of " + std::to_string(p1.points.size()) + " and " + std::to_string(p2.points.size()) + " points");
-  const double lip = groove_depth - 0.5 * tendon_diameter;
+  const double groove_edge = groove_depth - 0.5 * tendon_diameter;
   FlangeRims rims;
-  rims.lip1 = parallel(p1, lip);
-  rims.lip2 = parallel(p2, lip);
+  rims.groove_edge1 = parallel(p1, groove_edge);
+  rims.groove_edge2 = parallel(p2, groove_edge);
   if (kind == Flange::follow) {
-    rims.lower = rims.lip1;
-    rims.upper = rims.lip2;
-    rims.under2 = rims.lip2;
-    rims.middle = grown_until_outside([&](double margin) { return around_both(p1, p2, lip, margin); }, rims.lip1,
-                                      rims.lip2, rims.outside);
+    rims.lower = rims.groove_edge1;
+    rims.upper = rims.groove_edge2;
+    rims.under2 = rims.groove_edge2;
+    rims.middle = grown_until_outside([&](double margin) { return around_both(p1, p2, groove_edge, margin); },
+                                      rims.groove_edge1, rims.groove_edge2, rims.outside);
     return rims;
   }
   const auto circle_around = [&p1, &rims](const Polygon& a, const Polygon& b) {
     const double radius = std::max(circumradius(a), circumradius(b));
     return grown_until_outside([&](double margin) { return circle_like(p1, radius + margin); }, a, b, rims.outside);
   };
-  rims.lower = circle_around(rims.lip1, rims.lip1);
-  rims.upper = circle_around(rims.lip2, rims.lip2);
+  rims.lower = circle_around(rims.groove_edge1, rims.groove_edge1);
+  rims.upper = circle_around(rims.groove_edge2, rims.groove_edge2);
   rims.under2 = rims.upper;
-  rims.middle = circle_around(rims.lip1, rims.under2);
+  rims.middle = circle_around(rims.groove_edge1, rims.under2);
   return rims;
 }
 
@@ -230,7 +233,7 @@ double cone_height(const Polygon& inner, const Polygon& outer, double slope) {
   double widest = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t j = (i + 1) % n;
-    // A strip's quad may be cut along either diagonal.
+    // A strip's quad may be split along either diagonal.
     for (const Vec2& corner : {outer[i], outer[j]}) widest = std::max(widest, gap_to_line(corner, inner[i], inner[j]));
     for (const Vec2& corner : {inner[i], inner[j]}) widest = std::max(widest, gap_to_line(corner, outer[i], outer[j]));
   }

@@ -1,5 +1,5 @@
 /// \file
-/// The body without its cross features, as rings. mm, not yet scaled.
+/// Internal: the body without its cross features, as rings. mm, not yet scaled.
 #pragma once
 
 #include <vector>
@@ -10,24 +10,25 @@
 
 namespace fusee {
 
-/// The flanges' outlines, sampled at the outlines' normals. Where these are so coarse that no rim of the same normals
-/// lies outside both lips, `outside` is false, and nothing is made of them.
+/// The flanges' outlines, sampled at the outlines' normals. If the outlines are so coarse that no rim of the same
+/// normals lies outside both groove edges, `outside` is false and the rims must not be used.
 struct FlangeRims {
-  Polygon lip1;  ///< of groove P1
-  Polygon lip2;
+  Polygon groove_edge1;  ///< edge of groove P1
+  Polygon groove_edge2;
   Polygon lower;   ///< flange 1
-  Polygon middle;  ///< strictly outside both lips
-  Polygon under2;  ///< P2's own share of the middle flange where it is printed for itself, strictly inside `middle`
-  Polygon upper;   ///< flange 2
+  Polygon middle;  ///< strictly outside both groove edges
+  /// The part of the middle flange that belongs to P2 when it is printed separately, strictly inside `middle`
+  Polygon under2;
+  Polygon upper;  ///< flange 2
   bool outside = true;
 };
 FlangeRims flange_rims(const Outline& p1, const Outline& p2, double tendon_diameter, double groove_depth, Flange kind);
 
-/// Height of a cone from `inner` to `outer` (equal normals, one within the other) none of whose facets is flatter than
-/// `slope` above the horizontal.
+/// Height of a cone from `inner` to `outer` (equal normals, one within the other) with no facet flatter than `slope`
+/// above the horizontal.
 double cone_height(const Polygon& inner, const Polygon& outer, double slope);
 
-/// Both pulleys as one, P1 alone or P2 alone, all where they stand in the whole.
+/// The whole body, or P1 or P2 only, at its position in the whole.
 enum class Piece { whole, p1, p2 };
 RingStack body_stack(const Outline& p1, const Outline& p2, double tendon_diameter, Flange kind,
                      const BodyLayout& layout, Piece piece = Piece::whole);

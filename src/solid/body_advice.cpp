@@ -17,7 +17,7 @@ constexpr std::array k_body_keys{"body.groove_depth_mm", "body.flange_thickness_
                                  "body.hub_height_mm",   "body.bore_diameter_mm",    "body.bore_flat_mm",
                                  "body.anchor_hole_mm",  "body.knot_pocket_mm",      "body.min_wall_mm",
                                  "body.wrap_deg"};
-// Of a horn of one's own; 0 is none of these and never "automatic".
+// Numbers of a custom horn. None of them may be automatic, and 0 has no special meaning.
 constexpr std::array k_horn_keys{"horn.bolt_circle_mm",   "horn.bolt_hole_mm",   "horn.centre_hole_mm",
                                  "horn.boss_diameter_mm", "horn.boss_height_mm", "horn.spline_length_mm"};
 
@@ -34,21 +34,21 @@ std::vector<std::string> written_keys(const Mechanism& mechanism) {
   return keys;
 }
 
-/// Of a key that is no number, in the order in which they are tried.
-struct Words {
-  const char* condition;  ///< that begins so
+/// Alternatives for a key that is not a number, in the order in which they are tried.
+struct Alternatives {
+  const char* condition;  ///< prefix of the conditions that they may mend
   const char* key;
   std::vector<std::string_view> words;
 };
-const std::vector<Words>& words_of_screws() {
-  static const std::vector<Words> all{{"set_screw", "body.set_screw", {"M5", "M4", "M3", "M2.5", "M2", "none"}},
-                                      {"clamp_screw", "body.clamp_screw", {"M2.5", "M2", "none"}},
-                                      {"clamp_screw", "print.parts", {"two"}}};
+const std::vector<Alternatives>& screw_alternatives() {
+  static const std::vector<Alternatives> all{{"set_screw", "body.set_screw", {"M5", "M4", "M3", "M2.5", "M2", "none"}},
+                                             {"clamp_screw", "body.clamp_screw", {"M2.5", "M2", "none"}},
+                                             {"clamp_screw", "print.parts", {"two"}}};
   return all;
 }
-/// Where every condition holds, what was cut does not print as it lies.
-const std::vector<Words>& words_of_printing() {
-  static const std::vector<Words> all{{"", "print.parts", {"two", "one"}}, {"", "print.supports", {"true"}}};
+/// Alternatives if every condition holds but the cut part does not print.
+const std::vector<Alternatives>& printing_alternatives() {
+  static const std::vector<Alternatives> all{{"", "print.parts", {"two", "one"}}, {"", "print.supports", {"true"}}};
   return all;
 }
 
@@ -65,18 +65,18 @@ class BodyAdviser {
     Advice advice;
     const std::vector<Condition> failed = judge_.obstacles(mechanism_);
     if (failed.empty()) {
-      for (const Words& words : words_of_printing()) add_word(advice.alone, words);
+      for (const Alternatives& words : printing_alternatives()) add_word(advice.alone, words);
       return advice;
     }
-    for (const Words& words : words_of_screws()) {
+    for (const Alternatives& words : screw_alternatives()) {
       const auto is_about = [&words](const Condition& condition) {
         return condition.name.starts_with(words.condition);
       };
       if (std::any_of(failed.begin(), failed.end(), is_about)) add_word(advice.alone, words);
     }
-    // Where there are no curves, no number of the body alone would help.
+    // Without curves, no number of the body alone would help.
     Judge judge = judge_;
-    judge.is_dear = !obstacle_to(mechanism_);  // a body is planned
+    judge.is_dear = !obstacle_to(mechanism_);  // each try plans a body
     std::vector<std::string> keys = judge.is_dear ? written_keys(mechanism_) : std::vector<std::string>{};
     const auto is_height = [](const Condition& condition) { return condition.name == k_height_condition; };
     if (!mechanism_.print.supports && std::any_of(failed.begin(), failed.end(), is_height))
@@ -96,8 +96,8 @@ class BodyAdviser {
     return !judge_.made || ((!judge_.makings || judge_.makings() > 0) && judge_.made(changed));
   }
 
-  // The first that helps, past the one that is written.
-  void add_word(std::vector<Change>& changes, const Words& words) const {
+  // Adds the first alternative that helps, other than the present value.
+  void add_word(std::vector<Change>& changes, const Alternatives& words) const {
     const Field& field = *find_field(words.key);
     DeclaredMechanism changed(mechanism_);
     const std::string from = field.get_text(changed);
@@ -113,7 +113,7 @@ class BodyAdviser {
     }
   }
 
-  // A number for which no other value was found may still be left to the program.
+  // If no other value of a number helps, it may still be left automatic.
   void add_automatic(std::vector<Change>& changes, const std::string& key) const {
     Mechanism automatic = mechanism_;
     const Field& field = *find_field(key);
@@ -130,7 +130,7 @@ class BodyAdviser {
 }  // namespace
 
 bool is_written(const Mechanism& mechanism, std::string_view key) {
-  // What a shaft says is not changed alone: the file would contradict itself.
+  // A value given by a shaft is not changed alone: the file would contradict itself.
   if (key.starts_with("body.bore_") && find_shaft(mechanism.body.shaft) != nullptr) return false;
   if (key == "body.bore_flat_mm" && mechanism.body.bore != Bore::d) return false;
   return number_of(mechanism, std::string(key)) > 0;

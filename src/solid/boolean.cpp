@@ -14,24 +14,24 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
 #include "solid/corefinement.h"
-#include "solid/dealt_by_vertex.h"
 #include "solid/disjoint_sets.h"
 #include "solid/nearest_float.h"
 #include "solid/self_intersection.h"
 #include "solid/solid_angle.h"
+#include "solid/sorted_by_vertex.h"
 
-// A tool touches a tenth of a body's facets. Only those are handed to CGAL, which cuts both surfaces along their common
-// line into patches. Each patch lies inside or outside of the other solid as one of its points does.
+// A tool touches about a tenth of a body's facets. Only these are passed to CGAL, which cuts both surfaces along their
+// common line into patches. One point of each patch decides whether it lies inside or outside the other solid.
 
 namespace fusee {
 namespace {
 
 enum class Operation { subtract, unite };
 
-// Some facets of a mesh, with their vertices alone.
-class Share {
+// Some facets of a mesh with their own vertices.
+class SubMesh {
  public:
-  explicit Share(const TriangleMesh& whole) : whole_(whole), number_(whole.vertices.size(), k_none) {}
+  explicit SubMesh(const TriangleMesh& whole) : whole_(whole), number_(whole.vertices.size(), k_none) {}
 
   void add(const std::array<std::uint32_t, 3>& triangle) {
     auto& facet = mesh_.triangles.emplace_back();
@@ -53,19 +53,19 @@ class Share {
   TriangleMesh mesh_;
 };
 
-// Facets that a tool touches, and all others.
+// The facets of a body that a tool touches, and all others.
 struct Neighbourhood {
   TriangleMesh near, far;
 };
 
-// What of a mesh hangs together.
+// The connected components of a mesh.
 std::vector<TriangleMesh> pieces_of(const TriangleMesh& mesh) {
   DisjointSets pieces(mesh.vertices.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     pieces.unite(a, b);
     pieces.unite(a, c);
   }
-  std::map<std::size_t, Share> shares;
+  std::map<std::size_t, SubMesh> shares;
   for (const auto& triangle : mesh.triangles)
     shares.try_emplace(pieces.root(triangle[0]), mesh).first->second.add(triangle);
   std::vector<TriangleMesh> all;
@@ -82,7 +82,7 @@ Bounds box_of(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& tria
   return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
 }
 
-// Facets of the body whose boxes touch that of one of the tool's pieces.
+// Marks the body's facets whose boxes touch the box of one of the tool's components.
 std::vector<bool> touched_by(const TriangleMesh& tool, const TriangleMesh& body) {
   std::vector<Bounds> boxes;
   for (const TriangleMesh& piece : pieces_of(tool)) boxes.push_back(bounds(piece));
@@ -96,25 +96,25 @@ std::vector<bool> touched_by(const TriangleMesh& tool, const TriangleMesh& body)
 }
 
 Neighbourhood neighbourhood(const TriangleMesh& body, const std::vector<bool>& touched) {
-  Share near(body), far(body);
+  SubMesh near(body), far(body);
   for (std::size_t f = 0; f < body.triangles.size(); ++f) (touched[f] ? near : far).add(body.triangles[f]);
   return {near.mesh(), far.mesh()};
 }
 
-// Facets near to a tool, cut along the line in which it meets them; null where they cross themselves, which leaves CGAL
-// without an answer, without an end, or without its wits, or are no manifold.
+// Facets near a tool, cut along their intersection line. Empty if they intersect themselves or are no manifold: CGAL
+// may then fail, return garbage or not terminate, so this is tested first.
 struct Division {
   TriangleMesh near;
   std::optional<Corefined> cut;
 };
 
-// Pieces of a tool, and the facets that they touch and no other piece does.
-struct Encounter {
+// Components of a tool with the facets that they touch and no other component does.
+struct ContactGroup {
   TriangleMesh near, tool;
 };
 
-// `near`: facets each of which a piece of the tool touches.
-std::vector<Encounter> encounters(const TriangleMesh& near, const TriangleMesh& tool) {
+// Requires every facet of `near` to be touched by a component of the tool.
+std::vector<ContactGroup> contact_groups(const TriangleMesh& near, const TriangleMesh& tool) {
   const std::vector<TriangleMesh> pieces = pieces_of(tool);
   if (pieces.size() < 2) return {{near, tool}};
   std::vector<Bounds> boxes;
@@ -131,20 +131,20 @@ std::vector<Encounter> encounters(const TriangleMesh& near, const TriangleMesh& 
     }
     piece_at[f] = first;
   }
-  std::map<std::size_t, std::pair<Share, std::vector<TriangleMesh>>> groups;
+  std::map<std::size_t, std::pair<SubMesh, std::vector<TriangleMesh>>> groups;
   const auto group_of = [&](std::size_t piece) -> auto& {
-    return groups.try_emplace(together_with.root(piece), Share(near), std::vector<TriangleMesh>()).first->second;
+    return groups.try_emplace(together_with.root(piece), SubMesh(near), std::vector<TriangleMesh>()).first->second;
   };
   for (std::size_t f = 0; f < near.triangles.size(); ++f) group_of(piece_at[f]).first.add(near.triangles[f]);
   for (std::size_t k = 0; k < pieces.size(); ++k) group_of(k).second.push_back(pieces[k]);
-  std::vector<Encounter> all;
+  std::vector<ContactGroup> all;
   for (const auto& [root, group] : groups) all.push_back({group.first.mesh(), together(group.second)});
   return all;
 }
 
-// Each encounter beside the others.
+// Cuts all contacts in parallel.
 std::optional<Corefined> corefined_apart(const TriangleMesh& near, const TriangleMesh& tool) {
-  const std::vector<Encounter> all = encounters(near, tool);
+  const std::vector<ContactGroup> all = contact_groups(near, tool);
   std::vector<std::future<std::optional<Corefined>>> others;
   for (std::size_t k = 1; k < all.size(); ++k)
     others.push_back(beside([&all, k] { return corefined(all[k].near, all[k].tool); }));
@@ -171,7 +171,7 @@ bool are_same(const TriangleMesh& a, const TriangleMesh& b) {
   return a.triangles == b.triangles && a.vertices == b.vertices;
 }
 
-// The middle and the normal of a patch's largest facet.
+// The centre and the normal of a patch's largest facet.
 struct PlaceOnPatch {
   Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
 };
@@ -187,7 +187,7 @@ PlaceOnPatch place_in(const TriangleMesh& patch) {
   return place;
 }
 
-// How often a closed surface goes round a point.
+// Winding number of a closed surface about a point.
 double winding_number(const TriangleMesh& solid, const Vec3& point) {
   double angle = 0;
   for (const auto& [a, b, c] : solid.triangles)
@@ -195,7 +195,8 @@ double winding_number(const TriangleMesh& solid, const Vec3& point) {
   return angle / (2.0 * k_two_pi);
 }
 
-// Straight up from the point: how often is the surface met? Null where that is by a facet's edge, or next to it.
+// Parity of the surface crossings straight up from the point. Empty if the ray passes through or close to a facet's
+// edge.
 std::optional<bool> is_inside_seen_upwards(const TriangleMesh& solid, const Vec3& point) {
   constexpr double k_doubt = 1e-9;
   const Vec2 at = point.head<2>();
@@ -219,7 +220,7 @@ std::optional<bool> is_inside_seen_upwards(const TriangleMesh& solid, const Vec3
   return inside;
 }
 
-// Null where the point lies so near to the surface that nobody can say.
+// Empty if the point is too close to the surface to decide.
 std::optional<bool> is_inside_of(const TriangleMesh& solid, const Vec3& point) {
   if (const auto inside = is_inside_seen_upwards(solid, point)) return inside;
   constexpr double k_doubt = 1e-3;
@@ -228,14 +229,14 @@ std::optional<bool> is_inside_of(const TriangleMesh& solid, const Vec3& point) {
   return std::lround(turns) != 0;
 }
 
-// Does the other solid reach up to a patch, from below and from above as the patch's normal points? Both where it lies
-// inside, one where both surfaces are one there.
+// Material of the other solid on both sides of a patch, seen along its normal. Both are true inside the other solid,
+// one if the two surfaces coincide there.
 struct Surroundings {
   bool below = false, above = false;
 };
 
 std::optional<Surroundings> surroundings_of(const TriangleMesh& patch, const TriangleMesh& solid) {
-  // Where surfaces lie on one another they are a grain of a float apart or not at all; other walls are thicker.
+  // Coincident surfaces differ by at most float rounding. Other walls are thicker than this.
   constexpr double k_beside = 1e-4;
   const auto [point, normal] = place_in(patch);
   if (const auto inside = is_inside_seen_upwards(solid, point)) return Surroundings{*inside, *inside};
@@ -250,14 +251,14 @@ TriangleMesh turned_over(TriangleMesh mesh) {
   return mesh;
 }
 
-struct Kept {
+struct KeptPatches {
   std::vector<TriangleMesh> result, common;
 };
 
-// Of the second solid, only what lies wholly inside or outside is kept: where surfaces are one the first one's is
-// taken.
+// Keeps patches of the second solid only if they are completely inside or outside. Where the surfaces coincide, the patch of
+// the first one is used.
 bool sort_patches(const std::vector<TriangleMesh>& patches, const TriangleMesh& solid, bool is_first,
-                  Operation operation, Kept& kept) {
+                  Operation operation, KeptPatches& kept) {
   for (const TriangleMesh& patch : patches) {
     const std::optional<Surroundings> around = surroundings_of(patch, solid);
     if (!around) return false;
@@ -271,11 +272,11 @@ bool sort_patches(const std::vector<TriangleMesh>& patches, const TriangleMesh& 
   return true;
 }
 
-using OpenSide = std::array<double, 6>;  // of a facet, from corner to corner
+using OpenSide = std::array<double, 6>;  // a facet's side, from corner to corner
 
-// The sides along which a mesh is open, in order. Null where one is a side of several facets.
+// The open sides of a mesh, sorted. Empty if one is a side of several facets.
 std::optional<std::vector<OpenSide>> border_of(const TriangleMesh& welded) {
-  std::vector<std::pair<std::uint64_t, bool>> sides;  // an edge, and whether it is run upwards
+  std::vector<std::pair<std::uint64_t, bool>> sides;  // an edge, and true if it runs upwards
   sides.reserve(3 * welded.triangles.size());
   for (const auto& triangle : welded.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -303,7 +304,8 @@ bool has(const std::array<std::uint32_t, 3>& triangle, std::uint32_t vertex) {
   return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
 }
 
-// Moves `from` onto `to`: a surface stays one where both have two neighbours in common, and no facet may turn over.
+// Moves `from` onto `to`, unless the surface would not stay a manifold (exactly two common neighbours) or a facet would
+// turn over.
 void collapse(TriangleMesh& mesh, std::uint32_t from, std::uint32_t to) {
   std::set<std::uint32_t> beside_from, beside_to;
   for (const auto& triangle : mesh.triangles) {
@@ -326,8 +328,8 @@ void erase_collapsed(TriangleMesh& mesh) {
   std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
 }
 
-// Rounding may make the ends of a very short edge one: the edge is collapsed, the facets beside it are gone. So are
-// those of edges of some grains of a float: nobody can compute their normals.
+// Collapses edges whose ends rounding made equal, and edges of a few float steps, whose facets have no computable
+// normal. The facets beside a collapsed edge are removed.
 TriangleMesh without_short_edges(const TriangleMesh& rounded) {
   constexpr double k_short = 5.0 * k_float_grain;
   TriangleMesh mesh = without_collapsed_facets(rounded);
@@ -361,7 +363,7 @@ Vec3 area_vector(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t
   return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
 }
 
-// From the longest side to the corner across.
+// Distance of the corner opposite the longest side.
 double height(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
   const FacetSide along = longest_side(mesh, t);
   return area_vector(mesh, t).norm() / (mesh.vertices[along.to] - mesh.vertices[along.from]).norm();
@@ -369,8 +371,9 @@ double height(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
 
 constexpr double k_flat = 0.1 * k_float_grain;
 
-// A flat facet and the one beyond its longest side are divided the other way: not where one of the two that come of it
-// would be hardly better (as when that one is as flat: it goes first), or look elsewhere, or stand beside itself.
+// Flips the diagonal between a flat facet and its neighbour across the longest side. It does not flip if one of the two
+// new facets would be hardly better (a neighbour that is as flat is flipped first), would face elsewhere, or would
+// duplicate a facet.
 bool flipped(TriangleMesh& mesh, std::array<std::uint32_t, 3>& flat) {
   constexpr double k_better = 10.0;
   const auto [p, q, r] = longest_side(mesh, flat);
@@ -392,8 +395,8 @@ bool flipped(TriangleMesh& mesh, std::array<std::uint32_t, 3>& flat) {
   return true;
 }
 
-// Rounding may put a facet's three corners on a line, or nearly (no higher than this, a flip moves nothing into its
-// neighbours). Each flip lets the next one of a fan follow.
+// Rounding may make a facet's three corners collinear, or nearly so. Below this height a flip moves nothing into its
+// neighbours. Each flip enables the next one of a fan.
 void flip_flat_facets(TriangleMesh& mesh) {
   std::vector<std::size_t> flat;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
@@ -405,8 +408,8 @@ void flip_flat_facets(TriangleMesh& mesh) {
   }
 }
 
-// CGAL numbers what it makes in an order that depends on where in memory its boxes lie: the same vertices and facets
-// are put into the same order every time.
+// CGAL numbers its results in an order that depends on memory addresses. Sorting gives the same order of vertices and
+// facets every time.
 TriangleMesh in_order(TriangleMesh mesh) {
   struct Numbered {
     Vec3 vertex;
@@ -428,15 +431,15 @@ TriangleMesh in_order(TriangleMesh mesh) {
     for (std::uint32_t& index : triangle) index = rank[index];
     std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
   }
-  mesh.triangles = dealt_by_vertex(
+  mesh.triangles = sorted_by_vertex(
       mesh.triangles, mesh.vertices.size(), [](const auto& triangle) { return triangle[0]; }, std::less<>());
   return mesh;
 }
 
-// Of what a boolean leaves: as floats hold it.
+// The result of a boolean, rounded to float and repaired.
 TriangleMesh settled(const TriangleMesh& exact) { return in_order(without_short_edges(rounded_to_float(exact))); }
 
-// `foreseen`: the division, if the body's facets near to the tool are what they were then.
+// `foreseen`: a division computed in advance, for the same facets near the tool.
 std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMesh& tool, Operation operation,
                                       const Division* foreseen = nullptr) {
   const Neighbourhood parts = neighbourhood(body, touched_by(tool, body));
@@ -446,12 +449,12 @@ std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMe
     foreseen = &made;
   }
   const std::optional<Corefined>& cut = foreseen->cut;
-  Kept kept;
+  KeptPatches kept;
   if (!cut || !sort_patches(cut->first, tool, true, operation, kept) ||
       !sort_patches(cut->second, body, false, operation, kept))
     return std::nullopt;
   const TriangleMesh near = weld(together(kept.result));
-  // It has to fit into the place of what it was.
+  // The new facets must fit into the place of the old ones.
   const auto border = border_of(near);
   if (!border || border != border_of(parts.near)) return std::nullopt;
   BooleanResult outcome{settled(together({near, parts.far})), enclosed_volume(in_order(weld(together(kept.common))))};
@@ -459,8 +462,8 @@ std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMe
   return outcome;
 }
 
-// Of each tool after the first that touches no facet which an earlier one touches, begun on threads. The body is put
-// into the order in which the first cut will leave it.
+// Starts, on threads, the divisions of all tools that touch no facet touched by an earlier tool. The body is first put
+// into the order that the first cut gives it.
 std::vector<std::future<Division>> foreseen_divisions(const TriangleMesh& body,
                                                       const std::vector<TriangleMesh>& tools) {
   std::vector<std::future<Division>> divisions(tools.size());

@@ -14,19 +14,19 @@
 namespace fusee {
 namespace {
 
-// Fewer corners make a small hole a polygon that no shaft of its diameter turns in.
+// With fewer corners, a shaft of the hole's diameter would not turn in it.
 constexpr int k_least_facets = 8;
 // Sagitta of the arcs of D and keyway bores.
 constexpr double k_arc_sagitta = 0.01;
-// A recess is deeper by this (one printed layer) than what sinks into it, so that the pulley lies on the horn's face.
+// A recess is deeper than the part that sinks into it by one printed layer, so that the pulley lies on the horn's face.
 constexpr double k_recess_play = 0.2;
-// A tooth's crest and the ground between two are flat over this share of the pitch: 0.1 mm of 0.74 mm on the shaft of a
-// Futaba 3F servo (hugokernel/OpenSCAD_ServoArms). Sharper ones would be rounded by the printer.
+// Fraction of the pitch over which a tooth's crest and ground are flat: 0.1 mm of 0.74 mm on the shaft of a Futaba 3F
+// servo (hugokernel/OpenSCAD_ServoArms). The printer would round sharper ones.
 constexpr double k_tooth_flat = 0.125;
 
 int facets_of(double diameter) { return std::max(k_least_facets, static_cast<int>(std::lround(2.0 * diameter))); }
 
-// Regular, tangent to the circle of radius `inner`, the middle of a side facing `direction`.
+// A regular polygon tangent to the circle of radius `inner`, with the middle of a side facing `direction`.
 Polygon tangent_polygon(double inner, int sides, double direction, const Vec2& centre) {
   Polygon points;
   const double step = k_two_pi / sides;
@@ -44,14 +44,14 @@ Polygon arc(double radius, double from, double to) {
   return points;
 }
 
-// `flat`: from the flat to the far side of the shaft.
+// `flat`: distance from the flat to the far side of the shaft.
 Polygon d_outline(double radius, double flat) {
   const double height = std::clamp(flat - radius, -0.95 * radius, 0.95 * radius);
   const double half = std::acos(height / radius);
   return arc(radius, 0.5 * k_pi + half, 2.5 * k_pi - half);
 }
 
-// Keyways of DIN 6885-1 (ISO 773): up to which shaft, width, depth in the hub t2.
+// Keyways of DIN 6885-1 (ISO 773): largest shaft, width, depth in the hub t2.
 struct Key {
   double shaft, width, depth;
 };
@@ -86,14 +86,14 @@ void make_round(BoreLayout& bore, double diameter) {
   bore.outline = polyhole(diameter, Vec2::Zero());
 }
 
-// A shaft's serration as a hole: straight flanks between the circles of crests and grounds, four corners a tooth.
+// The outline for a toothed shaft: straight flanks between the circles of crests and grounds, four corners a tooth.
 Polygon toothed_outline(const Horn& horn, double compensation) {
   const double pitch = k_two_pi / horn.spline_teeth, half_flat = 0.5 * k_tooth_flat * pitch;
-  const double crest = 0.5 * (horn.spline_diameter + compensation);  // of the shaft's teeth, which point outward
+  const double crest = 0.5 * (horn.spline_diameter + compensation);  // crest of the shaft's teeth, which point outward
   Polygon points;
   for (int k = 0; k < horn.spline_teeth; ++k) {
     const double tooth = 0.5 * k_pi + k * pitch;
-    // The shaft's crest touches the middle of the flat that stands over it, as a shaft touches a polyhole's side.
+    // The shaft's crest touches the middle of the flat above it, as a shaft touches a polyhole's side.
     for (const double side : {-1.0, 1.0})
       points.push_back(crest / std::cos(half_flat) * unit(tooth + side * half_flat));
     for (const double side : {-1.0, 1.0})
@@ -105,7 +105,7 @@ Polygon toothed_outline(const Horn& horn, double compensation) {
 void add_horn(BoreLayout& bore, const Horn& horn, double compensation) {
   const double depth = std::max(horn.boss_height, horn.spline_length);
   bore.spline_teeth = horn.spline_teeth;
-  // The horn's boss or the servo's own shaft sinks in from below; where the horn's face is flat, its screw passes.
+  // The horn's boss or the servo's own shaft sinks in from below. With a flat horn only its screw passes.
   if (horn.spline_teeth > 0)
     bore.outline = toothed_outline(horn, compensation);
   else
@@ -144,8 +144,8 @@ void fit_shaft(BoreLayout& bore, const Body& body, double diameter, double compe
   make_round(bore, diameter + compensation);
 }
 
-// Corners of two polygons nearer than this, as seen from the axis, are taken for corners on one ray: 0.03 mm at 3 mm,
-// and a third of what the flat of a tooth takes.
+// Largest angle, seen from the axis, between corners of two polygons that count as on one ray: 0.03 mm at 3 mm, a third
+// of a tooth's flat.
 constexpr double k_same_ray = 0.01;
 
 double angle_of(const Vec2& point) { return std::atan2(point.y(), point.x()); }
@@ -156,8 +156,8 @@ bool has_corner_on_ray(const Polygon& polygon, const Vec2& ray) {
   return std::any_of(polygon.begin(), polygon.end(), [&ray](const Vec2& corner) { return on_one_ray(corner, ray); });
 }
 
-// Where a ray from the axis leaves a polygon that is star-shaped about it.
-Vec2 where_it_leaves(const Polygon& polygon, const Vec2& ray) {
+// The exit of a ray from the axis out of a polygon that is star-shaped about it.
+Vec2 exit_of_ray(const Polygon& polygon, const Vec2& ray) {
   for (const Vec2& corner : polygon) {
     if (on_one_ray(corner, ray)) return corner;
   }
@@ -170,7 +170,7 @@ Vec2 where_it_leaves(const Polygon& polygon, const Vec2& ray) {
 
 Polygon seen_along(const Polygon& polygon, const Polygon& rays) {
   Polygon points;
-  for (const Vec2& ray : rays) points.push_back(where_it_leaves(polygon, ray));
+  for (const Vec2& ray : rays) points.push_back(exit_of_ray(polygon, ray));
   return points;
 }
 
@@ -203,10 +203,11 @@ std::optional<Condition> flat_off_shaft(const Body& body, double shaft) {
   const bool outside = body.bore_flat > shaft;
   if (!outside && body.bore_flat > 0.5 * shaft) return std::nullopt;
   ConditionList list;
-  list.add("bore_flat", body.bore_flat, outside ? shaft : 0.5 * shaft, false,
-           fmt::format("a D shaft of {0} mm (body.bore_diameter_mm) measures more than {1} mm from its flat to its far "
-                       "side and at most {0} mm, this one {2} mm (body.bore_flat_mm)",
-                       rounded(shaft), rounded(0.5 * shaft), rounded(body.bore_flat)));
+  list.add(
+      "bore_flat", body.bore_flat, outside ? shaft : 0.5 * shaft, false,
+      fmt::format("a D shaft of {0} mm (body.bore_diameter_mm) must measure more than {1} mm and at most {0} mm from "
+                  "its flat to its far side (body.bore_flat_mm, now {2} mm)",
+                  rounded(shaft), rounded(0.5 * shaft), rounded(body.bore_flat)));
   return list.taken().front();
 }
 

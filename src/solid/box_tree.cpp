@@ -21,7 +21,7 @@ Box3 around(const Box3& a, const Box3& b) {
 BoxTree::BoxTree(const std::vector<Box3>& boxes) : boxes_(boxes) {
   if (boxes.empty()) return;
   nodes_.reserve(boxes.size());
-  std::vector<Sorted> sorted;
+  std::vector<SortedBox> sorted;
   sorted.reserve(boxes.size());
   for (const Box3& box : boxes) {
     sorted.push_back({{box.low[0] + box.high[0], box.low[1] + box.high[1], box.low[2] + box.high[2]},
@@ -29,12 +29,12 @@ BoxTree::BoxTree(const std::vector<Box3>& boxes) : boxes_(boxes) {
   }
   add_node(sorted, 0, static_cast<std::uint32_t>(boxes.size()));
   items_.reserve(boxes.size());
-  for (const Sorted& item : sorted) items_.push_back(item.box);
+  for (const SortedBox& item : sorted) items_.push_back(item.box);
 }
 
-std::size_t BoxTree::widest_axis(const Sorted* first, const Sorted* last) {
+std::size_t BoxTree::widest_axis(const SortedBox* first, const SortedBox* last) {
   std::array<double, 3> low = first->middle, high = low;
-  for (const Sorted* item = first + 1; item != last; ++item) {
+  for (const SortedBox* item = first + 1; item != last; ++item) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], item->middle[axis]);
       high[axis] = std::max(high[axis], item->middle[axis]);
@@ -47,7 +47,7 @@ std::size_t BoxTree::widest_axis(const Sorted* first, const Sorted* last) {
   return widest;
 }
 
-void BoxTree::add_node(std::vector<Sorted>& sorted, std::uint32_t first, std::uint32_t last) {
+void BoxTree::add_node(std::vector<SortedBox>& sorted, std::uint32_t first, std::uint32_t last) {
   const std::size_t place = nodes_.size();
   nodes_.push_back({boxes_[sorted[first].box], first, last, 0});
   if (last - first <= k_leaf) {
@@ -58,7 +58,7 @@ void BoxTree::add_node(std::vector<Sorted>& sorted, std::uint32_t first, std::ui
   const std::size_t axis = widest_axis(sorted.data() + first, sorted.data() + last);
   const std::uint32_t half = first + (last - first) / 2;
   std::nth_element(sorted.begin() + first, sorted.begin() + half, sorted.begin() + last,
-                   [axis](const Sorted& a, const Sorted& b) {
+                   [axis](const SortedBox& a, const SortedBox& b) {
                      const double p = a.middle[axis], q = b.middle[axis];
                      return p < q || (p == q && a.box < b.box);
                    });

@@ -1,5 +1,5 @@
 /// \file
-/// Which of many boxes overlap.
+/// Internal: finds overlapping boxes.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace fusee {
 
-/// In three coordinates, whatever they are; its faces belong to it.
+/// A box in any three coordinates, including its faces.
 struct Box3 {
   std::array<double, 3> low, high;
 };
@@ -18,24 +18,24 @@ inline bool overlap(const Box3& a, const Box3& b) {
          a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
 }
 
-/// A tree of boxes, halved at the median of the coordinate in which they spread furthest. The same boxes give the same
-/// tree.
+/// A tree of boxes, halved at the median of the coordinate in which they spread furthest. Equal boxes give equal trees.
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box3>& boxes);
 
-  /// Calls `look`, (size_t, size_t) → bool, once for each two boxes that overlap, until it says true; whether it did.
-  template <typename Look>
-  bool any_pair(const Look& look) const {
+  /// Calls `look`, (size_t, size_t) → bool, for each pair of overlapping boxes until it returns true. Returns true if
+  /// it did.
+  template <typename Visitor>
+  bool any_pair(const Visitor& look) const {
     return any_pair_in_first_half(look) || any_pair_in_the_rest(look);
   }
-  /// The same in two parts, which may be gone through at once.
-  template <typename Look>
-  bool any_pair_in_first_half(const Look& look) const {
+  /// Like any_pair, split in two halves that may run in parallel.
+  template <typename Visitor>
+  bool any_pair_in_first_half(const Visitor& look) const {
     return !nodes_.empty() && within(nodes_.front().right == 0 ? 0 : 1, look);
   }
-  template <typename Look>
-  bool any_pair_in_the_rest(const Look& look) const {
+  template <typename Visitor>
+  bool any_pair_in_the_rest(const Visitor& look) const {
     if (nodes_.empty() || nodes_.front().right == 0) return false;
     const std::uint32_t right = nodes_.front().right;
     return within(right, look) || between(1, right, look);
@@ -44,20 +44,20 @@ class BoxTree {
  private:
   struct Node {
     Box3 box;
-    std::uint32_t first = 0, last = 0;  ///< of items_, a leaf's
+    std::uint32_t first = 0, last = 0;  ///< range in items_, for a leaf
     std::uint32_t right = 0;            ///< the left child is the next node; 0: a leaf
   };
-  /// A box that is being put into its place among the others.
-  struct Sorted {
-    std::array<double, 3> middle;  ///< twice
+  /// A box during sorting.
+  struct SortedBox {
+    std::array<double, 3> middle;  ///< twice the centre
     std::uint32_t box;
   };
 
-  static std::size_t widest_axis(const Sorted* first, const Sorted* last);
-  void add_node(std::vector<Sorted>& sorted, std::uint32_t first, std::uint32_t last);
+  static std::size_t widest_axis(const SortedBox* first, const SortedBox* last);
+  void add_node(std::vector<SortedBox>& sorted, std::uint32_t first, std::uint32_t last);
 
-  template <typename Look>
-  bool within(std::uint32_t node, const Look& look) const {
+  template <typename Visitor>
+  bool within(std::uint32_t node, const Visitor& look) const {
     const Node& here = nodes_[node];
     if (here.right != 0)
       return within(node + 1, look) || within(here.right, look) || between(node + 1, here.right, look);
@@ -69,8 +69,8 @@ class BoxTree {
     return false;
   }
 
-  template <typename Look>
-  bool between(std::uint32_t a, std::uint32_t b, const Look& look) const {
+  template <typename Visitor>
+  bool between(std::uint32_t a, std::uint32_t b, const Visitor& look) const {
     const Node &p = nodes_[a], &q = nodes_[b];
     if (!overlap(p.box, q.box)) return false;
     if (p.right != 0 && (q.right == 0 || p.last - p.first >= q.last - q.first))

@@ -14,24 +14,24 @@
 namespace fusee {
 namespace {
 
-// Lines across a patch stand this far apart, at most: finer than any step that matters. A patch of less than 8 mm gets
-// k_lines of them.
+// Largest spacing of lines across a patch, finer than any relevant step. A patch of less than 8 mm gets k_lines of
+// them.
 constexpr double k_widest_spacing = 0.1;
 constexpr double k_narrowest_spacing = 0.02;
 constexpr double k_lines = 400;
-// Points on a free rim: a rim bends little within that, and every corner is looked at besides.
+// Spacing of points on a free rim. A rim bends little within it, and every corner is sampled in addition.
 constexpr double k_rim_spacing = 0.25;
-// A ceiling is one bridge where it is printed in one layer: the usual layer of a 0.4 mm nozzle. A vault that rises
-// higher is steps, layer by layer.
+// Height within which a ceiling is printed in one layer and is therefore one bridge: the usual layer of a 0.4 mm
+// nozzle. A higher vault consists of steps, layer by layer.
 constexpr double k_usual_layer = 0.2;
-// Directions tried: even ones, and along and across the longest edges.
+// Directions tried: evenly spaced ones, and along and across the longest edges.
 constexpr int k_even_directions = 12;
 constexpr std::size_t k_edge_directions = 6;
 constexpr double k_same_direction = radians(1);
-// Along a chord, to learn whether it needs to be a bridge: no more than this many points.
+// Largest number of points sampled along a chord to decide whether it needs a bridge.
 constexpr int k_points_of_chord = 32;
 
-// The plan turned so that the direction runs along x.
+// The plan rotated so that the direction runs along x.
 struct Frame {
   Vec2 along, across;
 
@@ -40,12 +40,12 @@ struct Frame {
   Vec2 back(double at, double line) const { return at * along + line * across; }
 };
 
-// Where a line along the direction runs below a patch, from edge to edge.
+// The section of a line below a patch, from edge to edge.
 struct Chord {
   long line = 0;
   double from = 0, to = 0;
-  double low = 0, high = 0;  // of the ceiling above it
-  bool held = false;         // at both ends
+  double low = 0, high = 0;  // heights of the ceiling above it
+  bool held = false;         // supported at both ends
 
   double length() const { return to - from; }
   double height() const { return 0.5 * (low + high); }
@@ -53,12 +53,12 @@ struct Chord {
 
 struct RimPoint {
   Vec3 at;
-  double from_edge = 0;  // to the nearest held edge
+  double from_edge = 0;  // distance to the nearest supported edge
 };
 
-double extent_of(const HangingPatch& patch) {
+double extent_of(const OverhangPatch& patch) {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const HangingFacet& facet : patch.facets) {
+  for (const OverhangFacet& facet : patch.facets) {
     for (const Vec3& corner : facet.corners) {
       low = low.cwiseMin(corner.head<2>());
       high = high.cwiseMax(corner.head<2>());
@@ -68,25 +68,25 @@ double extent_of(const HangingPatch& patch) {
 }
 
 template <typename Visit>
-void for_each_side(const HangingPatch& patch, Beyond beyond, const Visit& visit) {
-  for (const HangingFacet& facet : patch.facets) {
+void for_each_side(const OverhangPatch& patch, EdgeSupport beyond, const Visit& visit) {
+  for (const OverhangFacet& facet : patch.facets) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (facet.beyond[k] == beyond) visit(facet.corners[k], facet.corners[(k + 1) % 3]);
     }
   }
 }
 
-std::vector<Polygon> held_edges(const HangingPatch& patch) {
+std::vector<Polygon> held_edges(const OverhangPatch& patch) {
   std::vector<Polygon> edges;
-  for_each_side(patch, Beyond::held, [&](const Vec3& a, const Vec3& b) {
+  for_each_side(patch, EdgeSupport::held, [&](const Vec3& a, const Vec3& b) {
     edges.push_back({a.head<2>(), b.head<2>()});
   });
   return edges;
 }
 
-std::vector<RimPoint> free_rim(const HangingPatch& patch, const NearestSegment& held) {
+std::vector<RimPoint> free_rim(const OverhangPatch& patch, const NearestSegment& held) {
   std::vector<RimPoint> rim;
-  for_each_side(patch, Beyond::free, [&](const Vec3& a, const Vec3& b) {
+  for_each_side(patch, EdgeSupport::free, [&](const Vec3& a, const Vec3& b) {
     const int parts = 1 + static_cast<int>((b - a).head<2>().norm() / k_rim_spacing);
     for (int i = 0; i < parts; ++i) {
       const Vec3 at = a + (b - a) * (static_cast<double>(i) / parts);
@@ -96,8 +96,9 @@ std::vector<RimPoint> free_rim(const HangingPatch& patch, const NearestSegment& 
   return rim;
 }
 
-std::vector<double> directions_of(const HangingPatch& patch) {
-  std::map<int, std::pair<double, double>> bins;  // by direction: length of edges, and their direction weighted by it
+std::vector<double> directions_of(const OverhangPatch& patch) {
+  // By direction: total length of edges, and their direction weighted by length
+  std::map<int, std::pair<double, double>> bins;
   const auto add = [&bins](const Vec3& a, const Vec3& b) {
     const Vec2 edge = (b - a).head<2>();
     double direction = std::atan2(edge.y(), edge.x());
@@ -106,8 +107,8 @@ std::vector<double> directions_of(const HangingPatch& patch) {
     length += edge.norm();
     sum += edge.norm() * direction;
   };
-  for_each_side(patch, Beyond::held, add);
-  for_each_side(patch, Beyond::free, add);
+  for_each_side(patch, EdgeSupport::held, add);
+  for_each_side(patch, EdgeSupport::free, add);
   std::vector<std::pair<double, double>> longest;
   for (const auto& [bin, edges] : bins) {
     if (edges.first > 0) longest.emplace_back(edges.first, edges.second / edges.first);
@@ -123,13 +124,13 @@ std::vector<double> directions_of(const HangingPatch& patch) {
   return directions;
 }
 
-// Walks each line through the patch, from facet to facet: a patch may have holes, and may lie above itself. A corner on
-// a line counts as above it.
+// Follows each line through the patch, from facet to facet, because a patch may have holes and may lie above itself. A
+// corner on a line counts as above it.
 class Chords {
  public:
-  Chords(const HangingPatch& patch, const Frame& frame, double spacing) : patch_(patch), spacing_(spacing) {
+  Chords(const OverhangPatch& patch, const Frame& frame, double spacing) : patch_(patch), spacing_(spacing) {
     plan_.reserve(patch.facets.size());
-    for (const HangingFacet& facet : patch.facets) {
+    for (const OverhangFacet& facet : patch.facets) {
       plan_.push_back({frame(facet.corners[0]), frame(facet.corners[1]), frame(facet.corners[2])});
     }
   }
@@ -138,8 +139,8 @@ class Chords {
     std::vector<Chord> chords;
     for (std::uint32_t f = 0; f < plan_.size(); ++f) {
       for (std::size_t k = 0; k < 3; ++k) {
-        if (patch_.facets[f].beyond[k] == Beyond::patch) continue;
-        // The facet looks down: where its side rises across the lines, it lies further along them.
+        if (patch_.facets[f].beyond[k] == EdgeSupport::patch) continue;
+        // The facet faces down: at a side that rises across the lines, the lines enter the facet.
         const double from = plan_[f][k].y(), to = plan_[f][(k + 1) % 3].y();
         for (long line = static_cast<long>(std::floor(from / spacing_)); line * spacing_ <= to; ++line) {
           if (line * spacing_ > from) chords.push_back(walk(f, k, line));
@@ -154,7 +155,7 @@ class Chords {
  private:
   bool above(std::uint32_t f, std::size_t k, long line) const { return plan_[f][k % 3].y() >= line * spacing_; }
 
-  // Place along the line and height where it crosses a side.
+  // Place along the line, and height, of its crossing with a side.
   Vec2 crossing(std::uint32_t f, std::size_t k, long line) const {
     const Vec2 &a = plan_[f][k], &b = plan_[f][(k + 1) % 3];
     const double share = (line * spacing_ - a.y()) / (b.y() - a.y());
@@ -164,7 +165,7 @@ class Chords {
 
   Chord walk(std::uint32_t f, std::size_t k, long line) const {
     const Vec2 start = crossing(f, k, line);
-    Chord chord{line, start.x(), start.x(), start.y(), start.y(), patch_.facets[f].beyond[k] == Beyond::held};
+    Chord chord{line, start.x(), start.x(), start.y(), start.y(), patch_.facets[f].beyond[k] == EdgeSupport::held};
     while (true) {
       std::size_t out = 0;
       while (!(above(f, out, line) && !above(f, out + 1, line))) ++out;
@@ -172,23 +173,23 @@ class Chords {
       chord.to = at.x();
       chord.low = std::min(chord.low, at.y());
       chord.high = std::max(chord.high, at.y());
-      const HangingFacet& facet = patch_.facets[f];
-      if (facet.beyond[out] != Beyond::patch) {
-        chord.held = chord.held && facet.beyond[out] == Beyond::held;
+      const OverhangFacet& facet = patch_.facets[f];
+      if (facet.beyond[out] != EdgeSupport::patch) {
+        chord.held = chord.held && facet.beyond[out] == EdgeSupport::held;
         return chord;
       }
       f = facet.neighbour[out];
     }
   }
 
-  const HangingPatch& patch_;
+  const OverhangPatch& patch_;
   double spacing_;
   std::vector<std::array<Vec2, 3>> plan_;
 };
 
 class Ceiling {
  public:
-  Ceiling(const HangingPatch& patch, const PrintLimits& limits)
+  Ceiling(const OverhangPatch& patch, const PrintLimits& limits)
       : patch_(patch),
         limits_(limits),
         extent_(extent_of(patch)),
@@ -196,11 +197,11 @@ class Ceiling {
         held_(held_edges(patch)),
         rim_(free_rim(patch, held_)) {}
 
-  Reach best() const {
+  SupportGaps best() const {
     if (held_edges(patch_).empty()) return {0, Vec3::Zero(), extent_, patch_.flattest_at};
-    std::optional<Reach> best;
+    std::optional<SupportGaps> best;
     for (const double direction : directions_of(patch_)) {
-      const Reach reach = along(Frame(direction));
+      const SupportGaps reach = along(Frame(direction));
       if (!best || badness(reach) < badness(*best)) best = reach;
       if (best->bridge == 0 && best->step <= limits_.step) break;
     }
@@ -208,13 +209,13 @@ class Ceiling {
   }
 
  private:
-  double badness(const Reach& reach) const {
+  double badness(const SupportGaps& reach) const {
     return std::max(reach.bridge / std::max(limits_.bridge, k_narrowest_spacing),
                     reach.step / std::max(limits_.step, k_narrowest_spacing));
   }
 
-  Reach along(const Frame& frame) const {
-    Reach reach;
+  SupportGaps along(const Frame& frame) const {
+    SupportGaps reach;
     std::vector<Chord> bridges;
     for (const Chord& chord : Chords(patch_, frame, spacing_).all()) {
       if (!chord.held) continue;
@@ -224,8 +225,8 @@ class Ceiling {
         look_at_vault(reach, frame, chord);
       }
     }
-    for (const Chord& chord : bridges) look_at_bridge(reach, frame, chord);
-    // What carries a rim is a bridge: one that may be, or that was counted.
+    for (const Chord& chord : bridges) check_bridge(reach, frame, chord);
+    // A rim is supported by bridges: those within the limit, or those that were reported.
     const double longest = std::max(reach.bridge, limits_.bridge);
     bridges.erase(std::remove_if(bridges.begin(), bridges.end(),
                                  [longest](const Chord& chord) { return chord.length() > longest; }),
@@ -239,7 +240,7 @@ class Ceiling {
     return {plan.x(), plan.y(), chord.height()};
   }
 
-  // The point of a chord that is furthest from all edges that hold.
+  // The point of a chord that is furthest from all supported edges.
   std::pair<double, Vec3> furthest(const Frame& frame, const Chord& chord) const {
     const int parts = std::clamp(2 * static_cast<int>(chord.length() / k_widest_spacing), 2, k_points_of_chord);
     std::pair<double, Vec3> found{0, on(frame, chord, 0)};
@@ -251,21 +252,21 @@ class Ceiling {
     return found;
   }
 
-  void look_at_vault(Reach& reach, const Frame& frame, const Chord& chord) const {
+  void look_at_vault(SupportGaps& reach, const Frame& frame, const Chord& chord) const {
     if (0.5 * chord.length() <= reach.step) return;
     const auto [distance, at] = furthest(frame, chord);
     if (distance > reach.step) std::tie(reach.step, reach.step_at) = std::pair(distance, at);
   }
 
-  // What is everywhere within a step of its edges needs no bridge.
-  void look_at_bridge(Reach& reach, const Frame& frame, const Chord& chord) const {
+  // A chord everywhere within a step of its edges needs no bridge.
+  void check_bridge(SupportGaps& reach, const Frame& frame, const Chord& chord) const {
     if (chord.length() <= std::max(reach.bridge, 2 * limits_.step)) return;
     if (furthest(frame, chord).first <= limits_.step) return;
     reach.bridge = chord.length();
     reach.bridge_at = on(frame, chord, 0.5);
   }
 
-  void look_at_rim(Reach& reach, const Frame& frame, const std::vector<Chord>& bridges) const {
+  void look_at_rim(SupportGaps& reach, const Frame& frame, const std::vector<Chord>& bridges) const {
     for (const RimPoint& point : rim_) {
       if (point.from_edge <= reach.step) continue;
       const double distance = to_bridges(bridges, frame(point.at), point.from_edge);
@@ -273,7 +274,7 @@ class Ceiling {
     }
   }
 
-  // No more than `least`. Between two lines that both are bridges there is one too.
+  // Returns at most `least`. Between two adjacent lines that are both bridges there is a bridge too.
   double to_bridges(const std::vector<Chord>& bridges, const Vec2& point, double least) const {
     const auto first =
         std::lower_bound(bridges.begin(), bridges.end(), (point.y() - least) / spacing_ - 1,
@@ -287,7 +288,7 @@ class Ceiling {
     return least;
   }
 
-  const HangingPatch& patch_;
+  const OverhangPatch& patch_;
   const PrintLimits& limits_;
   double extent_;
   double spacing_;
@@ -297,6 +298,8 @@ class Ceiling {
 
 }  // namespace
 
-Reach reach_of(const HangingPatch& patch, const PrintLimits& limits) { return Ceiling(patch, limits).best(); }
+SupportGaps support_gaps_of(const OverhangPatch& patch, const PrintLimits& limits) {
+  return Ceiling(patch, limits).best();
+}
 
 }  // namespace fusee

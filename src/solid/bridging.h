@@ -1,23 +1,22 @@
 /// \file
-/// How well a ceiling that hangs too flatly can be printed over air: bridges along one direction, and what stands out
-/// beyond them. mm.
+/// Internal: support of too flat ceilings over air, by bridges along one direction and by overhangs beyond them. mm.
 #pragma once
 
 #include "fusee/solid/print.h"
-#include "solid/hanging.h"
+#include "solid/overhangs.h"
 
 namespace fusee {
 
-struct Reach {
-  double bridge = 0;  ///< longest span, both ends held; 0: none is needed
+struct SupportGaps {
+  double bridge = 0;  ///< longest span supported at both ends; 0: none required
   Vec3 bridge_at = Vec3::Zero();
-  double step = 0;  ///< furthest from what holds it: a held edge or a bridge
+  double step = 0;  ///< longest distance from a supported edge or a bridge
   Vec3 step_at = Vec3::Zero();
 
   bool within(const PrintLimits& limits) const { return bridge <= limits.bridge && step <= limits.step; }
 };
 
-/// Along the direction that suits the patch best, as a slicer chooses it.
-Reach reach_of(const HangingPatch& patch, const PrintLimits& limits);
+/// Uses the most favourable direction of the patch, as a slicer does.
+SupportGaps support_gaps_of(const OverhangPatch& patch, const PrintLimits& limits);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// Flat faces: a polygon with holes as triangles.
+/// Internal: flat faces as triangles of a polygon with holes.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace fusee {
 
-/// Constrained Delaunay triangles, counter-clockwise, of the region inside loops[0] and outside the others (which lie
-/// in it and are disjoint; the sense in which a loop runs does not matter). Indices count through all loops' points in
-/// order. No point is added.
+/// Constrained Delaunay triangulation, counter-clockwise, of the region inside loops[0] and outside the other loops.
+/// These lie in loops[0] and are disjoint; their orientation does not matter. Indices count through all loops' points
+/// in order. No point is added.
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Polygon>& loops,
                                                       const std::vector<Vec2>& inner = {});
 

@@ -31,13 +31,13 @@ void insert_loop(Triangulation& triangulation, const Polygon& loop, std::uint32_
     handle->info() = first + static_cast<std::uint32_t>(i);
     handles.push_back(handle);
   }
-  // Before they are joined: a constraint from a point to itself is one step too far for CGAL.
+  // Checked before constraints are inserted: CGAL fails on a constraint from a point to itself.
   demand(triangulation.number_of_vertices() == first + loop.size(), "a flat face has coinciding corners");
   for (std::size_t i = 0; i < handles.size(); ++i)
     triangulation.insert_constraint(handles[i], handles[(i + 1) % handles.size()]);
 }
 
-// Flood from outside: crossing a constraint changes sides.
+// Flood fill from outside: crossing a constraint changes sides.
 void mark_inside(Triangulation& triangulation) {
   std::vector<Triangulation::Face_handle> front{triangulation.infinite_face()};
   triangulation.infinite_face()->info().seen = true;

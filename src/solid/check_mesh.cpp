@@ -12,12 +12,12 @@
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "fusee/solid/mesh.h"
-#include "solid/dealt_by_vertex.h"
 #include "solid/disjoint_sets.h"
 #include "solid/faulty_facets.h"
 #include "solid/place.h"
 #include "solid/self_intersection.h"
 #include "solid/solid_angle.h"
+#include "solid/sorted_by_vertex.h"
 
 namespace fusee {
 namespace {
@@ -29,7 +29,7 @@ std::string facet_at(const ExaminedSurface& surface, std::size_t facet) {
          place_of((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0);
 }
 
-// How many facets are faulty, and which is the first.
+// Number of faulty facets, and the first of them.
 struct Tally {
   std::size_t count = 0;
   std::size_t first = 0;
@@ -50,11 +50,11 @@ Check none_of(const ExaminedSurface& surface, std::string name, const std::vecto
                  facets.empty() ? std::string() : facet_at(surface, facets.front()));
 }
 
-Check not_looked_at(std::string name, const std::string& reason) {
-  return {std::move(name), 0, 0, "1", false, "not looked at: " + reason};
+Check not_checked(std::string name, const std::string& reason) {
+  return {std::move(name), 0, 0, "1", false, "not checked: " + reason};
 }
 
-// Each side of each facet, those of one edge together.
+// The sides of all facets, sorted by edge.
 struct EdgeSide {
   std::uint32_t low = 0, high = 0;
   std::uint32_t facet = 0;
@@ -70,7 +70,7 @@ std::vector<EdgeSide> edge_sides(const TriangleMesh& mesh) {
       sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(f), a < b});
     }
   }
-  return dealt_by_vertex(
+  return sorted_by_vertex(
       sides, mesh.vertices.size(), [](const EdgeSide& side) { return side.low; },
       [](const EdgeSide& s, const EdgeSide& t) {
         return std::tie(s.high, s.facet, s.upward) < std::tie(t.high, t.facet, t.upward);
@@ -96,8 +96,8 @@ std::size_t corner_of(const TriangleMesh& mesh, std::size_t facet, std::uint32_t
   return 3 * facet + static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), vertex) - triangle.begin());
 }
 
-// A vertex is pinched when the facets round it fall into groups that share no edge there. At the corners of a hole they
-// do so because of the hole, which has a check of its own.
+// A vertex is pinched if the facets around it form groups without a common edge there. The corners of a hole form such
+// groups too, but the hole has its own check.
 Tally pinched_vertices(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides) {
   DisjointSets corners(3 * mesh.triangles.size());
   std::vector<bool> at_hole(mesh.vertices.size(), false);
@@ -139,7 +139,7 @@ struct Part {
   std::vector<std::size_t> facets;
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = -low;
-  Vec3 extreme = Vec3::Zero();  // its vertex of largest x: outside of it, as near as can be
+  Vec3 extreme = Vec3::Zero();  // its vertex of largest x, which cannot lie inside it
   double volume = 0;
 };
 
@@ -175,7 +175,7 @@ std::vector<Part> parts_of(const TriangleMesh& mesh, const std::vector<EdgeSide>
   return parts;
 }
 
-// How often a part's surface goes round `point`: the sum of its facets' solid angles over 4π.
+// Winding number of a part's surface about `point`: the sum of its facets' solid angles over 4π.
 double winding_number(const TriangleMesh& mesh, const Part& part, const Vec3& point) {
   double angle = 0;
   for (const std::size_t f : part.facets) {
@@ -185,11 +185,11 @@ double winding_number(const TriangleMesh& mesh, const Part& part, const Vec3& po
   return angle / (2.0 * k_two_pi);
 }
 
-// A part must enclose volume where it stands outside of the others, and be a cavity where it stands inside one.
+// A part outside the others must enclose positive volume, a part inside another must be a cavity.
 Check outward_check(const ExaminedSurface& surface, const std::vector<EdgeSide>& sides) {
   const TriangleMesh& mesh = surface.mesh;
   const std::vector<Part> parts = parts_of(mesh, sides);
-  // Nested parts by the thousand are nobody's pulley.
+  // Bound for files with thousands of nested parts.
   std::size_t facets_left = 200'000'000;
   Tally inverted;
   for (const Part& part : parts) {
@@ -198,8 +198,7 @@ Check outward_check(const ExaminedSurface& surface, const std::vector<EdgeSide>&
       const bool may_contain = &other != &part && (part.extreme.array() > other.low.array()).all() &&
                                (part.extreme.array() < other.high.array()).all();
       if (!may_contain) continue;
-      if (other.facets.size() > facets_left)
-        return not_looked_at("inverted_parts", "too many parts within one another");
+      if (other.facets.size() > facets_left) return not_checked("inverted_parts", "too many nested parts");
       facets_left -= other.facets.size();
       around += winding_number(mesh, other, part.extreme);
     }
@@ -209,12 +208,12 @@ Check outward_check(const ExaminedSurface& surface, const std::vector<EdgeSide>&
   return none_of(surface, "inverted_parts", inverted);
 }
 
-// Of fewer facets a search for crossings is over before a thread has begun.
+// With fewer facets, a search for crossings ends before a thread would have started.
 constexpr std::size_t k_worth_a_thread = 2000;
 
 Check crossing_check(const ExaminedSurface& surface) {
   const CrossingSearch search = find_crossing(surface.mesh);
-  if (search.gave_up) return not_looked_at("self_intersections", "too many facets lie on top of one another");
+  if (search.gave_up) return not_checked("self_intersections", "too many overlapping facets");
   if (!search.facets) return exactly("self_intersections", 0, 0, "1");
   const auto [f, g] = *search.facets;
   return exactly("self_intersections", 1, 0, "1",
@@ -239,7 +238,7 @@ Check indices_check(const TriangleMesh& mesh) {
     if (*std::max_element(triangle.begin(), triangle.end()) >= mesh.vertices.size()) bad.add(f);
   }
   return exactly("indices_out_of_range", static_cast<double>(bad.count), 0, "1",
-                 "facet " + std::to_string(bad.first) + " names a vertex that is not there");
+                 "facet " + std::to_string(bad.first) + " refers to a vertex that does not exist");
 }
 
 Check finite_check(const TriangleMesh& mesh) {
@@ -250,7 +249,8 @@ Check finite_check(const TriangleMesh& mesh) {
                  "vertex " + std::to_string(bad - mesh.vertices.begin()));
 }
 
-// Is it a closed surface that faces outward? Without an inside nothing faces outward: then that is not asked.
+// Checks that the surface is closed and faces outward. The orientation of an open surface is not checked, because it
+// has no inside.
 void add_surface_checks(const ExaminedSurface& surface, std::vector<Check>& checks) {
   const std::vector<EdgeSide> sides = edge_sides(surface.mesh);
   const Topology topology = topology_of(surface.mesh, sides);
@@ -271,7 +271,7 @@ std::vector<Check> check_mesh(const TriangleMesh& mesh) {
   const FaultyFacets faulty = find_faulty_facets(welded.mesh);
   checks.push_back(none_of(welded, "degenerate_facets", faulty.degenerate));
   checks.push_back(none_of(welded, "duplicate_facets", faulty.duplicate));
-  // Equal facets in a heap would cost the search for crossings the square of their number.
+  // Equal facets would make the search for crossings quadratic in their number.
   const ExaminedSurface others = faulty.none() ? ExaminedSurface() : without_faulty_facets(welded.mesh, faulty);
   const ExaminedSurface& examined = faulty.none() ? welded : others;
   auto crossings = beside([&examined] { return crossing_check(examined); }, mesh.triangles.size() > k_worth_a_thread);

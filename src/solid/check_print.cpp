@@ -7,18 +7,19 @@
 #include "fusee/base/text.h"
 #include "fusee/solid/print.h"
 #include "solid/bridging.h"
-#include "solid/hanging.h"
 #include "solid/nearest_float.h"
+#include "solid/overhangs.h"
 #include "solid/place.h"
 
 namespace fusee {
 namespace {
 
-// Why the usual limits are what they are. A line of plastic is about 0.45 mm wide and stands safely on half of the line
-// below: at layers of 0.2 mm that is 45°, and the word of every slicer. The same half line is the step. Bridges sag
-// from about 5 mm on. The first layer is up to 0.3 mm thick and is pressed onto the bed.
+// Reasons for the usual limits. A line of plastic is about 0.45 mm wide and is safe on half of the line below: at
+// layers of 0.2 mm that is 45°, the rule of every slicer. The step is the same half line. Bridges sag above about 5 mm.
+// The first layer is up to 0.3 mm thick and is pressed onto the bed.
 //
-// A face drawn at exactly the limit comes back as floats, and its facets cut the curve's corners: far less than this.
+// A face drawn exactly at the limit is rounded to floats, and its facets cut the curve's corners. Both effects are much
+// smaller than this tolerance.
 constexpr double k_slope_tolerance = radians(0.1);
 
 PrintLimits with_tolerances(PrintLimits limits) {
@@ -28,8 +29,8 @@ PrintLimits with_tolerances(PrintLimits limits) {
   return limits;
 }
 
-// The worst of many, and how much is like it.
-struct Worst {
+// The worst of many values, and the extent of all that exceed the limit.
+struct WorstPlace {
   double value = 0;
   Vec3 at = Vec3::Zero();
   int places = 0;
@@ -38,7 +39,7 @@ struct Worst {
   void look(double candidate, const Vec3& place) {
     if (candidate > value) std::tie(value, at) = std::pair(candidate, place);
   }
-  void count(const HangingPatch& patch) {
+  void count(const OverhangPatch& patch) {
     ++places;
     area += patch.area;
   }
@@ -63,16 +64,16 @@ Check island_check(const TriangleMesh& mesh, const PrintLimits& limits) {
 
 std::vector<Check> checks_within(const PrintLimits& limits, const TriangleMesh& mesh) {
   if (!measurable(mesh)) {
-    const std::string why = "not looked at: the mesh is no solid";
+    const std::string why = "not checked: the mesh is not a valid solid";
     return {{"overhang", 0, degrees(limits.overhang), "deg", false, why},
             {"unsupported_step", 0, limits.step, "mm", false, why},
             {"bridge", 0, limits.bridge, "mm", false, why},
             {"island", 0, 0, "1", false, why}};
   }
   const Overhangs overhangs = find_overhangs(mesh, limits.overhang, limits.first_layer);
-  Worst flatness{-overhangs.flattest_other, overhangs.flattest_other_at}, step, bridge;
-  for (const HangingPatch& patch : overhangs.patches) {
-    const Reach reach = reach_of(patch, limits);
+  WorstPlace flatness{-overhangs.flattest_other, overhangs.flattest_other_at}, step, bridge;
+  for (const OverhangPatch& patch : overhangs.patches) {
+    const SupportGaps reach = support_gaps_of(patch, limits);
     step.look(reach.step, reach.step_at);
     bridge.look(reach.bridge, reach.bridge_at);
     if (reach.step > limits.step) step.count(patch);

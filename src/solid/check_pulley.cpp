@@ -15,14 +15,14 @@
 namespace fusee {
 namespace {
 
-// The features' vertices are rounded too: far below any feature, far above the rounding.
+// Relative tolerance of the volume: much smaller than any feature, much larger than the rounding of vertices.
 constexpr double k_volume_tolerance = 1e-6;
-// The groove is measured this far from what was cut into it, mm: a tool's facets lie within it of the plan's outline.
+// Distance kept from cut features while measuring the groove, mm. A tool's facets lie within it of the plan's outline.
 constexpr double k_beside = 0.1;
 
 std::string place_in_plan(const Vec2& point) { return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ") mm"; }
 
-// Measures one groove on the sections of a mesh, in the pulley's own mm (the mesh's scale is taken out).
+// Measures one groove on sections of a mesh, in the pulley's own mm (without the mesh's scale).
 class GrooveGauge {
  public:
   GrooveGauge(const TriangleMesh& mesh, const Mechanism& mechanism, const Outline& outline, const Pulley& pulley)
@@ -65,20 +65,21 @@ class GrooveGauge {
     return loops;
   }
 
-  // At a channel's mouth there is no floor to measure.
-  bool at_a_mouth(const Vec2& point, double margin = k_beside) const {
+  // A channel entry has no floor to measure.
+  bool is_at_entry(const Vec2& point, double margin = k_beside) const {
     return std::any_of(pulley_.anchors.begin(), pulley_.anchors.end(), [&](const Anchor& anchor) {
       return anchor.side == outline_.side &&
-             (is_within(anchor.channel, point, margin) || is_within(anchor.mouth, point, margin));
+             (is_within(anchor.channel, point, margin) || is_within(anchor.entry, point, margin));
     });
   }
 
-  // Of this groove: the channel with its mouth, the knot's pocket, the tail's slot with its screw.
+  // True within a feature of this groove: the channel with its entry, the knot's pocket, the tail's slot with its
+  // screw.
   bool in_a_feature(const Vec2& point) const {
     const auto within = [&point](const Vec2& centre, double radius) {
       return (point - centre).norm() < radius + k_beside;
     };
-    return at_a_mouth(point) || std::any_of(pulley_.anchors.begin(), pulley_.anchors.end(), [&](const Anchor& anchor) {
+    return is_at_entry(point) || std::any_of(pulley_.anchors.begin(), pulley_.anchors.end(), [&](const Anchor& anchor) {
              if (anchor.side != outline_.side) return false;
              if (within(anchor.pocket, pocket_radius(anchor, layout_))) return true;
              return anchor.tail && (is_within(anchor.tail->outline(), point, k_beside) ||
@@ -86,7 +87,7 @@ class GrooveGauge {
            });
   }
 
-  // What is left of a loop where nothing was cut into it for a tie-off: lines.
+  // The parts of a loop outside tie-off features, as lines.
   std::vector<Polygon> beside_features(const Polygon& loop) const {
     std::vector<Polygon> lines;
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -96,7 +97,7 @@ class GrooveGauge {
     return lines;
   }
 
-  // Within `margin` of a closed outline, or in it.
+  // True within `margin` of a closed outline, or inside it.
   static bool is_within(const Polygon& outline, const Vec2& point, double margin) {
     return !outline.empty() && (is_inside(outline, point) || distance_to_edges(outline, point) < margin);
   }
@@ -105,23 +106,23 @@ class GrooveGauge {
     double value = 0;
     Vec2 where = Vec2::Zero();
     void look(double deviation, const Vec2& point) {
-      // A NaN is a deviation too.
+      // NaN counts as a deviation too.
       if (!(deviation <= value)) *this = {deviation, point};
     }
   };
 
-  // Between section and polygon of the analytic curve, both ways, plus the sagitta by which that polygon cuts the
-  // curve's arcs.
+  // Distance between the section and the polygon of the analytic curve, both ways, plus the sagitta of that polygon's
+  // chords.
   Deviation floor_deviation() const {
     Deviation worst;
     const NearestSegment to_floor({floor_}), to_section(outlines_);
     for (const Polygon& outline : outlines_) {
       for (const Vec2& point : outline) {
-        if (!at_a_mouth(point)) worst.look(to_floor.distance(point), point);
+        if (!is_at_entry(point)) worst.look(to_floor.distance(point), point);
       }
     }
     for (std::size_t i = 0; i < floor_.size(); ++i) {
-      if (outline_.is_active(i) || !at_a_mouth(floor_[i])) worst.look(to_section.distance(floor_[i]), floor_[i]);
+      if (outline_.is_active(i) || !is_at_entry(floor_[i])) worst.look(to_section.distance(floor_[i]), floor_[i]);
     }
     worst.value += largest_sagitta();
     return worst;
@@ -137,7 +138,7 @@ class GrooveGauge {
     return largest;
   }
 
-  // Holes of the section are the bore and its screws; the outline runs into the tie-offs too.
+  // The holes of the section are the bore and its screws. The outline includes the tie-offs.
   double thinnest_wall() const {
     if (holes_.empty()) return 0;
     double least = std::numeric_limits<double>::infinity();
@@ -152,7 +153,7 @@ class GrooveGauge {
   }
 
   double depth() const {
-    // Just past the lip, in the flange that is P1's or P2's alone.
+    // Slightly beyond the groove edge, in the flange that belongs to P1 or P2 only.
     const double past = 0.5 * std::min(0.2, layout_.flange_thickness);
     const std::vector<Polygon> flange =
         loops_at(left_ ? z() - layout_.p1.below_width() - past : z() + layout_.p2.above_width() + past);
@@ -160,14 +161,14 @@ class GrooveGauge {
     const NearestSegment to_flange(beside_features(outer_loop(flange)));
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < floor_.size(); ++i) {
-      if (outline_.is_active(i) && !at_a_mouth(floor_[i], layout_.groove_depth))
+      if (outline_.is_active(i) && !is_at_entry(floor_[i], layout_.groove_depth))
         least = std::min(least, to_flange.distance(floor_[i]));
     }
     return least;
   }
 
-  // Along an upright line half-way between two samples on the pitch curve: from the facet below the groove's plane to
-  // the one above.
+  // Width along a vertical line half-way between two samples on the pitch curve: from the facet below the groove's
+  // plane to the one above.
   double width() const {
     const std::size_t n = outline_.points.size(), i = (outline_.active_first + 1) % n;
     const Vec2 at = layout_.scale * 0.5 * (outline_.points[i].position + outline_.points[(i + 1) % n].position);
@@ -195,10 +196,10 @@ class GrooveGauge {
   std::vector<Polygon> holes_;
 };
 
-// Are indices, coordinates and edges so that anything else can be measured?
+// True if indices, coordinates and edges allow further measurements.
 bool is_measurable(const std::vector<Check>& checks) { return checks[0].ok && checks[1].ok && checks[2].ok; }
 
-// Facet by facet in the same place, whatever the numbers of the vertices.
+// True if all facets are at the same places, for any vertex numbering.
 bool is_same(const TriangleMesh& a, const TriangleMesh& b) {
   if (a.triangles.size() != b.triangles.size()) return false;
   for (std::size_t f = 0; f < a.triangles.size(); ++f) {
@@ -210,7 +211,7 @@ bool is_same(const TriangleMesh& a, const TriangleMesh& b) {
   return true;
 }
 
-// What was found of the mesh that was made holds of what was read back where that is the same.
+// If the mesh read back equals the mesh that was made, the checks of the latter apply.
 std::vector<Check> checks_of(const TriangleMesh& mesh, const TriangleMesh& made, const std::vector<Check>& of_made) {
   return !of_made.empty() && is_same(mesh, made) ? of_made : check_mesh(mesh);
 }
@@ -218,11 +219,11 @@ std::vector<Check> checks_of(const TriangleMesh& mesh, const TriangleMesh& made,
 std::vector<Check> check_body(const TriangleMesh& mesh, std::vector<Check> checks, int expected_euler,
                               double expected_volume) {
   if (!is_measurable(checks)) return checks;
-  checks.push_back(exactly("euler_number", euler_number(mesh), expected_euler, "1",
-                           "a hole is missing or closed, or there is one too many"));
+  checks.push_back(
+      exactly("euler_number", euler_number(mesh), expected_euler, "1", "a hole is missing, closed or surplus"));
   const double volume = enclosed_volume(mesh);
   checks.push_back(at_most("volume_deviation", std::abs(volume / expected_volume - 1.0), k_volume_tolerance, "1",
-                           fmt::format("{} mm³ in place of {} mm³", rounded(volume, 9), rounded(expected_volume, 9))));
+                           fmt::format("{} mm³ instead of {} mm³", rounded(volume, 9), rounded(expected_volume, 9))));
   return checks;
 }
 

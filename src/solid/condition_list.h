@@ -1,5 +1,5 @@
 /// \file
-/// Internal: conditions as they are looked at one after the other. mm
+/// Internal: a list of conditions with their limits. mm
 #pragma once
 
 #include <string>
@@ -33,13 +33,13 @@ class ConditionList {
   std::vector<Condition> taken() { return std::move(conditions_); }
 
  private:
-  // Numbers that people write down are rounded.
+  // Tolerance for numbers that a person rounded.
   static constexpr double k_grain = 1e-9;
 
   std::vector<Condition> conditions_;
 };
 
-/// What holes leave between them, or by how much they overlap.
+/// Text for the wall between two holes, or for their overlap.
 std::string wall_words(double wall);
 
 }  // namespace fusee

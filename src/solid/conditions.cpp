@@ -17,10 +17,10 @@
 namespace fusee {
 namespace {
 
-// Between a flange and a pin that must not touch: print tolerance and a pulley that runs out a little.
+// Clearance between a flange and a pin: print tolerance and run-out of the pulley.
 constexpr double k_pin_gap = 0.5;
 
-// Between the holes of a horn: half a line of a nozzle of 0.4 mm. Less is no web, and the holes run into one another.
+// Least web between the holes of a horn: half a line of a 0.4 mm nozzle. With less, the holes merge.
 constexpr double k_least_web = 0.2;
 
 class Conditions {
@@ -47,9 +47,9 @@ class Conditions {
     for (const AnchorRoom& room : rooms) add_anchor(room);
     add_channel();
     if (mechanism_.sheath.is_there()) {
-      // The pulley stands at the motor, and nothing but the mouths near it.
-      add_mouth(Side::left);
-      add_mouth(Side::right);
+      // The pulley is at the motor, and only the sheath exits are near it.
+      add_sheath_exit(Side::left);
+      add_sheath_exit(Side::right);
       return list_.taken();
     }
     add_pin("pin_clear_B", "B", {-mechanism_.guides.EB, mechanism_.pulley.EF}, "guides.EB_mm");
@@ -60,18 +60,19 @@ class Conditions {
   }
 
  private:
-  // What has rims says nothing about them.
+  // A plan with valid rims needs no condition for them.
   void add_rims() {
     if (rims_.outside) return;
     list_.add("flange_rims", 0, 0, false,
-              "the outlines are sampled too coarsely (--tolerance-mm) for a flange that stands out over the lips of "
-              "both grooves");
+              "the outlines are sampled too coarsely for a flange that projects over the edges of both grooves. Reduce "
+              "--tolerance-mm");
   }
 
   void add_groove() {
-    list_.add_least("groove_depth", layout_.groove_depth, d_,
-                    fmt::format("the groove is {} mm deep (body.groove_depth_mm) for a tendon of {} mm",
-                                rounded(layout_.groove_depth), rounded(d_)));
+    list_.add_least(
+        "groove_depth", layout_.groove_depth, d_,
+        fmt::format("the groove is {} mm deep (body.groove_depth_mm), less than the tendon's diameter of {} mm",
+                    rounded(layout_.groove_depth), rounded(d_)));
   }
 
   Polygon floor(const Outline& outline) const { return parallel(outline, -0.5 * d_); }
@@ -85,15 +86,17 @@ class Conditions {
     return least;
   }
 
-  // Of what is made and of what it is once printed: where holes come out larger the latter is what a drawing cuts.
+  // Checks the wall for the bore as drawn and as printed. Where holes come out larger, the drawing of the latter is
+  // cut.
   void add_bore_wall(const Outline& outline) {
     const Polygon ground = floor(outline);
     const Wall made = wall_to(ground, layout_.bore), printed = wall_to(ground, bore_of_shaft(mechanism_, layout_.bore));
     const Wall& wall = made.thickness <= printed.thickness ? made : printed;
-    list_.add_least(fmt::format("bore_wall_{}", pulley_name(outline.side)), wall.thickness, layout_.min_wall,
-                    fmt::format("the bore leaves {} to {}'s floor at {:.0f}°, it takes {} mm (body.min_wall_mm)",
-                                wall_words(wall.thickness), pulley_name(outline.side), degrees(wall.angle),
-                                rounded(layout_.min_wall, 3)));
+    list_.add_least(
+        fmt::format("bore_wall_{}", pulley_name(outline.side)), wall.thickness, layout_.min_wall,
+        fmt::format("the bore leaves {} to {}'s floor at {:.0f}°, at least {} mm is required (body.min_wall_mm)",
+                    wall_words(wall.thickness), pulley_name(outline.side), degrees(wall.angle),
+                    rounded(layout_.min_wall, 3)));
   }
 
   std::string horn_name() const { return body_.horn == k_own_horn ? "of [horn]" : body_.horn; }
@@ -101,21 +104,23 @@ class Conditions {
   void add_horn() {
     if (body_.bore != Bore::horn) return;
     const bool apart = layout_.parts == Parts::two;
-    const double depth = layout_.bore.horn_recess > 0 ? layout_.bore.horn_recess + layout_.bore.horn_roof : 0.0;
+    const double depth = layout_.bore.horn_recess > 0 ? layout_.bore.horn_recess + layout_.bore.horn_ceiling : 0.0;
     const double height = apart ? layout_.z_mate : layout_.z_hub;
-    list_.add_most("horn_recess", depth, height - layout_.min_wall,
-                   fmt::format("horn {}: {} takes a recess {} mm deep with its roof, {} {} mm high", horn_name(),
-                               layout_.bore.spline_teeth > 0 ? "the shaft (horn.spline_length_mm)"
-                                                             : "the boss (horn.boss_height_mm)",
-                               rounded(depth, 3), apart ? "P1 (print.parts) is" : "the pulley is", rounded(height, 3)));
+    list_.add_most(
+        "horn_recess", depth, height - layout_.min_wall,
+        fmt::format(
+            "horn {}: {} requires a recess {} mm deep including its ceiling, {} only {} mm high", horn_name(),
+            layout_.bore.spline_teeth > 0 ? "the shaft (horn.spline_length_mm)" : "the boss (horn.boss_height_mm)",
+            rounded(depth, 3), apart ? "P1 (print.parts) is" : "the pulley is", rounded(height, 3)));
     const Web web = thinnest_web();
     list_.add_least(
         "horn_holes", web.thickness, k_least_web,
-        fmt::format("horn {}: {} is left between {} (with material.hole_compensation_mm), it takes {} mm: {}",
-                    horn_name(), wall_words(web.thickness), web.between, k_least_web, web.change));
+        fmt::format(
+            "horn {}: {} remains between {} (with material.hole_compensation_mm), at least {} mm is required. Try {}",
+            horn_name(), wall_words(web.thickness), web.between, k_least_web, web.change));
   }
 
-  /// What is left between two holes of a horn, and what would leave more.
+  /// The web between two holes of a horn, and the change that would widen it.
   struct Web {
     double thickness = std::numeric_limits<double>::infinity();
     const char* between = "its holes";
@@ -142,7 +147,7 @@ class Conditions {
     };
     if (sunk) {
       take({distance_to_edges(bore.outline, Vec2::Zero()) - around(bore.screw_holes[0]).radius,
-            "what sinks in and the centre hole", "a smaller horn.centre_hole_mm leaves a shoulder"});
+            "the recess and the centre hole", "a smaller horn.centre_hole_mm, which leaves a shoulder"});
     }
     std::vector<Circle> bolts;
     for (std::size_t k = sunk ? 1 : 0; k < bore.screw_holes.size(); ++k) bolts.push_back(around(bore.screw_holes[k]));
@@ -160,12 +165,12 @@ class Conditions {
   }
 
   void add_anchor(const AnchorRoom& room) {
-    const std::string past =
-        body_.wrap > 0 ? fmt::format(", {} deg or more past the arc that the tendon leaves from (body.wrap_deg)",
-                                     rounded(degrees(body_.wrap)))
-                       : "";
+    const std::string past = body_.wrap > 0
+                                 ? fmt::format(", {} deg or more past the end of the active arc (body.wrap_deg)",
+                                               rounded(degrees(body_.wrap)))
+                                 : "";
     list_.add_least(fmt::format("anchor_{}", pulley_name(room.side)), 2.0 * room.room, 2.0 * room.least,
-                    fmt::format("{}'s tie-off has room for a knot pocket of {} mm, at least {} mm are needed "
+                    fmt::format("{}'s tie-off has space for a knot pocket of {} mm, at least {} mm is required "
                                 "(body.knot_pocket_mm) behind walls of {} mm (body.min_wall_mm){}",
                                 pulley_name(room.side), rounded(2.0 * room.room, 3), rounded(2.0 * room.least, 3),
                                 rounded(layout_.min_wall, 3), past));
@@ -173,10 +178,11 @@ class Conditions {
 
   void add_channel() {
     const double width = layout_.channel_width;
-    list_.add_least("channel_width", width, d_,
-                    fmt::format("the tie-off channels are {} mm wide (body.anchor_hole_mm) for a tendon of {} mm",
-                                rounded(width), rounded(d_)));
-    // On the side of the roof the flange is made as thick as it needs.
+    list_.add_least(
+        "channel_width", width, d_,
+        fmt::format("the tie-off channels are {} mm wide (body.anchor_hole_mm), too narrow for a tendon of {} mm",
+                    rounded(width), rounded(d_)));
+    // On the side of the ceiling the flange is made as thick as required.
     const bool apart = layout_.parts == Parts::two;
     const double left = (apart ? std::min(layout_.z_mate - layout_.z_p1, layout_.z_p2 - layout_.z_mate)
                                : std::min(layout_.z_p1, layout_.z_p2 - layout_.z_middle)) -
@@ -189,7 +195,7 @@ class Conditions {
                                       rounded(width)));
   }
 
-  /// Of all that comes past a thing as wide as it is seen from the axis.
+  /// Reach of the flanges within the angle that a disc subtends at the axis.
   double reach_within(const Vec2& centre, double radius) const {
     const double half = std::asin(std::min(1.0, radius / centre.norm()));
     double reach = 0;
@@ -197,7 +203,7 @@ class Conditions {
     return reach;
   }
 
-  // The pulley turns clockwise by α under the pin: in its own frame the pin goes round counter-clockwise.
+  // The pulley turns clockwise by α under the pin. In the pulley's frame the pin moves counter-clockwise.
   double reach_towards(const Vec2& pin) const {
     if (synthesis_.stroke.empty()) return 0;
     const double home = std::atan2(pin.y(), pin.x());
@@ -217,22 +223,22 @@ class Conditions {
   void add_pin(const char* condition_name, const char* pin_name, const Vec2& pin, const char* key) {
     const double clear = pin.norm() - mechanism_.guides.radius - reach_towards(pin);
     list_.add_least(condition_name, clear, k_pin_gap,
-                    fmt::format("pin {} ({}, pulley.EF_mm) {} mm {} the flanges, it takes {} mm beside them", pin_name,
-                                key, (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
+                    fmt::format("pin {} ({}, pulley.EF_mm) {} mm {} the flanges, at least {} mm clearance is required",
+                                pin_name, key, (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
                                 clear > 0 ? "of" : "inside", k_pin_gap));
   }
 
-  /// Of the mouth the file says where the tendon comes out of it: as much as the tendon itself is counted, and whatever
-  /// holds the sheath is its builder's.
-  void add_mouth(Side side) {
+  /// The file gives the sheath's exit as a point. The clearance allows for the tendon only, not for the part that holds
+  /// the sheath.
+  void add_sheath_exit(Side side) {
     const Sheath& sheath = mechanism_.sheath;
-    const Vec2 mouth(mirror_sign(side) * sheath.exit_across, sheath.exit_above);
-    const double clear = mouth.norm() - 0.5 * d_ - reach_towards(mouth);
+    const Vec2 exit(mirror_sign(side) * sheath.exit_across, sheath.exit_above);
+    const double clear = exit.norm() - 0.5 * d_ - reach_towards(exit);
     const char* number = side == Side::left ? "1" : "2";
     list_.add_least(
         fmt::format("mouth_clear_{}", number), clear, k_pin_gap,
-        fmt::format("the mouth of sheath {} (sheath.exit_across_mm, sheath.exit_above_mm) {} mm {} the flanges, "
-                    "it takes {} mm beside them",
+        fmt::format("the exit of sheath {} (sheath.exit_across_mm, sheath.exit_above_mm) {} mm {} the flanges, "
+                    "at least {} mm clearance is required",
                     number, (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
                     clear > 0 ? "of" : "inside", k_pin_gap));
   }
@@ -244,8 +250,8 @@ class Conditions {
     const double clear = drum.norm() - mechanism_.joint.drum_radius - reach_within(drum, mechanism_.joint.drum_radius);
     list_.add_least(
         "drum_clear", clear, k_pin_gap,
-        fmt::format("the drum (joint.drum_radius_mm, guides.OE_mm, pulley.EF_mm) {} mm {} the flanges, it takes {} mm "
-                    "beside them",
+        fmt::format("the drum (joint.drum_radius_mm, guides.OE_mm, pulley.EF_mm) {} mm {} the flanges, at least {} mm "
+                    "clearance is required",
                     (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
                     clear > 0 ? "of" : "inside", k_pin_gap));
   }
@@ -260,7 +266,7 @@ class Conditions {
 
 }  // namespace
 
-// A hole inside a convex outline comes nearest to it with one of its own corners.
+// A hole inside a convex outline is closest to it at one of its own corners.
 Wall wall_between(const Polygon& floor, const Polygon& hole) {
   Wall wall{std::numeric_limits<double>::infinity(), 0};
   for (const Vec2& corner : hole) {

@@ -8,14 +8,13 @@
 
 namespace fusee {
 
-/// Two surfaces cut along the line in which they meet: patches without such a line inside. A facet's vertices are its
-/// own.
+/// Two surfaces cut along their intersection line: patches that it does not cross. Facets do not share vertices.
 struct Corefined {
   std::vector<TriangleMesh> first, second;
 };
 
-/// By CGAL's corefinement, exact inside. Neither may cross itself; both may have borders. Null where one is no
-/// manifold.
+/// By CGAL's corefinement, with exact predicates. Both surfaces must not intersect themselves and may have borders.
+/// Empty where one is no manifold.
 std::optional<Corefined> corefined(const TriangleMesh& a, const TriangleMesh& b);
 
 }  // namespace fusee

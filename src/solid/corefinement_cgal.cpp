@@ -15,7 +15,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using IsCut = SurfaceMesh::Property_map<SurfaceMesh::Edge_index, bool>;
 
-// Null where a vertex or an edge is one of several sheets.
+// Empty where a vertex or an edge belongs to several sheets.
 std::optional<SurfaceMesh> surface_of(const TriangleMesh& mesh) {
   SurfaceMesh surface;
   surface.reserve(mesh.vertices.size(), 3 * mesh.triangles.size() / 2, mesh.triangles.size());
@@ -27,7 +27,7 @@ std::optional<SurfaceMesh> surface_of(const TriangleMesh& mesh) {
   return surface;
 }
 
-// Facets that hang together without crossing the line of the cut.
+// Groups of connected facets that the cut line does not separate.
 std::vector<std::vector<SurfaceMesh::Face_index>> patches_in(const SurfaceMesh& surface, const IsCut& is_cut) {
   std::vector<std::vector<SurfaceMesh::Face_index>> patches;
   std::vector<bool> seen(surface.num_faces(), false);
@@ -47,7 +47,7 @@ std::vector<std::vector<SurfaceMesh::Face_index>> patches_in(const SurfaceMesh& 
   return patches;
 }
 
-// Vertices are told apart by their place alone: each patch has its own.
+// Vertices are identified by position only: each patch has its own copies.
 std::vector<TriangleMesh> patches_of(const SurfaceMesh& surface, const IsCut& is_cut) {
   std::vector<TriangleMesh> meshes;
   for (const auto& patch : patches_in(surface, is_cut)) {
@@ -69,7 +69,7 @@ std::vector<TriangleMesh> patches_of(const SurfaceMesh& surface, const IsCut& is
 }  // namespace
 
 std::optional<Corefined> corefined(const TriangleMesh& a, const TriangleMesh& b) {
-  // CGAL's box search draws from its default generator: the same draws give the same order of vertices every time.
+  // CGAL's box search draws from its default generator. A fixed seed gives the same order of vertices every time.
   CGAL::get_default_random() = CGAL::Random(0);
   std::optional<SurfaceMesh> first = surface_of(a), second = surface_of(b);
   if (!first || !second) return std::nullopt;

@@ -5,8 +5,8 @@
 namespace fusee {
 namespace {
 
-// A point that stands out from its neighbours by less is no corner, mm: a turn tells nothing where edges are as short
-// as the grain of a float. The corners of a circle of 200 facets and 5 mm stand out by ten times this.
+// Least projection of a corner from the line between its neighbours, mm. Angles are meaningless for edges as short as a
+// float step. The corners of a circle of 200 facets and 5 mm project by ten times this.
 constexpr double k_straight = 1e-4;
 
 }  // namespace

@@ -1,13 +1,13 @@
 /// \file
-/// What of a hole's outline in a mesh was meant. mm.
+/// Internal: restores a hole's outline from a section of a mesh. mm.
 #pragma once
 
 #include "fusee/base/plane.h"
 
 namespace fusee {
 
-/// Its corners alone: triangles of a wall leave points along its straight lines, and slicing leaves two where one was.
-/// What stands out least from between its neighbours goes first; three are always left.
+/// Keeps the true corners only. Triangulation adds points along straight edges, and slicing may split one point in two.
+/// Points that project least from the line between their neighbours are removed first. At least three remain.
 Polygon corners_of(Polygon corners);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: things that belong together, and the first of each group.
+/// Internal: union-find. The root of a set is its first member.
 #pragma once
 
 #include <algorithm>

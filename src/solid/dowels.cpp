@@ -13,11 +13,11 @@
 namespace fusee {
 namespace {
 
-// Pins to try, from the one to be preferred.
+// Pin diameters to try, in order of preference.
 constexpr std::array<double, 4> k_pins{3.0, 2.5, 2.0, 1.5};
-// A pin that is held over less of its length than this locates nothing.
+// Least length over which a pin must be held to locate a part.
 constexpr double k_least_hold = 1.5;
-// What a hole leaves of the face above it.
+// Material between a hole and the face above it.
 constexpr double k_least_cover = 0.6;
 
 class DowelChooser {
@@ -43,14 +43,14 @@ class DowelChooser {
 
   DowelLayout choose() const {
     for (const double pin : k_pins) {
-      const double roof = layout_.roof_slope > 0 ? rise_of(layout_, 0.5 * (pin + compensation_)) : 0.0;
-      // Clear of P2's tie-offs too, or ending below them.
-      const double deep = std::min(layout_.z_p2 + layout_.p2.above_width(), layout_.z_top - k_least_cover - roof);
-      const double shallow = layout_.z_p2 - 0.5 * layout_.channel_width - layout_.min_wall - roof;
+      const double ceiling = layout_.ceiling_slope > 0 ? rise_of(layout_, 0.5 * (pin + compensation_)) : 0.0;
+      // Clear of P2's tie-offs as well, or ending below them.
+      const double deep = std::min(layout_.z_p2 + layout_.p2.above_width(), layout_.z_top - k_least_cover - ceiling);
+      const double shallow = layout_.z_p2 - 0.5 * layout_.channel_width - layout_.min_wall - ceiling;
       for (const auto& [z_end, obstacles] : {std::pair{deep, &in_both_}, std::pair{shallow, &in_p1_}}) {
         if (z_end - layout_.z_mate < k_least_hold) continue;
         if (const auto places = places_for(pin, *obstacles))
-          return {{places->first, places->second}, pin + compensation_, pin, z_end, roof};
+          return {{places->first, places->second}, pin + compensation_, pin, z_end, ceiling};
       }
     }
     return {};
@@ -58,7 +58,7 @@ class DowelChooser {
 
  private:
   std::optional<std::pair<Vec2, Vec2>> places_for(double pin, const std::vector<Bar>& obstacles) const {
-    // To the hole's corners.
+    // Radius to the hole's corners.
     const double radius = circumradius(polyhole(pin + compensation_, Vec2::Zero())), room = radius + layout_.min_wall;
     return pin_places(reach_, 2.0 * radius, layout_.min_wall, [&](const Vec2& place) {
       return std::all_of(obstacles.begin(), obstacles.end(),
@@ -111,7 +111,7 @@ DowelLayout choose_dowels(const Mechanism& mechanism, const BodyPlan& plan) {
   return DowelChooser(mechanism, plan).choose();
 }
 
-// A blind hole ends in a cone; a flat ceiling that small is not always taken for a bridge.
+// A blind hole ends in a cone. Slicers do not always treat such a small flat ceiling as a bridge.
 TriangleMesh dowel_tool(const DowelLayout& dowels, const Vec2& place) {
   constexpr double k_tip = 0.05;
   const Polygon hole = polyhole(dowels.hole_diameter, Vec2::Zero());
@@ -120,8 +120,8 @@ TriangleMesh dowel_tool(const DowelLayout& dowels, const Vec2& place) {
     for (const Vec2& corner : hole) outline.emplace_back(place + share * corner);
     return at_height(outline, z);
   };
-  if (dowels.roof <= 0) return strip({ring(1, -k_overshoot), ring(1, dowels.z_end)});
-  return strip({ring(1, -k_overshoot), ring(1, dowels.z_end), ring(k_tip, dowels.z_end + dowels.roof)});
+  if (dowels.ceiling <= 0) return strip({ring(1, -k_overshoot), ring(1, dowels.z_end)});
+  return strip({ring(1, -k_overshoot), ring(1, dowels.z_end), ring(k_tip, dowels.z_end + dowels.ceiling)});
 }
 
 }  // namespace fusee

@@ -1,12 +1,12 @@
 /// \file
-/// Internal: the ways through a solid, counted.
+/// Internal: the Euler number of a mesh.
 #pragma once
 
 #include "fusee/solid/mesh.h"
 
 namespace fusee {
 
-/// V − E + F of the welded surface: 2 − 2 × the number of ways through, where it is one closed surface.
+/// V − E + F of the welded surface. For one closed surface this is 2 − 2 × the number of through passages.
 int euler_number(const TriangleMesh& mesh);
 
 }  // namespace fusee

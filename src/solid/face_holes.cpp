@@ -5,14 +5,14 @@
 namespace fusee {
 namespace {
 
-// The mouth begins this many tendon diameters past the arc that the tendon leaves from, as a channel does.
+// The slot begins this many tendon diameters past the end of the active arc, as a channel does.
 constexpr double k_lap_ratio = 1.6;
-// What the countersink leaves of the flange's thickness for the knot to pull on.
+// Flange thickness below the countersink, which bears the knot's pull.
 constexpr double k_least_ground = 0.5;
-// The slot's round end keeps this off the floor, so that no face of it lies in the groove's.
+// Clearance of the slot's round end from the floor, so that no face of it coincides with the groove's.
 constexpr double k_off_floor = 0.03;
-// The slot ends this far outside of the rim, and of its round end where that is wider than the flange is deep: it would
-// be turned inside out.
+// The slot ends this far outside the rim, and outside its round end if that is wider than the flange is deep. Otherwise
+// it would be inverted.
 constexpr double k_beyond_rim = 0.5;
 
 class FaceHoleSearch {
@@ -42,7 +42,7 @@ class FaceHoleSearch {
                   station.lap,
                   station.wrap,
                   0};
-    hole.length = k_beyond_rim + std::max(0.0, reach_of(*site_.rim, hole.normal) - hole.hole.dot(hole.normal));
+    hole.length = k_beyond_rim + std::max(0.0, support_gaps_of(*site_.rim, hole.normal) - hole.hole.dot(hole.normal));
     if (!is_free(hole.bars(layout_.channel_width).front())) return std::nullopt;
     for (const double share : {1.0, 0.75, 0.5, 0.25}) {
       FaceHole sunk = hole;
@@ -53,7 +53,7 @@ class FaceHoleSearch {
     return hole;
   }
 
-  static double reach_of(const Polygon& rim, const Vec2& direction) {
+  static double support_gaps_of(const Polygon& rim, const Vec2& direction) {
     double most = 0;
     for (const Vec2& point : rim) most = std::max(most, point.dot(direction));
     return most;

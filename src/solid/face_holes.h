@@ -1,5 +1,5 @@
 /// \file
-/// Tie-offs of pulleys too small for a channel and a pocket. mm.
+/// Internal: tie-offs of pulleys too small for a channel and a pocket. mm.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,12 @@
 
 namespace fusee {
 
-/// The first place from the end of the active arc on, with the largest countersink up to `wanted`; null where the
-/// flange is too narrow or too thin, or nothing is free.
+/// The first place after the end of the active arc with the largest countersink up to `wanted`. Empty if the flange is
+/// too narrow or too thin, or if no place is free.
 std::optional<FaceHole> find_face_hole(const AnchorSite& site, const BodyLayout& layout, bool wound_end, double wanted,
                                        const LapRange& laps);
 
-/// Depth of a countersink: it narrows to the hole as steeply as a roof must be.
+/// Depth of a countersink, which narrows to the hole as steeply as a ceiling must be.
 double countersink_depth(const BodyLayout& layout, const FaceHole& hole);
 
 }  // namespace fusee

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "solid/dealt_by_vertex.h"
 #include "solid/self_intersection.h"
+#include "solid/sorted_by_vertex.h"
 
 namespace fusee {
 namespace {
@@ -18,8 +18,8 @@ using VertexTriple = std::array<std::uint32_t, 3>;
 bool is_collapsed(const VertexTriple& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 std::vector<std::uint32_t> duplicates_among(const TriangleMesh& mesh, const std::vector<bool>& left_out) {
-  using Sorted = std::pair<VertexTriple, std::uint32_t>;
-  std::vector<Sorted> facets;
+  using SortedBox = std::pair<VertexTriple, std::uint32_t>;
+  std::vector<SortedBox> facets;
   facets.reserve(mesh.triangles.size());
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     if (left_out[f]) continue;
@@ -27,8 +27,8 @@ std::vector<std::uint32_t> duplicates_among(const TriangleMesh& mesh, const std:
     std::sort(corners.begin(), corners.end());
     facets.emplace_back(corners, f);
   }
-  const std::vector<Sorted> sorted = dealt_by_vertex(
-      facets, mesh.vertices.size(), [](const Sorted& facet) { return facet.first[0]; }, std::less<>());
+  const std::vector<SortedBox> sorted = sorted_by_vertex(
+      facets, mesh.vertices.size(), [](const SortedBox& facet) { return facet.first[0]; }, std::less<>());
   std::vector<std::uint32_t> duplicates;
   for (std::size_t k = 1; k < sorted.size(); ++k) {
     if (sorted[k].first == sorted[k - 1].first) duplicates.push_back(sorted[k].second);
@@ -37,8 +37,8 @@ std::vector<std::uint32_t> duplicates_among(const TriangleMesh& mesh, const std:
   return duplicates;
 }
 
-/// Collapses needles one by one. Splitting a neighbour that is a needle itself makes two shorter ones, so the work is
-/// bounded: needles beyond the bound are left out without a split.
+/// Collapses needles one by one. Splitting a neighbour that is itself a needle makes two shorter ones, so the number of
+/// splits is bounded. Needles beyond the bound are removed without a split.
 class NeedleCollapse {
  public:
   explicit NeedleCollapse(ExaminedSurface& surface)
@@ -72,7 +72,7 @@ class NeedleCollapse {
     if (is_degenerate(mesh_, facet)) needles_.push_back(facet);
   }
 
-  /// The corner between the two others. On a line the order of the coordinates is the order along it.
+  /// The corner between the two others. On a line, the order of coordinates is the order along it.
   std::uint32_t middle_of(VertexTriple t) const {
     std::sort(t.begin(), t.end(), [this](std::uint32_t a, std::uint32_t b) {
       const Vec3 &p = mesh_.vertices[a], &q = mesh_.vertices[b];
@@ -91,7 +91,7 @@ class NeedleCollapse {
     for (const std::uint32_t facet : facets_at_[edge(a, b)]) {
       if (facet != needle && !gone_[facet]) across.push_back(facet);
     }
-    if (across.size() != 1) return;  // it hangs loose
+    if (across.size() != 1) return;  // no single neighbour across the edge
     gone_[across[0]] = true;
     for (const std::uint32_t end : {a, b}) {
       VertexTriple half = mesh_.triangles[across[0]];

@@ -8,13 +8,13 @@
 namespace fusee {
 namespace {
 
-// Sagitta of a seat's facets. Prints and mills leave more than this; finer facets would only be triangles.
+// Sagitta of a seat's facets. Prints and mills are coarser, so finer facets would be wasted.
 constexpr double k_seat_sagitta = 0.01;
-// Floor of a flat groove per tendon diameter.
+// Floor width of a flat groove, in tendon diameters.
 constexpr double k_flat_floor_ratio = 1.4;
 
-// The seat's arc as the polygon of its tangents at 0, δ, 2δ … up to the wall, which is the last tangent: the floor band
-// is the first of them, at offset 0 exactly. Corners stand at the half steps, at the radius s / cos(δ/2).
+// The seat's arc as the polygon of its tangents at 0, δ, 2δ … up to the wall, which is the last tangent. The floor band
+// is the first, exactly at offset 0. Corners are at the half steps, at radius s / cos(δ/2).
 std::vector<GroovePoint> seat_corners(double seat, double lean) {
   const double turn = 0.5 * k_pi - lean;
   const double finest = 2.0 * std::acos(1.0 / (1.0 + k_seat_sagitta / seat));
@@ -29,11 +29,11 @@ std::vector<GroovePoint> seat_corners(double seat, double lean) {
   return corners;
 }
 
-// The end of the section: the wall from the last corner that lies below the lip, cut off at the lip.
-void finish_at_lip(std::vector<GroovePoint>& points, double depth, double lean) {
+// Completes the section: the wall from the last corner below the groove edge, cut off at the edge.
+void finish_at_groove_edge(std::vector<GroovePoint>& points, double depth, double lean) {
   while (points.size() > 2 && points.back().offset >= depth) points.pop_back();
-  // A corner that was cut away leaves its own, flatter tangent; the wall's lean is the steepest of them and holds the
-  // tendon best.
+  // A removed corner leaves its own, flatter tangent. The wall's lean is the steepest tangent and holds the tendon
+  // best.
   const GroovePoint& last = points.back();
   points.push_back({depth, last.dz + (depth - last.offset) * std::tan(lean)});
 }
@@ -58,16 +58,16 @@ std::vector<GroovePoint> groove_half(const Body& body, double lean, double tendo
       points.push_back({0.0, 0.5 * k_flat_floor_ratio * tendon_diameter});
       break;
   }
-  finish_at_lip(points, depth, lean);
+  finish_at_groove_edge(points, depth, lean);
   return points;
 }
 
-// The circle's centre lies d/2 over the lip, where the wall, of lean λ, is d/2 tan λ further out, and d/2 / cos λ
-// inside of the wall: together d/2 (1 − sin λ)/cos λ nearer than the lip.
-double room_at_lip(const std::vector<GroovePoint>& half, double tendon_diameter) {
-  const GroovePoint &low = half[half.size() - 2], &lip = half.back();
-  const double lean = std::atan2(lip.dz - low.dz, lip.offset - low.offset);
-  return std::max(0.0, lip.dz - 0.5 * tendon_diameter * std::tan(0.25 * k_pi - 0.5 * lean));
+// The circle's centre lies d/2 above the groove edge. There the wall, of lean λ, is d/2 tan λ further out, and the
+// centre is d/2 / cos λ inside the wall. The sum is d/2 (1 − sin λ)/cos λ closer than the groove edge.
+double room_at_groove_edge(const std::vector<GroovePoint>& half, double tendon_diameter) {
+  const GroovePoint &low = half[half.size() - 2], &groove_edge = half.back();
+  const double lean = std::atan2(groove_edge.dz - low.dz, groove_edge.offset - low.offset);
+  return std::max(0.0, groove_edge.dz - 0.5 * tendon_diameter * std::tan(0.25 * k_pi - 0.5 * lean));
 }
 
 }  // namespace fusee

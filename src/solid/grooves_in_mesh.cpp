@@ -7,15 +7,15 @@
 namespace fusee {
 namespace {
 
-// No more sections than these, however high the part is.
+// Largest number of sections for a part of any height.
 constexpr double k_most_sections = 1500;
-// Samples of the two steps about a valley, and steps of the search for the ends of its floor.
+// Samples of the two steps about a valley, and bisection steps for the ends of its floor.
 constexpr int k_fine_samples = 33;
 constexpr int k_bisections = 30;
-// A floor ends where the radius has grown by this part: 5 µm at 16 mm, what a channel's mouth may change.
+// Relative growth of the radius that ends a floor: 5 µm at 16 mm, the effect of a channel entry.
 constexpr double k_floor_rise = 3e-4;
 
-/// Radius of the circle as large as the outline's hull; 0 where there is none.
+/// Radius of the circle with the area of the outline's hull; 0 without an outline.
 double mean_radius(const TriangleMesh& mesh, double z) {
   const std::optional<Polygon> outline = outline_at(mesh, z);
   return outline ? std::sqrt(std::max(0.0, signed_area(convex_hull(*outline))) / k_pi) : 0.0;
@@ -35,7 +35,7 @@ std::vector<Slice> slices(const TriangleMesh& mesh, double low, double high, int
   return all;
 }
 
-/// Where the radius falls and rises again by at least this part of itself: the index of the lowest slice between.
+/// Valleys: places where the radius falls and rises by at least this fraction. Returns the index of each lowest slice.
 std::vector<std::size_t> valleys_of(const std::vector<Slice>& all, double least_depth) {
   std::vector<std::size_t> found;
   bool is_down = false;
@@ -58,7 +58,7 @@ std::vector<std::size_t> valleys_of(const std::vector<Slice>& all, double least_
   return found;
 }
 
-/// From a place on the floor towards `outside`, where the part is thicker: the end of the floor.
+/// Bisects the end of a floor between a place on it and `outside`, where the part is thicker.
 double floor_end(const TriangleMesh& mesh, double inside, double outside, double most) {
   for (int i = 0; i < k_bisections; ++i) {
     const double middle = 0.5 * (inside + outside);

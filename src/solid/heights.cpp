@@ -7,70 +7,70 @@
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "solid/bore.h"
+#include "solid/channel_entries.h"
 #include "solid/groove.h"
-#include "solid/mouths.h"
 #include "solid/tie_offs.h"
 
 namespace fusee {
 namespace {
 
-// What the chamfer at the bed leaves of the lip, outwards and upwards.
-constexpr double k_lip_left = 0.2;
+// Remainder of the groove edge after the chamfer at the bed, outwards and upwards.
+constexpr double k_groove_edge_left = 0.2;
 
-// What a channel's roof leaves of the flange over it.
+// Flange thickness above a channel's ceiling.
 constexpr double k_over_channel = 0.3;
 
-// A printing aid, no dimension: as much of it as the flange's lip bears.
+// The chamfer is a printing aid, limited by the size of the flange's edge.
 void choose_elephant_foot(BodyLayout& layout, double wanted) {
-  const double outward = layout.groove_depth - k_lip_left;
-  const double upward = (layout.flange_thickness - k_lip_left) / rise_of(layout, 1.0);
+  const double outward = layout.groove_depth - k_groove_edge_left;
+  const double upward = (layout.flange_thickness - k_groove_edge_left) / rise_of(layout, 1.0);
   layout.elephant_foot = std::clamp(std::min(outward, upward), 0.0, wanted);
   if (layout.elephant_foot < wanted) {
-    layout.notes.push_back(fmt::format("the lip is too small for a chamfer of {} mm at the bed: made {} mm",
-                                       rounded(wanted), rounded(layout.elephant_foot, 3)));
+    layout.notes.push_back(
+        fmt::format("the groove edge is too small for a chamfer of {} mm at the bed: reduced to {} mm", rounded(wanted),
+                    rounded(layout.elephant_foot, 3)));
   }
 }
 
-// P1 is printed turned over where it is printed for itself.
+// P1 is printed turned over where it is printed separately.
 void choose_walls(BodyLayout& layout, const Mechanism& mechanism) {
   const double lean = 0.5 * mechanism.body.groove_angle;
   const auto half = [&](double angle) {
     return groove_half(mechanism.body, angle, mechanism.tendon.diameter, layout.groove_depth);
   };
-  const std::vector<GroovePoint> ground = half(lean), roof = half(std::max(lean, layout.roof_slope));
-  layout.p2 = {ground, roof};
-  layout.p1 = layout.parts == Parts::two ? GrooveWalls{roof, ground} : GrooveWalls{ground, roof};
+  const std::vector<GroovePoint> ground = half(lean), ceiling = half(std::max(lean, layout.ceiling_slope));
+  layout.p2 = {ground, ceiling};
+  layout.p1 = layout.parts == Parts::two ? GrooveWalls{ceiling, ground} : GrooveWalls{ground, ceiling};
 }
 
 void choose_cones(BodyLayout& layout, const FlangeRims& rims) {
-  if (layout.roof_slope <= 0) return;
-  layout.upper_cone = cone_height(rims.lip2, rims.upper, layout.roof_slope);
+  if (layout.ceiling_slope <= 0) return;
+  layout.upper_cone = cone_height(rims.groove_edge2, rims.upper, layout.ceiling_slope);
   if (layout.parts == Parts::two) {
-    layout.lower_cone = cone_height(rims.lip1, rims.lower, layout.roof_slope);
+    layout.lower_cone = cone_height(rims.groove_edge1, rims.lower, layout.ceiling_slope);
   } else {
-    layout.middle_cone = cone_height(rims.lip1, rims.middle, layout.roof_slope);
+    layout.middle_cone = cone_height(rims.groove_edge1, rims.middle, layout.ceiling_slope);
   }
 }
 
-// A flange is as thick as it must be at the lip, and thicker where a channel's roof needs it.
+// A flange has the requested thickness at the groove edge and is thicker where a channel's ceiling requires it.
 void stack_up(BodyLayout& layout) {
   const double flange = layout.flange_thickness;
   const bool apart = layout.parts == Parts::two;
-  const double over_mouth = layout.roof_slope > 0 ? mouth_rise(layout) + k_over_channel : 0.0;
-  const double roof_flange = std::max(flange, over_mouth);
-  const double over_channel = 0.5 * layout.channel_width + layout.channel_roof + k_over_channel;
-  layout.z_p1 = (apart ? roof_flange : flange) + layout.lower_cone + layout.p1.below_width();
+  const double over_entry = layout.ceiling_slope > 0 ? entry_rise(layout) + k_over_channel : 0.0;
+  const double ceiling_flange = std::max(flange, over_entry);
+  const double over_channel = 0.5 * layout.channel_width + layout.channel_ceiling + k_over_channel;
+  layout.z_p1 = (apart ? ceiling_flange : flange) + layout.lower_cone + layout.p1.below_width();
   if (apart) layout.z_p1 = std::max(layout.z_p1, over_channel);
   layout.z_middle = layout.z_p1 + layout.p1.above_width() + layout.middle_cone;
-  layout.z_mate = layout.z_middle + (apart ? flange : roof_flange);
+  layout.z_mate = layout.z_middle + (apart ? flange : ceiling_flange);
   if (!apart) layout.z_mate = std::max(layout.z_mate, layout.z_p1 + over_channel);
   layout.z_p2 = layout.z_mate + (apart ? flange : 0.0) + layout.p2.below_width();
-  layout.z_top = layout.z_p2 + std::max(layout.p2.above_width() + layout.upper_cone + roof_flange, over_channel);
+  layout.z_top = layout.z_p2 + std::max(layout.p2.above_width() + layout.upper_cone + ceiling_flange, over_channel);
   layout.z_hub = layout.z_top;
 }
 
-// What is engraved leaves two layers of a flange, or half of a thin one: deeper, it opens the groove and does not
-// print.
+// Engraving leaves two layers of a flange, or half of a thin one. Deeper marks would open the groove and not print.
 void choose_mark_depth(BodyLayout& layout, const Body& body) {
   constexpr double k_ground = 0.4;  // mm
   const double most = std::max(0.5 * layout.flange_thickness, layout.flange_thickness - k_ground);
@@ -81,7 +81,7 @@ void choose_mark_depth(BodyLayout& layout, const Body& body) {
                   rounded(body.mark_depth), rounded(layout.flange_thickness), rounded(most, 3)));
 }
 
-// Moves all that stands on the middle flange up.
+// Moves everything above the middle flange up.
 void thicken_middle(BodyLayout& layout, double by) {
   if (by <= 0) return;
   for (double* z : {&layout.z_mate, &layout.z_p2, &layout.z_top, &layout.z_hub}) *z += by;
@@ -90,12 +90,12 @@ void thicken_middle(BodyLayout& layout, double by) {
 
 }  // namespace
 
-BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Parts parts, double mouth_lean) {
+BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Parts parts, double entry_lean) {
   BodyLayout layout;
   layout.parts = parts;
-  layout.mouth_lean = mouth_lean;
+  layout.entry_lean = entry_lean;
   layout.tendon_diameter = mechanism.tendon.diameter;
-  layout.roof_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin;
+  layout.ceiling_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin;
   layout.groove_depth = mechanism.groove_depth();
   layout.flange_thickness = mechanism.body.flange_thickness;
   choose_mark_depth(layout, mechanism.body);
@@ -103,23 +103,23 @@ BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Part
   choose_walls(layout, mechanism);
   choose_cones(layout, rims);
   choose_channel(layout, mechanism);
-  if (layout.roof_slope > 0) layout.channel_roof = rise_of(layout, layout.channel_width);
+  if (layout.ceiling_slope > 0) layout.channel_ceiling = rise_of(layout, layout.channel_width);
   choose_elephant_foot(layout, mechanism.material.elephant_foot);
   stack_up(layout);
   return layout;
 }
 
-void roof_pockets(BodyLayout& layout) {
-  if (layout.parts == Parts::two || layout.roof_slope <= 0) return;
-  layout.pocket_roof = rise_of(layout, 2.0 * layout.pocket_radius);
+void ceiling_pockets(BodyLayout& layout) {
+  if (layout.parts == Parts::two || layout.ceiling_slope <= 0) return;
+  layout.pocket_ceiling = rise_of(layout, 2.0 * layout.pocket_radius);
   thicken_middle(layout,
-                 layout.z_p1 + 0.5 * layout.channel_width + layout.pocket_roof + layout.min_wall - layout.z_mate);
+                 layout.z_p1 + 0.5 * layout.channel_width + layout.pocket_ceiling + layout.min_wall - layout.z_mate);
 }
 
-void roof_recess(BodyLayout& layout) {
+void ceiling_recess(BodyLayout& layout) {
   BoreLayout& bore = layout.bore;
-  if (layout.roof_slope <= 0 || bore.horn_recess <= 0) return;
-  bore.horn_roof = rise_of(layout, recess_cone(bore).travel);
+  if (layout.ceiling_slope <= 0 || bore.horn_recess <= 0) return;
+  bore.horn_ceiling = rise_of(layout, recess_cone(bore).travel);
 }
 
 }  // namespace fusee

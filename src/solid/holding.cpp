@@ -16,18 +16,18 @@
 namespace fusee {
 namespace {
 
-// What a take-off bears, and how far the tendon lies on the active arc behind it.
+// Tension at a take-off, and the angle from it to the end of the active arc.
 struct TakeOffLoad {
   double alpha = 0;
   double tension = 0;
   double turn = 0;
 };
-using StrokeLoads = std::array<std::vector<TakeOffLoad>, 2>;  // of P1, of P2
+using StrokeLoads = std::array<std::vector<TakeOffLoad>, 2>;  // for P1 and P2
 
 std::size_t index_of(Side side) { return side == Side::left ? 0 : 1; }
 
-// From the take-off at each place of the stroke to where the active arc ends: where the tendon is paid out furthest, at
-// α_max on P1 and α_min on P2. The direction of the line in the pulley's own frame is that in the world plus α.
+// Angle from the take-off at each place of the stroke to the end of the active arc, which is the take-off at α_max on
+// P1 and at α_min on P2. The direction of the line in the pulley's frame is its direction in space plus α.
 std::vector<double> turns_to_end(const std::vector<TransmissionPoint>& stroke, Side side) {
   const auto direction = [&](std::size_t i) {
     return (side == Side::left ? stroke[i].t1 : stroke[i].t2).lower_normal + stroke[i].alpha;
@@ -55,8 +55,8 @@ std::vector<double> alphas_of(const std::vector<TransmissionPoint>& stroke) {
   return alphas;
 }
 
-// The largest tension at each take-off; `loaded` is the declared load's cycle. A load that relieves one tendon loads
-// the other, so the joint moves without it too.
+// The largest tension at each take-off. `loaded`: the declared load's cycle. The unloaded cycle counts too, because a
+// load that relieves one tendon loads the other.
 StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<TransmissionPoint>& stroke,
                          const std::vector<StrokePoint>& loaded) {
   StrokeLoads loads;
@@ -79,10 +79,9 @@ StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<Transmiss
   return loads;
 }
 
-// What lies on the pulley keeps any tension between T e^(−μφ) and T e^(μφ), and slides when it would leave these
-// bounds: the knot's rises only when T e^(−μφ) passes all that it has seen, so the stroke's largest T e^(−μφ) is what
-// it ends with.
-KnotHold hardest(Side side, const std::vector<TakeOffLoad>& loads, double mu, double lap) {
+// A wrapped tendon sustains any tension between T e^(−μφ) and T e^(μφ) and slides beyond these bounds. The knot's
+// tension increases only when T e^(−μφ) exceeds all previous values, so it ends at the stroke's largest T e^(−μφ).
+KnotHold worst_knot(Side side, const std::vector<TakeOffLoad>& loads, double mu, double lap) {
   KnotHold most{side, 0, 0, 0, -1};
   for (const TakeOffLoad& load : loads) {
     const double wrap = lap + load.turn;
@@ -97,7 +96,7 @@ bool all_hold(const Holding& holding) {
                      [&holding](const KnotHold& knot) { return holding.share(knot).value_or(0) <= k_safe_knot_share; });
 }
 
-// Null when no such body can be made.
+// Empty if no such body can be made.
 std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const SynthesisResult& synthesis,
                                              const StrokeLoads& loads) {
   const BodyPlan plan = plan_body(mechanism, synthesis);
@@ -106,14 +105,14 @@ std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const S
   holding.strength = tendon_strength(mechanism.tendon);
   for (const PlannedAnchor& anchor : plan.anchors) {
     if (!anchor.wound_end) continue;
-    holding.knots.push_back(hardest(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, anchor.wrap()));
+    holding.knots.push_back(worst_knot(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, anchor.wrap()));
   }
   return holding;
 }
 
-// Changes that were tried, each alone, and with which every knot holds.
-std::vector<std::string> what_helps(const Mechanism& mechanism, const SynthesisResult& synthesis,
-                                    const StrokeLoads& loads, const Holding& holding) {
+// Single changes, each tried, with which every knot is safe.
+std::vector<std::string> helpful_changes(const Mechanism& mechanism, const SynthesisResult& synthesis,
+                                         const StrokeLoads& loads, const Holding& holding) {
   std::vector<std::string> helps;
   for (double wrap = 30; wrap <= 330; wrap += 15) {
     Mechanism changed = mechanism;
@@ -123,7 +122,7 @@ std::vector<std::string> what_helps(const Mechanism& mechanism, const SynthesisR
     helps.push_back(fmt::format("body.wrap_deg = {}", rounded(wrap)));
     break;
   }
-  // A larger radius turns by less over the stroke and leaves more of the pulley to wrap.
+  // A larger radius turns less over the stroke and leaves more of the pulley for wrap.
   for (const double factor : {1.1, 1.2, 1.35, 1.5}) {
     if (mechanism.pulley.law != Law::compensate) break;
     Mechanism changed = mechanism;
@@ -136,7 +135,7 @@ std::vector<std::string> what_helps(const Mechanism& mechanism, const SynthesisR
     helps.push_back(fmt::format("pulley.r1_mm = {}", rounded(changed.pulley.r1)));
     break;
   }
-  // The forces know nothing of the strength: what it takes follows.
+  // The forces do not depend on the tendon's strength, so the required strength follows directly.
   double needed = 0;
   for (const KnotHold& knot : holding.knots)
     needed = std::max(needed, knot.at_knot / (k_safe_knot_share * mechanism.tendon.knot_efficiency));
@@ -154,9 +153,10 @@ std::string joined_by_or(const std::vector<std::string>& parts) {
 std::string warning_of(const KnotHold& knot, const Holding& holding, const std::vector<std::string>& helps) {
   const Strength& strength = *holding.strength;
   return fmt::format(
-      "the knot of tendon {} on {} bears up to {} N, at alpha = {} deg: {:.0f} % of the {} N at which it breaks there "
+      "the knot of tendon {} on {} carries up to {} N, at alpha = {} deg: {:.0f} % of the {} N at which it breaks "
+      "there "
       "({} "
-      "x tendon.knot_efficiency), where half is safe; with {} it is",
+      "x tendon.knot_efficiency). At most half is safe. Try {}",
       knot.side == Side::left ? 1 : 2, pulley_name(knot.side), rounded(knot.at_knot, 3), fixed(degrees(knot.alpha), 1),
       100.0 * *holding.share(knot), rounded(strength.at_knot), strength.source, joined_by_or(helps));
 }
@@ -177,10 +177,10 @@ Holding tendon_holding(const Mechanism& mechanism, const SynthesisResult& synthe
     if (!anchor.wound_end) continue;
     const Outline& outline = anchor.side == Side::left ? synthesis.p1 : synthesis.p2;
     const double lap = wound_arc(outline, outline.anchor_end(), index_at_place(outline, anchor.exit)).turn;
-    holding.knots.push_back(hardest(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, lap));
+    holding.knots.push_back(worst_knot(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, lap));
   }
   if (all_hold(holding)) return holding;
-  const std::vector<std::string> helps = what_helps(mechanism, synthesis, loads, holding);
+  const std::vector<std::string> helps = helpful_changes(mechanism, synthesis, loads, holding);
   for (const KnotHold& knot : holding.knots) {
     if (*holding.share(knot) > k_safe_knot_share) holding.warnings.push_back(warning_of(knot, holding, helps));
   }

@@ -26,10 +26,10 @@ class HubChooser {
     if (wants_screw()) {
       if (take_screw(body_.nut_trap)) return;
       if (automatic_screw() && body_.nut_trap && take_screw(false)) {
-        layout_.notes.push_back("no room in the hub for a nut: the set screw's thread is cut into the hub");
+        layout_.notes.push_back("no space in the hub for a nut: the set screw's thread is cut into the hub");
         return;
       }
-      layout_.notes.push_back("no room in the hub for a set screw: left out");
+      layout_.notes.push_back("no space in the hub for a set screw: omitted");
     }
     take_plain();
   }
@@ -47,7 +47,7 @@ class HubChooser {
     const double needed = hub_radius_for(candidate, layout_.bore.radius, wall);
     const double radius = body_.hub_diameter > 0 ? 0.5 * body_.hub_diameter : needed;
     const bool fits = needed <= radius && radius <= limit_ && height_to_spare(candidate, layout_, wall) >= 0;
-    // What is asked for by name stays in, and a condition says what is wrong with it.
+    // A feature requested by name is kept, and a condition reports why it does not fit.
     if (!fits && automatic_screw()) return false;
     if (!fits && body_.hub_diameter <= 0 && radius > limit_) return false;
     layout_.set_screw = candidate;
@@ -65,8 +65,8 @@ class HubChooser {
     layout_.z_hub = layout_.z_top;
     layout_.notes.push_back(
         body_.bore == Bore::horn
-            ? "a servo horn needs no hub: left out"
-            : fmt::format("no room on the upper flange for a hub of {:.1f} mm: left out", 2.0 * radius));
+            ? "a servo horn requires no hub: omitted"
+            : fmt::format("no space on the upper flange for a hub of {:.1f} mm: omitted", 2.0 * radius));
   }
 
   BodyLayout& layout_;
@@ -77,20 +77,21 @@ class HubChooser {
 
 double rounded_up(double value) { return 0.1 * std::ceil(value / 0.1 - 1e-9); }
 
-void look_at_hub(ConditionList& list, const BodyLayout& layout, double rim_radius) {
+void check_hub(ConditionList& list, const BodyLayout& layout, double rim_radius) {
   if (layout.hub_radius <= 0) return;
-  // A horn's screws go through the hub as the bore does.
+  // A horn's screws pass through the hub as the bore does.
   double reach = layout.bore.radius;
   for (const Polygon& hole : layout.bore.screw_holes) reach = std::max(reach, circumradius(hole));
   const double diameter = 2.0 * layout.hub_radius, wall = layout.hub_radius - reach;
   list.add_least(
       "hub_wall", wall, layout.min_wall,
-      fmt::format("a hub of {} mm (body.hub_diameter_mm) leaves {} about {}, it takes {} mm (body.min_wall_mm)",
-                  rounded(diameter), wall_words(wall), reach > layout.bore.radius ? "the horn's holes" : "the bore",
-                  rounded(layout.min_wall, 3)));
+      fmt::format(
+          "a hub of {} mm (body.hub_diameter_mm) leaves {} about {}, at least {} mm is required (body.min_wall_mm)",
+          rounded(diameter), wall_words(wall), reach > layout.bore.radius ? "the horn's holes" : "the bore",
+          rounded(layout.min_wall, 3)));
   const double limit = 2.0 * (rim_radius - k_hub_margin);
   list.add_most("hub_on_flange", diameter, limit,
-                fmt::format("the upper flange has room for a hub of {} mm, this one has {} mm (body.hub_diameter_mm)",
+                fmt::format("the upper flange has space for a hub of {} mm, this one has {} mm (body.hub_diameter_mm)",
                             rounded(limit), rounded(diameter)));
 }
 
@@ -103,22 +104,22 @@ double hub_radius_for_named_screw(const Mechanism& mechanism, const BodyLayout& 
       layout.bore.radius, layout.min_wall);
 }
 
-// Only a set screw that was asked for by name can be impossible.
-void look_at_set_screw(ConditionList& list, const Mechanism& mechanism, const BodyLayout& layout) {
+// Only a set screw requested by name can fail.
+void check_set_screw(ConditionList& list, const Mechanism& mechanism, const BodyLayout& layout) {
   const Body& body = mechanism.body;
   if (body.set_screw == "auto" || body.set_screw == "none" || body.bore == Bore::horn) return;
   const double diameter = 2.0 * layout.hub_radius, needed = 2.0 * hub_radius_for_named_screw(mechanism, layout);
   if (!layout.set_screw.present) {
     list.add(
         "set_screw_wall", diameter, needed, false,
-        fmt::format("there is no place for set screw {} (body.set_screw), which needs a hub of {:.1f} mm and a side "
-                    "of it without a knot pocket",
+        fmt::format("there is no place for set screw {} (body.set_screw), which requires a hub of {:.1f} mm with a "
+                    "side free of knot pockets",
                     body.set_screw, rounded_up(needed)));
     return;
   }
   list.add_least(
       "set_screw_wall", diameter, needed,
-      fmt::format("set screw {} (body.set_screw{}) needs a hub of {:.1f} mm, this one has {} mm "
+      fmt::format("set screw {} (body.set_screw{}) requires a hub of {:.1f} mm, this one has {} mm "
                   "(body.hub_diameter_mm)",
                   body.set_screw, body.nut_trap ? ", with body.nut_trap" : "", rounded_up(needed), rounded(diameter)));
   const double spare = height_to_spare(layout.set_screw, layout, layout.min_wall);
@@ -139,8 +140,8 @@ void choose_hub(BodyLayout& layout, const Mechanism& mechanism, double rim_radiu
 
 std::vector<Condition> hub_conditions(const Mechanism& mechanism, const BodyLayout& layout, double rim_radius) {
   ConditionList list;
-  look_at_hub(list, layout, rim_radius);
-  look_at_set_screw(list, mechanism, layout);
+  check_hub(list, layout, rim_radius);
+  check_set_screw(list, mechanism, layout);
   return list.taken();
 }
 

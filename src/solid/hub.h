@@ -1,5 +1,5 @@
 /// \file
-/// The hub and its set screw, made to fit.
+/// Internal: the hub and its set screw.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace fusee {
 
-/// The hub must stay this far inside the upper flange's rim.
+/// Least distance of the hub from the upper flange's rim.
 inline constexpr double k_hub_margin = 0.5;
 
-/// Sets hub, set screw and z_hub of a layout that has its heights and bore; `rim_radius` is the inradius of flange 2.
-/// What is automatic is made smaller or left out where there is no room for it, with a note.
+/// Sets hub, set screw and z_hub of a layout with heights and bore. `rim_radius`: inradius of flange 2. Automatic
+/// features without enough space are reduced or omitted, with a note.
 void choose_hub(BodyLayout& layout, const Mechanism& mechanism, double rim_radius);
 
-/// What a hub and a screw that were asked for need: about the bore, on that flange, for the screw.
+/// Conditions of a requested hub and set screw: wall about the bore, size of the flange, space for the screw.
 std::vector<Condition> hub_conditions(const Mechanism& mechanism, const BodyLayout& layout, double rim_radius);
 
 }  // namespace fusee

@@ -9,23 +9,23 @@
 
 #include "base/beside.h"
 #include "fusee/base/units.h"
+#include "solid/downward_faces.h"
 #include "solid/nearest_segment.h"
 #include "solid/plane_distance.h"
 #include "solid/section.h"
-#include "solid/undersides.h"
 
 namespace fusee {
 namespace {
 
 constexpr double k_layer = 0.2;
-// PrusaSlicer 2.5 takes "below 45°" as "below 46°" (measured on cones and wedges); a little more, so that no rounding
-// decides.
+// PrusaSlicer 2.5 treats "below 45°" as "below 46°" (measured on cones and wedges). The margin is slightly larger, so
+// that rounding has no effect.
 constexpr double k_threshold = radians(1.3);
-// Outlines are looked at in steps of this.
+// Sampling step along outlines.
 constexpr double k_stride = 0.02;
-// Far above the rounding of distances, far below all that matters.
+// Much larger than the rounding of distances, much smaller than any feature.
 constexpr double k_grain = 1e-9;
-// A line is looked for beside this many of the layer below, from the last one found on.
+// Number of lines of the layer below, starting at the last match, that are searched for a neighbour.
 constexpr std::size_t k_followed = 5;
 
 bool is_inside_of(const std::vector<Polygon>& loops, const Vec2& point) {
@@ -34,20 +34,20 @@ bool is_inside_of(const std::vector<Polygon>& loops, const Vec2& point) {
          1;
 }
 
-// A layer, widened by `reach`: what the next one may lie on.
+// A layer widened by `reach`: the support of the next layer.
 class WidenedLayer {
  public:
   WidenedLayer(std::vector<Polygon> loops, double reach, Corners corners)
       : loops_(std::move(loops)), nearest_(loops_), reach_(reach), corners_(corners) {}
 
-  struct Hold {
+  struct Support {
     bool holds;
-    double round;         ///< all is held that is nearer to the point than this
-    bool inside;          ///< of the layer itself, further from its outlines than it is widened by
+    double round;         ///< all points closer to this one than this distance are supported
+    bool inside;          ///< inside the layer, further from its outlines than the widening
     double distance;      ///< to the layer's outlines
-    std::size_t segment;  ///< the nearest of them
+    std::size_t segment;  ///< the nearest segment
   };
-  Hold hold_of(const Vec2& point) const {
+  Support support_of(const Vec2& point) const {
     const auto [distance, segment] = nearest_.nearest(point);
     if (distance <= reach_) return {true, reach_ - distance, false, distance, segment};
     if (is_inside_of(loops_, point)) return {true, reach_ + distance, true, distance, segment};
@@ -59,7 +59,7 @@ class WidenedLayer {
     return distance_to_segment(point, a, b) < reach_ - k_grain;
   }
   const std::vector<std::pair<Vec2, Vec2>>& segments() const { return nearest_.segments(); }
-  // The line surely does not leave the layer where it begins within.
+  // True if the line certainly stays within the layer, given that it begins inside.
   bool stays_within(const Vec2& from, const Vec2& to) const { return nearest_.is_clear(from, to); }
 
  private:
@@ -87,12 +87,13 @@ class WidenedLayer {
   Corners corners_;
 };
 
-// Walks a loop in steps of k_stride over the layer below. What is surely held is passed over: lines without a flat
-// underside between the two layers, lines within the one below, lines beside its own (in a wall the lines of two layers
-// follow each other), and what is near to a point that is held all round.
+// Walks a loop in steps of k_stride over the layer below. It skips lines that are certainly supported: lines without a
+// flat downward feature between the two layers, lines within the layer below, and lines beside its outline (in a wall
+// the lines of two layers follow each other). It also skips the neighbourhood of a point that is supported all round.
 class LayerWalk {
  public:
-  LayerWalk(const WidenedLayer& below, const PlacesInPlan& undersides) : below_(below), undersides_(undersides) {}
+  LayerWalk(const WidenedLayer& below, const PlacesInPlan& downward_faces)
+      : below_(below), downward_faces_(downward_faces) {}
 
   std::optional<Vec2> furthest_out(const Polygon& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i) pass_along(loop[i], loop[(i + 1) % loop.size()]);
@@ -102,7 +103,7 @@ class LayerWalk {
  private:
   void pass_along(const Vec2& from, const Vec2& to) {
     const double length = (to - from).norm();
-    const bool may_stand_out = undersides_.may_meet(from, to);
+    const bool may_stand_out = downward_faces_.may_meet(from, to);
     within_ = within_ && may_stand_out && below_.stays_within(from, to);
     if (!may_stand_out || within_ || length < held_ || follows(from, to)) {
       held_ = std::max(0.0, held_ - length);
@@ -126,9 +127,9 @@ class LayerWalk {
     held_ = std::max(0.0, held_ - (length - at));
   }
 
-  // How far on all is held.
+  // Distance ahead within which everything is supported.
   double look(const Vec2& point) {
-    const WidenedLayer::Hold hold = below_.hold_of(point);
+    const WidenedLayer::Support hold = below_.support_of(point);
     beside_ = hold.segment;
     within_ = hold.inside;
     if (!hold.holds && hold.distance > most_) {
@@ -138,8 +139,8 @@ class LayerWalk {
     return hold.holds ? std::max(0.0, hold.round - k_grain) : 0.0;
   }
 
-  // Nearness to a segment is convex: where both ends of a piece of the line are near to one, all of it is. Where that
-  // segment ends, the next one takes over.
+  // Distance to a segment is convex: if both ends of a piece of the line are close to it, the whole piece is. Beyond
+  // the segment's end the next segment is used.
   bool follows(const Vec2& from, const Vec2& to) {
     Vec2 here = from;
     std::size_t s = beside_;
@@ -159,24 +160,24 @@ class LayerWalk {
   }
 
   const WidenedLayer& below_;
-  const PlacesInPlan& undersides_;
+  const PlacesInPlan& downward_faces_;
   std::size_t beside_ = 0;  ///< the last line of the layer below that was found near
-  double held_ = 0;         ///< how far on from here all is held
-  bool within_ = false;     ///< here is surely inside of the layer below
+  double held_ = 0;         ///< distance ahead within which everything is supported
+  bool within_ = false;     ///< the current place is certainly inside the layer below
   std::optional<Vec2> furthest_;
   double most_ = 0;
 };
 
-// Layers that may stand out over the one below, and those below them.
-std::vector<bool> layers_to_look_at(const std::vector<PlacesInPlan>& undersides) {
-  std::vector<bool> wanted(undersides.size(), false);
-  for (std::size_t k = 1; k < undersides.size(); ++k) {
-    if (!undersides[k].none()) wanted[k - 1] = wanted[k] = true;
+// Layers that may overhang the one below, and those below them.
+std::vector<bool> relevant_layers(const std::vector<PlacesInPlan>& downward_faces) {
+  std::vector<bool> wanted(downward_faces.size(), false);
+  for (std::size_t k = 1; k < downward_faces.size(); ++k) {
+    if (!downward_faces[k].none()) wanted[k - 1] = wanted[k] = true;
   }
   return wanted;
 }
 
-// Of each layer that is wanted: the triangles that its section may cut, in the mesh's order.
+// For each wanted layer, the triangles that its section may cut, in the mesh's order.
 std::vector<Triangles> triangles_by_layer(const TriangleMesh& mesh, const std::vector<double>& heights,
                                           const std::vector<bool>& wanted) {
   std::vector<Triangles> layers(heights.size());
@@ -196,23 +197,23 @@ std::vector<Triangles> triangles_by_layer(const TriangleMesh& mesh, const std::v
 std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, Corners corners) {
   const double steepness = std::tan(overhang + k_threshold), reach = k_layer / steepness;
   const Bounds box = bounds(lying);
-  // What stands out over the first layer comes down onto the bed: PrusaSlicer puts no support that low.
+  // Overhangs over the first layer sink onto the bed. PrusaSlicer puts no support that low.
   std::vector<double> heights{box.low.z() + 1.5 * k_layer};
   for (double z = box.low.z() + 2.5 * k_layer; z < box.high.z(); z += k_layer) heights.push_back(z);
   const TriangleMesh welded = weld(lying);
-  const std::vector<PlacesInPlan> undersides = flat_undersides(welded, heights, steepness);
-  const std::vector<Triangles> layers = triangles_by_layer(welded, heights, layers_to_look_at(undersides));
+  const std::vector<PlacesInPlan> downward_faces = flat_downward_faces(welded, heights, steepness);
+  const std::vector<Triangles> layers = triangles_by_layer(welded, heights, relevant_layers(downward_faces));
   const auto section_of = [&](std::size_t layer) { return section_of_welded(welded, layers[layer], heights[layer]); };
-  // Of the layers after the first up to the last.
+  // Overhanging places of the layers from `first` to `last`.
   const auto ledges_between = [&](std::size_t first, std::size_t last) {
     std::vector<Vec3> ledges;
     std::vector<Polygon> below = section_of(first);
     for (std::size_t layer = first + 1; layer <= last; ++layer) {
       std::vector<Polygon> here = section_of(layer);
-      if (!undersides[layer].none()) {
+      if (!downward_faces[layer].none()) {
         const WidenedLayer widened(std::move(below), reach, corners);
         for (const Polygon& loop : here) {
-          if (const auto out = LayerWalk(widened, undersides[layer]).furthest_out(loop))
+          if (const auto out = LayerWalk(widened, downward_faces[layer]).furthest_out(loop))
             ledges.emplace_back(out->x(), out->y(), heights[layer]);
         }
       }

@@ -15,14 +15,14 @@ RoundHole circle_within(const Polygon& facets) {
 }
 
 double rise_of(const BodyLayout& layout, double width) {
-  return width * std::tan(layout.roof_slope > 0 ? layout.roof_slope : radians(45));
+  return width * std::tan(layout.ceiling_slope > 0 ? layout.ceiling_slope : radians(45));
 }
 
-// Slicers close a slit when less than 0.1 mm of it is left (PrusaSlicer's gap closing radius is 0.049 mm), and then
-// what closes it at once stands out by that much more: at 45° and layers of 0.2 mm 54.2° is enough.
-double gable_slope(const BodyLayout& layout) {
+// Slicers close a slit when less than 0.1 mm of it remains (PrusaSlicer's gap closing radius is 0.049 mm). The closing
+// layer then projects by that much more. At 45° and layers of 0.2 mm, 54.2° is sufficient.
+double ridge_slope(const BodyLayout& layout) {
   constexpr double k_steeper = radians(10), k_steepest = radians(80);
-  return layout.roof_slope > 0 ? std::min(layout.roof_slope + k_steeper, k_steepest) : radians(45);
+  return layout.ceiling_slope > 0 ? std::min(layout.ceiling_slope + k_steeper, k_steepest) : radians(45);
 }
 
 BodyLayout resolve_layout(const Mechanism& mechanism, const SynthesisResult& synthesis) {

@@ -9,15 +9,15 @@
 namespace fusee {
 namespace {
 
-// Clear of every edge of its face.
+// Clearance to every edge of the face.
 constexpr double k_margin = 0.5;
-// Strokes of letters, as wide as a nozzle prints well.
+// Stroke widths of letters are those that a nozzle prints well.
 constexpr double k_letter_height = 4.0;
 constexpr double k_smallest_letter = 2.5;
 constexpr double k_home_half_width = 0.8;
 constexpr double k_home_length = 2.0;
 
-// Letters on a grid 3 wide and 5 high, strokes 1 wide, the origin at the lower left.
+// Letters on a grid 3 wide and 5 high with strokes 1 wide, origin at the lower left.
 std::vector<std::vector<Polygon>> glyph(char letter) {
   switch (letter) {
     case 'P':
@@ -29,7 +29,7 @@ std::vector<std::vector<Polygon>> glyph(char letter) {
   }
 }
 
-// "P1" or "P2" about `centre`, as read by someone who looks at the face.
+// "P1" or "P2" about `centre`, as read when looking at the face.
 std::vector<Mark> label(char digit, const Vec2& centre, double height, bool on_top) {
   const double unit_length = height / 5.0;
   std::vector<Mark> marks;
@@ -53,7 +53,7 @@ std::vector<Mark> label(char digit, const Vec2& centre, double height, bool on_t
   return marks;
 }
 
-// One end face: its rim, what stands on it or opens in it.
+// One end face: its rim and all features that stand on it or open in it.
 class Face {
  public:
   Face(const BodyPlan& plan, bool on_top) : rim_(on_top ? plan.rims.upper : plan.rims.lower), on_top_(on_top) {
@@ -82,7 +82,7 @@ class Face {
     return std::all_of(bars_.begin(), bars_.end(), [&bar](const Bar& other) { return gap(bar, other) >= k_margin; });
   }
 
-  // The rim's distance from the axis towards +y.
+  // Distance of the rim from the axis towards +y.
   double reach_up() const {
     double low = 0, high = 1e4;
     for (int k = 0; k < 50; ++k) {
@@ -101,8 +101,8 @@ class Face {
   std::vector<Bar> bars_;
 };
 
-// A triangle that points at the rim in the direction of the joint at home (top), a bar at the same place below: with
-// both, parts that were made separately can be clocked.
+// A triangle that points at the rim in the direction of the joint at home (top), a bar at the same place below. Both
+// together allow parts made separately to be aligned.
 std::optional<Mark> home_mark(Face& face) {
   const double tip = face.reach_up() - k_margin - 0.1, foot = tip - k_home_length;
   if (!face.is_free({{0, tip - k_home_half_width}, {0, foot + k_home_half_width}, k_home_half_width - 0.1}))
@@ -147,12 +147,12 @@ std::vector<Mark> marks_of(Marks kind, BodyPlan& plan) {
     if (auto home = home_mark(face)) {
       marks.push_back(std::move(*home));
     } else {
-      plan.layout.notes.push_back(on_top ? "no room for the home mark on the top face: left out"
-                                         : "no room for the clocking mark on the bottom face: left out");
+      plan.layout.notes.push_back(on_top ? "no space for the home mark on the top face: omitted"
+                                         : "no space for the clocking mark on the bottom face: omitted");
     }
     auto letters = label_on(face, on_top ? '2' : '1');
     if (letters.empty())
-      plan.layout.notes.push_back(on_top ? "no room for the label P2: left out" : "no room for the label P1: left out");
+      plan.layout.notes.push_back(on_top ? "no space for the label P2: omitted" : "no space for the label P1: omitted");
     std::move(letters.begin(), letters.end(), std::back_inserter(marks));
   }
   return marks;

@@ -10,13 +10,13 @@
 namespace fusee {
 namespace {
 
-// Vertices by place: open addressing over their numbers, for a part is welded a dozen times before it is done.
-// −0 and 0 are the same place; a NaN is never equal to itself.
+// Vertices by position, in a hash table with open addressing, because a part is welded a dozen times. −0 and 0 are the
+// same position; a NaN never equals itself.
 class Places {
  public:
   explicit Places(std::size_t vertices) : slots_(std::bit_ceil(2 * vertices + 1), k_free), mask_(slots_.size() - 1) {}
 
-  /// The number of the vertex that stands where `vertex` does, which is put behind the others if there is none.
+  /// The number of the vertex at the position of `vertex`, which is appended if there is none.
   std::uint32_t number_of(const Vec3& vertex, std::vector<Vec3>& vertices) {
     std::size_t slot = hash_of(vertex) & mask_;
     while (slots_[slot] != k_free) {
@@ -49,7 +49,7 @@ class Places {
 
 double enclosed_volume(const TriangleMesh& mesh) {
   if (mesh.vertices.empty()) return 0;
-  // About a vertex, not the origin: a small part far away would drown in rounding.
+  // Computed about a vertex instead of the origin, to avoid cancellation for a small part far away.
   const Vec3 origin = mesh.vertices.front();
   double six_times = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -76,7 +76,7 @@ TriangleMesh weld(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> renumbered;
   renumbered.reserve(mesh.vertices.size());
   for (const Vec3& vertex : mesh.vertices) {
-    // A file of NaN, each with the same hash and equal to none, would take for ever.
+    // NaNs share one hash and equal none, so a file of them would take quadratic time.
     if (vertex.hasNaN()) {
       renumbered.push_back(static_cast<std::uint32_t>(welded.vertices.size()));
       welded.vertices.push_back(vertex);

@@ -3,12 +3,13 @@
 
 namespace fusee {
 
-/// What rounding to float moves a coordinate by, and a section of such a mesh a little more. mm.
+/// Largest change of a coordinate by rounding to float, slightly increased for sections of such a mesh. mm.
 inline constexpr double k_float_grain = 1e-5;
 
-/// The float nearest to `value`, as a double: every mesh format holds floats.
+/// The float nearest to `value`, as a double, as every mesh format stores it.
 ///
-/// volatile: g++ 12's vectoriser drops a narrowing and widening of two neighbouring doubles altogether (-O2, x86-64).
+/// `volatile` prevents g++ 12's vectoriser from dropping the narrowing and widening of two neighbouring doubles (-O2,
+/// x86-64).
 inline double nearest_float(double value) {
   const volatile float narrow = static_cast<float>(value);
   return static_cast<double>(narrow);

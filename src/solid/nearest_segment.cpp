@@ -8,7 +8,7 @@
 namespace fusee {
 namespace {
 
-// The other line's ends lie on one side of this one, by more than rounding.
+// True if the other line's ends lie on one side of this line, by more than rounding.
 bool on_one_side(const Vec2& from, const Vec2& to, const Vec2& a, const Vec2& b) {
   constexpr double k_relative_margin = 1e-12;
   const Vec2 along = to - from, to_a = a - from, to_b = b - from;
@@ -60,7 +60,7 @@ NearestSegment::Cell NearestSegment::cell_of(const Vec2& point) const {
   return {clamped(point.x() - low_.x(), columns_), clamped(point.y() - low_.y(), rows_)};
 }
 
-void NearestSegment::look_in(Nearest& nearest, long column, long row, const Vec2& point) const {
+void NearestSegment::search_cell(Nearest& nearest, long column, long row, const Vec2& point) const {
   if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return;
   const std::size_t cell = place_of(column, row);
   for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
@@ -70,8 +70,8 @@ void NearestSegment::look_in(Nearest& nearest, long column, long row, const Vec2
   }
 }
 
-// Rings of cells outward from the point's own. A segment beyond ring k is at least k cells away from that cell's
-// border.
+// Searches rings of cells outward from the point's cell. A segment beyond ring k is at least k cells away from that
+// cell's border.
 NearestSegment::Nearest NearestSegment::nearest(const Vec2& point) const {
   Nearest nearest{std::numeric_limits<double>::infinity(), 0};
   if (segments_.empty()) return nearest;
@@ -79,11 +79,11 @@ NearestSegment::Nearest NearestSegment::nearest(const Vec2& point) const {
   for (long k = 0; k <= std::max(columns_, rows_) && (k == 0 || nearest.distance > static_cast<double>(k - 1) * side_);
        ++k) {
     for (long i = -k; i <= k; ++i) {
-      look_in(nearest, column + i, row - k, point);
-      if (k > 0) look_in(nearest, column + i, row + k, point);
+      search_cell(nearest, column + i, row - k, point);
+      if (k > 0) search_cell(nearest, column + i, row + k, point);
       if (std::abs(i) == k) continue;
-      look_in(nearest, column - k, row + i, point);
-      look_in(nearest, column + k, row + i, point);
+      search_cell(nearest, column - k, row + i, point);
+      search_cell(nearest, column + k, row + i, point);
     }
   }
   return nearest;
@@ -91,7 +91,7 @@ NearestSegment::Nearest NearestSegment::nearest(const Vec2& point) const {
 
 bool NearestSegment::is_clear(const Vec2& from, const Vec2& to) const {
   if (segments_.empty()) return true;
-  // Cells are found by rounded numbers: what touches lies in a neighbouring one at most.
+  // Cells are computed by rounding, so a touching segment lies at most one cell away.
   const Vec2 margin = Vec2::Constant(1e-6 * side_);
   const Cell low = cell_of(from.cwiseMin(to) - margin), high = cell_of(from.cwiseMax(to) + margin);
   for (long row = low.row; row <= high.row; ++row) {

@@ -8,7 +8,7 @@
 
 namespace fusee {
 
-/// Distances from points to closed loops, by a grid of cells: about constant time a question.
+/// Distances from points to closed loops, by a grid of cells. A query takes about constant time.
 class NearestSegment {
  public:
   struct Nearest {
@@ -18,11 +18,11 @@ class NearestSegment {
 
   explicit NearestSegment(const std::vector<Polygon>& loops);
   double distance(const Vec2& point) const { return nearest(point).distance; }
-  /// Infinitely far without segments.
+  /// The distance is infinite without segments.
   Nearest nearest(const Vec2& point) const;
-  /// The line surely touches no segment.
+  /// True if the line certainly touches no segment.
   bool is_clear(const Vec2& from, const Vec2& to) const;
-  /// Of all loops, in the order in which each is walked.
+  /// The segments of all loops, in order.
   const std::vector<std::pair<Vec2, Vec2>>& segments() const { return segments_; }
 
  private:
@@ -33,13 +33,13 @@ class NearestSegment {
   std::size_t place_of(long column, long row) const { return static_cast<std::size_t>(row * columns_ + column); }
   template <typename Visit>
   void for_cells_of(const std::pair<Vec2, Vec2>& segment, const Visit& visit) const;
-  void look_in(Nearest& nearest, long column, long row, const Vec2& point) const;
+  void search_cell(Nearest& nearest, long column, long row, const Vec2& point) const;
 
   std::vector<std::pair<Vec2, Vec2>> segments_;
   Vec2 low_ = Vec2::Zero();
   double side_ = 1;
   long columns_ = 1, rows_ = 1;
-  // What lies in cell k: cells_[first_[k]] up to cells_[first_[k + 1]].
+  // Contents of cell k: cells_[first_[k]] up to cells_[first_[k + 1]].
   std::vector<std::uint32_t> first_, cells_;
 };
 

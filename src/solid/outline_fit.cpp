@@ -13,18 +13,18 @@
 namespace fusee {
 namespace {
 
-// Every half degree: a facet of our own outlines turns by one to three.
+// Every half degree. A facet of our outlines turns by one to three degrees.
 constexpr int k_directions = 720;
 constexpr int k_coarse_directions = 180;
-// A descent from 2° beside the right turn finds it: outlines of pulleys have no finer features.
+// A descent from within 2° of the correct turn finds it: outlines of pulleys have no finer features.
 constexpr int k_coarse_turns = 180;
 constexpr std::size_t k_descents = 6;
 constexpr int k_most_steps = 40;
-// Three times the sagitta of our facets: what no turn changes by more is round.
+// Three times the sagitta of our facets. Outlines that no turn changes by more are round.
 constexpr double k_facets = 0.03;
-// Of the directions that count as undisturbed.
+// Fraction of the directions that count as undisturbed.
 constexpr double k_kept_share = 0.75;
-// Tukey's weights end at so many medians of the distances; at least where floats end, 0.1 µm.
+// Cut-off of Tukey's weights in medians of the distances; at least the resolution of floats, 0.1 µm.
 constexpr double k_medians_kept = 6.0;
 constexpr double k_least_kept = 1e-4;
 
@@ -68,8 +68,7 @@ std::vector<SupportPair> supports_of(const std::vector<OutlinePair>& pairs) {
   return supports;
 }
 
-/// By how much the found tangent lies outside the expected one along each direction, and how that changes with turn and
-/// shift.
+/// Distance of the found tangent outside the expected one along each direction, and its derivatives by turn and shift.
 struct Gaps {
   Eigen::VectorXd size;
   Eigen::Matrix<double, Eigen::Dynamic, 3> slope;
@@ -110,14 +109,14 @@ double tukey_weight(double gap, double end) {
   return std::abs(share) < 1 ? (1 - share * share) * (1 - share * share) : 0.0;
 }
 
-/// Gauss and Newton's step.
+/// The Gauss-Newton step.
 Eigen::Vector3d step_of(const Gaps& gaps, const Eigen::VectorXd& weights) {
   const Eigen::Matrix3d normal = gaps.slope.transpose() * weights.asDiagonal() * gaps.slope;
   const Eigen::VectorXd pull = gaps.slope.transpose() * weights.asDiagonal() * gaps.size;
   return -solved(normal, pull);
 }
 
-/// The same for the shift alone.
+/// The Gauss-Newton step of the shift alone.
 Eigen::Vector3d shift_step_of(const Gaps& gaps, const Eigen::VectorXd& weights) {
   const auto slope = gaps.slope.rightCols<2>();
   const Eigen::Matrix2d normal = slope.transpose() * weights.asDiagonal() * slope;
@@ -145,7 +144,7 @@ struct RatedMotion {
   double rms = 0;
 };
 
-/// Every turn, each with the shift that is best by least squares, which for evenly spread directions is their mean.
+/// All coarse turns, each with its best shift by least squares, which for evenly spread directions is their mean.
 std::vector<RatedMotion> coarse_motions(const std::vector<SupportPair>& pairs) {
   std::vector<RatedMotion> all;
   for (int k = 0; k < k_coarse_turns; ++k) {
@@ -158,7 +157,7 @@ std::vector<RatedMotion> coarse_motions(const std::vector<SupportPair>& pairs) {
   return all;
 }
 
-/// The best among their neighbours: only they are worth a descent.
+/// The local minima, from which descents start.
 std::vector<RatedMotion> valleys_of(const std::vector<RatedMotion>& all) {
   std::vector<RatedMotion> lowest;
   for (std::size_t k = 0; k < all.size(); ++k) {

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: convex outlines laid on one another. What counts of an outline is its support function, as for the tendon.
+/// Internal: registration of convex outlines by their support functions.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace fusee {
 
-/// Turns about the origin, then moves.
+/// A turn about the origin followed by a shift.
 struct PlaneMotion {
   double turn = 0;  ///< rad, counter-clockwise
   Vec2 shift = Vec2::Zero();
@@ -16,21 +16,21 @@ struct PlaneMotion {
   Vec2 operator()(const Vec2& point) const { return turned(point, turn) + shift; }
 };
 
-/// An outline as it was found and what it should be; of both only the convex hull is looked at.
+/// A found and an expected outline. Only their convex hulls are used.
 struct OutlinePair {
   Polygon found;
   Polygon expected;
 };
 
-/// rms of the distance between their tangents, mm, leaving out the quarter of directions where it is largest: channels,
-/// marks and clamps cut into an outline.
+/// rms distance between the outlines' tangents, mm, without the worst quarter of directions. Channels, marks and clamps
+/// cut into an outline disturb these.
 double deviation(const std::vector<OutlinePair>& pairs, const PlaneMotion& motion);
 
 struct OutlineFit {
   PlaneMotion motion;
-  bool tells_turn = true;  ///< false: round, and the turn is left at 0
+  bool tells_turn = true;  ///< false for round outlines, whose turn is left at 0
 };
-/// The one motion that lays all of `found` on their `expected`.
+/// The motion that best maps all `found` outlines onto their `expected` ones.
 OutlineFit lay_on(const std::vector<OutlinePair>& pairs);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// A place on a part, in words.
+/// Internal: text for a place on a part.
 #pragma once
 
 #include <string>

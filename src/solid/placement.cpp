@@ -14,28 +14,29 @@
 namespace fusee {
 namespace {
 
-// What deviates by a larger part of its radius is another pulley: 0.3 mm at 16 mm, more than a print or a scan is off.
+// Largest deviation of the same pulley, relative to its radius: 0.3 mm at 16 mm, more than the error of a print or a
+// scan.
 constexpr double k_most_deviation = 0.02;
-// A file that was scaled or mirrored by a program is so exactly: 16 µm at 16 mm, little more than facets stray by. A
-// pulley for another r1 is nearly this one in another size, to within some 0.1 %.
+// Largest relative deviation of a file that a program scaled or mirrored: 16 µm at 16 mm, slightly more than facets
+// differ. A pulley for another r1 is nearly a scaled copy, to within some 0.1 %.
 constexpr double k_most_deviation_of_copy = 0.001;
-// One size more than this off is a wrong unit or a slicer's scaling, and no material's shrinkage.
+// A size that differs by more is a wrong unit or a slicer's scaling, not shrinkage.
 constexpr double k_most_rescaled = 0.02;
-// A way that needs more doing has to fit this much better: curves that are their own mirror image fit both ways.
+// Factor by which a more complex placement must fit better: curves that are their own mirror image fit both ways.
 constexpr double k_clearly_better = 0.5;
-// Grooves shallower than this part of the tendon's diameter hold none.
+// Least depth of a groove, in tendon diameters.
 constexpr double k_least_groove = 0.3;
 // Slices per tendon diameter. A groove's floor and walls are 1 to 2 diameters wide.
 constexpr double k_slices = 4.0;
-// A bore is round within this part of its radius, and stands at most this far from the axis (mm): else it is a hole
-// beside it. Nearer than facets are true it is at it.
+// Limits for a bore: roundness relative to its radius, and largest distance from the axis (mm). Other holes are
+// ignored. Below the accuracy of facets the distance counts as zero.
 constexpr double k_bore_roundness = 0.01;
 constexpr double k_bore_reach = 1.0;
 constexpr double k_bore_at_axis = 0.01;
 
 double radius_of(const Polygon& outline) { return std::sqrt(std::abs(signed_area(convex_hull(outline))) / k_pi); }
 
-/// Of those that are looked for.
+/// Mean radius of the floors that are searched for.
 double mean_radius(const GrooveFloors& floors) {
   if (floors.p1.empty()) return radius_of(floors.p2);
   return floors.p2.empty() ? radius_of(floors.p1) : 0.5 * (radius_of(floors.p1) + radius_of(floors.p2));
@@ -43,9 +44,9 @@ double mean_radius(const GrooveFloors& floors) {
 
 const Polygon& floor_of(const GrooveFloors& floors, Side side) { return side == Side::left ? floors.p1 : floors.p2; }
 
-// ---- a way in which grooves of the mesh may be those of the pulley -------------------------------
+// ---- assignments of the mesh's grooves to those of the pulley ------------------------------------
 
-/// A groove of the mesh that may be that of one side.
+/// A groove of the mesh that is assigned to one side.
 struct Match {
   Side side = Side::left;
   const GrooveInMesh* groove = nullptr;
@@ -92,7 +93,7 @@ struct FittedWay {
   double deviation = std::numeric_limits<double>::infinity();  ///< in units of the expected part
 };
 
-/// A part of another size is laid on as if it had the right one.
+/// A part of another size is fitted after scaling to the right size.
 FittedWay fitted(const Way& way, const GrooveFloors& expected) {
   const double scale = scale_of(way, expected);
   FittedWay result{way, {}, std::abs(scale - 1) > k_most_rescaled ? scale : 1.0};
@@ -102,12 +103,12 @@ FittedWay fitted(const Way& way, const GrooveFloors& expected) {
   return result;
 }
 
-/// P1 below P2 is how it is made; seen from below the upper one is P1. The other two orders are mirror images.
+/// P1 is below P2 as built. Seen from below the upper one is P1. The other two orders are mirror images.
 std::vector<Way> ways_of_both(const std::vector<GrooveInMesh>& grooves, const GrooveFloors& expected) {
   std::vector<Way> ways;
   if (expected.p1.empty() || expected.p2.empty()) return ways;
   for (std::size_t low = 0; low < grooves.size(); ++low) {
-    // Between them a part may be thinner, too: where two prints meet, or under a hub.
+    // A part may be thinner between the grooves as well: where two prints meet, or under a hub.
     for (std::size_t high = low + 1; high < grooves.size(); ++high) {
       const std::vector<Match> upright{{Side::left, &grooves[low]}, {Side::right, &grooves[high]}};
       const std::vector<Match> upside_down{{Side::left, &grooves[high]}, {Side::right, &grooves[low]}};
@@ -122,7 +123,7 @@ std::vector<Way> ways_of_both(const std::vector<GrooveInMesh>& grooves, const Gr
 
 std::vector<Way> ways_of_one(const std::vector<GrooveInMesh>& grooves, const GrooveFloors& expected) {
   std::vector<Way> ways;
-  // Of two grooves one alone may be that of many pulleys.
+  // With two grooves, one alone could belong to many pulleys.
   if (grooves.size() != 1) return ways;
   for (const bool flipped : {false, true}) {
     for (const Side side : {Side::left, Side::right}) {
@@ -133,19 +134,19 @@ std::vector<Way> ways_of_one(const std::vector<GrooveInMesh>& grooves, const Gro
 }
 
 bool fits(const FittedWay& fitted, double radius) {
-  // A circle is every other circle in another size.
+  // Every circle is a scaled copy of every other circle.
   if (fitted.scale != 1.0 && !fitted.fit.tells_turn) return false;
   const bool is_copy = fitted.scale != 1.0 || fitted.way.mirrored;
   return fitted.deviation < (is_copy ? k_most_deviation_of_copy : k_most_deviation) * radius;
 }
 
-/// A size of its own, a mirror, a turn upside down: each needs more doing than the one before.
+/// Complexity of a placement: scaling, then mirroring, then turning over.
 int effort(const FittedWay& fitted) {
   return 4 * static_cast<int>(fitted.scale != 1.0) + 2 * static_cast<int>(fitted.way.mirrored) +
          static_cast<int>(fitted.way.flipped && !fitted.way.mirrored);
 }
 
-/// None where no way fits.
+/// Empty if no assignment fits.
 std::optional<FittedWay> best_of(const std::vector<Way>& ways, const GrooveFloors& expected) {
   std::vector<FittedWay> all;
   for (const Way& way : ways) {
@@ -164,8 +165,8 @@ std::optional<FittedWay> best_of(const std::vector<Way>& ways, const GrooveFloor
 
 // ---- the bore ------------------------------------------------------------------------------------
 
-/// The circle through the corners, by least squares; none where they are on no circle. A flat is a chord, and its ends
-/// are on the circle too.
+/// The circle through the corners by least squares; empty if they are on no circle. A flat is a chord, whose ends are
+/// on the circle too.
 std::optional<Vec2> centre_of_round(const Polygon& hole) {
   const Polygon corners = corners_of(hole);
   if (corners.size() < 4) return std::nullopt;
@@ -187,7 +188,7 @@ std::optional<Vec2> centre_of_round(const Polygon& hole) {
   return is_round ? std::optional(centre) : std::nullopt;
 }
 
-/// The round hole about an axis that is known nearly; it is smaller than the outline.
+/// The round hole about an approximately known axis, smaller than the outline.
 std::optional<Vec2> bore_near(const TriangleMesh& mesh, double z, const Vec2& axis) {
   std::optional<Vec2> nearest;
   const std::vector<Polygon> loops = section(mesh, z);
@@ -205,7 +206,7 @@ std::optional<Vec2> bore_near(const TriangleMesh& mesh, double z, const Vec2& ax
 
 Vec2 flipped(const Vec2& point, bool is_flipped) { return is_flipped ? Vec2(point.x(), -point.y()) : point; }
 
-/// Into the mesh: what the motion brings to the axis.
+/// The axis in the mesh: the point that the motion maps to the origin.
 Vec2 axis_of(const PlaneMotion& motion, bool is_flipped) {
   return flipped(turned(-motion.shift, -motion.turn), is_flipped);
 }
@@ -225,7 +226,7 @@ Placement placement_of(const TriangleMesh& mesh, const FittedWay& fitted) {
   if (const auto bore = bore_near(mesh, fitted.way.matches.front().groove->z, placement.axis)) {
     const double off = (*bore - placement.axis).norm();
     if (off > k_bore_at_axis) {
-      // What turns is the bore: a groove that runs out of true beside it does so on the joint.
+      // The bore defines the axis of rotation. A groove that is eccentric to it runs out of true on the joint.
       placement.bore_off_axis = off;
       placement.axis = *bore;
       motion.shift = -turned(flipped(*bore, upside_down), motion.turn);
@@ -281,7 +282,7 @@ std::vector<TriangleMesh> bodies_of(const TriangleMesh& mesh) {
 PlacementResult find_placement(const TriangleMesh& mesh, const GrooveFloors& expected, double tendon_diameter) {
   const double radius = mean_radius(expected);
   const Bounds box = bounds(mesh);
-  // In another unit the part is as many slices high.
+  // In another unit the part has the same number of slices.
   const double unit_here = (box.high - box.low).head<2>().maxCoeff() / (2.0 * radius);
   const std::vector<GrooveInMesh> grooves =
       find_grooves(mesh, k_least_groove * tendon_diameter / radius, unit_here * tendon_diameter / k_slices);

@@ -22,15 +22,15 @@ namespace {
 
 // Diameters to try for an automatic bore.
 constexpr std::array<double, 6> k_bores{5.0, 4.0, 3.0, 2.5, 2.0, 1.5};
-// An automatic wall: of parts of ordinary size, per radius of small ones, and the least that a nozzle of 0.4 mm makes.
+// Automatic wall: for parts of ordinary size, per radius for small ones, and the least for a nozzle of 0.4 mm.
 constexpr double k_wall = 1.2;
 constexpr double k_wall_per_radius = 0.12;
 constexpr double k_least_wall = 0.4;
 
-// One print is made as long as the cone under its middle flange is no higher: two take pins and glue.
+// Highest cone under the middle flange for one print. Two prints require pins and glue.
 constexpr double k_highest_cone = 3.0;
 
-// Some of the points of a convex floor: they span no more than it.
+// Some points of a convex floor, whose polygon lies within it.
 Polygon floor_within(const Outline& outline, double tendon_diameter) {
   const Polygon all = parallel(outline, -0.5 * tendon_diameter);
   Polygon floor;
@@ -65,7 +65,7 @@ class Planner {
     tie_offs_.settle_pockets(plan.layout, wound);
     plan.anchors = tie_offs_.all(plan.layout, wound);
     turn_set_screw(plan);
-    roof_pockets(plan.layout);
+    ceiling_pockets(plan.layout);
     plan.conditions = conditions_of(mechanism_, synthesis_, plan.layout, rims_, tie_offs_.rooms(plan.layout, wound));
     if (wishes_.conditions_alone && !plan.possible()) return plan;
     if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, plan);
@@ -78,7 +78,7 @@ class Planner {
  private:
   Polygon floor(const Outline& outline) const { return parallel(outline, -0.5 * d_); }
 
-  // From the one to be preferred to the last that may be tried.
+  // In order of preference.
   std::vector<double> walls() const {
     if (mechanism_.body.min_wall > 0) return {mechanism_.body.min_wall};
     const double radius = std::min(inradius(floor(synthesis_.p1)), inradius(floor(synthesis_.p2)));
@@ -96,8 +96,8 @@ class Planner {
     return bores.empty() ? std::vector<double>{k_bores.front()} : bores;
   }
 
-  // Thick walls before large bores, both as large as leaves room for both tie-offs. Where the least of all has none,
-  // none of the others has.
+  // Prefers thick walls to large bores, both as large as both tie-offs allow. If the smallest of both has no space for
+  // them, no other choice has.
   BodyLayout preferred_layout() {
     const std::vector<double> walls = this->walls(), bores = this->bores();
     const BodyLayout least = layout_with(bores.back(), walls.back());
@@ -130,14 +130,14 @@ class Planner {
     layout.min_wall = wall;
     layout.bore = bore_layout(mechanism_, bore);
     if (mechanism_.body.bore_diameter <= 0 && bore < k_bores.front()) {
-      layout.notes.push_back(fmt::format("no room for a bore of {} mm: made {} mm", k_bores.front(), bore));
+      layout.notes.push_back(fmt::format("no space for a bore of {} mm: reduced to {} mm", k_bores.front(), bore));
     }
-    roof_recess(layout);
+    ceiling_recess(layout);
     choose_hub(layout, mechanism_, inradius(rims_.upper));
     return layout;
   }
 
-  // Where a pocket cuts into the hub the set screw must point elsewhere; on a shaft with a flat it cannot.
+  // The set screw turns away from a pocket that cuts into the hub. On a shaft with a flat it cannot.
   void turn_set_screw(BodyPlan& plan) const {
     SetScrewLayout& screw = plan.layout.set_screw;
     if (!screw.present) return;
@@ -148,14 +148,14 @@ class Planner {
     };
     const int choices = mechanism_.body.bore == Bore::round ? 24 : 1;
     for (int k = 0; k < choices; ++k) {
-      // To the left and to the right of +y in turn.
+      // Alternates to the left and to the right of +y.
       const double angle = 0.5 * k_pi + (k % 2 == 0 ? 1.0 : -1.0) * k_two_pi / 24.0 * ((k + 1) / 2);
       if (!clear_at(angle)) continue;
       screw.angle = angle;
       return;
     }
     screw = {};
-    plan.layout.notes.push_back("a knot pocket stands where the set screw would be: no set screw");
+    plan.layout.notes.push_back("a knot pocket occupies the place of the set screw: screw omitted");
   }
 
   const Mechanism& mechanism_;
@@ -167,7 +167,7 @@ class Planner {
   TieOffPlanner tie_offs_;
 };
 
-// What is too large is not planned at all.
+// A part that is too large is not planned.
 std::vector<Condition> too_far_out(const SynthesisResult& synthesis) {
   std::vector<Condition> far;
   for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
@@ -182,7 +182,7 @@ std::vector<Condition> too_far_out(const SynthesisResult& synthesis) {
   return far;
 }
 
-// What holds P1 and P2 at one angle: pins, a horn's screws, or a shaft that does not turn in its bore.
+// True if P1 and P2 are held at one angle: by pins, a horn's screws, or a shaft that does not turn in its bore.
 bool is_located(const BodyLayout& layout) {
   return !layout.dowels.places.empty() || layout.bore.screw_holes.size() > 1 || layout.bore.kind == Bore::d ||
          layout.bore.kind == Bore::keyway;
@@ -201,22 +201,21 @@ BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis,
     return none;
   }
   const FlangeRims rims = rims_of(mechanism, synthesis);
-  const TieOffWishes nearest_wishes{WrapChoice::nearest, wishes.rejected, wishes.mouth_lean};
+  const TieOffWishes nearest_wishes{WrapChoice::nearest, wishes.rejected, wishes.entry_lean};
   const auto plan_on = [&](const BodyLayout& base) {
     BodyPlan plan = Planner(mechanism, synthesis, rims, base, wishes).plan();
     if (plan.possible() || wishes.wrap == WrapChoice::nearest) return plan;
     BodyPlan nearest = Planner(mechanism, synthesis, rims, base, nearest_wishes).plan();
     if (!nearest.possible()) return plan;
-    nearest.layout.notes.push_back(
-        "the tie-offs have no more wrap than they need: further round, something else had no place");
+    nearest.layout.notes.push_back("the tie-offs have the least wrap only: with more, another feature had no place");
     return nearest;
   };
-  const auto base_in = [&](Parts parts) { return axial_layout(mechanism, rims, parts, wishes.mouth_lean); };
+  const auto base_in = [&](Parts parts) { return axial_layout(mechanism, rims, parts, wishes.entry_lean); };
   if (mechanism.print.parts != Parts::automatic) return plan_on(base_in(mechanism.print.parts));
   const BodyLayout whole = base_in(Parts::one);
   if (whole.middle_cone <= k_highest_cone) return plan_on(whole);
   if (wishes.conditions_alone) {
-    // What can be one print needs no pins.
+    // A pulley that can be one print needs no pins.
     BodyPlan one = plan_on(whole);
     if (one.possible()) return one;
     BodyPlan two = plan_on(base_in(Parts::two));
@@ -226,7 +225,7 @@ BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis,
   if (two.possible() && is_located(two.layout)) return two;
   BodyPlan one = plan_on(whole);
   one.layout.notes.push_back(fmt::format(
-      "a cone of {:.1f} mm stands under the middle flange: there is no room for pins to print P1 and P2 apart",
+      "a cone of {:.1f} mm remains under the middle flange: there is no space for pins to print P1 and P2 separately",
       one.layout.middle_cone));
   return one;
 }

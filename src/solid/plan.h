@@ -1,6 +1,5 @@
 /// \file
-/// What will be built, before any triangle: sizes, anchors, and the conditions that say whether it can be. mm, not yet
-/// scaled.
+/// Internal: the plan of a body before meshing: sizes, anchors, and the conditions for building it. mm, not yet scaled.
 #pragma once
 
 #include <vector>
@@ -14,14 +13,15 @@ namespace fusee {
 struct BodyPlan {
   BodyLayout layout;
   FlangeRims rims;
-  Polygon floor1, floor2;  ///< of the grooves, coarse: nowhere outside them
+  Polygon floor1, floor2;  ///< of the grooves, with few points, everywhere inside the true floors
   std::vector<PlannedAnchor> anchors;
   std::vector<Condition> conditions;
 
   bool possible() const;
 };
 
-/// With tie-offs as far round as there is room for, or where something else then has no place, near the active arc.
+/// Puts the tie-offs as far round the closing arc as there is space. If another feature then has no place, puts them
+/// near the active arc.
 BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis, const TieOffWishes& wishes = {});
 
 }  // namespace fusee

@@ -10,52 +10,52 @@
 #include "base/beside.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
-#include "solid/blame.h"
 #include "solid/body.h"
 #include "solid/boolean.h"
-#include "solid/cut_ways.h"
+#include "solid/channel_entries.h"
+#include "solid/cut_variants.h"
 #include "solid/dowels.h"
 #include "solid/euler.h"
 #include "solid/face_holes.h"
-#include "solid/gate.h"
+#include "solid/manifold_check.h"
 #include "solid/marks.h"
-#include "solid/mouths.h"
 #include "solid/place.h"
 #include "solid/plan.h"
 #include "solid/plane_distance.h"
 #include "solid/rings.h"
 #include "solid/self_intersection.h"
+#include "solid/support_attribution.h"
 #include "solid/tie_off_tools.h"
 #include "solid/tools.h"
 
 namespace fusee {
 namespace {
 
-// Facets; parts of ordinary size and tolerance have half as many.
+// Number of facets of a large body. Parts of ordinary size and tolerance have half as many.
 constexpr std::size_t k_large_body = 30'000;
-// How often tie-offs that do not print are planned anew.
+// Number of times that tie-offs that do not print are planned again.
 constexpr int k_rounds = 8;
 constexpr int k_brief_rounds = 1;
 
-/// How much is tried before a body is given up.
+/// Effort before a body is rejected.
 struct Effort {
-  int variants = k_cut_ways;
+  int variants = k_cut_variants;
   int rounds = k_rounds;
 };
-constexpr Effort k_brief{k_brief_cut_ways, k_brief_rounds};
+constexpr Effort k_brief{k_brief_cut_variants, k_brief_rounds};
 
-// Room between two parts on the printer.
+// Gap between two parts on the printer.
 constexpr double k_between_parts = 5.0;
 
-// Formats and slicers keep fewer digits than a float near the axis has: faces that lie closer than this would cross
-// there. Draco's finest grid is about a tenth of it.
+// Formats and slicers keep fewer digits than floats near the axis, so faces closer than this would intersect there.
+// Draco's finest grid is about a tenth of it.
 bool stands_rounding(TriangleMesh mesh) {
   constexpr double k_coarsest_grain = 0x1p-15;  // mm
   for (Vec3& vertex : mesh.vertices) vertex = k_coarsest_grain * (vertex / k_coarsest_grain).array().round().matrix();
   return !find_crossing(mesh).facets;
 }
 
-// A facet this thin, a few grains of a float, has no normal that another program would find again, mm.
+// A facet this thin, a few float steps, has no normal that another program would reproduce, mm.
 constexpr double k_thinnest_facet = 1e-5;
 
 bool has_needles(const TriangleMesh& mesh) {
@@ -66,21 +66,21 @@ bool has_needles(const TriangleMesh& mesh) {
   });
 }
 
-// How well a mesh bears what other programs do to it: the larger, the better.
+// Robustness of a mesh against processing by other programs, in increasing order.
 constexpr int k_any = 0;
 constexpr int k_sound = 2;
 int soundness_of(const TriangleMesh& mesh) { return !stands_rounding(mesh) ? 0 : has_needles(mesh) ? 1 : k_sound; }
 
-// A body with its features, and what it must measure.
-struct Featured {
+// A body with its features, and the expected values of its measurements.
+struct CutPiece {
   TriangleMesh mesh;
   double volume = 0;
   std::vector<Check> checks = {};
   int soundness = k_any;
-  std::vector<Vec3> unprintable = {};  // places of the whole; of a piece that is printed as it is
+  std::vector<Vec3> unprintable = {};  // places in the whole, of a piece that is printed in this form
 };
 
-// From where a piece stands in the whole to where it lies on the printer: P1 is turned over about the x axis.
+// Moves a piece from its position in the whole to its print orientation: P1 is turned over about the x axis.
 TriangleMesh laid_on_bed(TriangleMesh mesh, Piece piece, double mate) {
   if (piece == Piece::whole) return mesh;
   for (Vec3& vertex : mesh.vertices) {
@@ -103,9 +103,9 @@ class FeatureCutter {
         has_p1_(piece != Piece::p2),
         has_p2_(piece != Piece::p1) {}
 
-  // Null when the result is no solid: the next variant may do better.
-  std::optional<Featured> cut(const TriangleMesh& body, double volume, int variant) const {
-    // What may overlap is cut one after the other: two mouths meet outside of the flanges.
+  // Empty if the result is no valid solid. Another variant may succeed.
+  std::optional<CutPiece> cut(const TriangleMesh& body, double volume, int variant) const {
+    // Features that may overlap are cut one after the other: two channel entries meet outside the flanges.
     std::vector<std::vector<TriangleMesh>> passes;
     for (const PlannedAnchor& anchor : plan_.anchors) {
       if (has(anchor)) passes.push_back({tie_off_tool(plan_, anchor, variant)});
@@ -115,13 +115,13 @@ class FeatureCutter {
     for (const std::vector<TriangleMesh>& pass : passes) {
       TriangleMesh tool = placed(pass);
       if (tool.triangles.empty()) continue;
-      // What crosses itself cannot be cut with: it may never end.
+      // Boolean operations with a self-intersecting tool may not terminate.
       if (find_crossing(tool).facets) return std::nullopt;
       tools.push_back(std::move(tool));
     }
     auto cut = subtract_each(body, tools);
     if (!cut) return std::nullopt;
-    Featured result{std::move(cut->mesh), volume};
+    CutPiece result{std::move(cut->mesh), volume};
     for (const double common : cut->common_volumes) result.volume -= common;
     if (const TriangleMesh raised = placed(raised_marks()); !raised.triangles.empty()) {
       const double added = enclosed_volume(raised);
@@ -132,7 +132,7 @@ class FeatureCutter {
     }
     result.mesh = laid_on_bed(std::move(result.mesh), piece_, layout_.scale * layout_.z_mate);
     auto soundness = beside([&result] { return soundness_of(result.mesh); }, piece_ == Piece::whole);
-    // Of a large part it takes long, and is for nothing where its mesh has a fault: then it waits for the checks.
+    // For a large part this takes long, and is wasted if its mesh has a fault, so it then runs after the checks.
     const bool is_worth_a_thread = is_printed() && result.mesh.triangles.size() < k_large_body;
     auto unprintable = beside([&] { return unprintable_places_of(result.mesh); }, is_worth_a_thread);
     result.checks = check_mesh(result.mesh);
@@ -143,7 +143,7 @@ class FeatureCutter {
   }
 
  private:
-  // Without supports.
+  // True for a piece that is printed without supports.
   bool is_printed() const {
     return !mechanism_.print.supports && (piece_ == Piece::whole) == (layout_.parts == Parts::one);
   }
@@ -152,7 +152,7 @@ class FeatureCutter {
     return unprintable_places(mesh, piece_, layout_, mechanism_.print.overhang, corners_);
   }
 
-  // From the layout's mm to the mesh's floats.
+  // Converts from the layout's mm to the mesh's floats.
   TriangleMesh placed(const std::vector<TriangleMesh>& tools) const {
     TriangleMesh all = together(tools);
     for (Vec3& vertex : all.vertices) vertex *= layout_.scale;
@@ -212,8 +212,8 @@ class FeatureCutter {
   bool has_p1_, has_p2_;
 };
 
-// Every way through the body is a handle. The bore's holes, a tunnel for each channel, for the set screw a branch from
-// the bore to the hub's side and, with a nut trap, another to its top; and P1's pins, which end in P2.
+// Every passage through the body is a handle: the bore's holes, a tunnel for each channel, for the set screw a branch
+// from the bore to the hub's side and, with a nut trap, another to its top. P1's pins are passages too; they end in P2.
 int handles(const RingStack& stack, const BodyPlan& plan, Piece piece) {
   const SetScrewLayout& screw = plan.layout.set_screw;
   std::size_t count = stack.through.size() + (recess_goes_through(stack) ? 1 : 0);
@@ -226,8 +226,8 @@ int handles(const RingStack& stack, const BodyPlan& plan, Piece piece) {
   return static_cast<int>(count);
 }
 
-// Whether every vertex is in use, and none where another is: spare ones hide a way through, and where a body touches
-// itself whoever reads it welds one.
+// True if every vertex is used and no two coincide. Spare vertices would hide a passage, and a reader would weld a body
+// at a place where it touches itself.
 bool is_welded(const TriangleMesh& mesh) {
   std::vector<bool> used(mesh.vertices.size(), false);
   for (const auto& triangle : mesh.triangles) {
@@ -241,14 +241,14 @@ bool is_welded(const TriangleMesh& mesh) {
   return std::adjacent_find(places.begin(), places.end()) == places.end();
 }
 
-// A closed mesh that is welded is counted at a glance.
+// The Euler number of a welded closed mesh follows from its counts alone.
 bool has_euler(const TriangleMesh& mesh, int expected) {
   const auto at_a_glance =
       static_cast<std::ptrdiff_t>(mesh.vertices.size()) - static_cast<std::ptrdiff_t>(mesh.triangles.size() / 2);
   return (at_a_glance == expected && is_welded(mesh)) || euler_number(mesh) == expected;
 }
 
-struct Made {
+struct BuiltPiece {
   TriangleMesh mesh;
   double volume = 0;
   int euler = 0;
@@ -257,7 +257,7 @@ struct Made {
   std::vector<Vec3> unprintable = {};
 };
 
-// A variant moves channels a little, within the walls to what is cut along the axis.
+// A variant shifts channels slightly, within the walls to the axial cuts.
 bool keeps_walls(const BodyPlan& plan, int variant) {
   const BodyLayout& layout = plan.layout;
   std::vector<Bar> holes{{Vec2::Zero(), Vec2::Zero(), layout.bore.radius}};
@@ -279,7 +279,7 @@ bool keeps_walls(const BodyPlan& plan, int variant) {
   });
 }
 
-// The pieces of a pulley before anything is cut out of them, the whole first.
+// The pieces of a pulley before any cut, the whole first.
 class PieceMaker {
  public:
   PieceMaker(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan,
@@ -299,17 +299,17 @@ class PieceMaker {
     for (const Blank& blank : blanks_) demand_solid(blank.mesh, "body");
   }
 
-  // In how many ways it may be cut, of as many as are wanted.
+  // Number of cut variants, at most `wanted`.
   int ways(int wanted) const {
     std::size_t facets = 0;
     for (const Blank& blank : blanks_) facets += blank.mesh.triangles.size();
-    return cut_ways(facets, wanted);
+    return cut_variants(facets, wanted);
   }
 
-  // All with the same features, so that the parts make the whole; none when one of them is no solid, or has a way
-  // through that nobody planned: a mark that opens a channel.
-  std::vector<Made> cut(int variant, bool marked) const {
-    std::vector<Made> made;
+  // Cuts all pieces with the same features, so that the parts form the whole. Empty if one of them is no valid solid or
+  // has an unplanned passage, such as a mark that opens a channel.
+  std::vector<BuiltPiece> cut(int variant, bool marked) const {
+    std::vector<BuiltPiece> made;
     if (variant > 0 && !keeps_walls(plan_, variant)) return made;
     for (const Blank& blank : blanks_) {
       auto featured = FeatureCutter(mechanism_, plan_, marked ? marks_ : k_no_marks, corners_, blank.piece)
@@ -338,7 +338,7 @@ class PieceMaker {
   std::vector<Blank> blanks_;
 };
 
-// No variant left a solid: walls between features, each wide enough seen along the axis, meet in space.
+// No variant left a valid solid: walls between features, each wide enough in plan, intersect in space.
 Condition uncut_features(int ways) {
   Condition condition;
   condition.name = "features";
@@ -346,8 +346,8 @@ Condition uncut_features(int ways) {
   condition.value = 0;
   condition.limit = 1;
   condition.unit = "1";
-  condition.message =
-      fmt::format("tie-offs, screws and marks run into one another: none of {} ways to cut them leaves a solid", ways);
+  condition.message = fmt::format(
+      "tie-offs, screws and marks intersect one another: none of {} cut variants leaves a valid solid", ways);
   return condition;
 }
 
@@ -359,8 +359,8 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
     anchor.channel =
         outline_of(keyhole(path, layout.channel_width, layout.pocket_radius, pocket_facets(layout.pocket_radius)));
     const ChannelEdges edges = channel_edges(plan, planned.side, path);
-    anchor.mouth = edges.outer;
-    anchor.mouth.insert(anchor.mouth.end(), edges.inner.rbegin(), edges.inner.rend());
+    anchor.entry = edges.outer;
+    anchor.entry.insert(anchor.entry.end(), edges.inner.rbegin(), edges.inner.rend());
     anchor.bend = ChannelBend{path.start - path.fillet * path.normal, path.fillet, path.heading(), path.straight,
                               channel_half_height(layout, variant)};
   } else {
@@ -372,27 +372,27 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
   return anchor;
 }
 
-// Where a closing arc is hardly longer than a mouth, the mouth may reach into the arc that the tendon winds on.
-std::optional<Condition> mouth_in_active_arc(const Anchor& anchor, const std::vector<Vec2>& active_floor) {
+// If a closing arc is hardly longer than a channel entry, the entry may reach into the active arc.
+std::optional<Condition> entry_in_active_arc(const Anchor& anchor, const std::vector<Vec2>& active_floor) {
   for (const Vec2& point : active_floor) {
-    if (!is_inside(anchor.mouth, point) && !is_inside(anchor.channel, point)) continue;
+    if (!is_inside(anchor.entry, point) && !is_inside(anchor.channel, point)) continue;
     Condition condition;
     condition.name = "tie_off_mouth";
     condition.ok = false;
     condition.limit = 0;
     condition.unit = "mm";
-    condition.message = fmt::format(
-        "{}'s tie-off has no room behind the arc that the tendon winds on: its mouth would cut into that arc at {}",
-        anchor.side == Side::left ? "P1" : "P2", place_of(Vec3(point.x(), point.y(), 0)));
+    condition.message =
+        fmt::format("{}'s tie-off has no space behind the active arc: its channel entry would cut into that arc at {}",
+                    anchor.side == Side::left ? "P1" : "P2", place_of(Vec3(point.x(), point.y(), 0)));
     return condition;
   }
   return std::nullopt;
 }
 
-// As a variant cuts them.
+// The anchors as one variant cuts them.
 struct VariedAnchors {
   std::vector<Anchor> anchors;
-  std::optional<Condition> cut_into;  // what is wrong with it
+  std::optional<Condition> cut_into;  // condition that the variant fails
 };
 
 class AnchorVariants {
@@ -411,7 +411,7 @@ class AnchorVariants {
     VariedAnchors varied;
     for (const PlannedAnchor& planned : plan_.anchors) {
       varied.anchors.push_back(anchor_of(planned, plan_, variant));
-      varied.cut_into = mouth_in_active_arc(varied.anchors.back(), planned.side == Side::left ? floor1_ : floor2_);
+      varied.cut_into = entry_in_active_arc(varied.anchors.back(), planned.side == Side::left ? floor1_ : floor2_);
       if (varied.cut_into) break;
     }
     return varied;
@@ -424,18 +424,18 @@ class AnchorVariants {
 };
 
 struct BestCut {
-  std::vector<Made> pieces;  // none where no variant leaves a solid
+  std::vector<BuiltPiece> pieces;  // empty if no variant leaves a valid solid
   int variant = 0;
 };
 
-// From a variant that may be on: the first that bears so much, or what bears most.
+// From variant `first` on, the first cut of at least `enough` soundness, or the soundest one.
 BestCut best_cut(const PieceMaker& maker, bool marked, const AnchorVariants& anchors, int first, int variants,
                  int enough) {
   BestCut taken;
   int best = k_any;
   for (int variant = first; variant < variants; ++variant) {
     if (variant > first && !anchors.may_be(variant)) continue;
-    std::vector<Made> made = maker.cut(variant, marked);
+    std::vector<BuiltPiece> made = maker.cut(variant, marked);
     if (made.empty()) continue;
     if (enough == k_any) {
       taken = {std::move(made), variant};
@@ -453,10 +453,10 @@ BestCut best_cut(const PieceMaker& maker, bool marked, const AnchorVariants& anc
 struct RatedPulley {
   Pulley pulley;
   int soundness = k_any;
-  std::vector<Vec3> unprintable = {};  // where a layer stands out too far, or begins in mid-air
+  std::vector<Vec3> unprintable = {};  // places where a layer projects too far or begins in mid-air
 };
 
-// Whether it prints is another question.
+// Printability is checked separately.
 RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan, Corners corners,
                       const Effort& effort, int enough) {
   RatedPulley rated;
@@ -473,7 +473,7 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
   }
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
   const PieceMaker maker(mechanism, synthesis, plan, marks, corners);
-  // What is no solid has no cut, but is a bug and not a refusal.
+  // A blank that is no valid solid is a bug, not a rejection.
   auto gate = beside([&maker] { maker.demand_solids(); });
   const int variants = std::min(effort.variants, first + maker.ways(effort.variants));
   bool is_marked = true;
@@ -481,7 +481,7 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
   if (cut.pieces.empty() && !marks.empty()) {
     cut = best_cut(maker, false, anchors, first, variants, enough);
     is_marked = cut.pieces.empty();
-    if (!is_marked) plan.layout.notes.push_back("the marks would run into a tie-off: left out");
+    if (!is_marked) plan.layout.notes.push_back("the marks would cut into a tie-off: omitted");
   }
   gate.get();
   auto& [pieces, taken] = cut;
@@ -491,7 +491,7 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
     return rated;
   }
   rated.soundness = pieces.front().soundness;
-  for (const Made& piece : pieces)
+  for (const BuiltPiece& piece : pieces)
     rated.unprintable.insert(rated.unprintable.end(), piece.unprintable.begin(), piece.unprintable.end());
   pulley.anchors = anchors.at(taken).anchors;
   if (is_marked) pulley.marks = marks;
@@ -506,35 +506,35 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
   return rated;
 }
 
-std::vector<Rejection> news(std::vector<Rejection> blamed, const std::vector<Rejection>& known) {
+std::vector<Rejection> new_rejections(std::vector<Rejection> blamed, const std::vector<Rejection>& known) {
   std::erase_if(blamed, [&known](const Rejection& rejection) {
     return std::find(known.begin(), known.end(), rejection) != known.end();
   });
   return blamed;
 }
 
-// No way was found to print it without supports.
+// The pulley with the condition that it cannot be printed without supports.
 Pulley refused(Pulley pulley, const Mechanism& mechanism, const std::vector<Vec3>& places) {
-  pulley.conditions.push_back(does_not_print(mechanism.name, places, "wherever its tie-offs lie"));
+  pulley.conditions.push_back(does_not_print(mechanism.name, places, "for any position of its tie-offs"));
   pulley.status = PulleyStatus::impossible;
   return pulley;
 }
 
-bool lacks_a_print(const Pulley& pulley) {
+bool fails_printing(const Pulley& pulley) {
   return std::any_of(pulley.conditions.begin(), pulley.conditions.end(),
                      [](const Condition& condition) { return condition.name == k_prints && !condition.ok; });
 }
 
-// Tie-offs are planned elsewhere as long as one of them has a layer that stands out too far.
-Pulley with_tie_offs_that_print(const Mechanism& mechanism, const SynthesisResult& synthesis, double mouth_lean,
-                                Corners corners, const Effort& effort) {
+// Plans tie-offs again as long as one of them has a layer that projects too far.
+Pulley search_printable_tie_offs(const Mechanism& mechanism, const SynthesisResult& synthesis, double entry_lean,
+                                 Corners corners, const Effort& effort) {
   TieOffWishes wishes;
-  wishes.mouth_lean = mouth_lean;
-  std::optional<Pulley> printable;  // of a mesh that bears less than it might
+  wishes.entry_lean = entry_lean;
+  std::optional<Pulley> printable;  // printable, but with a mesh that is not fully sound
   for (int round = 0;; ++round) {
     const BodyPlan plan = plan_body(mechanism, synthesis, wishes);
     if (mechanism.print.supports) return pulley_of(mechanism, synthesis, plan, corners, effort, k_sound).pulley;
-    // Any cut shows whether it prints; the best is looked for where it does.
+    // Any cut shows whether the plan prints. The soundest one is searched for only then.
     RatedPulley rated = pulley_of(mechanism, synthesis, plan, corners, effort, k_any);
     if (rated.pulley.made() && rated.unprintable.empty()) {
       if (rated.soundness == k_sound) return std::move(rated.pulley);
@@ -544,7 +544,7 @@ Pulley with_tie_offs_that_print(const Mechanism& mechanism, const SynthesisResul
     Pulley& pulley = rated.pulley;
     if (pulley.made() && rated.unprintable.empty()) return std::move(pulley);
     if (!pulley.made()) return printable ? std::move(*printable) : std::move(pulley);
-    const std::vector<Rejection> blamed = news(blamed_for(rated.unprintable, plan), wishes.rejected);
+    const std::vector<Rejection> blamed = new_rejections(attribute_supports(rated.unprintable, plan), wishes.rejected);
     if (blamed.empty() || round == effort.rounds)
       return printable ? std::move(*printable) : refused(std::move(pulley), mechanism, rated.unprintable);
     wishes.rejected.insert(wishes.rejected.end(), blamed.begin(), blamed.end());
@@ -567,21 +567,21 @@ std::string Pulley::brief() const {
     return fmt::format("a body of {} facets, {:.1f} cm³, {} tie-offs", mesh.triangles.size(), expected_volume / 1000.0,
                        anchors.size());
   }
-  std::string text = "no such body can be made";
+  std::string text = "this body cannot be built";
   for (const Condition& condition : conditions) {
     if (!condition.ok) text += "; " + condition.message;
   }
   return text;
 }
 
-// Where no steep mouth has room, a wide one whose tip a squared corner holds is better than none.
+// If no steep entry fits, a wide one whose tip a squared corner supports is used.
 Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis, TieOffSearch search) {
   demand(synthesis.made(), "a body of an infeasible profile");
   const bool is_brief = search == TieOffSearch::brief;
   Pulley pulley =
-      with_tie_offs_that_print(mechanism, synthesis, k_steep_lean, Corners::round, is_brief ? k_brief : Effort{});
-  if (is_brief || !lacks_a_print(pulley)) return pulley;
-  return with_tie_offs_that_print(mechanism, synthesis, k_wide_lean, Corners::squared, Effort{});
+      search_printable_tie_offs(mechanism, synthesis, k_steep_lean, Corners::round, is_brief ? k_brief : Effort{});
+  if (is_brief || !fails_printing(pulley)) return pulley;
+  return search_printable_tie_offs(mechanism, synthesis, k_wide_lean, Corners::squared, Effort{});
 }
 
 TriangleMesh plate_of(const Pulley& pulley) {

@@ -12,15 +12,15 @@ namespace {
 
 Vec3 lifted(const Vec2& point, double z) { return {point.x(), point.y(), z}; }
 
-// Of the quad between sides a and b of a strip: does the diagonal run from a[i] to b[j]? The shorter one, and this one
-// of two equal ones.
+// True if the diagonal of the quad between sides a and b of a strip runs from a[i] to b[j]: the shorter diagonal, and
+// this one if both are equal.
 bool rises_forward(const Ring& a, const Ring& b, std::size_t i, std::size_t j) {
   return (a.points[i] - b.points[j]).squaredNorm() <= (a.points[j] - b.points[i]).squaredNorm();
 }
 
-// A finely sampled rim and a coarse hole would be joined by thousands of needles side by side, which every search
-// through the mesh pays for. Loops of half as many points each, further and further inside the rim, lead from the one
-// to the other. A rim of ordinary fineness needs none.
+// A finely sampled rim and a coarse hole would be joined by thousands of adjacent needles, which slow down every search
+// through the mesh. Loops of half as many points each, further and further inside the rim, lead from one to the other.
+// A rim of ordinary fineness needs none.
 constexpr std::size_t k_fine_rim = 256;
 
 std::vector<Vec2> points_within(const std::vector<Polygon>& loops) {
@@ -105,7 +105,7 @@ class StackMesher {
       std::swap(mesh_.triangles[k][1], mesh_.triangles[k][2]);
   }
 
-  // Walls of a hole face its inside.
+  // The walls of a hole face its inside.
   void join_shaft(std::uint32_t low, std::uint32_t high, std::size_t n) {
     for (std::uint32_t i = 0; i < n; ++i) {
       const auto j = static_cast<std::uint32_t>((i + 1) % n);
@@ -124,7 +124,7 @@ class StackMesher {
     }
   };
 
-  // The hub's wall and the ledge about it; what remains open is its top.
+  // Adds the hub's wall and the ledge around it. Its top remains open.
   FlatFace add_hub(const Shaft& hub, std::uint32_t top_ring) {
     const std::uint32_t low = add_loop(hub.outline, hub.low);
     const std::uint32_t high = add_loop(hub.outline, hub.high);
@@ -135,7 +135,7 @@ class StackMesher {
     return {{&hub.outline}, {high}};
   }
 
-  // The recess' walls; what remains open is its ceiling, or its end in the top.
+  // Adds the recess' walls. Its ceiling, or its end in the top, remains open.
   FlatFace add_recess(FlatFace& bottom) {
     std::uint32_t below = add_loop(stack_.recess.front().points, stack_.recess.front().z);
     bottom.add(stack_.recess.front().points, below);
@@ -148,7 +148,7 @@ class StackMesher {
     return {{&stack_.recess.back().points}, {below}};
   }
 
-  // Every flat face with a hole in it: the top, the bottom, and the recess' ceiling.
+  // Adds every flat face with a hole in it: the top, the bottom, and the recess' ceiling.
   void add_holes(std::uint32_t top_ring) {
     FlatFace top = stack_.hub ? add_hub(*stack_.hub, top_ring) : FlatFace{{&stack_.rings.back().points}, {top_ring}};
     FlatFace bottom{{&stack_.rings.front().points}, {0}};
@@ -202,7 +202,7 @@ class StackMesher {
   bool has_short_edges_ = false;  ///< along a flat face
 };
 
-// Half-way between two rings the strip's section is the polygon through the middles of its uprights and diagonals.
+// Half-way between two rings, the strip's section is the polygon through the midpoints of its verticals and diagonals.
 Polygon middle_section(const Ring& a, const Ring& b) {
   const std::size_t n = a.points.size();
   Polygon middle;
@@ -216,7 +216,7 @@ Polygon middle_section(const Ring& a, const Ring& b) {
   return middle;
 }
 
-// Between consecutive rings. The section's area is a quadratic in z, so Simpson's rule has no error.
+// Volume between consecutive rings. The section's area is a quadratic in z, so Simpson's rule is exact.
 double stacked_volume(const std::vector<Ring>& rings) {
   double volume = 0;
   for (std::size_t k = 1; k < rings.size(); ++k) {

@@ -1,6 +1,6 @@
 /// \file
-/// The body as a stack of closed rings with vertical holes: its mesh and, by the areas of sections, its exact volume.
-/// mm.
+/// Internal: the body as a stack of closed rings with vertical holes, its mesh, and its exact volume by the areas of
+/// sections. mm.
 #pragma once
 
 #include <optional>
@@ -24,23 +24,23 @@ struct Shaft {
   double high = 0;
 };
 
-/// Consecutive rings are joined by strips; the lowest and the highest are capped. Rings at the same height make a flat
-/// step.
+/// Consecutive rings are joined by strips. The lowest and the highest are capped. Two rings at the same height form a
+/// flat step.
 struct RingStack {
   std::vector<Ring> rings;
-  std::optional<Shaft> hub;  ///< stands on the highest ring
-  std::vector<Ring> recess;  ///< from its mouth in the bottom face to its flat ceiling, or through the top; empty: none
-  std::vector<Shaft> through;  ///< up to the top of all, from the bottom or, within the recess, from its ceiling
+  std::optional<Shaft> hub;    ///< stands on the highest ring
+  std::vector<Ring> recess;    ///< from the bottom face to its flat ceiling, or through the top; empty: none
+  std::vector<Shaft> through;  ///< up to the highest face, from the bottom or, within the recess, from its ceiling
 };
 
-/// Does the recess end in the top of all, and not in a ceiling?
+/// True if the recess ends in the highest face and not in a ceiling.
 bool recess_goes_through(const RingStack& stack);
-/// Every coordinate times `scale`, rounded to float.
+/// Multiplies every coordinate by `scale` and rounds it to float.
 RingStack scaled_to_float(RingStack stack, double scale);
-/// The stack's coordinates are kept to the bit. Neighbouring points that are one (far from the axis floats hold no
-/// finer curve) are one vertex.
+/// Keeps the stack's coordinates bit for bit. Neighbouring points that coincide become one vertex (far from the axis,
+/// floats cannot resolve a finer curve).
 TriangleMesh mesh_of(const RingStack& stack);
-/// Exact volume of that mesh: between two rings the section's area is a quadratic in z, so Simpson's rule has no error.
+/// Exact volume of that mesh. Between two rings the section's area is a quadratic in z, so Simpson's rule is exact.
 double volume_of(const RingStack& stack);
 
 }  // namespace fusee

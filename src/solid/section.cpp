@@ -13,8 +13,8 @@
 namespace fusee {
 namespace {
 
-// A cut triangle: the section enters it over the edge that descends and leaves it over the one that rises, the solid on
-// its left.
+// A cut triangle: the section enters it across the descending edge and leaves it across the rising one, with the solid
+// on its left.
 struct FacetCut {
   std::uint64_t from = 0;  // undirected edge
   std::uint64_t to = 0;
@@ -26,7 +26,7 @@ std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
 }
 
-// A vertex exactly at z counts as above, so that no case is special.
+// A vertex exactly at z counts as above, so that there are no special cases.
 bool above(const Vec3& vertex, double z) { return vertex.z() >= z; }
 
 bool is_cut(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle, double z) {
@@ -34,7 +34,7 @@ bool is_cut(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triang
   return above(mesh.vertices[triangle[1]], z) != first || above(mesh.vertices[triangle[2]], z) != first;
 }
 
-// The triangles that the plane cuts, welded: neighbours are found by place, not by how a file numbered them.
+// The triangles that the plane cuts, welded: neighbours are found by position, independent of a file's numbering.
 TriangleMesh cut_triangles(const TriangleMesh& mesh, double z) {
   TriangleMesh cut;
   const std::size_t count = mesh.vertices.size();
@@ -48,7 +48,7 @@ TriangleMesh cut_triangles(const TriangleMesh& mesh, double z) {
   return weld(cut);
 }
 
-// The same two numbers, in the same order, give the same place from both sides of an edge.
+// Both sides of an edge compute the crossing from the same two numbers in the same order, so the places are equal.
 Vec2 crossing(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, double z) {
   const Vec3& first = mesh.vertices[std::min(a, b)];
   const Vec3& second = mesh.vertices[std::max(a, b)];
@@ -88,7 +88,7 @@ Polygon without_repeats(const Polygon& points) {
   return distinct;
 }
 
-// Where cuts begin, in the order of their edges.
+// The starts of cuts, sorted by edge.
 class CutStarts {
  public:
   explicit CutStarts(const std::vector<FacetCut>& cuts) {
@@ -97,7 +97,7 @@ class CutStarts {
     std::sort(starts_.begin(), starts_.end());
   }
 
-  // The first cut that begins there and is not used yet; the number of cuts where there is none.
+  // The first unused cut that begins at this edge; the number of cuts if there is none.
   std::size_t next(const std::vector<FacetCut>& cuts, std::uint64_t edge) const {
     auto found = std::lower_bound(starts_.begin(), starts_.end(), std::pair(edge, std::size_t{0}));
     while (found != starts_.end() && found->first == edge && cuts[found->second].used) ++found;
@@ -127,7 +127,7 @@ std::vector<Polygon> section_of_welded(const TriangleMesh& mesh, const Triangles
       }
       at = starts.next(cuts, cuts[at].to);
     }
-    // An open mesh leaves chains that end nowhere: no loop.
+    // An open mesh leaves open chains, which are not loops.
     if (end != at) continue;
     points = without_repeats(points);
     if (points.size() >= 3) loops.push_back(std::move(points));

@@ -9,7 +9,7 @@ namespace fusee {
 
 using Triangles = decltype(TriangleMesh::triangles);
 
-/// As section(), where it is known that one place is one vertex. `triangles`: of that mesh, all that the plane may cut.
+/// Like section(), for a welded mesh. `triangles`: all triangles of the mesh that the plane may cut.
 std::vector<Polygon> section_of_welded(const TriangleMesh& mesh, const Triangles& triangles, double z);
 
 }  // namespace fusee

@@ -10,15 +10,16 @@
 namespace fusee {
 
 struct CrossingSearch {
-  std::optional<std::pair<std::size_t, std::size_t>> facets;  ///< two facets that meet in more than what they share
-  bool gave_up = false;  ///< more pairs of facets lie close together than any part has
+  /// Two facets that meet outside their shared corners and edges
+  std::optional<std::pair<std::size_t, std::size_t>> facets;
+  bool gave_up = false;  ///< more pairs of facets lie close together than in any real part
 };
 
-/// The first two facets found that cross, touch or overlap beyond a shared corner or edge; exact. Any soup whose
-/// indices are in range and whose coordinates are finite; facets without area and equal facets are passed over.
+/// The first pair of facets found that cross, touch or overlap beyond a shared corner or edge. Exact. Accepts any
+/// triangles with indices in range and finite coordinates. Facets without area and equal facets are skipped.
 CrossingSearch find_crossing(const TriangleMesh& welded);
 
-/// Three corners on a line, decided exactly.
+/// True if the three corners are collinear, decided exactly.
 bool is_degenerate(const TriangleMesh& mesh, std::size_t facet);
 
 }  // namespace fusee

@@ -26,14 +26,14 @@ Point point(const TriangleMesh& mesh, std::uint32_t index) {
   return {vertex.x(), vertex.y(), vertex.z()};
 }
 
-// Which corners of two facets are one vertex.
+// The corners of two facets that are the same vertex.
 struct SharedCorners {
   int count = 0;
   std::array<bool, 3> of_first{}, of_second{};
 };
 
-// Of facets with an area, whose own corners are three vertices. Without branches: which corners they are nobody
-// guesses.
+// Requires facets with an area and three distinct corners. Written without branches, because they would be
+// unpredictable.
 SharedCorners shared_corners(const Triangle& a, const Triangle& b) {
   SharedCorners shared;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -49,11 +49,11 @@ SharedCorners shared_corners(const Triangle& a, const Triangle& b) {
 
 constexpr std::size_t after(std::size_t corner) { return corner == 2 ? 0 : corner + 1; }
 
-// A facet's plane, and planes through its edges upright on it: most pairs are told apart by one of them in plain
-// arithmetic, whose margin is far above its rounding.
+// A facet's plane, and the planes through its edges perpendicular to it. One of them separates most pairs in plain
+// floating-point arithmetic, with a margin far above its rounding.
 class FacetPlanes {
  public:
-  // `extent`: no two points that are asked about are further apart along any axis.
+  // `extent`: largest extent of the queried points along any axis.
   FacetPlanes(const std::array<Vec3, 3>& corners, double extent) : corners_(corners), extent_(extent) {
     const Vec3 along = corners_[1] - corners_[0], across = corners_[2] - corners_[0];
     normal_ = along.cross(across);
@@ -63,16 +63,16 @@ class FacetPlanes {
 
   const Vec3& corner(std::size_t k) const { return corners_[k]; }
 
-  // Surely three corners that are on no line.
+  // True if the three corners are certainly not collinear.
   bool has_area() const { return normal_.cwiseAbs().maxCoeff() > k_margin * reach_; }
 
-  // +1, −1: surely on that side of the plane; 0: who knows.
+  // +1 or −1: certainly on that side of the plane; 0: undecided.
   int side_of(const Vec3& point) const {
     const double height = normal_.dot(point - corners_[0]);
     return height > margin_ ? 1 : height < -margin_ ? -1 : 0;
   }
 
-  // All of these corners of the other facet lie surely beyond the edge from corner k to the next.
+  // True if all other corners of the other facet are certainly beyond the edge from corner k to the next.
   bool are_beyond(std::size_t k, const FacetPlanes& other, const std::array<bool, 3>& left_out) const {
     const Vec3 outward = (corners_[after(k)] - corners_[k]).cross(normal_);
     const double margin = k_edge_margin * extent_ * outward.cwiseAbs().maxCoeff();
@@ -83,7 +83,7 @@ class FacetPlanes {
   }
 
  private:
-  // The products' rounding is less than a hundredth of these.
+  // Rounding of the products is less than a hundredth of these.
   static constexpr double k_margin = 1e-13, k_edge_margin = 1e-9;
 
   std::array<Vec3, 3> corners_;
@@ -91,13 +91,13 @@ class FacetPlanes {
   double extent_ = 0, reach_ = 0, margin_ = 0;
 };
 
-// Exact, once plain arithmetic has not told two facets apart.
+// Exact test, used when plain arithmetic has not separated two facets.
 class CrossingTest {
  public:
   CrossingTest(const TriangleMesh& mesh, const std::vector<std::size_t>& facets, const std::vector<FacetPlanes>& planes)
       : mesh_(mesh), facets_(facets), planes_(planes) {}
 
-  /// Of two in the list of facets.
+  /// Takes indices in the list of facets.
   bool operator()(std::size_t i, std::size_t j) const {
     const Triangle &a = mesh_.triangles[facets_[i]], &b = mesh_.triangles[facets_[j]];
     const SharedCorners shared = shared_corners(a, b);
@@ -122,18 +122,18 @@ class CrossingTest {
   std::array<Point, 3> from_corner(const Triangle& facet, std::size_t k) const {
     return {point(mesh_, facet[k]), point(mesh_, facet[after(k)]), point(mesh_, facet[after(after(k))])};
   }
-  // The one shared corner first.
+  // The facet's corners, with the one shared corner first.
   std::array<Point, 3> with_first(const Triangle& facet, const std::array<bool, 3>& shared) const {
     return from_corner(facet, shared[1] ? 1 : shared[2] ? 2 : 0);
   }
-  // The one corner that is not shared last, the shared ones in the order of their vertices.
+  // The facet's corners, with the one unshared corner last and the shared ones in the order of their vertices.
   std::array<Point, 3> with_last(const Triangle& facet, const std::array<bool, 3>& shared) const {
     const std::size_t apart = !shared[0] ? 0 : !shared[1] ? 1 : 2;
     const auto [low, high] = std::minmax(facet[after(apart)], facet[after(after(apart))]);
     return {point(mesh_, low), point(mesh_, high), point(mesh_, facet[apart])};
   }
 
-  // Facets that share an edge overlap only when both lie on one side of it in one plane.
+  // Facets that share an edge overlap only if both lie on one side of it in one plane.
   static bool folded_flat(const std::array<Point, 3>& p, const std::array<Point, 3>& q) {
     return CGAL::coplanar(p[0], p[1], p[2], q[2]) &&
            CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) == CGAL::POSITIVE;
@@ -144,8 +144,8 @@ class CrossingTest {
     return a.side_of(b.corner(beside)) != 0 || a.are_beyond(after(apart), b, of_b);
   }
 
-  // b's corners, but for a shared one, lie surely beyond one of a's edges; where a corner is shared, of an edge at that
-  // corner. Long thin facets side by side have overlapping boxes, thousands of them in a fine part.
+  // True if b's unshared corners are certainly beyond one of a's edges; with a shared corner, beyond an edge at that
+  // corner. Long thin adjacent facets have overlapping boxes, thousands of them in a fine part.
   static bool beyond_an_edge(const FacetPlanes& a, const std::array<bool, 3>& of_a, const FacetPlanes& b,
                              const std::array<bool, 3>& of_b) {
     const bool any = !of_a[0] && !of_a[1] && !of_a[2];
@@ -154,7 +154,7 @@ class CrossingTest {
     }
     return false;
   }
-  // Surely of a's plane.
+  // True if b's corners are certainly on one side of a's plane.
   static bool on_one_side(const FacetPlanes& a, const FacetPlanes& b, const std::array<bool, 3>& left_out) {
     int side = 0;
     for (std::size_t j = 0; j < 3; ++j) {
@@ -171,7 +171,7 @@ class CrossingTest {
   const std::vector<FacetPlanes>& planes_;
 };
 
-// How much room a box takes of the first two coordinates.
+// Area of a box in the first two coordinates.
 double area_of(const Box3& box) { return (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]); }
 
 Box3 cartesian_box(const std::array<Vec3, 3>& corners) {
@@ -187,8 +187,8 @@ double distance_from_axis(const Vec3& a, const Vec3& b) {
   return (from + place * along).norm();
 }
 
-/// Angle about the z axis, distance from it, height: the strips of a fine turned part consist of needles that point at
-/// the axis, whose boxes in x and y overlap by the thousand. The margins are far above the rounding.
+/// A box in angle about the z axis, distance from it, and height. The strips of a fine turned part consist of needles
+/// that point at the axis, whose boxes in x and y overlap by the thousand. The margins are far above the rounding.
 Box3 polar_box(const std::array<Vec3, 3>& corners, const std::array<double, 3>& angles) {
   constexpr double margin = 1e-9;
   Box3 box = cartesian_box(corners);
@@ -213,17 +213,17 @@ Box3 polar_box(const std::array<Vec3, 3>& corners, const std::array<double, 3>& 
   return box;
 }
 
-// Of fewer facets the search is over before a thread has begun.
+// With fewer facets the search ends before a thread would have started.
 constexpr std::size_t k_worth_halving = 2000;
 
-/// What facets take up: those whose boxes are apart do not meet.
+/// Bounding boxes of facets. Facets with disjoint boxes do not meet.
 struct FacetBoxes {
-  std::vector<std::size_t> facets;  ///< that have an area
+  std::vector<std::size_t> facets;  ///< facets with an area
   std::vector<FacetPlanes> planes;
   std::vector<Box3> boxes;
 };
 
-/// In the coordinates in which the facets crowd each other less.
+/// Uses the coordinates in which the boxes overlap less.
 FacetBoxes boxes_of(const TriangleMesh& mesh) {
   std::vector<double> angles;
   angles.reserve(mesh.vertices.size());
@@ -250,7 +250,7 @@ FacetBoxes boxes_of(const TriangleMesh& mesh) {
     polar_crowd += area_of(polar.back());
     reach = std::max(reach, polar.back().high[1]);
   }
-  // Shares of a square about the disc that the mesh fills, and of that disc unrolled.
+  // Fractions of the square around the disc that the mesh fills, and of that disc unrolled.
   if (polar_crowd / (k_two_pi * reach) < cartesian_crowd / (4.0 * reach * reach)) of.boxes = std::move(polar);
   return of;
 }
@@ -268,7 +268,7 @@ CrossingSearch find_crossing(const TriangleMesh& welded) {
   const BoxTree tree(facets.boxes);
   std::atomic<bool> is_over = false;
   const auto search_in = [&](const auto& any_pair) {
-    // A part whose facets all lie in one heap would take hours. Pulleys have up to 25 pairs a facet.
+    // Bound for parts with all facets in one place, which would take hours. Pulleys have up to 25 pairs per facet.
     std::size_t pairs_left = 50'000'000 + 50 * facets.boxes.size();
     CrossingSearch search;
     any_pair([&](std::size_t i, std::size_t j) {

@@ -18,10 +18,10 @@ constexpr std::array<Screw, 6> k_screws{{{"M2", 2, 2.4, 1.6, 4.0, 1.6, 4.0},
                                          {"M5", 5, 5.5, 4.2, 8.0, 4.7, 9.5},
                                          {"M6", 6, 6.6, 5.0, 10.0, 5.2, 12.0}}};
 
-// Between the nut's slot and the axis of a wall that carries the screw's thrust.
+// Thickness of the wall between the nut's slot and the axis, which carries the screw's thrust.
 double nut_wall(double wall) { return std::max(wall, 1.5); }
 
-// What the screw's axis needs of the hub's height below it.
+// Least height of the screw's axis above the hub's lower end.
 double below(const SetScrewLayout& screw) { return screw.nut_trap ? nut_corner(screw) : 0.5 * screw.hole_diameter; }
 
 }  // namespace
@@ -33,7 +33,7 @@ const Screw* find_screw(const std::string& name) {
 }
 
 double nut_corner(const SetScrewLayout& screw) { return screw.nut_width / std::numbers::sqrt3; }
-double teardrop_top(const SetScrewLayout& screw) { return 0.5 * screw.hole_diameter / std::cos(screw.roof_slope); }
+double teardrop_top(const SetScrewLayout& screw) { return 0.5 * screw.hole_diameter / std::cos(screw.ceiling_slope); }
 
 SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compensation, double wall,
                                 const BodyLayout& layout) {
@@ -42,13 +42,14 @@ SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compen
   result.nut_trap = nut_trap;
   result.hole_diameter = (nut_trap ? screw.clearance : screw.tapping) + compensation;
   result.angle = 0.5 * k_pi;
-  result.roof_slope = gable_slope(layout);
+  result.ceiling_slope = ridge_slope(layout);
   if (nut_trap) {
     result.nut_width = screw.nut_width + compensation;
     result.nut_thickness = screw.nut_thickness + compensation;
     result.nut_distance = layout.bore.radius + nut_wall(wall) + 0.5 * result.nut_thickness;
   }
-  // In the middle of the hub, or where its roof keeps a wall above it, or where the nut has room below.
+  // In the middle of the hub, or lower so that the ceiling keeps a wall above it, or higher so that the nut has
+  // clearance below.
   const double middle = 0.5 * (layout.z_top + layout.z_hub), highest = layout.z_hub - teardrop_top(result) - wall;
   result.z = std::max(std::min(middle, highest), layout.z_top + below(result));
   return result;
@@ -60,7 +61,7 @@ double hub_radius_for(const SetScrewLayout& screw, double bore_radius, double wa
 }
 
 double height_to_spare(const SetScrewLayout& screw, const BodyLayout& layout, double wall) {
-  // The screw's place leaves nothing to spare on one side: rounding decides nothing there.
+  // The screw's height uses up all clearance on one side, where rounding must not decide.
   constexpr double k_rounding = 1e-9;
   const double above = layout.z_hub - screw.z - teardrop_top(screw) - wall;
   const double least = std::min(above, screw.z - layout.z_top - below(screw));

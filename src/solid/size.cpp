@@ -12,7 +12,7 @@
 namespace fusee {
 namespace {
 
-Condition beyond(std::string name, double value, double limit, std::string message) {
+Condition exceeding(std::string name, double value, double limit, std::string message) {
   Condition condition;
   condition.name = std::move(name);
   condition.ok = false;
@@ -29,11 +29,11 @@ std::optional<Condition> too_tall(const BodyLayout& layout) {
   const bool apart = layout.parts == Parts::two;
   const double height = apart ? std::max(layout.z_mate, layout.z_hub - layout.z_mate) : layout.z_hub;
   if (height <= k_tallest) return std::nullopt;
-  std::string message = fmt::format("{} would be {} mm tall, at most {} mm are made", apart ? "a part" : "the pulley",
-                                    rounded(height, 3), k_tallest);
-  if (layout.roof_slope > 0)
-    message += fmt::format(": its cones rise at {:.0f}° (print.overhang_deg)", degrees(layout.roof_slope));
-  return beyond(k_height_condition, height, k_tallest, std::move(message));
+  std::string message = fmt::format("{} would be {} mm tall, at most {} mm is supported",
+                                    apart ? "a part" : "the pulley", rounded(height, 3), k_tallest);
+  if (layout.ceiling_slope > 0)
+    message += fmt::format(": its cones rise at {:.0f}° (print.overhang_deg)", degrees(layout.ceiling_slope));
+  return exceeding(k_height_condition, height, k_tallest, std::move(message));
 }
 
 std::optional<Condition> too_far_out(Side side, double reach, double active_reach) {
@@ -43,11 +43,11 @@ std::optional<Condition> too_far_out(Side side, double reach, double active_reac
       active_reach > k_furthest
           ? fmt::format("{} would reach {} m from the axis", name, rounded(1e-3 * reach, 3))
           : fmt::format(
-                "the arc that closes {} would reach {} m from the axis (its ends lie all but opposite each "
+                "the arc that closes {} would reach {} m from the axis (its ends are almost opposite each "
                 "other)",
                 name, rounded(1e-3 * reach, 3));
-  message += fmt::format(": at most {} m are made", 1e-3 * k_furthest);
-  return beyond("furthest_" + name, reach, k_furthest, std::move(message));
+  message += fmt::format(": at most {} m is supported", 1e-3 * k_furthest);
+  return exceeding("furthest_" + name, reach, k_furthest, std::move(message));
 }
 
 }  // namespace fusee

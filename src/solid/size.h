@@ -1,5 +1,5 @@
 /// \file
-/// How large a part may be that is made at all. mm.
+/// Internal: the largest size of a part. mm.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace fusee {
 
-/// No part beyond these is made: no printer builds it, and floats hold its corners ever more coarsely.
+/// Limits of a part's size. No printer builds a larger one, and floats resolve its corners ever more coarsely.
 constexpr double k_furthest = 1000.0;  ///< from the axis to a pitch curve
 constexpr double k_tallest = 1000.0;
 
 constexpr const char* k_height_condition = "height";
 
-/// What a pulley of this layout fails by its height, if it does; in two parts, the taller one.
+/// The failed height condition of a pulley with this layout, if any. In two parts, of the taller one.
 std::optional<Condition> too_tall(const BodyLayout& layout);
 
-/// The same of how far a pitch curve reaches. `active_reach`: the part of it that tendons leave.
+/// The failed condition on the reach of a pitch curve, if any. `active_reach`: reach of its working part.
 std::optional<Condition> too_far_out(Side side, double reach, double active_reach);
 
 }  // namespace fusee

@@ -15,17 +15,17 @@
 namespace fusee {
 namespace {
 
-// A slot's depth in tendon diameters, so that the tail lies below the face, and where a gable gives it room.
+// Depth of a slot in tendon diameters, so that the tail lies below the face, without and with a peaked ceiling.
 constexpr double k_depth_ratio = 1.2;
-constexpr double k_gabled_ratio = 0.8;
-// Beyond the pocket's edge a slot is as long as there is room, up to what a thumb presses down, and not shorter than
-// what glue holds.
+constexpr double k_peaked_ratio = 0.8;
+// Length of a slot beyond the pocket's edge in tendon diameters: as long as space permits, up to a thumb's width, and
+// at least what glue requires.
 constexpr double k_longest_ratio = 10.0;
 constexpr double k_shortest_ratio = 3.0;
-// Below a slot's floor, above a channel's roof: two layers.
+// Material below a slot's floor and above a channel's ceiling: two layers.
 constexpr double k_ground_of_slot = 0.4;
 constexpr int k_slot_directions = 72;
-// Thread that holds a screw in plastic, per nominal diameter, and the least that does.
+// Length of thread for a screw in plastic, in nominal diameters: preferred and least.
 constexpr double k_thread_ratio = 2.5;
 constexpr double k_least_thread_ratio = 1.5;
 
@@ -43,11 +43,11 @@ class TailPlacer {
   std::optional<TailSlot> place(const PlannedAnchor& anchor) const {
     TailSlot slot;
     slot.width = layout_.channel_width;
-    const bool gabled = on_bed(layout_, anchor.side);
-    slot.roof = gabled ? 0.5 * slot.width * std::tan(gable_slope(layout_)) : 0.0;
-    slot.depth = std::max(k_gabled_ratio * d_, k_depth_ratio * d_ - slot.roof);
-    const double deep = slot.depth + slot.roof;
-    // A groove's plane shows its floor alone, and what is tied off in it.
+    const bool peaked = on_bed(layout_, anchor.side);
+    slot.ceiling = peaked ? 0.5 * slot.width * std::tan(ridge_slope(layout_)) : 0.0;
+    slot.depth = std::max(k_peaked_ratio * d_, k_depth_ratio * d_ - slot.ceiling);
+    const double deep = slot.depth + slot.ceiling;
+    // At the groove's plane only its floor and tie-offs are obstacles.
     if (to_plane(anchor.side) - deep < k_ground_of_slot) return std::nullopt;
     const bool over_channels = to_channels(anchor.side) - deep >= k_ground_of_slot;
     if (screw_ != nullptr && !add_screw(slot, anchor.side)) return std::nullopt;
@@ -57,12 +57,12 @@ class TailPlacer {
     if (!over_channels) add_channels_beside(anchor, at_face);
     std::optional<TailSlot> best;
     double longest = edge + k_shortest_ratio * d_ - 0.5 * d_;
-    // From the direction in which the channel leads, to both sides in turn.
+    // Starts with the channel's direction and alternates to both sides.
     const Vec2 ahead = heading(anchor);
     for (int k = 0; k < k_slot_directions; ++k) {
       const double turn = (k % 2 == 0 ? 1.0 : -1.0) * k_two_pi / k_slot_directions * ((k + 1) / 2);
       const Vec2 direction = turned(ahead, turn);
-      // Its own channel comes from behind.
+      // The tie-off's own channel comes from behind.
       const bool beside = direction.dot(ahead) >= 0 || edge * std::abs(cross(direction, ahead)) >= slot.width;
       if (!over_channels && !beside) continue;
       for (double length = edge + k_longest_ratio * d_; length > longest; length -= 0.5 * d_) {
@@ -77,11 +77,11 @@ class TailPlacer {
   }
 
  private:
-  // From the face.
+  // Distance from the face to the groove's plane.
   double to_plane(Side side) const { return side == Side::left ? layout_.z_p1 : layout_.z_top - layout_.z_p2; }
-  // To where a channel is nearest to it: its ceiling rises upwards, as the part is printed.
+  // Distance from the face to the nearest point of a channel, whose ceiling rises in printing direction.
   double to_channels(Side side) const {
-    return to_plane(side) - 0.5 * layout_.channel_width - (on_bed(layout_, side) ? 0.0 : layout_.channel_roof);
+    return to_plane(side) - 0.5 * layout_.channel_width - (on_bed(layout_, side) ? 0.0 : layout_.channel_ceiling);
   }
 
   void add_channels_beside(const PlannedAnchor& own, std::vector<Bar>& bars) const {
@@ -92,12 +92,12 @@ class TailPlacer {
     }
   }
 
-  // As long as there is material under the slot; false where that is too little.
+  // Makes the screw as long as the material under the slot permits; false if that is too short.
   bool add_screw(TailSlot& slot, Side side) const {
     const double ground = layout_.parts == Parts::one ? layout_.z_top
                           : side == Side::left        ? layout_.z_mate
                                                       : layout_.z_top - layout_.z_mate;
-    const double below = slot.depth + slot.roof, room = ground - k_ground_of_slot - below;
+    const double below = slot.depth + slot.ceiling, room = ground - k_ground_of_slot - below;
     slot.pilot_diameter = screw_->tapping + compensation_;
     slot.pilot_depth = below + std::min(k_thread_ratio * screw_->nominal, room);
     slot.head_diameter = screw_->head;
@@ -140,7 +140,7 @@ class TailPlacer {
     return slot.pilot_diameter <= 0 || (clear({slot.to, slot.to, 0.5 * slot.head_diameter}) && takes_pilot(slot));
   }
 
-  // The pilot hole goes deep: it keeps clear of all that is cut into either pulley.
+  // The pilot hole is deep: it must clear all features of both pulleys.
   bool takes_pilot(const TailSlot& slot) const {
     const double radius = circumradius(polyhole(slot.pilot_diameter, Vec2::Zero())), wall = layout_.min_wall;
     if (std::min(floor1_.depth_of(slot.to), floor2_.depth_of(slot.to)) < radius + wall) return false;
@@ -170,7 +170,7 @@ Condition clamp_condition(const std::string& screw, Side side, bool placed) {
   condition.value = placed ? 1 : 0;
   condition.limit = 1;
   condition.unit = "1";
-  condition.message = fmt::format("{} has no room for clamp screw {} (body.clamp_screw) at the end of a tail's slot",
+  condition.message = fmt::format("{} has no space for clamp screw {} (body.clamp_screw) at the end of a tail's slot",
                                   pulley_name(side), screw);
   return condition;
 }
@@ -191,7 +191,7 @@ std::vector<Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism, c
     if (clamps) conditions.push_back(clamp_condition(screw, anchor.side, anchor.tail.has_value()));
     if (!anchor.tail && !clamps) {
       plan.layout.notes.push_back(
-          fmt::format("no room on {}'s face for a slot for the tendon's tail: left out", pulley_name(anchor.side)));
+          fmt::format("no space on {}'s face for a slot for the tendon's tail: omitted", pulley_name(anchor.side)));
     }
   }
   return conditions;

@@ -1,5 +1,5 @@
 /// \file
-/// Where the ends of the tendons lie beyond their knots.
+/// Internal: slots for the ends of the tendons beyond their knots.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace fusee {
 
-/// Gives each tie-off that carries load a slot for its tail, with the clamp screw that is asked for, as long as there
-/// is room; a slot that is left out leaves a note. The plan has all else but marks. A screw without a place is a
-/// condition that fails. None where one is `rejected`.
+/// Gives each load-carrying tie-off a slot for its tail, with the requested clamp screw, where there is space. A note
+/// reports an omitted slot. The plan must be complete except for marks. Returns failed conditions for screws without a
+/// place. A `rejected` slot is omitted.
 std::vector<Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism, const std::vector<Rejection>& rejected);
 
 }  // namespace fusee

@@ -7,8 +7,8 @@
 #include "fusee/base/units.h"
 #include "solid/boolean.h"
 #include "solid/bore.h"
+#include "solid/channel_entries.h"
 #include "solid/face_holes.h"
-#include "solid/mouths.h"
 #include "solid/tools.h"
 
 namespace fusee {
@@ -17,14 +17,14 @@ namespace {
 // A slot to the face begins this far past the groove's plane, in the floor's band.
 constexpr double k_past_plane = 0.03;
 
-/// Where a tie-off lies along the axis, seen as it is printed: its own heights run upwards from the groove's plane.
+/// Axial position of a tie-off in print orientation: heights are measured upwards from the groove's plane.
 struct Heights {
   double plane = 0;
-  double up = 1;            ///< −1: printed upside down
-  double half = 0;          ///< of the channel
-  double channel_roof = 0;  ///< how far its ceiling rises
-  double open = 0;          ///< where the pocket ends in the air; below the plane: on the bed
-  double pocket_roof = 0;   ///< height of the roof over a pocket that is open to the bed
+  double up = 1;               ///< −1: printed upside down
+  double half = 0;             ///< half the height of the channel
+  double channel_ceiling = 0;  ///< rise of its ceiling
+  double open = 0;             ///< end of the pocket in the air; below the plane: on the bed
+  double pocket_ceiling = 0;   ///< height of the ceiling of a pocket that opens on the bed
 };
 
 Heights heights_of(const BodyLayout& layout, Side side, int variant) {
@@ -33,23 +33,23 @@ Heights heights_of(const BodyLayout& layout, Side side, int variant) {
   heights.plane = left ? layout.z_p1 : layout.z_p2;
   heights.up = turned ? -1.0 : 1.0;
   heights.half = channel_half_height(layout, variant);
-  heights.channel_roof = layout.channel_roof;
+  heights.channel_ceiling = layout.channel_ceiling;
   heights.open = left ? layout.z_p1 + k_overshoot : layout.z_hub - layout.z_p2 + k_overshoot;
   if (left && !turned) {
     heights.open = -heights.open;
-    heights.pocket_roof = layout.pocket_roof;
+    heights.pocket_ceiling = layout.pocket_ceiling;
   }
   return heights;
 }
 
-// The ceiling is one slope that rises from the inner wall, which holds it all along, to the outer one: where that one
-// ends, at the mouth, it runs on into the groove's own roof. A flat ceiling would be bridged only if it were closed all
-// round, and a gable's strips end in mid-air at a mouth as slanted as this.
+// The ceiling is one slope that rises from the inner wall, which supports its whole length, to the outer one. Where the
+// outer wall ends, at the entry, the slope continues into the groove's own ceiling. A flat ceiling would be bridged
+// only if it were closed all round. The strips of a peaked ceiling would end in mid-air at such an oblique entry.
 TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& heights) {
   std::vector<std::vector<Vec3>> sections;
   for (std::size_t k = 0; k < edges.outer.size(); ++k) {
     const Vec2 &o = edges.outer[k], &i = edges.inner[k];
-    const double ridge = heights.half + heights.channel_roof * (o - i).norm() / width;
+    const double ridge = heights.half + heights.channel_ceiling * (o - i).norm() / width;
     sections.push_back({{i.x(), i.y(), -heights.half},
                         {o.x(), o.y(), -heights.half},
                         {o.x(), o.y(), ridge},
@@ -58,10 +58,10 @@ TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& hei
   return strip(sections);
 }
 
-// Seen from its middle, x ahead and y to the channel's outer side: a circle, and a tab in which the channel ends in a
-// wall across it. The circle itself would meet the channel's slope at too sharp an angle.
+// Seen from its centre, x ahead and y to the channel's outer side: a circle, and a tab in which the channel ends at a
+// wall across it. The circle alone would meet the channel's slope at too sharp an angle.
 std::vector<Vec2> pocket_outline(double radius, double width, bool tab, int facets) {
-  // A little wider than the channel, so that no two of their faces coincide.
+  // Slightly wider than the channel, so that no two of their faces coincide.
   const double half = half_tab(width, radius), behind = std::asin(half / radius);
   const double step = k_two_pi / facets;
   std::vector<Vec2> points;
@@ -79,18 +79,18 @@ std::vector<Vec2> pocket_outline(double radius, double width, bool tab, int face
   return points;
 }
 
-// The roof over a pocket that is open to the bed rises across it like the channel's: the channel's lies wholly under
-// it, and no keel hangs down between the two.
+// The ceiling over a pocket that opens on the bed rises across it as the channel's does. The channel's ceiling lies
+// entirely below it, so that no ridge hangs down between the two.
 TriangleMesh pocket(const AnchorPath& path, double radius, double width, int facets, const Heights& heights) {
-  const bool tab = heights.channel_roof > 0 && path.straight > radius + k_deeper;
-  std::vector<Vec3> mouth, end;
+  const bool tab = heights.channel_ceiling > 0 && path.straight > radius + k_deeper;
+  std::vector<Vec3> entry, end;
   for (const Vec2& local : pocket_outline(radius, width, tab, facets)) {
     const Vec2 point = path.pocket() + local.x() * path.heading() + local.y() * path.outer();
-    const double roof = heights.pocket_roof * 0.5 * (1.0 + local.y() / radius);
-    mouth.emplace_back(point.x(), point.y(), heights.open);
-    end.emplace_back(point.x(), point.y(), std::copysign(heights.half + k_deeper, -heights.open) + roof);
+    const double ceiling = heights.pocket_ceiling * 0.5 * (1.0 + local.y() / radius);
+    entry.emplace_back(point.x(), point.y(), heights.open);
+    end.emplace_back(point.x(), point.y(), std::copysign(heights.half + k_deeper, -heights.open) + ceiling);
   }
-  return strip({mouth, end});
+  return strip({entry, end});
 }
 
 TriangleMesh channel_tool(const BodyPlan& plan, Side side, const AnchorPath& planned, int variant) {
@@ -108,7 +108,7 @@ TriangleMesh channel_tool(const BodyPlan& plan, Side side, const AnchorPath& pla
   return tool;
 }
 
-// The countersink narrows into the slot's round end, not quite to its circle, so that no two of their faces coincide.
+// The countersink narrows into the slot's round end, but not exactly to its circle, so that no two faces coincide.
 TriangleMesh countersink(const FaceHole& hole, double depth, double outside, int variant) {
   constexpr double k_share = 0.9;
   const auto circle = [&](const Vec2& centre, double radius) {
@@ -117,13 +117,13 @@ TriangleMesh countersink(const FaceHole& hole, double depth, double outside, int
     for (int k = 0; k < facets; ++k) points.push_back(centre + radius * unit(k_two_pi * (k + 0.31) / facets));
     return points;
   };
-  // On along the same slope.
+  // Continues along the same slope.
   const double deeper = depth * (1.0 + 0.5 * (1.0 - k_share) * hole.hole_radius / (hole.room - hole.hole_radius));
   const Polygon outer = circle(hole.pocket(), hole.room), inner = circle(hole.hole, k_share * hole.hole_radius);
   return strip({at_height(outer, -0.5 * k_overshoot - outside), at_height(outer, 0.0), at_height(inner, deeper)});
 }
 
-// Seen from the face, which lies at 0: all of it is cut into what stands over the bed, or is open to above.
+// Seen from the face, which lies at 0. The whole tool is cut into material above the bed, or is open at the top.
 TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole& hole, int variant) {
   const bool left = side == Side::left;
   const double outside = k_overshoot + (left ? 0.0 : layout.z_hub - layout.z_top);
@@ -163,18 +163,18 @@ AnchorPath varied(AnchorPath path, int variant) {
 
 ChannelEdges channel_edges(const BodyPlan& plan, Side side, const AnchorPath& path) {
   const BodyLayout& layout = plan.layout;
-  if (layout.channel_roof <= 0) return plain_edges(path, layout.channel_width);
+  if (layout.channel_ceiling <= 0) return plain_edges(path, layout.channel_width);
   const double cones = std::max({layout.lower_cone, layout.middle_cone, layout.upper_cone}) / rise_of(layout, 1.0);
   const double beyond = layout.groove_depth + cones + k_overshoot;
-  return flared_edges(path, layout.channel_width, side == Side::left ? plan.floor1 : plan.floor2, layout.mouth_lean,
+  return flared_edges(path, layout.channel_width, side == Side::left ? plan.floor1 : plan.floor2, layout.entry_lean,
                       beyond);
 }
 
 bool on_bed(const BodyLayout& layout, Side side) {
-  return layout.roof_slope > 0 && side == Side::left && layout.parts == Parts::one;
+  return layout.ceiling_slope > 0 && side == Side::left && layout.parts == Parts::one;
 }
 
-// Half a circle about the floor's end, tangents from both of its ends outwards.
+// A half circle about the floor's end, and tangents outwards from both of its ends.
 Polygon hole_outline(const FaceHole& hole, int variant) {
   const int steps = (pocket_facets(hole.hole_radius) + 1) / 2 + variant;
   Polygon points;
@@ -190,8 +190,8 @@ TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int
   return face_hole_tool(plan.layout, anchor.side, std::get<FaceHole>(anchor.way), variant);
 }
 
-// Across the slot a section is a rectangle, or where the face lies on the bed a gable over one: each of its slopes
-// grows out of its own wall all along, so that it prints up to where the slot opens into the pocket.
+// A section across the slot is a rectangle. If the face lies on the bed, a peaked ceiling is added. Each of its slopes
+// grows out of its own wall over the whole length, so that it prints up to the opening into the pocket.
 TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
   const double face = side == Side::left ? 0.0 : layout.z_top, in = side == Side::left ? 1.0 : -1.0;
   const Vec2 across = 0.5 * slot.width * turned_left((slot.to - slot.from).normalized());
@@ -204,7 +204,7 @@ TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot&
     add(-1, -k_overshoot);
     add(1, -k_overshoot);
     add(1, slot.depth);
-    if (slot.roof > 0) add(0, slot.depth + slot.roof);
+    if (slot.ceiling > 0) add(0, slot.depth + slot.ceiling);
     add(-1, slot.depth);
     return section;
   };

@@ -1,34 +1,33 @@
 /// \file
-/// What is cut out of the body for a tie-off. mm, not yet scaled.
+/// Internal: volumes that tie-offs remove from the body. mm, not yet scaled.
 #pragma once
 
 #include "fusee/solid/mesh.h"
-#include "solid/mouths.h"
+#include "solid/channel_entries.h"
 #include "solid/plan.h"
 
 namespace fusee {
 
-/// Channel and knot pocket, the pocket open to the nearest face, or the slot to the face. Another `variant` has other
-/// facets.
+/// Channel and knot pocket, with the pocket open to the nearest face, or the slot to the face. Each `variant` has
+/// different facets.
 TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int variant);
 Polygon hole_outline(const FaceHole& hole, int variant);
 
-/// Open to the face, out of a body that has its tie-off …
+/// The tail's slot, open to the face. To be subtracted from a body that has its tie-off.
 TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot& slot);
-/// … and open to the face too: it is wider than the slot, which ends at its middle.
+/// The pilot hole of the clamp screw, open to the face. It is wider than the slot, which ends at its centre.
 TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot);
 
-/// Does the face that this pulley's pockets open on lie on the printer's bed, with nothing to support what hangs over
-/// it?
+/// True if the face that this pulley's pockets open on lies on the bed, where nothing supports overhangs.
 bool on_bed(const BodyLayout& layout, Side side);
 
-/// From the groove's plane to a channel's floor.
+/// Distance from the groove's plane to a channel's floor.
 double channel_half_height(const BodyLayout& layout, int variant);
 
-/// Moved a little, so that no edge of another variant lies where one of this did.
+/// Shifts a path slightly, so that no edge coincides with one of another variant.
 AnchorPath varied(AnchorPath path, int variant);
 
-/// A channel as it is cut, seen along the axis.
+/// The plan view of a channel as it is cut.
 ChannelEdges channel_edges(const BodyPlan& plan, Side side, const AnchorPath& path);
 
 }  // namespace fusee

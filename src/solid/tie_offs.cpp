@@ -12,21 +12,21 @@
 namespace fusee {
 namespace {
 
-// Below it an automatic channel would close in printing.
+// A narrower automatic channel would close in printing.
 constexpr double k_least_channel = 0.6;
-// A pocket narrower than this many channel widths is none: the knot would be pulled through.
+// Least pocket radius in channel widths: the knot would be pulled through a smaller one.
 constexpr double k_least_pocket = 0.55;
-// An automatic pocket on a thin tendon, in channel widths.
+// Radius of an automatic pocket on a thin tendon, in channel widths.
 constexpr double k_thin_pocket = 0.85;
-// A pocket beside the hub leaves this gap to it rather than a sliver.
+// Gap between a pocket and the hub, which avoids a sliver.
 constexpr double k_hub_gap = 0.4;
 
-// A wound tie-off is tried at steps of this, from the far end of the closing arc.
+// Step at which a wound tie-off is tried, from the far end of the closing arc.
 constexpr double k_wrap_step = radians(5);
-// How far round one that did not print is kept away from.
+// Angle around a rejected tie-off that is excluded.
 constexpr double k_rejected_around = radians(9);
 
-// Near its end of the arc where there is room; a wound one anywhere else.
+// Prefers a place near its end of the arc. A wound tie-off may be anywhere else.
 std::optional<AnchorPath> anchor_at(const AnchorSite& site, bool wound_end, double wanted, const LapRange& laps) {
   auto path = find_anchor(site, wound_end, wanted, AnchorReach::near, laps);
   if (!wound_end || (path && path->room >= wanted)) return path;
@@ -68,7 +68,7 @@ int cuts_into_hub(const BodyLayout& layout, const TieOffPair& pair) {
   return int{cuts(pair.wound)} + int{pair.spare && cuts(*pair.spare)};
 }
 
-// On a shaft with a flat the set screw cannot be turned out of a pocket's way.
+// On a shaft with a flat the set screw cannot be turned away from a pocket.
 bool blocks_set_screw(const BodyLayout& layout, const TieOffPair& pair) {
   if (!layout.set_screw.present || layout.bore.kind == Bore::round) return false;
   const auto blocks = [&layout](const TieOff& way) { return !clears_set_screw(layout, layout.set_screw.angle, way); };
@@ -122,8 +122,8 @@ AnchorSite TieOffPlanner::site(const BodyLayout& layout, const AnchorGround& gro
 
 std::optional<AnchorPath> TieOffPlanner::channel(AnchorSite site, const BodyLayout& layout, bool wound_end,
                                                  double wanted, const LapRange& laps) const {
-  // P2's pockets open on the face that the hub stands on. They avoid it where they can, and cut into its side where
-  // they cannot.
+  // P2's pockets open on the face that the hub stands on. They avoid the hub if possible and otherwise cut into its
+  // side.
   if (site.ground.outline().side == Side::right && layout.hub_radius > 0) {
     site.above_pocket.push_back({Vec2::Zero(), Vec2::Zero(), layout.hub_radius + k_hub_gap - layout.min_wall});
     if (auto path = anchor_at(site, wound_end, wanted, laps); path && path->room >= least_pocket(layout)) return path;
@@ -162,15 +162,15 @@ void TieOffPlanner::settle_pockets(BodyLayout& layout, const WoundTieOffs& wound
     if (is_channel(way)) layout.pocket_radius = std::min(layout.pocket_radius, room_of(way));
   }
   if (mechanism_.body.knot_pocket <= 0 && layout.pocket_radius < wanted) {
-    layout.notes.push_back(
-        fmt::format("no room for knot pockets of {:.2f} mm: made {:.2f} mm", 2.0 * wanted, 2.0 * layout.pocket_radius));
+    layout.notes.push_back(fmt::format("no space for knot pockets of {:.2f} mm: reduced to {:.2f} mm", 2.0 * wanted,
+                                       2.0 * layout.pocket_radius));
   }
 }
 
 std::vector<PlannedAnchor> TieOffPlanner::all(BodyLayout& layout, const WoundTieOffs& wound) const {
   std::vector<PlannedAnchor> anchors;
   if (!wound.both()) return anchors;
-  // Neither knows of the other; the nearest are found before a thread has begun.
+  // Both searches are independent. The nearest are found faster than a thread starts.
   const bool takes_long = mechanism_.body.wrap <= 0 && wishes_.wrap == WrapChoice::furthest;
   auto pair2 = beside([&] { return wrapped_furthest(layout, ground2_, *wound.p2); }, takes_long);
   const TieOffPair pair1 = wrapped_furthest(layout, ground1_, *wound.p1);
@@ -185,7 +185,7 @@ void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout,
   anchors.push_back({ground.outline().side, true, pair.wound, {}});
   if (!is_channel(pair.wound)) {
     layout.notes.push_back(
-        fmt::format("no room on {} for a tie-off's channel and pocket: the tendon goes through a slot "
+        fmt::format("no space on {} for a tie-off's channel and pocket: the tendon goes through a slot "
                     "to the face",
                     pulley_name(ground.outline().side)));
   }
@@ -193,11 +193,11 @@ void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout,
     anchors.push_back({ground.outline().side, false, *pair.spare, {}});
   } else {
     layout.notes.push_back(
-        fmt::format("no room for a spare tie-off on {}: left out", pulley_name(ground.outline().side)));
+        fmt::format("no space for a spare tie-off on {}: omitted", pulley_name(ground.outline().side)));
   }
 }
 
-// What did not print at one place does not print right beside it either; a spare one has but one place.
+// A place near a rejected one is rejected as well. A spare tie-off has only one place.
 bool TieOffPlanner::is_rejected(Side side, bool wound_end, double wrap) const {
   return std::any_of(wishes_.rejected.begin(), wishes_.rejected.end(), [&](const Rejection& rejection) {
     return !rejection.tail && rejection.side == side && rejection.wound_end == wound_end &&
@@ -205,8 +205,8 @@ bool TieOffPlanner::is_rejected(Side side, bool wound_end, double wrap) const {
   });
 }
 
-// Wrap takes e^(−μφ) off what the knot bears, so the tie-off goes as far round the closing arc as leaves room for the
-// spare one, but not into the hub, where the set screw is.
+// Wrap reduces the knot's load by e^(−μφ). The tie-off therefore goes as far round the closing arc as the spare one
+// permits, but not into the hub with the set screw.
 TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const AnchorGround& ground,
                                            const TieOff& first) const {
   const TieOffPair nearest{first, spare_beside(layout, ground, first)};
@@ -228,7 +228,7 @@ TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Ancho
   return nearest;
 }
 
-// At the other end of the arc, its mouth beyond all that the tendon of the first lies on.
+// At the other end of the arc, with its entry beyond the part of the floor that the first tie-off's tendon lies on.
 std::optional<TieOff> TieOffPlanner::spare_beside(const BodyLayout& layout, const AnchorGround& ground,
                                                   const TieOff& first) const {
   if (is_rejected(ground.outline().side, false, 0.0)) return std::nullopt;

@@ -1,6 +1,6 @@
 /// \file
-/// Which tie-offs a body gets, and where: the two that carry load first, a spare one at the other end of each arc where
-/// there is room. mm, not yet scaled.
+/// Internal: choice and placement of a body's tie-offs: the two that carry load first, then a spare one at the other
+/// end of each arc if there is space. mm, not yet scaled.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@
 #include "fusee/solid/pulley.h"
 #include "solid/anchors.h"
 #include "solid/body.h"
-#include "solid/mouths.h"
+#include "solid/channel_entries.h"
 
 namespace fusee {
 
-/// How a tendon leaves its groove.
+/// The two kinds of tie-off.
 using TieOff = std::variant<AnchorPath, FaceHole>;
 
 struct PlannedAnchor {
@@ -24,16 +24,16 @@ struct PlannedAnchor {
   TieOff way;
   std::optional<TailSlot> tail;
 
-  /// What both ways have.
+  /// Properties of both kinds.
   Vec2 start() const;
   Vec2 pocket() const;
   double pocket_radius(const BodyLayout& layout) const;
   double wrap() const;
-  /// All that is cut out, but for the tail's slot, seen along the axis.
+  /// Plan views of all that is cut out, except the tail's slot.
   std::vector<Bar> bars(const BodyLayout& layout) const;
 };
 
-/// A tie-off, or the slot for its tail alone, that did not print where it was: it is not planned there again.
+/// A tie-off, or its tail's slot alone, that did not print. It is not planned there again.
 struct Rejection {
   Side side = Side::left;
   bool wound_end = true;
@@ -55,33 +55,33 @@ struct TieOffPair {
   std::optional<TieOff> spare;
 };
 
-/// What was found about the tie-off at a wound end.
+/// The result of the search for a tie-off at a wound end.
 struct AnchorRoom {
   Side side = Side::left;
-  double room = 0;   ///< radius of the largest pocket found, 0: not even the channel fits
-  double least = 0;  ///< radius below which there is no use in it
+  double room = 0;   ///< radius of the largest pocket found; 0: not even the channel fits
+  double least = 0;  ///< least useful radius
 };
 
-/// A set screw whose axis points in direction `angle` keeps a wall to this tie-off.
+/// True if a set screw whose axis points in direction `angle` keeps a wall to this tie-off.
 bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& way);
 
-/// Width and fillet of the channels.
+/// Sets width and fillet of the channels.
 void choose_channel(BodyLayout& layout, const Mechanism& mechanism);
 
-/// Where on the closing arc a tie-off that carries load is put when the file does not say.
+/// Default place of a load-carrying tie-off on the closing arc.
 enum class WrapChoice { furthest, nearest };
 
-/// How tie-offs are to be planned. The nearest alone say as well whether there is any plan, in a tenth of the time.
+/// Options for planning tie-offs. `nearest` alone decides whether any plan exists, in a tenth of the time.
 struct TieOffWishes {
   WrapChoice wrap = WrapChoice::furthest;
-  std::vector<Rejection> rejected = {};  ///< what is not to be planned again
-  double mouth_lean = k_steep_lean;
-  /// Whether there is any plan is all that is asked: what a failed condition makes needless, and slots for tails that
-  /// no condition speaks of, are not looked for.
+  std::vector<Rejection> rejected = {};  ///< places that must not be planned again
+  double entry_lean = k_steep_lean;
+  /// True to decide only whether a plan exists. Skips work that a failed condition makes needless, and slots for tails
+  /// without conditions.
   bool conditions_alone = false;
 };
 
-/// Refers to what it is made from.
+/// Keeps references to its arguments.
 class TieOffPlanner {
  public:
   TieOffPlanner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims,
@@ -92,17 +92,17 @@ class TieOffPlanner {
         rims_(rims),
         wishes_(wishes) {}
 
-  /// From now on a slot to the face is taken where a channel and its pocket have no room.
+  /// From now on, uses a slot to the face where a channel and its pocket do not fit.
   void allow_face_holes() { face_holes_ = true; }
 
-  /// In a layout that has bore, hub, wall and channel.
+  /// Requires a layout with bore, hub, wall and channel.
   WoundTieOffs wound(const BodyLayout& layout) const;
   bool has_room(const BodyLayout& layout, const WoundTieOffs& wound) const;
-  /// One size of pocket for all channels: the smaller of what the wound ends have room for.
+  /// Chooses one pocket size for all channels: the smaller of those that fit at the wound ends.
   void settle_pockets(BodyLayout& layout, const WoundTieOffs& wound) const;
-  /// With the spare ones; one that is left out leaves a note in the layout.
+  /// All tie-offs including the spare ones. The layout notes an omitted one.
   std::vector<PlannedAnchor> all(BodyLayout& layout, const WoundTieOffs& wound) const;
-  /// Of channels, and of pulleys without any tie-off.
+  /// Results for channels, and for pulleys without any tie-off.
   std::vector<AnchorRoom> rooms(const BodyLayout& layout, const WoundTieOffs& wound) const;
 
  private:

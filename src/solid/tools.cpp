@@ -74,18 +74,18 @@ class Levels {
   TriangleMesh mesh_;
 };
 
-// Round below, a roof above; x across, y up, about the hole's axis. The roof's corner stands where the tangents at both
-// ends meet.
-Polygon teardrop(double radius, double roof_slope, int facets) {
+// Round below, with a peaked ceiling above; x across, y up, about the hole's axis. The ridge is at the intersection of
+// the tangents at both ends.
+Polygon teardrop(double radius, double ceiling_slope, int facets) {
   Polygon points;
-  const double round = k_two_pi - 2.0 * roof_slope;
-  for (int k = 0; k <= facets; ++k) points.push_back(radius * unit(0.5 * k_pi + roof_slope + round * k / facets));
-  points.push_back(radius / std::cos(roof_slope) * unit(0.5 * k_pi));
+  const double round = k_two_pi - 2.0 * ceiling_slope;
+  for (int k = 0; k <= facets; ++k) points.push_back(radius * unit(0.5 * k_pi + ceiling_slope + round * k / facets));
+  points.push_back(radius / std::cos(ceiling_slope) * unit(0.5 * k_pi));
   return points;
 }
 
 TriangleMesh screw_hole(const SetScrewLayout& screw, double reach, int facets) {
-  TriangleMesh hole = prism({teardrop(0.5 * screw.hole_diameter, screw.roof_slope, facets)}, 0.0, reach);
+  TriangleMesh hole = prism({teardrop(0.5 * screw.hole_diameter, screw.ceiling_slope, facets)}, 0.0, reach);
   // (across, up, out) is right-handed like the prism's (x, y, z).
   const Vec2 out = unit(screw.angle), across = turned_left(out);
   for (Vec3& v : hole.vertices) {

@@ -1,5 +1,5 @@
 /// \file
-/// Closed meshes of what is cut out of the body (or added to it). mm, not yet scaled.
+/// Internal: closed meshes of volumes that are cut out of the body or added to it. mm, not yet scaled.
 #pragma once
 
 #include <vector>
@@ -9,20 +9,19 @@
 
 namespace fusee {
 
-/// A tool stands out of the body by this, so that no two of their faces coincide.
+/// Tools project from the body by this, so that no two faces coincide.
 inline constexpr double k_overshoot = 1.0;
 
-/// loops[0] without the others, from `low` to `high`.
+/// The prism of loops[0] minus the other loops, from `low` to `high`.
 TriangleMesh prism(const std::vector<Polygon>& loops, double low, double high);
 
-/// An outline at one height: a section for strip().
+/// An outline at one height, as a section for strip().
 std::vector<Vec3> at_height(const Polygon& outline, double z);
-/// The body between convex outlines of equally many corners, one over the other.
+/// The body between convex outlines with equal numbers of corners, one above the other.
 TriangleMesh strip(const std::vector<std::vector<Vec3>>& sections);
 void turn_inside_out(TriangleMesh& mesh);
 
-/// The set screw's hole from the axis through the hub, with the slot its nut is slid into. Another `variant` has other
-/// facets.
+/// The set screw's hole from the axis through the hub, with the slot for its nut. Each `variant` has different facets.
 TriangleMesh set_screw_tool(const SetScrewLayout& screw, double hub_radius, double hub_top, int variant);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// Arcs of an outline in the sense in which its tendon is wound: counter-clockwise on P1, clockwise on P2. mm, rad.
+/// Internal: arcs of an outline in its winding direction: counter-clockwise on P1, clockwise on P2. mm, rad.
 #pragma once
 
 #include "fusee/profile/outline.h"

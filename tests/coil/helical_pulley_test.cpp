@@ -27,7 +27,7 @@ Mechanism plain() {
   return mechanism;
 }
 
-// To look at.
+// Writes the mesh to the folder FUSEE_KEEP, for inspection.
 void keep(const TriangleMesh& mesh, const std::string& name) {
   const char* folder = std::getenv("FUSEE_KEEP");
   if (folder == nullptr) return;
@@ -62,8 +62,8 @@ TEST(HelicalPulley, RoundHelix) {
   expect_good(pulley, "round");
 }
 
-// Advice is tried with a brief search, and what it says is built with a thorough one.
-TEST(HelicalPulley, ABriefSearchFindsTheSame) {
+// Advice is tried with a brief search and built with a thorough one.
+TEST(HelicalPulley, BriefSearchAgreesWithThorough) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 0.0) + 0.05, slope = lead / (k_two_pi * 16.0);
   const auto made = [&](TieOffSearch search) {
@@ -76,7 +76,7 @@ TEST(HelicalPulley, ABriefSearchFindsTheSame) {
   EXPECT_EQ(brief.mesh.triangles, thorough.mesh.triangles);
 }
 
-TEST(HelicalPulley, TheClocksOwn) {
+TEST(HelicalPulley, BuildsGrowingSpirals) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 2.4) + 0.2, slope = lead / (k_two_pi * 12.0);
   const HelicalPulley pulley = make_helical_pulley(mechanism, spiral_of(growing(12, 2.4, 0.3), 0.3, 5, slope),
@@ -84,7 +84,7 @@ TEST(HelicalPulley, TheClocksOwn) {
   expect_good(pulley, "clock");
 }
 
-TEST(HelicalPulley, Ovals) {
+TEST(HelicalPulley, BuildsOvals) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 1.0) + 0.5, slope = lead / (k_two_pi * 14.0);
   const HelicalPulley pulley = make_helical_pulley(mechanism, spiral_of(oval(14, 0.7, 2, 0.3), 0.3, 3.2, slope),
@@ -92,8 +92,8 @@ TEST(HelicalPulley, Ovals) {
   expect_good(pulley, "oval");
 }
 
-// Facets grow with the turns, and with nothing else.
-TEST(HelicalPulley, TenTurnsAreTenTimesOne) {
+// The number of facets is proportional to the number of turns.
+TEST(HelicalPulley, FacetsAreProportionalToTurns) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 0.0) + 0.05, slope = lead / (k_two_pi * 16.0);
   const auto facets = [&](double turns) {
@@ -108,7 +108,7 @@ TEST(HelicalPulley, TenTurnsAreTenTimesOne) {
   EXPECT_NEAR(ten - six, six - two, 0.01 * ten);
 }
 
-TEST(HelicalPulley, RefusesTurnsThatMeet) {
+TEST(HelicalPulley, RejectsIntersectingTurns) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 0.0) - 0.1, slope = lead / (k_two_pi * 16.0);
   const HelicalPulley pulley = make_helical_pulley(mechanism, spiral_of(testing::round_curve(16.0), 0.3, 4, slope),

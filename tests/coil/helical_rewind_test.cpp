@@ -14,7 +14,7 @@
 namespace fusee {
 namespace {
 
-/// Of a place from the floor that is meant.
+/// Distance of a point from the spiral's floor.
 double away_from(const Spiral& spiral, const SpiralPlace& place, const Vec3& point) {
   const auto floor = [&](const SpiralRow& row) {
     return Vec3(row.x - 0.5 * std::cos(row.turn), row.y - 0.5 * std::sin(row.turn), place.height(row.z));
@@ -28,7 +28,7 @@ double away_from(const Spiral& spiral, const SpiralPlace& place, const Vec3& poi
   return least;
 }
 
-TEST(HelicalFloors, AreTheSpirals) {
+TEST(HelicalFloors, MatchTheSpirals) {
   DeclaredMechanism mechanism = testing::forearm();
   mechanism.body = testing::plain_mechanism().body;
   mechanism.print = testing::plain_mechanism().print;
@@ -48,8 +48,8 @@ TEST(HelicalFloors, AreTheSpirals) {
   }
 }
 
-/// Both tendons on a drum of the joint, both grooves round: by hand the string's length is that of a helix and of one
-/// straight line, unrolled over pin and drum.
+/// Both tendons on a drum of the joint, both grooves round. The string's length in closed form is that of a helix and
+/// of one straight line, unrolled over pin and drum.
 struct RoundCapstan {
   static constexpr double radius = 12.0, drum = 80.0;
 
@@ -86,13 +86,13 @@ struct RoundCapstan {
     spiral.last_used = spiral.rows.size() - 1 - spiral.first_used;
     return spiral;
   }
-  /// In the spiral's frame, at α.
+  /// Height of the take-off in the spiral's frame at α.
   double take_off(const Spiral& spiral, double alpha) const {
     const double middle = 0.5 * (spiral.rows.front().z + spiral.rows.back().z);
     const double offset = 0.5 * (stroke.front().alpha + stroke.back().alpha);
     return middle + slope * radius * (alpha - offset);
   }
-  /// θ at which a string is as long as at home: `hand` +1 is tendon 2.
+  /// θ at which a string is as long as at home. `hand`: +1 for tendon 2.
   double theta(double alpha, double hand, double free, double end_z, const Spiral& spiral) const {
     const auto length = [&](double a, double t) {
       return hand * radius * a * std::hypot(1.0, slope) +
@@ -113,11 +113,11 @@ struct RoundCapstan {
   HelicalPulley pulley;
 };
 
-TEST(HelicalRewind, IsAHelixAndALine) {
+TEST(HelicalRewind, MatchesClosedForm) {
   const RoundCapstan joint;
   ASSERT_TRUE(joint.pulley.made) << joint.pulley.brief();
-  // Tolerances are what the polygon does: the take-off goes from corner to corner, 0.9 mm and 0.07 mm of height apart.
-  // A judge that leaves out corners, or lets the tendon rise with the floor alone, is 0.003° and 0.005 mm off.
+  // Tolerances cover the steps of the polygon: the take-off moves from corner to corner, 0.9 mm and 0.07 mm of height
+  // apart. Omitting corners, or letting the tendon rise with the floor only, would be 0.003° and 0.005 mm off.
   for (const double aside : {0.0, 7.0}) {
     const double end1 = joint.take_off(joint.p1, 0) + aside, end2 = joint.take_off(joint.p2, 0) - aside;
     const TendonsLaid laid = tendons_laid(joint.pulley, joint.p1, joint.p2, end1, end2, false);
@@ -127,7 +127,7 @@ TEST(HelicalRewind, IsAHelixAndALine) {
     for (const RewindPoint& point : wound.result.points) {
       const double by_hand = joint.theta(point.alpha, -1.0, joint.free1, end1, joint.p1);
       EXPECT_NEAR(degrees(point.theta), degrees(by_hand), 0.0015) << degrees(point.alpha);
-      // What the slope of the path makes of the joint, and is not in the planar law.
+      // Effect of the path's slope on the joint, which the planar law does not contain.
       for (const double hand : {-1.0, 1.0}) {
         const double free = hand > 0 ? joint.free2 : joint.free1;
         const double rise = (hand > 0 ? end2 : end1) - joint.take_off(hand > 0 ? joint.p2 : joint.p1, point.alpha);
@@ -146,7 +146,7 @@ TEST(HelicalRewind, IsAHelixAndALine) {
   }
 }
 
-TEST(HelicalRewind, SeesAGrooveThatEndsWithinTheRange) {
+TEST(HelicalRewind, RejectsGrooveEndingWithinRange) {
   const RoundCapstan joint;
   ASSERT_TRUE(joint.pulley.made) << joint.pulley.brief();
   TendonsLaid laid = tendons_laid(joint.pulley, joint.p1, joint.p2, 0, 0, false);

@@ -1,4 +1,4 @@
-// Helical pulleys of every kind: what is made is a solid that measures what it should; what is not says why.
+// Random helical pulleys: each is a valid solid or reports why it cannot be built.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -17,19 +17,19 @@
 namespace fusee {
 namespace {
 
-struct Drawn {
+struct RandomPulley {
   Mechanism mechanism = testing::forearm();
   Spiral p1, p2;
   std::string words;
 };
 
-class Draw {
+class PulleyGenerator {
  public:
-  explicit Draw(unsigned seed) : random_(seed) {}
+  explicit PulleyGenerator(unsigned seed) : random_(seed) {}
 
-  Drawn one() {
-    Drawn drawn;
-    Mechanism& m = drawn.mechanism;
+  RandomPulley one() {
+    RandomPulley random;
+    Mechanism& m = random.mechanism;
     m.body = testing::plain_mechanism().body;
     m.material = testing::plain_mechanism().material;
     m.print = testing::plain_mechanism().print;
@@ -39,9 +39,9 @@ class Draw {
     m.body.groove_angle = radians(within(30, 90));
     m.body.flange_thickness = within(0.8, 2.0);
     const HelicalSection section = helical_section(m);
-    drawn.p1 = spiral(section, drawn.words);
-    drawn.p2 = spiral(section, drawn.words);
-    return drawn;
+    random.p1 = spiral(section, random.words);
+    random.p2 = spiral(section, random.words);
+    return random;
   }
 
  private:
@@ -57,7 +57,7 @@ class Draw {
     words += " r " + std::to_string(radius) + " turns " + std::to_string(turns) + " per turn " +
              std::to_string(per_turn) + " wave " + std::to_string(wave);
     Spiral spiral = testing::spiral_of(curve, begin, turns, slope);
-    // Enough of a free end for any of them.
+    // Every spiral has a free end that is long enough.
     spiral.first_used = spiral.last_used = spiral.rows.size() / 2;
     return spiral;
   }
@@ -73,27 +73,28 @@ std::string failed(const std::vector<Check>& checks) {
   return text;
 }
 
-// FUSEE_HELICES of them, and FUSEE_HELICES_SEED.
-TEST(RandomHelices, AreSolidsOrSayWhyNot) {
+// FUSEE_HELICES: number of pulleys. FUSEE_HELICES_SEED: seed.
+TEST(RandomHelices, AreSolidsOrReportWhyNot) {
   const char* wanted = std::getenv("FUSEE_HELICES");
   const char* seed = std::getenv("FUSEE_HELICES_SEED");
   const int count = wanted != nullptr ? std::atoi(wanted) : 12;
-  Draw draw(seed != nullptr ? static_cast<unsigned>(std::atoi(seed)) : 20261122u);
+  PulleyGenerator generator(seed != nullptr ? static_cast<unsigned>(std::atoi(seed)) : 20261122u);
   int made = 0;
   double longest = 0;
   for (int n = 0; n < count; ++n) {
-    const Drawn drawn = draw.one();
+    const RandomPulley random = generator.one();
     const auto begin = std::chrono::steady_clock::now();
-    const HelicalPulley pulley = make_helical_pulley(drawn.mechanism, drawn.p1, drawn.p2);
+    const HelicalPulley pulley = make_helical_pulley(random.mechanism, random.p1, random.p2);
     longest = std::max(longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    const std::string which = std::to_string(n) + drawn.words + " d " + std::to_string(drawn.mechanism.tendon.diameter);
+    const std::string which =
+        std::to_string(n) + random.words + " d " + std::to_string(random.mechanism.tendon.diameter);
     if (!pulley.made) {
-      EXPECT_EQ(pulley.brief().find("run into one another"), std::string::npos) << which << pulley.brief();
+      EXPECT_EQ(pulley.brief().find("intersect one another"), std::string::npos) << which << pulley.brief();
       if (count > 50) printf("%d not made: %s\n", n, pulley.brief().c_str());
       continue;
     }
     ++made;
-    EXPECT_EQ(failed(check_helical_pulley(pulley.mesh, pulley, helical_section(drawn.mechanism))), "") << which;
+    EXPECT_EQ(failed(check_helical_pulley(pulley.mesh, pulley, helical_section(random.mechanism))), "") << which;
     EXPECT_EQ(failed(check_print(pulley.mesh)), "") << which;
     EXPECT_EQ(helical_floors(pulley.mesh, pulley.layout.scale).size(), 2u) << which;
   }

@@ -1,4 +1,4 @@
-// Channels from a groove's end to the knot, as they are cut: their roofs are the part's undersides.
+// Channels from a groove's end to the knot. Their ceilings become downward faces of the part.
 #include "coil/run_out.h"
 
 #include <gtest/gtest.h>
@@ -26,29 +26,29 @@ GrooveEnd end_on(Side side) {
 }
 
 struct Sizes {
-  double radius, bend_ratio, mouth, growth;  ///< growth of the radius along the arc
-  double gable = 57.5;
+  double radius, bend_ratio, entry, growth;  ///< growth of the radius along the arc
+  double peak = 57.5;
 };
 
 RunOutSizes sizes_of(const Sizes& wanted) {
   RunOutSizes sizes;
   sizes.channel_radius = wanted.radius;
-  sizes.mouth_radius = wanted.mouth;
+  sizes.entry_radius = wanted.entry;
   sizes.pocket_radius = 1.4 * wanted.radius;
   sizes.pocket_depth = sizes.pocket_radius;
   sizes.cone = (sizes.pocket_radius - wanted.radius) * std::tan(radians(47.5));
   sizes.tip = 0.8 * wanted.radius * std::tan(radians(47.5));
   sizes.bend_radius = wanted.bend_ratio * wanted.radius;
   sizes.inward = std::max(sizes.bend_radius / std::sqrt(2.0), 3 * wanted.radius);
-  sizes.roof_slope = radians(wanted.gable);
+  sizes.ceiling_slope = radians(wanted.peak);
   for (int k = 1; k <= 9; ++k)
     sizes.channel_radii.push_back(
-        std::min(wanted.radius, wanted.mouth + wanted.growth * 0.5 * k_pi * k / 9 * sizes.bend_radius));
+        std::min(wanted.radius, wanted.entry + wanted.growth * 0.5 * k_pi * k / 9 * sizes.bend_radius));
   return sizes;
 }
 
-/// Of all that looks up in what is cut, and is no face or end of it.
-double flattest_roof(const TriangleMesh& tool, const GrooveEnd& end) {
+/// Angle of the flattest upward face of the cut volume, except its faces and ends.
+double flattest_ceiling(const TriangleMesh& tool, const GrooveEnd& end) {
   double flattest = 0.5 * k_pi;
   for (const auto& [ia, ib, ic] : tool.triangles) {
     const Vec3 &a = tool.vertices[ia], &b = tool.vertices[ib], &c = tool.vertices[ic];
@@ -60,9 +60,9 @@ double flattest_roof(const TriangleMesh& tool, const GrooveEnd& end) {
   return flattest;
 }
 
-// A ball with a cone on it sweeps the channel: its roof is as steep as the cone, 57.5°, but for the twist of facets.
-// With a gable across the channel it was 37° on the sharpest bends, and the slicer put supports below it.
-TEST(RunOut, RoofsAreSteepHoweverTheChannelBendsAndWidens) {
+// A ball with a cone on it sweeps the channel: its ceiling is as steep as the cone, 57.5°, except for the twist of
+// facets. A ceiling built across the channel was only 37° steep on the sharpest bends and needed supports.
+TEST(RunOut, CeilingsKeepTheirSlope) {
   for (const Side side : {Side::left, Side::right}) {
     for (const Sizes& wanted :
          {Sizes{0.6, 2.8, 0.6, 0}, Sizes{1.0, 2.8, 0.3, 0.3}, Sizes{0.45, 4, 0.3, 0.2}, Sizes{0.8, 3.3, 0.4, 0.5}}) {
@@ -71,35 +71,35 @@ TEST(RunOut, RoofsAreSteepHoweverTheChannelBendsAndWidens) {
         const auto tool = run_out_tool(end, sizes_of(wanted), variant);
         ASSERT_TRUE(tool) << wanted.radius;
         EXPECT_FALSE(find_crossing(*tool).facets) << wanted.radius;
-        EXPECT_GT(degrees(flattest_roof(*tool, end)), 47.0) << wanted.radius << (side == Side::left ? " P1" : " P2");
+        EXPECT_GT(degrees(flattest_ceiling(*tool, end)), 47.0) << wanted.radius << (side == Side::left ? " P1" : " P2");
       }
     }
   }
 }
 
-// The sections of the sharpest bends that are made keep clear of one another, be the gable as steep as it may.
-TEST(RunOut, ChannelsAreWholeUnderEveryGable) {
+// The sections of the sharpest bends do not intersect one another for any steepness of the ceiling.
+TEST(RunOut, ChannelsDoNotSelfIntersect) {
   for (const Side side : {Side::left, Side::right}) {
-    for (const double gable : {57.5, 60.0, 65.0, 72.0, 80.0}) {
-      for (const Sizes& wanted : {Sizes{0.6, 2.8, 0.6, 0, gable}, Sizes{1.0, 2.8, 0.3, 0.3, gable}}) {
+    for (const double peak : {57.5, 60.0, 65.0, 72.0, 80.0}) {
+      for (const Sizes& wanted : {Sizes{0.6, 2.8, 0.6, 0, peak}, Sizes{1.0, 2.8, 0.3, 0.3, peak}}) {
         const auto tool = run_out_tool(end_on(side), sizes_of(wanted), 0);
-        ASSERT_TRUE(tool) << gable;
-        EXPECT_FALSE(find_crossing(*tool).facets) << gable;
+        ASSERT_TRUE(tool) << peak;
+        EXPECT_FALSE(find_crossing(*tool).facets) << peak;
       }
     }
   }
 }
 
-// Under the end of a channel that rises into a wider pocket nothing is as flat as the way itself, 45°.
-TEST(RunOut, AChannelEndsInAPointBelowItsPocket) {
+// The end of a channel that rises into a wider pocket has no face as flat as the channel itself, 45°.
+TEST(RunOut, RisingChannelEndsInAPoint) {
   const GrooveEnd end = end_on(Side::right);
   const ChannelRing last = channel_rings(end, sizes_of({1.0, 2.8, 0.6, 0}), 0).back();
   EXPECT_LT(last.radius, 0.06);
   EXPECT_LT(last.ridge.z(), end.face);
 }
 
-// The cone over a pocket ends in a tip: the flat disc that it had as wide as the channel hung over it.
-TEST(RunOut, APocketThatOpensBelowHasNoCeiling) {
+// The cone over a pocket ends in a tip. A flat disc as wide as the channel would be an overhang.
+TEST(RunOut, PocketOpeningBelowHasNoCeiling) {
   const RunOutSizes sizes = sizes_of({0.6, 3, 0.5, 0.1});
   const std::vector<Vec2> below = pocket_profile(end_on(Side::left), sizes),
                           above = pocket_profile(end_on(Side::right), sizes);

@@ -13,7 +13,7 @@
 
 namespace fusee::testing {
 
-/// From a support function p(ψ) with two derivatives: X = p n + p' t, ρ = p + p''. Rows every `step`.
+/// A curve from its support function p(ψ) with two derivatives: X = p n + p' t, ρ = p + p''.
 struct SupportCurve {
   std::function<double(double)> p, dp, d2p;
 };
@@ -32,7 +32,7 @@ inline Spiral spiral_of(const SupportCurve& curve, double begin, double turns, d
     const Vec2 at = curve.p(turn) * unit(turn) + curve.dp(turn) * turned_left(unit(turn));
     spiral.rows.push_back({at.x(), at.y(), turn, rho(turn), s, slope * s});
   }
-  // A turn to spare at both ends.
+  // One spare turn at both ends.
   const auto spare = static_cast<std::size_t>(std::lround(count / turns));
   spiral.first_used = std::min(spare, spiral.rows.size() - 1);
   spiral.last_used = spiral.rows.size() - 1 - spiral.first_used;

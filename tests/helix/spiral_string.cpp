@@ -7,8 +7,8 @@
 namespace fusee {
 namespace {
 
-/// From `from` to a circle that the string touches with the circle on its left (sense +1) or right (−1), seen along
-/// the string's way: the touching point.
+/// The tangent point of a string from `from` to a circle. The circle lies on the string's left (sense +1) or right
+/// (−1), seen along the string.
 Vec2 touching(const Vec2& from, const Vec2& centre, double radius, double sense) {
   const Vec2 to = centre - from;
   const double distance = to.norm();
@@ -24,8 +24,8 @@ double wrapped(double angle) { return angle - k_two_pi * std::floor(angle / k_tw
 
 }  // namespace
 
-// Everything in the image in which the tendon is the right-hand one: it comes from C, has its pin on the right of its
-// way … and winds counter-clockwise on the turned pulley, seen from its take-off backwards.
+// The left tendon is mirrored to a right-hand one. The string comes from C, passes the pin on its right and winds
+// counter-clockwise on the turned pulley, seen backwards from its take-off.
 StringLength string_length(const Mechanism& mechanism, Side side, const Spiral& spiral, double attachment_z,
                            double alpha, double theta) {
   const double mirror = side == Side::right ? 1.0 : -1.0;
@@ -35,13 +35,14 @@ StringLength string_length(const Mechanism& mechanism, Side side, const Spiral& 
   const Vec2 pin(e, -guides.OE);
   const Vec2 axis(0.0, -guides.OE - mechanism.pulley.EF);
   const Vec2 lever = mechanism.joint.R * Vec2(std::sin(mirror * theta), std::cos(mirror * theta));
-  // The pulley has turned clockwise by α; in the image of the left one the other way.
+  // The pulley has turned clockwise by α, and the mirrored left one counter-clockwise.
   const auto place = [&](const SpiralRow& row) {
     return Vec2(axis + turned(Vec2(mirror * row.x, row.y), -mirror * alpha));
   };
-  // The outer side of the pin: the circle lies on the left of the string's way down to it, and of that up from below.
+  // The string passes the pin's outer side: the circle is on its left on the way down, and on its left on the way up
+  // from the pulley.
   const Vec2 upper = touching(lever, pin, rho, -1.0);
-  // Take-off: the row whose neighbours lie on the same side of the line to the pin, with the normal that the line has.
+  // Take-off: the row whose normal is perpendicular to the line to the pin.
   const std::size_t n = spiral.rows.size();
   std::size_t best = 0;
   double least = 1e300;
@@ -49,7 +50,7 @@ StringLength string_length(const Mechanism& mechanism, Side side, const Spiral& 
     const Vec2 here = place(spiral.rows[i]);
     const Vec2 lower = touching(here, pin, rho, 1.0);
     const Vec2 along = (lower - here).normalized();
-    // Its outward normal lies on the right of the way from the pulley to the pin.
+    // The outward normal points to the right of the way from the pulley to the pin.
     const double normal = angle_of(-turned_left(along));
     const double row = side == Side::right ? spiral.rows[i].turn : k_pi - spiral.rows[i].turn;
     const double miss = std::abs(row - mirror * alpha - normal);

@@ -1,6 +1,6 @@
 /// \file
-/// A string in space, by polygon geometry alone: wound on the rows of a spiral, over a pin, to a point of the joint.
-/// Shares no equation with the synthesis: its lengths are added up from row to row.
+/// A string in space by polygon geometry alone: wound on the rows of a spiral, over a pin, to a point of the joint.
+/// Shares no equation with the synthesis: its length is summed from row to row.
 #pragma once
 
 #include "fusee/helix/spiral.h"
@@ -10,9 +10,9 @@
 namespace fusee {
 
 struct StringLength {
-  double total = 0;  ///< of all that is not wound and what is, but for a constant, mm
-  double slope = 0;  ///< of the free path, rad
-  double fleet = 0;  ///< between the last wound chord and the free path, rad
+  double total = 0;  ///< wound and free length together, up to a constant, mm
+  double slope = 0;  ///< slope of the free path, rad
+  double fleet = 0;  ///< angle between the last wound chord and the free path, rad
 };
 
 /// A joint without drum, both tendons at C. `attachment_z` in the spiral's frame.

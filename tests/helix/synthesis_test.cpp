@@ -12,7 +12,7 @@
 namespace fusee {
 namespace {
 
-/// A shallow groove, and 45° wherever a turn stands out over its neighbour.
+/// A shallow groove whose turns need 45° wherever one overhangs its neighbour.
 HelixGroove groove() {
   return {0.6, 0.6, [](double step) { return 2.0 + std::abs(step); }};
 }
@@ -40,7 +40,7 @@ struct Variation {
   double length = 0, fleet = 0;
 };
 
-/// Of a string's length along the stroke: α of the law, θ of the synthesis.
+/// Variation of a string's length over the stroke, with α of the law and θ of the synthesis.
 Variation variation_of(const Mechanism& m, const HelixSynthesis& made, Side side) {
   const HelixSide& helix = made.sides[side == Side::left ? 0 : 1];
   double least = 1e300, most = -1e300;
@@ -73,17 +73,16 @@ void expect_closed(const Mechanism& m, double limit = 0.0002) {
   }
 }
 
-TEST(HelixSynthesis, AStringInSpaceHasTheSameLengthOverTheStroke) { expect_closed(wrist()); }
+TEST(HelixSynthesis, KeepsStringLengthOverStroke) { expect_closed(wrist()); }
 
-TEST(HelixSynthesis, WithCollarsItsLowerSpanAloneSlopes) {
+TEST(HelixSynthesis, SlopesOnlyTheLowerSpanWithCollars) {
   Mechanism m = wrist();
   m.guides.collar = true;
   expect_closed(m);
 }
 
-/// What closes above is no matter of course: the same spirals under a string that collars hold, drawn as if they did
-/// not slope at all.
-TEST(HelixSynthesis, WithCollarsPlanarCurvesAreOff) {
+/// Control of the tests above: the planar spirals under a string held by collars change its length.
+TEST(HelixSynthesis, PlanarCurvesChangeLengthWithCollars) {
   Mechanism m = wrist();
   const HelixSynthesis planar = synthesise_helix(m, groove(), {.tolerance = 1e-4});
   m.guides.collar = true;
@@ -95,8 +94,9 @@ TEST(HelixSynthesis, WithCollarsPlanarCurvesAreOff) {
   EXPECT_LT(variation_of(m, sloped, Side::right).length, 0.001);
 }
 
-/// Over smooth pins a tendon of the groove's own slope is straight, unrolled: no angle, and the planar radii.
-TEST(HelixSynthesis, OverSmoothPinsThereIsNoFleetAngle) {
+/// Over smooth pins a tendon with the groove's slope is straight when unrolled. The fleet angle is zero and the radii
+/// are planar.
+TEST(HelixSynthesis, HasNoFleetAngleOverSmoothPins) {
   const Mechanism m = wrist();
   const HelixSynthesis made = synthesise_helix(m, groove(), {});
   ASSERT_TRUE(made.made()) << failures(made);
@@ -109,7 +109,7 @@ TEST(HelixSynthesis, OverSmoothPinsThereIsNoFleetAngle) {
   EXPECT_LT(degrees(side_of(made, Side::right).fleet), 1e-6);
 }
 
-TEST(HelixSynthesis, SpiralsClimbEvenlyAndTurnsKeepTheirDistance) {
+TEST(HelixSynthesis, KeepsSlopeAndDistanceOfTurns) {
   const Mechanism m = wrist();
   const HelixSynthesis made = synthesise_helix(m, groove(), {});
   ASSERT_TRUE(made.made()) << failures(made);
@@ -126,7 +126,7 @@ TEST(HelixSynthesis, SpiralsClimbEvenlyAndTurnsKeepTheirDistance) {
       EXPECT_NEAR(b.z - a.z, spiral.slope * (b.s - a.s), 1e-9);
       chords += std::hypot(b.x - a.x, b.y - a.y);
       while (spiral.rows[below].turn < b.turn - k_two_pi) ++below;
-      // The row next after a turn ago: a little less than a turn's height away.
+      // The first row within one turn below, slightly less than one lead away.
       if (below > 0) {
         EXPECT_GT(b.z - spiral.rows[below].z, 2.0 - 0.1);
       }
@@ -137,18 +137,18 @@ TEST(HelixSynthesis, SpiralsClimbEvenlyAndTurnsKeepTheirDistance) {
 
 std::string refused(const Mechanism& m) { return failures(synthesise_helix(m, groove(), {})); }
 
-TEST(HelixSynthesis, SaysWhyNot) {
+TEST(HelixSynthesis, ReportsTooManyTurnsAndTooSmallLead) {
   using ::testing::HasSubstr;
   Mechanism many = wrist();
   many.pulley.ratio = 80;
   many.tendon.diameter = 0.2;
-  EXPECT_THAT(refused(many), HasSubstr("at most 12 are made"));
+  EXPECT_THAT(refused(many), HasSubstr("at most 12 are supported"));
   Mechanism narrow = wrist();
   narrow.body.lead = 1.5;
   EXPECT_THAT(refused(narrow), HasSubstr("body.lead_mm) is too small"));
 }
 
-TEST(HelixSynthesis, ARoundP1TurnsTheJointByWhatItsSlopedTendonLeaves) {
+TEST(HelixSynthesis, KeepsStringLengthOfRoundP1) {
   Mechanism m = wrist();
   m.pulley.law = Law::compensate;
   m.pulley.r1 = 9;

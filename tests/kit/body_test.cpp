@@ -1,4 +1,4 @@
-// Stacks of convex shapes: what they enclose is known from their outlines alone.
+// Stacks of convex shapes, whose volumes follow from their outlines.
 #include "fusee/kit/body.h"
 
 #include <gmock/gmock.h>
@@ -23,13 +23,13 @@ void expect_solid(const SlabBody& body) {
   EXPECT_NEAR(enclosed_volume(mesh) / volume_of(body), 1, 1e-5);
 }
 
-TEST(KitBody, ATubeHasTheVolumeOfItsPolygons) {
+TEST(KitBody, TubeMatchesPolygonVolume) {
   const SlabBody tube{{{0, 7, {{disc({3, -2}, 5)}, {disc({3, -2}, 2), true}}}}};
   expect_solid(tube);
   EXPECT_NEAR(volume_of(tube), 7 * (area_of_circle(72, 5) - area_of_circle(32, 2)), 1e-9);
 }
 
-TEST(KitBody, AConeIsAFrustum) {
+TEST(KitBody, ConeIsAFrustum) {
   SlabLoop loop{disc({0, 0}, 5)};
   loop.grow_high = -2;
   const SlabBody cone{{{0, 4, {loop}}}};
@@ -38,13 +38,13 @@ TEST(KitBody, AConeIsAFrustum) {
   EXPECT_NEAR(volume_of(cone), 4 * unit_area * (25 + 15 + 9) / 3, 1e-9);
 }
 
-TEST(KitBody, LoopsThatGoOnMeetWithoutASeam) {
+TEST(KitBody, ContinuedLoopsHaveNoSeam) {
   const SlabLoop rim{box({0, 0}, {20, 10}, 1)}, through{disc({5, 5}, 2), true}, blind{disc({14, 5}, 2), true};
   expect_solid({{{0, 2, {rim, through}}, {2, 5, {rim, through, blind}}, {5, 6, {{disc({14, 5}, 4)}, blind}}}});
 }
 
-// Something would stand in the air if faces that begin looked up.
-TEST(KitBody, WhatStandsOutIsSeenByThePrintCheck) {
+// If beginning faces looked up, the part would have material in mid-air.
+TEST(KitBody, PrintCheckFindsOverhangs) {
   const SlabBody mushroom{{{0, 3, {{disc({0, 0}, 2)}}}, {3, 5, {{disc({0, 0}, 6)}}}}};
   expect_solid(mushroom);
   EXPECT_FALSE(all_ok(check_print(mesh_of(mushroom))));
@@ -52,7 +52,7 @@ TEST(KitBody, WhatStandsOutIsSeenByThePrintCheck) {
   EXPECT_TRUE(all_ok(check_print(mesh_of(stood))));
 }
 
-TEST(KitBody, TrimmedHolesTakeTheCircleThatIsWanted) {
+TEST(KitBody, TrimmedHolesAdmitTheCircle) {
   const SlabBody plate{{{0, 4, {{box({-10, -10}, {10, 10}, 1)}, {disc({0, 0}, 3), true}}}}};
   const SlabBody made = trimmed(plate, {1, 0.2, 0.4});
   expect_solid(made);
@@ -63,7 +63,7 @@ TEST(KitBody, TrimmedHolesTakeTheCircleThatIsWanted) {
   EXPECT_NEAR(made.slabs[0].loops[0].grow_low, -0.4, 1e-12);
 }
 
-// Seen in a random design: two strokes of a digit grew into each other by the holes' compensation.
+// In a random design two strokes of a digit were merged by the holes' compensation.
 TEST(KitBody, EngravedLinesStayApart) {
   const SlabBody plate{{{0,
                          4,
@@ -73,7 +73,7 @@ TEST(KitBody, EngravedLinesStayApart) {
   expect_solid(trimmed(plate, {1, 0.5, 0}));
 }
 
-TEST(KitBody, AThinWallKeepsAThinFoot) {
+TEST(KitBody, ThinWallGetsSmallChamfer) {
   const SlabBody tube{{{0, 4, {{disc({0, 0}, 2)}, {disc({0, 0}, 1.6), true}}}}};
   expect_solid(trimmed(tube, {1, 0.2, 0.8}));
 }

@@ -1,5 +1,5 @@
-// A kit, put together: as meshes, cut at many heights, at places of the stroke. Nothing here knows the sizes that the
-// plan looked at: only what stands where, and the tendons' paths as they are found on the sampled outlines.
+// An assembled rig as meshes, cut at many heights and at many places of the stroke. The tests use the positions of
+// parts and the tendons' paths on the sampled outlines, and none of the sizes that the plan checked.
 #include "fusee/kit/kit.h"
 
 #include <gmock/gmock.h>
@@ -50,7 +50,7 @@ bool is_inside(const std::vector<Polygon>& loops, const Vec2& point) {
   return inside;
 }
 
-/// From a section to a line's points; 0 within it.
+/// Distance from a section to a line's points; 0 inside.
 double distance(const std::vector<Polygon>& loops, const std::vector<Vec2>& points) {
   double least = 1e9;
   for (const Vec2& point : points) {
@@ -60,7 +60,7 @@ double distance(const std::vector<Polygon>& loops, const std::vector<Vec2>& poin
   return least;
 }
 
-/// Points half a millimetre apart.
+/// Points at most half a millimetre apart.
 std::vector<Vec2> dotted(const std::vector<Vec2>& path, bool closed) {
   std::vector<Vec2> dots;
   for (std::size_t i = 0; i + (closed ? 0 : 1) < path.size(); ++i) {
@@ -99,14 +99,14 @@ std::vector<Standing> put_together(const Model& model, double theta, double alph
 
 class Kit : public ::testing::TestWithParam<const char*> {};
 
-/// Parts that touch each other: they are screwed together, or turn on each other's bearing.
+/// Parts that touch each other: they are screwed together, or turn on the same bearing.
 bool may_touch(const std::string& a, const std::string& b) {
   static const std::set<std::set<std::string>> pairs{
       {"link", "post"}, {"link", "magnet_cap"}, {"link", "tensioner_slide"}};
   return pairs.count({a, b}) != 0;
 }
 
-TEST_P(Kit, NothingThatMovesMeetsWhatItIsNotFixedTo) {
+TEST_P(Kit, MovingPartsDoNotCollide) {
   const Model model = model_of(GetParam());
   ASSERT_TRUE(model.plan.made());
   const auto& stroke = model.synthesis.stroke;
@@ -147,7 +147,7 @@ TEST_P(Kit, TendonsRunFree) {
                                       stroke[place].alpha, stroke[place].theta);
       ASSERT_TRUE(trace);
       std::vector<Vec2> line = trace->free_path;
-      line.pop_back();  // it lies in its groove from there
+      line.pop_back();  // from there it lies in its groove
       const Vec2 last = line.back(), groove = trace->take_off;
       line.push_back(last + 0.8 * (groove - last));
       // Without the end that is tied to the post.
@@ -167,11 +167,11 @@ TEST_P(Kit, TendonsRunFree) {
   }
 }
 
-TEST_P(Kit, ThePinsAreWhereTheMechanismHasThem) {
+TEST_P(Kit, PinsMatchTheMechanism) {
   const Model model = model_of(GetParam());
   for (const KitPin& pin : model.plan.pins) {
     EXPECT_NEAR((pin.place - pin_centre(model.mechanism, pin.side)).norm(), 0, 1e-9);
-    // The tendon's plane lies in the middle between the collars, in the groove's plane of the pulley that stands there.
+    // The tendon's plane lies half-way between the collars, in the plane of the pulley's groove.
     const double groove = pin.side == Side::left ? model.pulley.layout.z_p1 : model.pulley.layout.z_p2;
     EXPECT_NEAR(0.5 * (pin.gap_low + pin.gap_high), model.plan.sizes.pulley_low + groove, 1e-9);
   }
@@ -183,7 +183,7 @@ TEST_P(Kit, ThePinsAreWhereTheMechanismHasThem) {
   EXPECT_FALSE(is_inside(loops, pulley_axis(model.mechanism)));
 }
 
-TEST_P(Kit, ThePostStandsAtC) {
+TEST_P(Kit, PostStandsAtC) {
   const Model model = model_of(GetParam());
   for (const KitPart& part : model.plan.parts) {
     if (part.name != "post") continue;
@@ -201,7 +201,7 @@ TEST_P(Kit, ThePostStandsAtC) {
 
 INSTANTIATE_TEST_SUITE_P(Of, Kit, ::testing::Values("forearm", "finger", "wrist_exo"));
 
-// ---- what is refused says what to change ----------------------------------------------------------------------------
+// ---- advice of rejected kits ----------------------------------------------------------------------------------------
 
 std::string reasons(const KitPlan& plan) {
   std::string text;
@@ -210,14 +210,14 @@ std::string reasons(const KitPlan& plan) {
   return text;
 }
 
-TEST(KitOfOne, APinWithoutThicknessIsRefused) {
+TEST(KitOfOne, RejectsPinOfZeroRadius) {
   const Model model = model_of("forearm", {{"guides.radius_mm", "0"}});
   EXPECT_FALSE(model.plan.made());
   EXPECT_TRUE(model.plan.parts.empty());
   EXPECT_THAT(reasons(model.plan), HasSubstr("guides.radius_mm 0.5 or more"));
 }
 
-TEST(KitOfOne, AnAxleInThePulleyIsRefusedAndTheAdviceHelps) {
+TEST(KitOfOne, RejectsAxleInPulleyWithAdvice) {
   const Model model = model_of("forearm", {{"pulley.EF_mm", "60"}});
   ASSERT_TRUE(model.pulley.made());
   EXPECT_FALSE(model.plan.made());
@@ -225,7 +225,7 @@ TEST(KitOfOne, AnAxleInThePulleyIsRefusedAndTheAdviceHelps) {
   EXPECT_TRUE(model_of("forearm", {{"pulley.EF_mm", "80"}}).plan.made());
 }
 
-TEST(KitOfOne, ASmallFingerHasSmallBearings) {
+TEST(KitOfOne, SmallFingerGetsSmallBearings) {
   const Model model = model_of("finger");
   ASSERT_TRUE(model.plan.made());
   EXPECT_LT(model.plan.sizes.bearing->outer, model.mechanism.joint.R / 3);
@@ -233,7 +233,7 @@ TEST(KitOfOne, ASmallFingerHasSmallBearings) {
 
 // ---- the coupon -----------------------------------------------------------------------------------------------------
 
-TEST(KitOfOne, TheCouponHasFiveOfEach) {
+TEST(KitOfOne, CouponHasFiveOfEach) {
   const Model model = model_of("forearm");
   const TriangleMesh mesh = mesh_of(coupon_body(model.mechanism));
   for (const Check& check : check_mesh(mesh)) EXPECT_TRUE(check.ok) << check.name << " " << check.where;
@@ -258,7 +258,7 @@ TEST(KitOfOne, TheCouponHasFiveOfEach) {
 
 // ---- the verb -------------------------------------------------------------------------------------------------------
 
-TEST(KitOfOne, EveryPartIsCheckedAsItWasWritten) {
+TEST(KitOfOne, ChecksEveryWrittenPart) {
   KitOptions options;
   options.dry_run = true;
   options.folder = std::filesystem::temp_directory_path() / "fusee-kit-test";
@@ -277,7 +277,7 @@ TEST(KitOfOne, EveryPartIsCheckedAsItWasWritten) {
   EXPECT_EQ(made.outputs.back().name, "manifest.json");
 }
 
-TEST(KitOfOne, ATendonIsCutForAllItsWay) {
+TEST(KitOfOne, TendonLengthCoversItsPath) {
   KitOptions options;
   options.dry_run = true;
   options.folder = std::filesystem::temp_directory_path() / "fusee-kit-test";
@@ -301,10 +301,10 @@ TEST(KitOfOne, ATendonIsCutForAllItsWay) {
   }
 }
 
-// ---- plates to drill by ---------------------------------------------------------------------------------------------
+// ---- plates to drill ------------------------------------------------------------------------------------------------
 
-/// Two bearings of the list lie in the link, on a lip that touches the outer rings alone; the ring that carries the
-/// inner ones goes through the drum.
+/// Two bearings of the catalogue lie in the link, on a ledge that touches the outer rings only. The ring below the
+/// inner ones passes through the drum.
 void expect_bearings_seated(const KitPlan& plan, const Joint& joint) {
   const auto part = [&](const std::string& name) {
     return std::find_if(plan.parts.begin(), plan.parts.end(), [&](const KitPart& one) { return one.name == name; });
@@ -328,7 +328,7 @@ void expect_bearings_seated(const KitPlan& plan, const Joint& joint) {
   EXPECT_NEAR(top(*link) - link->body.slabs.front().high, 2 * bearing->width, 1e-9);
   EXPECT_LT(radius_at(*link, 0.5), 0.5 * bearing->outer - 0.2);
   EXPECT_GT(radius_at(*link, 0.5), 0.5 * bearing->spacer + 0.2);
-  // The bearing's inner ring stands on it, the lip stays clear of what is below.
+  // The bearing's inner ring rests on it, and the ledge is clear of the parts below.
   EXPECT_NEAR(top(*ring), link->places.front().z + link->body.slabs.front().high, 1e-9);
   if (joint.drum_radius > 0) {
     EXPECT_GT(radius_at(*drum, 0.5), 0.5 * bearing->spacer + 0.4);
@@ -337,7 +337,7 @@ void expect_bearings_seated(const KitPlan& plan, const Joint& joint) {
 
 class Template : public ::testing::TestWithParam<std::string> {};
 
-/// In the meshes: through the plates at every axis of the file, and nowhere between two of them.
+/// Checks on the meshes that the plates have holes at every axis of the file and none between two of them.
 TEST_P(Template, HasAHoleAtEveryAxis) {
   const Model model = model_of(GetParam());
   ASSERT_TRUE(model.plan.made());
@@ -360,7 +360,7 @@ TEST_P(Template, HasAHoleAtEveryAxis) {
       bored.push_back(G + Vec2(x * mechanism.sheath.exit_across, mechanism.sheath.exit_above));
   }
   for (const Vec2& at : bored) EXPECT_FALSE(is_inside(base, at)) << at.transpose();
-  // All of them, and those of the motor's screws where it has room.
+  // All of them, and those of the motor's screws if it fits.
   const auto mounted = std::find_if(motor_types().begin(), motor_types().end(), [&](const MotorType& motor) {
     return std::any_of(model.plan.items.begin(), model.plan.items.end(),
                        [&](const KitItem& item) { return item.what.starts_with(motor.name + ":"); });

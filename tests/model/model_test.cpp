@@ -1,6 +1,5 @@
-// What simulators and firmware are given, against what is known of it otherwise: polynomials whose best fit stands in
-// books, P1's radius as the rate at which its tendon is wound, a string pulled taut by steps; and files broken on
-// purpose.
+// Models for simulators and firmware, compared with independent results: polynomials with known best fits, P1's radius
+// as the rate at which its tendon is wound, and a string pulled taut in steps. Damaged files must be rejected.
 #include "fusee/pipeline/model.h"
 
 #include <gmock/gmock.h>
@@ -37,23 +36,25 @@ std::vector<FitPoint> sampled(double low, double high, double (*f)(double)) {
 
 // ---- polynomials ----------------------------------------------------------------------------------------------------
 
-TEST(LeastLargestError, IsChebyshevs) {
-  // x^n less T_n/2^(n−1) is the best polynomial of degree n − 1: it misses by 2^(1−n).
+TEST(LeastLargestError, MatchesChebyshev) {
+  // x^n − T_n/2^(n−1) is the best polynomial of degree n − 1, with the error 2^(1−n).
   EXPECT_NEAR(least_largest_error(sampled(-1, 1, [](double x) { return x * x * x; }), 2).error, 0.25, 1e-6);
   EXPECT_NEAR(least_largest_error(sampled(-1, 1, [](double x) { return std::pow(x, 5); }), 4).error, 0.0625, 1e-6);
-  // |x| by a parabola: x² + 1/8.
+  //
+  // x
+  // by a parabola: x² + 1/8.
   const PolynomialFit corner = least_largest_error(sampled(-1, 1, [](double x) { return std::abs(x); }), 2);
   EXPECT_NEAR(corner.error, 0.125, 1e-6);
   EXPECT_THAT(corner.p.c, ElementsAre(DoubleNear(0.125, 1e-6), DoubleNear(0, 1e-6), DoubleNear(1, 1e-5)));
 }
 
-TEST(LeastLargestError, IsThePolynomialItselfWhereverItLies) {
+TEST(LeastLargestError, ReproducesPolynomialOnAnyRange) {
   const PolynomialFit fit = least_largest_error(sampled(30, 31, [](double x) { return 2 - x + 0.5 * x * x; }), 4);
   EXPECT_LT(fit.error, 1e-9);
   for (const double x : {30.0, 30.3, 31.0}) EXPECT_NEAR(fit.p(x), 2 - x + 0.5 * x * x, 1e-9);
 }
 
-TEST(LeastLargestError, MissesByTheSameAlternately) {
+TEST(LeastLargestError, ErrorsAlternate) {
   const std::vector<FitPoint> points = sampled(-0.3, 2, [](double x) { return std::exp(x); });
   const PolynomialFit fit = least_largest_error(points, 4);
   int alternations = 0;
@@ -69,7 +70,7 @@ TEST(LeastLargestError, MissesByTheSameAlternately) {
   EXPECT_EQ(alternations, 6);
 }
 
-/// θ of an equality, found by halving and not by its own means.
+/// θ of an equality, solved by bisection and independently of the model.
 double theta_of(const EqualityFit& fit, double alpha) {
   if (fit.of_alpha) return fit.p(alpha);
   double low = -2, high = 2;
@@ -82,9 +83,9 @@ double theta_of(const EqualityFit& fit, double alpha) {
 
 class OfProfile : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(OfProfile, EqualitiesMissWhatTheySay) {
+TEST_P(OfProfile, EqualityErrorsAreTrue) {
   const MechanismFile file = profile(GetParam());
-  const AngleMap map = joint_curves(file.mechanism)->stands.middle;
+  const AngleMap map = joint_curves(file.mechanism)->physical.middle;
   for (const EqualityFit& fit : {fit_equality(map), fit_line(map)}) {
     double largest = 0;
     for (int i = 0; i <= 777; ++i) {
@@ -96,12 +97,12 @@ TEST_P(OfProfile, EqualitiesMissWhatTheySay) {
   }
 }
 
-/// The length of a string from C over a pin to the anchor, pulled taut: its middle is a chain of points, none of which
-/// may lie in the pin. Shortened link by link; no tangents.
+/// Length of a taut string from C over a pin to the anchor. Its middle is a chain of points outside the pin, shortened
+/// link by link without tangents.
 double taut(const WrappedTendon& tendon, const Vec2& C) {
   constexpr int links = 400;
   const Vec2 outward = (tendon.outer - tendon.pin).normalized();
-  // Over the outer side a chain stands on rays from the pin, from the direction of C to that of the anchor.
+  // Over the outer side, the chain's points lie on rays from the pin between the directions of C and of the anchor.
   const double from = std::atan2((C - tendon.pin).y(), (C - tendon.pin).x()),
                to = std::atan2((tendon.anchor - tendon.pin).y(), (tendon.anchor - tendon.pin).x());
   const double outer = std::atan2(outward.y(), outward.x());
@@ -132,29 +133,29 @@ double taut(const WrappedTendon& tendon, const Vec2& C) {
 
 class Taut : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(Taut, TendonsAreAsLongAsAStringPulledTaut) {
+TEST_P(Taut, LengthsMatchTautString) {
   const ModelResult made = dry(profile(GetParam()));
   ASSERT_TRUE(made.product.tendons);
   const TendonModel& tendons = *made.product.tendons;
-  const WrappedTendon& held = tendons.tendons[tendons.held == Side::left ? 0 : 1];
-  const AngleMap& map = made.product.curves.stands.middle;
+  const WrappedTendon& held = tendons.tendons[tendons.constrained == Side::left ? 0 : 1];
+  const AngleMap& map = made.product.curves.physical.middle;
   for (int i = 0; i <= 6; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, i / 6.0), theta = map.theta(alpha);
     const Vec2 end(std::cos(theta) * held.end.x() + std::sin(theta) * held.end.y(),
                    std::cos(theta) * held.end.y() - std::sin(theta) * held.end.x());
-    const double length = taut(held, end) + (held.mouth ? (*held.mouth - held.anchor).norm() : 0);
+    const double length = taut(held, end) + (held.sheath_exit ? (*held.sheath_exit - held.anchor).norm() : 0);
     // A moment arm is no longer than the lever.
     EXPECT_NEAR(length, held.home_length + tendons.length(alpha), held.end.norm() * (tendons.error + 1e-6))
         << "theta " << degrees(theta);
   }
 }
 
-TEST_P(OfProfile, ARoundP1IsARoundP1) {
+TEST_P(OfProfile, RoundP1HasItsRadius) {
   const MechanismFile file = profile(GetParam());
   const TendonModel tendons = *dry(file).product.tendons;
   if (file.mechanism.pulley.law == Law::compensate) {
     // α(θ) = (L1(θ) − L1(0))/r1.
-    EXPECT_EQ(tendons.held, Side::left);
+    EXPECT_EQ(tendons.constrained, Side::left);
     EXPECT_THAT(tendons.length.c, ElementsAre(DoubleNear(0, 1e-9), DoubleNear(file.mechanism.pulley.r1, 1e-9)));
     EXPECT_LT(tendons.error, 1e-12);
   } else {
@@ -173,8 +174,8 @@ INSTANTIATE_TEST_SUITE_P(Of, Taut,
                                            "unsymmetric", "wrist_exo", "ankle_exo", "wrist_sheath"),
                          [](const auto& tested) { return tested.param; });
 
-/// Home and back by sites and one cylinder: what is wound on a drum is its radius times what the joint turned.
-TEST(Tendons, OnADrumAreHeldByWhatItWinds) {
+/// The path by sites and one cylinder. The length wound on a drum is its radius times the joint's angle.
+TEST(Tendons, DrumTendonsFollowWoundLength) {
   for (const char* name : {"finger_mcp", "elbow_capstan"}) {
     const ModelResult made = dry(profile(name));
     ASSERT_TRUE(made.product.tendons) << name;
@@ -182,31 +183,31 @@ TEST(Tendons, OnADrumAreHeldByWhatItWinds) {
     const double rho = made.product.mechanism.drum_pitch_radius();
     for (const WrappedTendon& tendon : tendons.tendons) {
       EXPECT_EQ(tendon.drum, rho);
-      // Every place on the link lies on the drum, and the tendon leaves it for one further out.
+      // Every place on the link lies on the drum, and the tendon leaves it for a place further out.
       for (const Vec2& at : tendon.on_drum) EXPECT_NEAR(at.norm(), rho, 1e-5 * rho);
       EXPECT_GT(tendon.off_drum.norm(), 1.001 * rho);
       EXPECT_GT(tendon.drum_outer.norm(), rho);
     }
-    const AngleMap& map = made.product.curves.stands.middle;
-    const double sign = tendons.held == Side::left ? 1 : -1;
+    const AngleMap& map = made.product.curves.physical.middle;
+    const double sign = tendons.constrained == Side::left ? 1 : -1;
     EXPECT_NEAR(tendons.length.slope(0), sign * rho * map.slope(0), 1e-6 * rho);
     EXPECT_LT(tendons.error, 1e-8);
   }
 }
 
-TEST(Tendons, ThatLeaveTheirDrumAreLeftOutInWords) {
+TEST(Tendons, OmitsTendonLeavingDrumWithReason) {
   const ModelResult pip = dry(profile("finger_pip"));
   ASSERT_TRUE(pip.product.tendons);
-  EXPECT_EQ(pip.product.tendons->held, Side::right);
-  EXPECT_THAT(pip.product.tendons->left_out[0], ::testing::HasSubstr("leaves the drum within the range"));
+  EXPECT_EQ(pip.product.tendons->constrained, Side::right);
+  EXPECT_THAT(pip.product.tendons->omission[0], ::testing::HasSubstr("leaves the drum within the range"));
   EXPECT_THAT(pip.product.notes, ::testing::Contains(::testing::HasSubstr("without tendon 1")));
   const ModelResult elbow = dry(profile("elbow_idlers"));
   EXPECT_FALSE(elbow.product.tendons);
   EXPECT_THAT(elbow.product.without_tendons, ::testing::HasSubstr("leaves the drum within the range"));
 }
 
-/// Over the whole range the joint is where the tendon's length puts it, also with C below the pins.
-TEST(Tendons, AreFollowedThroughWideRanges) {
+/// Over the whole range the joint follows the tendon's length, also with C below the pins.
+TEST(Tendons, FollowWideRanges) {
   const MechanismFile file = profile("finger", {{"joint.range_deg", "[-20, 75]"},
                                                 {"guides.radius_mm", "3"},
                                                 {"guides.OE_mm", "0"},
@@ -219,42 +220,42 @@ TEST(Tendons, AreFollowedThroughWideRanges) {
   const auto model = tendon_model(file.mechanism, map, why_not);
   ASSERT_TRUE(model) << why_not;
   const WrappedTendon& held = model->tendons[0];
-  EXPECT_EQ(model->held, Side::left);
+  EXPECT_EQ(model->constrained, Side::left);
   EXPECT_LT(tendon_error(held, model->length, map), 1e-9);
 }
 
 // ---- curves ---------------------------------------------------------------------------------------------------------
 
-TEST(JointCurve, OfADeclaredJointIsItsLaw) {
+TEST(JointCurve, DeclaredJointFollowsItsLaw) {
   const MechanismFile file = profile("forearm");
   const Transmission law(file.mechanism);
   const JointCurves curves = *joint_curves(file.mechanism);
-  EXPECT_FALSE(curves.shown.ways);
+  EXPECT_FALSE(curves.sensed.ways);
   for (const double alpha : {-1.9, 0.0, 0.7, 2.0}) {
-    EXPECT_EQ(curves.shown.middle.theta(alpha), law.theta(alpha));
-    EXPECT_EQ(curves.stands.middle.slope(alpha), law.at_alpha(alpha).g);
+    EXPECT_EQ(curves.sensed.middle.theta(alpha), law.theta(alpha));
+    EXPECT_EQ(curves.physical.middle.slope(alpha), law.at_alpha(alpha).g);
   }
-  EXPECT_NEAR(curves.shown.middle.theta(99), file.mechanism.joint.theta_max, 1e-12);
+  EXPECT_NEAR(curves.sensed.middle.theta(99), file.mechanism.joint.theta_max, 1e-12);
 }
 
-TEST(JointCurve, OfPlayIsApartByThePlay) {
+TEST(JointCurve, HysteresisEqualsPlay) {
   const MechanismFile file =
       profile("forearm", {{"identified.backlash_deg", "1.5"}, {"guides.friction", "0"}, {"pulley.friction", "0"}});
-  const JointCurve curve = joint_curves(file.mechanism)->shown;
+  const JointCurve curve = joint_curves(file.mechanism)->sensed;
   ASSERT_TRUE(curve.ways);
   for (const double theta : {-0.4, -0.1, 0.2, 0.45})
     EXPECT_NEAR(degrees((*curve.ways)[0].alpha(theta) - (*curve.ways)[1].alpha(theta)), 1.5, 0.01);
 }
 
-TEST(JointCurve, OfASensorThatShowsTooMuchIsSaidForFirmwareAlone) {
+TEST(JointCurve, SensorGainAffectsFirmwareOnly) {
   const MechanismFile file =
       profile("forearm", {{"identified.gain_percent", "2"}, {"guides.friction", "0"}, {"pulley.friction", "0"}});
   const JointCurves curves = *joint_curves(file.mechanism);
   for (const double alpha : {-1.5, 0.3, 1.0})
-    EXPECT_NEAR(curves.shown.middle.theta(alpha), 1.02 * curves.stands.middle.theta(alpha), radians(0.002));
+    EXPECT_NEAR(curves.sensed.middle.theta(alpha), 1.02 * curves.physical.middle.theta(alpha), radians(0.002));
 }
 
-TEST(Compensation, KeepsTheBendsOfTheLawBetweenItsRows) {
+TEST(Compensation, KeepsShapeOfLawBetweenRows) {
   const MechanismFile file = profile("forearm");
   const Transmission law(file.mechanism);
   std::vector<TwoWayRow> rows;
@@ -266,7 +267,7 @@ TEST(Compensation, KeepsTheBendsOfTheLawBetweenItsRows) {
   }
 }
 
-TEST(Compensation, IsReadOrRefusedWhateverItsBytes) {
+TEST(Compensation, ReadsOrRejectsAnyBytes) {
   const std::string sound = "theta_deg,alpha_up_deg,alpha_down_deg\n-5,-20,-21\n# a comment\n0,1,-1\n5,22.5,19\n";
   ASSERT_EQ(read_compensation(sound, "c.csv").size(), 3u);
   std::uint32_t state = 1;
@@ -299,15 +300,15 @@ TEST(Compensation, IsReadOrRefusedWhateverItsBytes) {
 
 // ---- tables ---------------------------------------------------------------------------------------------------------
 
-TEST(Table, OfAStraightLineIsTheLine) {
+TEST(Table, StraightLineIsExact) {
   const ModelResult made = dry(profile("linear_wrist"));
   EXPECT_EQ(made.product.table.pieces, 16);
   EXPECT_LT(degrees(made.product.table.errors.returned), 1e-5);
 }
 
-TEST(Table, MissesAQuarterWithTwiceThePieces) {
+TEST(Table, ErrorQuartersWithTwiceThePieces) {
   const MechanismFile file = profile("paper_optimum");
-  const JointCurve curve = joint_curves(file.mechanism)->shown;
+  const JointCurve curve = joint_curves(file.mechanism)->sensed;
   const JointTable coarse = *joint_table(curve, file.mechanism, {}, radians(0.05)),
                    fine = *joint_table(curve, file.mechanism, {}, radians(0.002));
   ASSERT_EQ(coarse.pieces, 16);
@@ -315,7 +316,7 @@ TEST(Table, MissesAQuarterWithTwiceThePieces) {
   EXPECT_NEAR(coarse.errors.theta / fine.errors.theta, 16, 3);
 }
 
-TEST(Table, IsRefusedWhereFloatsAreTooCoarse) {
+TEST(Table, RejectsRangeBeyondFloats) {
   ModelOptions options;
   options.most_table_error = radians(1e-6);
   const ModelResult made = dry(profile("forearm"), options);
@@ -342,7 +343,7 @@ struct Broken {
   std::string check;
 };
 
-TEST(Files, ThatAreWrongAreSeen) {
+TEST(Files, DetectsDamagedFiles) {
   const ModelResult made = dry(profile("forearm"));
   ASSERT_EQ(made.ending, ModelEnding::done);
   for (const Broken& broken :
@@ -368,7 +369,7 @@ TEST(Files, ThatAreWrongAreSeen) {
   }
 }
 
-TEST(Files, SayWhatTheyAssume) {
+TEST(Files, StateTheirAssumptions) {
   const ModelResult made = dry(profile("finger", {{"load.mass_kg", "0"}}));
   for (const OutputFile& output : made.outputs) {
     const bool simulated =

@@ -1,13 +1,13 @@
-// The body as rings, against closed formulas of the discretised part.
+// The body as rings, compared with closed formulas of the discretised part.
 #include "solid/body.h"
 
 #include <gtest/gtest.h>
 
 #include "solid/bore.h"
 #include "solid/broken.h"
+#include "solid/channel_entries.h"
 #include "solid/groove.h"
 #include "solid/heights.h"
-#include "solid/mouths.h"
 #include "solid/plane_distance.h"
 #include "support/shapes.h"
 
@@ -20,7 +20,7 @@ using testing::plain_mechanism;
 using testing::pulley_of;
 using testing::SupportShape;
 
-// A frustum between regular n-gons of radii a and b, or a prism for a == b.
+// Volume of a frustum between regular n-gons of radii a and b, or of a prism for a == b.
 double frustum(int n, double a, double b, double height) {
   return 0.5 * n * std::sin(k_two_pi / n) * height * (a * a + a * b + b * b) / 3.0;
 }
@@ -32,13 +32,13 @@ FlangeRims rims_of(const Mechanism& mechanism, const SynthesisResult& shape) {
 BodyLayout layout_of(const Mechanism& mechanism, const SynthesisResult& shape, Parts parts, double hub_radius = 0) {
   BodyLayout layout = axial_layout(mechanism, rims_of(mechanism, shape), parts, k_steep_lean);
   layout.bore = bore_layout(mechanism, 5);
-  roof_recess(layout);
+  ceiling_recess(layout);
   layout.hub_radius = hub_radius;
   if (hub_radius > 0) layout.z_hub = layout.z_top + 8;
   return layout;
 }
 
-// One half of a groove about a regular n-gon of this radius.
+// Volume of one half of a groove about a regular n-gon of this radius.
 double half_groove(int n, double radius, const std::vector<GroovePoint>& wall) {
   double volume = frustum(n, radius, radius, wall[1].dz);
   for (std::size_t k = 2; k < wall.size(); ++k) {
@@ -56,58 +56,59 @@ void expect_volume(const RingStack& stack, double expected) {
   EXPECT_NEAR(enclosed_volume(mesh_of(stack)), expected, 1e-9 * expected);
 }
 
-TEST(Body, RoundPulleyHasTheVolumeOfItsFrustums) {
+TEST(Body, RoundPulleyMatchesFrustumVolumes) {
   const int n = 240;
   const Mechanism mechanism = plain_mechanism();
   const SynthesisResult shape = pulley_of(circle(20), circle(20), n);
   const BodyLayout layout = layout_of(mechanism, shape, Parts::one, 8);
   const RingStack stack = body_stack(shape.p1, shape.p2, 1.0, Flange::follow, layout);
   const double slope = std::tan(radians(47.5)), t = 1.2, foot = 0.4, foot_rise = foot * slope;
-  const double lip = 19.5 + layout.groove_depth;
-  // Round both circles by the smooth maximum of their support functions, with a margin.
-  const double middle = lip + 0.5 * std::log(2.0) + 0.2;
-  // Facets are steepest along their corners: across their middle they are as flat as is asked for.
-  EXPECT_NEAR(layout.middle_cone, (middle - lip) * std::cos(k_pi / n) * slope, 1e-9);
+  const double groove_edge = 19.5 + layout.groove_depth;
+  // The rim around both circles: the smooth maximum of their support functions plus a margin.
+  const double middle = groove_edge + 0.5 * std::log(2.0) + 0.2;
+  // Facets are steepest at their corners. Across their middle they have exactly the requested slope.
+  EXPECT_NEAR(layout.middle_cone, (middle - groove_edge) * std::cos(k_pi / n) * slope, 1e-9);
   const double middle_rim = layout.z_p2 - layout.p2.below_width() - layout.z_middle;
   const double upper_rim = layout.z_top - layout.z_p2 - layout.p2.above_width();
   EXPECT_GE(middle_rim, t - 1e-9);
   EXPECT_GE(upper_rim, t - 1e-9);
   const double bore = signed_area(layout.bore.outline) * layout.z_hub;
-  const double expected = frustum(n, lip - foot, lip, foot_rise) + frustum(n, lip, lip, t - foot_rise) +
-                          groove(n, 19.5, layout.p1) + frustum(n, lip, middle, layout.middle_cone) +
-                          frustum(n, middle, middle, middle_rim) + groove(n, 19.5, layout.p2) +
-                          frustum(n, lip, lip, upper_rim) + signed_area(stack.hub->outline) * 8 - bore;
+  const double expected = frustum(n, groove_edge - foot, groove_edge, foot_rise) +
+                          frustum(n, groove_edge, groove_edge, t - foot_rise) + groove(n, 19.5, layout.p1) +
+                          frustum(n, groove_edge, middle, layout.middle_cone) + frustum(n, middle, middle, middle_rim) +
+                          groove(n, 19.5, layout.p2) + frustum(n, groove_edge, groove_edge, upper_rim) +
+                          signed_area(stack.hub->outline) * 8 - bore;
   EXPECT_NEAR(signed_area(stack.hub->outline), k_pi * 64, 0.01 * k_two_pi * 8);
   expect_volume(stack, expected);
 }
 
-// P1 is chamfered where it lies on the printer, at the top of what stands in the whole; each cone is above a groove as
-// it is printed.
-TEST(Body, RoundPulleyInTwoPartsHasTheVolumeOfItsFrustums) {
+// P1 is chamfered at its print bed, which is its top in the whole. Each cone is above a groove in print orientation.
+TEST(Body, TwoPartPulleyMatchesFrustumVolumes) {
   const int n = 240;
   Mechanism mechanism = plain_mechanism();
   mechanism.body.flange = Flange::round;
   const SynthesisResult shape = pulley_of(circle(20), circle(18), n);
   const BodyLayout layout = layout_of(mechanism, shape, Parts::two);
   const double foot = 0.4, foot_rise = foot * std::tan(radians(47.5));
-  const double lip1 = 19.5 + layout.groove_depth, lip2 = 17.5 + layout.groove_depth;
-  const double rim1 = lip1 + 0.2, rim2 = lip2 + 0.2, middle = lip1 + 0.2;
+  const double groove_edge1 = 19.5 + layout.groove_depth, groove_edge2 = 17.5 + layout.groove_depth;
+  const double rim1 = groove_edge1 + 0.2, rim2 = groove_edge2 + 0.2, middle = groove_edge1 + 0.2;
   const double bore = signed_area(layout.bore.outline);
   const double lower = layout.z_p1 - layout.p1.below_width() - layout.lower_cone;
   EXPECT_EQ(layout.middle_cone, 0);
   expect_volume(body_stack(shape.p1, shape.p2, 1.0, Flange::round, layout, Piece::p1),
-                frustum(n, rim1, rim1, lower) + frustum(n, rim1, lip1, layout.lower_cone) + groove(n, 19.5, layout.p1) +
+                frustum(n, rim1, rim1, lower) + frustum(n, rim1, groove_edge1, layout.lower_cone) +
+                    groove(n, 19.5, layout.p1) +
                     frustum(n, middle, middle, layout.z_mate - foot_rise - layout.z_middle) +
                     frustum(n, middle, middle - foot, foot_rise) - bore * layout.z_mate);
   const double under = layout.z_p2 - layout.p2.below_width() - layout.z_mate - foot_rise;
   const double above = layout.z_top - layout.z_p2 - layout.p2.above_width() - layout.upper_cone;
   expect_volume(body_stack(shape.p1, shape.p2, 1.0, Flange::round, layout, Piece::p2),
                 frustum(n, rim2 - foot, rim2, foot_rise) + frustum(n, rim2, rim2, under) + groove(n, 17.5, layout.p2) +
-                    frustum(n, lip2, rim2, layout.upper_cone) + frustum(n, rim2, rim2, above) -
+                    frustum(n, groove_edge2, rim2, layout.upper_cone) + frustum(n, rim2, rim2, above) -
                     bore * (layout.z_hub - layout.z_mate));
 }
 
-TEST(Body, IsASolidForAnyConvexPair) {
+TEST(Body, IsSolidForAnyConvexPair) {
   const std::vector<SupportShape> shapes{
       circle(20), circle(15, {6, -3}), {18, {{2, 2.5, 1}, {3, 0.4, -0.6}}}, {25, {{1, -8, 2}, {2, 0, 3}}}};
   for (const Flange flange : {Flange::follow, Flange::round}) {
@@ -129,17 +130,17 @@ TEST(Body, IsASolidForAnyConvexPair) {
   }
 }
 
-TEST(Body, MiddleFlangeStandsOutsideBothLips) {
+TEST(Body, MiddleFlangeContainsBothGrooveEdges) {
   const SynthesisResult shape = pulley_of(circle(20, {4, 0}), circle(20, {-4, 0}), 180);
   const FlangeRims rims = flange_rims(shape.p1, shape.p2, 1.0, 2.0, Flange::follow);
-  for (const Polygon* lip : {&rims.lip1, &rims.lip2}) {
-    for (const Vec2& point : *lip) EXPECT_GT(depth_inside(rims.middle, point), 0.15);
+  for (const Polygon* groove_edge : {&rims.groove_edge1, &rims.groove_edge2}) {
+    for (const Vec2& point : *groove_edge) EXPECT_GT(depth_inside(rims.middle, point), 0.15);
   }
-  // Not more than the blend and the margin above the larger of both.
+  // Not more than the blend and the margin above the larger one.
   EXPECT_NEAR(rims.middle.front().x(), 25.5 + 0.2, 0.01);
 }
 
-TEST(Groove, TendonLiesHalfItsDiameterAboveTheFloorInEveryKind) {
+TEST(Groove, SeatsTendonHalfADiameterAboveFloor) {
   for (const Groove kind : {Groove::u, Groove::v, Groove::flat}) {
     for (const double angle : {0.0, 30.0, 50.0, 90.0}) {
       Body body = plain_mechanism().body;
@@ -150,7 +151,7 @@ TEST(Groove, TendonLiesHalfItsDiameterAboveTheFloorInEveryKind) {
         EXPECT_EQ(section[1].offset, 0.0);
         EXPECT_GT(section[1].dz, 0.0);
         EXPECT_DOUBLE_EQ(section.back().offset, 2.0 * d);
-        // No wall comes nearer to the centre line, at offset d/2, than d/2.
+        // No wall is closer than d/2 to the centre line at offset d/2.
         for (std::size_t k = 1; k < section.size(); ++k) {
           const Vec2 a(section[k - 1].offset, section[k - 1].dz), b(section[k].offset, section[k].dz);
           EXPECT_GE(distance_to_segment({0.5 * d, 0}, a, b), 0.5 * d * (1 - 1e-12)) << k;
@@ -160,15 +161,15 @@ TEST(Groove, TendonLiesHalfItsDiameterAboveTheFloorInEveryKind) {
   }
 }
 
-TEST(Groove, VHoldsTheTendonOnThreeSides) {
+TEST(Groove, VGrooveTouchesTendonOnThreeSides) {
   Body body = plain_mechanism().body;
   body.groove = Groove::v;
   const auto section = groove_half(body, radians(25), 2.0, 4.0);
-  const Vec2 corner(section[1].offset, section[1].dz), lip(section[2].offset, section[2].dz);
-  EXPECT_NEAR(distance_to_segment({1.0, 0.0}, corner, lip), 1.0, 1e-12);
+  const Vec2 corner(section[1].offset, section[1].dz), groove_edge(section[2].offset, section[2].dz);
+  EXPECT_NEAR(distance_to_segment({1.0, 0.0}, corner, groove_edge), 1.0, 1e-12);
 }
 
-TEST(Groove, ShallowSeatEndsAtTheLip) {
+TEST(Groove, ShallowSeatEndsAtGrooveEdge) {
   Body body = plain_mechanism().body;
   body.seat_ratio = 2;
   const auto section = groove_half(body, 0.0, 1.0, 0.5);
@@ -176,32 +177,32 @@ TEST(Groove, ShallowSeatEndsAtTheLip) {
   for (std::size_t k = 2; k < section.size(); ++k) EXPECT_GT(section[k].offset, section[k - 1].offset);
 }
 
-/// A circle, lifted by the depth and pushed aside until it meets the wall's line: found by steps.
-TEST(Groove, RoomAtTheLipIsWhereARisenTendonTouches) {
+/// A circle, lifted by the depth and moved aside in steps until it meets the wall's line.
+TEST(Groove, PlayAtGrooveEdgeMatchesTouchingTendon) {
   for (const Groove kind : {Groove::u, Groove::v, Groove::flat}) {
     for (const double angle : {0.0, 30.0, 50.0, 90.0}) {
       Body body = plain_mechanism().body;
       body.groove = kind;
       const double d = 0.8, depth = 2.0 * d;
       const auto section = groove_half(body, radians(0.5 * angle), d, depth);
-      const GroovePoint &low = section[section.size() - 2], &lip = section.back();
-      const Vec2 along = Vec2(lip.offset - low.offset, lip.dz - low.dz).normalized();
+      const GroovePoint &low = section[section.size() - 2], &groove_edge = section.back();
+      const Vec2 along = Vec2(groove_edge.offset - low.offset, groove_edge.dz - low.dz).normalized();
       const auto gap = [&](double aside) {
-        const Vec2 seen = Vec2(depth + 0.5 * d, aside) - Vec2(lip.offset, lip.dz);
+        const Vec2 seen = Vec2(depth + 0.5 * d, aside) - Vec2(groove_edge.offset, groove_edge.dz);
         return along.x() * -seen.y() + along.y() * seen.x() - 0.5 * d;
       };
       double touches = 0;
       while (gap(touches) > 0) touches += 1e-5;
-      EXPECT_NEAR(room_at_lip(section, d), touches, 2e-5) << static_cast<int>(kind) << " " << angle;
-      // Of a v it is what the wall leans over the depth.
+      EXPECT_NEAR(room_at_groove_edge(section, d), touches, 2e-5) << static_cast<int>(kind) << " " << angle;
+      // In a V groove the play is the wall's lean over the depth.
       if (kind == Groove::v) {
-        EXPECT_NEAR(room_at_lip(section, d), depth * std::tan(radians(0.5 * angle)), 1e-12);
+        EXPECT_NEAR(room_at_groove_edge(section, d), depth * std::tan(radians(0.5 * angle)), 1e-12);
       }
     }
   }
 }
 
-TEST(Bore, EveryShapePassesItsShaft) {
+TEST(Bore, EveryShapeAdmitsItsShaft) {
   Mechanism mechanism = plain_mechanism();
   for (const Bore kind : {Bore::round, Bore::d, Bore::hex, Bore::square, Bore::keyway}) {
     mechanism.body.bore = kind;
@@ -227,7 +228,7 @@ TEST(Bore, KeywayOfDin6885) {
   EXPECT_NEAR(corner.y(), 12.8, 1e-12);
 }
 
-TEST(Bore, ScrewHolesOfAHornAreCutWithItsRecess) {
+TEST(Bore, HornRecessKeepsScrewHoles) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.bore = Bore::horn;
   mechanism.body.horn = "disc-25T-M3";

@@ -1,4 +1,4 @@
-// Booleans against volumes that are known: boxes beside, within, through and flush with one another.
+// Booleans of boxes with known volumes: disjoint, nested, crossing and flush.
 #include "solid/boolean.h"
 
 #include <gtest/gtest.h>
@@ -54,19 +54,19 @@ void expect_solid(const std::optional<BooleanResult>& result, double volume, dou
 
 const TriangleMesh k_body = box({0, 0, 0}, {10, 10, 10});
 
-TEST(Boolean, OfBoxesThatCross) {
+TEST(Boolean, CrossingBoxes) {
   const TriangleMesh tool = box({4, 4, -1}, {6, 7, 11});
   expect_solid(subtract(k_body, tool), 1000 - 60, 60);
   expect_solid(unite(k_body, tool), 1000 + 12, 60);
 }
 
-TEST(Boolean, OfWhatStandsApart) {
+TEST(Boolean, DisjointBoxes) {
   const TriangleMesh tool = box({20, 0, 0}, {21, 1, 1});
   expect_solid(subtract(k_body, tool), 1000, 0);
   expect_solid(unite(k_body, tool), 1001, 0);
 }
 
-TEST(Boolean, OfWhatLiesWithin) {
+TEST(Boolean, NestedBoxes) {
   const TriangleMesh tool = box({2, 2, 2}, {3, 3, 3});
   expect_solid(subtract(k_body, tool), 999, 1);
   expect_solid(unite(k_body, tool), 1000, 1);
@@ -82,9 +82,9 @@ double shortest_edge(const TriangleMesh& mesh) {
   return least;
 }
 
-// A corner of the tool stands a hair beside the line along which the body's face is divided into facets, whichever of
-// the two it is: admesh would find another normal for the facet of that length.
-TEST(Boolean, LeavesNoEdgesOfSomeGrainsOfAFloat) {
+// A corner of the tool lies close to the diagonal of the body's face, for either of the two possible diagonals. admesh
+// would compute another normal for the facet of that width.
+TEST(Boolean, LeavesNoEdgesOfFloatLength) {
   for (const double hair : {1.2e-5, -1.2e-5, 7e-6}) {
     for (const double x : {0.0, 2.0}) {
       const TriangleMesh tool = box({4 - x, 4 - x + hair, -1}, {6, 6 + hair, 11});
@@ -96,7 +96,7 @@ TEST(Boolean, LeavesNoEdgesOfSomeGrainsOfAFloat) {
   }
 }
 
-/// Of the facet whose corners are nearest to a line: from its longest side to the corner across, mm.
+/// Height of the flattest facet over its longest side, mm.
 double flattest(const TriangleMesh& mesh) {
   double least = 1e9;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -107,9 +107,9 @@ double flattest(const TriangleMesh& mesh) {
   return least;
 }
 
-/// The body with three corners on its edge at x = y = 0, as far beside it as 1e-17 mm: only one of the two faces there
-/// is divided at them, and between the faces stand three facets of next to no height, a fan about the upper end. A
-/// hexagonal bore that runs through a pocket for a knot leaves them.
+/// A body with three corners within 1e-17 mm of its edge at x = y = 0. Only one of the two faces is divided at them,
+/// and between the faces lies a fan of three facets of almost no height. A hexagonal bore through a knot pocket
+/// produces such facets.
 TriangleMesh body_with_a_fan_of_flat_facets() {
   TriangleMesh mesh;
   for (const double z : {0.0, 10.0})
@@ -129,21 +129,21 @@ TEST(Boolean, LeavesNoFlatFacets) {
   EXPECT_GT(flattest(result->mesh), 0.01);
 }
 
-// Faces that are one: the tool ends in a face of the body, from within and from without.
-TEST(Boolean, OfFacesThatLieOnOneAnother) {
+// The tool ends in a face of the body, from inside and from outside.
+TEST(Boolean, CoincidentFaces) {
   expect_solid(subtract(k_body, box({4, 4, 5}, {6, 7, 10})), 1000 - 30, 30);
   expect_solid(subtract(k_body, box({4, 4, 10}, {6, 7, 15})), 1000, 0);
   expect_solid(unite(k_body, box({4, 4, 10}, {6, 7, 15})), 1030, 0);
   expect_solid(unite(k_body, box({4, 4, 5}, {6, 7, 10})), 1000, 30);
 }
 
-TEST(Boolean, OfSeveralToolsAtOnce) {
+TEST(Boolean, SeveralTools) {
   const TriangleMesh tools =
       together({box({1, 1, -1}, {2, 2, 11}), box({4, 4, 8}, {6, 6, 11}), box({30, 0, 0}, {31, 1, 1})});
   expect_solid(subtract(k_body, tools), 1000 - 10 - 8, 18);
 }
 
-TEST(Boolean, WhatIsFarFromTheToolStaysToTheBit) {
+TEST(Boolean, KeepsDistantFacetsBitwise) {
   const TriangleMesh body = ball();
   const double whole = enclosed_volume(body);
   const auto cut = subtract(body, box({-1, -1, 8}, {1, 1, 12}));
@@ -157,7 +157,7 @@ TEST(Boolean, WhatIsFarFromTheToolStaysToTheBit) {
   EXPECT_GE(kept, body.vertices.size() - 60);
 }
 
-TEST(Boolean, TheOrderOfAMeshIsItsOwn) {
+TEST(Boolean, ResultOrderIsDeterministic) {
   const TriangleMesh tool = box({4, 4, -1}, {6, 7, 11});
   const auto once = subtract(k_body, tool), again = subtract(k_body, tool);
   ASSERT_TRUE(once && again);
@@ -166,9 +166,9 @@ TEST(Boolean, TheOrderOfAMeshIsItsOwn) {
   EXPECT_EQ(once->common_volume, again->common_volume);
 }
 
-// Between two cuts a mesh may come to cross itself when it is rounded: CGAL takes for granted that it does not, and a
-// trial in a campaign (seed 7001, design 217) ended in a crash.
-TEST(Boolean, WhatCrossesItselfIsNotCut) {
+// Rounding may make a mesh intersect itself between two cuts. CGAL assumes that it does not, and a trial of a campaign
+// (seed 7001, design 217) crashed.
+TEST(Boolean, RejectsSelfIntersectingBody) {
   const TriangleMesh crossed = together({k_body, box({5, 5, 5}, {15, 15, 15})});
   EXPECT_FALSE(subtract(crossed, box({9, 9, -1}, {9.5, 9.5, 20})).has_value());
 }

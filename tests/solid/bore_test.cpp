@@ -1,4 +1,4 @@
-// The cone between a horn's recess and its centre screw's hole, on polygons whose every corner is known.
+// The cone between a horn's recess and its centre screw's hole, on polygons with known corners.
 #include "solid/bore.h"
 
 #include <gtest/gtest.h>
@@ -30,14 +30,14 @@ BoreLayout recess(const Polygon& outline, const Polygon& hole) {
   return bore;
 }
 
-// All that makes the cone end in the hole itself.
+// Checks every property by which the cone ends in the hole itself.
 void expect_cone(const BoreLayout& bore) {
   const RecessCone cone = recess_cone(bore);
   const Polygon& hole = bore.screw_holes.front();
   ASSERT_EQ(cone.rim.size(), cone.hole.size());
   double furthest = 0;
   for (std::size_t i = 0; i < cone.rim.size(); ++i) {
-    // Two corners within 0.01 rad of one ray are taken for one.
+    // Two corners within 0.01 rad of one ray count as one.
     EXPECT_LT(angle_between(cone.rim[i], cone.hole[i]), 0.0101);
     EXPECT_GT(cross(cone.rim[i], cone.rim[(i + 1) % cone.rim.size()]), 0) << "not once about the axis";
     EXPECT_LT(distance_to_edges(bore.outline, cone.rim[i]), 1e-12);
@@ -51,14 +51,14 @@ void expect_cone(const BoreLayout& bore) {
   EXPECT_DOUBLE_EQ(cone.travel, furthest);
 }
 
-// Inscribed in a circle; the first corner at `turn`.
+// Inscribed in a circle, with the first corner at `turn`.
 Polygon regular(int n, double radius, double turn) {
   Polygon points;
   for (int k = 0; k < n; ++k) points.push_back(radius * unit(turn + k_two_pi * k / n));
   return points;
 }
 
-TEST(RecessCone, BetweenAlikePolygonsHasTheirCorners) {
+TEST(RecessCone, SimilarPolygonsKeepTheirCorners) {
   const BoreLayout bore = recess(regular(12, 4, 0.2), regular(12, 1.6, 0.2));
   const RecessCone cone = recess_cone(bore);
   EXPECT_EQ(cone.rim.size(), 12u);
@@ -66,7 +66,7 @@ TEST(RecessCone, BetweenAlikePolygonsHasTheirCorners) {
   expect_cone(bore);
 }
 
-TEST(RecessCone, TakesTheCornersOfBoth) {
+TEST(RecessCone, ContainsCornersOfBothPolygons) {
   for (const int outer : {4, 7, 16}) {
     for (const int inner : {3, 8, 10}) {
       for (const double turn : {0.0, 0.05, 0.4, 3.0}) {
@@ -78,7 +78,7 @@ TEST(RecessCone, TakesTheCornersOfBoth) {
   }
 }
 
-TEST(RecessCone, TakesCornersNearlyOnOneRayForOne) {
+TEST(RecessCone, MergesCornersOnNearlyEqualRays) {
   for (const double turn : {1e-9, 1e-4, 0.009}) {
     const BoreLayout bore = recess(regular(8, 5, 0.1), regular(8, 1.5, 0.1 + turn));
     EXPECT_EQ(recess_cone(bore).rim.size(), 8u) << turn;
@@ -87,7 +87,7 @@ TEST(RecessCone, TakesCornersNearlyOnOneRayForOne) {
   EXPECT_EQ(recess_cone(recess(regular(8, 5, 0.1), regular(8, 1.5, 0.12))).rim.size(), 16u);
 }
 
-TEST(RecessCone, OfEveryHornOfTheCatalogueEndsInItsHole) {
+TEST(RecessCone, EndsInTheHoleForEveryCatalogueHorn) {
   int recesses = 0;
   Mechanism mechanism = plain_mechanism();
   mechanism.body.bore = Bore::horn;

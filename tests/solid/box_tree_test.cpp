@@ -1,4 +1,4 @@
-// Every two boxes that overlap are found once, against all pairs.
+// The tree finds each overlapping pair once, compared with a search over all pairs.
 #include "solid/box_tree.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ Pairs of_all(const std::vector<Box3>& boxes) {
   return pairs;
 }
 
-// On a coarse grid, so that many only touch, and many are alike; needles among them.
+// Boxes on a coarse grid: many touch or coincide, and some are needles.
 std::vector<Box3> drawn(std::size_t count, std::mt19937& draw) {
   std::uniform_int_distribution<int> place(0, 12), size(0, 2), chance(0, 9);
   std::vector<Box3> boxes(count);
@@ -51,7 +51,7 @@ TEST(BoxTree, FindsEveryPairOnce) {
   }
 }
 
-TEST(BoxTree, EndsWhenAsked) {
+TEST(BoxTree, StopsOnRequest) {
   std::mt19937 draw(4);
   const std::vector<Box3> boxes = drawn(100, draw);
   int looks = 0;

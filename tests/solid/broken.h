@@ -1,5 +1,5 @@
 /// \file
-/// Simple solids and ways to break them.
+/// Simple solids, and functions that damage them.
 #pragma once
 
 #include <stdexcept>
@@ -30,7 +30,7 @@ inline TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
   return a;
 }
 
-/// Names of the checks that failed, in order, with a blank between them.
+/// Names of the failed checks in order, separated by blanks.
 inline std::string failed(const std::vector<Check>& checks) {
   std::string names;
   for (const Check& check : checks) {

@@ -1,4 +1,4 @@
-// Each check of a mesh is seen failing, alone where that can be, on a solid broken on purpose.
+// Each check of a mesh fails, alone if possible, on a solid damaged on purpose.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using testing::failed;
 using testing::joined;
 using testing::turned_inside_out;
 
-TEST(CheckMesh, CubeIsASolid) {
+TEST(CheckMesh, AcceptsCube) {
   EXPECT_EQ(failed(check_mesh(cube(10))), "");
   EXPECT_DOUBLE_EQ(enclosed_volume(cube(10)), 1000.0);
   EXPECT_EQ(bounds(cube(2, {1, 2, 3})).low, Vec3(1, 2, 3));
@@ -35,7 +35,7 @@ TEST(CheckMesh, MissingFacet) {
   EXPECT_EQ(check_named(checks, "open_edges").where.substr(0, 6), "facet ");
 }
 
-TEST(CheckMesh, FlippedFacetIsNamedWithItsPlace) {
+TEST(CheckMesh, ReportsFlippedFacetWithPlace) {
   TriangleMesh mesh = cube(9);
   std::swap(mesh.triangles[0][1], mesh.triangles[0][2]);
   const auto checks = check_mesh(mesh);
@@ -50,7 +50,7 @@ TEST(CheckMesh, OneOfTwoPartsInsideOut) {
   EXPECT_EQ(failed(check_mesh(joined(cube(10), turned_inside_out(cube(5, {20, 0, 0}))))), "inverted_parts");
 }
 
-TEST(CheckMesh, ACavityFacesInward) {
+TEST(CheckMesh, AcceptsCavity) {
   EXPECT_EQ(failed(check_mesh(joined(cube(10), turned_inside_out(cube(4, {3, 3, 3}))))), "");
   EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(4, {3, 3, 3})))), "inverted_parts");
 }
@@ -64,7 +64,7 @@ TEST(CheckMesh, DuplicateFacet) {
 }
 
 TEST(CheckMesh, DegenerateFacet) {
-  // A vertex in the middle of an edge, with a facet of no area that closes the gap.
+  // A vertex in the middle of an edge, and a facet without area that closes the gap.
   TriangleMesh mesh = cube(10);
   mesh.vertices.emplace_back(5, 5, 0);
   mesh.triangles[0] = {0, 2, 8};
@@ -76,7 +76,7 @@ TEST(CheckMesh, DegenerateFacet) {
 }
 
 // Poles of spheres and capsules are exported with facets of two equal corners.
-TEST(CheckMesh, ACollapsedFacetIsNamedOnce) {
+TEST(CheckMesh, ReportsCollapsedFacetOnce) {
   for (const std::array<std::uint32_t, 3>& slit : {std::array<std::uint32_t, 3>{0, 0, 1}, {4, 2, 4}, {5, 5, 5}}) {
     TriangleMesh mesh = cube(10);
     mesh.triangles.insert(mesh.triangles.begin() + 3, slit);
@@ -86,15 +86,15 @@ TEST(CheckMesh, ACollapsedFacetIsNamedOnce) {
   }
 }
 
-TEST(CheckMesh, ANeedleBesideASoundSurfaceIsNamedOnce) {
+TEST(CheckMesh, ReportsNeedleOnce) {
   TriangleMesh mesh = cube(10);
   mesh.vertices.emplace_back(5, 0, 0);
   mesh.triangles.push_back({0, 8, 1});
   EXPECT_EQ(failed(check_mesh(mesh)), "degenerate_facets");
 }
 
-// Along one edge: each needle's neighbour is the next one, down to a facet that is split several times.
-TEST(CheckMesh, ARowOfNeedlesIsNamedOnce) {
+// Needles along one edge: each needle's neighbour is the next one, and the last facet is split several times.
+TEST(CheckMesh, ReportsRowOfNeedlesOnce) {
   TriangleMesh mesh = cube(10);
   mesh.vertices.emplace_back(5, 5, 0);
   mesh.vertices.emplace_back(2.5, 7.5, 0);
@@ -108,8 +108,8 @@ TEST(CheckMesh, ARowOfNeedlesIsNamedOnce) {
   EXPECT_EQ(check_named(checks, "degenerate_facets").value, 2);
 }
 
-// The rest is examined without it, and named by the facets' own numbers.
-TEST(CheckMesh, FaultsBesideADegenerateFacetAreFoundToo) {
+// The other checks exclude the degenerate facet and report the original facet numbers.
+TEST(CheckMesh, FindsFaultsBesideDegenerateFacet) {
   TriangleMesh mesh = cube(10);
   mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
   mesh.triangles.pop_back();
@@ -123,8 +123,8 @@ TEST(CheckMesh, FaultsBesideADegenerateFacetAreFoundToo) {
   EXPECT_EQ(check_named(check_mesh(mesh), "flipped_facets").where, "facet 1 at (3.000, 3.000, 0.000) mm");
 }
 
-// Two holes that share a corner are two holes.
-TEST(CheckMesh, ACornerOfHolesIsNotPinched) {
+// Two holes that share a corner count as two holes.
+TEST(CheckMesh, CornerOfHolesIsNotPinched) {
   TriangleMesh mesh = cube(10);
   // A facet of the bottom, and one of a side that has a single corner in common with it.
   const auto share = [](const auto& s, const auto& t) {
@@ -143,13 +143,13 @@ TEST(CheckMesh, CrossingParts) {
   EXPECT_NE(check_named(checks, "self_intersections").where.find("crosses facet"), std::string::npos);
 }
 
-TEST(CheckMesh, APartThatOnlyTouchesAlsoCrosses) {
+TEST(CheckMesh, RejectsTouchingParts) {
   EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(2, {4, 4, 10})))), "self_intersections");
 }
 
-TEST(CheckMesh, AFacetFoldedOntoItsNeighbour) {
-  // The top's corner is pulled into the top's plane beyond the opposite edge: facets overlap in one plane and share an
-  // edge.
+TEST(CheckMesh, RejectsFoldedFacet) {
+  // The top's corner is moved within the top's plane beyond the opposite edge, so that facets with a common edge
+  // overlap.
   TriangleMesh mesh = cube(10);
   mesh.vertices[7] = {2, 2, 10};
   EXPECT_NE(failed(check_mesh(mesh)).find("self_intersections"), std::string::npos);
@@ -163,7 +163,7 @@ TEST(CheckMesh, TwoCubesOnOneCorner) {
   EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(10, {10, 10, 10})))), "pinched_vertices");
 }
 
-TEST(CheckMesh, VerticesNumberedPerFacetAreWelded) {
+TEST(CheckMesh, WeldsVerticesOfEachFacet) {
   TriangleMesh soup;
   const TriangleMesh mesh = cube(10);
   for (const auto& triangle : mesh.triangles) {
@@ -175,13 +175,13 @@ TEST(CheckMesh, VerticesNumberedPerFacetAreWelded) {
   EXPECT_EQ(weld(soup).vertices.size(), 8u);
 }
 
-TEST(CheckMesh, NothingAtAll) {
+TEST(CheckMesh, RejectsEmptyMesh) {
   const auto checks = check_mesh({});
   EXPECT_EQ(failed(checks), "facets");
   EXPECT_EQ(check_named(checks, "facets").where, "there are no facets");
 }
 
-TEST(CheckMesh, ASingleFacet) {
+TEST(CheckMesh, RejectsSingleFacet) {
   const auto checks = check_mesh({{{0, 0, 0}, {10, 0, 0}, {0, 10, 0}}, {{0, 1, 2}}});
   EXPECT_EQ(failed(checks), "facets");
   EXPECT_EQ(check_named(checks, "facets").where, "1 facet encloses no solid: at least 4 are required");
@@ -195,7 +195,7 @@ TEST(CheckMesh, IndicesOutOfRange) {
   EXPECT_EQ(failed(checks), "indices_out_of_range");
 }
 
-TEST(CheckMesh, NotANumberAndInfinity) {
+TEST(CheckMesh, RejectsNanAndInfinity) {
   for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     TriangleMesh mesh = cube(10);
     mesh.vertices[5].y() = value;
@@ -205,14 +205,14 @@ TEST(CheckMesh, NotANumberAndInfinity) {
   }
 }
 
-TEST(CheckMesh, HugeAndTinyCoordinatesAreDecidedExactly) {
+TEST(CheckMesh, DecidesHugeAndTinyCoordinatesExactly) {
   EXPECT_EQ(failed(check_mesh(cube(1e30))), "");
   EXPECT_EQ(failed(check_mesh(cube(1e-30))), "");
   EXPECT_EQ(failed(check_mesh(joined(cube(1e-30), cube(1e30, {1, 1, 1})))), "");
 }
 
-// The search for crossings among them took 20 s for each 100 000.
-TEST(CheckMesh, AHeapOfEqualFacetsEnds) {
+// The search for crossings among equal facets took 20 s for each 100 000.
+TEST(CheckMesh, EndsOnManyEqualFacets) {
   TriangleMesh mesh = cube(10);
   for (int k = 0; k < 200'000; ++k) mesh.triangles.push_back(mesh.triangles[0]);
   const auto begin = std::chrono::steady_clock::now();
@@ -222,18 +222,18 @@ TEST(CheckMesh, AHeapOfEqualFacetsEnds) {
   EXPECT_EQ(failed(checks), "duplicate_facets");
 }
 
-// Facets about one edge: each two of them are neighbours.
-TEST(CheckMesh, AnEdgeOfManyFacetsIsNotSearchedForCrossings) {
+// Facets about one edge are all neighbours of each other.
+TEST(CheckMesh, SkipsCrossingsAtCrowdedEdge) {
   TriangleMesh mesh{{{0, 0, 0}, {0, 0, 1}}, {}};
   for (std::uint32_t k = 0; k < 15'000; ++k) {
     mesh.vertices.emplace_back(5 + std::cos(k / 1e4), std::sin(k / 1e4), 0.5);
     mesh.triangles.push_back({0, 1, k + 2});
   }
   EXPECT_THAT(check_named(check_mesh(mesh), "self_intersections").where,
-              ::testing::HasSubstr("too many facets lie on top of one another"));
+              ::testing::HasSubstr("too many overlapping facets"));
 }
 
-TEST(Section, OfACube) {
+TEST(Section, Cube) {
   const auto loops = section(cube(10), 4);
   ASSERT_EQ(loops.size(), 1u);
   EXPECT_DOUBLE_EQ(signed_area(loops[0]), 100.0);
@@ -254,14 +254,14 @@ TEST(Section, HolesRunClockwise) {
   EXPECT_DOUBLE_EQ(signed_area(outer_loop(loops)), 100.0);
 }
 
-TEST(Section, AnOpenMeshHasNoLoopWhereItIsOpen) {
+TEST(Section, OmitsLoopOfOpenMesh) {
   TriangleMesh mesh = cube(10);
   mesh.triangles.erase(mesh.triangles.begin() + 4);
   EXPECT_TRUE(section(mesh, 2).empty());
   EXPECT_THROW(outer_loop(section(mesh, 2)), InputError);
 }
 
-TEST(Section, BadIndicesAreSkipped) {
+TEST(Section, SkipsBadIndices) {
   TriangleMesh mesh = cube(10);
   mesh.triangles.push_back({0, 1, 99});
   EXPECT_DOUBLE_EQ(signed_area(outer_loop(section(mesh, 4))), 100.0);

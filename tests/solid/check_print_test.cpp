@@ -1,5 +1,4 @@
-// What needs supports, on parts whose every ledge and span is known; then the same question asked of layers, as a
-// slicer would.
+// Print checks on parts whose ledges and spans are known, and an independent check by layers.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -22,8 +21,8 @@ using testing::turned_inside_out;
 
 // ---- parts ----------------------------------------------------------------------------------------------------------
 
-// Walls of facets between loops of equally many points, one above the other or not, with a bottom and a top; every loop
-// star-shaped about its mean.
+// Walls of facets between loops with equal numbers of points, plus a bottom and a top. Every loop is star-shaped about
+// its mean.
 TriangleMesh stacked(const std::vector<std::vector<Vec3>>& loops) {
   TriangleMesh mesh;
   const auto n = static_cast<std::uint32_t>(loops.front().size());
@@ -66,7 +65,7 @@ TriangleMesh turned_part(const std::vector<std::pair<double, double>>& profile, 
   return stacked(loops);
 }
 
-// Of unit voxels on a grid of planes: the surface between what is solid and what is not, each square two facets.
+// Unit voxels on a grid of planes: the surface between solid and empty cells, with two facets for each square.
 class Blocks {
  public:
   std::array<std::vector<double>, 3> planes;
@@ -117,7 +116,7 @@ class Blocks {
   }
 };
 
-// Two legs with a roof over a tunnel of this width.
+// Two legs with a ceiling over a tunnel of this width.
 TriangleMesh tunnel(double width) {
   Blocks blocks;
   blocks.planes = {{{0, 4, 4 + width, 8 + width}, {0, 12}, {0, 5, 8}}};
@@ -150,7 +149,7 @@ double value(const std::vector<Check>& checks, const char* name) { return check_
 
 // ---- slopes ---------------------------------------------------------------------------------------------------------
 
-TEST(CheckPrint, ACubeNeedsNothing) {
+TEST(CheckPrint, AcceptsCubeOnBed) {
   const auto checks = check_print(cube(10, {3, 4, -5}));
   EXPECT_EQ(failed(checks), "");
   EXPECT_DOUBLE_EQ(value(checks, "overhang"), 90);
@@ -158,18 +157,18 @@ TEST(CheckPrint, ACubeNeedsNothing) {
   EXPECT_EQ(value(checks, "bridge"), 0);
 }
 
-// A frustum on its small face, that widens by `run` while it rises by 6.
+// A frustum on its small face, which widens by `run` over a rise of 6.
 TriangleMesh flaring(double slope_deg) {
   const double run = 6 / std::tan(radians(slope_deg));
   return turned_part({{5, 0}, {5, 2}, {5 + run, 8}, {5 + run, 9}}, 256);
 }
 
-TEST(CheckPrint, AConeIsHeldAgainstTheLimit) {
+TEST(CheckPrint, ComparesConeWithLimit) {
   EXPECT_EQ(failed(check_print(flaring(46))), "");
   EXPECT_EQ(failed(check_print(rounded_to_float(flaring(45)))), "");
   const auto checks = check_print(flaring(44));
   EXPECT_EQ(failed(checks), "overhang unsupported_step");
-  // A facet lies flatter than the cone's line by nothing: its run is shorter by cos(π/256), so it is a little steeper.
+  // The run of a facet is shorter than the cone's by cos(π/256), so the facet is slightly steeper.
   EXPECT_NEAR(value(checks, "overhang"), 44, 0.01);
   EXPECT_NEAR(value(checks, "unsupported_step"), 6 / std::tan(radians(44)), 0.01);
   EXPECT_NE(check_named(checks, "overhang").where.find(" mm² in 1 place"), std::string::npos);
@@ -178,13 +177,13 @@ TEST(CheckPrint, AConeIsHeldAgainstTheLimit) {
   EXPECT_EQ(failed(check_print(flaring(44), mild)), "");
 }
 
-TEST(CheckPrint, TheOtherWayUpItIsAnotherPart) {
+TEST(CheckPrint, DependsOnPrintOrientation) {
   EXPECT_EQ(failed(check_print(upside_down(flaring(20)))), "");
   EXPECT_EQ(failed(check_print(turned_part({{4, 0}, {4, 5}, {8, 5}, {8, 7}}))), "overhang unsupported_step");
   EXPECT_EQ(failed(check_print(upside_down(turned_part({{4, 0}, {4, 5}, {8, 5}, {8, 7}})))), "");
 }
 
-TEST(CheckPrint, ATiltedPartIsJudgedAsItLies) {
+TEST(CheckPrint, MeasuresTiltedPart) {
   for (const double tilt : {30.0, 44.0, 46.0, 60.0}) {
     const TriangleMesh box = moved(cube(10), Eigen::Affine3d(Eigen::AngleAxisd(radians(tilt), Vec3(0, 1, 0))));
     // Two faces look down, at tilt and at 90° − tilt.
@@ -197,8 +196,9 @@ TEST(CheckPrint, ATiltedPartIsJudgedAsItLies) {
   }
 }
 
-// The neighbour of a sharp edge looks up: the top of a thin rim holds nothing, the floor of a cave holds its roof.
-TEST(CheckPrint, ASharpRimIsFreeAndTheBottomOfASharpGrooveHolds) {
+// The neighbour of a sharp edge faces up. The top of a thin rim supports nothing, the floor of a sharp groove supports
+// its ceiling.
+TEST(CheckPrint, DistinguishesSharpRimFromSharpGroove) {
   const TriangleMesh rim = turned_part({{5, 0}, {5, 2}, {8, 3}});
   EXPECT_NEAR(value(check_print(rim), "unsupported_step"), 3, 1e-9);
   const TriangleMesh groove = turned_part({{10, 0}, {10, 3}, {7, 4}, {10, 5}, {10, 8}});
@@ -209,7 +209,7 @@ TEST(CheckPrint, ASharpRimIsFreeAndTheBottomOfASharpGrooveHolds) {
 
 // ---- steps ----------------------------------------------------------------------------------------------------------
 
-TEST(CheckPrint, ALedgeAsWideAsAStepMayBe) {
+TEST(CheckPrint, AcceptsLedgeOfStepWidth) {
   EXPECT_EQ(failed(check_print(rounded_to_float(ledge(0.3)))), "");
   EXPECT_NEAR(value(check_print(ledge(0.29)), "unsupported_step"), 0.29, 1e-12);
   const auto checks = check_print(ledge(0.31));
@@ -218,28 +218,28 @@ TEST(CheckPrint, ALedgeAsWideAsAStepMayBe) {
   EXPECT_EQ(value(checks, "overhang"), 0);
 }
 
-TEST(CheckPrint, ARingOfStepsIsNoBridge) {
+TEST(CheckPrint, RingOfStepsIsNoBridge) {
   EXPECT_EQ(failed(check_print(turned_part({{10, 0}, {10, 5}, {10.25, 5}, {10.25, 8}}))), "");
   const auto checks = check_print(turned_part({{10, 0}, {10, 5}, {12, 5}, {12, 8}}));
-  // At a corner, to the corner below it: the held edges are chords.
+  // The step is measured from a corner to the corner below, because the supported edges are chords.
   EXPECT_NEAR(value(checks, "unsupported_step"), 2, 1e-9);
   EXPECT_EQ(value(checks, "bridge"), 0);
 }
 
-TEST(CheckPrint, AMushroomSlopedBelow) {
+TEST(CheckPrint, MeasuresSlopedMushroom) {
   EXPECT_EQ(failed(check_print(turned_part({{5, 0}, {5, 6}, {9, 7}, {9, 9}}))), "overhang unsupported_step");
-  // The same slope, no wider than a step.
+  // A mushroom with this slope, but no wider than a step.
   EXPECT_EQ(failed(check_print(turned_part({{5, 0}, {5, 6}, {5.28, 6.07}, {5.28, 9}}))), "");
 }
 
-TEST(CheckPrint, NothingWithinTheFirstLayerHangs) {
+TEST(CheckPrint, IgnoresOverhangsInFirstLayer) {
   EXPECT_EQ(failed(check_print(turned_part({{9, 0}, {9, 0.3}, {10, 0.3}, {10, 5}}))), "");
   EXPECT_EQ(failed(check_print(turned_part({{9, 0}, {9, 0.4}, {10, 0.4}, {10, 5}}))), "overhang unsupported_step");
 }
 
 // ---- bridges --------------------------------------------------------------------------------------------------------
 
-TEST(CheckPrint, ATunnelIsABridgeHoweverItIsTurned) {
+TEST(CheckPrint, MeasuresTunnelInAnyDirection) {
   for (const double turn : {0.0, 0.1, 0.5, 1.0, 2.0}) {
     const auto short_enough = check_print(rounded_to_float(turned_about_z(tunnel(4.9), turn)));
     EXPECT_EQ(failed(short_enough), "") << turn;
@@ -252,11 +252,11 @@ TEST(CheckPrint, ATunnelIsABridgeHoweverItIsTurned) {
   }
 }
 
-TEST(CheckPrint, ASlitNeedsNoBridge) { EXPECT_EQ(value(check_print(tunnel(0.5)), "bridge"), 0); }
+TEST(CheckPrint, SlitRequiresNoBridge) { EXPECT_EQ(value(check_print(tunnel(0.5)), "bridge"), 0); }
 
-// A block on the bed with a round pocket from below: the pocket's wall and ceiling, as a part turned inside out.
+// A block on the bed with a round pocket from below: the pocket's wall and ceiling are a part turned inside out.
 TriangleMesh pocket(double diameter, double hole, double z = 4) {
-  // The outside runs from the bed up; the pocket's loop is walked with it so that bed and top are rings.
+  // The outside runs from the bed up. The pocket's loop runs in parallel, so that bed and top are rings.
   TriangleMesh mesh;
   const int n = 96;
   std::vector<std::vector<Vec3>> loops{circle(diameter / 2, 0, n), circle(15, 0, n), circle(15, 8, n)};
@@ -290,14 +290,14 @@ TriangleMesh pocket(double diameter, double hole, double z = 4) {
   return mesh;
 }
 
-TEST(CheckPrint, ThePartsOfThisTestAreSolids) {
+TEST(CheckPrint, TestPartsAreSolids) {
   for (const TriangleMesh& mesh : {flaring(45), tunnel(3), ledge(1), pocket(5, 0), pocket(6, 3), pocket(6, 3, 6)}) {
     EXPECT_EQ(failed(check_mesh(mesh)), "");
     EXPECT_GT(enclosed_volume(mesh), 0);
   }
 }
 
-TEST(CheckPrint, APocketsCeilingIsABridge) {
+TEST(CheckPrint, PocketCeilingIsABridge) {
   const auto checks = check_print(pocket(4.9, 0));
   EXPECT_EQ(failed(checks), "");
   EXPECT_NEAR(value(checks, "bridge"), 4.9, 0.01);
@@ -306,7 +306,7 @@ TEST(CheckPrint, APocketsCeilingIsABridge) {
   EXPECT_EQ(failed(check_print(pocket(4, 0, 0.4))), "");
 }
 
-TEST(CheckPrint, ACounterboreHasAFreeRim) {
+TEST(CheckPrint, CounterboreHasFreeRim) {
   const auto checks = check_print(pocket(4.5, 3));
   EXPECT_EQ(failed(checks), "overhang unsupported_step");
   EXPECT_NEAR(value(checks, "unsupported_step"), 0.75, 0.02);
@@ -314,9 +314,8 @@ TEST(CheckPrint, ACounterboreHasAFreeRim) {
   EXPECT_GT(value(check_print(pocket(8, 4)), "unsupported_step"), 1.4);
 }
 
-// A tunnel that leaves through a round wall: the roof's mouth bulges over the last straight bridge, by less than a
-// step.
-TEST(CheckPrint, ATunnelsMouthMayBulge) {
+// A tunnel that leaves through a round wall. The ceiling projects over the last straight bridge by less than a step.
+TEST(CheckPrint, AcceptsSmallBulgeAtTunnelEnd) {
   const auto bulging = [](double bulge) {
     const int n = 24;
     std::vector<std::vector<Vec3>> legs;
@@ -335,16 +334,16 @@ TEST(CheckPrint, ATunnelsMouthMayBulge) {
 
 // ---- vaults ---------------------------------------------------------------------------------------------------------
 
-// A block of 12 mm with a tunnel along y whose upper half is this polygon (x, z about the tunnel's springing), from
-// left to right.
-TriangleMesh vaulted(const std::vector<Vec2>& roof) {
-  const double z0 = 5, reach = roof.back().x();
+// A block of 12 mm with a tunnel along y whose upper half is this polygon (x, z about the tunnel's springing line),
+// from left to right.
+TriangleMesh vaulted(const std::vector<Vec2>& ceiling) {
+  const double z0 = 5, reach = ceiling.back().x();
   std::vector<Vec2> outline{{-8, 0}, {-reach, 0}};
-  for (const Vec2& point : roof) outline.emplace_back(point.x(), z0 + point.y());
+  for (const Vec2& point : ceiling) outline.emplace_back(point.x(), z0 + point.y());
   outline.insert(outline.end(), {{reach, 0}, {8, 0}, {8, 12}});
-  for (auto point = roof.rbegin(); point != roof.rend(); ++point) outline.emplace_back(point->x(), 12);
+  for (auto point = ceiling.rbegin(); point != ceiling.rend(); ++point) outline.emplace_back(point->x(), 12);
   outline.emplace_back(-8, 12);
-  const std::size_t n = outline.size(), k = roof.size();
+  const std::size_t n = outline.size(), k = ceiling.size();
   TriangleMesh mesh;
   for (const double y : {0.0, 10.0}) {
     for (const Vec2& point : outline) mesh.vertices.emplace_back(point.x(), y, point.y());
@@ -373,7 +372,7 @@ TriangleMesh vaulted(const std::vector<Vec2>& roof) {
   return mesh;
 }
 
-std::vector<Vec2> gable(double width, double slope_deg) {
+std::vector<Vec2> peak(double width, double slope_deg) {
   return {{-width / 2, 0}, {0, width / 2 * std::tan(radians(slope_deg))}, {width / 2, 0}};
 }
 
@@ -383,28 +382,28 @@ std::vector<Vec2> arch(double diameter) {
   return points;
 }
 
-TEST(CheckPrint, AVaultIsNoBridge) {
+TEST(CheckPrint, VaultIsNoBridge) {
   ASSERT_EQ(failed(check_mesh(vaulted(arch(4)))), "");
-  EXPECT_EQ(failed(check_print(vaulted(gable(3, 60)))), "");
-  const auto flat_gable = check_print(vaulted(gable(3, 30)));
+  EXPECT_EQ(failed(check_print(vaulted(peak(3, 60)))), "");
+  const auto flat_gable = check_print(vaulted(peak(3, 30)));
   EXPECT_EQ(failed(flat_gable), "overhang unsupported_step");
   EXPECT_NEAR(value(flat_gable, "unsupported_step"), 1.5, 0.1);
   EXPECT_NEAR(value(flat_gable, "overhang"), 30, 1e-9);
-  // The crown of a hole d1.2 rises by 0.18 mm where it is too flat: one layer. That of d4 by 0.59 mm.
+  // The too flat crown of a hole of 1.2 mm rises by 0.18 mm, one layer. That of 4 mm rises by 0.59 mm.
   EXPECT_EQ(failed(check_print(vaulted(arch(1.2)))), "");
   EXPECT_EQ(failed(check_print(vaulted(arch(4)))), "overhang unsupported_step");
-  // A teardrop's roof cut off flat.
+  // The ceiling of a teardrop, cut off flat.
   EXPECT_EQ(failed(check_print(vaulted({{-2, 0}, {-1, 1.1}, {1, 1.1}, {2, 0}}))), "");
 }
 
 // ---- islands --------------------------------------------------------------------------------------------------------
 
-TEST(CheckPrint, AnIslandBeginsInMidAir) {
+TEST(CheckPrint, ReportsIsland) {
   const auto checks = check_print(joined(cube(10), cube(4, {20, 0, 5})));
   EXPECT_EQ(failed(checks), "overhang unsupported_step island");
   EXPECT_EQ(value(checks, "island"), 1);
   EXPECT_EQ(check_named(checks, "island").where.substr(0, 23), "begins in mid-air at (2");
-  // Standing on its corner it begins at a point; as a keel, along an edge.
+  // A cube on its corner begins at a point, one on an edge along a line.
   const Eigen::Quaterniond on_corner = Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, 1));
   const TriangleMesh corner = moved(cube(4), Eigen::Translation3d(20, 0, 5) * Eigen::Affine3d(on_corner));
   EXPECT_EQ(value(check_print(joined(cube(10), corner)), "island"), 1);
@@ -413,7 +412,7 @@ TEST(CheckPrint, AnIslandBeginsInMidAir) {
             1);
 }
 
-TEST(CheckPrint, AnIcicleBelowACeilingIsAnIslandAndAPitIsNone) {
+TEST(CheckPrint, DistinguishesIcicleFromPit) {
   Blocks blocks;
   blocks.planes = {{{0, 4, 5, 6, 10}, {0, 4, 5, 6, 10}, {0, 3, 5, 8}}};
   blocks.solid = [](int x, int y, int z) { return z == 2 || x == 0 || (z == 1 && x == 2 && y == 2); };
@@ -426,29 +425,29 @@ TEST(CheckPrint, AnIcicleBelowACeilingIsAnIslandAndAPitIsNone) {
   EXPECT_NEAR(value(checks, "bridge"), 4, 1e-9);
 }
 
-// ---- what files are like --------------------------------------------------------------------------------------------
+// ---- defects of files -----------------------------------------------------------------------------------------------
 
-// A ceiling cut by a sliver of floats' width is one ceiling.
-TEST(CheckPrint, ASliverWithinACeilingDoesNotPartIt) {
+// A ceiling cut by a sliver of float width counts as one ceiling.
+TEST(CheckPrint, SliverDoesNotDivideCeiling) {
   TriangleMesh mesh = tunnel(4);
-  // The roof of the tunnel: its two facets look down at z = 5. A point beside their diagonal, off the plane by a
-  // float's grain, splits it.
-  std::vector<std::size_t> roof;
+  // The ceiling of the tunnel has two facets that look down at z = 5. A point beside their diagonal, off the plane by a
+  // float step, splits it.
+  std::vector<std::size_t> ceiling;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const auto& t = mesh.triangles[f];
     bool level = true;
     for (const std::uint32_t v : t) level = level && mesh.vertices[v].z() == 5;
-    if (level) roof.push_back(f);
+    if (level) ceiling.push_back(f);
   }
-  ASSERT_EQ(roof.size(), 2u);
-  auto [a, b, c] = mesh.triangles[roof[0]];
-  const auto& other = mesh.triangles[roof[1]];
+  ASSERT_EQ(ceiling.size(), 2u);
+  auto [a, b, c] = mesh.triangles[ceiling[0]];
+  const auto& other = mesh.triangles[ceiling[1]];
   const auto shared = [&](std::uint32_t v) { return std::find(other.begin(), other.end(), v) != other.end(); };
   while (!(shared(a) && shared(b))) std::tie(a, b, c) = std::tuple(b, c, a);
   const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
   const Vec3 to_c = mesh.vertices[c] - 0.5 * (mesh.vertices[a] + mesh.vertices[b]);
   mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]) + 1e-7 * to_c + Vec3(0, 0, 4e-7));
-  mesh.triangles[roof[0]] = {a, b, middle};
+  mesh.triangles[ceiling[0]] = {a, b, middle};
   mesh.triangles.push_back({b, c, middle});
   mesh.triangles.push_back({c, a, middle});
   const auto checks = check_print(mesh);
@@ -456,20 +455,20 @@ TEST(CheckPrint, ASliverWithinACeilingDoesNotPartIt) {
   EXPECT_NEAR(value(checks, "bridge"), 4, 1e-4);
 }
 
-// A skew facet 0.01 mm wide in a wall: too flat, and no wider than dust.
-TEST(CheckPrint, ANickInAWallIsAStep) {
+// A skew facet 0.01 mm wide in a wall is too flat but negligibly small.
+TEST(CheckPrint, NickInWallIsAStep) {
   EXPECT_EQ(failed(check_print(turned_part({{5, 0}, {5, 2}, {5.01, 2.001}, {5.01, 4}, {5, 4.001}, {5, 9}}))), "");
 }
 
-TEST(CheckPrint, WhatIsNoSolidIsNotPassed) {
+TEST(CheckPrint, RejectsInvalidSolids) {
   EXPECT_EQ(failed(check_print({})), "overhang unsupported_step bridge island");
   TriangleMesh mesh = cube(10);
   mesh.triangles[3][1] = 4'000'000'000u;
   EXPECT_EQ(failed(check_print(mesh)), "overhang unsupported_step bridge island");
   mesh = cube(10);
   mesh.vertices[2].x() = std::nan("");
-  EXPECT_EQ(check_named(check_print(mesh), "island").where, "not looked at: the mesh is no solid");
-  // With open and crowded edges and turned facets it ends too.
+  EXPECT_EQ(check_named(check_print(mesh), "island").where, "not checked: the mesh is not a valid solid");
+  // The check also ends with open and crowded edges and turned facets.
   mesh = ledge(3);
   mesh.triangles.erase(mesh.triangles.begin() + 5);
   mesh.triangles.push_back(mesh.triangles[7]);
@@ -480,9 +479,9 @@ TEST(CheckPrint, WhatIsNoSolidIsNotPassed) {
   }
 }
 
-// ---- the second route: layers of bits -------------------------------------------------------------------------------
+// ---- independent check: layers of bits ------------------------------------------------------------------------------
 
-// What stands out of each layer of 0.2 mm over the one below, further than `step`; bridges are not known here.
+// Overhangs of each layer of 0.2 mm over the one below, longer than `step`. This check has no bridges.
 class Layers {
  public:
   Layers(const TriangleMesh& mesh, double pixel) : pixel_(pixel) {
@@ -493,7 +492,7 @@ class Layers {
     for (double z = box.low.z() + 0.1; z < box.high.z(); z += 0.2) bits_.push_back(painted(section(mesh, z)));
   }
 
-  // The furthest that a pixel of a layer is from all pixels of the layer below. mm.
+  // Largest distance of a pixel of a layer from all pixels of the layer below. mm.
   double widest_step() const {
     double widest = 0;
     for (std::size_t l = 1; l < bits_.size(); ++l) {
@@ -507,7 +506,7 @@ class Layers {
   }
 
  private:
-  static constexpr double k_far = 1.0;  // further is as far as this
+  static constexpr double k_far = 1.0;  // larger distances are not resolved
 
   bool at(std::size_t layer, int row, int column) const {
     return row >= 0 && column >= 0 && row < rows_ && column < columns_ &&
@@ -532,7 +531,7 @@ class Layers {
     return bits;
   }
 
-  // In square rings outward, until no nearer one can come.
+  // Searches square rings outward until no closer pixel is possible.
   double to_material(std::size_t layer, int row, int column) const {
     double least = k_far;
     for (int ring = 1; ring * pixel_ < least; ++ring) {
@@ -551,9 +550,9 @@ class Layers {
   std::vector<std::vector<bool>> bits_;
 };
 
-// Slabs of random boxes, heights on layers: where no bridge is allowed, both must say the same. Boxes that only touch
-// along an edge are no solid and are left out. (Of 6000 stacks one differs: layers also lean on what stands beyond a
-// slit, facets only on what they hang on.)
+// Slabs of random boxes with heights on layers. Without bridges, both checks must agree. Boxes that touch along an edge
+// only are no solids and are skipped. (Of 6000 stacks one differs: a layer is also supported across a slit, a facet
+// only by its own edges.)
 TEST(CheckPrint, AgreesWithLayersOnRandomStacks) {
   std::mt19937 random(20261121);
   const auto pick = [&random](int low, int high) { return std::uniform_int_distribution(low, high)(random); };
@@ -575,7 +574,7 @@ TEST(CheckPrint, AgreesWithLayersOnRandomStacks) {
         for (int i = x; i < to_x; ++i) {
           for (int j = y; j < to_y; ++j) slab[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = true;
         }
-        // The next slab's box is like this one.
+        // The next slab's box is similar to this one.
         x = std::max(x - pick(-1, 1), 0), y = std::max(y - pick(-1, 1), 0);
         to_x = std::min(to_x + pick(-1, 1), n), to_y = std::min(to_y + pick(-1, 1), n);
       }
@@ -591,7 +590,7 @@ TEST(CheckPrint, AgreesWithLayersOnRandomStacks) {
     const auto checks = check_print(mesh, limits);
     const bool prints = check_named(checks, "unsupported_step").ok && check_named(checks, "bridge").ok &&
                         check_named(checks, "island").ok;
-    // Pixels measure from middle to middle: half a pixel either way.
+    // Pixels measure from centre to centre: half a pixel either way.
     const double widest = Layers(mesh, pixel).widest_step();
     if (std::abs(widest - limits.step) < 1.5 * pixel) continue;
     EXPECT_EQ(prints, widest < limits.step) << "stack " << round << ": layers say " << widest << " mm, facets say "
@@ -623,7 +622,7 @@ TEST(CheckPrint, AgreesWithLayersOnRandomTurnedParts) {
     const auto checks = check_print(mesh);
     const double widest = Layers(mesh, pixel).widest_step();
     if (std::abs(widest - 0.3) < 1.5 * pixel) continue;
-    // No cone here is flatter than 45°, so that a layer of one is far from a step.
+    // No cone here is flatter than 45°, so one layer of a cone is much less than a step.
     EXPECT_EQ(check_named(checks, "unsupported_step").ok, widest < 0.3)
         << round << ": layers say " << widest << " mm, facets say " << value(checks, "unsupported_step") << " mm";
     ++(widest < 0.3 ? good : bad);
@@ -632,8 +631,8 @@ TEST(CheckPrint, AgreesWithLayersOnRandomTurnedParts) {
   EXPECT_GT(bad, 5);
 }
 
-// Straight holes through a wall over legs at random: the span is known.
-TEST(CheckPrint, SpansOfRandomTunnels) {
+// Straight holes through a wall over random legs, with known spans.
+TEST(CheckPrint, MeasuresRandomTunnels) {
   std::mt19937 random(7);
   for (int round = 0; round < 40; ++round) {
     const double width = std::uniform_real_distribution(0.7, 9.0)(random),
@@ -644,7 +643,7 @@ TEST(CheckPrint, SpansOfRandomTunnels) {
   }
 }
 
-TEST(CheckPrint, FiftyThousandFacetsAtOnce) {
+TEST(CheckPrint, ChecksFiftyThousandFacetsQuickly) {
   std::vector<std::pair<double, double>> profile;
   for (int i = 0; i < 25; ++i) profile.insert(profile.end(), {{20, i}, {20, i + 0.5}, {22, i + 0.5}, {22, i + 1}});
   const TriangleMesh mesh = turned_part(profile, 252);
@@ -653,7 +652,7 @@ TEST(CheckPrint, FiftyThousandFacetsAtOnce) {
   EXPECT_EQ(failed(check_print(mesh)), "overhang unsupported_step");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RecordProperty("seconds", std::to_string(seconds));
-  // Twenty-five ledges all round are the worst there is; on a busy machine too.
+  // Twenty-five ledges all round are the worst case. The limit holds on a busy machine.
   EXPECT_LT(seconds, 1.5);
 }
 

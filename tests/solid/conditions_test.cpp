@@ -1,4 +1,4 @@
-// Impossible parts are refused; with another number, and with each that is advised, they are made.
+// Impossible parts are rejected. With another number, and with each advised change, they are built.
 #include "solid/conditions.h"
 
 #include <gmock/gmock.h>
@@ -39,14 +39,14 @@ const Condition& condition_named(const Pulley& pulley, const std::string& name) 
   throw std::out_of_range("no condition named " + name);
 }
 
-TEST(Conditions, AllHoldForTheDefaultBody) {
+TEST(Conditions, HoldForDefaultBody) {
   const Pulley pulley = make_pulley(plain_mechanism(), round_pulley());
   for (const Condition& condition : pulley.conditions) {
     EXPECT_TRUE(condition.ok) << condition.message;
   }
 }
 
-// A body that is refused for one number, and with another in its place is made.
+// A body that is rejected for one number and built with another value of it.
 struct OneNumber {
   const char* condition;
   double Body::*number;
@@ -66,7 +66,7 @@ void expect_refused_for(const OneNumber& one, Mechanism mechanism = plain_mechan
   EXPECT_TRUE(made.made()) << made.brief();
 }
 
-TEST(Conditions, ExplicitNumbersThatDoNotFitAreRefused) {
+TEST(Conditions, RejectExplicitNumbersThatDoNotFit) {
   expect_refused_for({"bore_wall_P2", &Body::bore_diameter, 40, 8});
   expect_refused_for({"bore_wall_P2", &Body::min_wall, 17, 2});
   expect_refused_for({"anchor_P2", &Body::wrap, radians(200), radians(20)});
@@ -75,8 +75,8 @@ TEST(Conditions, ExplicitNumbersThatDoNotFitAreRefused) {
   expect_refused_for({"channel_floor", &Body::anchor_hole, 8, 1.2});
 }
 
-// Of 2 m across and 1 m in height no more is made. What is within says nothing of it.
-TEST(Conditions, WhatIsTooLargeIsRefused) {
+// Parts above 2 m across or 1 m in height are rejected. Smaller parts get no such condition.
+TEST(Conditions, RejectTooLargeParts) {
   const auto pulley_with = [](double overhang, Parts parts) {
     Mechanism mechanism = plain_mechanism();
     mechanism.print.overhang = radians(overhang);
@@ -88,25 +88,25 @@ TEST(Conditions, WhatIsTooLargeIsRefused) {
   EXPECT_GT(tall.value, k_tallest);
   EXPECT_NE(tall.message.find("print.overhang_deg"), std::string::npos) << tall.message;
   EXPECT_THROW(condition_named(pulley_with(45, Parts::one), k_height_condition), std::out_of_range);
-  // Each of two parts is printed on its own, without the cone between them.
+  // Each of two parts is printed separately, without the cone between them.
   EXPECT_THROW(condition_named(pulley_with(75, Parts::two), k_height_condition), std::out_of_range);
 
   EXPECT_FALSE(too_far_out(Side::left, 999, 300));
   const auto active = too_far_out(Side::left, 1200, 1200), closing = too_far_out(Side::right, 1200, 300);
   ASSERT_TRUE(active && closing);
-  EXPECT_EQ(active->message, "P1 would reach 1.2 m from the axis: at most 1 m are made");
+  EXPECT_EQ(active->message, "P1 would reach 1.2 m from the axis: at most 1 m is supported");
   EXPECT_NE(closing->message.find("the arc that closes P2"), std::string::npos) << closing->message;
 }
 
-TEST(Conditions, HubOverTheFlangeAndHubWithoutWall) {
+TEST(Conditions, RejectTooLargeAndTooThinHubs) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.set_screw = "none";
   expect_refused_for({"hub_on_flange", &Body::hub_diameter, 60, 20}, mechanism);
   expect_refused_for({"hub_wall", &Body::hub_diameter, 6, 12}, mechanism);
 }
 
-// From the flat of a D shaft to its far side there is more than its radius, and at most its diameter.
-TEST(Conditions, AFlatThatIsNoneOfItsShaft) {
+// The distance from the flat of a D shaft to its far side is more than its radius and at most its diameter.
+TEST(Conditions, RejectFlatOutsideShaft) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.bore = Bore::d;
   mechanism.body.bore_diameter = 5;
@@ -121,16 +121,16 @@ TEST(Conditions, AFlatThatIsNoneOfItsShaft) {
     set_number(changed, *find_field(key), 0, change->to);
     EXPECT_TRUE(obstacles(changed).empty()) << change->text;
   }
-  // Where the diameter is left to the program, it goes with the flat.
+  // An automatic diameter follows the flat.
   mechanism.body.bore_diameter = 0;
   const Pulley made = make_pulley(mechanism, round_pulley());
   EXPECT_TRUE(made.made()) << made.brief();
   EXPECT_DOUBLE_EQ(made.layout.bore.shaft, 4.0);
 }
 
-// A printer whose holes come out larger is told to make them smaller: the wall is that of what comes out, which is also
-// what a drawing cuts (campaign, design 227 of seed 70114: a bore that broke through P2's floor in profile.dxf alone).
-TEST(Conditions, TheWallAboutABoreIsThatOfWhatIsPrinted) {
+// For a printer whose holes come out larger, the drawn hole is smaller. The wall is that of the printed hole, which a
+// drawing cuts too (campaign, design 227 of seed 70114: a bore that broke through P2's floor in profile.dxf alone).
+TEST(Conditions, BoreWallUsesPrintedHole) {
   Mechanism mechanism = plain_mechanism();
   const auto thinnest = [&](double compensation) {
     mechanism.material.hole_compensation = compensation;
@@ -143,14 +143,14 @@ TEST(Conditions, TheWallAboutABoreIsThatOfWhatIsPrinted) {
   EXPECT_NEAR(thinnest(1), even - 0.5 / std::cos(radians(30)), 0.05);
 }
 
-TEST(Conditions, SetScrewThatIsAskedForMustFit) {
+TEST(Conditions, RejectSetScrewThatDoesNotFit) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.set_screw = "M4";
   expect_refused_for({"set_screw_height", &Body::hub_height, 4, 16}, mechanism);
 }
 
-/// Behind sheaths the pulley stands elsewhere: no pin is near it.
-TEST(Conditions, MouthInTheFlanges) {
+/// Behind sheaths the pulley is elsewhere, and no pin is near it.
+TEST(Conditions, RejectSheathExitInFlanges) {
   Mechanism mechanism = plain_mechanism();
   mechanism.sheath = {400.0, 1.0, 0.1, 0.0, 15.0, 15.0};
   EXPECT_FALSE(condition_named(make_pulley(mechanism, round_pulley()), "mouth_clear_1").ok);
@@ -163,7 +163,7 @@ TEST(Conditions, MouthInTheFlanges) {
   EXPECT_THROW(condition_named(pulley, "pin_clear_D"), std::out_of_range);
 }
 
-TEST(Conditions, PinInTheFlanges) {
+TEST(Conditions, RejectPinInFlanges) {
   Mechanism mechanism = plain_mechanism();
   mechanism.guides.ED = 15;
   mechanism.pulley.EF = 15;
@@ -172,7 +172,7 @@ TEST(Conditions, PinInTheFlanges) {
   EXPECT_TRUE(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").ok);
 }
 
-/// The words of a condition of a body with one number changed.
+/// The message of a condition of a body with one number changed.
 std::string words_of(const char* condition, double Body::*number, double value, const std::string& screw = "none") {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.set_screw = screw;
@@ -180,8 +180,8 @@ std::string words_of(const char* condition, double Body::*number, double value, 
   return condition_named(make_pulley(mechanism, round_pulley()), condition).message;
 }
 
-// What is left and what overlaps are said in different words, and no size is below nothing.
-TEST(Conditions, WordsFitTheSign) {
+// A remaining wall and an overlap have different messages, and no size is negative.
+TEST(Conditions, MessagesFitTheSign) {
   const auto says = [](const std::string& message, const std::string& words) {
     EXPECT_NE(message.find(words), std::string::npos) << message;
     EXPECT_FALSE(std::regex_search(message, std::regex("-[0-9.]+ mm"))) << message;
@@ -201,18 +201,19 @@ TEST(Conditions, WordsFitTheSign) {
   says(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").message, "comes within ");
 }
 
-TEST(Conditions, ChamferAtTheBedTakesWhatTheLipBears) {
+TEST(Conditions, ChamferLeavesGrooveEdge) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.flange_thickness = 0.5;
   const BodyLayout layout = resolve_layout(mechanism, round_pulley());
-  // 0.2 mm of the lip's 0.5 mm are left; the chamfer is no flatter than any other slope.
+  // 0.2 mm of the groove edge's 0.5 mm remain, and the chamfer is as steep as any other slope.
   EXPECT_DOUBLE_EQ(layout.elephant_foot, 0.3 / std::tan(radians(47.5)));
-  EXPECT_THAT(layout.notes, ::testing::Contains(::testing::HasSubstr("chamfer of 0.4 mm at the bed: made 0.275 mm")));
+  EXPECT_THAT(layout.notes,
+              ::testing::Contains(::testing::HasSubstr("chamfer of 0.4 mm at the bed: reduced to 0.275 mm")));
   EXPECT_TRUE(make_pulley(mechanism, round_pulley()).made());
 }
 
-// Every change that is advised leads to a body; a little less of it does not.
-TEST(BodyAdvice, EachChangeAloneMakesItPossible) {
+// Every advised change leads to a body. Slightly less of it does not.
+TEST(BodyAdvice, EachChangeAloneSuffices) {
   struct Case {
     double Body::*number;
     double value;
@@ -240,8 +241,8 @@ TEST(BodyAdvice, EachChangeAloneMakesItPossible) {
   }
 }
 
-// What no change of one number mends two may: both are tried, and neither does alone.
-TEST(BodyAdvice, TwoNumbersTogetherWhereNoneDoesAlone) {
+// If no single change helps, pairs are tried. Neither change of a pair suffices alone.
+TEST(BodyAdvice, FindsPairsOfChanges) {
   Mechanism mechanism = forearm();
   const auto judge = [](const Mechanism& m) {
     std::vector<Condition> left;
@@ -256,8 +257,8 @@ TEST(BodyAdvice, TwoNumbersTogetherWhereNoneDoesAlone) {
   EXPECT_TRUE(judge(mechanism).empty());
 }
 
-// A screw without a place: what is said was tried, and a thicker flange is found where it helps.
-TEST(BodyAdvice, AClampScrewWithoutRoomTakesAThickerFlangeOrNone) {
+// A clamp screw without a place: the advice was tried, and a thicker flange is found where it helps.
+TEST(BodyAdvice, ClampScrewGetsThickerFlangeOrIsDropped) {
   Mechanism mechanism = forearm();
   mechanism.body.clamp_screw = "M3";
   mechanism.print.parts = Parts::two;
@@ -273,9 +274,9 @@ TEST(BodyAdvice, AClampScrewWithoutRoomTakesAThickerFlangeOrNone) {
     EXPECT_EQ(condition.message.find("smaller screw"), std::string::npos) << condition.message;
 }
 
-// Another word is a making too: a part that takes long leaves room for few of them (240001/115 made seven of two
+// A change of a word counts as a full build too. A large part permits few of them (240001/115 built seven parts of two
 // metres).
-TEST(BodyAdvice, WordsAndNumbersShareTheMakingsThatAreLeft) {
+TEST(BodyAdvice, WordsAndNumbersShareBuildBudget) {
   Mechanism mechanism = forearm();
   mechanism.body.clamp_screw = "M3";
   mechanism.print.parts = Parts::two;
@@ -289,8 +290,8 @@ TEST(BodyAdvice, WordsAndNumbersShareTheMakingsThatAreLeft) {
   }
 }
 
-// Outlines too coarse for a rim about both lips are a condition, and no bug.
-TEST(Conditions, NoRimAboutTheLipsIsSaid) {
+// Outlines too coarse for a rim about both groove edges are a condition, not a bug.
+TEST(Conditions, ReportMissingRim) {
   const Mechanism mechanism = plain_mechanism();
   FlangeRims rims = flange_rims(round_pulley().p1, round_pulley().p2, mechanism.tendon.diameter, 2.0, Flange::round);
   ASSERT_TRUE(rims.outside);
@@ -301,8 +302,8 @@ TEST(Conditions, NoRimAboutTheLipsIsSaid) {
   EXPECT_EQ(failed[0].name, "flange_rims");
 }
 
-// What is automatic is made to fit, with a note, before anything is refused.
-TEST(Conditions, AutomaticSizesShrinkWithANote) {
+// Automatic sizes are reduced, with a note, before anything is rejected.
+TEST(Conditions, AutomaticSizesShrinkWithNote) {
   Mechanism mechanism = plain_mechanism();
   mechanism.tendon.diameter = 0.4;
   const SynthesisResult small = pulley_of(circle(6), circle(5.5));
@@ -312,7 +313,7 @@ TEST(Conditions, AutomaticSizesShrinkWithANote) {
   EXPECT_FALSE(pulley.layout.set_screw.present);
 }
 
-TEST(Conditions, LayoutAgreesWithThePulley) {
+TEST(Conditions, LayoutAgreesWithPulley) {
   const Pulley pulley = make_pulley(plain_mechanism(), round_pulley());
   const BodyLayout layout = resolve_layout(plain_mechanism(), round_pulley());
   EXPECT_EQ(layout.z_hub, pulley.layout.z_hub);

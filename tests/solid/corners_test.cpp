@@ -1,4 +1,4 @@
-// Corners of holes whose every corner is known, with points added that are none.
+// Restored corners of known holes with additional points.
 #include "solid/corners.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ Polygon regular(int n, double radius) {
   return points;
 }
 
-// Within the grain of a float at 5 mm: of two points where one was, either may stay.
+// Within the resolution of a float at 5 mm. Of two points split from one, either may remain.
 void expect_near(const Polygon& found, const Polygon& expected, double within) {
   ASSERT_EQ(found.size(), expected.size());
   for (const Vec2& corner : expected) {
@@ -28,11 +28,11 @@ void expect_near(const Polygon& found, const Polygon& expected, double within) {
   }
 }
 
-TEST(Corners, OfAPolygonWithoutOtherPointsAreAllOfIt) {
+TEST(Corners, KeepsAllTrueCorners) {
   for (const int n : {3, 4, 8, 200}) EXPECT_THAT(corners_of(regular(n, 5)), ElementsAreArray(regular(n, 5)));
 }
 
-TEST(Corners, ArePickedFromPointsAlongStraightLines) {
+TEST(Corners, RemovesPointsOnStraightLines) {
   for (const int n : {3, 6, 24}) {
     const Polygon corners = regular(n, 5);
     Polygon points;
@@ -44,8 +44,8 @@ TEST(Corners, ArePickedFromPointsAlongStraightLines) {
   }
 }
 
-// Two, three, or many in one place, nearer to each other than floats tell apart, or the same: one of them stays.
-TEST(Corners, NearlyEqualPointsAreOne) {
+// One of two, three or many points at the same place, or closer than floats resolve, remains.
+TEST(Corners, MergesNearlyEqualPoints) {
   const Polygon corners = regular(8, 5);
   for (const double apart : {0.0, 1e-12, 5e-7, 5e-5}) {
     for (const int times : {2, 3, 7}) {
@@ -59,7 +59,7 @@ TEST(Corners, NearlyEqualPointsAreOne) {
   }
 }
 
-TEST(Corners, ThreeAreLeftOfWhatHasNone) {
+TEST(Corners, KeepsThreePointsOfDegenerateOutline) {
   EXPECT_EQ(corners_of(Polygon(9, Vec2(1, 2))).size(), 3u);
   EXPECT_EQ(corners_of({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}}).size(), 3u);
   EXPECT_TRUE(corners_of({}).empty());

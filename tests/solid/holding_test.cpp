@@ -1,4 +1,4 @@
-// What the knots bear, against tendons laid over polygons step by step.
+// Loads of the knots, compared with tendons laid over polygons step by step.
 #include "fusee/solid/holding.h"
 
 #include <gmock/gmock.h>
@@ -40,8 +40,8 @@ struct Held {
   Holding holding;
 };
 
-/// The tension that is left at `exit` of a taut string over the turned pitch polygon: each corner takes its share. The
-/// take-off is the corner that the line from the pin leaves last.
+/// The tension that remains at `exit` of a taut string over the turned pitch polygon, after friction at each corner.
+/// The take-off is the last corner that the line from the pin touches.
 double left_at(const Held& held, Side side, double alpha, double tension, const Vec2& exit) {
   const Mechanism& m = held.mechanism;
   const Outline& outline = side == Side::left ? held.synthesis.p1 : held.synthesis.p2;
@@ -70,13 +70,13 @@ double left_at(const Held& held, Side side, double alpha, double tension, const 
     const Vec2 in = outline.points[j].position - outline.points[i].position,
                out = outline.points[k].position - outline.points[j].position;
     const double corner = std::abs(std::atan2(cross(in, out), in.dot(out)));
-    // 2 T sin(corner/2) presses, and friction takes μ times that.
+    // The force at a corner is 2 T sin(corner/2), and friction is μ times that.
     tension -= 2.0 * tension * std::sin(0.5 * corner) * m.pulley.mu;
   }
   return tension;
 }
 
-TEST(Holding, KnotsBearWhatAStringOverThePolygonLeaves) {
+TEST(Holding, KnotLoadMatchesStringOnPolygon) {
   const Held held(loaded_forearm());
   ASSERT_TRUE(held.pulley.made()) << held.pulley.brief();
   ASSERT_EQ(held.holding.knots.size(), 2u);
@@ -99,46 +99,46 @@ TEST(Holding, KnotsBearWhatAStringOverThePolygonLeaves) {
         }
       }
     }
-    // The polygon's take-off is a corner, its exit the nearest one.
+    // The polygon's take-off is a corner, and its exit the nearest one.
     EXPECT_NEAR(knot.at_knot, most, 0.02 * most) << pulley_name(knot.side);
     EXPECT_NEAR(knot.at_knot, knot.tension * std::exp(-0.2 * knot.wrap_left), 1e-9);
   }
 }
 
-TEST(Holding, WithoutFrictionAKnotBearsAllOfIt) {
+TEST(Holding, KnotCarriesFullTensionWithoutFriction) {
   DeclaredMechanism mechanism = loaded_forearm();
   mechanism.pulley.mu = 0;
   const Held held(mechanism);
   const double most = analyse(mechanism, {.samples = 10}).largest_tension.tension;
   double bears = 0;
   for (const KnotHold& knot : held.holding.knots) bears = std::max(bears, knot.at_knot);
-  // Its largest stands between two of the analysis's places.
+  // The largest value lies between two places of the analysis.
   EXPECT_NEAR(bears, most, 1e-2 * most);
 }
 
-/// The load pulls at tendon 2 and relieves tendon 1, which bears its pretension when the load is gone.
-TEST(Holding, ATendonThatTheLoadRelievesBearsItsPretension) {
+/// The load pulls at tendon 2 and relieves tendon 1, which carries its pretension without the load.
+TEST(Holding, RelievedTendonKeepsPretension) {
   const Held held(loaded_forearm());
   const KnotHold& first = held.holding.knots.front();
   ASSERT_EQ(first.side, Side::left);
   EXPECT_GT(first.tension, held.mechanism.tendon.pretension);
 }
 
-TEST(Holding, SaysWhenAKnotBearsMoreThanHalfAndWhatHelps) {
+TEST(Holding, WarnsAboveHalfStrengthWithAdvice) {
   DeclaredMechanism mechanism = loaded_forearm();
   EXPECT_TRUE(Held(mechanism).holding.warnings.empty());
   mechanism.body.wrap = radians(6);
   Held held(mechanism);
-  const double hardest = std::max(held.holding.knots[0].at_knot, held.holding.knots[1].at_knot);
-  // A tenth more than half of it.
-  mechanism.tendon.strength = hardest / 0.55 / 0.5;
+  const double worst_knot = std::max(held.holding.knots[0].at_knot, held.holding.knots[1].at_knot);
+  // A tenth more than half of the strength.
+  mechanism.tendon.strength = worst_knot / 0.55 / 0.5;
   held = Held(mechanism);
   ASSERT_EQ(held.holding.warnings.size(), 1u);
   const std::string& warning = held.holding.warnings.front();
   EXPECT_THAT(warning, HasSubstr("tendon 2"));
   EXPECT_THAT(warning, HasSubstr("55 %"));
   EXPECT_THAT(warning, HasSubstr("tendon.strength_N"));
-  // What is advised is true.
+  // The advice must hold.
   const std::size_t at = warning.find("body.wrap_deg = ");
   ASSERT_NE(at, std::string::npos) << warning;
   DeclaredMechanism advised = mechanism;
@@ -151,7 +151,7 @@ TEST(Holding, SaysWhenAKnotBearsMoreThanHalfAndWhatHelps) {
   EXPECT_TRUE(Held(advised).holding.warnings.empty());
 }
 
-TEST(Holding, ATendonOfUnknownStrengthIsSaidToBeOne) {
+TEST(Holding, ReportsUnknownStrength) {
   DeclaredMechanism mechanism = loaded_forearm();
   mechanism.tendon.strength = 0;
   mechanism.tendon.modulus = 12345;
@@ -163,8 +163,8 @@ TEST(Holding, ATendonOfUnknownStrengthIsSaidToBeOne) {
 
 class Profile : public ::testing::TestWithParam<const char*> {};
 
-/// What the profiles had before tie-offs went round the closing arc: 4 to 30 degrees, but for the optimum's P1.
-TEST_P(Profile, WrapsFurtherAndHoldsItsTendons) {
+/// The previous wraps of the profiles, near the active arc: 4 to 30 degrees, except the optimum's P1.
+TEST_P(Profile, WrapsFurtherAndHoldsTendons) {
   const MechanismFile file = read_mechanism(std::string(FUSEE_SOURCE_DIR) + "/profiles/" + GetParam() + ".toml");
   const Held held(file.mechanism);
   ASSERT_TRUE(held.pulley.made()) << held.pulley.brief();

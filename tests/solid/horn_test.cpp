@@ -1,5 +1,5 @@
-// Every horn and shaft of the catalogue, and horns of one's own: a pulley is made for each, and what a screw or a shaft
-// will find is measured on the mesh alone, by a slicer that shares no code with the program.
+// A pulley for every horn and shaft of the catalogue and for custom horns. The openings for screws and shafts are
+// measured on the mesh, by a slicer that shares no code with the program.
 #include <gmock/gmock.h>
 
 #include <map>
@@ -19,12 +19,12 @@ using ::testing::HasSubstr;
 using testing::plain_mechanism;
 using testing::pulley_of;
 
-/// A closed line in a plane z = const, as it was cut out of a mesh.
+/// A closed line of a section z = const of a mesh.
 struct Loop {
   std::vector<Vec2> points;
   Vec2 middle = Vec2::Zero();  ///< its centroid
   double room = 0;             ///< diameter of the circle about `middle` that touches the nearest side
-  double reach = 0;            ///< of the circle through the furthest corner
+  double reach = 0;            ///< radius of the circle through the furthest corner
 };
 
 double side_distance(const Vec2& p, const Vec2& a, const Vec2& b) {
@@ -51,7 +51,7 @@ Loop measured(std::vector<Vec2> points) {
   return loop;
 }
 
-/// Each facet that crosses the plane gives one side; sides are joined at equal mesh edges.
+/// Each facet that crosses the plane gives one side. Sides are joined at equal mesh edges.
 std::vector<Loop> sliced(const TriangleMesh& mesh, double z) {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   std::map<Edge, std::vector<Edge>> next;
@@ -86,7 +86,7 @@ std::vector<Loop> sliced(const TriangleMesh& mesh, double z) {
   return loops;
 }
 
-/// The bore: what surrounds the axis and is smallest.
+/// The bore: the smallest loop around the axis.
 Loop bore_of(const std::vector<Loop>& loops) {
   Loop bore;
   for (const Loop& loop : loops) {
@@ -103,7 +103,7 @@ std::vector<Loop> round_holes(const std::vector<Loop>& loops, double diameter) {
   return holes;
 }
 
-/// How often a loop's outline turns from going outward to going inward: the teeth that fit into it.
+/// Number of times that a loop's outline turns from outward to inward: the number of teeth that fit into it.
 int teeth_of(const Loop& loop) {
   const double between = 0.25 * (loop.room + loop.reach);
   int crossings = 0;
@@ -116,11 +116,11 @@ int teeth_of(const Loop& loop) {
 
 constexpr double k_compensation = 0.2;  // of plain_mechanism()
 
-struct Made {
+struct BuiltPiece {
   Mechanism mechanism;
   SynthesisResult shape = pulley_of(circle(30), circle(28, {2, 1}));
   Pulley pulley;
-  explicit Made(Mechanism m) : mechanism(std::move(m)), pulley(make_pulley(mechanism, shape)) {}
+  explicit BuiltPiece(Mechanism m) : mechanism(std::move(m)), pulley(make_pulley(mechanism, shape)) {}
 };
 
 Mechanism with_horn(const std::string& name) {
@@ -137,12 +137,12 @@ Mechanism with_horn(const Horn& horn) {
   return mechanism;
 }
 
-void expect_holes(const Made& made, const Horn& horn) {
+void expect_holes(const BuiltPiece& made, const Horn& horn) {
   ASSERT_TRUE(made.pulley.made()) << made.pulley.brief();
   EXPECT_EQ(failed(check_pulley(made.pulley.mesh, made.mechanism, made.shape, made.pulley, 0.01)), "");
   const double top = bounds(made.pulley.mesh).high.z();
   const double sinks = std::max(horn.boss_height, horn.spline_length);
-  // Below, where the horn lies or the shaft comes in; and above all that sinks in.
+  // Near the face of the horn or shaft, and above everything that sinks in.
   for (const double z : {0.71, top - 0.31}) {
     SCOPED_TRACE(z);
     const std::vector<Loop> loops = sliced(made.pulley.mesh, z);
@@ -150,7 +150,7 @@ void expect_holes(const Made& made, const Horn& horn) {
     const bool low = z < sinks;
     if (horn.spline_teeth > 0 && (low || sinks == 0)) {
       EXPECT_EQ(teeth_of(bore), horn.spline_teeth);
-      // The shaft's crests touch the sides over them, its grounds the crests of the bore.
+      // The shaft's crests touch the flats above them, and its grounds the crests of the bore.
       EXPECT_NEAR(bore.reach, horn.spline_diameter + k_compensation, 0.01);
       EXPECT_NEAR(bore.room, horn.spline_diameter - 2 * horn.spline_depth + k_compensation, 0.01);
     } else {
@@ -167,8 +167,8 @@ void expect_holes(const Made& made, const Horn& horn) {
       EXPECT_LT(nearest, 1e-3) << "screw " << k;
     }
   }
-  // The pulley lies on the horn's face: what sinks in has play above it, and not much; then the recess narrows to the
-  // centre screw's hole in a cone that prints without support.
+  // The recess is slightly deeper than the part that sinks in, and narrows to the centre screw's hole in a printable
+  // cone.
   if (sinks > 0) {
     const double hole = horn.centre_hole + k_compensation, ceiling = sinks + 0.2;
     const Loop wide = bore_of(sliced(made.pulley.mesh, sinks + 0.1));
@@ -183,14 +183,14 @@ void expect_holes(const Made& made, const Horn& horn) {
   }
 }
 
-TEST(Horn, EveryOneOfTheCatalogueFindsItsHoles) {
+TEST(Horn, EveryCatalogueHornFits) {
   for (const HornType& type : horns()) {
     SCOPED_TRACE(type.name);
-    expect_holes(Made(with_horn(type.name)), type.horn);
+    expect_holes(BuiltPiece(with_horn(type.name)), type.horn);
   }
 }
 
-TEST(Horn, OneOfOnesOwn) {
+TEST(Horn, CustomHornFits) {
   const Horn star{.bolt_circle = 21,
                   .bolt_count = 3,
                   .bolt_hole = 2.2,
@@ -198,29 +198,29 @@ TEST(Horn, OneOfOnesOwn) {
                   .centre_hole = 7,
                   .boss_diameter = 12,
                   .boss_height = 2.5};
-  expect_holes(Made(with_horn(star)), star);
+  expect_holes(BuiltPiece(with_horn(star)), star);
   const Horn through{.spline_teeth = 21, .spline_diameter = 8, .spline_depth = 0.6};
-  expect_holes(Made(with_horn(through)), through);
+  expect_holes(BuiltPiece(with_horn(through)), through);
 }
 
-TEST(Horn, ACatalogueHornIsWhatItsOwnNumbersGive) {
-  const Pulley named = Made(with_horn("dynamixel-xl430")).pulley;
-  const Pulley described = Made(with_horn(find_horn("dynamixel-xl430")->horn)).pulley;
+TEST(Horn, CatalogueHornEqualsItsNumbers) {
+  const Pulley named = BuiltPiece(with_horn("dynamixel-xl430")).pulley;
+  const Pulley described = BuiltPiece(with_horn(find_horn("dynamixel-xl430")->horn)).pulley;
   EXPECT_EQ(named.mesh.vertices, described.mesh.vertices);
 }
 
-TEST(Horn, ScrewsTurnWithTheFirst) {
+TEST(Horn, ScrewsFollowTheFirst) {
   Horn horn{.bolt_circle = 20, .bolt_count = 4, .bolt_hole = 3.2, .centre_hole = 8};
-  const Pulley straight = Made(with_horn(horn)).pulley;
+  const Pulley straight = BuiltPiece(with_horn(horn)).pulley;
   horn.first_bolt = radians(90);  // a quarter of a turn of four screws is none
-  const Pulley turned = Made(with_horn(horn)).pulley;
+  const Pulley turned = BuiltPiece(with_horn(horn)).pulley;
   EXPECT_NEAR(straight.expected_volume, turned.expected_volume, 1e-9 * straight.expected_volume);
 }
 
-/// A horn of one's own that is refused for one condition, and the same horn with one number mended.
+/// Checks that a custom horn is rejected for one condition, and built with one number changed.
 void expect_refused(const Horn& bad, const Horn& good, const std::string& condition, const std::string& words) {
   SCOPED_TRACE(words);
-  const Pulley refused = Made(with_horn(bad)).pulley;
+  const Pulley refused = BuiltPiece(with_horn(bad)).pulley;
   ASSERT_FALSE(refused.made());
   for (const Condition& one : refused.conditions) {
     EXPECT_EQ(one.ok, one.name != condition) << one.name;
@@ -228,11 +228,11 @@ void expect_refused(const Horn& bad, const Horn& good, const std::string& condit
       EXPECT_THAT(one.message, HasSubstr(words));
     }
   }
-  const Pulley made = Made(with_horn(good)).pulley;
+  const Pulley made = BuiltPiece(with_horn(good)).pulley;
   EXPECT_TRUE(made.made()) << made.brief();
 }
 
-TEST(Horn, HolesThatRunIntoOneAnotherAreRefused) {
+TEST(Horn, RejectsIntersectingHoles) {
   const Horn good{
       .bolt_circle = 16, .bolt_count = 4, .bolt_hole = 2.2, .centre_hole = 5, .boss_diameter = 8, .boss_height = 2};
   Horn bad = good;
@@ -244,7 +244,7 @@ TEST(Horn, HolesThatRunIntoOneAnotherAreRefused) {
   expect_refused(bad, good, "horn_holes", "fewer in horn.bolt_count");
   bad = good;
   bad.centre_hole = 7.9;
-  expect_refused(bad, good, "horn_holes", "a smaller horn.centre_hole_mm leaves a shoulder");
+  expect_refused(bad, good, "horn_holes", "a smaller horn.centre_hole_mm, which leaves a shoulder");
   Horn flat = good, wide = good;
   flat.boss_diameter = flat.boss_height = wide.boss_diameter = wide.boss_height = 0;
   wide.centre_hole = 14;
@@ -259,7 +259,7 @@ TEST(Horn, HolesThatRunIntoOneAnotherAreRefused) {
   expect_refused(deep, shaft, "horn_recess", "horn.spline_length_mm");
 }
 
-TEST(Horn, AdviceOnOnesOwnIsTried) {
+TEST(Horn, AdviceForCustomHornIsTried) {
   Mechanism mechanism = parse_mechanism(find_template("linear_wrist"), "linear_wrist.toml", ".",
                                         {{"body.bore", "horn"},
                                          {"horn.bolt_circle_mm", "10"},
@@ -278,7 +278,7 @@ TEST(Horn, AdviceOnOnesOwnIsTried) {
   for (const Change& change : advice) EXPECT_FALSE(change.key.starts_with("horn.") && change.to == 0) << change.text;
 }
 
-TEST(Shaft, EveryOneOfTheCataloguePasses) {
+TEST(Shaft, EveryCatalogueShaftFits) {
   const std::string joint =
       "schema = 1\n[joint]\nlength_mm = 100\nrange_deg = [-30, 30]\n[guides]\nEB_mm = 50\nED_mm = 50\nOE_mm = -40\n"
       "[pulley]\nEF_mm = 80\nr1_mm = 16\n[tendon]\ndiameter_mm = 1\n[body]\nshaft = \"";
@@ -287,7 +287,7 @@ TEST(Shaft, EveryOneOfTheCataloguePasses) {
     Mechanism mechanism = plain_mechanism();
     mechanism.body = parse_mechanism(joint + type.name + "\"\n", "shaft.toml").body;
     mechanism.body.marks = Marks::none;
-    const Made made(mechanism);
+    const BuiltPiece made(mechanism);
     ASSERT_TRUE(made.pulley.made()) << made.pulley.brief();
     EXPECT_EQ(failed(check_pulley(made.pulley.mesh, made.mechanism, made.shape, made.pulley, 0.01)), "");
     const std::vector<Vec2> bore = bore_of(sliced(made.pulley.mesh, 0.71)).points;

@@ -1,5 +1,4 @@
-// Layers as a slicer takes them, on parts whose every layer is known; and what is done about a place that does not
-// print.
+// Layers as a slicer processes them, on parts with known layers, and the reaction to places that do not print.
 #include "solid/layers.h"
 
 #include <gtest/gtest.h>
@@ -11,10 +10,10 @@
 #include <random>
 
 #include "fusee/base/units.h"
-#include "solid/blame.h"
 #include "solid/broken.h"
 #include "solid/plan.h"
 #include "solid/plane_distance.h"
+#include "solid/support_attribution.h"
 #include "support/shapes.h"
 
 namespace fusee {
@@ -24,7 +23,7 @@ using testing::circle;
 using testing::plain_mechanism;
 using testing::pulley_of;
 
-// Convex loops of as many points each, with their heights, from the bottom up.
+// Convex loops with equal numbers of points, with their heights, from the bottom up.
 TriangleMesh tower(const std::vector<std::pair<Polygon, double>>& loops) {
   TriangleMesh mesh;
   for (const auto& [loop, z] : loops) {
@@ -56,7 +55,7 @@ TriangleMesh tower(const std::vector<std::pair<double, double>>& profile, int n)
   return tower(loops);
 }
 
-// One side moves outwards by `by` a layer, between walls that stay upright and meet it at `angle` and at 90°.
+// One side moves outwards by `by` a layer, between vertical walls that meet it at `angle` and at 90°.
 TriangleMesh leaning_tip(double by, double angle) {
   const auto loop_at = [&](double out) {
     return Polygon{{-10 / std::tan(angle), 10}, {-10, 10}, {-10, -out}, {out / std::tan(angle), -out}};
@@ -71,7 +70,7 @@ std::size_t ledges(const TriangleMesh& mesh, Corners corners = Corners::round) {
   return ledges_in_layers(mesh, radians(45), corners).size();
 }
 
-// The definition, point by point: nothing is passed over.
+// The definition evaluated at every point, without skipping any.
 std::vector<Vec3> ledges_point_by_point(const TriangleMesh& mesh) {
   const double reach = 0.2 / std::tan(radians(45 + 1.3));
   const auto distance_to = [](const std::vector<Polygon>& loops, const Vec2& point) {
@@ -106,7 +105,7 @@ std::vector<Vec3> ledges_point_by_point(const TriangleMesh& mesh) {
   return ledges;
 }
 
-TEST(Layers, NothingIsPassedOverThatIsNotHeld) {
+TEST(Layers, SkipsOnlySupportedPlaces) {
   std::mt19937 draw(11);
   std::uniform_real_distribution<double> share(0, 1);
   std::size_t found = 0;
@@ -136,7 +135,7 @@ TEST(Layers, NothingIsPassedOverThatIsNotHeld) {
   EXPECT_GT(found, 20u);
 }
 
-// A wedge in mid-air beside a pillar: two steep flanks that meet in a keel from `left` to `right`, under a flat top.
+// A wedge in mid-air beside a pillar: two steep flanks that meet in a ridge from `left` to `right`, below a flat top.
 TriangleMesh pillar_and_wedge(const Vec3& left, const Vec3& right, double width) {
   TriangleMesh mesh = tower({{6, 0}, {6, 9}}, 16);
   for (Vec3& vertex : mesh.vertices) vertex.x() -= 12;
@@ -154,8 +153,8 @@ TriangleMesh pillar_and_wedge(const Vec3& left, const Vec3& right, double width)
   return mesh;
 }
 
-// None of its faces is flat: keels and lowest points alone tell where a layer may stand out.
-TEST(Layers, WhatHangsByAKeelOrAPointOfSteepFacesIsSeen) {
+// None of the wedge's faces is flat, so only ridges and lowest points show where a layer overhangs.
+TEST(Layers, FindsRidgesAndPointsOfSteepFaces) {
   struct Wedge {
     Vec3 left, right;
     double width;
@@ -174,22 +173,23 @@ TEST(Layers, WhatHangsByAKeelOrAPointOfSteepFacesIsSeen) {
   }
 }
 
-TEST(Layers, ARoundConeIsHeldAsLongAsItsStepIs) {
+TEST(Layers, RoundConeIsSupportedUpToStep) {
   for (const double by : {0.0, 0.1, 0.185, 0.19}) EXPECT_EQ(ledges(tower(growing(by), 256)), 0u) << by;
-  // Every layer of the cone stands out.
+  // Every layer of the cone overhangs.
   for (const double by : {0.193, 0.2, 0.5}) EXPECT_GE(ledges(tower(growing(by), 256)), 19u) << by;
 }
 
-// Its corner goes by √2 of its sides' step, and a corner of the layer below reaches as far as its sides do.
-TEST(Layers, ASquareCornerNeedsASteeperCone) {
+// A corner moves by √2 times the step of its sides, and a corner of the layer below supports only as far as its sides
+// do.
+TEST(Layers, SquareCornerRequiresSteeperCone) {
   const double reach = 0.2 / std::tan(radians(46.3));
   EXPECT_EQ(ledges(tower(growing(0.99 * reach / std::numbers::sqrt2), 4)), 0u);
   EXPECT_GE(ledges(tower(growing(1.01 * reach / std::numbers::sqrt2), 4)), 19u);
 }
 
-// A tip between two such sides goes by the step over the sine of its angle. A squared corner holds it further out, but
-// where the tip has an edge of a few µm there is none.
-TEST(Layers, AnAcuteTipIsHeldAsFarAsItGoes) {
+// A tip between two such sides moves by the step over the sine of its angle. A squared corner supports it further out,
+// but a tip with an edge of a few µm has none.
+TEST(Layers, AcuteTipIsSupportedUpToItsReach) {
   const double reach = 0.2 / std::tan(radians(46.3));
   for (const double deg : {60.0, 70.0, 80.0}) {
     const double by = reach * std::sin(radians(deg));
@@ -199,27 +199,27 @@ TEST(Layers, AnAcuteTipIsHeldAsFarAsItGoes) {
   }
 }
 
-TEST(Layers, AMushroomStandsOutOnce) {
+TEST(Layers, MushroomOverhangsOnce) {
   EXPECT_EQ(ledges(tower({{4, 0}, {4, 5}, {9, 5}, {9, 7}}, 64)), 1u);
   EXPECT_EQ(ledges(tower({{4, 0}, {4, 5}, {4.15, 5}, {4.15, 7}}, 64)), 0u);
 }
 
-TEST(Layers, TheBedBearsTheSecond) {
+TEST(Layers, BedSupportsSecondLayer) {
   EXPECT_EQ(ledges(tower({{5, 0}, {5, 0.2}, {8, 0.2}, {8, 5}}, 64)), 0u);
   EXPECT_EQ(ledges(tower({{5, 0}, {5, 0.4}, {8, 0.4}, {8, 5}}, 64)), 1u);
 }
 
-TEST(Blame, IsTheNearestTieOffsAndItIsNotPlannedThereAgain) {
+TEST(SupportAttribution, AttributesNearestTieOffAndMovesIt) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.tail = Tail::none;
   const SynthesisResult shape = pulley_of(circle(20), circle(18));
   const BodyPlan plan = plan_body(mechanism, shape);
   const Vec3 far(0, 0, plan.layout.z_p1);
-  EXPECT_TRUE(blamed_for({far}, plan).empty());
+  EXPECT_TRUE(attribute_supports({far}, plan).empty());
   for (const PlannedAnchor& anchor : plan.anchors) {
     const double z = anchor.side == Side::left ? plan.layout.z_p1 : plan.layout.z_p2;
     const Vec3 place(anchor.start().x(), anchor.start().y(), z);
-    const std::vector<Rejection> blamed = blamed_for({place, place}, plan);
+    const std::vector<Rejection> blamed = attribute_supports({place, place}, plan);
     ASSERT_EQ(blamed.size(), 1u);
     EXPECT_EQ(blamed.front(), (Rejection{anchor.side, anchor.wound_end, anchor.wrap(), false}));
     for (const PlannedAnchor& other : plan_body(mechanism, shape, {WrapChoice::furthest, blamed}).anchors) {

@@ -1,4 +1,4 @@
-// Parts that a slicer moved are found where they were put; what was broken on purpose is called so.
+// Finds parts that a slicer moved, and identifies parts that were damaged on purpose.
 #include "fusee/solid/placement.h"
 
 #include <gmock/gmock.h>
@@ -18,8 +18,8 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// A pulley as it is made, and the floors by which it is looked for.
-struct Made {
+/// A pulley as built, and the floors that identify it.
+struct BuiltPiece {
   double tendon = 0;
   BodyLayout layout;
   TriangleMesh mesh;
@@ -31,12 +31,12 @@ DeclaredMechanism with_body(DeclaredMechanism mechanism) {
   return mechanism;
 }
 
-/// Made once for all tests.
-const Made& made(const std::string& name) {
+/// Built once for all tests.
+const BuiltPiece& made(const std::string& name) {
   static const std::map<std::string, DeclaredMechanism> mechanisms = {{"forearm", with_body(forearm())},
                                                                       {"unsymmetric", with_body(unsymmetric())},
                                                                       {"linear_wrist", with_body(linear_wrist())}};
-  static std::map<std::string, Made> all;
+  static std::map<std::string, BuiltPiece> all;
   if (const auto found = all.find(name); found != all.end()) return found->second;
   const Mechanism mechanism = mechanisms.at(name);
   const SynthesisResult synthesis = synthesise(mechanism);
@@ -49,7 +49,7 @@ const Made& made(const std::string& name) {
                       {parallel(synthesis.p1, -half), parallel(synthesis.p2, -half)}};
 }
 
-/// What a slicer does, in its order; written as floats, as an STL is.
+/// The operations of a slicer, in its order, written as floats, as in an STL.
 struct Move {
   bool turned_over = false;
   double turn_deg = 0;
@@ -71,11 +71,11 @@ TriangleMesh moved(TriangleMesh mesh, const Move& move) {
   return rounded_to_float(mesh);
 }
 
-PlacementResult found(const Made& part, const Move& move) {
+PlacementResult found(const BuiltPiece& part, const Move& move) {
   return find_placement(moved(part.mesh, move), part.floors, part.tendon);
 }
 
-/// Facets that lie on one side of a height: half a part, without the facets that bridge it.
+/// The facets on one side of a height: half a part, without the facets across it.
 TriangleMesh half(const TriangleMesh& mesh, double z, bool upper) {
   TriangleMesh kept{mesh.vertices, {}};
   for (const auto& triangle : mesh.triangles) {
@@ -97,19 +97,19 @@ double largest_distance(const Polygon& a, const Polygon& b) {
 
 class EveryPulley : public ::testing::TestWithParam<const char*> {
  protected:
-  const Made& part = made(GetParam());
+  const BuiltPiece& part = made(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Of, EveryPulley, ::testing::Values("forearm", "unsymmetric"),
                          [](const auto& tested) { return std::string(tested.param); });
 
-TEST_P(EveryPulley, HasTwoGroovesWhereTheLayoutPutsThem) {
+TEST_P(EveryPulley, HasTwoGroovesAtLayoutHeights) {
   const std::vector<GrooveInMesh> grooves = find_grooves(part.mesh, 0.3 * part.tendon / 16, part.tendon / 4);
   ASSERT_THAT(grooves, SizeIs(2));
   EXPECT_NEAR(grooves[0].z, part.layout.z_p1, 0.01);
   EXPECT_NEAR(grooves[1].z, part.layout.z_p2, 0.01);
 }
 
-TEST_P(EveryPulley, IsFoundWhereverItWasPut) {
+TEST_P(EveryPulley, IsFoundInAnyPosition) {
   for (const bool over : {false, true}) {
     for (const double turn : {0.0, 90.0, -37.3, 181.7}) {
       const Move move{over, turn, Vec3(123.4, -41.5, 17)};
@@ -118,7 +118,7 @@ TEST_P(EveryPulley, IsFoundWhereverItWasPut) {
       ASSERT_EQ(result.status, PlacementStatus::found);
       const Placement& placement = result.placement;
       EXPECT_EQ(placement.turned_over, over);
-      // What floats of 123 mm keep: 8 µm / 2.
+      // Resolution of floats of 123 mm: 8 µm / 2.
       EXPECT_LT((placement.axis - move.by.head<2>()).norm(), 2e-6);
       EXPECT_NEAR(std::remainder(degrees(placement.turn) - turn, 360.0), 0, 2e-5);
       EXPECT_LT(placement.deviation, 1e-5);
@@ -133,22 +133,22 @@ TEST_P(EveryPulley, IsFoundWhereverItWasPut) {
   }
 }
 
-TEST_P(EveryPulley, IsCalledMirroredHoweverItLies) {
+TEST_P(EveryPulley, IsReportedMirroredInAnyPosition) {
   for (const bool over : {false, true})
     EXPECT_EQ(found(part, {over, 65, Vec3(10, 20, 0), 1, true}).status, PlacementStatus::mirrored);
 }
 
-TEST_P(EveryPulley, IsCalledByItsSize) {
+TEST_P(EveryPulley, ReportsItsScale) {
   for (const double scale : {1 / 25.4, 0.9, 1.05, 25.4}) {
     const PlacementResult result = found(part, {true, 65, Vec3(10, 20, 0), scale});
     EXPECT_EQ(result.status, PlacementStatus::scaled);
     EXPECT_NEAR(result.scale / scale, 1, 1e-3);
   }
-  // A print that shrank is no other pulley.
+  // A print that shrank is the same pulley.
   EXPECT_EQ(found(part, {false, 0, Vec3(10, 20, 0), 0.995}).status, PlacementStatus::found);
 }
 
-TEST_P(EveryPulley, TellsP2AloneByItsTurn) {
+TEST_P(EveryPulley, FindsTurnOfP2Alone) {
   const TriangleMesh upper = half(part.mesh, between(part.layout), true);
   for (const bool over : {false, true}) {
     const PlacementResult result = find_placement(moved(upper, {over, -70, Vec3(-30, 9, 0)}), part.floors, part.tendon);
@@ -161,8 +161,8 @@ TEST_P(EveryPulley, TellsP2AloneByItsTurn) {
   }
 }
 
-TEST(RoundP1, SaysNothingOfItsTurn) {
-  const Made& part = made("forearm");
+TEST(RoundP1, HasNoTurn) {
+  const BuiltPiece& part = made("forearm");
   const TriangleMesh lower = half(part.mesh, between(part.layout), false);
   const PlacementResult result = find_placement(moved(lower, {false, -70, Vec3(-30, 9, 0)}), part.floors, part.tendon);
   ASSERT_EQ(result.status, PlacementStatus::found);
@@ -174,18 +174,18 @@ TEST(RoundP1, SaysNothingOfItsTurn) {
   EXPECT_TRUE(found(part, {false, -70, Vec3(-30, 9, 0)}).placement.tells_turn);
 }
 
-// P1 is the mirror image of P2: upside down it is the same pulley.
-TEST(MirrorTwins, AreNotCalledTurnedOver) {
+// P1 is the mirror image of P2, so that the pulley is the same upside down.
+TEST(MirrorTwins, AreNotReportedTurnedOver) {
   const PlacementResult result = found(made("linear_wrist"), {true, 40, Vec3(50, 60, 70)});
   EXPECT_EQ(result.status, PlacementStatus::found);
   EXPECT_FALSE(result.placement.turned_over);
   EXPECT_LT(result.placement.deviation, 1e-5);
 }
 
-TEST(Bores, AreWhatTurns) {
-  const Made& part = made("forearm");
+TEST(Bores, DefineTheAxis) {
+  const BuiltPiece& part = made("forearm");
   TriangleMesh mesh = part.mesh;
-  // The bore alone, walls and all, beside the grooves' axis.
+  // Moves the bore alone, including its walls, off the axis of the grooves.
   for (Vec3& v : mesh.vertices) {
     if (v.head<2>().norm() < part.layout.bore.radius + 0.1) v.x() += 0.2;
   }
@@ -194,13 +194,13 @@ TEST(Bores, AreWhatTurns) {
   EXPECT_NEAR(result.placement.bore_off_axis, 0.2, 1e-4);
   const Vec2 bore = Vec2(40, 50) + turned(Vec2(0.2, 0), radians(30));
   EXPECT_LT((result.placement.axis - bore).norm(), 1e-4);
-  // About its bore the floors stand 0.2 mm off where they should.
+  // About the bore the floors are off by 0.2 mm.
   EXPECT_NEAR(outline_deviation({result.placement.grooves[0].floor, result.placement.grooves[1].floor}, part.floors),
               0.2 / std::sqrt(2.0), 0.05);
 }
 
 TEST(OtherParts, AreNotRecognised) {
-  const Made& part = made("forearm");
+  const BuiltPiece& part = made("forearm");
   EXPECT_EQ(find_placement(TriangleMesh(), part.floors, 1).status, PlacementStatus::unknown);
   EXPECT_EQ(find_placement(made("unsymmetric").mesh, {made("linear_wrist").floors.p1, part.floors.p2}, 1).status,
             PlacementStatus::unknown);
@@ -209,8 +209,8 @@ TEST(OtherParts, AreNotRecognised) {
   EXPECT_THAT(find_grooves(cut, 0.02, 0.25), IsEmpty());
 }
 
-TEST(Bodies, ComeApart) {
-  const Made& part = made("forearm");
+TEST(Bodies, AreSeparated) {
+  const BuiltPiece& part = made("forearm");
   TriangleMesh both = moved(part.mesh, {});
   const TriangleMesh other = moved(part.mesh, {false, 0, Vec3(100, 0, 0)});
   const auto first = static_cast<std::uint32_t>(both.vertices.size());

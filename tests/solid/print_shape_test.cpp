@@ -1,5 +1,5 @@
-// Made pulleys as they lie on the printer: nothing looks down too flatly, two parts are the whole, their pins meet.
-// Facets and sections are measured here once more, without the checks' code.
+// Pulleys in their print orientation: no face looks down too flatly, two parts form the whole, and their pins meet.
+// Facets and sections are measured here independently of the checks.
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
@@ -26,20 +26,20 @@ using testing::SupportShape;
 
 // Heights are floats of scaled numbers.
 constexpr double k_flat = 1e-5;
-// Roofs are drawn steeper than asked for by this (heights.cpp); what is measured may be off by a float's grain.
+// Ceilings are steeper than requested by this margin (heights.cpp). Measured values may be off by a float step.
 constexpr double k_margin = radians(2.5);
 constexpr double k_grain = radians(0.05);
-// The first layer, and ceilings of marks 0.4 mm deep, which are narrow bridges.
+// The first layer, and the ceilings of marks 0.4 mm deep, which are narrow bridges.
 constexpr double k_above_bed = 0.41;
 
-struct Made {
+struct BuiltPiece {
   Mechanism mechanism;
   SynthesisResult shape;
   Pulley pulley;
-  Made(Mechanism m, SynthesisResult s)
+  BuiltPiece(Mechanism m, SynthesisResult s)
       : mechanism(std::move(m)), shape(std::move(s)), pulley(make_pulley(mechanism, shape)) {}
 
-  /// What goes to the printer.
+  /// The parts to print.
   std::vector<TriangleMesh> prints() const {
     if (pulley.parts.empty()) return {pulley.mesh};
     return {pulley.parts[0].mesh, pulley.parts[1].mesh};
@@ -67,14 +67,14 @@ bool outside(const Outline& outline, double distance, const Vec2& point) {
                      [&](const OutlinePoint& at) { return (point - at.position).dot(at.normal) > distance; });
 }
 
-// Of faces that look down from grooves, cones and rims, above the bed; 90° where there is none.
+// Least slope of downward faces of grooves, cones and rims above the bed; 90° if there is none.
 double flattest_outside(const TriangleMesh& mesh, const std::function<bool(const Vec3&)>& is_outside) {
   double flattest = radians(90);
   const double bed = bounds(mesh).low.z();
   for (const auto& [a, b, c] : mesh.triangles) {
     const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
     const Vec3 normal = (q - p).cross(r - p);
-    // A sliver's normal is its floats' rounding.
+    // A sliver's normal is dominated by rounding.
     const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
     if (normal.z() >= 0 || normal.norm() < 1e-3 * longest) continue;
     if (std::max({p.z(), q.z(), r.z()}) <= bed + k_above_bed) continue;
@@ -84,7 +84,7 @@ double flattest_outside(const TriangleMesh& mesh, const std::function<bool(const
   return flattest;
 }
 
-double flattest_roof(const Made& made) {
+double flattest_ceiling(const BuiltPiece& made) {
   const Pulley& pulley = made.pulley;
   const double scale = pulley.layout.scale, past_floor = -0.5 * made.mechanism.tendon.diameter - 1e-4;
   const auto at_p1 = [&](const Vec2& place) { return outside(made.shape.p1, past_floor, place / scale); };
@@ -116,7 +116,7 @@ std::vector<Kind> kinds() {
   return kinds;
 }
 
-Made made_as(const Kind& kind, Mechanism mechanism) {
+BuiltPiece made_as(const Kind& kind, Mechanism mechanism) {
   mechanism.body.groove = kind.groove;
   mechanism.body.flange = kind.flange;
   if (kind.recess) {
@@ -128,18 +128,18 @@ Made made_as(const Kind& kind, Mechanism mechanism) {
 
 class PrintShape : public ::testing::TestWithParam<std::tuple<double, Parts>> {};
 
-TEST_P(PrintShape, NothingLooksDownTooFlatly) {
+TEST_P(PrintShape, HasNoFlatDownwardFaces) {
   const auto [overhang, parts] = GetParam();
   for (const Kind& kind : kinds()) {
-    const Made made = made_as(kind, printed(parts, overhang));
+    const BuiltPiece made = made_as(kind, printed(parts, overhang));
     SCOPED_TRACE(::testing::Message() << "groove " << static_cast<int>(kind.groove) << " flange "
                                       << static_cast<int>(kind.flange) << " recess " << kind.recess);
     ASSERT_TRUE(made.pulley.made()) << made.pulley.brief();
     EXPECT_EQ(made.pulley.parts.size(), parts == Parts::two ? 2u : 0u);
     EXPECT_EQ(made.print_failures(), "");
-    const double flattest = flattest_roof(made);
+    const double flattest = flattest_ceiling(made);
     EXPECT_GE(degrees(flattest), degrees(radians(overhang) + k_margin - k_grain));
-    // It is what was asked for and not steeper: the grooves' own walls are 65° above the horizontal.
+    // The slope is the requested one and not steeper: the grooves' own walls are 65° above the horizontal.
     if (kind.groove != Groove::u && overhang < 60) {
       EXPECT_LT(degrees(flattest), overhang + 12);
     }
@@ -154,11 +154,11 @@ INSTANTIATE_TEST_SUITE_P(Each, PrintShape,
                                   (std::get<1>(param.param) == Parts::two ? "InTwo" : "InOne");
                          });
 
-TEST(PrintShapes, SupportsGiveFlatCeilingsAndSymmetricGrooves) {
+TEST(PrintShapes, SupportsAllowFlatCeilingsAndSymmetricGrooves) {
   for (const Parts parts : {Parts::one, Parts::two}) {
     Mechanism mechanism = printed(parts);
     mechanism.print.supports = true;
-    const Made made = made_as({Groove::u, Flange::round, false}, mechanism);
+    const BuiltPiece made = made_as({Groove::u, Flange::round, false}, mechanism);
     ASSERT_TRUE(made.pulley.made()) << made.pulley.brief();
     const BodyLayout& layout = made.pulley.layout;
     for (const GrooveWalls* walls : {&layout.p1, &layout.p2}) {
@@ -168,8 +168,8 @@ TEST(PrintShapes, SupportsGiveFlatCeilingsAndSymmetricGrooves) {
         EXPECT_EQ(walls->below[k].dz, walls->above[k].dz);
       }
     }
-    EXPECT_EQ(layout.lower_cone + layout.middle_cone + layout.upper_cone + layout.channel_roof, 0);
-    EXPECT_NEAR(degrees(flattest_roof(made)), 0, 0.01);
+    EXPECT_EQ(layout.lower_cone + layout.middle_cone + layout.upper_cone + layout.channel_ceiling, 0);
+    EXPECT_NEAR(degrees(flattest_ceiling(made)), 0, 0.01);
     EXPECT_THAT(made.print_failures(), HasSubstr("overhang"));
   }
 }
@@ -177,7 +177,7 @@ TEST(PrintShapes, SupportsGiveFlatCeilingsAndSymmetricGrooves) {
 // ---- seats ----------------------------------------------------------------------------------------------------------
 
 struct Seat {
-  double below = 1e9;  ///< of the tendon's centre line from the wall, the part of it below the groove's plane
+  double below = 1e9;  ///< of the tendon's centre line from the wall, for the half below the groove's plane
   double above = 1e9;
 };
 
@@ -186,7 +186,7 @@ double from_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (a + t * (b - a) - p).norm();
 }
 
-// About an axis through the origin: straight lines of the surface in planes through it.
+// Sections of the surface by planes through an axis, as straight lines.
 Seat seat_of(const TriangleMesh& mesh, double pitch, double z) {
   Seat seat;
   const Vec2 line(pitch, z);
@@ -203,13 +203,13 @@ Seat seat_of(const TriangleMesh& mesh, double pitch, double z) {
   return seat;
 }
 
-// Marks and tie-offs cut lines through the axis too, but none of them nearer to the tendon than the seat.
-TEST(PrintShapes, TendonsLieHalfTheirDiameterAboveTheFloorInBothHalves) {
+// Marks and tie-offs appear in these sections too, but none of them is closer to the tendon than the seat.
+TEST(PrintShapes, SeatsTendonInBothHalves) {
   for (const Groove groove : {Groove::u, Groove::v, Groove::flat}) {
     for (const Parts parts : {Parts::one, Parts::two}) {
       Mechanism mechanism = printed(parts, 60);
       mechanism.body.groove = groove;
-      const Made made(mechanism, pulley_of(circle(20), circle(22)));
+      const BuiltPiece made(mechanism, pulley_of(circle(20), circle(22)));
       ASSERT_TRUE(made.pulley.made()) << made.pulley.brief();
       const BodyLayout& layout = made.pulley.layout;
       for (const auto& [pitch, z] : {std::pair{20.0, layout.z_p1}, std::pair{22.0, layout.z_p2}}) {
@@ -221,7 +221,7 @@ TEST(PrintShapes, TendonsLieHalfTheirDiameterAboveTheFloorInBothHalves) {
   }
 }
 
-TEST(PrintShapes, TheHalfThatTheTendonLiesOnIsTheSameWithSupports) {
+TEST(PrintShapes, LoadedHalfIsEqualWithSupports) {
   const SynthesisResult shape = pulley_of(circle(20), circle(22));
   Mechanism mechanism = printed(Parts::two);
   const BodyLayout apart = resolve_layout(mechanism, shape);
@@ -229,7 +229,7 @@ TEST(PrintShapes, TheHalfThatTheTendonLiesOnIsTheSameWithSupports) {
   const BodyLayout whole = resolve_layout(mechanism, shape);
   mechanism.print.supports = true;
   const BodyLayout supported = resolve_layout(mechanism, shape);
-  // P1 is printed turned over where it is printed for itself.
+  // P1 is printed turned over where it is printed separately.
   for (const auto& [half, same] :
        {std::pair{&whole.p1.below, &supported.p1.below}, std::pair{&whole.p2.below, &supported.p2.below},
         std::pair{&apart.p1.above, &supported.p1.above}, std::pair{&apart.p2.below, &supported.p2.below}}) {
@@ -243,7 +243,7 @@ TEST(PrintShapes, TheHalfThatTheTendonLiesOnIsTheSameWithSupports) {
 
 // ---- two parts ------------------------------------------------------------------------------------------------------
 
-Made two_parts() { return {printed(Parts::two), pulley_of(circle(20), circle(24, {2, 1}))}; }
+BuiltPiece two_parts() { return {printed(Parts::two), pulley_of(circle(20), circle(24, {2, 1}))}; }
 
 double section_area(const TriangleMesh& mesh, double z) {
   double area = 0;
@@ -251,8 +251,8 @@ double section_area(const TriangleMesh& mesh, double z) {
   return area;
 }
 
-TEST(TwoParts, AreTheWhole) {
-  const Made made = two_parts();
+TEST(TwoParts, FormTheWhole) {
+  const BuiltPiece made = two_parts();
   ASSERT_TRUE(made.pulley.made()) << made.pulley.brief();
   ASSERT_EQ(made.pulley.parts.size(), 2u);
   const TriangleMesh &p1 = made.pulley.parts[0].mesh, &p2 = made.pulley.parts[1].mesh;
@@ -267,8 +267,8 @@ TEST(TwoParts, AreTheWhole) {
   }
 }
 
-TEST(TwoParts, LieOnTheFaceWhereTheyMeet) {
-  const Made made = two_parts();
+TEST(TwoParts, LieOnTheirMatingFaces) {
+  const BuiltPiece made = two_parts();
   for (const PrintedPart& part : made.pulley.parts) {
     EXPECT_NEAR(bounds(part.mesh).low.z(), 0, k_flat) << pulley_name(part.side);
     EXPECT_EQ(failed(check_printed_part(part.mesh, part)), "");
@@ -278,7 +278,7 @@ TEST(TwoParts, LieOnTheFaceWhereTheyMeet) {
       const double shadow = 0.5 * (q - p).cross(r - p).z();
       (std::max({p.z(), q.z(), r.z()}) < k_flat ? bed : higher) -= std::min(shadow, 0.0);
     }
-    // The chamfer at the bed, roofs and pins' holes are all that looks down above it.
+    // Only the chamfer at the bed, ceilings and pin holes look down above it.
     EXPECT_GT(bed, higher) << pulley_name(part.side);
     EXPECT_NEAR(bed, section_area(part.mesh, 1e-3), 0.01 * bed);
   }
@@ -287,8 +287,8 @@ TEST(TwoParts, LieOnTheFaceWhereTheyMeet) {
   EXPECT_NEAR(bounds(made.pulley.parts[1].mesh).high.z(), layout.z_hub - layout.z_mate, 1e-5);
 }
 
-TEST(TwoParts, LieBesideEachOtherOnThePlate) {
-  const Made made = two_parts();
+TEST(TwoParts, LieSideBySideOnPlate) {
+  const BuiltPiece made = two_parts();
   const std::vector<TriangleMesh> bodies = bodies_of(plate_of(made.pulley));
   ASSERT_EQ(bodies.size(), 2u);
   for (std::size_t k = 0; k < 2; ++k) {
@@ -296,11 +296,11 @@ TEST(TwoParts, LieBesideEachOtherOnThePlate) {
     EXPECT_NEAR(enclosed_volume(bodies[k]), enclosed_volume(made.pulley.parts[k].mesh), 1e-3);
   }
   EXPECT_NEAR(bounds(bodies[1]).low.x() - bounds(bodies[0]).high.x(), 5, 1e-5);
-  const Made one(printed(Parts::one), made.shape);
+  const BuiltPiece one(printed(Parts::one), made.shape);
   EXPECT_EQ(plate_of(one.pulley).vertices, one.pulley.mesh.vertices);
 }
 
-// Loops of a polyhole's size: as far from their middle everywhere.
+// Loops of a polyhole's size, equally far from their centre everywhere.
 std::vector<Vec2> pin_holes(const TriangleMesh& mesh, double z, double diameter) {
   std::vector<Vec2> centres;
   for (const Polygon& loop : section(mesh, z)) {
@@ -318,9 +318,9 @@ std::vector<Vec2> pin_holes(const TriangleMesh& mesh, double z, double diameter)
   return centres;
 }
 
-TEST(TwoParts, PinsOfBothMeet) {
+TEST(TwoParts, PinHolesMeet) {
   for (const double r2 : {24.0, 30.0, 17.0}) {
-    const Made made(printed(Parts::two), pulley_of(circle(20), circle(r2, {2, 1})));
+    const BuiltPiece made(printed(Parts::two), pulley_of(circle(20), circle(r2, {2, 1})));
     ASSERT_TRUE(made.pulley.made()) << made.pulley.brief();
     const BodyLayout& layout = made.pulley.layout;
     ASSERT_EQ(layout.dowels.places.size(), 2u);
@@ -334,7 +334,7 @@ TEST(TwoParts, PinsOfBothMeet) {
       centre.y() *= -1;  // put back on P2
       EXPECT_LT(std::min((centre - in_p2[0]).norm(), (centre - in_p2[1]).norm()), 1e-4);
     }
-    // Put together a half turn round, or with one of them turned over, they do not.
+    // Rotated by half a turn, or with one part turned over, the pins do not meet.
     for (const auto& turned : {Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1)}) {
       double meets = 0;
       for (const Vec2& centre : in_p1) {
@@ -357,8 +357,8 @@ double gap_between(const Polygon& a, const Polygon& b) {
   return gap;
 }
 
-TEST(TwoParts, PinsKeepClearOfTieOffs) {
-  const Made made = two_parts();
+TEST(TwoParts, PinsClearTieOffs) {
+  const BuiltPiece made = two_parts();
   const BodyLayout& layout = made.pulley.layout;
   for (const Vec2& place : layout.dowels.places) {
     Polygon hole;
@@ -368,19 +368,20 @@ TEST(TwoParts, PinsKeepClearOfTieOffs) {
       EXPECT_GE(gap_between(hole, anchor.channel), layout.min_wall - 0.01) << pulley_name(anchor.side);
     }
   }
-  // Cut out of both grooves' sections they are holes of their own.
+  // In the sections of both grooves the pin holes are separate loops.
   EXPECT_EQ(pin_holes(made.pulley.mesh, layout.z_p1 + 0.01, layout.dowels.hole_diameter).size(), 2u);
 }
 
 // ---- one or two -----------------------------------------------------------------------------------------------------
 
-// Flange 1 stands at 20 − d/2 + 2 d, the middle one 0.2 mm and the smooth maximum's share outside of both lips.
+// Flange 1 reaches to 20 − d/2 + 2 d. The middle one is outside both groove edges by 0.2 mm plus the smooth maximum's
+// excess.
 double cone_over(double r1, double r2, double overhang) {
   const double higher = r2 + 0.5 * std::log(1 + std::exp((r1 - r2) / 0.5)) + 0.2;
   return (higher - r1) * std::tan(radians(overhang) + k_margin);
 }
 
-TEST(OneOrTwo, IsChosenByTheConeUnderTheMiddleFlange) {
+TEST(OneOrTwo, DependsOnConeUnderMiddleFlange) {
   int one = 0, two = 0;
   for (const double overhang : {30.0, 45.0, 60.0}) {
     for (const double r2 : {17.0, 20.0, 21.0, 22.0, 22.5, 22.8, 23.5, 24.9, 25.2, 27.0}) {
@@ -396,21 +397,21 @@ TEST(OneOrTwo, IsChosenByTheConeUnderTheMiddleFlange) {
   EXPECT_GE(std::min(one, two), 8);
 }
 
-TEST(OneOrTwo, IsWhatTheFileSays) {
+TEST(OneOrTwo, FollowsTheFile) {
   const SynthesisResult near = pulley_of(circle(20), circle(20)), far = pulley_of(circle(20), circle(27));
   EXPECT_EQ(resolve_layout(printed(Parts::two), near).parts, Parts::two);
   EXPECT_EQ(resolve_layout(printed(Parts::one), far).parts, Parts::one);
 }
 
-TEST(OneOrTwo, WithoutRoomForPinsItIsOneAndSaysSo) {
+TEST(OneOrTwo, IsOneWithoutSpaceForPins) {
   Mechanism mechanism = printed(Parts::automatic);
   mechanism.tendon.diameter = 0.5;
   mechanism.body.min_wall = 0;
-  const auto says_why = ::testing::Contains(HasSubstr("no room for pins"));
+  const auto says_why = ::testing::Contains(HasSubstr("no space for pins"));
   const BodyLayout small = resolve_layout(mechanism, pulley_of(circle(5), circle(11)));
   EXPECT_EQ(small.parts, Parts::one);
   EXPECT_THAT(small.notes, says_why);
-  // A flat of the shaft locates them without pins.
+  // A flat on the shaft locates the parts without pins.
   mechanism.body.bore = Bore::d;
   const BodyLayout flat = resolve_layout(mechanism, pulley_of(circle(5), circle(11)));
   EXPECT_EQ(flat.parts, Parts::two);

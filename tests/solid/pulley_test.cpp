@@ -1,4 +1,4 @@
-// Whole bodies with all features, and each check on them seen failing.
+// Complete bodies with all features, and a damaged part for each check.
 #include "fusee/solid/pulley.h"
 
 #include <gmock/gmock.h>
@@ -25,14 +25,14 @@ std::string failures(const Pulley& pulley, const Mechanism& mechanism, const Syn
   return failed(check_pulley(pulley.mesh, mechanism, shape, pulley, k_tolerance));
 }
 
-struct Made {
+struct BuiltPiece {
   Mechanism mechanism = plain_mechanism();
   SynthesisResult shape = pulley_of(circle(20), circle(18, {3, 1}));
   Pulley pulley = make_pulley(mechanism, shape);
 };
 
-TEST(Pulley, DefaultBodyHasEverythingAndHoldsEveryCheck) {
-  const Made made;
+TEST(Pulley, DefaultBodyPassesEveryCheck) {
+  const BuiltPiece made;
   ASSERT_TRUE(made.pulley.made()) << made.pulley.brief();
   EXPECT_EQ(failures(made.pulley, made.mechanism, made.shape), "");
   EXPECT_THAT(made.pulley.layout.notes, ::testing::IsEmpty());
@@ -42,13 +42,13 @@ TEST(Pulley, DefaultBodyHasEverythingAndHoldsEveryCheck) {
   EXPECT_EQ(made.pulley.expected_euler, 2 - 2 * 7);
 }
 
-TEST(Pulley, SameInputSameMesh) {
-  const Made first, second;
+TEST(Pulley, IsDeterministic) {
+  const BuiltPiece first, second;
   ASSERT_EQ(first.pulley.mesh.triangles, second.pulley.mesh.triangles);
   EXPECT_TRUE(first.pulley.mesh.vertices == second.pulley.mesh.vertices);
 }
 
-TEST(Pulley, EveryKindOfBodyIsMade) {
+TEST(Pulley, BuildsEveryKindOfBody) {
   const SynthesisResult shape = pulley_of({22, {{2, 2, 0.5}, {1, 3, 0}}}, {25, {{2, -1.5, 1}}});
   for (const Bore bore : {Bore::round, Bore::d, Bore::hex, Bore::square, Bore::keyway}) {
     for (const Flange flange : {Flange::follow, Flange::round}) {
@@ -63,7 +63,7 @@ TEST(Pulley, EveryKindOfBodyIsMade) {
   }
 }
 
-TEST(Pulley, RaisedMarksStandAboveTheFace) {
+TEST(Pulley, RaisedMarksProjectFromFace) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.marks = Marks::none;
   mechanism.body.hub_height = 0;
@@ -76,7 +76,7 @@ TEST(Pulley, RaisedMarksStandAboveTheFace) {
   EXPECT_NEAR(bounds(raised.mesh).high.z(), bounds(plain.mesh).high.z() + mechanism.body.mark_depth, 1e-5);
 }
 
-TEST(Pulley, ShrinkageScalesTheMeshAndNothingElse) {
+TEST(Pulley, ShrinkageScalesMeshOnly) {
   Mechanism mechanism = plain_mechanism();
   const SynthesisResult shape = pulley_of(circle(20), circle(18, {3, 1}));
   const Pulley plain = make_pulley(mechanism, shape);
@@ -87,8 +87,8 @@ TEST(Pulley, ShrinkageScalesTheMeshAndNothingElse) {
   EXPECT_NEAR(bounds(larger.mesh).high.z() * 0.98, bounds(plain.mesh).high.z(), 1e-5);
 }
 
-TEST(Pulley, SectionsAtTheGroovesAreTheFloors) {
-  const Made made;
+TEST(Pulley, SectionsAtGroovesAreFloors) {
+  const BuiltPiece made;
   const Polygon floor = parallel(made.shape.p1, -0.5);
   const Polygon loop = outer_loop(section(made.pulley.mesh, made.pulley.layout.z_p1));
   // Every point of the active arc is a point of the section.
@@ -100,31 +100,31 @@ TEST(Pulley, SectionsAtTheGroovesAreTheFloors) {
   }
 }
 
-TEST(Pulley, TieOffsLeaveTheFloorPastTheWoundEnds) {
-  const Made made;
+TEST(Pulley, TieOffsStartPastWoundEnds) {
+  const BuiltPiece made;
   for (const Anchor& anchor : made.pulley.anchors) {
     if (!anchor.wound_end) continue;
     const Outline& outline = anchor.side == Side::left ? made.shape.p1 : made.shape.p2;
     const Vec2 end = outline.points[outline.anchor_end()].position;
     EXPECT_GE((anchor.exit - end).norm(), 1.5);
-    // P1's tendon goes on counter-clockwise, P2's clockwise.
+    // P1's tendon continues counter-clockwise, P2's clockwise.
     EXPECT_EQ(cross(end, anchor.exit) > 0, anchor.side == Side::left);
     EXPECT_GT(signed_area(anchor.channel), 0);
   }
 }
 
-// ---- each check fails on a part that is broken in its way -----------------------------------------------------------
+// ---- each check fails on a part with its kind of damage -------------------------------------------------------------
 
 TEST(CheckPulley, WrongRadius) {
-  Made made;
+  BuiltPiece made;
   const SynthesisResult larger = pulley_of(circle(20.05), circle(18, {3, 1}));
   const auto checks = check_pulley(made.pulley.mesh, made.mechanism, larger, made.pulley, k_tolerance);
   EXPECT_EQ(failed(checks), "floor_deviation_P1 groove_depth_P1");
   EXPECT_NEAR(check_named(checks, "floor_deviation_P1").value, 0.05, 0.005);
 }
 
-TEST(CheckPulley, OneVertexOfTheFloorMoved) {
-  Made made;
+TEST(CheckPulley, MovedFloorVertex) {
+  BuiltPiece made;
   const double z = made.pulley.layout.z_p2;
   const GrooveWalls& walls = made.pulley.layout.p2;
   Vec3* moved = nullptr;
@@ -140,7 +140,7 @@ TEST(CheckPulley, OneVertexOfTheFloorMoved) {
 }
 
 TEST(CheckPulley, MissingFeatureChangesVolumeAndEulerNumber) {
-  Made made;
+  BuiltPiece made;
   Mechanism without = made.mechanism;
   without.body.set_screw = "none";
   without.body.hub_diameter = 2.0 * made.pulley.layout.hub_radius;
@@ -151,25 +151,26 @@ TEST(CheckPulley, MissingFeatureChangesVolumeAndEulerNumber) {
 }
 
 TEST(CheckPulley, ThinWall) {
-  Made made;
+  BuiltPiece made;
   made.pulley.layout.min_wall = 8.5;
   EXPECT_EQ(failures(made.pulley, made.mechanism, made.shape), "wall_P2");
 }
 
 TEST(CheckPulley, ShallowAndNarrowGroove) {
-  Made made;
+  BuiltPiece made;
   made.pulley.layout.groove_depth += 0.5;
   made.mechanism.tendon.diameter = 1.0;
   EXPECT_EQ(failures(made.pulley, made.mechanism, made.shape), "groove_depth_P1 groove_depth_P2");
-  Made narrow;
+  BuiltPiece narrow;
   narrow.mechanism.tendon.diameter = 1.4;
   const std::string names = failures(narrow.pulley, narrow.mechanism, narrow.shape);
   EXPECT_NE(names.find("groove_width_P1"), std::string::npos);
   EXPECT_NE(names.find("groove_width_P2"), std::string::npos);
 }
 
-// The flange is looked at beside what was cut into it: here the tail's slot lies in the section that shows the lip.
-TEST(CheckPulley, TheGroovesDepthIsMeasuredBesideATailsSlot) {
+// The flange is measured outside the features cut into it. In this pulley the tail's slot lies in the section of the
+// groove edge.
+TEST(CheckPulley, MeasuresGrooveDepthBesideTailSlot) {
   const Mechanism mechanism = parse_mechanism(find_template("paper_optimum"), "paper_optimum.toml", ".",
                                               {{"body.flange", "round"}, {"print.parts", "two"}});
   const SynthesisResult shape = synthesise(mechanism);
@@ -179,8 +180,8 @@ TEST(CheckPulley, TheGroovesDepthIsMeasuredBesideATailsSlot) {
   EXPECT_EQ(failures(pulley, mechanism, shape), "");
 }
 
-TEST(CheckPulley, EmptyAndBrokenMeshesAreMeasuredAsFarAsTheyGo) {
-  Made made;
+TEST(CheckPulley, HandlesEmptyAndDamagedMeshes) {
+  BuiltPiece made;
   EXPECT_NE(failed(check_pulley({}, made.mechanism, made.shape, made.pulley, k_tolerance)), "");
   TriangleMesh flat = made.pulley.mesh;
   for (Vec3& vertex : flat.vertices) vertex.z() = 0;
@@ -188,8 +189,8 @@ TEST(CheckPulley, EmptyAndBrokenMeshesAreMeasuredAsFarAsTheyGo) {
   EXPECT_NE(names.find("floor_deviation_P1"), std::string::npos);
 }
 
-// A few dozen shapes and bodies; the laws' tests run hundreds of whole mechanisms.
-TEST(Pulley, WhatIsMadeHoldsEveryCheckAndWhatIsNotSaysWhy) {
+// A few dozen shapes and bodies. The tests of the laws run hundreds of whole mechanisms.
+TEST(Pulley, PassesChecksOrReportsWhyNot) {
   int made = 0;
   for (int k = 0; k < 16; ++k) {
     const double r = 6.0 + 2.1 * k, ratio = 0.7 + 0.03 * k;

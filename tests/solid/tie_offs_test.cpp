@@ -1,4 +1,4 @@
-// Tie-offs: how far round they go, what small pulleys get in their place, and where a tail lies.
+// Tie-offs: their wrap, the alternative for small pulleys, and the place of the tail.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -24,7 +24,7 @@ using testing::SupportShape;
 
 const Outline& outline_of(const SynthesisResult& shape, Side side) { return side == Side::left ? shape.p1 : shape.p2; }
 
-/// Along the winding, from the end of the active arc.
+/// Angle along the winding from the end of the active arc.
 double wrap_at(const SynthesisResult& shape, const Anchor& anchor) {
   const Outline& outline = outline_of(shape, anchor.side);
   return degrees(wound_arc(outline, outline.anchor_end(), index_at_place(outline, anchor.exit)).turn);
@@ -41,7 +41,7 @@ std::string failures(const Pulley& pulley, const Mechanism& mechanism, const Syn
   return failed(check_pulley(pulley.mesh, mechanism, shape, pulley, 0.01));
 }
 
-TEST(TieOffs, WrapAsFarAsTheSpareLeavesRoomAndNeverOverItsMouth) {
+TEST(TieOffs, WrapUpToTheSpareTieOff) {
   const Mechanism mechanism = plain_mechanism();
   for (const double radius : {16.0, 20.0, 30.0, 45.0}) {
     const SynthesisResult shape = pulley_of(circle(radius), circle(0.9 * radius, {0.1 * radius, 0.05 * radius}));
@@ -57,7 +57,7 @@ TEST(TieOffs, WrapAsFarAsTheSpareLeavesRoomAndNeverOverItsMouth) {
   }
 }
 
-TEST(TieOffs, BeginWhereTheFileAsksThemTo) {
+TEST(TieOffs, BeginAtRequestedWrap) {
   Mechanism mechanism = plain_mechanism();
   const SynthesisResult shape = pulley_of(circle(20), circle(20));
   for (const double wrap : {10.0, 30.0, 55.0}) {
@@ -75,8 +75,8 @@ TEST(TieOffs, BeginWhereTheFileAsksThemTo) {
   EXPECT_THAT(pulley.brief(), HasSubstr("body.wrap_deg"));
 }
 
-// Without supports: a part that needs one is refused. All of them take half a minute.
-TEST(TieOffs, SmallPulleysAreMade) {
+// Without supports a part that requires them is rejected. All cases take half a minute.
+TEST(TieOffs, SmallPulleysAreBuilt) {
   const bool all = std::getenv("FUSEE_LONG_TESTS") != nullptr;
   int through_the_face = 0;
   for (const double radius : {3.0, 3.5, 4.0, 5.0}) {
@@ -100,10 +100,9 @@ TEST(TieOffs, SmallPulleysAreMade) {
   EXPECT_GE(through_the_face, 6);
 }
 
-/// Where the channel and its pocket would stand in the bore.
-// The tab in which a channel ends stands out on both sides of it: a wall to the bore that was kept to the channel alone
-// came out as 0.39965 mm for 0.4 (FUSEE_LAW_SEED=3, design 570).
-TEST(TieOffs, WallsAreKeptToAllThatIsCut) {
+/// The channel and its pocket would reach the bore. The tab at a channel's end projects on both sides: a wall that was
+/// kept to the channel alone came out as 0.39965 mm instead of 0.4 (FUSEE_LAW_SEED=3, design 570).
+TEST(TieOffs, KeepWallsToAllCuts) {
   const Mechanism mechanism = parse_mechanism(R"(
 schema = 1
 name = "wall"
@@ -130,7 +129,7 @@ diameter_mm = 0.2
   EXPECT_EQ(failed(check_pulley(pulley.mesh, mechanism, shape, pulley, options.tolerance)), "");
 }
 
-TEST(TieOffs, ASlotToTheFaceIsRoundAtTheFloorAndOpenToTheRim) {
+TEST(TieOffs, FaceSlotIsRoundAtFloorAndOpenAtRim) {
   Mechanism mechanism = plain_mechanism();
   mechanism.tendon.diameter = 0.5;
   mechanism.body.min_wall = 0.5;
@@ -156,8 +155,8 @@ TEST(TieOffs, ASlotToTheFaceIsRoundAtTheFloorAndOpenToTheRim) {
       EXPECT_GT(nearest, floor);
       EXPECT_LT(nearest, floor + 0.1);
       EXPECT_GT(furthest, floor + pulley.layout.groove_depth);
-      // In a section of the flange between countersink and groove it is cut from the rim to the floor, in one at the
-      // groove's plane the floor is whole.
+      // A section of the flange between countersink and groove is cut from the rim to the floor. A section at the
+      // groove's plane has its whole floor.
       const auto depth_at = [&](double z) {
         double least = 1e9;
         for (const Polygon& loop : section(pulley.mesh, z)) {
@@ -175,7 +174,7 @@ TEST(TieOffs, ASlotToTheFaceIsRoundAtTheFloorAndOpenToTheRim) {
   }
 }
 
-TEST(TieOffs, ALargePulleyHasNoSlotToTheFace) {
+TEST(TieOffs, LargePulleyHasNoFaceSlot) {
   const Pulley pulley = make_pulley(plain_mechanism(), pulley_of(circle(20), circle(18)));
   for (const Anchor& anchor : pulley.anchors) EXPECT_FALSE(anchor.seat.has_value());
 }
@@ -186,14 +185,14 @@ double beyond_pocket(const TailSlot& slot, const BodyLayout& layout) {
   return (slot.to - slot.from).norm() - layout.pocket_radius;
 }
 
-// On P1's face, which lies on the bed where the part is one, a slot has a gable over it, which reaches deeper.
+// On P1's face, which lies on the bed of a part in one piece, a slot has a peaked ceiling, which reaches deeper.
 Mechanism thick_flanged() {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.flange_thickness = 2.4;
   return mechanism;
 }
 
-TEST(Tails, OnTheBedHaveAGable) {
+TEST(Tails, HavePeakedCeilingOnBed) {
   const SynthesisResult shape = pulley_of(circle(20), circle(18));
   Mechanism apart = plain_mechanism();
   apart.print.parts = Parts::two;
@@ -202,13 +201,13 @@ TEST(Tails, OnTheBedHaveAGable) {
   };
   for (const Mechanism& mechanism : std::vector<Mechanism>{plain_mechanism(), thick_flanged()}) {
     ASSERT_TRUE(slot_of(mechanism).has_value());
-    EXPECT_GT(slot_of(mechanism)->roof, 0);
+    EXPECT_GT(slot_of(mechanism)->ceiling, 0);
   }
   ASSERT_TRUE(slot_of(apart).has_value());
-  EXPECT_EQ(slot_of(apart)->roof, 0);
+  EXPECT_EQ(slot_of(apart)->ceiling, 0);
 }
 
-// Where a slot and a channel's ceiling leave less than two layers between them, they lie beside each other: in a
+// If less than two layers would remain between a slot and a channel's ceiling, they are placed side by side. In a
 // shallow groove for a thick tendon they would meet.
 TEST(Tails, LeaveTwoLayersOverChannels) {
   Mechanism mechanism = plain_mechanism();
@@ -227,7 +226,7 @@ TEST(Tails, LeaveTwoLayersOverChannels) {
       if (!anchor.tail) continue;
       const TailSlot& slot = *anchor.tail;
       const double to_plane = anchor.side == Side::left ? layout.z_p1 : layout.z_top - layout.z_p2;
-      if (to_plane - 0.5 * layout.channel_width - layout.channel_roof - slot.depth >= 0.4) continue;
+      if (to_plane - 0.5 * layout.channel_width - layout.channel_ceiling - slot.depth >= 0.4) continue;
       ++beside;
       const Anchor& spare = find(pulley, anchor.side, false);
       for (const Vec2& corner : spare.channel)
@@ -237,7 +236,7 @@ TEST(Tails, LeaveTwoLayersOverChannels) {
   EXPECT_GE(beside, 3);
 }
 
-TEST(Tails, AreCutAsLongAndDeepAsTheySay) {
+TEST(Tails, MatchTheirDimensions) {
   Mechanism mechanism = thick_flanged();
   mechanism.body.marks = Marks::none;
   const SynthesisResult shape = pulley_of(circle(20), circle(18));
@@ -250,20 +249,20 @@ TEST(Tails, AreCutAsLongAndDeepAsTheySay) {
     EXPECT_EQ(anchor.tail.has_value(), anchor.wound_end);
     if (!anchor.tail) continue;
     const TailSlot& slot = *anchor.tail;
-    EXPECT_GE(slot.depth + slot.roof, mechanism.tendon.diameter);
+    EXPECT_GE(slot.depth + slot.ceiling, mechanism.tendon.diameter);
     EXPECT_GE(beyond_pocket(slot, with.layout), 3.0);
-    // A rectangle from the pocket's round edge, whose chord it ends on.
+    // A rectangle from the pocket's round edge, ending at its chord.
     const double half = 0.5 * slot.width, radius = with.layout.pocket_radius;
     const double edge = std::sqrt(radius * radius - half * half);
     const double segment = radius * radius * std::asin(half / radius) - half * edge;
     const double length = (slot.to - slot.from).norm();
     volume += slot.depth * (slot.width * (length - edge) - segment);
-    if (slot.roof <= 0) continue;
-    // The gable over it, cut off where it meets the pocket, in thin slices across.
+    if (slot.ceiling <= 0) continue;
+    // The peaked ceiling above it, cut off at the pocket, in thin slices across.
     constexpr int k_slices = 2000;
     for (int k = 0; k < k_slices; ++k) {
       const double aside = half * (2.0 * (k + 0.5) / k_slices - 1.0);
-      volume += slot.roof * (1.0 - std::abs(aside) / half) * (length - std::sqrt(radius * radius - aside * aside)) *
+      volume += slot.ceiling * (1.0 - std::abs(aside) / half) * (length - std::sqrt(radius * radius - aside * aside)) *
                 slot.width / k_slices;
     }
   }
@@ -274,7 +273,7 @@ TEST(Tails, AreCutAsLongAndDeepAsTheySay) {
   EXPECT_EQ(with.expected_euler, without.expected_euler);
 }
 
-TEST(Tails, AClampScrewHasItsPilotAtTheEnd) {
+TEST(Tails, ClampScrewHasPilotAtEnd) {
   Mechanism mechanism = thick_flanged();
   mechanism.body.marks = Marks::none;
   const SynthesisResult shape = pulley_of(circle(36), circle(35));
@@ -285,7 +284,7 @@ TEST(Tails, AClampScrewHasItsPilotAtTheEnd) {
     EXPECT_EQ(failures(pulley, mechanism, shape), "") << name;
     const TailSlot& slot = *find(pulley, Side::left, true).tail;
     EXPECT_GT(slot.pilot_diameter, 1.6);
-    // A blind hole: in a section half-way down, not in the groove above the middle flange's top.
+    // A blind hole is visible in a section half-way down, and not in the groove above the middle flange's top.
     const auto hole_at = [&](double z) {
       for (const Polygon& loop : section(pulley.mesh, z)) {
         if (signed_area(loop) < 0 && std::abs(distance_to_edges(loop, slot.to) - 0.5 * slot.pilot_diameter) < 0.01)
@@ -298,7 +297,7 @@ TEST(Tails, AClampScrewHasItsPilotAtTheEnd) {
   }
 }
 
-TEST(Tails, AClampScrewWithoutRoomIsRefusedByItsKey) {
+TEST(Tails, RejectsClampScrewWithoutSpace) {
   Mechanism mechanism = plain_mechanism();
   mechanism.tendon.diameter = 0.5;
   mechanism.body.min_wall = 0;

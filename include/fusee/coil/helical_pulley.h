@@ -1,11 +1,11 @@
 /// \file
-/// Two spirals → one closed mesh: P1's helical groove under P2's, stacked along the axis. mm, rad.
+/// Two spirals → one closed mesh: P1's helical groove below P2's, stacked along the axis. mm, rad.
 ///
-/// Printed as it stands, without supports: every face that looks down is a groove's roof, a step between turns of
-/// different radius or the cone under P2, and all of them are as steep as print.overhang asks. The ends of the grooves
-/// at which the tendons stay wound, P1's last row and P2's first, lie at the two outer faces: each runs out
-/// tangentially, along an arc inwards and down (up), into a knot pocket in its face. The other ends stop at a wall
-/// inside of the part; no tendon is tied there.
+/// The part prints upright without supports. Its downward faces are groove ceilings, steps between turns of different
+/// radius and the cone under P2. All of them are as steep as print.overhang requires. The groove ends at which the
+/// tendons stay wound, P1's last row and P2's first, lie at the two outer faces. Each continues tangentially, along an
+/// arc inwards and towards the face, into a knot pocket in that face. The other ends stop at a wall inside the part,
+/// where no tendon is tied.
 #pragma once
 
 #include <memory>
@@ -22,23 +22,24 @@
 
 namespace fusee {
 
-/// What a groove's section takes, for a synthesis that chooses a lead.
+/// The groove's cross-section, from which a synthesis chooses a lead.
 struct HelicalSection {
   GrooveWalls walls;
-  double depth = 0;       ///< lip above the floor
-  double rib = 0;         ///< thickness of a rib at its top
-  double roof_slope = 0;  ///< of faces that look down, above the horizontal; 0: printed with supports
+  double depth = 0;          ///< height of the groove edge above the floor
+  double rib = 0;            ///< thickness of a rib at its top
+  double ceiling_slope = 0;  ///< angle of downward faces above the horizontal; 0: printed with supports
 
   double width() const { return walls.below_width() + walls.above_width(); }
 };
 HelicalSection helical_section(const Mechanism& mechanism);
-/// The least axial distance of two neighbouring turns: the groove's width, a rib, and where the upper turn's lip stands
-/// out by `growth` over the lower one's as much as its step takes to print. `growth` below 0: the upper is the smaller.
+/// The least axial distance of two neighbouring turns: the groove's width, a rib, and the height that a printable step
+/// needs when the upper turn's edge projects over the lower one's by `growth`. `growth` is negative when the upper turn
+/// is smaller.
 double least_lead(const HelicalSection& section, double growth);
-/// In the part the turns of larger angle lie lower, whatever the sign of a spiral's slope: P1's last row and P2's first
-/// are then at the outer faces. (To a tendon, a spiral and its image in z are one.) So of a turn and its next one, by
-/// angle, whose radius is larger by `step`, `growth` is −step.
-/// Where a spiral lies in the part: height above the lower face = offset + direction · SpiralRow::z.
+/// The position of a spiral in the part: height above the lower face = offset + direction · SpiralRow::z. Turns of
+/// larger angle always lie lower, whatever the sign of the spiral's slope. P1's last row and P2's first are then at the
+/// outer faces. (A spiral and its mirror image in z are equivalent for a tendon.) For a turn and its successor by angle
+/// whose radius is larger by `step`, `growth` is therefore −step.
 struct SpiralPlace {
   double offset = 0;
   double direction = 1;
@@ -46,44 +47,45 @@ struct SpiralPlace {
   double height(double z) const { return offset + direction * z; }
 };
 
-/// Where a tendon's end is tied.
+/// The fixed end of a tendon.
 struct HelicalAnchor {
   Side side = Side::left;
   Vec3 exit = Vec3::Zero();    ///< on the tendon's centre line, where the groove ends
   Vec3 pocket = Vec3::Zero();  ///< middle of the knot pocket in the face
   double pocket_radius = 0;
-  double pocket_depth = 0;  ///< of its straight part; a cone leads on to the channel
-  double bend_radius = 0;   ///< of the arc between the two, to the tendon's centre line
+  double pocket_depth = 0;  ///< depth of the cylindrical part; a cone joins it to the channel
+  double bend_radius = 0;   ///< radius of the arc between exit and pocket, to the tendon's centre line
 };
 
 struct HelicalPlan;  // coil/helical_plan.h
 
 struct HelicalPulley {
   bool made = false;
-  BodyLayout layout;   ///< of hub, bore, screw, walls; z_p1 and z_p2: heights of the anchors' ends of the grooves
-  SpiralPlace p1, p2;  ///< finished part's mm, times layout.scale in the mesh
-  TriangleMesh mesh;   ///< coordinates are floats already
+  BodyLayout layout;   ///< hub, bore, screw and walls; z_p1 and z_p2: heights of the groove ends at the anchors
+  SpiralPlace p1, p2;  ///< in mm of the finished part, times layout.scale in the mesh
+  TriangleMesh mesh;   ///< coordinates are rounded to float
   std::vector<HelicalAnchor> anchors;
-  std::vector<Condition> conditions;  ///< all, those that hold too
-  double expected_volume = 0;         ///< of the grid, less what was cut out of it, mm³
+  std::vector<Condition> conditions;  ///< all conditions, including those that hold
+  double expected_volume = 0;         ///< volume of the blank minus the volume cut from it, mm³
   int expected_euler = 0;
   std::vector<Check> mesh_checks;           ///< check_mesh() of `mesh`
-  std::shared_ptr<const HelicalPlan> plan;  ///< of one that is made
+  std::shared_ptr<const HelicalPlan> plan;  ///< set when `made`
 
   std::string brief() const;
 };
 
-/// Both spirals at least a turn long, spare turns included, rows of strictly growing `turn`. `tolerance`: largest
-/// sagitta of a chord, on the pitch curve and on all its parallels up to the lip. A brief search cuts it in fewer ways.
+/// Requires both spirals to be at least a turn long, spare turns included, with rows of strictly growing `turn`.
+/// `tolerance`: largest sagitta of a chord, on the pitch curve and on all its parallels up to the groove edge. A brief
+/// search tries fewer cut variants.
 HelicalPulley make_helical_pulley(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2,
                                   double tolerance = 0.01, TieOffSearch search = TieOffSearch::thorough);
 
-/// Why it cannot be made, as far as is known before it is cut.
+/// The conditions that fail, as far as they are known before the cuts.
 std::vector<Condition> helical_obstacles(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2,
                                          double tolerance = 0.01);
 
-/// What a mesh of this pulley must be, measured on `mesh`: check_mesh, Euler number, volume, and by half-planes through
-/// the axis the thinnest rib, the shallowest groove and the thinnest wall to the bore.
+/// Checks of a mesh against its pulley: check_mesh, Euler number and volume. Half-planes through the axis measure the
+/// thinnest rib, the shallowest groove and the thinnest wall to the bore.
 std::vector<Check> check_helical_pulley(const TriangleMesh& mesh, const HelicalPulley& pulley,
                                         const HelicalSection& section, double tolerance = 0.01);
 

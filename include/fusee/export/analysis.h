@@ -1,5 +1,5 @@
 /// \file
-/// What `fusee analyze` found, as a page.
+/// The result of `fusee analyze` as a page.
 #pragma once
 
 #include <string>
@@ -11,13 +11,12 @@
 
 namespace fusee {
 
-/// One page that needs nothing else: the joint moves under a slider, both models' forces, the error budget. Of a law
-/// that exists over the range. `said`: what else there is to say of it, on top. The same input gives the same bytes.
+/// A self-contained page: the joint moves under a slider, with the forces of both models and the error budget. Requires
+/// a law that exists over the range. `said`: additional remarks at the top. The same input gives the same bytes.
 std::string analysis_html(const MechanismFile& file, const AnalysisResult& result, const AnalysisOptions& options,
                           const std::vector<Diagnostic>& said);
 
-/// The page's plots as one picture of their own, and the same for programs that take no SVG: InputError where the
-/// system has no librsvg.
+/// The page's plots as one SVG picture, and as PNG or PDF. Throws InputError if the system has no librsvg.
 std::string analysis_svg(const MechanismFile& file, const AnalysisResult& result);
 std::string analysis_png(const MechanismFile& file, const AnalysisResult& result);
 std::string analysis_pdf(const MechanismFile& file, const AnalysisResult& result);

@@ -10,14 +10,14 @@
 
 namespace fusee {
 
-/// paper.md alone: what stands in docs/background/paper.md.
+/// paper.md, which is also docs/background/paper.md.
 std::string paper_page(const Reproduction& reproduction);
 
 /// fig_04.svg and fig_04.csv …, table_4.csv, claims.csv, laws.csv, mu_windows.csv, paper.md, and manifest.json, which
-/// names them.
+/// lists them.
 std::vector<OutputFile> paper_files(const Reproduction& reproduction);
 
-/// "mu 0.132 to 0.249; r1 up to 21 mm": where a claim holds, for a person.
+/// The range in which a claim holds, in words: "mu 0.132 to 0.249; r1 up to 21 mm".
 std::string claim_windows_text(const Claim& claim);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// What drawings and reports are made from.
+/// The input of drawings and reports.
 #pragma once
 
 #include <optional>
@@ -18,32 +18,30 @@
 
 namespace fusee {
 
-/// What a pulley of several turns has beside: its curves are no outlines, and its grooves lie in no plane.
+/// Additional data of a multi-turn pulley, whose curves are no outlines and whose grooves lie in no plane.
 struct HelixProduct {
   HelixSynthesis synthesis;
-  HelicalPulley pulley;  ///< its mesh and conditions are Product::pulley's
+  HelicalPulley pulley;  ///< its mesh and conditions are in Product::pulley
   HelicalRewind as_built;
 
-  /// Heights above the part's lower face: of the tendons' ends on the joint, or of their guides' collars.
+  /// Heights above the part's lower face of the tendons' ends on the joint, or of their guides' collars.
   TendonsLaid laid(bool collar) const {
     return tendons_laid(pulley, synthesis.sides[0].spiral, synthesis.sides[1].spiral, synthesis.sides[0].attachment_z,
                         synthesis.sides[1].attachment_z, collar);
   }
 };
 
-/// All that is known of a finished pulley.
+/// The complete data of a finished pulley.
 struct Product {
-  MechanismFile file;  ///< as it was read
-  JointAsItIs joint;   ///< what was made, and what for
+  MechanismFile file;  ///< as read
+  JointAsItIs joint;   ///< the identified joint that the pulley was designed for
   SynthesisResult synthesis;
   Pulley pulley;
-  std::optional<BodyLayout>
-      cut_layout;   ///< where it is known: of what is cut, which neither shrinks nor gets elephant's feet
-  Holding holding;  ///< of its tendons
+  std::optional<BodyLayout> cut_layout;  ///< layout for cutting, without shrinkage and chamfer, if known
+  Holding holding;                       ///< of its tendons
   RewindResult as_built;
   std::vector<Check> checks;
-  std::optional<HelixProduct> helix =
-      {};  ///< wound several times; `synthesis` then has no outlines, `pulley` no anchors
+  std::optional<HelixProduct> helix = {};  ///< several turns; `synthesis` then has no outlines and `pulley` no anchors
 };
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// What `fusee simulate` leaves behind, as bytes.
+/// The outputs of `fusee simulate`, as bytes.
 #pragma once
 
 #include <string>
@@ -14,24 +14,24 @@ namespace fusee {
 /// A joint moved through a log.
 struct Simulation {
   MechanismFile file;
-  Measurement log;                 ///< one run: what drove it
+  Measurement log;                 ///< one run that drove the joint
   std::vector<JointState> states;  ///< parallel to its rows
 };
 
-/// A column of the table: its name ends in its unit; NaN where there is no such number.
+/// A column of the table, whose name ends with its unit; NaN for missing numbers.
 struct SimulationColumn {
   std::string name;
   std::vector<double> values;
 };
-/// In the order of the table, which ends with `status`. theta_deg is what the joint's sensor shows, joint_deg where the
-/// joint stands; loose_deg how far from there it may stand, because nothing holds it. tension1_N and
-/// tension2_N are between pulley and pin, tension1_joint_N and tension2_joint_N between pin and joint; the motor's
-/// torque is positive towards +α. time_s, temperature_C and how the encoders were turned are there where they were
-/// logged; of a joint declared by a ratio no tensions and no torque are known.
+/// In the order of the table, which ends with `status`. theta_deg: reading of the joint's sensor. joint_deg: true joint
+/// angle. loose_deg: range about it without a restoring torque. tension1_N and tension2_N: between pulley and pin;
+/// tension1_joint_N and tension2_joint_N: between pin and joint. The motor's torque is positive towards +α. time_s,
+/// temperature_C and the encoder offsets appear if they were logged. A joint declared by a ratio has no tensions and no
+/// torque.
 std::vector<SimulationColumn> simulation_columns(const Simulation& simulation);
 /// "held", "loose" (both tendons are slack), "no_equilibrium" (no joint angle carries the load).
 std::string_view word(EquilibriumStatus status);
-/// The same as a table that `fusee calibrate` reads.
+/// A table that `fusee calibrate` reads.
 std::string simulation_csv(const Simulation& simulation);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// The pitch curve of a helical groove: what a tendon's centre line lies on over several turns.
+/// The pitch curve of a helical groove: the tendon's centre line over several turns.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ struct SpiralRow {
   double z = 0;         ///< mm, height of the tendon's centre line: linear in s
 };
 
-/// The outward normal at a row is (cos turn, sin turn). One turn on, z is larger by groove, rib and the step between
-/// both radii at least.
+/// The outward normal at a row is (cos turn, sin turn). From one turn to the next, z grows by at least the groove's
+/// width, a rib and the step between both radii.
 struct Spiral {
   std::vector<SpiralRow> rows;                ///< in growing `turn`, spare turns at both ends included
   double slope = 0;                           ///< tan λ = dz/ds

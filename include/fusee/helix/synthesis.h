@@ -1,5 +1,6 @@
 /// \file
-/// Mechanism → both pitch curves wound several times, each a spiral with the height linear in its length, or why not.
+/// Mechanism → both pitch curves of several turns, each a spiral whose height is linear in its length, or the
+/// conditions that fail.
 #pragma once
 
 #include <array>
@@ -13,26 +14,26 @@
 
 namespace fusee {
 
-/// One tendon at one place of the stroke, in the third dimension.
+/// The axial geometry of one tendon at one place of the stroke.
 struct HelixPoint {
   double z = 0;      ///< height of the take-off, in the spiral's frame, mm
-  double slope = 0;  ///< of the free path's sloping part, rising from the joint's side to the pulley, rad
-  double fleet = 0;  ///< between that and the groove where it leaves it, rad
-  double wound = 0;  ///< along the groove, from where it leaves at home: more is wound where it is positive, mm
-  double free = 0;   ///< length of what is not wound, from its end on the joint, mm
+  double slope = 0;  ///< slope of the free path's sloping part, rising from the joint's side to the pulley, rad
+  double fleet = 0;  ///< fleet angle: between the free path and the groove at the take-off, rad
+  double wound = 0;  ///< length wound along the groove since home, positive when more is wound, mm
+  double free = 0;   ///< length of the free part, from its end on the joint, mm
 };
 
 struct HelixSide {
   Spiral spiral;
-  /// At which the tendon ends on the joint (with collars: stands on its guide), in the spiral's frame: where the fleet
-  /// angle is smallest over the range. mm
+  /// Height of the tendon's end on the joint (with collars: of its guide), in the spiral's frame. It minimises the
+  /// largest fleet angle over the range. mm
   double attachment_z = 0;
-  double turns = 0;                ///< of the working arc
-  double circumference = 0;        ///< of the shortest turn, mm
-  double lead = 0;                 ///< over the shortest turn, mm
+  double turns = 0;                ///< turns of the working arc
+  double circumference = 0;        ///< circumference of the shortest turn, mm
+  double lead = 0;                 ///< lead of the groove over the shortest turn, mm
   double fleet = 0;                ///< largest |fleet angle|, rad
-  double fleet_at = 0;             ///< α of it, rad
-  std::vector<HelixPoint> stroke;  ///< beside SynthesisResult::stroke
+  double fleet_at = 0;             ///< α of that largest fleet angle, rad
+  std::vector<HelixPoint> stroke;  ///< one point for each of HelixSynthesis::stroke
 };
 
 struct HelixSynthesis {
@@ -41,36 +42,36 @@ struct HelixSynthesis {
   std::vector<TransmissionPoint> stroke;  ///< evenly spaced in α over the range, home included
   std::vector<Condition> conditions;
   std::vector<std::string> warnings;
-  /// By how much the tendons' lengths in space vary over the range by the formulas that the curves are drawn from. mm
+  /// Variation over the range of the tendons' lengths in space, by the formulas that the curves are drawn from. mm
   double closure = 0;
 
   bool made() const { return status == SynthesisStatus::made; }
 };
 
-/// What a turn and the next need along the axis at least, the later one's radius being larger by `step` (of either
-/// sign). mm
-using LeastLead = std::function<double(double step)>;
+/// The least axial distance of two neighbouring turns when the later one's radius is larger by `step` (of either sign).
+/// mm
+using MinLead = std::function<double(double step)>;
 
-/// What a mechanism's helical grooves are like across: the solid's to say.
+/// The cross-section of a mechanism's helical grooves, which the module `coil` defines.
 struct HelixGroove {
-  double lip = 0;          ///< over the floor, mm
-  double room_at_lip = 0;  ///< how far aside a tendon lies as it touches the nearer wall on the lip's height, mm
-  LeastLead least_lead;
+  double groove_edge = 0;  ///< height of the groove edge over the floor, mm
+  double room_at_groove_edge =
+      0;  ///< sideways play of a tendon at the height of the groove edge, up to the nearer wall, mm
+  MinLead least_lead;
 };
-using GrooveOf = std::function<HelixGroove(const Mechanism&)>;
 
-/// No more turns are made than this, without the spare ones.
+/// The largest number of turns, spare turns excluded.
 constexpr double k_most_turns = 12;
-/// Fleet angles that are noted, and warned of. rad
+/// Fleet angles above which a note or a warning is given. rad
 constexpr double k_noted_fleet = radians(1.5);
 constexpr double k_warned_fleet = radians(2.0);
 
-/// How closely curves are looked at: as they will be made, or, some ten times faster, so far that the conditions are
-/// those of what will be made to within a thousandth; whether lengths settle is then not asked.
-enum class HelixLook { whole, brief };
+/// The accuracy of the curves: as they will be built, or coarse and some ten times faster. The conditions of coarse
+/// curves agree with the full ones to a thousandth, and convergence of the lengths is not required.
+enum class HelixAccuracy { fine, coarse };
 
-/// Looks for no advice.
+/// Computes no advice.
 HelixSynthesis synthesise_helix(const Mechanism& mechanism, const HelixGroove& groove,
-                                const SynthesisOptions& options = {}, HelixLook closely = HelixLook::whole);
+                                const SynthesisOptions& options = {}, HelixAccuracy accuracy = HelixAccuracy::fine);
 
 }  // namespace fusee

@@ -1,10 +1,10 @@
 /// \file
-/// The rest of a test model: what stands round a pulley so that its joint can be held in the hand, as plain values.
+/// The test rig: the parts around a pulley that make a joint for the bench, as plain values.
 ///
-/// The kit's frame is the mechanism's, z up from the top of the base plate. From below: motor | base plate | tendon 1
-/// at `z_tendon1`, tendon 2 at `z_tendon2`, between collars on the pins | scale plate, over pins and pulley | link, on
-/// two ball bearings, its post hanging down at C to both tendons | magnet | board | bracket. So nothing that moves with
-/// the link meets a pin or the pulley, but the post, which stays within the plane's room (`conditions`). mm, rad
+/// The rig's frame is the mechanism's, with z up from the top of the base plate. From below: motor | base plate |
+/// tendon 1 at `z_tendon1`, tendon 2 at `z_tendon2`, between collars on the pins | scale plate, over pins and pulley |
+/// link, on two ball bearings, its post hanging down at C to both tendons | magnet | board | bracket. Of all that moves
+/// with the link, only the post can meet a pin or the pulley; `conditions` check it. mm, rad
 #pragma once
 
 #include <array>
@@ -21,12 +21,12 @@
 
 namespace fusee {
 
-/// A screw's thread and what goes with it.
+/// A screw's thread, with its holes, head and nut.
 struct Thread {
   std::string_view name;
   double diameter = 0;
-  double clearance = 0;  ///< diameter of the hole that it passes
-  double tapping = 0;    ///< of the hole that it cuts its thread into
+  double clearance = 0;  ///< diameter of its clearance hole
+  double tapping = 0;    ///< diameter of its tapping hole
   double head_radius = 0;
   double nut = 0;  ///< across flats
   double nut_height = 0;
@@ -37,38 +37,38 @@ struct KitPin {
   Side side = Side::left;
   Vec2 place{0, 0};
   const Thread* screw = nullptr;  ///< null: the rod itself is the pin
-  double radius = 0;              ///< on which the tendon runs
+  double radius = 0;              ///< radius on which the tendon runs
   double collar = 0;              ///< outer radius of the collars below and above it
   double gap_low = 0;             ///< heights between which the tendon runs
   double gap_high = 0;
-  double top = 0;  ///< of all that stands there
+  double top = 0;  ///< highest point of pin, head and collars
 };
 
-/// Part of the kit's heights and radii, resolved.
+/// Heights and radii of the rig, resolved.
 struct KitSizes {
   const BearingType* bearing = nullptr;
   const BoardType* board = nullptr;
-  const MotorType* motor = nullptr;  ///< null: none of the catalogue's has such a shaft or horn
+  const MotorType* motor = nullptr;  ///< null: the catalogue has none with this shaft or horn
   const Thread *axle = nullptr, *foot = nullptr, *small = nullptr;
   double base = 0;        ///< thickness of the base plate
   double pulley_low = 0;  ///< height of the pulley's lower face
   double pulley_high = 0;
-  double pulley_radius = 0;  ///< of the circle about its axis that its flanges keep within
+  double pulley_radius = 0;  ///< radius of the circle about its axis that contains its flanges
   double z_tendon1 = 0, z_tendon2 = 0;
-  double tendon_gap = 0;                   ///< between collars
-  double axle_tube = 0;                    ///< outer radius
-  double scale_low = 0, scale_plate = 0;   ///< the scale plate's lower face and thickness
-  double pointer = 0;                      ///< radius of the link's pointer
-  double graduation = 0;                   ///< of the scale, rad
-  double link_low = 0, lip = 0, link = 0;  ///< the link's lower face, its lip below the bearings, its thickness
-  double hub = 0;                          ///< radius of its hub
+  double tendon_gap = 0;                     ///< between collars
+  double axle_tube = 0;                      ///< outer radius
+  double scale_low = 0, scale_plate = 0;     ///< the scale plate's lower face and thickness
+  double pointer = 0;                        ///< radius of the link's pointer
+  double graduation = 0;                     ///< spacing of the scale's lines, rad
+  double link_low = 0, ledge = 0, link = 0;  ///< the link's lower face, its ledge below the bearings, its thickness
+  double hub = 0;                            ///< radius of its hub
   double cap = 0, cap_height = 0, web = 0,
          recess = 0;                              ///< magnet cap: radius, height, web, radius of the room for the nut
-  double cap_screws = 0;                          ///< radius on which they stand
+  double cap_screws = 0;                          ///< radius of their circle
   double post = 0, waist = 0, bore = 0;           ///< radii of the post at C: outside, where tendon 2 is tied, inside
-  double post_low = 0;                            ///< its mouth, at tendon 1
+  double post_low = 0;                            ///< its lower end, at tendon 1
   double flange = 0;                              ///< thickness of the post's flange on top of the link
-  double post_screws = 0;                         ///< ± from C, across the link
+  double post_screws = 0;                         ///< distance from C across the link, on both sides
   double slide = 0, slide_width = 0, travel = 0;  ///< tensioner: length and width of the slide, how far it moves
   double link_end = 0;                            ///< y of the link's end at home
   double bracket_low = 0, bracket = 0;
@@ -76,46 +76,47 @@ struct KitSizes {
   Vec2 motor_front{0, 1};  ///< direction of the motor's front
 };
 
-/// Where a part stands: turned over about y first where it lies so on the printer, then turned about z, then shifted.
+/// Position of a part: first turned over about y if its print orientation requires it, then turned about z, then
+/// shifted.
 struct KitPlace {
   Vec2 shift{0, 0};
   double z = 0;
   bool turned_over = false;
-  bool on_link = false;  ///< it turns with the link: at home
+  bool on_link = false;  ///< it turns with the link; given for home
 };
 
 struct KitPart {
-  std::string name;              ///< "base_plate": of its files
-  std::string words;             ///< what it is
-  SlabBody body;                 ///< as it lies on the printer, the size that is wanted
-  std::vector<KitPlace> places;  ///< one a piece; none: it is no part of the model (the coupon)
+  std::string name;              ///< base of its file names, such as "base_plate"
+  std::string words;             ///< description
+  SlabBody body;                 ///< in print orientation, nominal size
+  std::vector<KitPlace> places;  ///< one for each piece; none for a part outside the rig (the coupon)
   int count = 1;
-  bool plate = false;  ///< may be cut from sheets as well: its slabs are upright
+  bool plate = false;  ///< may also be cut from sheets, because its slabs are vertical
 };
 
-/// A thing to buy.
+/// A part to buy.
 struct KitItem {
   int count = 1;
   std::string what;
   std::string use;
 };
 
-/// A tendon of the kit: beyond the knots that a pulley's tendon has.
+/// Additional lengths of a tendon in the rig, beyond the knots of the pulley.
 struct KitTendon {
   Side side = Side::left;
   double beyond = 0;    ///< from C to its end at the joint, along the tendon
-  double at_joint = 0;  ///< what its fastening there takes, mm
+  double at_joint = 0;  ///< length used by its fastening there, mm
 };
 
-/// Of tendons that climb on a pulley of several turns: over the whole range, above the pulley's lower face, mm.
+/// Heights of tendons on a multi-turn pulley over the whole range, above the pulley's lower face, mm.
 struct TendonHeights {
   struct Span {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     void see(double height);
   };
-  std::array<double, 2> ends{};  ///< of each at the joint; with collars also where it comes onto its guide
-  std::array<Span, 2> guides;    ///< of each on its guide
-  Span drum;                     ///< of both on the joint's drum; `ends` where there is none
+  std::array<double, 2> ends{};  ///< of each tendon at the joint; with collars also where it reaches its guide
+  std::array<Span, 2> guides;    ///< of each tendon on its guide
+  Span drum;                     ///< of both on the joint's drum; `ends` without a drum
 };
 
 enum class KitStatus { made, impossible };
@@ -124,48 +125,48 @@ struct KitPlan {
   KitStatus status = KitStatus::impossible;
   KitSizes sizes;
   std::array<KitPin, 2> pins;
-  std::vector<Vec2> feet;  ///< two: of scale plate and bracket
+  std::vector<Vec2> feet;  ///< two: for scale plate and bracket
   std::array<Vec2, 4> legs;
-  std::vector<Condition> conditions;  ///< distances over the whole range, all: `value` is at least `limit`
-  std::vector<KitPart> parts;         ///< in the order of assembly, the coupon last; none where impossible
+  std::vector<Condition> conditions;  ///< all distances over the whole range: `value` is at least `limit`
+  std::vector<KitPart> parts;         ///< in the order of assembly, the coupon last; empty if impossible
   std::vector<KitItem> items;
   std::array<KitTendon, 2> tendons;
   std::vector<std::string> notes;
-  /// Of a joint with a drum, ends of its own, idlers or sheaths, or a pulley of several turns: plates to drill by, no
-  /// model that stands by itself; `sizes`, `feet` and `legs` are then empty.
+  /// True for a joint with a drum, separate attachments, idlers or sheaths, or a multi-turn pulley. The kit then
+  /// consists of plates to drill instead of a rig, and `sizes`, `feet` and `legs` are empty.
   bool drilled = false;
-  std::optional<TendonHeights> heights;  ///< of several turns
+  std::optional<TendonHeights> heights;  ///< for several turns
 
   bool made() const { return status == KitStatus::made; }
 };
 
-/// The radius of the thinnest pin that a kit has, mm: no rod is sold as one below 1 mm.
+/// The thinnest pin radius of a kit, mm: rods below 1 mm diameter are not sold.
 inline constexpr double k_least_pin = 0.5;
 
-/// Of a joint whose pulley can be made, of one turn.
+/// Requires a feasible one-turn pulley.
 KitPlan plan_kit(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyLayout& layout);
-/// Of several turns.
+/// The kit for a multi-turn pulley.
 KitPlan plan_kit_of_turns(const Mechanism& mechanism, const BodyLayout& layout, const TendonHeights& heights);
 
-/// Where the link's outline is at a joint angle, in the kit's frame.
+/// The link's outline at a joint angle, in the rig's frame.
 Polygon link_outline(const KitPlan& plan, const Mechanism& mechanism, double theta);
 /// The scale plate's outline.
 Polygon scale_outline(const KitPlan& plan, const Mechanism& mechanism);
 
-/// What the coupon is read for.
+/// One reading of the coupon.
 struct CouponReading {
-  std::string what;  ///< on the coupon
-  std::string read;  ///< what to look for
-  std::string key;   ///< which key of the file takes it, and how
+  std::string what;  ///< the feature on the coupon
+  std::string read;  ///< what to read
+  std::string key;   ///< the key of the file that the reading sets, and how
 };
 std::vector<CouponReading> coupon_readings(const Mechanism& mechanism);
-/// A flat piece with holes, slots and pegs in steps.
+/// A flat piece with holes, slots and pegs in graded sizes.
 SlabBody coupon_body(const Mechanism& mechanism);
 
-/// A part's mesh as it is printed.
+/// The mesh of a part as it is printed.
 TriangleMesh printed_mesh(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout);
 double printed_volume(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout);
-/// Meshes as they stand at a joint angle: of the size that is wanted.
+/// The nominal mesh of a part in place at a joint angle.
 TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta);
 
 }  // namespace fusee

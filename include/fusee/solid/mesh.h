@@ -1,5 +1,5 @@
 /// \file
-/// A triangle mesh as plain values, and what is measured on it. mm.
+/// A triangle mesh as plain values, and measurements of it. mm.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace fusee {
 
-/// Indexed triangles, counter-clockwise seen from outside. May be broken in any way when it comes from a file.
+/// Indexed triangles, counter-clockwise seen from outside. A mesh read from a file may have any defect.
 struct TriangleMesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -23,24 +23,23 @@ struct Bounds {
   Vec3 low, high;
 };
 Bounds bounds(const TriangleMesh& mesh);
-/// One index per distinct position (exact equality), triangles renumbered: what a soup of facets needs before its
-/// topology is looked at.
+/// One index for each distinct position (exact equality), with triangles renumbered. Topology checks require a welded
+/// mesh.
 TriangleMesh weld(const TriangleMesh& mesh);
-/// Welded, without the facets of which two corners are one: rounding makes the ends of very short edges so.
+/// Welds the mesh and removes facets with two equal corners, which rounding of very short edges produces.
 TriangleMesh without_collapsed_facets(const TriangleMesh& mesh);
-/// Every coordinate rounded to the nearest float, as every mesh format will hold it.
+/// Rounds every coordinate to the nearest float, as every mesh format stores it.
 TriangleMesh rounded_to_float(TriangleMesh mesh);
 
-/// Is it a solid? Finite, indices in range, closed, 2-manifold (edges and vertices), outward, no degenerate or
-/// duplicate face, no self-intersection: one Check each, `where` naming the first faulty facet and its place. The
-/// checks later in the list that cannot be answered because of an earlier fault are reported failed with the reason in
-/// `where`.
+/// Checks that a mesh is a solid: finite, indices in range, closed, 2-manifold (edges and vertices), outward, no
+/// degenerate or duplicate face, no self-intersection. One Check each, with `where` naming the first faulty facet and
+/// its place. Checks that an earlier fault makes impossible are reported as failed, with the reason in `where`.
 std::vector<Check> check_mesh(const TriangleMesh& mesh);
 
-/// Closed section at height z: loops of the cut, outer ones counter-clockwise, holes clockwise. Empty when the plane
-/// misses.
+/// Closed section at height z as loops: outer ones counter-clockwise, holes clockwise. Empty when the plane misses the
+/// mesh.
 std::vector<Polygon> section(const TriangleMesh& mesh, double z);
-/// The groove floor in a section: its loop of largest area. InputError when there is none.
+/// The groove floor in a section: its loop of largest area. Throws InputError when there is none.
 Polygon outer_loop(const std::vector<Polygon>& loops);
 
 }  // namespace fusee

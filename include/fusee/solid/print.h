@@ -1,5 +1,5 @@
 /// \file
-/// Does a part print as it lies, without supports? Measured on the mesh that was written, not on what was meant.
+/// Checks whether a part prints without supports in its print orientation. Measured on the mesh as written.
 #pragma once
 
 #include <vector>
@@ -10,25 +10,25 @@
 
 namespace fusee {
 
-/// What a desktop printer bears, rad and mm; the reasons stand in check_print.cpp.
+/// Limits of a desktop printer, rad and mm. check_print.cpp gives the reasons.
 struct PrintLimits {
-  /// Flattest slope above the horizontal that a face looking down may have; 90° is upright.
+  /// Least angle of a downward face above the horizontal; 90° is upright.
   double overhang = radians(45);
-  /// What may stand out freely.
+  /// Longest free overhang.
   double step = 0.3;
-  /// Span of a flat ceiling between two ends that are held.
+  /// Longest span of a flat ceiling supported at both ends.
   double bridge = 5.0;
-  /// What lies no higher than this above the bed is pressed onto the bed.
+  /// Height up to which material is pressed onto the bed.
   double first_layer = 0.3;
 };
 
-/// As a part lies, +z up and its lowest point on the bed. One Check each; `where` names the worst place and how much
-/// of the part is beyond the limit:
-/// - overhang (deg, at least): flattest slope of what looks down, small steps and bridges within their limits left out
-/// - unsupported_step (mm, at most): furthest that a point of a face too flat is from what holds it, a bridge included
-/// - bridge (mm, at most): longest span of a flat ceiling held at both ends, in the direction that suits it best
-/// - island (1, exactly 0): places where material would begin in mid-air
-/// The mesh should be a solid (check_mesh); one that cannot be measured fails all four.
+/// Checks a part in its print orientation, +z up and the lowest point on the bed. One Check each, with `where` naming
+/// the worst place and the extent beyond the limit:
+///   - overhang (deg, at least): flattest slope of downward faces, except small steps and bridges within their limits
+///   - unsupported_step (mm, at most): longest distance of a point of a too flat face from its support, a bridge included
+///   - bridge (mm, at most): longest span of a flat ceiling supported at both ends, in its most favourable direction
+///   - island (1, exactly 0): places where material would begin in mid-air
+/// The mesh should be a solid (check_mesh). One that cannot be measured fails all four checks.
 std::vector<Check> check_print(const TriangleMesh& mesh, const PrintLimits& limits = {});
 
 }  // namespace fusee

@@ -1,4 +1,4 @@
-// Each check of a drawing, seen holding on a good one and failing on one broken on purpose.
+// Each check of a drawing passes on a good one and fails on a damaged one.
 #include <gmock/gmock.h>
 
 #include "drawing_tools.h"
@@ -29,11 +29,11 @@ Drawing plate() {
   return drawing;
 }
 
-TEST(CheckDrawing, AGoodDrawingPasses) { EXPECT_THAT(failed(check_drawing(plate())), IsEmpty()); }
+TEST(CheckDrawing, AcceptsGoodDrawing) { EXPECT_THAT(failed(check_drawing(plate())), IsEmpty()); }
 
 TEST(CheckDrawing, AnEmptyDrawingFails) { EXPECT_THAT(failed(check_drawing({})), ElementsAre("contours")); }
 
-TEST(CheckDrawing, AnOpenContourFails) {
+TEST(CheckDrawing, RejectsOpenContour) {
   Drawing drawing = plate();
   drawing.paths[2].closed = false;
   const auto checks = check_drawing(drawing);
@@ -41,33 +41,33 @@ TEST(CheckDrawing, AnOpenContourFails) {
   EXPECT_THAT(check_named(checks, "contours_closed").where, HasSubstr("layer CUT_OUTER, LWPOLYLINE at line 7"));
 }
 
-TEST(CheckDrawing, EndsThatAlmostMeetFail) {
+TEST(CheckDrawing, RejectsEndsThatAlmostMeet) {
   Drawing drawing = plate();
   drawing.paths[2] = contour("CUT_OUTER", {{0, 0}, {30, 0}, {30, 30}, {0, 30}, {0, 0.01}}, false);
   EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("ends_meet"));
   EXPECT_NEAR(check_named(check_drawing(drawing), "ends_meet").value, 0.01, 1e-12);
 }
 
-// A short line has its ends as near, and was never meant to be closed.
-TEST(CheckDrawing, AShortLineIsOpen) {
+// The ends of a short line are close, but it was never meant to be closed.
+TEST(CheckDrawing, ShortLineIsOpen) {
   Drawing drawing = plate();
   drawing.paths.push_back(contour("CUT_OUTER", {{40, 40}, {40.5, 40}}, false));
   EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("contours_closed"));
 }
 
-TEST(CheckDrawing, ADrawingOfOneOpenContourFailsOnce) {
+TEST(CheckDrawing, ReportsSingleOpenContourOnce) {
   Drawing drawing;
   drawing.paths = {contour("0", {{0, 0}, {30, 0}, {30, 30}, {0, 30}, {0, 0.05}}, false)};
   EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("ends_meet"));
 }
 
-TEST(CheckDrawing, ALineOnAnEdgeIsDrawnTwiceAndNoMore) {
+TEST(CheckDrawing, ReportsLineOnEdgeAsDuplicateOnly) {
   Drawing drawing = plate();
   drawing.paths.push_back(contour("CUT_OUTER", {{0, 0}, {30, 0}}, false));
   EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("no_duplicate_lines"));
 }
 
-TEST(CheckDrawing, AnEntityThatIsLeftOutFailsAndTheRestIsChecked) {
+TEST(CheckDrawing, ReportsOmittedEntityAndChecksOthers) {
   Drawing drawing = plate();
   drawing.undrawn = 2;
   drawing.first_undrawn = {36, "the radius of this ARC is -1"};
@@ -78,7 +78,7 @@ TEST(CheckDrawing, AnEntityThatIsLeftOutFailsAndTheRestIsChecked) {
   EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("undrawn_entities"));
 }
 
-TEST(CheckDrawing, ACircleIsAsWideAsItsDiameter) {
+TEST(CheckDrawing, CircleWidthIsItsDiameter) {
   Drawing drawing = plate();
   drawing.paths[1] = contour("CUT_INNER", circle_polygon({10, 10}, 0.5));
   EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("smallest_feature"));
@@ -93,7 +93,7 @@ TEST(CheckDrawing, EngravingMayEndAndCross) {
   EXPECT_THAT(failed(check_drawing(drawing)), IsEmpty());
 }
 
-TEST(CheckDrawing, AContourDrawnTwiceFails) {
+TEST(CheckDrawing, RejectsDuplicateContour) {
   Drawing drawing = plate();
   DrawingPath again = drawing.paths[2];
   std::reverse(again.points.begin(), again.points.end());
@@ -103,7 +103,7 @@ TEST(CheckDrawing, AContourDrawnTwiceFails) {
   EXPECT_EQ(check_named(checks, "no_duplicate_lines").value, 4);
 }
 
-TEST(CheckDrawing, AFigureOfEightFails) {
+TEST(CheckDrawing, RejectsFigureOfEight) {
   Drawing drawing = plate();
   drawing.paths[2].points = {{0, 0}, {30, 30}, {30, 0}, {0, 30}};
   const Check check = check_named(check_drawing(drawing), "no_self_crossing");
@@ -111,16 +111,16 @@ TEST(CheckDrawing, AFigureOfEightFails) {
   EXPECT_THAT(check.where, HasSubstr("(15, 15)"));
 }
 
-// It turns to one side at every corner, as a convex one does, but twice round.
-TEST(CheckDrawing, APentagramFails) {
+// It turns to one side at every corner, as a convex outline does, but twice round.
+TEST(CheckDrawing, RejectsPentagram) {
   Drawing drawing = plate();
   drawing.paths[2].points.clear();
   for (int i = 0; i < 5; ++i) drawing.paths[2].points.push_back(Vec2(15, 15) + 15 * unit(0.8 * k_pi * i));
   EXPECT_FALSE(check_named(check_drawing(drawing), "no_self_crossing").ok);
 }
 
-// Its box holds that of a contour which it does not meet, or does.
-TEST(CheckDrawing, ContoursInABoxOfAnotherAreLookedAt) {
+// Its box contains a contour that it meets in one case and not in the other.
+TEST(CheckDrawing, ComparesContoursWithOverlappingBoxes) {
   Drawing drawing = plate();
   drawing.paths[2].points = {{0, 0}, {30, 0}, {30, 5}, {5, 5}, {5, 30}, {0, 30}};
   drawing.paths[1].points = circle_polygon({2.5, 2.5}, 1.5);
@@ -130,19 +130,19 @@ TEST(CheckDrawing, ContoursInABoxOfAnotherAreLookedAt) {
   EXPECT_FALSE(check_named(check_drawing(drawing), "no_crossing_contours").ok);
 }
 
-TEST(CheckDrawing, AContourThatTouchesItselfFails) {
+TEST(CheckDrawing, RejectsSelfTouchingContour) {
   Drawing drawing = plate();
   drawing.paths[2].points = {{0, 0}, {30, 0}, {30, 30}, {15, 0}, {0, 30}};
   EXPECT_FALSE(check_named(check_drawing(drawing), "no_self_crossing").ok);
 }
 
-TEST(CheckDrawing, AContourThatRunsBackOverItselfFails) {
+TEST(CheckDrawing, RejectsContourFoldedBack) {
   Drawing drawing = plate();
   drawing.paths[2].points = {{0, 0}, {30, 0}, {40, 0}, {30, 0}, {30, 30}, {0, 30}};
   EXPECT_FALSE(check_named(check_drawing(drawing), "no_self_crossing").ok);
 }
 
-TEST(CheckDrawing, CrossingContoursFail) {
+TEST(CheckDrawing, RejectsCrossingContours) {
   Drawing drawing = plate();
   drawing.paths.push_back(contour("CUT_OUTER", square(20, 20, 40), true, 99));
   const auto checks = check_drawing(drawing);
@@ -150,9 +150,9 @@ TEST(CheckDrawing, CrossingContoursFail) {
   EXPECT_THAT(check_named(checks, "no_crossing_contours").where, HasSubstr("line 99"));
 }
 
-TEST(CheckDrawing, ANarrowSlotFails) {
+TEST(CheckDrawing, RejectsNarrowSlot) {
   Drawing drawing = plate();
-  // 0.7 mm wide and askew: its box is large.
+  // 0.7 mm wide and oblique, so that its box is large.
   const Vec2 along = unit(0.5), across = turned_left(along);
   drawing.paths[1].points = {Vec2(10, 10), Vec2(10, 10) + 8 * along, Vec2(10, 10) + 8 * along + 0.7 * across,
                              Vec2(10, 10) + 0.7 * across};
@@ -161,8 +161,8 @@ TEST(CheckDrawing, ANarrowSlotFails) {
   EXPECT_NEAR(check.value, 0.7, 1e-12);
 }
 
-// Any design with a bore below 1 mm ended in a failed check (campaign of seed 330001, design 9).
-TEST(CheckDrawing, ABoreIsAsNarrowAsItsShaft) {
+// Every design with a bore below 1 mm failed this check (campaign of seed 330001, design 9).
+TEST(CheckDrawing, AcceptsNarrowBore) {
   Drawing drawing;
   drawing.paths = {contour("P1_FLOOR", circle_polygon({0, 0}, 10), true, 1),
                    contour("BORE", circle_polygon({0, 0}, 0.4), true, 2)};
@@ -171,7 +171,7 @@ TEST(CheckDrawing, ABoreIsAsNarrowAsItsShaft) {
   EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("smallest_feature"));
 }
 
-TEST(CheckDrawing, AHoleOutsideItsPlateFails) {
+TEST(CheckDrawing, RejectsHoleOutsidePlate) {
   Drawing drawing = plate();
   drawing.paths[1].points = circle_polygon({35, 10}, 3);
   const auto checks = check_drawing(drawing);
@@ -179,20 +179,20 @@ TEST(CheckDrawing, AHoleOutsideItsPlateFails) {
   EXPECT_THAT(check_named(checks, "nothing_outside").where, HasSubstr("not inside CUT_OUTER: layer CUT_INNER"));
 }
 
-TEST(CheckDrawing, APlateBeyondItsSheetFails) {
+TEST(CheckDrawing, RejectsPlateBeyondSheet) {
   Drawing drawing = plate();
   drawing.paths[3].points = square(0, 0, 29);
   EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("nothing_outside"));
 }
 
-TEST(CheckDrawing, ForeignDrawingsAreContoursOnEveryLayer) {
+TEST(CheckDrawing, ForeignDrawingsHaveContoursOnEveryLayer) {
   Drawing drawing;
   drawing.paths = {contour("Layer 1", square(0, 0, 30)), contour("whatever", {{1, 1}, {5, 5}}, false)};
   EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("contours_closed"));
 }
 
-// The sweep against every pair, on polygons that cross often, sometimes or never.
-TEST(CheckDrawing, TheSweepFindsWhatEveryPairFinds) {
+// The sweep compared with a test of every pair, on polygons that cross often, sometimes or never.
+TEST(CheckDrawing, SweepAgreesWithAllPairs) {
   std::uint32_t state = 1;
   const auto random = [&state](int most) {
     return static_cast<int>((state = state * 1664525u + 1013904223u) >> 8) % most;
@@ -202,7 +202,7 @@ TEST(CheckDrawing, TheSweepFindsWhatEveryPairFinds) {
     Polygon points;
     const int corners = 3 + random(5);
     for (int k = 0; k < corners; ++k) {
-      // On a small grid: vertical edges, shared points and overlaps are common.
+      // On a small grid vertical edges, shared points and overlaps are common.
       const Vec2 p(random(6), random(6));
       if (points.empty() || p != points.back()) points.push_back(p);
     }
@@ -236,7 +236,7 @@ TEST(CheckDrawing, TheSweepFindsWhatEveryPairFinds) {
   EXPECT_LT(crossing, 1900);
 }
 
-TEST(CheckDrawing, AHundredThousandLinesAreNoTrouble) {
+TEST(CheckDrawing, HandlesHundredThousandLines) {
   Drawing drawing;
   Polygon comb;  // long diagonal teeth: every box overlaps every other
   for (int k = 0; k < 50000; ++k) {

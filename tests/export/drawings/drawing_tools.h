@@ -1,5 +1,5 @@
 /// \file
-/// Making and breaking drawings in tests.
+/// Helpers that build and damage drawings in tests.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ inline const Check& check_named(const std::vector<Check>& checks, const std::str
   return *found;
 }
 
-/// What a drawing is made from: pitch curves of known shape, on a shaft of 6 mm, cut from plates of 3 mm.
+/// Input of drawings: pitch curves of known shape, on a shaft of 6 mm, cut from plates of 3 mm.
 inline Product product_of(const SupportShape& p1, const SupportShape& p2) {
   Product product;
   Mechanism& mechanism = product.joint.mechanism;
@@ -59,7 +59,7 @@ inline Product product_of(const SupportShape& p1, const SupportShape& p2) {
 
 inline Product egg() { return product_of(circle(16), {18, {{1, 0.5, 1}, {2, 1, 0.3}}}); }
 
-/// The names of those that failed.
+/// The names of the failed checks.
 inline std::vector<std::string> failed(const std::vector<Check>& checks) {
   std::vector<std::string> names;
   for (const Check& check : checks) {

@@ -1,4 +1,4 @@
-// plates.dxf: kerf, dowels, order, nesting; all measured on the drawing or on the plates it was drawn from.
+// plates.dxf: kerf, dowels, order and nesting, measured on the drawing or on its plates.
 #include "export/drawings/plates.h"
 
 #include <gmock/gmock.h>
@@ -54,7 +54,7 @@ const PlateLayer& layer_named(Plates&&, const std::string&) = delete;  // it wou
 
 TEST(Plates, KerfIsExact) {
   const Plates plates = make_plates(product_of(testing::circle(16), testing::circle(20)));
-  // Edges, not corners, are what a kerf is measured from: the floor's facets lie at 15.5·cos(π/240).
+  // The kerf is measured from edges, not corners: the floor's facets are at 15.5·cos(π/240).
   const double facet = 15.5 * std::cos(k_pi / 240);
   EXPECT_NEAR(distance_to_edges(layer_named(plates, "P1 CORE").cut_outer[0], {0, 0}), facet + 0.1, 1e-9);
   const PlateLayer& core = layer_named(plates, "P1 CORE");
@@ -89,7 +89,7 @@ TEST(Plates, CountsFollowTheThickness) {
   EXPECT_THAT(plates.notes, Contains(HasSubstr("P1 CORE: plates 4 to 6 - z 1.5 to 3 mm")));
 }
 
-TEST(Plates, DowelsKeepClearAndFitInOneWay) {
+TEST(Plates, DowelsClearFeaturesAndFitOneWay) {
   const Product product = egg_with_anchor();
   const Plates plates = make_plates(product);
   ASSERT_EQ(plates.dowels.size(), 2u);
@@ -105,17 +105,17 @@ TEST(Plates, DowelsKeepClearAndFitInOneWay) {
   EXPECT_GT(std::abs(cross(plates.dowels[0].normalized(), plates.dowels[1].normalized())), 0.3) << "flipped";
 }
 
-TEST(Plates, NoRoomForDowelsIsSaid) {
+TEST(Plates, ReportsMissingSpaceForDowels) {
   Product product = product_of(testing::circle(6), testing::circle(6));
   product.joint.mechanism.cut.dowel = 6;
   product.joint.mechanism.body.bore_diameter = 8;
   const Plates plates = make_plates(product);
   EXPECT_THAT(plates.dowels, IsEmpty());
-  EXPECT_THAT(plates.notes, Contains(HasSubstr("no room for two of 6 mm")));
+  EXPECT_THAT(plates.notes, Contains(HasSubstr("no space for two of 6 mm")));
 }
 
-// A recess cannot be cut to a depth: it goes through, and what stood above it is gone.
-TEST(Plates, AHornsRecessTakesItsCentreHoleWithIt) {
+// A recess cannot be cut to a depth. It goes through, and features above it disappear.
+TEST(Plates, HornRecessRemovesCentreHole) {
   Product product = product_of(testing::circle(22), testing::circle(22));
   Mechanism& mechanism = product.joint.mechanism;
   mechanism.body.bore = Bore::horn;
@@ -133,7 +133,7 @@ TEST(Plates, AHornsRecessTakesItsCentreHoleWithIt) {
   }
 }
 
-TEST(Plates, TeethAreCutWhereTheKerfIsNotWiderThanThey) {
+TEST(Plates, CutsTeethWiderThanKerf) {
   Product product = product_of(testing::circle(22), testing::circle(22));
   Mechanism& mechanism = product.joint.mechanism;
   mechanism.body.bore = Bore::horn;
@@ -143,10 +143,10 @@ TEST(Plates, TeethAreCutWhereTheKerfIsNotWiderThanThey) {
   ASSERT_EQ(coarse.size(), 4u * 12);
   EXPECT_NEAR(circumradius(coarse), 9 - 0.1, 0.05);
   mechanism.horn = {.spline_teeth = 25, .spline_diameter = 5.92, .spline_depth = 0.3};
-  EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("the bore is left out: a kerf of 0.2 mm is wider")));
+  EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("the bore is omitted: a kerf of 0.2 mm is wider")));
 }
 
-TEST(Plates, AChannelIsCutIntoItsCoreAlone) {
+TEST(Plates, ChannelIsCutIntoItsCoreOnly) {
   const Product product = egg_with_anchor();
   const Plates with = make_plates(product), without = make_plates(egg());
   const auto area = [](const Plates& plates, const std::string& name) {
@@ -164,7 +164,7 @@ TEST(Plates, AChannelIsCutIntoItsCoreAlone) {
   EXPECT_GE(x_near(-7.4), 1);
 }
 
-TEST(Plates, APocketIsNoLargerThanThePrintedOne) {
+TEST(Plates, PocketIsNoLargerThanPrinted) {
   Product product = egg_with_anchor();
   const auto pocket_of = [&product] {
     double diameter = 0;
@@ -180,7 +180,7 @@ TEST(Plates, APocketIsNoLargerThanThePrintedOne) {
   EXPECT_LT(pocket_of(), 0.6 * as_planned);
 }
 
-TEST(Plates, AChannelThroughThePlateIsLeftOutAndSaid) {
+TEST(Plates, OmitsChannelThroughPlateWithNote) {
   Product product = egg_with_anchor();
   product.pulley.anchors[0].channel = {{-8.7, -30}, {-7.3, -30}, {-7.3, 30}, {-8.7, 30}};
   const Plates plates = make_plates(product);
@@ -224,7 +224,7 @@ TEST_P(PlatesDrawing, RoundHolesAreCirclesHalfAKerfInside) {
   EXPECT_THAT(holes, ::testing::Each(::testing::Field(&DrawingPath::entity, "CIRCLE")));
 }
 
-TEST(CutHole, AnArcStaysAnArcAboutItsCentre) {
+TEST(CutHole, KeepsArcAboutItsCentre) {
   // A D of 10 mm with its flat 4 mm from the axis, cut with a kerf of 1 mm: 9 mm and 3.5 mm.
   Mechanism mechanism = testing::plain_mechanism();
   mechanism.material.hole_compensation = 0;
@@ -241,7 +241,7 @@ TEST(CutHole, AnArcStaysAnArcAboutItsCentre) {
   EXPECT_EQ(vertices[1].bulge, 0);
 }
 
-TEST(CutHole, AKeywayKeepsItsFlats) {
+TEST(CutHole, KeepsFlatsOfKeyway) {
   // DIN 6885: a shaft of 8 mm has a key of 2 mm, 1 mm deep in the hub.
   Mechanism mechanism = testing::plain_mechanism();
   mechanism.material.hole_compensation = 0;
@@ -267,7 +267,7 @@ TEST(PlatesDxf, HolesComeBeforeOutlines) {
   EXPECT_LT(last_inner, first_outer);
 }
 
-TEST(PlatesDxf, NoPlateLiesOnAnother) {
+TEST(PlatesDxf, PlatesDoNotOverlap) {
   Product product = egg();
   product.joint.mechanism.cut.sheet_width = 100;
   product.joint.mechanism.cut.sheet_height = 60;
@@ -283,7 +283,7 @@ TEST(PlatesDxf, NoPlateLiesOnAnother) {
   }
 }
 
-TEST(PlatesDxf, APlateLargerThanItsSheetIsSaidAndDrawnOnTheSheetItTakes) {
+TEST(PlatesDxf, EnlargesSheetForLargePlateWithNote) {
   Product product = egg();
   product.joint.mechanism.cut.sheet_width = 30;
   const Plates plates = make_plates(product);
@@ -294,21 +294,21 @@ TEST(PlatesDxf, APlateLargerThanItsSheetIsSaidAndDrawnOnTheSheetItTakes) {
   EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
 }
 
-TEST(PlatesDxf, AKerfWiderThanTheHolesIsSaid) {
+TEST(PlatesDxf, ReportsKerfWiderThanHoles) {
   Product product = egg_with_anchor();
   product.joint.mechanism.cut.kerf = 7;
-  EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("the bore is left out: a kerf of 7 mm is wider")));
+  EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("the bore is omitted: a kerf of 7 mm is wider")));
 }
 
 // A random design with a bore of 1.5 mm and a kerf of 0.55 mm failed its own check.
-TEST(PlatesDxf, AHoleThatWouldBeCutTooNarrowlyIsLeftToADrill) {
+TEST(PlatesDxf, OmitsTooNarrowHole) {
   Product product = egg_with_anchor();
   product.joint.mechanism.cut.kerf = 5.6;  // the bore is 6.2 mm wide
   EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("narrower than 1 mm: drill it")));
   EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
 }
 
-TEST(PlatesDxf, EveryPlateCarriesItsNumber) {
+TEST(PlatesDxf, EveryPlateHasItsNumber) {
   const Plates plates = make_plates(egg());
   for (const PlacedPlate& plate : plates.placed) {
     EXPECT_GT(plates.layers[plate.layer].label_height, 0);
@@ -317,7 +317,7 @@ TEST(PlatesDxf, EveryPlateCarriesItsNumber) {
   }
 }
 
-TEST(PlatesDxf, SmallPlatesCarryWhatFits) {
+TEST(PlatesDxf, SmallPlatesHaveShortLabels) {
   Product product = product_of(testing::circle(6), testing::circle(6));
   product.joint.mechanism.body.bore_diameter = 2;
   product.joint.mechanism.body.hub_height = 0;
@@ -327,11 +327,11 @@ TEST(PlatesDxf, SmallPlatesCarryWhatFits) {
     ASSERT_GT(layer.label_height, 0) << layer.name;
     EXPECT_THAT(plate_label(plates, plate), HasSubstr(std::to_string(plate.number)));
   }
-  // A dowel's path is what the cutter must be able to cut.
+  // The cutter must be able to cut a dowel's path.
   EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
 }
 
-TEST(Nesting, PacksWithoutOverlapAndInOneWay) {
+TEST(Nesting, PacksWithoutOverlapDeterministically) {
   std::vector<Vec2> sizes;
   for (int i = 0; i < 60; ++i) sizes.emplace_back(5 + (i * 7) % 23, 5 + (i * 11) % 19);
   const Vec2 sheet(100, 60);

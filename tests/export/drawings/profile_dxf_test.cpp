@@ -1,4 +1,4 @@
-// profile.dxf read back: the curves are where they belong, and a cutter has nothing to complain of.
+// profile.dxf read back: the curves are in place and the drawing passes its checks.
 #include <gmock/gmock.h>
 
 #include "drawing_tools.h"
@@ -53,7 +53,7 @@ TEST_P(BothVersions, ARoundPulleyIsACircle) {
   }
 }
 
-TEST(ProfileDxf, AnotherPulleyIsAFewArcsWithCommonTangents) {
+TEST(ProfileDxf, FitsFewTangentArcs) {
   const Product product = egg();
   for (const double distance : {0.0, -0.5}) {
     const std::vector<BulgeVertex> arcs = fitted_arcs(product.synthesis.p2, distance, 0.0005);
@@ -71,7 +71,7 @@ TEST(ProfileDxf, AnotherPulleyIsAFewArcsWithCommonTangents) {
 }
 
 // Normals that belong to no smooth curve leave the outline's own edges.
-TEST(ProfileDxf, EdgesThatNoArcFitsStayStraight) {
+TEST(ProfileDxf, KeepsEdgesWithoutArcs) {
   Outline outline = egg().synthesis.p2;
   for (OutlinePoint& point : outline.points) point.normal = -point.normal;
   const std::vector<BulgeVertex> edges = fitted_arcs(outline, 0, 0.0005);
@@ -86,7 +86,7 @@ TEST_P(BothVersions, NothingToComplainOf) {
 
 TEST_P(BothVersions, SameInputSameBytes) { EXPECT_EQ(profile_dxf(egg(), GetParam()), profile_dxf(egg(), GetParam())); }
 
-TEST(ProfileDxf, TheBoreIsTheShaftAndNoPrintersHole) {
+TEST(ProfileDxf, BoreHasShaftDiameter) {
   Product product = egg();
   product.joint.mechanism.material.hole_compensation = 0.3;
   product.joint.mechanism.material.shrinkage = 0.01;
@@ -110,7 +110,7 @@ TEST_P(BothVersions, ADBoreIsAnArcAndAFlat) {
   const auto bore = on_layer(drawn(product), "BORE");
   ASSERT_EQ(bore.size(), 1u);
   for (const Vec2& p : bore[0].points) EXPECT_NEAR(p.norm(), 3, 1e-6);
-  // A circle of 3 mm without the segment that lies beyond 2 mm; the reader's chords stay within 0.001 mm of it.
+  // A circle of 3 mm without the segment beyond 2 mm. The reader's chords stay within 0.001 mm of it.
   const double segment = 9 * std::acos(2.0 / 3.0) - 2 * std::sqrt(5.0);
   EXPECT_NEAR(signed_area(bore[0].points), 9 * k_pi - segment, 0.001 * k_two_pi * 3);
   EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
@@ -133,14 +133,14 @@ TEST_P(BothVersions, AHexBoreHasItsSixCorners) {
   EXPECT_EQ(bore[0].points.size(), 6u);
 }
 
-TEST(ProfileDxf, TheCheckSquareIsTenMillimetresWide) {
+TEST(ProfileDxf, CheckSquareIsTenMillimetres) {
   const auto squares = on_layer(read_dxf(profile_dxf(egg(), DxfVersion::ac1015), "profile.dxf"), "CHECK_10MM");
   ASSERT_EQ(squares.size(), 1u);
   EXPECT_NEAR(signed_area(squares[0].points), 100, 1e-6);
   EXPECT_NEAR(perimeter(squares[0].points), 40, 1e-6);
 }
 
-TEST(ProfileDxf, TheTakeOffIsWhereTheTendonLeaves) {
+TEST(ProfileDxf, MarksTakeOff) {
   Product product = product_of(testing::circle(16), testing::circle(20));
   product.synthesis.stroke[1].t1.lower_normal = radians(171.3);
   product.synthesis.stroke[1].t2.lower_normal = radians(7.9);
@@ -155,14 +155,14 @@ TEST(ProfileDxf, TheTakeOffIsWhereTheTendonLeaves) {
   EXPECT_TRUE(begins_at(20 * unit(radians(7.9))));
 }
 
-TEST(ProfileDxf, SaysUnitsAndExtentsInTheHeader) {
+TEST(ProfileDxf, HeaderHasUnitsAndExtents) {
   const std::string text = profile_dxf(egg(), DxfVersion::ac1015);
   EXPECT_THAT(text, HasSubstr("$INSUNITS\n 70\n     4\n"));
   EXPECT_THAT(text, HasSubstr("$EXTMIN"));
   EXPECT_THAT(text, HasSubstr("not scaled for a print's shrinkage"));
 }
 
-TEST(OffsetEdges, IsExactForWhatHasEdges) {
+TEST(OffsetEdges, IsExactForPolygons) {
   const Polygon square = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
   EXPECT_NEAR(signed_area(offset_edges(square, 0.25)), 4.5 * 4.5, 1e-12);
   EXPECT_NEAR(signed_area(offset_edges(square, -0.25)), 3.5 * 3.5, 1e-12);

@@ -1,4 +1,4 @@
-// What a drawing from anywhere becomes: points in mm, chains joined, and a line number in every refusal.
+// Reads drawings of any origin: points in mm, joined chains, and a line number in every error.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ std::string message_of(const std::string& bytes) {
   return "no error";
 }
 
-TEST(ReadDxf, LinesThatMeetBecomeALoop) {
+TEST(ReadDxf, JoinsLinesToLoop) {
   // In any order and direction.
   const DrawingPath path = only_path(line(0, 0, 10, 0) + line(10, 10, 10, 0) + line(0, 10, 0, 0) + line(0, 10, 10, 10));
   EXPECT_TRUE(path.closed);
@@ -58,16 +58,16 @@ TEST(ReadDxf, LinesThatMeetBecomeALoop) {
   EXPECT_DOUBLE_EQ(std::abs(signed_area(path.points)), 100.0);
 }
 
-TEST(ReadDxf, EndsMeetWithinATenThousandthAndNotBeyond) {
+TEST(ReadDxf, JoinsEndsWithinTolerance) {
   EXPECT_TRUE(only_path(line(0, 0, 10, 0) + line(10, 0.00005, 5, 5) + line(5, 5, 0, 0)).closed);
   EXPECT_FALSE(only_path(line(0, 0, 10, 0) + line(10, 0.0003, 5, 5) + line(5, 5, 0, 0)).closed);
 }
 
-TEST(ReadDxf, LinesOfDifferentLayersStayApart) {
+TEST(ReadDxf, SeparatesLayers) {
   EXPECT_EQ(read(dxf_of(line(0, 0, 1, 0, "a") + line(1, 0, 2, 0, "b"))).paths.size(), 2u);
 }
 
-TEST(ReadDxf, WhereThreeEndsMeetNothingIsJoined) {
+TEST(ReadDxf, DoesNotJoinThreeEnds) {
   EXPECT_EQ(read(dxf_of(line(0, 0, 1, 0) + line(0, 0, 0, 1) + line(0, 0, -1, 0))).paths.size(), 3u);
 }
 
@@ -85,7 +85,7 @@ TEST(ReadDxf, CirclesAndArcsStayWithinAMicron) {
   EXPECT_GT(cross(arc.points[0], arc.points[1]), 0) << "arcs run counter-clockwise";
 }
 
-TEST(ReadDxf, AnArcDrawnFromBelowIsMirrored) {
+TEST(ReadDxf, MirrorsArcDrawnFromBelow) {
   const DrawingPath arc = only_path(tags({{0, "ARC"},
                                           {8, "cut"},
                                           {10, "1"},
@@ -100,7 +100,7 @@ TEST(ReadDxf, AnArcDrawnFromBelowIsMirrored) {
   EXPECT_NEAR((arc.points.back() - Vec2(-1, 1)).norm(), 0, 1e-12);
 }
 
-TEST(ReadDxf, TwoHalfCirclesByBulgeAreACircle) {
+TEST(ReadDxf, RecognisesCircleOfTwoBulges) {
   const DrawingPath path = only_path(tags({{0, "LWPOLYLINE"},
                                            {8, "cut"},
                                            {90, "2"},
@@ -116,7 +116,7 @@ TEST(ReadDxf, TwoHalfCirclesByBulgeAreACircle) {
   EXPECT_NEAR(signed_area(path.points), k_pi * 25, 0.02) << "a positive bulge turns left";
 }
 
-TEST(ReadDxf, AnOldPolylineHasItsBulgesToo) {
+TEST(ReadDxf, ReadsBulgesOfOldPolyline) {
   const std::string vertex = tags({{0, "VERTEX"}, {8, "cut"}});
   const DrawingPath path = only_path(tags({{0, "POLYLINE"}, {8, "cut"}, {66, "1"}, {70, "1"}}) + vertex +
                                      tags({{10, "-5"}, {20, "0"}, {42, "-1"}}) + vertex +
@@ -125,7 +125,7 @@ TEST(ReadDxf, AnOldPolylineHasItsBulgesToo) {
   EXPECT_NEAR(signed_area(path.points), -k_pi * 25, 0.02);
 }
 
-TEST(ReadDxf, AnEllipseHasItsArea) {
+TEST(ReadDxf, EllipseHasItsArea) {
   const DrawingPath path = only_path(tags({{0, "ELLIPSE"},
                                            {8, "cut"},
                                            {10, "0"},
@@ -139,7 +139,7 @@ TEST(ReadDxf, AnEllipseHasItsArea) {
   EXPECT_NEAR(signed_area(path.points), k_pi * 50, 0.05);
 }
 
-TEST(ReadDxf, ARationalSplineDrawsAQuarterCircle) {
+TEST(ReadDxf, RationalSplineDrawsQuarterCircle) {
   const std::string root = "0.70710678118654752";
   const DrawingPath path = only_path(tags({{0, "SPLINE"},
                                            {8, "cut"},
@@ -191,7 +191,7 @@ TEST(ReadDxf, UnitsBecomeMillimetres) {
   EXPECT_FALSE(read(dxf_of(line(0, 0, 1, 0), 0)).millimetres);
 }
 
-TEST(ReadDxf, WhatIsNoLineIsNamed) {
+TEST(ReadDxf, ListsIgnoredEntities) {
   const Drawing drawing = read(dxf_of(
       tags({{0, "TEXT"}, {8, "x"}, {1, "hello"}, {0, "HATCH"}, {8, "x"}, {0, "TEXT"}, {8, "x"}}) + line(0, 0, 1, 0)));
   EXPECT_THAT(drawing.ignored, ElementsAre("HATCH", "TEXT"));
@@ -218,12 +218,12 @@ TEST(ReadDxf, WrittenPointsComeBack) {
 
 // ---- Refusals -------------------------------------------------------------------------------------------------------
 
-TEST(ReadDxf, RefusesWithTheLine) {
+TEST(ReadDxf, ErrorsNameTheLine) {
   EXPECT_THAT(message_of(dxf_of("LINE\n0\n")), HasSubstr("test.dxf:25: error: a group code"));
 }
 
 // The rest of the drawing is read, and the entity is counted with its line and the reason.
-TEST(ReadDxf, AnEntityThatDrawsNoCurveIsLeftOut) {
+TEST(ReadDxf, OmitsInvalidEntity) {
   const auto why = [](const std::string& entity) {
     const Drawing drawing = read(dxf_of(entity + line(0, 0, 1, 0)));
     EXPECT_EQ(drawing.paths.size(), 1u) << entity;
@@ -240,7 +240,7 @@ TEST(ReadDxf, AnEntityThatDrawsNoCurveIsLeftOut) {
   EXPECT_THAT(why(tags({{0, "ELLIPSE"}, {8, "cut"}, {11, "1e12"}, {21, "0"}, {40, "1"}})), HasSubstr("axes"));
 }
 
-TEST(ReadDxf, AnEntityOfNoSizeIsRemarkedOn) {
+TEST(ReadDxf, RemarksOnEntityOfNoSize) {
   const Drawing drawing = read(dxf_of(tags({{0, "ARC"}, {8, "cut"}, {40, "0"}}) + line(3, 3, 3, 3) + line(4, 4, 4, 4) +
                                       tags({{0, "ELLIPSE"}, {8, "cut"}, {11, "0"}, {21, "0"}}) + line(0, 0, 1, 0)));
   EXPECT_EQ(drawing.paths.size(), 1u);
@@ -252,7 +252,7 @@ TEST(ReadDxf, AnEntityOfNoSizeIsRemarkedOn) {
   EXPECT_EQ(drawing.remarks[1].count, 2u);
 }
 
-TEST(ReadDxf, AnEllipseMayBeTallerThanLong) {
+TEST(ReadDxf, AcceptsEllipseRatioAboveOne) {
   const auto ellipse = [](const std::string& ratio) {
     return read(dxf_of(tags({{0, "ELLIPSE"},
                              {8, "cut"},
@@ -273,8 +273,8 @@ TEST(ReadDxf, AnEllipseMayBeTallerThanLong) {
   EXPECT_TRUE(ellipse("1.0000001").remarks.empty());
 }
 
-// CIRCLE, ARC, bulge and ELLIPSE reach as far as they do, not as their chords.
-TEST(ReadDxf, CurvesHaveTheirOwnSize) {
+// CIRCLE, ARC, bulge and ELLIPSE have the size of the curve, not of its chords.
+TEST(ReadDxf, CurvesHaveExactExtents) {
   const auto size = [](const std::string& entity) { return bounding_box(only_path(entity).points).size(); };
   EXPECT_EQ(size(tags({{0, "CIRCLE"}, {8, "cut"}, {40, "50"}})), Vec2(100, 100));
   EXPECT_EQ(size(tags({{0, "CIRCLE"}, {8, "cut"}, {40, "3"}})), Vec2(6, 6));
@@ -282,7 +282,7 @@ TEST(ReadDxf, CurvesHaveTheirOwnSize) {
       (size(tags({{0, "ARC"}, {8, "cut"}, {40, "10"}, {50, "30"}, {51, "150"}})) - Vec2(20 * std::cos(radians(30)), 5))
           .norm(),
       1e-12);
-  // A slot of 60 by 10, and a half circle that bulges to the left of its way.
+  // A slot of 60 by 10, and a half circle that bulges to its left.
   EXPECT_EQ(size(tags({{0, "LWPOLYLINE"},
                        {8, "cut"},
                        {90, "4"},
@@ -301,7 +301,7 @@ TEST(ReadDxf, CurvesHaveTheirOwnSize) {
   EXPECT_EQ(
       size(tags({{0, "LWPOLYLINE"}, {8, "cut"}, {90, "2"}, {10, "0"}, {20, "0"}, {42, "-1"}, {10, "20"}, {20, "0"}})),
       Vec2(20, 10));
-  // Turned by 30° in a block, and stretched there: an ellipse whose extremes are none of the circle's.
+  // Turned by 30° in a block and stretched there: an ellipse with extremes different from the circle's.
   const std::string block = tags({{0, "BLOCK"}, {2, "b"}, {0, "CIRCLE"}, {8, "0"}, {40, "5"}, {0, "ENDBLK"}});
   const DrawingPath stretched = only_path(tags({{0, "INSERT"}, {2, "b"}, {41, "2"}, {50, "30"}}), block);
   const double c = std::cos(radians(30)), s = 0.5;
@@ -319,15 +319,15 @@ TEST(ReadDxf, LinesMayEndWithCarriageReturnsAlone) {
   EXPECT_TRUE(drawing.paths[0].closed);
 }
 
-// dxflib 2.0 goes on with its header behind the header's end.
-TEST(ReadDxf, ValuesBetweenSectionsArePassedOver) {
+// dxflib 2.0 continues its header after the header's end.
+TEST(ReadDxf, SkipsValuesBetweenSections) {
   std::string bytes = dxf_of(line(0, 0, 1, 0));
   const std::string first_end = tags({{0, "ENDSEC"}});
   bytes.insert(bytes.find(first_end) + first_end.size(), tags({{9, "$EXTMIN"}, {10, "0.0"}, {20, "0.0"}}));
   EXPECT_EQ(read(bytes).paths.size(), 1u);
 }
 
-TEST(ReadDxf, RefusesWhatIsNoAsciiDxf) {
+TEST(ReadDxf, RejectsOtherFormats) {
   EXPECT_THAT(message_of("AutoCAD Binary DXF\r\n\x1a"), HasSubstr("binary DXF"));
   EXPECT_THAT(message_of("AC1015\0\0\0"), HasSubstr("DWG"));
   EXPECT_THAT(message_of(""), HasSubstr("empty"));
@@ -335,22 +335,22 @@ TEST(ReadDxf, RefusesWhatIsNoAsciiDxf) {
   EXPECT_THAT(message_of(tags({{0, "EOF"}})), HasSubstr("no ENTITIES"));
 }
 
-TEST(ReadDxf, RefusesAFileThatWasCutShort) {
+TEST(ReadDxf, RejectsTruncatedFile) {
   const std::string whole = dxf_of(line(0, 0, 1, 0));
-  // Behind its entities nothing but the last word is missing.
+  // After its entities only the last word is missing.
   const std::size_t entities_end = whole.size() - tags({{0, "EOF"}}).size();
   for (std::size_t size = 0; size + 1 < entities_end; ++size)
     EXPECT_NE(message_of(whole.substr(0, size)), "no error") << size;
   EXPECT_EQ(message_of(whole.substr(0, entities_end)), "no error");
 }
 
-TEST(ReadDxf, BlocksThatHoldThemselvesEnd) {
+TEST(ReadDxf, RejectsRecursiveBlocks) {
   const std::string block =
       tags({{0, "BLOCK"}, {2, "a"}, {0, "INSERT"}, {2, "a"}, {0, "INSERT"}, {2, "a"}, {0, "ENDBLK"}});
   EXPECT_THAT(message_of(dxf_of(tags({{0, "INSERT"}, {2, "a"}}), 4, block)), HasSubstr("nested"));
 }
 
-TEST(ReadDxf, BlocksThatMultiplyWithoutEndAreRefused) {
+TEST(ReadDxf, RejectsExcessiveBlocks) {
   std::string blocks = tags({{0, "BLOCK"}, {2, "0"}}) + line(0, 0, 1, 0) + tags({{0, "ENDBLK"}});
   for (int k = 1; k < 10; ++k) {
     blocks += tags({{0, "BLOCK"},
@@ -364,8 +364,7 @@ TEST(ReadDxf, BlocksThatMultiplyWithoutEndAreRefused) {
   EXPECT_THAT(message_of(dxf_of(tags({{0, "INSERT"}, {2, "9"}}), 4, blocks)), HasSubstr("inserts more than"));
 }
 
-/// Everything that the fuzzer once fell over, and a few hundred damaged drawings: an answer or an InputError, nothing
-/// else.
+/// Inputs that once failed in the fuzzer, and a few hundred damaged drawings: each gives a drawing or an InputError.
 TEST(ReadDxf, AnyBytesAreSafe) {
   std::vector<std::string> seeds;
   for (const auto& entry : std::filesystem::directory_iterator(FUSEE_SOURCE_DIR "/tests/fuzz/corpus/dxf"))

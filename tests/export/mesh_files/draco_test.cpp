@@ -16,7 +16,7 @@ double distance_to_nearest(const Vec3& place, const TriangleMesh& mesh) {
   return nearest;
 }
 
-TEST(Draco, NoVertexMovesByMoreThanTheTolerance) {
+TEST(Draco, MovesVerticesWithinTolerance) {
   const TriangleMesh mesh = testing::torus();
   std::size_t larger = std::numeric_limits<std::size_t>::max();
   for (const double tolerance : {0.001, 0.01, 0.1}) {
@@ -31,8 +31,8 @@ TEST(Draco, NoVertexMovesByMoreThanTheTolerance) {
   }
 }
 
-TEST(Draco, ThinFacesKeepTheirShapeBelowTheTolerance) {
-  // A needle of a prism, 0.001 mm thick: at 0.01 mm its sides would fall together.
+TEST(Draco, KeepsThinFaces) {
+  // A thin prism, 0.001 mm thick: on a grid of 0.01 mm its sides would coincide.
   TriangleMesh needle = testing::tetrahedron();
   for (Vec3& vertex : needle.vertices) vertex.y() *= 0.00025;
   const TriangleMesh read = read_mesh(draco_bytes(rounded_to_float(needle), 0.01), "needle.drc");
@@ -40,8 +40,8 @@ TEST(Draco, ThinFacesKeepTheirShapeBelowTheTolerance) {
   EXPECT_NEAR(enclosed_volume(read) / enclosed_volume(needle), 1.0, 0.5);
 }
 
-TEST(Draco, AMeshFinerThanAnyGridKeepsItsFloats) {
-  // A small part far from a large one: the finest of Draco's grids, 24 bits of a kilometre, has no room for it.
+TEST(Draco, KeepsFloatsOfVeryFineMesh) {
+  // A small part far from a large one: even the finest of Draco's grids, 24 bits of a kilometre, is too coarse.
   TriangleMesh small = testing::tetrahedron(), large = testing::tetrahedron();
   for (Vec3& vertex : small.vertices) vertex *= 1e-6;
   for (Vec3& vertex : large.vertices) vertex = 1e5 * vertex + Vec3(1e3, 1e3, 1e3);
@@ -54,11 +54,9 @@ TEST(Draco, AMeshFinerThanAnyGridKeepsItsFloats) {
   for (const Vec3& vertex : both.vertices) EXPECT_EQ(distance_to_nearest(vertex, read), 0.0);
 }
 
-TEST(Draco, TheSameMeshGivesTheSameBytes) {
-  EXPECT_EQ(draco_bytes(testing::torus(), 0.01), draco_bytes(testing::torus(), 0.01));
-}
+TEST(Draco, IsDeterministic) { EXPECT_EQ(draco_bytes(testing::torus(), 0.01), draco_bytes(testing::torus(), 0.01)); }
 
-TEST(DracoReader, SaysWhatIsWrong) {
+TEST(DracoReader, ReportsErrors) {
   std::string bytes = draco_bytes(testing::tetrahedron(), 0.01);
   EXPECT_THAT(error_of("DRACO", "x.drc"), HasSubstr("x.drc: error: at byte 0: expected a Draco header"));
   std::string other = bytes;
@@ -73,13 +71,13 @@ TEST(DracoReader, SaysWhatIsWrong) {
   EXPECT_THAT(error_of(bytes.substr(0, bytes.size() / 2), "x.drc"), HasSubstr("Draco cannot decode this"));
 }
 
-TEST(DracoReader, AllocatesNoMoreThanTheFileCanHold) {
+TEST(DracoReader, BoundsAllocation) {
   // Header 2.2, mesh, method 0 (sequential); 350 million faces and points; entropy-coded indices.
   const std::string bomb("DRACO\x02\x02\x01\x00\x00\x00\xA6\xF2\xC9\x80\x00\xA6\xF2\xC9\x80\x00\x00\x01", 23);
   EXPECT_THAT(error_of(bomb, "x.drc"), HasSubstr("Draco cannot decode this"));
 }
 
-TEST(DracoReader, NoTruncationIsTakenForTheWholeFile) {
+TEST(DracoReader, RejectsTruncations) {
   EXPECT_EQ(testing::meshes_among_truncations(draco_bytes(testing::tetrahedron(), 0.01), "x.drc"), 0);
 }
 

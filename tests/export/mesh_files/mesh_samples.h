@@ -1,5 +1,5 @@
 /// \file
-/// Meshes of known shape and what tests of the formats ask of them.
+/// Meshes of known shape, and helpers for tests of the formats.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ inline TriangleMesh tetrahedron() {
   return {{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {0, 0, 5}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
-/// Coordinates that no short decimal holds, rounded to floats.
+/// Coordinates without short decimals, rounded to floats.
 inline TriangleMesh torus(int around = 40, int across = 24) {
   TriangleMesh mesh;
   const auto at = [&](int i, int j) { return static_cast<std::uint32_t>((i % around) * across + j % across); };
@@ -35,7 +35,7 @@ inline TriangleMesh torus(int around = 40, int across = 24) {
   return rounded_to_float(std::move(mesh));
 }
 
-/// The corners of the faces in order, as floats: equal for equal meshes however their vertices are numbered.
+/// The corners of the faces in order, as floats: equal for equal meshes with any vertex numbering.
 inline std::vector<std::array<std::array<float, 3>, 3>> facets(const TriangleMesh& mesh) {
   std::vector<std::array<std::array<float, 3>, 3>> list;
   for (const auto& t : mesh.triangles) {
@@ -47,7 +47,7 @@ inline std::vector<std::array<std::array<float, 3>, 3>> facets(const TriangleMes
   return list;
 }
 
-/// What is said of bytes that are no mesh; "" when they are one.
+/// The error message for bytes that are no mesh; "" if they are one.
 inline std::string error_of(std::string_view bytes, const std::string& name) {
   try {
     read_mesh(bytes, name);
@@ -67,12 +67,11 @@ inline std::string with_cr(std::string_view text) {
   return changed;
 }
 
-/// Cuts `bytes` at every place: each piece is a mesh or an InputError, never anything else. Returns how many were
-/// meshes.
+/// Truncates `bytes` at every place: each piece is a mesh or an InputError. Returns the number of meshes.
 inline int meshes_among_truncations(std::string_view bytes, const std::string& name) {
   int meshes = 0;
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    // A copy of exactly this size, so that a sanitizer sees a step beyond its end.
+    // A copy of exactly this size, so that a sanitizer detects an access beyond its end.
     const std::string piece(bytes.substr(0, size));
     if (error_of(piece, name).empty()) ++meshes;
   }

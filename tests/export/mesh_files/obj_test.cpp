@@ -22,8 +22,8 @@ TEST(Obj, RoundTripIsExactInFloats) {
   EXPECT_EQ(read.triangles, mesh.triangles);
 }
 
-// Who reads the numbers as doubles finds the volume of the STL.
-TEST(Obj, VolumeIsThatOfTheFloats) {
+// A reader that uses doubles computes the volume of the STL.
+TEST(Obj, VolumeMatchesFloats) {
   TriangleMesh mesh = testing::torus();
   for (Vec3& vertex : mesh.vertices) vertex = 31.7 * vertex + Vec3(0, 0, 37.9);
   mesh = rounded_to_float(mesh);
@@ -39,7 +39,7 @@ TEST(Obj, NamesItsObjectAndWritesNineDigits) {
   EXPECT_THAT(text, HasSubstr("unit mm"));
 }
 
-TEST(Obj, ANameEndsItsLine) {
+TEST(Obj, NameEndsItsLine) {
   const TriangleMesh mesh = testing::torus();
   for (const char* name : {"a \\", "\\", "a\\\n", "# \\"}) {
     const std::string text = obj_text(mesh, name);
@@ -48,7 +48,7 @@ TEST(Obj, ANameEndsItsLine) {
   }
 }
 
-TEST(Obj, AFaceHasAVertexAtMostTwice) {
+TEST(Obj, RejectsFaceWithVertexThrice) {
   EXPECT_EQ(read_mesh(std::string(k_square) + "f 1 2 3 4 4 3 2 1\n", "x.obj").triangles.size(), 6U);
   std::string face = "f";
   for (int i = 0; i < 5'000'000; ++i) face += i % 3 == 0 ? " 1" : i % 3 == 1 ? " 2" : " 3";
@@ -64,7 +64,7 @@ TEST(Obj, AFaceHasAVertexAtMostTwice) {
               HasSubstr("expected a face that has a vertex at most twice"));
 }
 
-TEST(Obj, AFileHasBytesForItsFacets) {
+TEST(Obj, BoundsFacetsByFileSize) {
   std::string face = "f", faces;
   for (int i = 0; i < 36; ++i) face += i % 2 == 0 ? " 1" : " 2";
   for (int i = 0; i < 5000; ++i) faces += face + " 38\n";
@@ -77,12 +77,12 @@ TEST(ObjReader, FansPolygonsAndCountsNegativeIndicesFromTheEnd) {
   EXPECT_THAT(read_mesh(std::string(k_square) + "f 1 2 3 4\n", "x.obj").triangles,
               ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
   EXPECT_THAT(read_mesh(std::string(k_square) + "f -4 -3 -2\n", "x.obj").triangles, ElementsAre(Triangle{0, 1, 2}));
-  // The fourth, the first and the third, of which the second is left out.
+  // The fourth, the first and the third; the second is skipped.
   EXPECT_THAT(read_mesh(std::string(k_square) + "f -1//-1 +1/7 -2/1/1\n", "x.obj").triangles,
               ElementsAre(Triangle{2, 0, 1}));
 }
 
-TEST(ObjReader, PassesOverWhatIsNoShape) {
+TEST(ObjReader, SkipsOtherStatements) {
   const std::string text =
       "\xEF\xBB\xBF# made by hand\r\nmtllib a.mtl\r\n\r\ng all\r\nvn 0 0 1\r\nvt 0 0\r\nv 0 0 0 1 0.5 0.5 0.5 # "
       "coloured\r\nv 1 0 0\r\n"
@@ -97,7 +97,7 @@ TEST(ObjReader, LinesAndPointsAreNoFacets) {
               ElementsAre(Triangle{0, 1, 2}));
 }
 
-TEST(ObjReader, StatementsGoOnBehindABackslash) {
+TEST(ObjReader, ContinuesStatementsAfterBackslash) {
   for (const char* face : {"f 1 2 \\\n3 4\n", "f 1 2\\\n 3 4\n", "f 1 \\\n\\\n2 3 4\n"})
     EXPECT_THAT(read_mesh(std::string(k_square) + face, "x.obj").triangles,
                 ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}))
@@ -110,7 +110,7 @@ TEST(ObjReader, LinesMayEndWithCarriageReturnsAlone) {
               ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
 }
 
-TEST(ObjReader, SaysWhereItIsWrong) {
+TEST(ObjReader, ErrorsNameThePlace) {
   EXPECT_EQ(error_of("v 0 0\n", "x.obj"), "x.obj:1:6: error: expected a coordinate of a vertex, the file ends here");
   EXPECT_EQ(error_of("v 0 0\nv 1 1 1\n", "x.obj"),
             "x.obj:1:6: error: expected a coordinate of a vertex, the line ends here");
@@ -128,7 +128,7 @@ TEST(ObjReader, SaysWhereItIsWrong) {
   EXPECT_THAT(error_of(std::string("v 0 0 0\nv \x01\xFF 0 0\n"), "x.obj"), HasSubstr("found '\\x01\\xff'"));
 }
 
-TEST(ObjReader, EveryTruncationIsReadOrRefused) {
+TEST(ObjReader, ReadsOrRejectsTruncations) {
   testing::meshes_among_truncations(std::string(k_square) + "f 1 2 \\\n 3 4\n", "x.obj");
 }
 
@@ -137,7 +137,7 @@ struct CommaPoint : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
 };
 
-TEST(Obj, NoLocaleChangesIt) {
+TEST(Obj, IsIndependentOfLocale) {
   const std::string before = obj_text(testing::torus(), "x");
   const std::locale old = std::locale::global(std::locale(std::locale::classic(), new CommaPoint));
   const std::string after = obj_text(testing::torus(), "x");

@@ -22,11 +22,11 @@ TEST(OffReader, ReadsAllKindsOfVerticesAndFaces) {
   EXPECT_THAT(read_mesh(coloured, "x").triangles, ElementsAre(Triangle{0, 1, 2}));
   const std::string normals = "NOFF\n3 1\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n3 2 1 0 7\n";
   EXPECT_THAT(read_mesh(normals, "x").triangles, ElementsAre(Triangle{2, 1, 0}));
-  // Without the keyword only the name tells.
+  // Without the keyword only the name identifies the format.
   EXPECT_THAT(read_mesh(plain.substr(4), "x.OFF").triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
 }
 
-TEST(OffReader, WordsCountAndLinesDoNot) {
+TEST(OffReader, CountsWordsNotLines) {
   const std::string plain = "OFF\n4 2 5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
   const auto expected = read_mesh(plain, "x.off").triangles;
   ASSERT_EQ(expected.size(), 2U);
@@ -52,10 +52,10 @@ TEST(OffReader, LinesAndPointsAreNoFacets) {
   EXPECT_THAT(read_mesh(text, "x.off").triangles, ElementsAre(Triangle{0, 1, 2}));
 }
 
-TEST(OffReader, SaysWhereItIsWrong) {
+TEST(OffReader, ErrorsNameThePlace) {
   EXPECT_EQ(error_of("OFF\n3 one 0\n", "x.off"), "x.off:2:3: error: expected the number of faces, found 'one'");
   EXPECT_THAT(error_of("OFF\n-3 1 0\n", "x.off"), HasSubstr("expected the number of vertices, found '-3'"));
-  // Words are counted: one that is missing is missed at the end.
+  // Words are counted: a missing one is detected at the end.
   EXPECT_EQ(error_of("OFF\n3 1 0\n0 0 0\n1 0\n1 1 0\n3 0 1 2\n", "x.off"),
             "x.off:6:3: error: expected a face of at least 1 corner, found '0'");
   EXPECT_THAT(error_of("OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 3\n", "x.off"),
@@ -68,14 +68,14 @@ TEST(OffReader, SaysWhereItIsWrong) {
   EXPECT_THAT(error_of("4OFF\n1 1 1\n", "x.off"), HasSubstr("three dimensions"));
 }
 
-TEST(OffReader, AllocatesNoMoreThanTheFileCanHold) {
+TEST(OffReader, BoundsAllocation) {
   EXPECT_THAT(error_of("OFF\n4000000000 1 0\n0 0 0\n", "x.off"),
               HasSubstr("at byte 18: expected 4000000000 vertices of at least 5 bytes each, but only 7 bytes follow"));
   EXPECT_THAT(error_of("OFF\n1 9223372036854775807 0\n0 0 0\n", "x.off"),
               HasSubstr("expected 9223372036854775807 faces"));
 }
 
-TEST(OffReader, EveryTruncationIsReadOrRefused) {
+TEST(OffReader, ReadsOrRejectsTruncations) {
   // The colour of the last face may be cut off, and nothing else: of " 9 9\n" all but none of its five bytes.
   EXPECT_EQ(testing::meshes_among_truncations("OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2 9 9\n", "x.off"), 5);
 }

@@ -14,7 +14,7 @@ using testing::facets;
 using ::testing::HasSubstr;
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Values put one behind the other, in either order of bytes.
+/// Concatenated values in either byte order.
 class Bytes {
  public:
   explicit Bytes(bool big_endian) : big_endian_(big_endian) {}
@@ -33,7 +33,7 @@ class Bytes {
   std::string text_;
 };
 
-/// A square with a colour and a normal nobody asked for, a list before and an element after the one that counts.
+/// A square with an irrelevant colour and normal, a list before the relevant one and an element after it.
 std::string binary_square(bool big_endian) {
   Bytes body(big_endian);
   body.put(std::int16_t{-5}).put(std::uint8_t{2}).put(1.5F).put(2.5F);  // element "camera"
@@ -72,7 +72,7 @@ TEST(PlyReader, ReadsTextAndBothOrdersOfBytes) {
   }
 }
 
-TEST(PlyReader, WordsCountAndLinesDoNot) {
+TEST(PlyReader, CountsWordsNotLines) {
   const std::size_t body = k_ascii.find("0 0 0 1");
   const std::string head(k_ascii.substr(0, body));
   for (const char* rows : {"0 0\n0 1 1 0 0 1\n1 1 2 1\n3 0\n1 2\n", "0 0 0 1 1 0 0 1 1 1 2 1 3 0 1 2"}) {
@@ -80,7 +80,7 @@ TEST(PlyReader, WordsCountAndLinesDoNot) {
     EXPECT_THAT(mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
     EXPECT_EQ(mesh.vertices[2], Vec3(1, 1, 2));
   }
-  // A value too many at a row's end is passed over if each row has its line.
+  // A surplus value at a row's end is skipped if each row has its line.
   EXPECT_EQ(read_mesh(head + "0 0 0 1 77\n1 0 0 1 77\n1 1 2 1 77\n3 0 1 2 77\n", "x.ply").vertices[2], Vec3(1, 1, 2));
 }
 
@@ -90,17 +90,17 @@ TEST(PlyReader, LinesMayEndWithCarriageReturnsAlone) {
   const std::size_t body = binary.find("end_header\n") + 11;
   std::string cr = testing::with_cr(binary.substr(0, body)) + binary.substr(body);
   EXPECT_EQ(facets(read_mesh(cr, "x.ply")), facets(read_mesh(binary, "x.ply")));
-  // A first value that begins with a line feed is no part of the last line's end.
+  // A first value that begins with a line feed is not part of the last line's end.
   cr[body] = '\n';
   EXPECT_EQ(facets(read_mesh(cr, "x.ply")), facets(read_mesh(binary, "x.ply")));
 }
 
-TEST(PlyReader, CommentsMayStandBeforeTheFormat) {
+TEST(PlyReader, AcceptsCommentsBeforeFormat) {
   EXPECT_THAT(read_mesh(changed(k_ascii, "format", "comment by hand\r\nformat"), "x.ply").triangles,
               ElementsAre(Triangle{0, 1, 2}));
 }
 
-TEST(PlyReader, SaysWhereTheHeaderIsWrong) {
+TEST(PlyReader, HeaderErrorsNameThePlace) {
   EXPECT_EQ(error_of(changed(k_ascii, "ascii", "utf8"), "x.ply"),
             "x.ply:2:8: error: expected 'ascii', 'binary_little_endian' or 'binary_big_endian', found 'utf8'");
   EXPECT_EQ(error_of(changed(k_ascii, "float y", "half y"), "x.ply"),
@@ -120,7 +120,7 @@ TEST(PlyReader, SaysWhereTheHeaderIsWrong) {
   EXPECT_THAT(error_of("ply\nformat ascii 1.0\n", "x.ply"), HasSubstr("expected 'end_header', the file ends here"));
 }
 
-TEST(PlyReader, SaysWhereTheValuesAreWrong) {
+TEST(PlyReader, ValueErrorsNameThePlace) {
   EXPECT_EQ(error_of(changed(k_ascii, "3 0 1 2", "3 0 1 3"), "x.ply"),
             "x.ply:15:7: error: expected a vertex number from 0 to 2, found '3'");
   EXPECT_THAT(error_of(changed(k_ascii, "3 0 1 2", "3 0 1 1.5"), "x.ply"), HasSubstr("found '1.5'"));
@@ -135,14 +135,14 @@ TEST(PlyReader, SaysWhereTheValuesAreWrong) {
               HasSubstr("at byte " + std::to_string(last) + ": expected a vertex number from 0 to 3"));
 }
 
-TEST(PlyReader, AllocatesNoMoreThanTheFileCanHold) {
+TEST(PlyReader, BoundsAllocation) {
   EXPECT_THAT(error_of(changed(k_ascii, "vertex 3", "vertex 4000000000"), "x.ply"),
               HasSubstr("expected 4000000000 elements 'vertex' of at least 7 bytes each"));
   EXPECT_THAT(error_of(changed(binary_square(true), "face 1", "face 9999999999"), "x.ply"),
               HasSubstr("expected 9999999999 elements 'face'"));
 }
 
-TEST(PlyReader, NoTruncationIsTakenForTheWholeFile) {
+TEST(PlyReader, RejectsTruncations) {
   EXPECT_EQ(testing::meshes_among_truncations(binary_square(false), "x.ply"), 0);
   EXPECT_EQ(testing::meshes_among_truncations(binary_square(true), "x.ply"), 0);
   // Its last line end may be missing.

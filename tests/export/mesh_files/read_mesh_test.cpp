@@ -12,7 +12,7 @@ using testing::error_of;
 using testing::facets;
 using ::testing::HasSubstr;
 
-TEST(ReadMesh, ContentTellsTheFormatWhateverTheName) {
+TEST(ReadMesh, IdentifiesFormatByContent) {
   const TriangleMesh mesh = testing::tetrahedron();
   for (const std::string& bytes :
        {stl_bytes(mesh, "x"), obj_text(mesh, "x"), threemf_bytes(mesh, "x"), draco_bytes(mesh, 0.01)}) {
@@ -21,8 +21,8 @@ TEST(ReadMesh, ContentTellsTheFormatWhateverTheName) {
   }
 }
 
-// A stray one far away, or one that is no number, is no part of the mesh.
-TEST(ReadMesh, LeavesOutVerticesThatNoFacetUses) {
+// A vertex far away, or one that is not a number, is not part of the mesh if no facet uses it.
+TEST(ReadMesh, OmitsUnusedVertices) {
   const TriangleMesh mesh = read_mesh("v nan 0 0\nv 0 0 0\nv 500 500 500\nv 1 0 0\nv 0 1 0\nf 2 4 5\n", "x.obj");
   ASSERT_EQ(mesh.vertices.size(), 3U);
   ASSERT_EQ(mesh.triangles.size(), 1U);
@@ -30,21 +30,21 @@ TEST(ReadMesh, LeavesOutVerticesThatNoFacetUses) {
   EXPECT_EQ(bounds(mesh).high, Vec3(1, 1, 0));
 }
 
-TEST(ReadMesh, SaysWhatItWouldHaveRead) {
+TEST(ReadMesh, ErrorListsFormats) {
   EXPECT_EQ(error_of("", "x.stl"), "x.stl: error: the file is empty, expected a mesh");
   EXPECT_EQ(error_of("hello", "letter.txt"),
             "letter.txt: error: expected a mesh, and neither its first bytes nor its name say of which format\n"
             "  hint: fusee reads .stl, .obj, .3mf, .off, .ply, .drc and .dxf");
 }
 
-/// What the fuzzer starts from and what it once broke: each is a mesh or an InputError.
-TEST(ReadMesh, TheFuzzersCorpusIsReadOrRefused) {
+/// The fuzzer's start corpus and its former failures: each is a mesh or an InputError.
+TEST(ReadMesh, ReadsOrRejectsFuzzCorpus) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(FUSEE_SOURCE_DIR "/tests/fuzz/corpus/mesh")) {
     const std::string bytes = read_file(entry.path(), 1 << 20);
     const std::string name = entry.path().filename().string();
     const std::string error = error_of(bytes, name);
-    // A file named good_… is one.
+    // A file named good_… is a mesh.
     if (name.starts_with("good_")) {
       EXPECT_EQ(error, "");
     }

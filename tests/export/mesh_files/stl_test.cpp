@@ -25,7 +25,7 @@ float float_at(const std::string& bytes, std::size_t offset) {
   return value;
 }
 
-TEST(StlWriter, LaysOutHeaderCountAndFacetsAsTheFormatSays) {
+TEST(StlWriter, FollowsTheFormat) {
   const std::string bytes = stl_bytes(testing::tetrahedron(), "finger");
   ASSERT_EQ(bytes.size(), 84U + 4 * 50U);
   EXPECT_TRUE(bytes.starts_with("fusee "));
@@ -55,7 +55,7 @@ TEST(StlWriter, NormalsAreTrue) {
   }
 }
 
-TEST(StlWriter, ADegenerateFaceHasNoNormal) {
+TEST(StlWriter, DegenerateFaceHasNoNormal) {
   const TriangleMesh line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
   const std::string bytes = stl_bytes(line, "line");
   for (int k = 0; k < 3; ++k) EXPECT_EQ(float_at(bytes, 84 + 4 * k), 0.0F);
@@ -65,8 +65,8 @@ bool has_high_byte(std::string_view bytes) {
   return std::any_of(bytes.begin(), bytes.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });
 }
 
-TEST(StlWriter, NoReaderTakesItForText) {
-  // Up-looking facets on numbers whose bytes are all below 128 (0, 2, 0.5), and at last one that looks down.
+TEST(StlWriter, IsNotMistakenForText) {
+  // Upward facets whose numbers have only bytes below 128 (0, 2, 0.5), and finally a downward one.
   const TriangleMesh mesh{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, {{0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 2, 1}}};
   const TriangleMesh flat{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 0.5}}, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {0, 2, 1}}};
   for (const TriangleMesh& m : {mesh, flat, testing::tetrahedron(), testing::torus()}) {
@@ -92,13 +92,13 @@ TEST(Stl, RoundTrip) {
   EXPECT_EQ(facets(read), facets(mesh));
 }
 
-TEST(Stl, ABinaryFileThatStartsWithSolidIsBinary) {
+TEST(Stl, AcceptsBinaryStartingWithSolid) {
   std::string bytes = stl_bytes(testing::tetrahedron(), "x");
   bytes.replace(0, 12, "solid part\nf");
   EXPECT_EQ(facets(read_mesh(bytes, "x.stl")), facets(testing::tetrahedron()));
 }
 
-TEST(Stl, NotANumberAndInfinityAreReadAsTheyAre) {
+TEST(Stl, ReadsNanAndInfinity) {
   TriangleMesh mesh = testing::tetrahedron();
   mesh.vertices[3].z() = std::numeric_limits<double>::infinity();
   mesh.vertices[2].x() = std::numeric_limits<double>::quiet_NaN();
@@ -108,7 +108,7 @@ TEST(Stl, NotANumberAndInfinityAreReadAsTheyAre) {
   EXPECT_TRUE(std::any_of(read.vertices.begin(), read.vertices.end(), [](const Vec3& v) { return std::isnan(v.x()); }));
 }
 
-TEST(StlAscii, ReadsEveryWayOfWritingIt) {
+TEST(StlAscii, ReadsVariants) {
   const TriangleMesh plain = read_mesh(ascii(k_ascii_facet), "x.stl");
   ASSERT_EQ(plain.triangles.size(), 1U);
   EXPECT_EQ(plain.vertices[plain.triangles[0][1]], Vec3(0, 4, 0));
@@ -116,14 +116,14 @@ TEST(StlAscii, ReadsEveryWayOfWritingIt) {
       "\xEF\xBB\xBFSOLID\r\nFACET NORMAL +0.0 0 -1E0\r\nOUTER LOOP\r\nVERTEX 0 0 0 VERTEX\r\n0 4. 0\r\nVERTEX 3e0 0 "
       "0\r\nENDLOOP ENDFACET\r\nENDSOLID";
   EXPECT_EQ(facets(read_mesh(shouted, "x")), facets(plain));
-  // Several solids are one mesh, and their corners are welded.
+  // Several solids form one mesh, and their corners are welded.
   const TriangleMesh twice = read_mesh(ascii(k_ascii_facet) + ascii(k_ascii_facet), "x.stl");
   EXPECT_EQ(twice.triangles.size(), 2U);
   EXPECT_EQ(twice.vertices.size(), 3U);
   EXPECT_EQ(read_mesh("solid nothing\nendsolid nothing\n", "x.stl").triangles.size(), 0U);
 }
 
-TEST(StlAscii, SaysWhereItIsWrong) {
+TEST(StlAscii, ErrorsNameThePlace) {
   std::string text = ascii(k_ascii_facet);
   text.replace(text.find("0 4 0"), 5, "0 4x 0");
   EXPECT_EQ(error_of(text, "x.stl"), "x.stl:5:11: error: expected a coordinate, found '4x'");
@@ -134,8 +134,8 @@ TEST(StlAscii, SaysWhereItIsWrong) {
   EXPECT_THAT(error_of(quad, "x.stl"), HasSubstr("x.stl:2:70: error: expected 'endloop', found 'vertex'"));
 }
 
-// Exporters write what their C library makes of a normal that is none, or no normal at all.
-TEST(StlAscii, AnyNormalIsReadAsNone) {
+// Exporters write an invalid normal as their C library prints it, or omit the normal.
+TEST(StlAscii, IgnoresNormals) {
   const TriangleMesh plain = read_mesh(ascii(k_ascii_facet), "x.stl");
   const std::string text = ascii(k_ascii_facet);
   const std::size_t at = text.find("normal"), end = text.find("outer");
@@ -150,27 +150,27 @@ TEST(StlAscii, AnyNormalIsReadAsNone) {
               HasSubstr("x.stl:3:1: error: expected 'outer', found 'vertex'"));
 }
 
-TEST(StlAscii, OneLineHoldsASolidOrSeveral) {
+TEST(StlAscii, ReadsSolidsOnOneLine) {
   const TriangleMesh plain = read_mesh(ascii(k_ascii_facet), "x.stl");
   std::string line = ascii(k_ascii_facet);
   std::replace(line.begin(), line.end(), '\n', ' ');
   EXPECT_EQ(facets(read_mesh(line, "x.stl")), facets(plain));
   EXPECT_EQ(read_mesh(line + line, "x.stl").triangles.size(), 2U);
   EXPECT_EQ(facets(read_mesh(testing::with_cr(ascii(k_ascii_facet)), "x.stl")), facets(plain));
-  // A name may say what it likes.
+  // A name may contain any words.
   EXPECT_EQ(
       read_mesh("solid a facet of it\n" + std::string(k_ascii_facet) + "endsolid a facet\n", "x.stl").triangles.size(),
       1U);
 }
 
-TEST(StlAscii, ADecimalCommaIsNamed) {
+TEST(StlAscii, ReportsDecimalComma) {
   std::string text = ascii(k_ascii_facet);
   text.replace(text.find("0 4 0"), 5, "0 4,5 0");
   EXPECT_THAT(error_of(text, "x.stl"), HasSubstr("expected a coordinate, found '4,5'"));
   EXPECT_THAT(error_of(text, "x.stl"), HasSubstr("decimal comma"));
 }
 
-TEST(Stl, AnUnknownCountAndBytesBehindTheFacetsDoNoHarm) {
+TEST(Stl, AcceptsUnknownCountAndTrailingBytes) {
   const std::string bytes = stl_bytes(testing::tetrahedron(), "x");
   for (const char* count : {"\0\0\0\0", "\xFF\xFF\xFF\xFF"}) {
     std::string unknown = bytes;
@@ -185,24 +185,22 @@ TEST(Stl, AnUnknownCountAndBytesBehindTheFacetsDoNoHarm) {
   EXPECT_EQ(facets(read_mesh(solid, "x.stl")), facets(testing::tetrahedron()));
 }
 
-TEST(Stl, ABinaryFileOfAnotherLengthThanItAnnouncesIsRefused) {
+TEST(Stl, RejectsWrongBinaryLength) {
   const std::string bytes = stl_bytes(testing::tetrahedron(), "x");
   EXPECT_THAT(error_of(bytes.substr(0, 200), "x.stl"),
               HasSubstr("at byte 80: the header announces 4 facets, so expected a file of 284 bytes, found 200"));
-  // Fifty more bytes may be a facet that the count leaves out.
+  // Fifty more bytes may be a facet that the count omits.
   EXPECT_THAT(error_of(bytes + std::string(50, '\0'), "x.stl"), HasSubstr("found 334"));
   EXPECT_THAT(error_of("fusee", "x.stl"), HasSubstr("at byte 5: expected a binary STL of at least 84 bytes"));
 }
 
-TEST(Stl, NoTruncationIsTakenForTheWholeFile) {
+TEST(Stl, RejectsTruncations) {
   EXPECT_EQ(testing::meshes_among_truncations(stl_bytes(testing::tetrahedron(), "x"), "x.stl"), 0);
   // Only where the last word is already "endsolid" is it whole: with it and with what follows on its line.
   EXPECT_EQ(testing::meshes_among_truncations("solid x\n" + std::string(k_ascii_facet) + "endsolid\n", "x.stl"), 1);
 }
 
-TEST(Stl, TheSameMeshGivesTheSameBytes) {
-  EXPECT_EQ(stl_bytes(testing::torus(), "x"), stl_bytes(testing::torus(), "x"));
-}
+TEST(Stl, IsDeterministic) { EXPECT_EQ(stl_bytes(testing::torus(), "x"), stl_bytes(testing::torus(), "x")); }
 
 }  // namespace
 }  // namespace fusee

@@ -66,7 +66,7 @@ Vec3 corner(const TriangleMesh& mesh, std::size_t triangle, std::size_t k) {
   return mesh.vertices.at(mesh.triangles.at(triangle)[k]);
 }
 
-TEST(ThreemfWriter, IsAPackageWithANamedObjectInMillimetres) {
+TEST(ThreemfWriter, WritesNamedObjectInMillimetres) {
   const std::string bytes = threemf_bytes(testing::tetrahedron(), "a <finger> & more");
   EXPECT_THAT(part_of(bytes, "[Content_Types].xml"), HasSubstr("3dmanufacturing-3dmodel+xml"));
   EXPECT_THAT(part_of(bytes, "_rels/.rels"), HasSubstr("/3D/3dmodel.model"));
@@ -91,7 +91,7 @@ TEST(Threemf, RoundTripIsExactInFloats) {
   EXPECT_EQ(read.triangles, mesh.triangles);
 }
 
-TEST(Threemf, NeitherTimeNorPlaceChangesTheBytes) {
+TEST(Threemf, IsIndependentOfTimeAndPlace) {
   const std::string before = threemf_bytes(testing::tetrahedron(), "x");
   setenv("TZ", "Pacific/Auckland", 1);
   tzset();
@@ -132,7 +132,7 @@ TEST(ThreemfReader, PlacesItemsAndComponents) {
   EXPECT_EQ(corner(mesh, 0, 1), Vec3(0, 11, 5));
   EXPECT_EQ(corner(mesh, 0, 2), Vec3(-1, 10, 5));
   EXPECT_EQ(corner(mesh, 1, 1), Vec3(0, 1, 5));
-  // The mirrored one still looks up.
+  // The mirrored one still faces up.
   const Vec3 up = (corner(mesh, 2, 1) - corner(mesh, 2, 0)).cross(corner(mesh, 2, 2) - corner(mesh, 2, 0));
   EXPECT_EQ(up, Vec3(0, 0, 1));
 }
@@ -157,8 +157,8 @@ TEST(ThreemfReader, ReadsPrefixedNames) {
   EXPECT_TRUE(std::isinf(mesh.vertices[0].z()));
 }
 
-// A lattice of beams without its beams is no part at all.
-TEST(ThreemfReader, RefusesARequiredExtensionThatItDoesNotRead) {
+// A lattice of beams without its beams is not a part.
+TEST(ThreemfReader, RejectsUnknownRequiredExtension) {
   const std::string object = "<object id='1'>" + k_triangle + "</object>", item = "<item objectid='1'/>";
   const std::string beams = "xmlns:b='http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02'";
   EXPECT_THAT(error_of(package(model(object, item, beams + " requiredextensions='b'")), "x.3mf"),
@@ -175,7 +175,7 @@ TEST(ThreemfReader, RefusesARequiredExtensionThatItDoesNotRead) {
             "");
 }
 
-TEST(ThreemfReader, SupportsAreNoPartOfTheSolid) {
+TEST(ThreemfReader, OmitsSupports) {
   const auto object = [](int id, const std::string& type) {
     return "<object id='" + std::to_string(id) + "' type='" + type + "'>" + k_triangle + "</object>";
   };
@@ -194,12 +194,12 @@ TEST(ThreemfReader, SupportsAreNoPartOfTheSolid) {
               HasSubstr("found 'ghost'"));
 }
 
-TEST(ThreemfReader, SaysThatTheBuildIsEmpty) {
+TEST(ThreemfReader, ReportsEmptyBuild) {
   EXPECT_THAT(error_of(package(model("<object id='1'>" + k_triangle + "</object>", "")), "x.3mf"),
               HasSubstr("the build is empty"));
 }
 
-TEST(ThreemfReader, BlanksRoundNumbersCollapse) {
+TEST(ThreemfReader, AcceptsBlanksAroundNumbers) {
   std::string object = "<object id=' 1 '>" + k_triangle + "</object>";
   object.replace(object.find("x=\"1\""), 5, "x=\"\n 1\t\"");
   object.replace(object.find("v2=\"1\""), 6, "v2=\" 1 \"");
@@ -209,7 +209,7 @@ TEST(ThreemfReader, BlanksRoundNumbersCollapse) {
   EXPECT_THAT(error_of(package(model(object, "<item objectid='1'/>")), "x.3mf"), HasSubstr("found '1 1'"));
 }
 
-TEST(ThreemfReader, SaysWhereItIsWrong) {
+TEST(ThreemfReader, ErrorsNameThePlace) {
   EXPECT_THAT(error_of("PK\x03\x04 not a zip", "x.3mf"),
               HasSubstr("x.3mf: error: expected a zip archive with a 3MF model"));
   EXPECT_THAT(error_of(zip_of({{"a", "b"}}), "x.3mf"), HasSubstr("_rels/.rels: expected this part in the archive"));
@@ -234,11 +234,11 @@ TEST(ThreemfReader, SaysWhereItIsWrong) {
               HasSubstr("expected a number x, found 'l'"));
 }
 
-TEST(ThreemfReader, BombsAreRefused) {
+TEST(ThreemfReader, RejectsZipBombs) {
   // 100 MB of blanks in 100 kB.
   EXPECT_THAT(error_of(package("<model>" + std::string(100'000'000, ' ') + "</model>"), "x.3mf"),
               HasSubstr("unpacks to too much"));
-  // An object of itself, and objects of ten objects of ten objects …
+  // An object that contains itself, and objects of ten objects of ten objects …
   const std::string snake = "<object id='1'><components><component objectid='1'/></components></object>";
   EXPECT_THAT(error_of(package(model(snake, "<item objectid='1'/>")), "x.3mf"), HasSubstr("deeper than 32"));
   std::string tree = "<object id='0'>" + k_triangle + "</object>";
@@ -251,7 +251,7 @@ TEST(ThreemfReader, BombsAreRefused) {
               HasSubstr("places its objects too often"));
 }
 
-TEST(ThreemfReader, NoTruncationIsTakenForTheWholeFile) {
+TEST(ThreemfReader, RejectsTruncations) {
   EXPECT_EQ(testing::meshes_among_truncations(threemf_bytes(testing::tetrahedron(), "x"), "x.3mf"), 0);
 }
 

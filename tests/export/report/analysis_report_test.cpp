@@ -1,4 +1,4 @@
-// The page of `fusee analyze`: well-formed, asks for nothing from outside, and says what the result says.
+// The page of `fusee analyze`: well-formed, self-contained, and consistent with the result.
 #include <gmock/gmock.h>
 
 #include <pugixml.hpp>
@@ -29,7 +29,7 @@ Analysed analysed() {
   return analysed;
 }
 
-TEST(AnalysisPage, SaysWhatTheResultSays) {
+TEST(AnalysisPage, AgreesWithResult) {
   const Analysed a = analysed();
   Diagnostic warning;
   warning.message = "beware & see";
@@ -46,7 +46,7 @@ TEST(AnalysisPage, SaysWhatTheResultSays) {
   EXPECT_EQ(document.select_nodes("//section[@id='tolerances']//tbody/tr").size(), a.result.tolerances.size());
 }
 
-TEST(AnalysisPage, AsksForNothingFromOutsideAndIsTheSameTwice) {
+TEST(AnalysisPage, IsSelfContainedAndDeterministic) {
   const Analysed a = analysed();
   const std::string html = analysis_html(a.file, a.result, a.options, {});
   for (const char* reference : {"://", "src=", "href=", "url(", "@import", "fetch(", "somewhere"})
@@ -54,7 +54,7 @@ TEST(AnalysisPage, AsksForNothingFromOutsideAndIsTheSameTwice) {
   EXPECT_EQ(html, analysis_html(a.file, a.result, a.options, {}));
 }
 
-TEST(AnalysisPage, WithoutCurvesHasTheForcesAlone) {
+TEST(AnalysisPage, HasOnlyForcesWithoutCurves) {
   Analysed a = analysed();
   a.result.synthesis.p1.points.clear();
   const std::string html = analysis_html(a.file, a.result, a.options, {});

@@ -70,11 +70,11 @@ TEST(PitchCurveCsv, HoldsOneClosedCurveInSpace) {
   EXPECT_EQ(rows.back(), rows[1]);
 }
 
-TEST(TransmissionCsv, StartsWithTheAgreedColumns) {
+TEST(TransmissionCsv, StartsWithAgreedColumns) {
   EXPECT_THAT(transmission_csv(round_product()), StartsWith("alpha_deg,theta_deg,r1_mm,r2_mm,"));
 }
 
-TEST(TransmissionCsv, EveryRowIsAsComputed) {
+TEST(TransmissionCsv, RowsMatchComputation) {
   const Product product = round_product();
   const auto rows = cells(transmission_csv(product));
   ASSERT_EQ(rows.size(), 4U);
@@ -97,7 +97,7 @@ TEST(TransmissionCsv, EveryRowIsAsComputed) {
   }
 }
 
-TEST(TransmissionCsv, InterpolatesWhatWasWoundElsewhereAndLeavesTheRestEmpty) {
+TEST(TransmissionCsv, InterpolatesRewoundPointsOnly) {
   Product product = round_product();
   auto& points = product.as_built.points;
   points.erase(points.begin() + 1);
@@ -110,7 +110,7 @@ TEST(TransmissionCsv, InterpolatesWhatWasWoundElsewhereAndLeavesTheRestEmpty) {
   EXPECT_NEAR(std::stod(rows[2].back()), 0.3 * t, 1e-6);
 }
 
-TEST(TransmissionCsv, NothingButNumbersStandsInIt) {
+TEST(TransmissionCsv, HasNumbersOnly) {
   Product product = round_product();
   product.synthesis.stroke[1].t2.m = 0;  // a dead centre: the tension has no bound
   const std::string table = transmission_csv(product);

@@ -29,7 +29,7 @@ Product made_product() {
   return product;
 }
 
-TEST(Manifest, HasTheAgreedShape) {
+TEST(Manifest, HasAgreedStructure) {
   const std::vector<OutputFile> outputs = {{"pulley.stl", "bytes"}, {"profile.csv", ""}};
   const Json manifest = Json::parse(manifest_json(made_product(), outputs));
   EXPECT_EQ(manifest["schema"], 1);
@@ -51,7 +51,7 @@ TEST(Manifest, HasTheAgreedShape) {
   EXPECT_EQ(manifest["status"], "done");
 }
 
-TEST(Manifest, HoldsTheMechanismInTheFilesUnits) {
+TEST(Manifest, HasMechanismInFileUnits) {
   const Json mechanism = Json::parse(manifest_json(made_product(), {}))["mechanism"];
   EXPECT_EQ(mechanism["name"], "test");
   EXPECT_EQ(mechanism["joint"]["length_mm"], 100.0);
@@ -60,7 +60,7 @@ TEST(Manifest, HoldsTheMechanismInTheFilesUnits) {
   EXPECT_EQ(mechanism["body"]["nut_trap"], true);
 }
 
-TEST(Manifest, NeitherMachineNorBadTextGetsIntoIt) {
+TEST(Manifest, ExcludesMachineAndInvalidText) {
   Product product = made_product();
   product.joint.mechanism.name = "\xFF\"quoted\"";
   const std::string text = manifest_json(product, {});
@@ -68,7 +68,7 @@ TEST(Manifest, NeitherMachineNorBadTextGetsIntoIt) {
   EXPECT_TRUE(Json::accept(text));
 }
 
-TEST(Manifest, ANumberThatIsNoneIsNullAndItsCheckSaysFailed) {
+TEST(Manifest, InvalidNumberIsNullAndFails) {
   Product product = made_product();
   product.as_built.max_slack = std::numeric_limits<double>::infinity();
   product.checks.push_back(at_most("volume", std::numeric_limits<double>::quiet_NaN(), 1, "mm³", "nowhere"));
@@ -80,8 +80,8 @@ TEST(Manifest, ANumberThatIsNoneIsNullAndItsCheckSaysFailed) {
   EXPECT_EQ(manifest["status"], "check_failed");
 }
 
-/// Round pulleys: everything is known from tangents to circles.
-TEST(TendonLengths, ARoundPulleyIsWoundAsACircleIs) {
+/// Round pulleys, whose tendon lengths follow from tangents to circles.
+TEST(TendonLengths, MatchesCircle) {
   Product product = made_product();
   const Mechanism& m = product.joint.mechanism;
   product.synthesis = testing::pulley_of(testing::circle(20), testing::circle(20), 3600);
@@ -110,7 +110,7 @@ TEST(TendonLengths, ARoundPulleyIsWoundAsACircleIs) {
   for (const TendonLength& length : lengths) {
     const TendonPoint& tendon = length.side == Side::left ? home.t1 : home.t2;
     const double r = length.side == Side::left ? 20.0 : tendon.p;
-    // The exit is found to half a step of the outline.
+    // The exit is exact to half a step of the outline.
     EXPECT_NEAR(length.between_knots, tendon.length + r * k_pi / 2 + 0.5 * (r - 0.5), 0.5 * r * k_two_pi / 3600);
     EXPECT_NEAR(length.spare_lap, k_pi / 4, 0.004);
     // Two knots of 12 diameters and two tails of 50 mm, in whole 5 mm.
@@ -122,10 +122,10 @@ TEST(TendonLengths, ARoundPulleyIsWoundAsACircleIs) {
   }
 }
 
-TEST(TendonLengths, APulleyWithoutAnchorsHasNone) { EXPECT_TRUE(tendon_lengths(made_product()).empty()); }
+TEST(TendonLengths, IsEmptyWithoutAnchors) { EXPECT_TRUE(tendon_lengths(made_product()).empty()); }
 
 }  // namespace
-TEST(Manifest, SaysWhatWasMadeOtherwiseThanDeclared) {
+TEST(Manifest, ReportsDerivedNumbers) {
   Product product = made_product();
   EXPECT_FALSE(Json::parse(manifest_json(product, {})).contains("derived"));
   product.file.mechanism.identified.pins.radius = 1.5;

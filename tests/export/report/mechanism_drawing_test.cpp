@@ -1,4 +1,4 @@
-// The drawn mechanism: to scale, and in groups that a page can move.
+// The drawn mechanism is to scale and in groups that a page can move.
 #include <gmock/gmock.h>
 
 #include <cstdio>
@@ -29,7 +29,7 @@ TEST(MechanismFigures, AreToScale) {
   EXPECT_NEAR(link / bar * bar_length, mechanism.joint.R, 0.1);
 }
 
-TEST(MechanismFigures, MoveInGroupsOfTheirOwn) {
+TEST(MechanismFigures, HaveMovableGroups) {
   const Mechanism mechanism = testing::forearm();
   const auto figures = mechanism_figures(mechanism, synthesise(mechanism), {{radians(90), radians(20)}});
   pugi::xml_document document;
@@ -40,7 +40,7 @@ TEST(MechanismFigures, MoveInGroupsOfTheirOwn) {
   EXPECT_EQ(turn.rfind("rotate(90 ", 0), 0u) << "α > 0 is clockwise, as SVG turns: " << turn;
 }
 
-TEST(MovingFigures, SayWhereTheirOriginLies) {
+TEST(MovingFigures, GiveTheirOrigin) {
   const Mechanism mechanism = testing::forearm();
   const auto figures = moving_figures(mechanism, synthesise(mechanism));
   ASSERT_EQ(figures.size(), 2u);
@@ -57,7 +57,7 @@ TEST(MovingFigures, SayWhereTheirOriginLies) {
   }
 }
 
-TEST(PolarFigure, SaysHowFarThePolarDrawingIsOff) {
+TEST(PolarFigure, ReportsErrorOfPolarDrawing) {
   const Mechanism mechanism = testing::forearm();
   const SynthesisResult synthesis = synthesise(mechanism);
   EXPECT_FALSE(polar_figure(synthesis, Side::left)) << "P1 is round: both are one";

@@ -1,4 +1,4 @@
-// Line plots: ticks, the best line, and that what is drawn can be read back as the values that went in.
+// Line plots: ticks, the best line, and curves that can be read back as their input values.
 #include "export/report/plot.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ constexpr double k_inf = std::numeric_limits<double>::infinity();
 /// Step written as m × 10^k with 1 <= m < 10.
 double mantissa(double step) { return step / std::pow(10.0, std::floor(std::log10(step) + 1e-9)); }
 
-TEST(Ticks, CoverTheRangeAndNoMore) {
+TEST(Ticks, CoverTheRange) {
   for (const double low : {-118.92, -1.0, -3e-7, 0.0, 14.745, 99990.0}) {
     for (const double span : {2.6e-6, 0.004, 1.0, 2.617, 238.2, 7.7e5}) {
       if (span < 1e-4 * std::abs(low)) continue;  // a double's differences are too coarse to judge
@@ -61,7 +61,7 @@ TEST(Ticks, LabelsHaveTheDecimalsOfTheirStep) {
   EXPECT_EQ(tick_decimals(0.02), 2);
 }
 
-TEST(BestLineOf, AParabolaIsHalfItsHeightAway) {
+TEST(BestLineOf, ParabolaDeviatesByHalfItsHeight) {
   std::vector<Vec2> points;
   for (int i = -100; i <= 100; ++i) points.emplace_back(0.01 * i, 1e-4 * i * i);
   const BestLine line = best_line(points);
@@ -70,7 +70,7 @@ TEST(BestLineOf, AParabolaIsHalfItsHeightAway) {
   EXPECT_NEAR(line.deviation, 0.5, 1e-9);
 }
 
-TEST(BestLineOf, TiltAndShiftOfThePointsAreFound) {
+TEST(BestLineOf, FindsTiltAndShift) {
   std::vector<Vec2> points;
   for (int i = -50; i <= 50; ++i) points.emplace_back(i, 7 - 0.25 * i + (i % 2 == 0 ? 0.1 : -0.1));
   const BestLine line = best_line(points);
@@ -79,7 +79,7 @@ TEST(BestLineOf, TiltAndShiftOfThePointsAreFound) {
   EXPECT_NEAR(line.deviation, 0.1, 1e-9);
 }
 
-TEST(BestLineOf, NothingIsNothing) { EXPECT_EQ(best_line({}).deviation, 0); }
+TEST(BestLineOf, AcceptsNoPoints) { EXPECT_EQ(best_line({}).deviation, 0); }
 
 Plot sample_plot() {
   Plot plot;
@@ -139,7 +139,7 @@ TEST(PlotFigure, NamesUnitsLimitsAndMarks) {
   }
 }
 
-TEST(PlotFigure, ABrokenNumberBreaksTheLineAndNothingElse) {
+TEST(PlotFigure, InvalidNumberBreaksTheLineOnly) {
   Plot plot = sample_plot();
   plot.series[0].points = {{-90, 16}, {-45, 16}, {0, k_nan}, {45, k_inf}, {60, 15}, {92.3, 15}};
   const std::string svg = inline_svg(plot_figure(plot));
@@ -148,7 +148,7 @@ TEST(PlotFigure, ABrokenNumberBreaksTheLineAndNothingElse) {
   EXPECT_EQ(read_back(parsed(plot_figure(plot)), "r1").size(), 4u);
 }
 
-TEST(PlotFigure, AnythingCanBePlotted) {
+TEST(PlotFigure, AcceptsAnyValues) {
   for (const double value : {k_nan, k_inf, -k_inf, 0.0, 1e300, -1e-300, 5.0}) {
     Plot plot = sample_plot();
     plot.series = {{"one", Ink::main, {{value, value}, {value, value}}, false}};

@@ -1,5 +1,4 @@
-// report.html: one well-formed page that asks for nothing from outside, says everything, and survives any text and any
-// number.
+// report.html: one well-formed, self-contained and complete page for any text and any number.
 #include "fusee/export/report.h"
 
 #include <gmock/gmock.h>
@@ -104,7 +103,7 @@ std::string shown(std::string html) {
   return html;
 }
 
-TEST(Report, IsAWellFormedPage) {
+TEST(Report, IsWellFormed) {
   const auto document = parsed(report_html(sample()));
   EXPECT_STREQ(document.child("html").child("body").child("header").child("h1").text().as_string(), "forearm");
   for (const char* id :
@@ -114,7 +113,7 @@ TEST(Report, IsAWellFormedPage) {
   EXPECT_GE(document.select_nodes("//svg").size(), 12u);
 }
 
-TEST(Report, AsksForNothingFromOutside) {
+TEST(Report, IsSelfContained) {
   const std::string html = report_html(sample());
   for (const char* reference : {"://", "src=", "href=", "url(", "@import", "fetch(", "XMLHttpRequest"}) {
     EXPECT_THAT(html, Not(HasSubstr(reference)));
@@ -122,7 +121,7 @@ TEST(Report, AsksForNothingFromOutside) {
   EXPECT_THAT(html, HasSubstr("default-src 'none'"));
 }
 
-TEST(Report, IsLight) {
+TEST(Report, HasBoundedSize) {
   Product product = sample();
   product.pulley.mesh = tube(400, 30);  // 24 000 triangles: more than a pulley has
   const std::size_t without = report_html(sample()).size();
@@ -131,9 +130,9 @@ TEST(Report, IsLight) {
   EXPECT_LT(with - without, 10u * 24'000u) << "bytes a triangle";
 }
 
-TEST(Report, SameInputSameBytes) { EXPECT_EQ(report_html(sample()), report_html(sample())); }
+TEST(Report, IsDeterministic) { EXPECT_EQ(report_html(sample()), report_html(sample())); }
 
-TEST(Report, NamesEveryCheckAndCondition) {
+TEST(Report, ListsEveryCheckAndCondition) {
   const Product product = sample();
   const auto document = parsed(report_html(product));
   const std::string checks = words_of(document.select_node("//section[@id='checks']").node());
@@ -148,7 +147,7 @@ TEST(Report, NamesEveryCheckAndCondition) {
   EXPECT_THAT(conditions, HasSubstr("Wall to bore"));
 }
 
-TEST(Report, SaysThatAllIsWell) {
+TEST(Report, ReportsSuccess) {
   const auto document = parsed(report_html(sample()));
   const auto verdict = document.select_node("//section[contains(@class, 'verdict')]").node();
   EXPECT_STREQ(verdict.attribute("class").as_string(), "verdict good");
@@ -156,7 +155,7 @@ TEST(Report, SaysThatAllIsWell) {
   EXPECT_THAT(words_of(verdict), HasSubstr("All 5 checks hold"));
 }
 
-TEST(Report, SaysWhatFailed) {
+TEST(Report, ReportsFailures) {
   Product product = sample();
   product.checks.push_back(at_most("theta_error", 0.31, 0.05, "deg", "α = 12°"));
   product.checks.push_back(at_least("drc_wall", 0.4, 1.2, "mm"));
@@ -173,24 +172,24 @@ TEST(Report, SaysWhatFailed) {
   EXPECT_STREQ(document.select_node("//section[@id='checks']//h3").node().text().as_string(), "Failed");
 }
 
-TEST(Report, SaysHowLongToCutTheTendon) {
+TEST(Report, GivesTendonLengths) {
   const std::string words = words_of(parsed(report_html(sample())).select_node("//section[@id='making']").node());
   EXPECT_THAT(words, HasSubstr("Tendon 1"));
   EXPECT_THAT(words, Not(HasSubstr("Tendon 2 "))) << "it has no anchor here";
   EXPECT_THAT(words, HasSubstr("Left on the pulley at full pay-out"));
 }
 
-TEST(Report, SaysWhyARoundBoreHasCorners) {
+TEST(Report, ExplainsPolyhole) {
   Product product = sample();
   product.pulley.layout.bore.circle = std::nullopt;
   product.pulley.layout.bore.outline = {{2.6, -2.6}, {2.6, 2.6}, {-2.6, 2.6}, {-2.6, -2.6}};
-  EXPECT_THAT(report_html(product), Not(HasSubstr("a printer’s corners cut inside")));
+  EXPECT_THAT(report_html(product), Not(HasSubstr("printed corners cut inside")));
   product.pulley.layout.bore.circle = RoundHole{Vec2::Zero(), 5.2};
-  EXPECT_THAT(report_html(product), HasSubstr("a polygon of 4 sides on purpose: a printer’s corners cut inside"));
+  EXPECT_THAT(report_html(product), HasSubstr("a polygon of 4 sides on purpose: printed corners cut inside"));
   EXPECT_THAT(report_html(product), HasSubstr("⌀ 5.2 inside the polygon"));
 }
 
-TEST(Report, SaysHowThePulleyGetsOntoWhatTurnsIt) {
+TEST(Report, GivesMountingInstructions) {
   const auto making = [](const Mechanism& mechanism) {
     return words_of(parsed(report_html(sample(mechanism))).select_node("//section[@id='making']").node());
   };
@@ -211,7 +210,7 @@ TEST(Report, ShowsForcesOnlyUnderLoad) {
   EXPECT_EQ(parsed(report_html(sample(mechanism))).select_nodes("//section[@id='forces']//svg").size(), 2u);
 }
 
-TEST(Report, EscapesWhatPeopleWrite) {
+TEST(Report, EscapesUserText) {
   const std::string nasty = "<script>alert('x')</script>{{tool}}</style>]]>&\"\x01";
   const std::size_t scripts = parsed(report_html(sample())).select_nodes("//script").size();
   Product product = sample();
@@ -233,7 +232,7 @@ TEST(Report, EscapesWhatPeopleWrite) {
                "<script>alert('x')</script>{{tool}}</style>]]>&\"\uFFFD");
 }
 
-TEST(Report, NumbersThatAreNoneBreakNothing) {
+TEST(Report, AcceptsInvalidNumbers) {
   Product product = sample();
   product.checks.push_back(at_most("deviation", k_nan, 0.01, "mm"));
   product.as_built.max_theta_error = k_nan;
@@ -249,7 +248,7 @@ TEST(Report, NumbersThatAreNoneBreakNothing) {
   EXPECT_THAT(shown(html), Not(ContainsRegex("[^a-z](nan|inf)[^a-z]")));
 }
 
-TEST(Report, APartThatWasNotMadeHasAReportToo) {
+TEST(Report, ReportsPartThatWasNotBuilt) {
   Product product;
   const std::string html = report_html(product);
   const auto document = parsed(html);
@@ -282,7 +281,7 @@ std::vector<std::uint32_t> bytes_of(const std::string& base64) {
   return bytes;
 }
 
-/// The reader of viewer.js, once more.
+/// An independent reader of viewer.js' format.
 TriangleMesh decoded(const MeshCode& code) {
   const auto bytes = bytes_of(code.base64);
   std::size_t at = 0;
@@ -316,7 +315,7 @@ TriangleMesh decoded(const MeshCode& code) {
   return mesh;
 }
 
-TEST(MeshCodes, EveryTriangleComesBackWithinHalfAStep) {
+TEST(MeshCodes, RoundTripIsExactToHalfAStep) {
   for (const TriangleMesh& mesh : {tube(7, 3), tube(100, 11), tube(301, 4)}) {
     const auto code = encode_mesh(mesh);
     ASSERT_TRUE(code.has_value());
@@ -333,7 +332,7 @@ TEST(MeshCodes, EveryTriangleComesBackWithinHalfAStep) {
   }
 }
 
-TEST(MeshCodes, ABrokenMeshHasNone) {
+TEST(MeshCodes, RejectInvalidMesh) {
   EXPECT_FALSE(encode_mesh({}).has_value());
   TriangleMesh mesh = tube(7, 3);
   mesh.triangles[2][1] = 1000;

@@ -1,4 +1,4 @@
-// pulley.scad as text: what OpenSCAD makes of it is judged by tests/oracle/judge_scad.py.
+// The text of pulley.scad. tests/oracle/judge_scad.py runs OpenSCAD on it.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ std::vector<Vec3> array_named(const std::string& text, const std::string& name) 
   return rows;
 }
 
-TEST(Scad, ArraysAreTheFloorsWithTheirNormals) {
+TEST(Scad, ArraysMatchFloorsAndNormals) {
   const std::string text = scad_text(product_of());
   const auto p1 = array_named(text, "P1"), p2 = array_named(text, "P2");
   ASSERT_GE(p1.size(), 40u);
@@ -44,7 +44,7 @@ TEST(Scad, ArraysAreTheFloorsWithTheirNormals) {
   }
 }
 
-TEST(Scad, ThinnedPointsStayNearTheCurveAndKeepItsBox) {
+TEST(Scad, ThinnedPointsKeepCurveAndBox) {
   const auto points = array_named(scad_text(product_of(2000)), "P1");
   EXPECT_LE(points.size(), 200u) << "OpenSCAD would take minutes";
   double high = 0;
@@ -56,7 +56,7 @@ TEST(Scad, ThinnedPointsStayNearTheCurveAndKeepItsBox) {
   EXPECT_NEAR(high, 15.5, 1e-4);
 }
 
-TEST(Scad, ParametersStandAtTheTopForTheCustomizer) {
+TEST(Scad, ParametersAreAtTheTop) {
   Product product = product_of();
   product.joint.mechanism.body.bore_diameter = 6;
   product.pulley.layout = resolve_layout(product.joint.mechanism, product.synthesis);
@@ -67,7 +67,7 @@ TEST(Scad, ParametersStandAtTheTopForTheCustomizer) {
   EXPECT_LT(text.find("\nbore = "), text.find("/* [Hidden] */"));
 }
 
-TEST(Scad, ASliderHasTheNumberAmongItsSteps) {
+TEST(Scad, SliderStepsContainTheNumber) {
   Product product = product_of();
   product.pulley.layout.channel_width = 1.237;    // between steps of 0.05 mm
   product.pulley.layout.flange_thickness = 12.5;  // beyond the end
@@ -76,7 +76,7 @@ TEST(Scad, ASliderHasTheNumberAmongItsSteps) {
   EXPECT_THAT(text, HasSubstr("\nflange_thickness = 12.5; // [0.4:0.1:13]\n"));
 }
 
-TEST(Scad, WhatThePartHasNotIsNoParameter) {
+TEST(Scad, OmitsParametersOfMissingFeatures) {
   Product product = product_of();
   product.pulley.layout.set_screw = {};
   const std::string none = scad_text(product);
@@ -86,7 +86,7 @@ TEST(Scad, WhatThePartHasNotIsNoParameter) {
   EXPECT_LT(with.find("\nset_screw = true;"), with.find("/* [Hidden] */"));
 }
 
-TEST(Scad, EveryNonConvexBodySaysItsConvexity) {
+TEST(Scad, NonConvexBodiesGiveConvexity) {
   const std::string text = scad_text(product_of());
   for (const std::string body : {" polyhedron(", "bore_outline();"}) {
     std::size_t found = text.find(body);
@@ -98,7 +98,7 @@ TEST(Scad, EveryNonConvexBodySaysItsConvexity) {
   }
 }
 
-/// The number that stands behind `name =`.
+/// The number after `name =`.
 double number_named(const std::string& text, const std::string& name) {
   const std::string begin = "\n" + name + " = ";
   const std::size_t at = text.find(begin);
@@ -116,7 +116,7 @@ Product printed_as(Parts parts, Flange flange = Flange::follow, bool supports = 
   return product;
 }
 
-TEST(Scad, WhatGoesToThePrinterCanBeChosen) {
+TEST(Scad, PrintedPartCanBeChosen) {
   const std::string one = scad_text(printed_as(Parts::one)), two = scad_text(printed_as(Parts::two));
   EXPECT_THAT(one, HasSubstr("\nshow = \"assembled\"; // [assembled, print]\n"));
   EXPECT_THAT(two, HasSubstr("\nshow = \"assembled\"; // [assembled, print, P1, P2]\n"));
@@ -124,12 +124,12 @@ TEST(Scad, WhatGoesToThePrinterCanBeChosen) {
   EXPECT_EQ(number_named(two, "parts"), 2);
 }
 
-TEST(Scad, ALedgeIsAsWideAsTheConeOverItIsSteep) {
+TEST(Scad, LedgeWidthMatchesCone) {
   for (const Parts parts : {Parts::one, Parts::two}) {
     const Product product = printed_as(parts, Flange::round);
     const std::string text = scad_text(product);
     const BodyLayout& layout = product.pulley.layout;
-    const double steep = std::tan(layout.roof_slope);
+    const double steep = std::tan(layout.ceiling_slope);
     EXPECT_NEAR(number_named(text, "upper_ledge") * steep, layout.upper_cone, 2e-5);
     if (parts == Parts::one) {
       EXPECT_GT(layout.middle_cone, 0);
@@ -141,7 +141,7 @@ TEST(Scad, ALedgeIsAsWideAsTheConeOverItIsSteep) {
   }
 }
 
-TEST(Scad, SupportsAndTheSlopeThatNeedsNoneAreParameters) {
+TEST(Scad, SupportsAndOverhangAreParameters) {
   Product product = printed_as(Parts::one);
   product.joint.mechanism.print.overhang = radians(50);
   EXPECT_THAT(scad_text(product), HasSubstr("\nsupports = false;\n"));
@@ -149,7 +149,7 @@ TEST(Scad, SupportsAndTheSlopeThatNeedsNoneAreParameters) {
   EXPECT_THAT(scad_text(printed_as(Parts::one, Flange::follow, true)), HasSubstr("\nsupports = true;\n"));
 }
 
-TEST(Scad, TeethOfAServosShaftAreInIt) {
+TEST(Scad, ContainsServoTeeth) {
   Product product = product_of();
   EXPECT_THAT(scad_text(product), HasSubstr("\nhorn_teeth = [];"));
   product.joint.mechanism.body.bore = Bore::horn;
@@ -158,24 +158,24 @@ TEST(Scad, TeethOfAServosShaftAreInIt) {
   const std::string text = scad_text(product);
   const std::size_t from = text.find("\nhorn_teeth = [["), to = text.find("]];", from);
   ASSERT_NE(from, std::string::npos);
-  // Four corners a tooth, and where a corner of the centre screw's hole looks through the rim.
+  // Four corners a tooth, plus the corners of the centre screw's hole.
   EXPECT_EQ(std::count(text.begin() + from, text.begin() + to, '['), 1 + 4 * 25 + 4);
   EXPECT_THAT(text, HasSubstr("\nhorn_recess = 4.2;"));
 }
 
-TEST(Scad, AnyNameStaysInItsComment) {
+TEST(Scad, NamesStayInComments) {
   Product product = product_of();
   product.joint.mechanism.name = "two\nlines(); cube(9);";
   EXPECT_THAT(scad_text(product), Not(HasSubstr("\nlines")));
 }
 
-TEST(Scad, EveryTieOffIsThere) {
+TEST(Scad, ContainsEveryTieOff) {
   Product product = product_of();
   EXPECT_THAT(scad_text(product), HasSubstr("\nchannels = [];\n"));
   Anchor channel;
   channel.side = Side::right;
   channel.pocket = {4, 1.5};
-  channel.mouth = {{0, 0}, {1, 0}, {2, 1}, {4, 1}, {4, 2}, {2, 2}, {1, 1}, {0, 1}};
+  channel.entry = {{0, 0}, {1, 0}, {2, 1}, {4, 1}, {4, 2}, {2, 2}, {1, 1}, {0, 1}};
   Anchor hole;
   hole.side = Side::left;
   hole.exit = 16 * unit(radians(90));
@@ -192,7 +192,7 @@ TEST(Scad, EveryTieOffIsThere) {
   EXPECT_THAT(text, HasSubstr("\nclamp_pilots = [\n  [1, [5, 14], 1.6, 4.5]];\n"));
 }
 
-TEST(Scad, SameInputSameBytes) { EXPECT_EQ(scad_text(product_of()), scad_text(product_of())); }
+TEST(Scad, IsDeterministic) { EXPECT_EQ(scad_text(product_of()), scad_text(product_of())); }
 
 }  // namespace
 }  // namespace fusee

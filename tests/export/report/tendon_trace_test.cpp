@@ -1,5 +1,4 @@
-// The drawn tendon is a taut string: tangent to the pin and to the pulley, and as long at one end of the stroke as at
-// the other.
+// The drawn tendon is a taut string: tangent to the pin and to the pulley, and of constant length over the stroke.
 #include "export/report/tendon_trace.h"
 
 #include <gmock/gmock.h>
@@ -70,7 +69,7 @@ TEST(TendonTrace, TouchesThePinAtItsPitchRadius) {
   }
 }
 
-TEST(TendonTrace, HasThePulleyOnItsInnerSide) {
+TEST(TendonTrace, PulleyIsOnInnerSide) {
   for (const Case& c : cases()) {
     const Vec2 axis(0, -c.mechanism.guides.OE - c.mechanism.pulley.EF);
     for_each_trace(c, [&](Side side, const TransmissionPoint& point, const TendonTrace& trace) {
@@ -101,16 +100,16 @@ TEST(TendonTrace, KeepsItsLengthOverTheStroke) {
   }
 }
 
-TEST(TendonTrace, AWrongPulleyDoesNotKeepTheLength) {
+TEST(TendonTrace, DetectsWrongPulley) {
   Case c = made(testing::forearm());
   for (OutlinePoint& point : c.synthesis.p2.points) point.position *= 1.01;
   EXPECT_GT(length_change(c, Side::right), 0.05);
 }
 
-TEST(TendonTrace, AgreesWithTheTransmissionOnARoundPulley) {
+TEST(TendonTrace, AgreesWithTransmissionOnRoundPulley) {
   const Case c = made(testing::forearm());
-  // On a round P1 the take-off point is the foot of the perpendicular: what is free and what is wound can be told
-  // apart.
+  // On a round P1 the take-off point is the foot of the perpendicular, so that the free and the wound part are
+  // distinguished.
   const auto first =
       trace_tendon(c.mechanism, c.synthesis.p1, c.synthesis.stroke.front().alpha, c.synthesis.stroke.front().theta);
   ASSERT_TRUE(first.has_value());
@@ -122,7 +121,7 @@ TEST(TendonTrace, AgreesWithTheTransmissionOnARoundPulley) {
   });
 }
 
-TEST(TendonTrace, ThereIsNoneFromInsideThePin) {
+TEST(TendonTrace, IsEmptyInsidePin) {
   Case c = made(testing::forearm());
   c.mechanism.guides.radius = 80;
   EXPECT_FALSE(trace_tendon(c.mechanism, c.synthesis.p1, 0, 0).has_value());

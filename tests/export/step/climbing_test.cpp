@@ -1,4 +1,4 @@
-// The curves and the skin that pulley.step of several turns is made of.
+// The curves and the skin of a multi-turn pulley's STEP file.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -39,9 +39,9 @@ struct Known {
   }
 };
 
-TEST(ClimbingCurve, FollowsAKnownCurveBetweenItsRows) {
+TEST(ClimbingCurve, FollowsKnownCurve) {
   const Known known;
-  // Rows as far apart as of no pulley.
+  // Rows further apart than those of any pulley.
   const Spiral spiral = spiral_of(known.shape, known.begin, 5.0, known.slope, 0.1);
   const SpiralPlace place{60.0, -1.0};
   const ClimbingCurve curve(spiral, place);
@@ -115,7 +115,7 @@ TEST_F(Skin, LoopsCloseAndEdgesEndAtTheirCorners) {
 }
 
 /// A solid without handles: corners − edges + faces, less one for each hole in a face, are two.
-TEST_F(Skin, IsAClosedSurfaceWithoutHandles) {
+TEST_F(Skin, IsClosedWithoutHandles) {
   std::ptrdiff_t holes = 0;
   for (const StepSkin::Face& face : skin().faces) holes += std::ssize(face.loops) - 1;
   EXPECT_EQ(std::ssize(skin().corners) - std::ssize(skin().edges) + std::ssize(skin().faces) - holes, 2);
@@ -129,8 +129,8 @@ Vec3 point_of(const StepSkin::Patch& patch, const std::vector<Vec3>& row, double
 
 double polygon_part(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)) / 6.0; }
 
-/// By the divergence theorem over patches cut into triangles and flat faces, against the mesh before it is cut.
-TEST_F(Skin, HoldsWhatTheGridHolds) {
+/// Volume by the divergence theorem over triangulated patches and flat faces, compared with the blank's mesh.
+TEST_F(Skin, VolumeMatchesBlank) {
   constexpr int k_along = 160, k_across = 12;
   double volume = 0;
   for (const StepSkin::Face& face : skin().faces) {

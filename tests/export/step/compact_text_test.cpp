@@ -14,19 +14,19 @@ const std::string k_text =
     "#5 = VECTOR('',#1,1.);\n#9 = VECTOR('',#4,1.);\n#12 = VERTEX_POINT('#4',#9);\n#13 = VERTEX_POINT('#4',#5);\n"
     "ENDSEC;\nEND-ISO-10303-21;\n";
 
-TEST(CompactStep, ValuesThatStandTwiceStandOnce) {
+TEST(CompactStep, MergesEqualValues) {
   EXPECT_EQ(compact_step(k_text),
             "ISO-10303-21;\nHEADER;\nFILE_NAME('it''s; #7','',(''),(''),'a','b','');\nENDSEC;\nDATA;\n"
             "#1=DIRECTION('',(0.,0.,1.));\n#2=VECTOR('',#1,1.);\n#3=VERTEX_POINT('#4',#2);\n#4=VERTEX_POINT('#4',#2);\n"
             "ENDSEC;\nEND-ISO-10303-21;\n");
 }
 
-TEST(CompactStep, ASecondTimeChangesNothing) {
+TEST(CompactStep, IsIdempotent) {
   const std::string once = compact_step(k_text);
   EXPECT_EQ(compact_step(once), once);
 }
 
-TEST(CompactStep, NumbersKeepTenDigitsAndTheirPoint) {
+TEST(CompactStep, KeepsTenDigitsAndPoint) {
   const auto number = [](const std::string& text) {
     return compact_step("DATA;\n#1=LENGTH_MEASURE(" + text + ");\nENDSEC;\n");
   };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int k_samples = 190;
 
-/// Normals all round, not evenly.
+/// Normals all round, unevenly spaced.
 std::vector<double> directions() {
   std::vector<double> psi;
   for (int i = 0; i < k_samples; ++i) {
@@ -28,7 +28,7 @@ struct Ellipse {
   double support(double psi) const { return std::hypot(a * std::cos(psi), b * std::sin(psi)); }
   Vec2 point(double psi) const { return Vec2(a * a * std::cos(psi), b * b * std::sin(psi)) / support(psi); }
   double radius(double psi) const { return a * a * b * b / std::pow(support(psi), 3); }
-  /// The distance of a point beside it, to first order: its implicit equation knows no directions.
+  /// The distance of a point from it, to first order, by its implicit equation.
   double off(const Vec2& at) const {
     const double value = at.x() * at.x() / (a * a) + at.y() * at.y() / (b * b) - 1;
     return std::abs(value) / (2 * Vec2(at.x() / (a * a), at.y() / (b * b)).norm());
@@ -53,7 +53,7 @@ double worst_of(const StepSpline& spline, const Off& off) {
   return worst;
 }
 
-TEST(NormalSpline, IsTheEllipseThatWasSampled) {
+TEST(NormalSpline, MatchesSampledEllipse) {
   const Ellipse ellipse{24, 15};
   const auto spline = fit(sampled(ellipse), 0.1, 0.1 + 4, {}, 5e-5, 30);
   ASSERT_TRUE(spline);
@@ -61,7 +61,7 @@ TEST(NormalSpline, IsTheEllipseThatWasSampled) {
   EXPECT_LT(spline->position.size(), 60u);
 }
 
-TEST(NormalSpline, ATighterToleranceTakesMorePoles) {
+TEST(NormalSpline, TighterToleranceRequiresMorePoles) {
   const Ellipse ellipse{24, 15};
   const auto coarse = fit(sampled(ellipse), 0, 4, {}, 1e-2, 1), fine = fit(sampled(ellipse), 0, 4, {}, 1e-6, 1);
   ASSERT_TRUE(coarse && fine);
@@ -69,7 +69,7 @@ TEST(NormalSpline, ATighterToleranceTakesMorePoles) {
   EXPECT_LT(worst_of(fine->parallel(0), [&](const Vec2& at) { return ellipse.off(at); }), 2e-6);
 }
 
-TEST(NormalSpline, ParallelsOfACircleAreCircles) {
+TEST(NormalSpline, ParallelsOfCircleAreCircles) {
   const Ellipse circle{18, 18};
   const auto spline = fit(sampled(circle), 0.2, 5, {}, 5e-5, 30);
   ASSERT_TRUE(spline);
@@ -79,7 +79,7 @@ TEST(NormalSpline, ParallelsOfACircleAreCircles) {
   }
 }
 
-TEST(NormalSpline, PiecesMeetWithTheirTangents) {
+TEST(NormalSpline, PiecesJoinTangentially) {
   const SupportCurve curve = sampled({24, 15});
   const auto first = fit(curve, 0.1, 3, {}, 5e-5, 1), second = fit(curve, 3, 0.1 + k_two_pi, {}, 5e-5, 1);
   ASSERT_TRUE(first && second);
@@ -90,9 +90,9 @@ TEST(NormalSpline, PiecesMeetWithTheirTangents) {
   EXPECT_LT(std::abs(cross(before.normalized(), after.normalized())), 1e-9);
 }
 
-/// Of radius 10 up to ψ = π, growing by 8 mm/rad from there on. No curve closes so: the sector leaves out where this
-/// one does not.
-TEST(NormalSpline, AKinkThatIsSaidTakesNoPolesBesideIt) {
+/// Radius 10 up to ψ = π, growing by 8 mm/rad from there on. Such a curve does not close, so the sector excludes the
+/// gap.
+TEST(NormalSpline, DeclaredKinkAddsNoPoles) {
   std::vector<double> psi = directions(), radii;
   *std::min_element(psi.begin(), psi.end(),
                     [](double a, double b) { return std::abs(a - k_pi) < std::abs(b - k_pi); }) = k_pi;
@@ -113,9 +113,9 @@ TEST(NormalSpline, AKinkThatIsSaidTakesNoPolesBesideIt) {
   for (const double at : {1.5, 3.0, k_pi, 3.3, 4.5}) EXPECT_LT((point_on(spline, at) - point(at)).norm(), 2e-5) << at;
 }
 
-/// Over idlers a tendon leaves a straight in the curve; the samples beside it are a fifth of a degree apart. Of radius
-/// 12 up to it and of 14 from there on.
-TEST(NormalSpline, AStraightBetweenSamplesIsStraight) {
+/// A straight of the curve as over idlers, with samples a fifth of a degree apart beside it. Radius 12 before it and 14
+/// after it.
+TEST(NormalSpline, StraightBetweenSamplesIsStraight) {
   constexpr double k_straight = 2.4, k_at = 3.5;
   constexpr double k_beside = radians(0.1), k_turn = radians(0.005);
   const Vec2 normal = unit(k_at), begin = 12 * normal, end = begin + k_straight * turned_left(normal);

@@ -1,4 +1,4 @@
-// pulley.step, where this fusee can write it. FreeCAD judges it in tests/oracle/judge_step.py.
+// pulley.step, if this fusee can write it. FreeCAD checks it in tests/oracle/judge_step.py.
 #include "fusee/export/step.h"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ const Product& small() {
   return product;
 }
 
-/// The file of `small`, made once.
+/// The file of `small`, written once.
 const StepFile& small_file() {
   static const StepFile file = step_file(small());
   return file;
@@ -50,7 +50,7 @@ class Step : public ::testing::Test {
 
   std::vector<Check> checks_of(const std::string& bytes) {
     write_file(path_, bytes, true);
-    return look_at_step(path_, small(), 0.01).checks;
+    return inspect_step(path_, small(), 0.01).checks;
   }
 
   fs::path path_;
@@ -78,7 +78,7 @@ TEST_F(Step, AFaceThatIsMissingIsSeen) {
 }
 
 TEST_F(Step, OtherUnitsAreSeen) {
-  // Metres, and far too large to be looked at closely.
+  // A file in metres, too large for a fine mesh.
   EXPECT_FALSE(all_ok(checks_of(replaced(small_file().bytes, ".MILLI.", "$"))));
   EXPECT_THAT(checks_of(replaced(small_file().bytes, ".MILLI.", ".CENTI.")),
               Contains(::testing::AllOf(Field(&Check::name, "floor_error"), Field(&Check::ok, false))));
@@ -89,7 +89,7 @@ TEST_F(Step, NoStepIsNoSolid) {
               Contains(::testing::AllOf(Field(&Check::name, "solids"), Field(&Check::ok, false))));
 }
 
-/// Of several turns.
+/// A product of several turns.
 const Product& climbing() {
   static const Product product = [] {
     Product made;
@@ -108,19 +108,19 @@ class ClimbingStep : public Step {
     static const StepFile made = step_file(climbing());
     return made;
   }
-  StepLook look_at(const std::string& bytes) {
+  StepInspection look_at(const std::string& bytes) {
     write_file(path_, bytes, true);
-    return look_at_step(path_, climbing(), 0.02);
+    return inspect_step(path_, climbing(), 0.02);
   }
 };
 
 TEST_F(ClimbingStep, IsOneSolidThatPassesItsChecksAndWindsAsItShould) {
   ASSERT_TRUE(climbing().pulley.made());
   ASSERT_EQ(file().complaint, "");
-  const StepLook look = look_at(file().bytes);
+  const StepInspection look = look_at(file().bytes);
   for (const Check& check : look.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value;
   const HelicalRewind wound = rewind_several_turns(climbing(), look.climbing);
-  // Found in the surfaces themselves: far below what facets leave.
+  // Measured on the surfaces themselves: the error is far below that of facets.
   EXPECT_LT(degrees(wound.result.max_theta_error), 0.002);
   EXPECT_LT(wound.result.max_slack, 0.001);
 }
@@ -129,7 +129,7 @@ TEST_F(ClimbingStep, FloorsOfAnotherTendonAreSeen) {
   write_file(path_, file().bytes, true);
   Product other = climbing();
   other.joint.mechanism.tendon.diameter += 0.001;
-  EXPECT_THAT(look_at_step(path_, other, 0.02).checks,
+  EXPECT_THAT(inspect_step(path_, other, 0.02).checks,
               Contains(::testing::AllOf(Field(&Check::name, "floor_error"), Field(&Check::ok, false))));
 }
 
@@ -141,7 +141,7 @@ TEST_F(ClimbingStep, AFaceThatIsMissingIsSeen) {
 }
 
 /// P1 of the paper's law is round about the axis: its rows are circles. P2's are splines.
-TEST(StepPart, ARoundGrooveIsOfCircles) {
+TEST(StepPart, RoundGrooveHasCircles) {
   const StepPart part = step_part(designed("paper_optimum", {{"body.marks", "none"}}));
   int circles = 0, splines = 0;
   for (const StepRow& row : part.rows) (row.radius > 0 ? circles : splines) += 1;
@@ -150,7 +150,7 @@ TEST(StepPart, ARoundGrooveIsOfCircles) {
   EXPECT_EQ(part.bands.size() + 1, part.rows.size());
 }
 
-TEST(StepPart, WhatIsTooLargeIsRefusedBeforeAnythingIsCut) {
+TEST(StepPart, RejectsTooLargePartsEarly) {
   Product product = small();
   for (Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
     for (OutlinePoint& point : outline->points) point.position *= 100;

@@ -1,4 +1,4 @@
-#include "solid/undersides.h"
+#include "solid/downward_faces.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,10 +8,10 @@
 namespace fusee {
 namespace {
 
-// Far above the rounding of sections and normals, far below what matters.
+// Much larger than the rounding of sections and normals, much smaller than any feature.
 constexpr double k_grain_of_plan = 1e-6;
-// What is steeper than asked for by less than this share counts as flat: where a way down crosses slivers, which have
-// no slope of their own, it may lead so much further; each of at most a quarter of that in width.
+// Relative margin on the steepness for slivers, which have no slope of their own: a path down across slivers may run
+// further by this fraction. Each sliver is at most a quarter of it wide.
 constexpr double k_spare = 1e-2;
 constexpr double k_narrow_sliver = 0.25 * k_spare;
 
@@ -25,7 +25,7 @@ bool is_flat_line(const Vec3& along, double steepness) {
   return std::abs(along.z()) <= steepness * (1 + k_spare) * along.head<2>().norm();
 }
 
-// From the line on, towards the corner.
+// True if the facet rises from the line towards its corner.
 bool rises_from(const Vec3& along, const Vec3& to_corner) {
   const double slope = to_corner.z() * along.squaredNorm() - to_corner.dot(along) * along.z();
   return slope >= -k_grain_of_plan * to_corner.norm() * along.squaredNorm();
@@ -39,9 +39,9 @@ struct RisingSide {
 
 bool before(const RisingSide& a, const RisingSide& b) { return std::pair(a.low, a.high) < std::pair(b.low, b.high); }
 
-class Undersides {
+class DownwardFaceFinder {
  public:
-  Undersides(const TriangleMesh& mesh, const std::vector<double>& heights, double steepness)
+  DownwardFaceFinder(const TriangleMesh& mesh, const std::vector<double>& heights, double steepness)
       : mesh_(mesh), heights_(heights), steepness_(steepness) {
     const double reach = heights.size() < 2 ? 0.0 : (heights[1] - heights[0]) / steepness;
     narrow_ = k_narrow_sliver * reach;
@@ -51,7 +51,7 @@ class Undersides {
   std::vector<PlacesInPlan> found() && {
     add_faces();
     add_slivers();
-    add_keels();
+    add_ridges();
     add_lowest_points();
     return std::move(places_);
   }
@@ -79,7 +79,7 @@ class Undersides {
     }
   }
 
-  // A sliver beside another one: who knows how wide they are together.
+  // Two adjacent slivers count as flat, because their combined width is unknown.
   void add_slivers() {
     std::vector<std::pair<std::uint64_t, std::size_t>> sides;
     for (std::size_t s = 0; s < slivers_.size(); ++s) {
@@ -113,7 +113,7 @@ class Undersides {
     }
   }
 
-  void add_keels() {
+  void add_ridges() {
     std::sort(sides_.begin(), sides_.end(), before);
     for (auto first = sides_.begin(); first != sides_.end();) {
       const auto end = std::upper_bound(first, sides_.end(), *first, before);
@@ -130,7 +130,7 @@ class Undersides {
     }
   }
 
-  // To each layer that has a part of it between itself and the layer below.
+  // Adds a feature to each layer whose height range it reaches.
   void add(const Vec3& low, const Vec3& high) {
     const auto first = std::lower_bound(heights_.begin(), heights_.end(), low.z() - k_grain_of_plan) - heights_.begin();
     for (auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(first, 1));
@@ -142,9 +142,9 @@ class Undersides {
   const std::vector<double>& heights_;
   double steepness_, narrow_ = 0;
   std::vector<PlacesInPlan> places_;
-  std::vector<std::array<std::uint32_t, 3>> slivers_;  ///< that look down flatly
+  std::vector<std::array<std::uint32_t, 3>> slivers_;  ///< slivers that face down and are flat
   std::vector<RisingSide> sides_;
-  std::vector<bool> is_lower_beside_, is_under_;  // of vertices
+  std::vector<bool> is_lower_beside_, is_under_;  // for each vertex
 };
 
 }  // namespace
@@ -179,9 +179,9 @@ bool PlacesInPlan::may_meet(const Vec2& from, const Vec2& to) const {
   return false;
 }
 
-std::vector<PlacesInPlan> flat_undersides(const TriangleMesh& welded, const std::vector<double>& heights,
-                                          double steepness) {
-  return Undersides(welded, heights, steepness).found();
+std::vector<PlacesInPlan> flat_downward_faces(const TriangleMesh& welded, const std::vector<double>& heights,
+                                              double steepness) {
+  return DownwardFaceFinder(welded, heights, steepness).found();
 }
 
 }  // namespace fusee

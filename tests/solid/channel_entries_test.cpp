@@ -1,5 +1,5 @@
-// Mouths of tie-off channels in plan: closed lines that cross nothing, walls that stand on the groove's edge.
-#include "solid/mouths.h"
+// Channel entries in plan: simple outlines whose walls stand steeply on the groove edge.
+#include "solid/channel_entries.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@ struct Case {
   AnchorPath path;
   double width = 0;
   double beyond = 0;
-  double lip = 0;  ///< outside the floor
+  double groove_edge = 0;  ///< outside the floor
   Polygon floor;
-  double floor_radius = 0;  ///< of the circle about the origin; 0: straight, below y = -d/2
+  double floor_radius = 0;  ///< radius of the circle about the origin; 0: straight, below y = -d/2
 };
 
 constexpr double k_d = 1.0;
@@ -35,7 +35,7 @@ double depth_in_floor(const Case& one, const Vec2& point) {
   return one.floor_radius > 0 ? one.floor_radius - point.norm() : -0.5 * k_d - point.y();
 }
 
-// What a search for tie-offs would take: the pocket lies within the floor.
+// Cases that a search for tie-offs would accept: the pocket lies within the floor.
 std::vector<Case> cases() {
   std::vector<Case> cases;
   for (const double sense : {1.0, -1.0}) {
@@ -79,7 +79,7 @@ Polygon outline_of(const ChannelEdges& edges) {
   return outline;
 }
 
-// Past each other, at neither's end.
+// True if the segments cross at inner points of both.
 bool cross_each_other(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const double at_c = cross(b - a, c - a), at_d = cross(b - a, d - a), at_a = cross(d - c, a - c),
                at_b = cross(d - c, b - c);
@@ -101,7 +101,7 @@ double from_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (a + t * (b - a) - p).norm();
 }
 
-// By the angles under which the sides are seen; on the line counts as within.
+// By the angles under which the sides are seen. Points on the outline count as inside.
 bool within(const Polygon& outline, const Vec2& point, double slack) {
   double seen = 0;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -119,30 +119,30 @@ double outside_floor(const Case& one, const Vec2& point) {
   return one.floor_radius > 0 ? point.norm() - one.floor_radius : point.y() + 0.5 * k_d;
 }
 
-TEST(Mouths, EdgesAreSimpleAndDoNotCross) {
+TEST(ChannelEntries, EdgesAreSimpleAndDoNotCross) {
   for (const Case& one : cases()) {
     const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond);
     ASSERT_EQ(edges.inner.size(), edges.outer.size());
     EXPECT_EQ(crossings(outline_of(edges)), 0) << name_of(one);
-    // Sections of the channel do not cross either: its ceiling has no fold.
+    // Sections of the channel do not cross, so its ceiling has no fold.
     for (std::size_t k = 0; k + 1 < edges.inner.size(); ++k)
       EXPECT_FALSE(cross_each_other(edges.inner[k], edges.outer[k], edges.inner[k + 1], edges.outer[k + 1]))
           << name_of(one) << " " << k;
   }
 }
 
-TEST(Mouths, ContainThePlainChannel) {
+TEST(ChannelEntries, ContainThePlainChannel) {
   for (const Case& one : cases()) {
-    const Polygon mouth = outline_of(flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond));
+    const Polygon entry = outline_of(flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond));
     const ChannelEdges plain = plain_edges(one.path, one.width);
-    // Chords of both lie within the arcs' sagitta of each other.
+    // The chords of both outlines lie within the arcs' sagitta of each other.
     const double sagitta = (one.path.fillet + one.width) * (1 - std::cos(one.path.turn / 24));
-    for (const Vec2& point : plain.inner) EXPECT_TRUE(within(mouth, point, sagitta)) << name_of(one);
-    for (const Vec2& point : plain.outer) EXPECT_TRUE(within(mouth, point, sagitta)) << name_of(one);
+    for (const Vec2& point : plain.inner) EXPECT_TRUE(within(entry, point, sagitta)) << name_of(one);
+    for (const Vec2& point : plain.outer) EXPECT_TRUE(within(entry, point, sagitta)) << name_of(one);
   }
 }
 
-TEST(Mouths, BeginOnAWallAcrossTheFloor) {
+TEST(ChannelEntries, BeginAtWallAcrossFloor) {
   for (const Case& one : cases()) {
     const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond);
     const Vec2 wall = edges.outer.front() - edges.inner.front();
@@ -151,9 +151,9 @@ TEST(Mouths, BeginOnAWallAcrossTheFloor) {
   }
 }
 
-// What prints is the tip between wall and groove edge: a roof's 0.1833 mm a layer move it by less than PrusaSlicer's
-// 0.1931 mm, however round its corner is.
-TEST(Mouths, WallsStandSteeplyOnTheGroovesEdges) {
+// The tip between wall and groove edge must print: a ceiling's step of 0.1833 mm a layer moves it by less than
+// PrusaSlicer's 0.1931 mm, for any curvature of its corner.
+TEST(ChannelEntries, WallsAreSteepAtGrooveEdge) {
   int walls = 0;
   for (const Case& one : cases()) {
     const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond);
@@ -164,7 +164,7 @@ TEST(Mouths, WallsStandSteeplyOnTheGroovesEdges) {
       for (int i = 0; i <= k_places; ++i) {
         const Vec2 place = a + (b - a) * i / k_places;
         const double out = outside_floor(one, place);
-        if (out < 0 || out > one.lip) continue;
+        if (out < 0 || out > one.groove_edge) continue;
         ++walls;
         const double steep = std::asin(std::min(1.0, std::abs((b - a).normalized().dot(normal_at(one, place)))));
         EXPECT_GE(degrees(steep), 73) << name_of(one) << " " << out << " mm outside the floor";
@@ -174,8 +174,8 @@ TEST(Mouths, WallsStandSteeplyOnTheGroovesEdges) {
   EXPECT_GT(walls, 1000);
 }
 
-// The ceiling rises from the inner edge to the outer one by what a roof needs over that width.
-TEST(Mouths, CeilingsAreNoFlatterThanTheirRise) {
+// The ceiling rises from the inner edge to the outer one by the rise that its width requires.
+TEST(ChannelEntries, CeilingsKeepTheirRise) {
   for (const Case& one : cases()) {
     for (const double slope : {30.0, 47.5, 62.5}) {
       const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond);

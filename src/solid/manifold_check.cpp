@@ -1,4 +1,4 @@
-#include "solid/gate.h"
+#include "solid/manifold_check.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <string>
@@ -15,7 +15,7 @@ using HalfEdges = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
 }  // namespace
 
-// add_face() refuses an edge that has two faces already, and a face that makes a vertex's surroundings fall apart.
+// add_face() rejects an edge with more than two faces, and a face that splits a vertex's neighbourhood.
 void demand_solid(const TriangleMesh& mesh, const char* what) {
   HalfEdges half_edges;
   half_edges.reserve(mesh.vertices.size(), 3 * mesh.triangles.size() / 2, mesh.triangles.size());

@@ -5,8 +5,7 @@
 
 namespace fusee {
 
-/// Builds the half-edge mesh of `mesh` and demands (Bug) that it is a closed 2-manifold: what is cut later relies on
-/// it.
+/// Builds the half-edge mesh of `mesh` and demands (Bug) that it is a closed 2-manifold. Later cuts rely on it.
 void demand_solid(const TriangleMesh& mesh, const char* what);
 
 }  // namespace fusee

@@ -1,4 +1,4 @@
-#include "solid/blame.h"
+#include "solid/support_attribution.h"
 
 #include <fmt/format.h>
 
@@ -7,18 +7,18 @@
 #include <optional>
 
 #include "fusee/solid/print.h"
-#include "solid/hanging.h"
+#include "solid/overhangs.h"
 #include "solid/place.h"
 #include "solid/plane_distance.h"
 
 namespace fusee {
 namespace {
 
-// A mouth opens by about this many groove depths and channel widths beyond what its bars cover.
-constexpr double k_mouth_depths = 2.0;
-constexpr double k_mouth_widths = 2.0;
+// A channel entry extends beyond its bars by about this many groove depths and channel widths.
+constexpr double k_entry_depths = 2.0;
+constexpr double k_entry_widths = 2.0;
 
-struct Suspect {
+struct Attribution {
   double gap = std::numeric_limits<double>::infinity();
   std::optional<Rejection> who;
 
@@ -29,12 +29,12 @@ struct Suspect {
   }
 };
 
-// P1's tie-offs lie below the plane in which a pulley is parted, P2's above.
-Suspect suspect_for(const Vec3& place, const BodyPlan& plan) {
+// P1's tie-offs lie below the parting plane, P2's above.
+Attribution attribution_of(const Vec3& place, const BodyPlan& plan) {
   const BodyLayout& layout = plan.layout;
   const Side side = place.z() < layout.z_mate ? Side::left : Side::right;
   const Bar at{place.head<2>(), place.head<2>(), 0.0};
-  Suspect nearest;
+  Attribution nearest;
   for (const PlannedAnchor& anchor : plan.anchors) {
     if (anchor.side != side) continue;
     const Rejection itself{side, anchor.wound_end, anchor.wrap(), false};
@@ -70,19 +70,18 @@ Condition does_not_print(const std::string& name, const std::vector<Vec3>& place
   condition.value = static_cast<double>(places.size());
   condition.limit = 0;
   condition.unit = "1";
-  condition.message =
-      fmt::format("{} has no form that prints without supports: at {} a layer would stand out too far, {}", name,
-                  place_of(places.front()), whatever);
+  condition.message = fmt::format("{} cannot be printed without supports: at {} a layer would overhang too far, {}",
+                                  name, place_of(places.front()), whatever);
   return condition;
 }
 
-std::vector<Rejection> blamed_for(const std::vector<Vec3>& places, const BodyPlan& plan) {
-  const double reach = k_mouth_depths * plan.layout.groove_depth + k_mouth_widths * plan.layout.channel_width;
+std::vector<Rejection> attribute_supports(const std::vector<Vec3>& places, const BodyPlan& plan) {
+  const double reach = k_entry_depths * plan.layout.groove_depth + k_entry_widths * plan.layout.channel_width;
   std::vector<Rejection> blamed;
   for (const Vec3& place : places) {
-    const Suspect suspect = suspect_for(place, plan);
-    if (!suspect.who || suspect.gap > reach) continue;
-    if (std::find(blamed.begin(), blamed.end(), *suspect.who) == blamed.end()) blamed.push_back(*suspect.who);
+    const Attribution attribution = attribution_of(place, plan);
+    if (!attribution.who || attribution.gap > reach) continue;
+    if (std::find(blamed.begin(), blamed.end(), *attribution.who) == blamed.end()) blamed.push_back(*attribution.who);
   }
   return blamed;
 }

@@ -1,4 +1,4 @@
-#include "solid/hanging.h"
+#include "solid/overhangs.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,15 +14,15 @@ namespace fusee {
 namespace {
 
 constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
-// A facet narrower than this has no direction of its own: the floats of coordinates up to 128 mm are 8e-6 mm apart,
-// which turns it by 0.1° and more. Booleans cut planes into such facets.
+// Narrower facets have no reliable direction: floats of coordinates up to 128 mm are 8e-6 mm apart, which turns such a
+// facet by 0.1° and more. Boolean operations cut planes into such facets.
 constexpr double k_narrow = 5e-3;
-// Facets of one plane that were cut into ever thinner ones: after so many the next wide one is no longer of that plane.
+// Largest number of narrow neighbours to cross in search of a wide facet of the same plane.
 constexpr int k_narrow_neighbours = 8;
 
 struct Surface {
   TriangleMesh mesh;                                 // welded
-  std::vector<std::array<std::uint32_t, 3>> across;  // facet over side k
+  std::vector<std::array<std::uint32_t, 3>> across;  // facet across side k
   std::vector<Vec3> normals;
   double bed = 0;
 
@@ -31,12 +31,13 @@ struct Surface {
   Vec3 twice_area(std::uint32_t facet) const { return along(facet, 0).cross(corner(facet, 2) - corner(facet, 0)); }
 };
 
-// Over a side lies a facet that runs along it the other way: so a line that crosses facet after facet never turns back.
+// Pairs facets that run along a common side in opposite directions. A line that crosses facet after facet then never
+// turns back.
 std::vector<std::array<std::uint32_t, 3>> neighbours_of(const TriangleMesh& mesh) {
   struct HalfEdge {
     std::uint64_t edge;
     std::uint32_t side;  // 3 · facet + k
-    bool upward;         // from the vertex of the lower number
+    bool upward;         // runs from the vertex of the lower number
   };
   std::vector<HalfEdge> halves;
   halves.reserve(3 * mesh.triangles.size());
@@ -66,7 +67,7 @@ std::size_t longest_side(const Surface& surface, std::uint32_t facet) {
   return longest;
 }
 
-// Of the facet, or of the first one over the longest sides that is wide enough to have a direction.
+// The normal of the facet, or of the first facet across the longest sides that is wide enough.
 Vec3 normal_of(const Surface& surface, std::uint32_t facet) {
   std::uint32_t at = facet;
   for (int step = 0; step < k_narrow_neighbours && at != k_none; ++step) {
@@ -100,9 +101,9 @@ bool within_first_layer(const Surface& surface, std::uint32_t facet, double firs
 
 double slope_of(const Vec3& normal) { return std::acos(std::clamp(-normal.z(), -1.0, 1.0)); }
 
-// Is there material below side k of a hanging facet? It has a neighbour that does not hang. One that looks down or
-// stands upright holds where it goes down from the edge. One that looks up has material below it: it holds in a sharp
-// cave, and not at a sharp rim.
+// Tests for material below side k of an overhanging facet, whose neighbour there does not overhang. A downward or
+// vertical neighbour supports the edge if it goes down from it. An upward neighbour has material below it: it supports
+// at a sharp inner edge and not at a sharp rim.
 bool holds(const Surface& surface, std::uint32_t facet, std::size_t k, std::uint32_t neighbour) {
   const Vec3& normal = surface.normals[neighbour];
   const Vec3 into_neighbour = normal.cross(-surface.along(facet, k));
@@ -115,8 +116,8 @@ class PatchFinder {
   PatchFinder(const Surface& surface, std::vector<bool> hangs, double first_layer)
       : surface_(surface), hangs_(std::move(hangs)), first_layer_(first_layer), index_(hangs_.size(), k_none) {}
 
-  std::vector<HangingPatch> patches() {
-    std::vector<HangingPatch> found;
+  std::vector<OverhangPatch> patches() {
+    std::vector<OverhangPatch> found;
     for (std::uint32_t f = 0; f < hangs_.size(); ++f) {
       if (hangs_[f] && index_[f] == k_none) found.push_back(patch_from(f));
     }
@@ -124,7 +125,7 @@ class PatchFinder {
   }
 
  private:
-  HangingPatch patch_from(std::uint32_t seed) {
+  OverhangPatch patch_from(std::uint32_t seed) {
     std::vector<std::uint32_t> members{seed};
     index_[seed] = 0;
     for (std::size_t i = 0; i < members.size(); ++i) {
@@ -134,19 +135,19 @@ class PatchFinder {
         members.push_back(next);
       }
     }
-    HangingPatch patch;
+    OverhangPatch patch;
     patch.flattest = k_pi;
     for (const std::uint32_t f : members) add(patch, f);
     return patch;
   }
 
-  void add(HangingPatch& patch, std::uint32_t f) const {
-    HangingFacet facet;
+  void add(OverhangPatch& patch, std::uint32_t f) const {
+    OverhangFacet facet;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t next = surface_.across[f][k];
       facet.corners[k] = surface_.corner(f, k);
       facet.beyond[k] = beyond(f, k, next);
-      if (facet.beyond[k] == Beyond::patch) facet.neighbour[k] = index_[next];
+      if (facet.beyond[k] == EdgeSupport::patch) facet.neighbour[k] = index_[next];
     }
     patch.facets.push_back(facet);
     patch.area += 0.5 * std::abs(surface_.twice_area(f).z());
@@ -157,27 +158,27 @@ class PatchFinder {
     }
   }
 
-  Beyond beyond(std::uint32_t f, std::size_t k, std::uint32_t next) const {
-    if (next == k_none) return Beyond::free;
-    if (hangs_[next]) return Beyond::patch;
+  EdgeSupport beyond(std::uint32_t f, std::size_t k, std::uint32_t next) const {
+    if (next == k_none) return EdgeSupport::free;
+    if (hangs_[next]) return EdgeSupport::patch;
     const bool held = within_first_layer(surface_, next, first_layer_) || holds(surface_, f, k, next);
-    return held ? Beyond::held : Beyond::free;
+    return held ? EdgeSupport::held : EdgeSupport::free;
   }
 
   const Surface& surface_;
   std::vector<bool> hangs_;
   double first_layer_;
-  std::vector<std::uint32_t> index_;  // of a facet within its patch
+  std::vector<std::uint32_t> index_;  // index of a facet within its patch
 };
 
 // ---- islands ------------------------------------------------------------------------------------------------
 
-// Vertices joined by edges that are level.
+// Vertices connected by level edges.
 struct Terrace {
-  bool has_lower = false;                                 // a neighbour goes down from it
-  double top = -std::numeric_limits<double>::infinity();  // of its own vertices
+  bool has_lower = false;                                 // a neighbour lies lower
+  double top = -std::numeric_limits<double>::infinity();  // highest of its own vertices
   double next = std::numeric_limits<double>::infinity();  // lowest neighbour above
-  double twice_area = 0;  // of the section half-way up to `next`: positive round a solid
+  double twice_area = 0;  // twice the area of the section half-way up to `next`: positive around a solid
 
   bool is_lowest() const { return !has_lower && std::isfinite(next); }
   double half_way() const { return 0.5 * (top + next); }
@@ -194,7 +195,7 @@ class Terraces {
     for (const auto& triangle : mesh_.triangles) add_sections(triangle);
   }
 
-  // One vertex of each terrace where a solid begins.
+  // One vertex of each terrace at which a solid begins.
   std::vector<Vec3> beginnings() const {
     std::vector<Vec3> found;
     for (std::uint32_t v = 0; v < terraces_.size(); ++v) {
@@ -245,7 +246,7 @@ class Terraces {
     }
   }
 
-  // A facet's share of the area of the section at z, twice, about `origin`: the solid is on the left of the cut.
+  // Twice a facet's contribution to the area of the section at z, about `origin`. The solid is on the left of the cut.
   double section_share(const std::array<std::uint32_t, 3>& triangle, double z, const Vec2& origin) const {
     Vec2 from = origin, to = origin;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -258,8 +259,8 @@ class Terraces {
   }
 
   const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> root_;  // the vertex that stands for a vertex's terrace
-  std::vector<Terrace> terraces_;    // at that vertex
+  std::vector<std::uint32_t> root_;  // representative vertex of each vertex's terrace
+  std::vector<Terrace> terraces_;    // stored at the representative vertex
 };
 
 }  // namespace
@@ -281,8 +282,8 @@ Overhangs find_overhangs(const TriangleMesh& mesh, double steep_enough, double f
   return overhangs;
 }
 
-// Half-way from a terrace without lower neighbours to the next vertex above, the facets round it are cut along one
-// loop: round a solid that begins there, or round the bottom of a pit.
+// Half-way from a terrace without lower neighbours to the next vertex above, the facets around it are cut along one
+// loop. The loop surrounds a solid that begins there, or the bottom of a pit.
 std::vector<Vec3> find_islands(const TriangleMesh& mesh, double first_layer) {
   const TriangleMesh welded = weld(mesh);
   const double pressed_on = bounds(welded).low.z() + first_layer + k_float_grain;
