@@ -24,7 +24,7 @@ constexpr const char* k_result = "stdout.txt";
 constexpr const char* k_files = "files/";
 constexpr int k_schema = 1;
 constexpr std::size_t k_longest_path = 1000, k_longest_name = 255;
-/// As a tree of values it takes sixteen times the room.
+/// Parsed JSON takes about sixteen times the room of its text.
 constexpr std::uint64_t k_largest_index = std::uint64_t{16} << 20;
 
 // ---- writing --------------------------------------------------------------------------------------------------------
@@ -65,7 +65,7 @@ Json index_of(const Bundle& bundle) {
   fail_in_entry(file, entry, -1, message);
 }
 
-/// The entries of an archive, each once and each a name that stays in it.
+/// The entries of an archive. Each occurs once and has a name inside the bundle.
 std::map<std::string, std::string> entries_of(std::string_view bytes, const std::string& file) {
   const ZipArchive archive(bytes, file, "a bundle of fusee, which is a zip archive");
   if (archive.size() > k_most_bundled_files + 2)
@@ -86,7 +86,7 @@ std::map<std::string, std::string> entries_of(std::string_view bytes, const std:
   return entries;
 }
 
-/// Values of bundle.json, each with its place where it is not what it should be.
+/// Typed access to bundle.json. Errors name the offending place.
 class Index {
  public:
   Index(const std::string& file, const Json& json, std::string place)
@@ -139,7 +139,7 @@ Diagnostic read_diagnostic(const Index& index) {
   return diagnostic;
 }
 
-/// Takes what belongs to it out of `entries`.
+/// Reads one listed file and moves its bytes out of `entries`.
 BundledFile read_bundled(const Index& index, std::map<std::string, std::string>& entries) {
   BundledFile file;
   file.path = index.text("path");
@@ -155,8 +155,8 @@ BundledFile read_bundled(const Index& index, std::map<std::string, std::string>&
   return file;
 }
 
-/// What a replay would make, one folder or file each, is no more than a bundle may hold.
-void demand_few_places(const Bundle& bundle, const Index& index) {
+/// Rejects bundles from which a replay would create too many files and folders.
+void limit_places(const Bundle& bundle, const Index& index) {
   std::set<std::string_view> folders, files;
   const auto take = [&](const char* key, std::string_view path) {
     const bool is_folder = path.ends_with('/');
@@ -196,7 +196,7 @@ std::string bundle_bytes(const Bundle& bundle) {
 }
 
 bool is_bundle(std::string_view bytes) {
-  // A zip's first entry has its name 30 bytes after its beginning.
+  // The name of a zip's first entry begins at byte 30.
   constexpr std::size_t k_name = 30;
   return bytes.substr(0, 4) == std::string_view("PK\3\4", 4) && bytes.size() > k_name &&
          bytes.substr(k_name).rfind(k_index, 0) == 0;
@@ -221,7 +221,7 @@ Bundle read_bundle(std::string_view bytes, const std::string& name) {
   index.for_each("messages", [&](const Index& each) { bundle.outcome.messages.push_back(read_diagnostic(each)); });
   index.for_each("files", [&](const Index& each) { bundle.files.push_back(read_bundled(each, entries)); });
   bundle.in_the_way = index.texts("in_the_way");
-  demand_few_places(bundle, index);
+  limit_places(bundle, index);
   index.for_each("outputs", [&](const Index& each) {
     bundle.outcome.outputs.push_back(
         {each.text("path"), static_cast<std::uint64_t>(each.integer("bytes")), each.text("sha256")});

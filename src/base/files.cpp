@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All at once, where the size is known beforehand.
+/// Allocates the buffer at once when the size is known.
 void reserve_for(const fs::path& path, std::size_t limit, std::string& bytes) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
@@ -52,8 +52,7 @@ fs::path temporary_folder() {
                     "set TMPDIR to a folder that you may write to");
 }
 
-// Not by EVP, which reads its configuration and sets up all that it knows first: a millisecond, before anything is
-// done.
+// The deprecated SHA256_* calls: EVP would first read its configuration, which costs a millisecond per run.
 std::string sha256(std::string_view bytes) {
   SHA256_CTX context;
   std::array<unsigned char, SHA256_DIGEST_LENGTH> digest;

@@ -9,7 +9,7 @@
 #include <future>
 #include <memory>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/analysis/plausibility.h"
 #include "fusee/export/drawings.h"
 #include "fusee/export/mesh_files.h"

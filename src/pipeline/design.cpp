@@ -1,6 +1,6 @@
 #include "pipeline/design.h"
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/export/drawings.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/analysis/plausibility.h"
 #include "fusee/base/text.h"
 #include "fusee/export/mesh_files.h"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/text.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/profile/synthesis.h"

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
 #include "solid/corefinement.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "fusee/solid/mesh.h"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/units.h"
 #include "solid/nearest_segment.h"
 #include "solid/plane_distance.h"

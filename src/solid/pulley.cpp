@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "solid/blame.h"

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/units.h"
 #include "solid/box_tree.h"
 #include "solid/self_intersection.h"

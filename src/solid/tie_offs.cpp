@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/units.h"
 #include "solid/face_holes.h"
 
