@@ -31,7 +31,8 @@ void report_obstacle(const fs::path& path) {
 
 /// Throws OutputError when no file can be made in the deepest existing part of `folder`.
 void demand_writable(fs::path folder) {
-  while (!entry_exists(folder) && folder.has_parent_path() && folder != folder.parent_path()) folder = folder.parent_path();
+  while (!entry_exists(folder) && folder.has_parent_path() && folder != folder.parent_path())
+    folder = folder.parent_path();
   const fs::path ground = entry_exists(folder) ? folder : fs::path(".");
   std::error_code error;
   if (!fs::is_directory(ground, error))

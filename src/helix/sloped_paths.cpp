@@ -81,7 +81,7 @@ struct SideRound {
   double settled = 0;     ///< largest difference from the q that the curves were drawn with, home's apart, mm
 };
 
-SideRound look(const Mechanism& mechanism, const Transmission& transmission, Side side, const SmoothSeries* before,
+SideRound look(const Mechanism& mechanism, const Transmission& transmission, Side side, const ChebyshevSeries* before,
                const LeastLead& least_lead, const std::vector<double>& nodes, HelixLook closely) {
   const TakeOffs take_offs(transmission, side);
   const PitchSpiral curve(mechanism, take_offs, before);
@@ -125,7 +125,7 @@ Windings wind(const Mechanism& mechanism, const LeastLead& least_lead, HelixLook
   windings.transmission = std::make_unique<Transmission>(mechanism);
   for (int i = 0; i < rounds; ++i) {
     const Transmission& law = *windings.transmission;
-    const std::vector<double> nodes = SmoothSeries::nodes(law.alpha_min(), law.alpha_max(), k_nodes);
+    const std::vector<double> nodes = ChebyshevSeries::nodes(law.alpha_min(), law.alpha_max(), k_nodes);
     const SlopedPaths* before = windings.paths.get();
     const SideRound left = look(mechanism, law, Side::left, before ? &before->q1 : nullptr, least_lead, nodes, closely);
     const SideRound right =
@@ -137,8 +137,8 @@ Windings wind(const Mechanism& mechanism, const LeastLead& least_lead, HelixLook
     if (before != nullptr && (closure < k_settled || no_better)) break;
     constexpr double k_least_coefficient = 1e-12;
     windings.paths = std::make_shared<SlopedPaths>(
-        SlopedPaths{SmoothSeries(law.alpha_min(), law.alpha_max(), left.q, k_least_coefficient),
-                    SmoothSeries(law.alpha_min(), law.alpha_max(), right.q, k_least_coefficient)});
+        SlopedPaths{ChebyshevSeries(law.alpha_min(), law.alpha_max(), left.q, k_least_coefficient),
+                    ChebyshevSeries(law.alpha_min(), law.alpha_max(), right.q, k_least_coefficient)});
     windings.transmission = std::make_unique<Transmission>(mechanism, windings.paths);
   }
   if (closely == HelixLook::brief) windings.closure = 0;

@@ -71,7 +71,9 @@ struct SheathShare {
   double mounted = 0;  ///< by how much the spring is longer at home than without tension
 
   SheathShare(const SheathLoad& sheath, double share, double EA, double home)
-      : length(share * sheath.length), unseen(share * sheath.give * EA), mounted(share * sheath.give * home) {}
+      : length(share * sheath.length),
+        unseen(share * sheath.compliance * EA),
+        mounted(share * sheath.compliance * home) {}
 };
 
 /// Of what lies between the bends of a sheath, from the joint to the pulley.
@@ -306,7 +308,7 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
   trial.upper_length = trial.spans.upper_length = trial.span.length - pin.rho * tendon.rim_reference + sheath.length;
   if (model.pin_give > 0)
     give_way(trial.spans, Give({trial.span.normal, off_pin}, tendon, model.pin_give, at.spans.EA));
-  if (model.sheath.give > 0) give_way(trial.spans, sheath);
+  if (model.sheath.compliance > 0) give_way(trial.spans, sheath);
   trial.wrap = trial.span.normal - off_pin;
   const double on_pin = model.guide.log_ratio(trial.wrap);
   if (bends_of(model.sheath) > 1) trial.threaded = std::make_unique<Threaded>();
@@ -567,13 +569,13 @@ double energy_of_pin(const TendonHistory& tendon, const AtAlpha& at, const Trial
 
 /// The same of its sheath, every part of which gives way to the tension in it.
 double energy_of_sheath(const TendonHistory& tendon, const SheathLoad& sheath) {
-  if (!(sheath.give > 0)) return 0;
+  if (!(sheath.compliance > 0)) return 0;
   const double share = end_share(sheath), at_home = tendon.home * tendon.home;
   double sum = share * (tendon.upper * tendon.upper + tendon.lower * tendon.lower - 2.0 * at_home);
   if (bends_of(sheath) > 1) {
     for (const double inside : tendon.sheath.tension) sum += 2.0 * share * (inside * inside - at_home);
   }
-  return 0.5 * sheath.give * sum;
+  return 0.5 * sheath.compliance * sum;
 }
 
 /// Where a joint comes to rest.

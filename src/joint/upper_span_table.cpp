@@ -67,7 +67,7 @@ UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most,
     on_drum_ = upper_span(place, least);
     on_drum_from_ = least;
     wound_up_ = on_drum_.on_drum + on_drum_.normal + least;
-    if (place.drum_off != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_hair, longer);
+    if (place.drum_offset != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_hair, longer);
     least = *leaves + k_hair;
     if (least >= most) return;
   }

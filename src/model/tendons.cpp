@@ -124,7 +124,7 @@ std::string lay(WrappedTendon& tendon, const Mechanism& mechanism, Side side, co
   const double sign = mirror_sign(side), low = std::min(sign * map.theta_min, sign * map.theta_max),
                high = std::max(sign * map.theta_min, sign * map.theta_max);
   const auto leaves = lift_off(place);
-  if (leaves && place.drum_off != 0) return "it lies on a drum whose centre goes round the joint";
+  if (leaves && place.drum_offset != 0) return "it lies on a drum whose centre goes round the joint";
   if (leaves && low < *leaves && *leaves < high)
     return "it leaves the drum within the range, and simulators ask for a point that stands still between two "
            "cylinders";

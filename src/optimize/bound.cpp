@@ -108,8 +108,8 @@ struct Legs {
 };
 
 Legs legs(const DesignNumbers<Jet>& d, bool of_tendon_1, const StrokeNumbers<Jet>& n) {
-  const FromPin<Jet> to_C =
-      of_tendon_1 ? from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored()) : from_pin_in_link(d.R, d.ED, d.OE, n.theta);
+  const PinOffset<Jet> to_C = of_tendon_1 ? offset_from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored())
+                                          : offset_from_pin_in_link(d.R, d.ED, d.OE, n.theta);
   return {-to_C.x, to_C.y};
 }
 

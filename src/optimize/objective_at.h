@@ -68,7 +68,7 @@ struct UpperNumbers {
 
 template <typename S>
 struct StrokeNumbers {
-  TurnedBy<S> theta;
+  RotationAngle<S> theta;
   UpperNumbers<S> upper1, upper2;  ///< of both tendons
   S r1, r2;
   S reach;  ///< pin D to the foot of G's perpendicular, mm
@@ -77,10 +77,10 @@ struct StrokeNumbers {
 
 /// Above the pin, in the frame of the link; below it, from the pulley's axis. Over intervals by sharp.h.
 template <typename S>
-UpperLine<S> upper_line_of(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, Domain& domain) {
-  return upper_line(from_pin_in_link(d.R, e, d.OE, theta), d.rho, domain);
+UpperLine<S> upper_line_of(const DesignNumbers<S>& d, const S& e, const RotationAngle<S>& theta, Domain& domain) {
+  return upper_line(offset_from_pin_in_link(d.R, e, d.OE, theta), d.rho, domain);
 }
-inline UpperLine<Jet> upper_line_of(const DesignNumbers<Jet>& d, const Jet& e, const TurnedBy<Jet>& theta,
+inline UpperLine<Jet> upper_line_of(const DesignNumbers<Jet>& d, const Jet& e, const RotationAngle<Jet>& theta,
                                     Domain& domain) {
   const SharpLine line = sharp_upper_line(d.R, e, d.OE, d.rho, theta, domain);
   return {line.normal, line.reach};
@@ -127,7 +127,7 @@ UpperNumbers<S> wide_upper_numbers(const DesignNumbers<S>& d, const TendonEnd<S>
 
 /// Of a tendon that has a moment arm.
 template <typename S>
-UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, double least,
+UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const RotationAngle<S>& theta, double least,
                               Domain& domain) {
   const UpperLine<S> line = upper_line_of(d, e, theta, domain);
   const S gamma = larger(line.normal, S(least));
@@ -151,7 +151,7 @@ void set_upper_numbers(const DesignNumbers<S>& d, StrokeNumbers<S>& n, Domain& d
 template <typename S>
 StrokeNumbers<S> upper_stroke(const DesignNumbers<S>& d, const S& place, Domain& domain) {
   StrokeNumbers<S> n;
-  n.theta = turned_by(d.theta_min + place * (d.theta_max - d.theta_min));
+  n.theta = rotation_angle(d.theta_min + place * (d.theta_max - d.theta_min));
   set_upper_numbers(d, n, domain);
   // Arms in units of R, which cancels: an interval is the sharper the less often a number stands in a formula.
   const S slope = d.linear ? d.R / d.ratio : slope_over_round_pulley(d.r1, n.upper1.sine);

@@ -71,7 +71,7 @@ int count_of(std::initializer_list<const Jet*> jets) {
 
 }  // namespace
 
-SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet& rho, const TurnedBy<Jet>& theta,
+SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet& rho, const RotationAngle<Jet>& theta,
                            Domain& domain) {
   const Interval sine = theta.sine.value, cosine = theta.cosine.value, angle = theta.angle.value;
   const auto seen_from = [&](const Arguments& a) {

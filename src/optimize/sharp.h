@@ -14,8 +14,8 @@ struct SharpLine {
   Jet reach;  ///< C or foot of the perpendicular to the pin's tangent point
 };
 
-/// Above a pin, in the link's frame (upper_line() over from_pin_in_link()).
-SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet& rho, const TurnedBy<Jet>& theta,
+/// Above a pin, in the link's frame (upper_line() over offset_from_pin_in_link()).
+SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet& rho, const RotationAngle<Jet>& theta,
                            Domain& domain);
 /// Below a pin at (e, ef) from the pulley's axis (lower_line()).
 SharpLine sharp_lower_line(const Jet& p, const Jet& rho, const Jet& e, const Jet& ef, Domain& domain);

@@ -51,19 +51,19 @@ namespace {
 double quarter_turn(double) { return 0.5 * k_pi; }
 Jet quarter_turn(const Jet&) { return Jet(0.5 * pi_interval()); }
 
-UpperLine<double> line_from_end(double away, double e, double oe, double rho, const TurnedBy<double>& turned,
+UpperLine<double> line_from_end(double away, double e, double oe, double rho, const RotationAngle<double>& turned,
                                 Domain& domain) {
-  return upper_line(from_pin_in_link(away, e, oe, turned), rho, domain);
+  return upper_line(offset_from_pin_in_link(away, e, oe, turned), rho, domain);
 }
-UpperLine<Jet> line_from_end(const Jet& away, const Jet& e, const Jet& oe, const Jet& rho, const TurnedBy<Jet>& turned,
-                             Domain& domain) {
+UpperLine<Jet> line_from_end(const Jet& away, const Jet& e, const Jet& oe, const Jet& rho,
+                             const RotationAngle<Jet>& turned, Domain& domain) {
   const SharpLine line = sharp_upper_line(away, e, oe, rho, turned, domain);
   return {line.normal, line.reach};
 }
 
 template <typename S>
 WidePath<S> free_path(const TendonEnd<S>& end, const S& e, const S& oe, const S& rho, const S& theta, Domain& domain) {
-  const TurnedBy<S> turned = turned_by(S(theta + end.twist));
+  const RotationAngle<S> turned = rotation_angle(S(theta + end.twist));
   const UpperLine<S> line = line_from_end(end.away, e, oe, rho, turned, domain);
   return {line.normal - turned.angle, end.away * sin(line.normal), line.free};
 }

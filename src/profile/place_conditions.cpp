@@ -36,7 +36,7 @@ Condition drum_clear_of_pin(const Mechanism& mechanism, Side side) {
   const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
   Condition condition;
   condition.name = "drum_clear_of_pin_" + name_of_pin(side);
-  condition.value = place.pin().norm() - place.drum_off - mechanism.joint.drum_radius - mechanism.guides.radius;
+  condition.value = place.pin().norm() - place.drum_offset - mechanism.joint.drum_radius - mechanism.guides.radius;
   condition.unit = "mm";
   condition.ok = condition.value > 0;
   if (!condition.ok) {
