@@ -77,8 +77,8 @@ std::map<std::string, std::string> entries_of(std::string_view bytes, const std:
   for (std::size_t i = 0; i < archive.size(); ++i) {
     const std::string name = archive.name_of(i);
     if (!is_inner_path(name)) fail(file, name, "the name leads out of the bundle, or is hidden");
-    if (!archive.is_plain_file(i)) fail(file, name, "is a link, a folder or encrypted, and no file");
-    if (entries.count(name) != 0) fail(file, name, "stands twice in the bundle");
+    if (!archive.is_plain_file(i)) fail(file, name, "is not a regular file: a link, a folder or encrypted");
+    if (entries.count(name) != 0) fail(file, name, "occurs twice in the bundle");
     std::uint64_t index_budget = k_largest_index;
     const bool is_index = name == k_index;
     entries[name] = archive.unpacked(i, is_index ? index_budget : budget, is_index ? "its list 16 MiB" : limits);
@@ -91,7 +91,7 @@ class Index {
  public:
   Index(const std::string& file, const Json& json, std::string place)
       : file_(file), json_(json), place_(std::move(place)) {
-    if (!json_.is_object()) fail(file_, k_index, place_ + " is no table of JSON");
+    if (!json_.is_object()) fail(file_, k_index, place_ + " is not a JSON object");
   }
 
   bool has(const char* key) const { return json_.contains(key); }
@@ -172,7 +172,7 @@ void limit_places(const Bundle& bundle, const Index& index) {
     if (!file.failure) take("files", file.path);
   for (const std::string& path : bundle.in_the_way) take("in_the_way", path);
   for (const std::string_view file : files)
-    if (folders.count(file) != 0) index.wrong("files", fmt::format("clear: {} is a file and a folder", file));
+    if (folders.count(file) != 0) index.wrong("files", fmt::format("consistent: {} is a file and a folder", file));
 }
 
 }  // namespace
@@ -206,11 +206,11 @@ Bundle read_bundle(std::string_view bytes, const std::string& name) {
   std::map<std::string, std::string> entries = entries_of(bytes, name);
   auto text = entries.extract(k_index), result = entries.extract(k_result);
   if (text.empty() || result.empty())
-    fail(name, text.empty() ? k_index : k_result, "is not in this archive: it is no bundle of fusee");
+    fail(name, text.empty() ? k_index : k_result, "is missing: this is not a bundle of fusee");
   const Json json = parse_foreign_json(text.mapped());
   const Index index(name, json, "the bundle");
   if (index.text("tool") != "fusee bundle") index.wrong("tool", "\"fusee bundle\"");
-  if (index.integer("schema") != k_schema) index.wrong("schema", "1: it is of a later fusee");
+  if (index.integer("schema") != k_schema) index.wrong("schema", "1: it was written by a later version of fusee");
   Bundle bundle;
   bundle.outcome.result = std::move(result.mapped());
   bundle.version = index.text("version");

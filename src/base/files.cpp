@@ -48,7 +48,7 @@ fs::path temporary_folder() {
   fs::path folder = fs::temp_directory_path(error);
   if (!error) return folder;
   const char* named = std::getenv("TMPDIR");
-  throw OutputError("the temporary folder " + std::string(named ? named : "/tmp") + " is none",
+  throw OutputError("the temporary folder " + std::string(named ? named : "/tmp") + " is no folder",
                     "set TMPDIR to a folder that you may write to");
 }
 
@@ -58,7 +58,7 @@ std::string sha256(std::string_view bytes) {
   std::array<unsigned char, SHA256_DIGEST_LENGTH> digest;
   demand(SHA256_Init(&context) == 1 && SHA256_Update(&context, bytes.data(), bytes.size()) == 1 &&
              SHA256_Final(digest.data(), &context) == 1,
-         "SHA-256 is not to be had");
+         "SHA-256 is unavailable");
   std::string text;
   for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
   return text;

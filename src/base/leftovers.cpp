@@ -90,8 +90,7 @@ int recover(const fs::path& leftover, const fs::path& place) {
 
 }  // namespace
 
-// // ---- files that fusee wrote
-// -----------------------------------------------------------------------------------------
+// ---- files that fusee wrote -----------------------------------------------------------------------------------------
 
 void add_written_files(const fs::path& folder, WrittenFiles& written) {
   constexpr std::size_t k_largest_manifest = 16 << 20;
@@ -154,8 +153,7 @@ bool make_subfolder(const fs::path& folder, const std::string& name) {
   return subfolder == folder || is_folder(subfolder) || ::mkdir(subfolder.c_str(), 0777) == 0;
 }
 
-// // ---- leftovers of killed runs
-// ---------------------------------------------------------------------------------------
+// ---- leftovers of killed runs ---------------------------------------------------------------------------------------
 
 int move_entries(const fs::path& from, const fs::path& to, const Subfolders& subfolders,
                  const std::function<bool(const std::string& name)>& is_obsolete) {

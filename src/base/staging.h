@@ -72,7 +72,7 @@ class Staging {
   bool mark_ready();
 
  private:
-  /// delegated to, so that ~Staging() runs when the public constructor throws
+  /// Delegated to, so that ~Staging() runs when the public constructor throws
   explicit Staging(StagingSite site) : site_(site) {}
 
   std::filesystem::path root_, path_;

@@ -397,7 +397,7 @@ class Look {
   }
 
   /// That its largest part leaves time for.
-  int makings() const {
+  int builds_left() const {
     const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.tolerance / largest_));
     const double points = std::max(k_two_pi / turn, own_points_);
     return std::max(1, static_cast<int>(k_points_for_advice / points));
@@ -451,13 +451,13 @@ Advice advice_for(const Product& product, const BuildOptions& options) {
   }
   const Look look(product, options);
   std::atomic<int> begun = 0;
-  const Judge judge{.obstacles = [&](const Mechanism& changed) { return look(changed); },
-                    .made =
-                        [&](const Mechanism& changed) {
-                          ++begun;
-                          return is_made(with_declared(file, changed), options);
-                        },
-                    .makings = [&] { return look.makings() - begun; }};
+  const FeasibilityOracle judge{.obstacles = [&](const Mechanism& changed) { return look(changed); },
+                                .made =
+                                    [&](const Mechanism& changed) {
+                                      ++begun;
+                                      return is_made(with_declared(file, changed), options);
+                                    },
+                                .builds_left = [&] { return look.builds_left() - begun; }};
   return body_advice(file.mechanism, judge, product.pulley.layout.parts);
 }
 

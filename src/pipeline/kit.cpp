@@ -118,7 +118,7 @@ bool has_kit(const MechanismFile& file, double tolerance) {
 /// What would make room for a model whose pulley can be made.
 Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, const KitOptions& options) {
   const KitPlan& plan = product.plan;
-  const Judge judge{
+  const FeasibilityOracle judge{
       .obstacles =
           [&](const Mechanism& changed) {
             if (!plan.heights) return obstacles_to_kit(with_declared(file, changed).mechanism);

@@ -361,10 +361,10 @@ class TurnsLook {
 
 Advice advice_for_several_turns(const Product& product, const TurnsTrial& trial) {
   TurnsLook look(product.file.mechanism, trial);
-  const Judge judge{.obstacles = [&look](const Mechanism& changed) { return look.obstacles(changed); },
-                    .made = [&look](const Mechanism& changed) { return look.make(changed); },
-                    .is_dear = true,
-                    .makings = [&look] { return look.makings_left(); }};
+  const FeasibilityOracle judge{.obstacles = [&look](const Mechanism& changed) { return look.obstacles(changed); },
+                                .made = [&look](const Mechanism& changed) { return look.make(changed); },
+                                .is_expensive = true,
+                                .builds_left = [&look] { return look.makings_left(); }};
   DeclaredMechanism in_one = product.file.mechanism;
   const Field& parts = *find_field("print.parts");
   if (const std::string from = parts.get_text(in_one); from == "two") {

@@ -16,7 +16,7 @@ Condition attachment_outside_drum(const Mechanism& mechanism, Side side) {
   const auto& own = side == Side::left ? joint.attachment1 : joint.attachment2;
   const std::string tendon = digit_of(side);
   const std::string key = own ? "joint.attachment" + tendon + "_mm" : "joint.length_mm";
-  // A place on the drum, by figures that a person rounded to the last digit of a double.
+  // Tolerates rounding of a place on the drum in the last digits of a double.
   constexpr double rounding = 1e-9;
   Condition condition;
   condition.name = "attachment_outside_drum_" + tendon;

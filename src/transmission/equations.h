@@ -15,7 +15,7 @@ template <typename S>
 struct RotationAngle {
   S angle, sine, cosine;
 
-  /// The same angle in the image of the other tendon.
+  /// This angle in the image of the other tendon.
   RotationAngle mirrored() const { return {-angle, -sine, cosine}; }
 };
 

@@ -108,7 +108,7 @@ CASES = [
     ("build arm.toml --set joint.range_deg=[1,2,3]", 3, "^$", "range_deg"),
     ("build arm.toml --set pulley.law=linear", 3, "^$", "ratio"),
     ("build arm.toml --set pulley.law=table --set pulley.table=none.csv", 3, "^$", "none.csv"),
-    ("build arm.toml --set pulley.law=torque", 3, "^$", "does not say which torque is wanted.*motor_torque_Nmm"),
+    ("build arm.toml --set pulley.law=torque", 3, "^$", "requires a wanted torque.*motor_torque_Nmm"),
     ("build arm.toml --set pulley.law=torque --set pulley.torque_table=none.csv", 3, "^$", "none.csv"),
     ("rewind missing.toml triangle.obj", 3, "^$", "missing.toml"),
     # Designs that cannot be made: exit 4, where, why, and which number to change.

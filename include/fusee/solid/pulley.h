@@ -116,7 +116,8 @@ bool is_written(const Mechanism& mechanism, std::string_view key);
 /// What would make a refused mechanism possible: numbers of the joint or written for the body, screws of another size,
 /// what is written left to the program. Each was tried, as `judge` says; but for printing it in `refused` parts, which
 /// did not do.
-Advice body_advice(const Mechanism& mechanism, const Judge& judge = {obstacles}, Parts refused = Parts::automatic);
+Advice body_advice(const Mechanism& mechanism, const FeasibilityOracle& judge = {obstacles},
+                   Parts refused = Parts::automatic);
 
 /// What a mesh of this pulley must be, measured on `mesh` (usually one read back from a file): check_mesh, then Euler
 /// number, volume, deviation from the analytic surface within `tolerance`, smallest wall, groove depth and width.

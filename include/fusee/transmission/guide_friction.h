@@ -14,7 +14,7 @@ struct GuideFriction {
   double turning = 0;
   bool is_idler = false;
 
-  /// ln of the bound on the tension ratio at a wrap angle (rad); 0 where the tendon has left the guide.
+  /// Ln of the bound on the tension ratio at a wrap angle (rad); 0 where the tendon has left the guide.
   double log_ratio(double wrap) const;
   /// Derivative of log_ratio() by a wrap above 0.
   double slope(double wrap) const;
