@@ -164,7 +164,7 @@ std::vector<Check> kit_fit_checks(const KitPlan& plan) {
 KitResult kit(const MechanismFile& file, const KitOptions& options) {
   KitResult result;
   KitProduct& product = result.product;
-  product.pulley.file = with_doubts(file);
+  product.pulley.file = with_plausibility_warnings(file);
   product.pulley.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   target.claim(

@@ -169,9 +169,9 @@ std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file) {
   return warnings;
 }
 
-MechanismFile with_doubts_and_turns(MechanismFile file) {
+MechanismFile with_plausibility_warnings_and_turns(MechanismFile file) {
   const auto turns = note_on_turns(file);
-  file = with_doubts(std::move(file));
+  file = with_plausibility_warnings(std::move(file));
   if (turns) file.warnings.push_back(*turns);
   return file;
 }

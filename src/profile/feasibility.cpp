@@ -95,7 +95,7 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
                     [=](const TakeOff& t) { return lower.c() - std::abs(tendon(t).p - lower.rho); },
                     [=](const std::string& where, double value) {
                       return radius_name(side) + " is too large at " + where + ": " +
-                             (place.mouth ? exit_name(side) : "pin " + pin) + " stands " + rounded(-value) +
+                             (place.mouth ? exit_name(side) : "pin " + pin) + " lies " + rounded(-value) +
                              " mm inside the pulley's pitch curve";
                     }});
   probes.push_back({"tendon_on_pin_" + pin, "deg", 0.0, [=](const TakeOff& t) { return degrees(tendon(t).wrap); },
@@ -117,14 +117,14 @@ std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take
   probes.push_back({"take_off_advances_P" + number(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.dpsi; },
                     [=](const std::string& where, double) {
                       return radius_name(side) + " changes so fast at " + where +
-                             " that the take-off point runs backwards";
+                             " that the take-off point moves backwards";
                     }});
   probes.push_back({"convex_floor_P" + number(side), "mm", k_least_floor_radius,
                     [=](const TakeOff& t) { return t.curve.radius - half; },
                     [=](const std::string& where, double value) {
-                      return radius_name(side) + " turns inward at " + where + ": the groove floor " +
-                             (value > 0 ? "bends there with a radius of only " : "is hollow there, with a radius of ") +
-                             rounded(std::abs(value), 3) + " mm, and must bulge with more than " +
+                      const std::string radius = " (radius of curvature " + rounded(std::abs(value), 3) + " mm)";
+                      return "P" + number(side) + " would be " + (value > 0 ? "too sharp" : "concave") + " at " +
+                             where + radius + ": a tendon requires a convex groove floor with a radius above " +
                              rounded(k_least_floor_radius) + " mm";
                     }});
   probes.push_back({"free_span_" + number(side), "mm", 0.0,
@@ -132,7 +132,7 @@ std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take
                     [=](const std::string& where, double value) {
                       return "tendon " + number(side) + " has no free span between " +
                              (sheathed ? "its sheath" : "pin") + " and pulley at " + where + " (" + rounded(value, 3) +
-                             " mm): the " + (sheathed ? "mouth" : "pin") + " stands in the pulley";
+                             " mm): the " + (sheathed ? "sheath exit" : "pin") + " lies inside the pulley";
                     }});
   return probes;
 }
@@ -195,7 +195,7 @@ bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechan
     if (!condition.ok) {
       const std::string other = number(side == Side::left ? Side::right : Side::left);
       condition.message = "tendon " + other + " leaves the drum at " + at_alpha_text(condition.alpha) + ", and P" +
-                          number(side) + " would have to be hollow there by " + rounded(-piece, 3) +
+                          number(side) + " would need a hollow there of " + rounded(-piece, 3) +
                           " mm: beside a round P" + other + " it stays on the drum, or off it, over the whole range";
     }
     conditions.push_back(condition);
@@ -224,7 +224,7 @@ Condition one_turn(const Mechanism& mechanism, Side side, const std::vector<Take
                         rounded(degrees(lap), 3) + "° for the anchor: more than one turn" +
                         (mechanism.pulley.winding == WindingChoice::automatic &&
                                  mechanism.pulley.method == Method::exact && !mechanism.sheath.is_there()
-                             ? ", and only 'fusee build', 'kit', 'optimize' and 'rewind' know several"
+                             ? ", and only 'fusee build', 'kit', 'optimize' and 'rewind' support several"
                              : "");
   }
   return condition;
@@ -312,9 +312,9 @@ Condition torque_holds(const Mechanism& mechanism) {
   const std::string where = " at θ = " + rounded(degrees(worst.theta), 4) + "°";
   const std::string load = "[load] and [spring] turn the joint with " + rounded(worst.load, 4) + " N·mm against +θ";
   if (worst.motor == 0) {
-    condition.message = "the wanted torque of the motor is 0" + where + ", where " + load + ": nothing holds it";
+    condition.message = "the wanted torque of the motor is 0" + where + ", where " + load;
   } else {
-    condition.message = load + where + ", and the motor is wanted to hold " + rounded(worst.motor, 4) +
+    condition.message = load + where + ", and the wanted torque of the motor is " + rounded(worst.motor, 4) +
                         " N·mm: both must have the same sign and not be 0 over the whole range";
   }
   return condition;
@@ -433,10 +433,10 @@ std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt
       return a.curve.radius < b.curve.radius;
     });
     if (tightest->curve.radius >= least) continue;
-    warnings.push_back("P" + number(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) +
-                       " mm at " + at_alpha_text(tightest->stroke.alpha) + "; this tendon wants " + rounded(least, 3) +
-                       " mm or more (tendon.bend_ratio, D/d = " + rounded(mechanism.tendon.bend_ratio, 3) +
-                       "): it will wear there");
+    warnings.push_back(
+        "P" + number(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) + " mm at " +
+        at_alpha_text(tightest->stroke.alpha) + "; this tendon requires " + rounded(least, 3) +
+        " mm or more (tendon.bend_ratio, D/d = " + rounded(mechanism.tendon.bend_ratio, 3) + "): it will wear there");
   }
   return warnings;
 }

@@ -40,8 +40,8 @@ Condition drum_clear_of_pin(const Mechanism& mechanism, Side side) {
   condition.unit = "mm";
   condition.ok = condition.value > 0;
   if (!condition.ok) {
-    condition.message = "pin " + name_of_pin(side) + " stands " + rounded(-condition.value, 3) +
-                        " mm in the drum (joint.drum_radius_mm, guides.radius_mm)";
+    condition.message = "pin " + name_of_pin(side) + " lies " + rounded(-condition.value, 3) +
+                        " mm inside the drum (joint.drum_radius_mm, guides.radius_mm)";
   }
   return condition;
 }

@@ -50,8 +50,8 @@ class String {
     started_ = true;
     span_ = above_.lower_span(pin, corners_[corner_]);
     if (!(span_ > 0)) {
-      throw InputError("", "the groove floor of " + pulley_name() + " swallows its " +
-                               (above_.is_sheathed() ? "sheath's mouth" : "guide pin"));
+      throw InputError("", "the groove floor of " + pulley_name() + " contains its " +
+                               (above_.is_sheathed() ? "sheath exit" : "guide pin"));
     }
   }
 

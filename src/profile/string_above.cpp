@@ -49,7 +49,7 @@ StringAbove::StringAbove(const Mechanism& mechanism, double hand)
   if (const double away = (end_ - drum_centre_).norm(); away < drum_)
     end_ = drum_centre_ + drum_ / away * (end_ - drum_centre_);
   if (drum_ > 0 && !(pin_.norm() - drum_centre_.norm() > drum_ - half_ + mechanism.guides.radius))
-    throw InputError("", "a guide pin stands in the drum", "joint.drum_radius_mm smaller, or pins further out");
+    throw InputError("", "a guide pin lies inside the drum", "reduce joint.drum_radius_mm, or move the pins outwards");
 }
 
 /// In the frame of the pulley, which turns clockwise, the world turns counter-clockwise.

@@ -51,7 +51,7 @@ void expect_refused(const Mechanism& mechanism, const std::string& condition, co
 TEST(Feasibility, ReferenceTurnsInward) {
   Mechanism mechanism = testing::reference();
   mechanism.tendon.diameter = 0.01;
-  expect_refused(mechanism, "convex_floor_P2", "r2 turns inward at α = 92");
+  expect_refused(mechanism, "convex_floor_P2", "P2 would be concave at α = 92");
 }
 
 TEST(Feasibility, ReportsHollowWithoutSign) {
@@ -99,7 +99,7 @@ TEST(Feasibility, ReportsSheathExitInPulley) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.sheath.exit_across = 5.0;
   mechanism.sheath.exit_above = 12.0;
-  expect_refused(mechanism, "line_reaches_mouth_1", "the exit of sheath 1 stands");
+  expect_refused(mechanism, "line_reaches_mouth_1", "the exit of sheath 1 lies");
   // So close that the curve would be hollow, or that no line reaches the exit.
   mechanism.sheath.exit_above = 18.0;
   const SynthesisResult near = synthesise(mechanism);
