@@ -16,7 +16,7 @@ constexpr int k_places = 8;  ///< steps of the range at which deviations are eva
 
 std::vector<double> places_of(const Transmission& transmission) { return alphas_over_range(transmission, k_places); }
 
-// ---- what is ignoring ------------------------------------------------------------------------------------------------
+// ---- simplifications -------------------------------------------------------------------------------------------------
 
 /// Skips undefined deviations (a tendon beyond the curve's end).
 void include(ErrorSource& source, double deviation, double alpha) {
@@ -54,7 +54,7 @@ ErrorSource thickness_ignored(const Mechanism& mechanism) {
                   MadePulleys(drawn).offset_by(0.5 * mechanism.tendon.diameter));
 }
 
-// ---- what gives way -------------------------------------------------------------------------------------------------
+// ---- compliance -----------------------------------------------------------------------------------------------------
 
 ErrorSource paper_stretch(const Mechanism& mechanism) {
   ErrorSource source{"stretch_paper", "stretch under the load, by [9]-[11]"};

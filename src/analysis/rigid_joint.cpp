@@ -56,7 +56,7 @@ double by_end(const PinPlace& pin, const LowerPath&, Side side, double theta, do
 template <Side moved>
 double by_pin(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double) {
   // A sheath is held by the pin, follows it and keeps its length.
-  const double pulled = pin.mouth ? 0.0 : lower_direction(lower).x();
+  const double pulled = pin.sheath_exit ? 0.0 : lower_direction(lower).x();
   return side == moved ? pulled - upper_direction(pin, theta).x() : 0.0;
 }
 double by_height(const PinPlace& pin, const LowerPath&, Side, double theta, double) {

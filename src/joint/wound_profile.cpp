@@ -133,7 +133,7 @@ struct Bound {
   }
 };
 
-/// Where the bound stops moving `piece`: `piece.to` if nothing moves, `piece.from` if all does. Takes the logarithms of
+/// The place on `piece` at which the bound stops to move the tendon: `piece.to` if nothing moves, `piece.from` if all does. Takes the logarithms of
 /// the strains at its ends.
 GroovePlace cut_of(const WoundPiece& piece, double log_from, double log_to, const Bound& bound,
                    const GrooveArc& groove) {

@@ -57,7 +57,7 @@ constexpr double k_always_wrapped = radians(10);  // so far on a tendon goes tha
 /// normals at which the tendon comes to the pin.
 void lay_off_pin(WrappedTendon& tendon, const PinPlace& place, double least, double most, double R) {
   // Into a sheath it goes straight down, where that still wraps it.
-  const bool down = place.mouth && least > radians(1);
+  const bool down = place.sheath_exit && least > radians(1);
   const double leaving = down ? 0.0 : least - k_always_wrapped;
   const Vec2 normal = unit(leaving), onwards(normal.y(), -normal.x());
   const double reach = down ? tendon.rho + 0.1 * R : 0.5 * R;
@@ -66,8 +66,8 @@ void lay_off_pin(WrappedTendon& tendon, const PinPlace& place, double least, dou
   tendon.anchor = mirrored(anchor, tendon.side);
   tendon.outer = mirrored(place.pin() + 3 * tendon.rho * unit(0.5 * (most + leaving)), tendon.side);
   tendon.home_length += reach - tendon.rho * leaving;
-  if (!place.mouth) return;
-  const Vec2 mouth = place.pulley_axis() + Vec2(place.mouth->across, place.mouth->above);
+  if (!place.sheath_exit) return;
+  const Vec2 mouth = place.pulley_axis() + Vec2(place.sheath_exit->across, place.sheath_exit->above);
   tendon.mouth = mirrored(mouth, tendon.side);
   tendon.home_length += (mouth - anchor).norm();
 }

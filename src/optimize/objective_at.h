@@ -200,7 +200,7 @@ S elongation_at(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, const S& a
   const S on_pin = d.rho * n.phi;
   if (const auto* sheath = sheath_of(d)) {
     const S below = tension_below_pin(off_pin, sheath->mu, sheath->bend);
-    const S sheathed = sheath->length + d.stiffness * sheath->give;
+    const S sheathed = sheath->length + d.stiffness * sheath->compliance;
     return elongation_of_tendon(above, off_pin, n.upper2.free, on_pin, S(0.0), d.stiffness) +
            elongation_of_tendon(off_pin, below, S(0.0), sheathed, n.reach, d.stiffness);
   }

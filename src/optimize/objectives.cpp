@@ -99,7 +99,7 @@ DesignNumbers<double> numbers_of(const Mechanism& mechanism) {
   return numbers;
 }
 
-/// The same equations through Transmission and paper_forces(): for cases without a closed form, and for the reason of a
+/// Solves the equations by Transmission and paper_forces(): for cases without a closed form, and for the reason of a
 /// missing value.
 Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechanism) {
   const Transmission transmission(mechanism);

@@ -52,7 +52,7 @@ struct TendonEnd {
 template <typename S>
 struct SheathNumbers {
   S length, bend, mu;
-  S compliance;     ///< compliance, mm/N
+  S compliance;     ///< mm/N
   S across, above;  ///< exit, relative to the pulley's axis
   S to_mouth;       ///< c, mm
   S angle;          ///< φ, rad
@@ -62,8 +62,8 @@ template <typename S>
 struct WideNumbers {
   TendonEnd<S> end1, end2;
   std::optional<S> drum;  ///< ρ0: drum radius to the tendon's centre line
-  std::optional<S>
-      turning;  ///< of idlers: friction of the bearing times its radius per the idler's, to the centre line
+  /// For idlers: friction of the bearing times its radius, divided by the idler's radius to the centre line.
+  std::optional<S> turning;
   std::optional<SheathNumbers<S>> sheath;
   Domain domain;  ///< of the ends
 };

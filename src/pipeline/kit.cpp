@@ -65,9 +65,9 @@ MadePart made(const KitPart& part, const KitProduct& product) {
 void make_files(KitResult& result, const KitOptions& options) {
   KitProduct& product = result.product;
   say(options, "making parts");
-  auto drawing = beside([&] { return kit_dxf(product, options.dxf); });
+  auto drawing = run_async([&] { return kit_dxf(product, options.dxf); });
   std::vector<std::future<MadePart>> parts;
-  for (const KitPart& part : product.plan.parts) parts.push_back(beside([&] { return made(part, product); }));
+  for (const KitPart& part : product.plan.parts) parts.push_back(run_async([&] { return made(part, product); }));
   product.checks = kit_fit_checks(product.plan);
   for (auto& part : parts) {
     MadePart one = part.get();
@@ -183,7 +183,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options) {
     return result;
   }
   const PlanOptions bench;
-  auto planned = beside([&] { return plan_runs(file.mechanism, bench); });
+  auto planned = run_async([&] { return plan_runs(file.mechanism, bench); });
   target.claim(kit_names(product.plan));
   if (!product.pulley.helix)
     product.pulley.holding = tendon_holding(mechanism, product.pulley.synthesis, product.pulley.pulley);

@@ -90,18 +90,18 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
                              ": less than half the tendon's diameter, the groove floor would cross the axis";
                     }});
   const LowerGuide lower = place.lower();
-  const std::string from = place.mouth ? "mouth_" + number(side) : "pin_" + pin;
+  const std::string from = place.sheath_exit ? "mouth_" + number(side) : "pin_" + pin;
   probes.push_back({"line_reaches_" + from, "mm", 0.0,
                     [=](const TakeOff& t) { return lower.c() - std::abs(tendon(t).p - lower.rho); },
                     [=](const std::string& where, double value) {
                       return radius_name(side) + " is too large at " + where + ": " +
-                             (place.mouth ? exit_name(side) : "pin " + pin) + " lies " + rounded(-value) +
+                             (place.sheath_exit ? exit_name(side) : "pin " + pin) + " lies " + rounded(-value) +
                              " mm inside the pulley's pitch curve";
                     }});
   probes.push_back({"tendon_on_pin_" + pin, "deg", 0.0, [=](const TakeOff& t) { return degrees(tendon(t).wrap); },
                     [=](const std::string& where, double value) {
                       return "tendon " + number(side) + " leaves pin " + pin + " at " + where + ": its wrap there" +
-                             (place.mouth ? ", down into its sheath," : "") + " is " + rounded(value, 3) +
+                             (place.sheath_exit ? ", down into its sheath," : "") + " is " + rounded(value, 3) +
                              "° and must stay above 0°";
                     }});
   if (!mechanism.joint.is_plain()) probes.push_back(clear_of_other_pin(take_offs));

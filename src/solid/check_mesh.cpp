@@ -274,7 +274,8 @@ std::vector<Check> check_mesh(const TriangleMesh& mesh) {
   // Equal facets in a heap would cost the search for crossings the square of their number.
   const ExaminedSurface others = faulty.none() ? ExaminedSurface() : without_faulty_facets(welded.mesh, faulty);
   const ExaminedSurface& examined = faulty.none() ? welded : others;
-  auto crossings = beside([&examined] { return crossing_check(examined); }, mesh.triangles.size() > k_worth_a_thread);
+  auto crossings =
+      run_async([&examined] { return crossing_check(examined); }, mesh.triangles.size() > k_worth_a_thread);
   add_surface_checks(examined, checks);
   checks.push_back(crossings.get());
   return checks;

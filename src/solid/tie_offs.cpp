@@ -172,7 +172,7 @@ std::vector<PlannedAnchor> TieOffPlanner::all(BodyLayout& layout, const WoundTie
   if (!wound.both()) return anchors;
   // Neither knows of the other; the nearest are found before a thread has begun.
   const bool takes_long = mechanism_.body.wrap <= 0 && wishes_.wrap == WrapChoice::furthest;
-  auto pair2 = beside([&] { return wrapped_furthest(layout, ground2_, *wound.p2); }, takes_long);
+  auto pair2 = run_async([&] { return wrapped_furthest(layout, ground2_, *wound.p2); }, takes_long);
   const TieOffPair pair1 = wrapped_furthest(layout, ground1_, *wound.p1);
   const TieOffPair of_p2 = pair2.get();
   add(anchors, layout, ground1_, pair1);

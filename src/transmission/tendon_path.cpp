@@ -106,7 +106,7 @@ PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
   const Joint& joint = mechanism.joint;
   PinPlace place = seen_from_C(mechanism, side, rho);
   if (const Sheath& sheath = mechanism.sheath; sheath.is_there()) {
-    place.mouth = LowerGuide{sheath.exit_across, sheath.exit_above, 0};
+    place.sheath_exit = LowerGuide{sheath.exit_across, sheath.exit_above, 0};
     place.in_sheath = sheath.length;
   }
   if (joint.is_plain()) return place;

@@ -177,7 +177,7 @@ TEST(Tolerances, ScaleWithTolerance) {
   const auto b = tolerance_effects(forearm(), coarse);
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_NEAR(10 * a[i].theta_by_derivative, b[i].theta_by_derivative, 1e-14);
-    // The same samples, ten times as large.
+    // Both draw equal samples; the second scales them by ten.
     EXPECT_NEAR(10 * a[i].theta_by_monte_carlo, b[i].theta_by_monte_carlo, 0.01 * b[i].theta_by_monte_carlo + 1e-14);
   }
 }

@@ -205,7 +205,7 @@ TEST(Lengths, SuggestsUnitOfOneLength) {
   expect("pulley.EF_mm", "8", "80");
   expect("pulley.r1_mm", "1.6", "16");
   expect("joint.length_mm", "10", "100");
-  // The same for ten times too large.
+  // Ten times too large.
   expect("guides.EB_mm", "500", "50");
   expect("guides.OE_mm", "-400", "-40");
   expect("pulley.r1_mm", "160", "16");

@@ -48,7 +48,7 @@ bool rewinds_to_its_law(const Mechanism& mechanism) {
   const Polygon floor1 = parallel(result.p1, -half), floor2 = parallel(result.p2, -half);
   RC_ASSERT(is_convex(floor1));
   RC_ASSERT(is_convex(floor2));
-  // Where an arm falls to a fifth, position errors are five times as large.
+  // At a fifth of the arm, position errors are five times as large.
   const RewindResult wound = rewind(mechanism, floor1, floor2);
   RC_ASSERT(degrees(wound.max_theta_error) < 0.02);
   RC_ASSERT(wound.max_slack < 0.005 * mechanism.joint.R);

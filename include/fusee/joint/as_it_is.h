@@ -44,7 +44,7 @@ void draw_for_making(SynthesisResult& synthesis, const OutlineError& outline);
 std::vector<Condition> turns_inward_as_drawn(const SynthesisResult& drawn, const OutlineError& outline);
 /// Inverse of draw_for_making(): a closed floor as it comes out of making.
 Polygon as_made(Polygon drawn, const OutlineError& outline);
-/// The same for an open line. Normals are averaged over `beside` points on either side.
+/// Inverse of draw_for_making() for an open line. Normals are averaged over `beside` points on either side.
 Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside);
 /// The joint with a thicker tendon and thinner pins, in which the tendon lies on a displaced floor as the real one lies
 /// on the made floor.

@@ -56,8 +56,8 @@ struct EquilibriumPoint {
   EquilibriumStatus status = EquilibriumStatus::held;
   double alpha = 0;  ///< rad
   double theta = 0;  ///< rad
-  double loose_below =
-      0;  ///< by how much the joint may turn down, and up, before a tendon is taut: where it is loose. rad
+  /// Rotation in −θ and in +θ until a tendon is taut, for a loose joint. rad
+  double loose_below = 0;
   double loose_above = 0;
   TendonState t1;  ///< left
   TendonState t2;  ///< right

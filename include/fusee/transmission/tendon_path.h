@@ -44,16 +44,16 @@ struct PinPlace {
   double drum = 0;   ///< ρ0: drum radius to the tendon's centre line, at most R; 0 without drum
   bool at_C = true;  ///< the tendon ends at C
   /// Exit of the sheath between pin and pulley. The tendon then leaves the pin straight down.
-  std::optional<LowerGuide> mouth = std::nullopt;
+  std::optional<LowerGuide> sheath_exit = std::nullopt;
   double in_sheath = 0;    ///< length of tendon between pin and sheath exit
   double drum_offset = 0;  ///< distance from O to the drum's centre, which is fixed to the link
   double drum_twist = 0;   ///< angle of that centre at home, clockwise from OC, rad
 
   Vec2 pin() const { return {e, -oe}; }
   Vec2 pulley_axis() const { return {0.0, -oe - ef}; }
-  LowerGuide lower() const { return mouth ? *mouth : LowerGuide{e, ef, rho}; }
+  LowerGuide lower() const { return sheath_exit ? *sheath_exit : LowerGuide{e, ef, rho}; }
   /// Outward normal where the tendon leaves the pin, rad: that of its line to the pulley, or into the sheath.
-  double off_pin(double lower_normal) const { return mouth ? 0.0 : lower_normal; }
+  double off_pin(double lower_normal) const { return sheath_exit ? 0.0 : lower_normal; }
 };
 
 /// An end between the drum's surface and its pitch circle is moved onto the pitch circle, where the tendon leaves the
