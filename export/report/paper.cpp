@@ -189,7 +189,8 @@ std::string manifest_of(const std::vector<OutputFile>& files) {
 
 std::string claim_windows_text(const Claim& claim) {
   std::string text;
-  for (const WindowsOf& of : claim.windows) text += (text.empty() ? "" : "; ") + of.parameter + " " + windows_text(of);
+  for (const ParameterWindows& of : claim.windows)
+    text += (text.empty() ? "" : "; ") + of.parameter + " " + windows_text(of);
   return text.empty() ? "no assumed number decides" : text;
 }
 

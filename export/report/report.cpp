@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "export/report/calibration_words.h"
 #include "export/report/derived.h"
 #include "export/report/drawing.h"
@@ -565,8 +565,8 @@ std::string profiles(const Product& product) {
 }  // namespace
 
 std::string report_html(const Product& product) {
-  auto part = beside([&product] { return part_view(product); });
-  auto mechanism = beside([&product] { return mechanism_panels(product); });
+  auto part = run_async([&product] { return part_view(product); });
+  auto mechanism = run_async([&product] { return mechanism_panels(product); });
   const PageVerdict verdict = verdict_of(product);
   const std::string name = product.joint.mechanism.name.empty() ? "unnamed" : safe_text(product.joint.mechanism.name);
   return filled_page(

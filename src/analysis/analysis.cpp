@@ -15,8 +15,8 @@
 namespace fusee {
 namespace {
 
-/// Less than this on either tendon holds nothing. N
-constexpr double k_least_tension = 1e-6;
+/// Tension below which a tendon holds nothing. N
+constexpr double k_min_tension = 1e-6;
 
 bool path_exists(const TransmissionPoint& point) {
   return std::isfinite(point.theta) && std::isfinite(point.t1.length) && std::isfinite(point.t2.length) &&
@@ -53,7 +53,7 @@ void enlarge(Extreme& extreme, double value, double alpha) {
   if (value > extreme.value) extreme = {value, alpha};
 }
 
-void look_for_tensions(LargestTensions& largest, const EquilibriumPoint& point, bool rising) {
+void update_tensions(LargestTensions& largest, const EquilibriumPoint& point, bool rising) {
   if (!held(point)) return;
   enlarge(largest.at_joint, std::max(point.t1.end, point.t2.end), point.alpha);
   for (const Side side : {Side::left, Side::right}) {
@@ -78,14 +78,14 @@ std::vector<AlphaRange> ranges_where(const std::vector<AnalysisRow>& rows, Predi
   return ranges;
 }
 
-bool is_slack(const TendonState& tendon) { return tendon.upper <= k_least_tension; }
+bool is_slack(const TendonState& tendon) { return tendon.upper <= k_min_tension; }
 
 void summarise(AnalysisResult& result) {
   LargestTensions tensions;
   for (const AnalysisRow& row : result.rows) {
     const double alpha = row.declared.alpha;
-    look_for_tensions(tensions, row.rising, true);
-    look_for_tensions(tensions, row.falling, false);
+    update_tensions(tensions, row.rising, true);
+    update_tensions(tensions, row.falling, false);
     enlarge(result.largest_paper_tension, row.paper.Tb, alpha);
     const bool both_held = held(row.rising) && held(row.falling);
     if (!both_held) {
@@ -107,7 +107,7 @@ void summarise(AnalysisResult& result) {
   });
 }
 
-std::vector<DrumHold> held_by_drum(const Mechanism& mechanism, const std::vector<AnalysisRow>& rows) {
+std::vector<DrumHold> drum_holds(const Mechanism& mechanism, const std::vector<AnalysisRow>& rows) {
   std::vector<DrumHold> all;
   if (!(mechanism.joint.drum_mu > 0)) return all;
   for (const Side side : {Side::left, Side::right}) {
@@ -134,7 +134,7 @@ bool stays_taut(Mechanism mechanism, double pretension, const std::vector<double
   });
 }
 
-/// To one part in a hundred, on the safe side.
+/// The taut pretension within 1 %, rounded up.
 std::optional<double> taut_pretension(const Mechanism& mechanism) {
   const std::vector<double> alphas = alphas_over_range(Transmission(mechanism), 12);
   double slack = mechanism.tendon.pretension;
@@ -155,7 +155,7 @@ Strength with_knots(double tension, const Tendon& tendon, const std::string& sou
   return {tension, tension * tendon.knot_efficiency, source};
 }
 
-/// At C every tendon ends in a knot that nothing relieves; on the pulley the wrap does (solid/holding.h).
+/// At C every tendon ends in an unrelieved knot; on the pulley the wrap relieves it (solid/holding.h).
 std::optional<double> breaking_place(const AnalysisResult& result) {
   if (!result.strength) return std::nullopt;
   if (result.largest_at_joint.value > result.strength->at_knot) return result.largest_at_joint.alpha;
@@ -176,8 +176,8 @@ std::string place_words(const TensionExtreme& extreme, const Mechanism& mechanis
 LargestTensions largest_tensions(const Mechanism& mechanism, const std::vector<double>& alphas) {
   LargestTensions largest;
   for (const StrokePoint& point : settled_stroke(mechanism, alphas)) {
-    look_for_tensions(largest, point.rising, true);
-    look_for_tensions(largest, point.falling, false);
+    update_tensions(largest, point.rising, true);
+    update_tensions(largest, point.falling, false);
   }
   return largest;
 }
@@ -194,8 +194,9 @@ std::optional<Strength> tendon_strength(const Tendon& tendon) {
 
 std::optional<Strength> likely_strength(const Tendon& tendon) {
   if (const auto known = tendon_strength(tendon)) return known;
-  // Fibre and lay set modulus and strength alike: within a factor of two in modulus it may be the same kind of tendon,
-  // and strength goes with the section. Braids of one kind differ by 1.4 (profiles/catalogue/tendons.toml).
+  // Fibre and lay affect modulus and strength alike: within a factor of two in modulus the tendon may be of the same
+  // kind, with a strength proportional to its cross-section. Braids of one kind differ by 1.4
+  // (profiles/catalogue/tendons.toml).
   constexpr double alike = 2.0;
   const auto times = [](double one, double other) { return std::max(one / other, other / one); };
   const TendonType* nearest = nullptr;
@@ -219,14 +220,15 @@ std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const St
   Diagnostic breaks;
   if (largest.at_joint.value > strength.at_knot)
     breaks.message = at(largest.at_joint.alpha) + rounded(largest.at_joint.value) +
-                     " N at its knot at C, and it bears " + rounded(strength.at_knot) + " N there (" + strength.source +
-                     ", tendon.knot_efficiency)";
+                     " N at its knot at C exceed its strength of " + rounded(strength.at_knot) + " N there (" +
+                     strength.source + ", tendon.knot_efficiency)";
   else if (largest.anywhere.tension > strength.tension)
-    breaks.message = at(largest.anywhere.alpha) + rounded(largest.anywhere.tension) + " N, and it bears " +
+    breaks.message = at(largest.anywhere.alpha) + rounded(largest.anywhere.tension) + " N exceed its strength of " +
                      rounded(strength.tension) + " N (" + strength.source + ")";
   else
     return std::nullopt;
-  breaks.hint = "a smaller [load], less friction, a thicker tendon, or a longer lever (joint.length_mm, guides.ED_mm)";
+  breaks.hint =
+      "reduce [load] or friction, use a thicker tendon, or lengthen the lever (joint.length_mm, guides.ED_mm)";
   return breaks;
 }
 
@@ -245,7 +247,7 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
   }
   result.rows = rows_of(mechanism, synthesis.stroke);
   summarise(result);
-  result.on_drum = held_by_drum(mechanism, result.rows);
+  result.on_drum = drum_holds(mechanism, result.rows);
   if (!result.slack1.empty() || !result.slack2.empty()) result.taut_pretension = taut_pretension(mechanism);
   result.strength = tendon_strength(mechanism.tendon);
   result.breaks_at = breaking_place(result);

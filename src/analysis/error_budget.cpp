@@ -12,13 +12,13 @@
 namespace fusee {
 namespace {
 
-constexpr int k_places = 8;  ///< steps of the range at which deviations are looked at
+constexpr int k_places = 8;  ///< steps of the range at which deviations are evaluated
 
 std::vector<double> places_of(const Transmission& transmission) { return alphas_over_range(transmission, k_places); }
 
-// ---- what is ignored ------------------------------------------------------------------------------------------------
+// ---- simplifications -------------------------------------------------------------------------------------------------
 
-/// Deviations that do not exist (a tendon past the curve's end) are left out.
+/// Skips undefined deviations (a tendon beyond the curve's end).
 void include(ErrorSource& source, double deviation, double alpha) {
   if (!std::isfinite(deviation)) return;
   if (std::abs(deviation) > std::max(-source.least, source.most)) source.worst_at = alpha;
@@ -26,8 +26,8 @@ void include(ErrorSource& source, double deviation, double alpha) {
   source.most = std::max(source.most, deviation);
 }
 
-/// The joint as it is, with pulleys as `drawn` for one that is simpler, against the law that the drawing promises.
-ErrorSource ignored(std::string name, std::string meaning, const Mechanism& mechanism, const MadePulleys& drawn) {
+/// The joint with pulleys `drawn` for a simplified one, against the law of that drawing.
+ErrorSource ignoring(std::string name, std::string meaning, const Mechanism& mechanism, const MadePulleys& drawn) {
   ErrorSource source{std::move(name), std::move(meaning)};
   const RigidJoint joint(drawn, mechanism);
   for (const double alpha : places_of(drawn.declared()))
@@ -43,18 +43,18 @@ Mechanism exact(Mechanism mechanism) {
 ErrorSource pin_radius_ignored(const Mechanism& mechanism) {
   Mechanism drawn = exact(mechanism);
   drawn.guides.radius = 0;
-  return ignored("pin_radius_ignored", "pulley drawn for pins without a radius", mechanism, MadePulleys(drawn));
+  return ignoring("pin_radius_ignored", "pulley drawn for pins without a radius", mechanism, MadePulleys(drawn));
 }
 
-/// The groove's floor is where the centre line should be.
+/// The groove's floor is placed where the centre line should be.
 ErrorSource thickness_ignored(const Mechanism& mechanism) {
   Mechanism drawn = exact(mechanism);
   drawn.tendon.diameter = 0;
-  return ignored("tendon_thickness_ignored", "pulley drawn for a tendon without thickness", mechanism,
-                 MadePulleys(drawn).offset_by(0.5 * mechanism.tendon.diameter));
+  return ignoring("tendon_thickness_ignored", "pulley drawn for a tendon without thickness", mechanism,
+                  MadePulleys(drawn).offset_by(0.5 * mechanism.tendon.diameter));
 }
 
-// ---- what gives way -------------------------------------------------------------------------------------------------
+// ---- compliance -----------------------------------------------------------------------------------------------------
 
 ErrorSource paper_stretch(const Mechanism& mechanism) {
   ErrorSource source{"stretch_paper", "stretch under the load, by [9]-[11]"};
@@ -91,7 +91,7 @@ ErrorSource friction(const Mechanism& mechanism) {
 
 // ---- tolerances -----------------------------------------------------------------------------------------------------
 
-/// Half widths at each place.
+/// Half widths at each α.
 struct Spread {
   std::vector<double> theta;
   std::vector<double> slack;
@@ -147,7 +147,7 @@ Spread by_derivative(const std::vector<double>& alphas, const RigidJoint& joint,
   return spread;
 }
 
-/// Independent causes add by their squares.
+/// Variances of independent causes add.
 void add_squares(Spread& sum, const Spread& more) {
   for (std::size_t k = 0; k < sum.theta.size(); ++k) {
     sum.theta[k] = std::hypot(sum.theta[k], more.theta[k]);

@@ -1,6 +1,6 @@
 #include "fusee/analysis/plausibility.h"
 
-#include "analysis/likely_slip.h"
+#include "analysis/input_warning.h"
 #include "fusee/analysis/analysis.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/profile/synthesis.h"
@@ -9,22 +9,22 @@
 namespace fusee {
 namespace {
 
-/// Steps of the range at which tensions are looked at: they change slowly, and a strength is known to a tenth at best.
+/// Number of steps for tensions: they change slowly, and strengths are known to 10 % at best.
 constexpr int k_load_steps = 12;
 
-Diagnostic placed(const LikelySlip& slip, const MechanismFile& file) {
+Diagnostic placed(const InputWarning& slip, const MechanismFile& file) {
   return {Severity::warning, file.place_of(slip.key), slip.message, slip.hint};
 }
 
-using Look = std::vector<LikelySlip> (*)(const DeclaredMechanism&);
-constexpr Look k_looks[] = {slipped_angles, slipped_lengths, slipped_sign, slipped_modulus};
+using Rule = std::vector<InputWarning> (*)(const DeclaredMechanism&);
+constexpr Rule k_rules[] = {angle_warnings, length_warnings, sign_warnings, modulus_warnings};
 
 }  // namespace
 
-std::vector<Diagnostic> likely_slips(const MechanismFile& file) {
+std::vector<Diagnostic> likely_input_errors(const MechanismFile& file) {
   std::vector<Diagnostic> warnings;
-  for (const Look look : k_looks) {
-    for (const LikelySlip& slip : look(file.mechanism)) warnings.push_back(placed(slip, file));
+  for (const Rule rule : k_rules) {
+    for (const InputWarning& warning : rule(file.mechanism)) warnings.push_back(placed(warning, file));
   }
   return warnings;
 }
@@ -53,14 +53,14 @@ std::vector<Diagnostic> tight_bends(const MechanismFile& file) {
   return warnings;
 }
 
-std::vector<Diagnostic> doubts(const MechanismFile& file) {
-  std::vector<Diagnostic> warnings = likely_slips(file);
+std::vector<Diagnostic> plausibility_warnings(const MechanismFile& file) {
+  std::vector<Diagnostic> warnings = likely_input_errors(file);
   if (const auto overloaded = overloaded_tendon(file)) warnings.push_back(*overloaded);
   return warnings;
 }
 
-MechanismFile with_doubts(MechanismFile file) {
-  const std::vector<Diagnostic> found = doubts(file);
+MechanismFile with_plausibility_warnings(MechanismFile file) {
+  const std::vector<Diagnostic> found = plausibility_warnings(file);
   file.warnings.insert(file.warnings.end(), found.begin(), found.end());
   return file;
 }

@@ -17,7 +17,7 @@ RigidPoint RigidJoint::at(double alpha) const {
   const double wanted = home_[0] - below(0, paths[0]);
   RigidPoint point;
   point.theta = made_.declared().theta(alpha);
-  // The upper span of tendon 1 grows with θ by its moment arm: Newton's steps.
+  // The upper span of tendon 1 grows with θ by its moment arm: Newton steps.
   for (int i = 0; i < 30; ++i) {
     const UpperSpan span = upper_span(pins_[0], -point.theta);
     const double step = (span.length - wanted) / span.m;
@@ -28,25 +28,25 @@ RigidPoint RigidJoint::at(double alpha) const {
   return point;
 }
 
-// A tendon's path is the shortest one round pin and pulley: moving a part changes its length only by what the straight
-// pieces pull on that part, and growing a round part by the angle over which the tendon lies on it. With t_u from the
-// pin to C and t_l from the pulley to the pin: C gives t_u·dC, the pin (t_l − t_u)·dP, the pulley −t_l·dG, the pin's
+// A tendon's path is the shortest one round pin and pulley. Moving a part therefore changes its length only by the
+// component along the straight parts, and enlarging a round part by the wrap angle on it. With t_u from the pin to C
+// and t_l from the pulley to the pin: C contributes t_u·dC, the pin (t_l − t_u)·dP, the pulley −t_l·dG, the pin's
 // radius φ, the pitch curve ψ + α.
 namespace {
 
 Vec2 upper_direction(const PinPlace& pin, double theta) { return turned_left(unit(upper_span(pin, theta).normal)); }
 Vec2 lower_direction(const LowerPath& lower) { return turned_left(unit(lower.normal)); }
 
-/// From the tendon's end away from the joint's pin or drum: of what it lies on last.
+/// Direction from the last contact (pin or drum) to the tendon's end.
 Vec2 end_direction(const PinPlace& pin, double theta) { return turned_left(unit(upper_span(pin, theta).end_normal)); }
 double by_length(const PinPlace& pin, const LowerPath&, Side, double theta, double) {
   return pin.at_C ? end_direction(pin, theta).dot(Vec2(std::sin(theta), std::cos(theta))) : 0.0;
 }
-/// The ends stand still in the link.
+/// The tendon ends do not move in the link.
 double by_drum(const PinPlace& pin, const LowerPath&, Side, double theta, double) {
   return upper_span(pin, theta).on_drum;
 }
-/// Of the mechanism's own axes: in the left tendon's image across goes the other way.
+/// In the mechanism's own axes; in the left tendon's image the x axis is reversed.
 template <Side moved, bool is_across>
 double by_end(const PinPlace& pin, const LowerPath&, Side side, double theta, double) {
   if (side != moved || pin.at_C) return 0.0;
@@ -55,8 +55,8 @@ double by_end(const PinPlace& pin, const LowerPath&, Side side, double theta, do
 }
 template <Side moved>
 double by_pin(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double) {
-  // A sheath that is held by the pin follows it, and keeps its length.
-  const double pulled = pin.mouth ? 0.0 : lower_direction(lower).x();
+  // A sheath is held by the pin, follows it and keeps its length.
+  const double pulled = pin.sheath_exit ? 0.0 : lower_direction(lower).x();
   return side == moved ? pulled - upper_direction(pin, theta).x() : 0.0;
 }
 double by_height(const PinPlace& pin, const LowerPath&, Side, double theta, double) {
@@ -65,7 +65,7 @@ double by_height(const PinPlace& pin, const LowerPath&, Side, double theta, doub
 double by_pulley_place(const PinPlace&, const LowerPath& lower, Side, double, double) {
   return lower_direction(lower).y();
 }
-/// Mouths stand further apart, in each tendon's image further out.
+/// The sheath exits move apart, outwards in each tendon's image.
 double by_exit_across(const PinPlace&, const LowerPath& lower, Side, double, double) {
   return lower_direction(lower).x();
 }
@@ -92,7 +92,7 @@ void alter_pulley_place(Alteration& joint, double by) { joint.mounted.pulley.EF 
 void alter_exit_across(Alteration& joint, double by) { joint.mounted.sheath.exit_across += by; }
 void alter_exit_above(Alteration& joint, double by) { joint.mounted.sheath.exit_above += by; }
 void alter_offset(Alteration& joint, double by) { joint.offset += by; }
-/// The groove's floor stays where it is: a thicker tendon lies further out on pulley and pin.
+/// The groove's floor does not move: a thicker tendon lies further out on pulley and pin.
 void alter_diameter(Alteration& joint, double by) {
   joint.mounted.tendon.diameter += by;
   joint.offset += 0.5 * by;
@@ -111,7 +111,7 @@ std::vector<Dimension> dimensions(const Mechanism& mechanism) {
       {"guides.radius_mm", alter_radius, by_pin_radius},   {"pulley.EF_mm", alter_pulley_place, by_pulley_place},
       {"tendon.diameter_mm", alter_diameter, by_diameter}, {"print_offset", alter_offset, by_offset}};
   if (mechanism.sheath.is_there()) {
-    // As for a pulley that stands further down, so for mouths further up.
+    // Moving the sheath exits up is equivalent to moving the pulley down.
     std::erase_if(all, [](const Dimension& dimension) { return dimension.key == "pulley.EF_mm"; });
     all.push_back({"sheath.exit_across_mm", alter_exit_across, by_exit_across});
     all.push_back({"sheath.exit_above_mm", alter_exit_above, by_pulley_place});
@@ -147,15 +147,15 @@ RigidPoint derivative(const RigidJoint& joint, const Dimension& dimension, doubl
   const double theta = joint.at(alpha).theta;
   const std::array<LowerPath, 2> here = joint.lower(alpha);
   const std::array<LowerPath, 2> home = joint.lower(0.0);
-  // By how much more the path grew here than at home, where the tendon's length was set.
-  const auto grown = [&](std::size_t i, Side side) {
+  // Growth of the path relative to home, where the tendon's length was set.
+  const auto growth = [&](std::size_t i, Side side) {
     const double sign = mirror_sign(side);
     return dimension.lengthens(joint.pins()[i], here[i], side, sign * theta, sign * alpha) -
            dimension.lengthens(joint.pins()[i], home[i], side, 0.0, 0.0);
   };
   RigidPoint rate;
-  rate.theta = -grown(0, Side::left) / upper_span(joint.pins()[0], -theta).m;
-  rate.slack = upper_span(joint.pins()[1], theta).m * rate.theta - grown(1, Side::right);
+  rate.theta = -growth(0, Side::left) / upper_span(joint.pins()[0], -theta).m;
+  rate.slack = upper_span(joint.pins()[1], theta).m * rate.theta - growth(1, Side::right);
   return rate;
 }
 

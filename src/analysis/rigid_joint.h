@@ -1,6 +1,5 @@
-/// \file
-/// Pulleys made for one mechanism in another, with tendons that do not stretch: the joint angle, the slack, and the
-/// derivatives of both.
+/// Pulleys made for one mechanism in another one, with inextensible tendons: joint angle, slack, and the derivatives of
+/// both.
 #pragma once
 
 #include <string_view>
@@ -12,10 +11,10 @@ namespace fusee {
 
 struct RigidPoint {
   double theta = 0;  ///< tendon 1 taut, rad
-  double slack = 0;  ///< of tendon 2 there, mm; negative: it would have to stretch
+  double slack = 0;  ///< slack of tendon 2 at that θ, mm; negative: it would have to stretch
 };
 
-/// Tendons as long as they are at home.
+/// The joint with tendons of the length that they have at home.
 class RigidJoint {
  public:
   RigidJoint(const MadePulleys& made, const Mechanism& mounted);
@@ -31,32 +30,32 @@ class RigidJoint {
 
   MadePulleys made_;
   std::array<PinPlace, 2> pins_;
-  std::array<double, 2> home_;  ///< length of path, but for a constant
+  std::array<double, 2> home_;  ///< path length at home, up to a constant
 };
 
-/// A joint that came out otherwise than its pulleys were made for.
+/// A joint that deviates from the one its pulleys were made for.
 struct Alteration {
   Mechanism mounted;
-  double offset = 0;  ///< of both pitch curves, mm
+  double offset = 0;  ///< offset of both pitch curves, mm
 };
 
-/// A length of the joint that may come out otherwise than declared, while the pulleys stay as they were made.
+/// A length of the joint that may deviate from its declaration, while the pulleys do not change.
 struct Dimension {
-  std::string_view key;  ///< of the field table, or "print_offset"
+  std::string_view key;  ///< key of the field table, or "print_offset"
   void (*alter)(Alteration& joint, double change);
-  /// d (length of tendon `side`'s path)/d change, at fixed θ and α. `theta` and `alpha` of the image.
+  /// d (path length of tendon `side`)/d change, at fixed θ and α. `theta` and `alpha` of the image.
   double (*lengthens)(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double alpha);
 };
 
-/// Those that this joint has.
+/// The dimensions of this joint.
 std::vector<Dimension> dimensions(const Mechanism& mechanism);
 
-/// `made`, as declared for `mechanism`, in what comes of one change (mm) to it …
+/// The pulleys `made` for `mechanism` in a joint with one dimension changed (mm).
 RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const Dimension& dimension, double change);
-/// … and of a change to each of dimensions().
+/// The pulleys `made` for `mechanism` in a joint with each of dimensions() changed.
 RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const std::vector<double>& changes);
 
-/// d/d change of what at() gives, in closed form.
+/// d/d change of the result of at(), in closed form.
 RigidPoint derivative(const RigidJoint& joint, const Dimension& dimension, double alpha);
 
 }  // namespace fusee

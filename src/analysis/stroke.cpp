@@ -6,15 +6,15 @@
 namespace fusee {
 namespace {
 
-/// Steps are no longer than this part of the range: within one, tensions change in proportion.
-constexpr double k_longest_step = 1.0 / 180;
+/// Maximum step as a fraction of the range: within one step, tensions change linearly.
+constexpr double k_max_step = 1.0 / 180;
 constexpr int k_cycles_before = 2;
 
-class Runner {
+class StrokeRunner {
  public:
-  explicit Runner(const Mechanism& mechanism) : motion_(joint_model(mechanism)), load_(mechanism.load) {}
+  explicit StrokeRunner(const Mechanism& mechanism) : motion_(joint_model(mechanism)), load_(mechanism.load) {}
 
-  /// In short steps.
+  /// Proceeds to `alpha` in short steps.
   EquilibriumPoint run_to(double alpha, double longest) {
     const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(alpha - alpha_) / longest)));
     EquilibriumPoint point;
@@ -34,8 +34,8 @@ class Runner {
 }  // namespace
 
 std::vector<StrokePoint> settled_stroke(const Mechanism& mechanism, const std::vector<double>& alphas) {
-  Runner runner(mechanism);
-  const double longest = (alphas.back() - alphas.front()) * k_longest_step;
+  StrokeRunner runner(mechanism);
+  const double longest = (alphas.back() - alphas.front()) * k_max_step;
   for (int cycle = 0; cycle < k_cycles_before; ++cycle) {
     runner.run_to(alphas.back(), longest);
     runner.run_to(alphas.front(), longest);
@@ -43,7 +43,7 @@ std::vector<StrokePoint> settled_stroke(const Mechanism& mechanism, const std::v
   std::vector<StrokePoint> points(alphas.size());
   for (std::size_t i = 0; i < alphas.size(); ++i) points[i].rising = runner.run_to(alphas[i], longest);
   for (std::size_t i = alphas.size(); i-- > 0;) points[i].falling = runner.run_to(alphas[i], longest);
-  // The ends are turning points: what belongs to a direction is reached in it.
+  // At the ends both directions share the point before the reversal.
   points.back().falling = points.back().rising;
   points.front().rising = points.front().falling;
   return points;

@@ -24,7 +24,7 @@ constexpr const char* k_result = "stdout.txt";
 constexpr const char* k_files = "files/";
 constexpr int k_schema = 1;
 constexpr std::size_t k_longest_path = 1000, k_longest_name = 255;
-/// As a tree of values it takes sixteen times the room.
+/// Parsed JSON takes about sixteen times the room of its text.
 constexpr std::uint64_t k_largest_index = std::uint64_t{16} << 20;
 
 // ---- writing --------------------------------------------------------------------------------------------------------
@@ -65,7 +65,7 @@ Json index_of(const Bundle& bundle) {
   fail_in_entry(file, entry, -1, message);
 }
 
-/// The entries of an archive, each once and each a name that stays in it.
+/// The entries of an archive. Each occurs once and has a name inside the bundle.
 std::map<std::string, std::string> entries_of(std::string_view bytes, const std::string& file) {
   const ZipArchive archive(bytes, file, "a bundle of fusee, which is a zip archive");
   if (archive.size() > k_most_bundled_files + 2)
@@ -77,8 +77,8 @@ std::map<std::string, std::string> entries_of(std::string_view bytes, const std:
   for (std::size_t i = 0; i < archive.size(); ++i) {
     const std::string name = archive.name_of(i);
     if (!is_inner_path(name)) fail(file, name, "the name leads out of the bundle, or is hidden");
-    if (!archive.is_plain_file(i)) fail(file, name, "is a link, a folder or encrypted, and no file");
-    if (entries.count(name) != 0) fail(file, name, "stands twice in the bundle");
+    if (!archive.is_plain_file(i)) fail(file, name, "is not a regular file: a link, a folder or encrypted");
+    if (entries.count(name) != 0) fail(file, name, "occurs twice in the bundle");
     std::uint64_t index_budget = k_largest_index;
     const bool is_index = name == k_index;
     entries[name] = archive.unpacked(i, is_index ? index_budget : budget, is_index ? "its list 16 MiB" : limits);
@@ -86,12 +86,12 @@ std::map<std::string, std::string> entries_of(std::string_view bytes, const std:
   return entries;
 }
 
-/// Values of bundle.json, each with its place where it is not what it should be.
+/// Typed access to bundle.json. Errors name the offending place.
 class Index {
  public:
   Index(const std::string& file, const Json& json, std::string place)
       : file_(file), json_(json), place_(std::move(place)) {
-    if (!json_.is_object()) fail(file_, k_index, place_ + " is no table of JSON");
+    if (!json_.is_object()) fail(file_, k_index, place_ + " is not a JSON object");
   }
 
   bool has(const char* key) const { return json_.contains(key); }
@@ -139,7 +139,7 @@ Diagnostic read_diagnostic(const Index& index) {
   return diagnostic;
 }
 
-/// Takes what belongs to it out of `entries`.
+/// Reads one listed file and moves its bytes out of `entries`.
 BundledFile read_bundled(const Index& index, std::map<std::string, std::string>& entries) {
   BundledFile file;
   file.path = index.text("path");
@@ -155,8 +155,8 @@ BundledFile read_bundled(const Index& index, std::map<std::string, std::string>&
   return file;
 }
 
-/// What a replay would make, one folder or file each, is no more than a bundle may hold.
-void demand_few_places(const Bundle& bundle, const Index& index) {
+/// Rejects bundles from which a replay would create too many files and folders.
+void limit_places(const Bundle& bundle, const Index& index) {
   std::set<std::string_view> folders, files;
   const auto take = [&](const char* key, std::string_view path) {
     const bool is_folder = path.ends_with('/');
@@ -172,7 +172,7 @@ void demand_few_places(const Bundle& bundle, const Index& index) {
     if (!file.failure) take("files", file.path);
   for (const std::string& path : bundle.in_the_way) take("in_the_way", path);
   for (const std::string_view file : files)
-    if (folders.count(file) != 0) index.wrong("files", fmt::format("clear: {} is a file and a folder", file));
+    if (folders.count(file) != 0) index.wrong("files", fmt::format("consistent: {} is a file and a folder", file));
 }
 
 }  // namespace
@@ -196,7 +196,7 @@ std::string bundle_bytes(const Bundle& bundle) {
 }
 
 bool is_bundle(std::string_view bytes) {
-  // A zip's first entry has its name 30 bytes after its beginning.
+  // The name of a zip's first entry begins at byte 30.
   constexpr std::size_t k_name = 30;
   return bytes.substr(0, 4) == std::string_view("PK\3\4", 4) && bytes.size() > k_name &&
          bytes.substr(k_name).rfind(k_index, 0) == 0;
@@ -206,11 +206,11 @@ Bundle read_bundle(std::string_view bytes, const std::string& name) {
   std::map<std::string, std::string> entries = entries_of(bytes, name);
   auto text = entries.extract(k_index), result = entries.extract(k_result);
   if (text.empty() || result.empty())
-    fail(name, text.empty() ? k_index : k_result, "is not in this archive: it is no bundle of fusee");
+    fail(name, text.empty() ? k_index : k_result, "is missing: this is not a bundle of fusee");
   const Json json = parse_foreign_json(text.mapped());
   const Index index(name, json, "the bundle");
   if (index.text("tool") != "fusee bundle") index.wrong("tool", "\"fusee bundle\"");
-  if (index.integer("schema") != k_schema) index.wrong("schema", "1: it is of a later fusee");
+  if (index.integer("schema") != k_schema) index.wrong("schema", "1: it was written by a later version of fusee");
   Bundle bundle;
   bundle.outcome.result = std::move(result.mapped());
   bundle.version = index.text("version");
@@ -221,7 +221,7 @@ Bundle read_bundle(std::string_view bytes, const std::string& name) {
   index.for_each("messages", [&](const Index& each) { bundle.outcome.messages.push_back(read_diagnostic(each)); });
   index.for_each("files", [&](const Index& each) { bundle.files.push_back(read_bundled(each, entries)); });
   bundle.in_the_way = index.texts("in_the_way");
-  demand_few_places(bundle, index);
+  limit_places(bundle, index);
   index.for_each("outputs", [&](const Index& each) {
     bundle.outcome.outputs.push_back(
         {each.text("path"), static_cast<std::uint64_t>(each.integer("bytes")), each.text("sha256")});

@@ -5,7 +5,7 @@
 
 namespace fusee {
 
-SymmetricEigen eigen_of(const Eigen::MatrixXd& symmetric) {
+SymmetricEigen eigendecomposition(const Eigen::MatrixXd& symmetric) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(symmetric);
   return {found.eigenvalues(), found.eigenvectors()};
 }
@@ -21,7 +21,7 @@ double Cholesky::half_log_determinant() const { return factors_.matrixLLT().diag
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const { return factors_.solve(b); }
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& B) const { return factors_.solve(B); }
 
-/// A⁻¹ = L⁻ᵀ L⁻¹, strip by strip: a column of L⁻¹ begins at its own row.
+/// A⁻¹ = L⁻ᵀ L⁻¹ in strips, because column k of L⁻¹ is zero above row k.
 Eigen::VectorXd Cholesky::inverse_diagonal() const {
   constexpr Eigen::Index strip = 16;
   const Eigen::MatrixXd& L = factors_.matrixLLT();

@@ -1,5 +1,5 @@
 /// \file
-/// Eigen's decompositions of matrices of any size. Each costs seconds to compile: here once, and not where it is used.
+/// Eigen's decompositions for matrices of any size, compiled once: each template costs seconds.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -8,38 +8,38 @@
 
 namespace fusee {
 
-/// Of a symmetric matrix, the least first; a column of `vectors` each.
+/// Eigenvalues of a symmetric matrix in ascending order, and the eigenvectors as columns.
 struct SymmetricEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
 };
-SymmetricEigen eigen_of(const Eigen::MatrixXd& symmetric);
+SymmetricEigen eigendecomposition(const Eigen::MatrixXd& symmetric);
 
-/// Of a symmetric matrix: xᵀA x is above zero for every x.
+/// True when the symmetric matrix satisfies xᵀA x > 0 for every x ≠ 0.
 bool is_positive_definite(const Eigen::MatrixXd& A);
 
-/// A⁻¹ b of a symmetric matrix that is not indefinite.
+/// A⁻¹ b for a symmetric, semidefinite A.
 Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 Eigen::MatrixXd solved(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
-/// A = L Lᵀ of a symmetric A that is positive definite.
+/// Cholesky factorization A = L Lᵀ of a symmetric positive definite matrix.
 class Cholesky {
  public:
   Cholesky() = default;
   explicit Cholesky(const Eigen::MatrixXd& A);
   Eigen::MatrixXd lower() const;  ///< L
-  /// Half of log det A.
+  /// ½ log det A.
   double half_log_determinant() const;
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
-  /// Of A⁻¹.
+  /// The diagonal of A⁻¹.
   Eigen::VectorXd inverse_diagonal() const;
 
  private:
   Eigen::LLT<Eigen::MatrixXd> factors_;
 };
 
-/// The x nearest to A x = b, for one A of full rank and any b.
+/// Least-squares solver: the x that minimizes |A x - b|, for one A of full rank and any b.
 class LeastSquares {
  public:
   explicit LeastSquares(const Eigen::MatrixXd& A);

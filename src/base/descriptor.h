@@ -21,7 +21,7 @@ class Descriptor {
   }
   int number() const { return number_; }
   bool ok() const { return number_ >= 0; }
-  /// Closes now; false with errno when the bytes did not get there.
+  /// Closes now. Returns false and sets errno when the bytes were not written.
   bool close() { return ::close(std::exchange(number_, -1)) == 0; }
 
  private:

@@ -73,9 +73,9 @@ void demand(bool holds, const std::string& what) {
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string* best = nullptr;
   std::size_t best_distance = 0;
-  // A word this far away was not meant.
+  // A word further away was not meant.
   const std::size_t reach = std::max<std::size_t>(2, word.size() / 2);
-  // Long input is no misspelling, and the table below would be large.
+  // Long input is no misspelling and would need a large table.
   if (word.size() > 100) return {};
   for (const std::string& candidate : candidates) {
     const bool unit_left_out = candidate.rfind(std::string(word) + "_", 0) == 0;  // "r1" for "r1_mm"

@@ -15,12 +15,12 @@
 namespace fusee {
 namespace {
 
-/// Set by the one thread that reads and writes files, and looked at by it.
-FileAccess* innermost = nullptr;
+/// The current FileAccess. One thread reads and writes files, so no lock is needed.
+FileAccess* current_access = nullptr;
 
 std::string error_text(int code) { return std::error_code(code, std::generic_category()).message(); }
 
-/// The size of a regular file, and 0 of what has none.
+/// The size of a regular file; 0 for a pipe.
 std::size_t demand_readable(const ReadRequest& request, const Descriptor& file) {
   const std::string name = request.path.string();
   struct stat status {};
@@ -35,20 +35,20 @@ std::size_t demand_readable(const ReadRequest& request, const Descriptor& file) 
 
 }  // namespace
 
-FileAccess::FileAccess() : outer_(innermost) { innermost = this; }
-FileAccess::~FileAccess() { innermost = outer_; }
-FileAccess* FileAccess::current() { return innermost; }
+FileAccess::FileAccess() : outer_(current_access) { current_access = this; }
+FileAccess::~FileAccess() { current_access = outer_; }
+FileAccess* FileAccess::current() { return current_access; }
 
 void read_from_disk(const ReadRequest& request, const TakeBlock& take) {
   const std::string name = request.path.string();
-  // O_NONBLOCK: a pipe that nobody writes to must not hang us; where pipes are welcome there is a writer to wait for.
+  // O_NONBLOCK: a pipe without a writer must not block. Where pipes are accepted, a writer exists.
   const int waiting = request.pipes ? 0 : O_NONBLOCK;
   const Descriptor file(::open(request.path.c_str(), O_RDONLY | O_CLOEXEC | waiting));
   if (!file.ok())
     throw InputError(name, "cannot be read: " + error_text(errno), errno == ENOENT ? "check the path" : "");
   const std::size_t size = demand_readable(request, file);
-  // A page that is touched for the first time costs more than what is read into it: no more of them than the file has,
-  // of which many are small, and none for zeros that are written over. A byte more sees the end, or that it grew.
+  // First touches of memory pages cost more than reading into them. The buffer is therefore no larger than the file,
+  // and not zeroed. One extra byte detects the end of the file, or that it grew.
   constexpr std::size_t k_least = std::size_t{1} << 12, k_most = std::size_t{1} << 18;
   const std::size_t room = std::clamp(size + 1, k_least, k_most);
   const auto block = std::make_unique_for_overwrite<char[]>(room);
@@ -58,7 +58,7 @@ void read_from_disk(const ReadRequest& request, const TakeBlock& take) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw InputError(name, "cannot be read: " + error_text(errno));
     if (count == 0) return;
-    // Files of /proc promise no size at all.
+    // Files of /proc report no size.
     if (static_cast<std::size_t>(count) > left)
       throw InputError(name, fmt::format("is larger than {} bytes", request.limit), "is it the right file?");
     left -= static_cast<std::size_t>(count);

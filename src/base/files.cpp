@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All at once, where the size is known beforehand.
+/// Allocates the buffer at once when the size is known.
 void reserve_for(const fs::path& path, std::size_t limit, std::string& bytes) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
@@ -48,18 +48,17 @@ fs::path temporary_folder() {
   fs::path folder = fs::temp_directory_path(error);
   if (!error) return folder;
   const char* named = std::getenv("TMPDIR");
-  throw OutputError("the temporary folder " + std::string(named ? named : "/tmp") + " is none",
+  throw OutputError("the temporary folder " + std::string(named ? named : "/tmp") + " is no folder",
                     "set TMPDIR to a folder that you may write to");
 }
 
-// Not by EVP, which reads its configuration and sets up all that it knows first: a millisecond, before anything is
-// done.
+// The deprecated SHA256_* calls: EVP would first read its configuration, which costs a millisecond per run.
 std::string sha256(std::string_view bytes) {
   SHA256_CTX context;
   std::array<unsigned char, SHA256_DIGEST_LENGTH> digest;
   demand(SHA256_Init(&context) == 1 && SHA256_Update(&context, bytes.data(), bytes.size()) == 1 &&
              SHA256_Final(digest.data(), &context) == 1,
-         "SHA-256 is not to be had");
+         "SHA-256 is unavailable");
   std::string text;
   for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
   return text;

@@ -12,9 +12,8 @@ struct Bracket {
   double middle() const { return 0.5 * (low + high); }
 };
 
-/// Where a function with one minimum within `bracket` is smallest: what is left after `steps` cuts, each to 0.618 of
-/// what was left before. The places follow from the bracket alone; of two values one is that of the step before, to the
-/// last digits of its place.
+/// Brackets the minimum of a unimodal function in `bracket` by `steps` golden sections, each to 0.618 of the width
+/// before. The evaluation points depend on the bracket alone. One of the two values is reused from the step before.
 template <typename Value>
 Bracket golden_section(Bracket bracket, int steps, Value value) {
   constexpr double golden = 0.61803398874989485;

@@ -21,8 +21,8 @@ Json angle_json(double angle) { return nine_digits(degrees(angle)); }
 Json parse_json(std::string_view text) { return Json::parse(text); }
 
 Json parse_foreign_json(std::string_view text) {
-  // nlohmann parses nested lists without recursion, but destroys and compares them with it. A bundle's index nests four
-  // deep, a manifest three.
+  // nlohmann parses nested lists without recursion, but destroys and compares them recursively. A bundle's index nests
+  // four deep, a manifest three.
   const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= 8; };
   return Json::parse(text, shallow, /*allow_exceptions=*/false);
 }

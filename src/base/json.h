@@ -1,6 +1,5 @@
 /// \file
-/// Internal: JSON, as all of fusee writes and reads it. What nlohmann makes text with, and what it parses with, each
-/// file that asked for it compiled for itself: here once.
+/// Internal: JSON reading and writing. The nlohmann templates are compiled here once.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,20 +10,21 @@ namespace fusee {
 
 using Json = nlohmann::ordered_json;
 
-/// `indent` blanks a level, and a line's end. Names of files and messages may hold any bytes, JSON may not: what is no
-/// UTF-8 is replaced, and what a terminal would obey is escaped.
+/// JSON text with `indent` blanks a level and a line feed at the end. Bytes that are not UTF-8 are replaced, and
+/// terminal control characters are escaped.
 std::string json_text(const Json& json, int indent);
 
-/// JSON knows no NaN and no infinity: null. The last digits of a fit or a simulation are noise, and nine are kept.
+/// A number with nine significant digits, as further digits of fits and simulations are noise. Null for NaN and
+/// infinity, which JSON lacks.
 Json nine_digits(double value);
-/// The same of an angle, in degrees.
+/// An angle (rad) in degrees, with nine digits.
 Json angle_json(double angle);
 
-/// Of fusee's own text. Throws nlohmann's error where it is no JSON.
+/// Parses text that fusee wrote. Throws nlohmann's error on invalid JSON.
 Json parse_json(std::string_view text);
 
-/// Of text that anybody may have written: no object where it is no JSON, and without what nests deeper than anything
-/// that fusee writes.
+/// Parses untrusted text. Returns a discarded value for invalid JSON, and drops values that nest deeper than any that
+/// fusee writes.
 Json parse_foreign_json(std::string_view text);
 
 }  // namespace fusee

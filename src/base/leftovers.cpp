@@ -28,32 +28,32 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(fs::symlink_status(path, ignored));
 }
 
-/// A staging folder whose run is gone; it stays locked while this lives.
+/// A staging folder whose run ended. It stays locked while this object lives.
 struct Leftover {
   fs::path path;
   Descriptor lock;
 };
 
-/// True where the folder is this user's alone, and its run does not live.
-bool is_left(const Descriptor& folder) {
+/// True when the folder belongs to this user alone and its run has ended.
+bool is_abandoned(const Descriptor& folder) {
   struct stat status {};
   return folder.ok() && ::fstat(folder.number(), &status) == 0 && status.st_uid == ::geteuid() &&
          (status.st_mode & 07777) == 0700 && ::flock(folder.number(), LOCK_EX | LOCK_NB) == 0;
 }
 
 std::vector<Leftover> leftovers_of(const fs::path& place, std::vector<Diagnostic>* notes) {
-  static const std::regex names_run(R"(\.fusee-([1-9]\d{0,8})-(?:([0-9a-f]{8})-\w{6})?.*)");
+  static const std::regex staging_name(R"(\.fusee-([1-9]\d{0,8})-(?:([0-9a-f]{8})-\w{6})?.*)");
   std::vector<Leftover> all;
   for (const StagingSite site : {StagingSite::beside, StagingSite::inside}) {
     const fs::path ground = staging_ground(place, site);
     const std::string key = staging_key(place, site);
     for (const std::string& name : names_in(ground)) {
-      std::smatch part;  // of the name: process and key
-      if (!std::regex_match(name, part, names_run)) continue;
-      if (part[2].matched && part[2] != key) continue;  // of another place
+      std::smatch part;  // matched parts of the name: process and key
+      if (!std::regex_match(name, part, staging_name)) continue;
+      if (part[2].matched && part[2] != key) continue;  // staging folder of another place
       if (::kill(std::stoi(part[1]), 0) == 0 || errno != ESRCH) continue;
       Leftover leftover{ground / name, open_folder(ground / name)};
-      if (part[2].matched && is_left(leftover.lock)) {
+      if (part[2].matched && is_abandoned(leftover.lock)) {
         all.push_back(std::move(leftover));
       } else if (notes != nullptr) {
         notes->push_back({Severity::note,
@@ -66,7 +66,7 @@ std::vector<Leftover> leftovers_of(const fs::path& place, std::vector<Diagnostic
   return all;
 }
 
-/// Undoes what the run began, or completes it where all earlier files were aside. Returns as move_entries().
+/// Undoes what the run began, or completes it when all earlier files were set aside. Returns as move_entries().
 int recover(const fs::path& leftover, const fs::path& place) {
   const ReplacementLock lock(place);
   const fs::path made = leftover / "new", old = leftover / "old", ready = leftover / "ready";
@@ -74,7 +74,8 @@ int recover(const fs::path& leftover, const fs::path& place) {
   for (const fs::path& folder : {made, old, ready, place}) add_written_files(folder, written);
   const Subfolders subfolders = subfolders_of(written);
   if (is_folder(ready)) return move_entries(ready, place, subfolders);
-  // After an exchange, before the earlier folder had its name: other files had second names in the new folder.
+  // Killed after the exchange, before the earlier folder was renamed to old/: the other files have hard links in the
+  // new folder.
   if (!is_folder(old)) {
     const auto is_file = [&made](const std::string& name) { return !is_folder(made / name); };
     return is_folder(place) ? move_entries(made, place, subfolders, is_file) : 0;
@@ -89,7 +90,7 @@ int recover(const fs::path& leftover, const fs::path& place) {
 
 }  // namespace
 
-// ---- what fusee wrote -----------------------------------------------------------------------------------------------
+// ---- files that fusee wrote -----------------------------------------------------------------------------------------
 
 void add_written_files(const fs::path& folder, WrittenFiles& written) {
   constexpr std::size_t k_largest_manifest = 16 << 20;
@@ -102,7 +103,7 @@ void add_written_files(const fs::path& folder, WrittenFiles& written) {
       written.emplace(output.at("file").get<std::string>(), output.at("sha256").get<std::string>());
   } catch (const InputError&) {
   } catch (const Json::exception&) {
-    // Of another form than ours: what is listed before that is as good as ever, since its bytes are compared.
+    // A manifest of another form. Entries read before the error are valid, because bytes are compared.
   }
 }
 
@@ -152,14 +153,14 @@ bool make_subfolder(const fs::path& folder, const std::string& name) {
   return subfolder == folder || is_folder(subfolder) || ::mkdir(subfolder.c_str(), 0777) == 0;
 }
 
-// ---- what killed runs left ------------------------------------------------------------------------------------------
+// ---- leftovers of killed runs ---------------------------------------------------------------------------------------
 
 int move_entries(const fs::path& from, const fs::path& to, const Subfolders& subfolders,
                  const std::function<bool(const std::string& name)>& is_obsolete) {
   const Descriptor source = open_folder(from), target = open_folder(to);
   if (!source.ok()) return 0;
   std::vector<std::string> names = entries_in(from, subfolders);
-  // The manifest last: where it stands, the set is whole.
+  // The manifest is moved last: its presence marks a complete set.
   std::partition(names.begin(), names.end(), [](const std::string& name) { return name != k_manifest; });
   int moved = 0;
   bool stuck = false;
@@ -196,7 +197,7 @@ std::vector<Diagnostic> recover_leftovers(const fs::path& place) {
 void remove_staged_leftovers(const fs::path& file) {
   std::error_code ignored;
   for (const Leftover& leftover : leftovers_of(file, nullptr))
-    if (!stands(leftover.path / "old")) fs::remove_all(leftover.path, ignored);
+    if (!entry_exists(leftover.path / "old")) fs::remove_all(leftover.path, ignored);
 }
 
 }  // namespace fusee

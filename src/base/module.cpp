@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Under the folder that a program was installed in, or built in.
+/// Folder of the modules, relative to the installation or build folder.
 constexpr const char* k_modules = FUSEE_MODULES;
 
-/// Code is loaded from beside its own program alone, and not where somebody else could have put it.
+/// A module is loaded only when the superuser or the owner of the program owns it.
 bool is_trusted(const fs::path& module, const fs::path& program) {
   struct stat of_module {
   }, of_program{};
@@ -23,7 +23,7 @@ bool is_trusted(const fs::path& module, const fs::path& program) {
   return of_module.st_uid == 0 || of_module.st_uid == of_program.st_uid;
 }
 
-/// The file that this function was linked into: the program, or a shared library.
+/// The file that contains this function: the program, or a shared library.
 fs::path own_file() {
   std::error_code ignored;
   Dl_info info{};
@@ -34,8 +34,8 @@ fs::path own_file() {
   return fs::read_symlink("/proc/self/exe", ignored);
 }
 
-/// bin/fusee and lib/…/fusee/modules/ are beside each other; in a build tree the programs of tests lie deeper,
-/// and so does Python's module in lib/python3/dist-packages/fusee.
+/// Searches upwards from the program: bin/ and lib/…/fusee/modules/ are siblings. Test programs and the Python module
+/// (lib/python3/dist-packages/fusee) lie deeper.
 std::optional<fs::path> module_file(const std::string& name) {
   constexpr int k_levels = 5;
   const fs::path program = own_file();

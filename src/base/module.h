@@ -1,6 +1,6 @@
 /// \file
-/// Internal: code that is loaded when it is asked for. What few runs need and every start would pay for is a module: a
-/// file in lib/…/fusee/modules beside bin/fusee, with one thing in it that is found by its name.
+/// Internal: code loaded on demand. A module serves few runs and would slow every start: it is a shared library in
+/// lib/…/fusee/modules next to bin/fusee, with one exported symbol.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@ namespace fusee {
 
 struct LoadedModule {
   const void* found = nullptr;
-  std::string why_not;  ///< where nothing was: "its module fusee-step is not installed beside it"
+  std::string why_not;  ///< reason when nothing was found: "its module fusee-step is not installed beside it"
 };
 
-/// Loaded for good: libraries keep what they have registered. `name` is the file's without its end, `symbol` has the
-/// interface's version in it.
+/// Loads a module for the rest of the process, because libraries keep what they register. `name` is the file's stem;
+/// `symbol` contains the interface version.
 LoadedModule load_module(const std::string& name, const char* symbol);
 
-/// A library of the system that is loaded when it is asked for, in place of one that every start would pay for. It is
-/// found as the linker finds it, and stays loaded.
+/// A system library loaded on demand, so that only the runs that need it pay for it. It is searched like a linked
+/// library and stays loaded.
 class SystemLibrary {
  public:
   explicit SystemLibrary(const char* soname);
   bool is_there() const { return handle_ != nullptr; }
-  /// A function of its C interface; null where the library is absent or has none of this name.
+  /// A function of the library's C interface; null when the library or the function is missing.
   template <class Function>
   Function* function(const char* name) const {
     return reinterpret_cast<Function*>(symbol(name));

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: noise for those who draw joints, tolerances or readings.
+/// Internal: reproducible normal random numbers.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace fusee {
 
-/// Normal numbers, the same on every machine: the standard's own distribution is not.
+/// Standard normal numbers that are equal on every machine, unlike std::normal_distribution (Box-Muller).
 class NormalNumbers {
  public:
   explicit NormalNumbers(std::uint64_t seed) : bits_(seed) {}
@@ -21,7 +21,7 @@ class NormalNumbers {
   }
 
  private:
-  /// In (0, 1).
+  /// Uniform in (0, 1).
   double uniform() { return (static_cast<double>(bits_() >> 11) + 0.5) * 0x1p-53; }
 
   std::mt19937_64 bits_;

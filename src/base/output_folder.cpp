@@ -12,41 +12,44 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/files.h"
 
-// A set of files appears at once because one call of the system replaces a folder. The new files are staged in a
-// private folder beside the place; other entries of the earlier folder get second names (hard links) there; both
-// folders are exchanged; what has no second name, a folder above all, is moved across afterwards. Where the system has
-// no exchange, the earlier folder is renamed aside first. A folder that cannot be renamed (this process stands in it,
-// it is a mount point or somebody else's) has its files replaced one by one, between a manifest that goes first and one
-// that comes last. leftovers.h has the way back from a kill.
+// Atomic publishing of a set of files rests on one system call that replaces a folder:
+// 1. The new files are staged in a private folder next to the output folder.
+// 2. Other entries of the earlier folder get hard links in the staging folder.
+// 3. Both folders are exchanged. Without an exchange call, the earlier folder is first renamed aside.
+// 4. Entries without hard links, folders above all, are moved across.
+// A folder that cannot be renamed (the current folder, a mount point, another owner's) has its files replaced one by
+// one. The manifest is removed first and written last. leftovers.h describes the recovery from a kill.
 
 namespace fusee {
 namespace {
 
 namespace fs = std::filesystem;
 
-void tell_in_the_way(const fs::path& path) {
+void report_obstacle(const fs::path& path) {
   if (FileAccess* access = FileAccess::current()) access->in_the_way(path);
 }
 
-/// OutputError where no file can be made in the deepest part of `folder` that exists.
-void demand_ground(fs::path folder) {
-  while (!stands(folder) && folder.has_parent_path() && folder != folder.parent_path()) folder = folder.parent_path();
-  const fs::path ground = stands(folder) ? folder : fs::path(".");
+/// Throws OutputError when no file can be made in the deepest existing part of `folder`.
+void demand_writable(fs::path folder) {
+  while (!entry_exists(folder) && folder.has_parent_path() && folder != folder.parent_path())
+    folder = folder.parent_path();
+  const fs::path ground = entry_exists(folder) ? folder : fs::path(".");
   std::error_code error;
   if (!fs::is_directory(ground, error))
     throw OutputError(ground.string() + " is not a folder", "choose another folder with -o");
   if (::access(ground.c_str(), W_OK | X_OK) != 0) fail_output("cannot write in", ground, errno);
 }
 
-/// OutputError where something else stands in the place of a folder of outputs; a link is never followed there.
+/// Throws OutputError when something other than a folder has the name of an output subfolder. Links are not followed.
 void demand_subfolder(const fs::path& folder) {
-  if (!stands(folder) || fs::is_directory(fs::symlink_status(folder))) return;
-  tell_in_the_way(folder);
+  if (!entry_exists(folder) || fs::is_directory(fs::symlink_status(folder))) return;
+  report_obstacle(folder);
   throw OutputError(folder.string() + " is in the way and is not a folder",
                     "move it away, or choose another folder with -o");
 }
 
-/// Rights that a new folder would not have by itself. What a security module labels is labelled anew.
+/// True when the folder has extended attributes that a new folder would lack. Security labels are set anew by the
+/// system.
 bool has_attributes(const fs::path& folder) {
   std::string names(4096, '\0');
   const ssize_t size = ::llistxattr(folder.c_str(), names.data(), names.size());
@@ -56,7 +59,7 @@ bool has_attributes(const fs::path& folder) {
   return false;
 }
 
-/// True when another folder may take the place of this one, and everything in it can be moved there.
+/// True when another folder can take the place of this one and all its entries can be moved there.
 bool is_replaceable(const fs::path& folder) {
   struct stat status {};
   struct stat above {};
@@ -64,8 +67,8 @@ bool is_replaceable(const fs::path& folder) {
   if (!S_ISDIR(status.st_mode) || status.st_dev != above.st_dev || status.st_uid != ::geteuid()) return false;
   std::error_code error;
   const fs::path here = fs::current_path(error);
-  const bool stands_in_it = std::mismatch(folder.begin(), folder.end(), here.begin(), here.end()).first == folder.end();
-  if (error || stands_in_it || has_attributes(folder)) return false;
+  const bool is_current = std::mismatch(folder.begin(), folder.end(), here.begin(), here.end()).first == folder.end();
+  if (error || is_current || has_attributes(folder)) return false;
   for (const std::string& name : names_in(folder)) {
     const fs::path entry = folder / name;
     struct stat inner {};
@@ -90,7 +93,7 @@ bool is_plain(const std::string& name) {
   return !name.empty() && name.front() != '.' && name.find('/') == std::string::npos;
 }
 
-/// A file of the folder itself, or of a folder in it.
+/// True for a file of the folder itself, or of a direct subfolder.
 bool is_output_name(const std::string& name) {
   const auto slash = name.find('/');
   return slash == std::string::npos ? is_plain(name)
@@ -102,41 +105,42 @@ bool is_output_name(const std::string& name) {
 OutputFolder::OutputFolder(fs::path folder, bool force)
     : folder_(folder.empty() ? "." : std::move(folder)), place_(place_of(folder_)), force_(force) {
   if (FileAccess* access = FileAccess::current()) access->will_write(folder_);
-  learn_ours();
+  find_own_files();
 }
 
 OutputFolder::~OutputFolder() = default;
 
-void OutputFolder::learn_ours() {
-  add_written_files(place_, ours_);
-  add_files_aside(place_, ours_);
+void OutputFolder::find_own_files() {
+  add_written_files(place_, own_files_);
+  add_files_aside(place_, own_files_);
 }
 
 void OutputFolder::claim(const std::vector<std::string>& names) {
-  demand_ground(folder_);
+  demand_writable(folder_);
   std::vector<std::string> foreign, changed;
   const auto all_are_ours = [&] {
-    learn_ours();
+    find_own_files();
     foreign.clear();
     changed.clear();
     for (const std::string& name : names) {
       const fs::path target = folder_ / name;
       if (name.find('/') != std::string::npos) demand_subfolder(target.parent_path());
-      if (!stands(target)) continue;
+      if (!entry_exists(target)) continue;
       if (!fs::is_regular_file(fs::symlink_status(target))) {
-        tell_in_the_way(target);
+        report_obstacle(target);
         throw OutputError(target.string() + " is in the way and is not a regular file",
                           "move it away, or choose another folder with -o");
       }
-      if (force_ || is_unchanged(ours_, folder_, name)) continue;
-      const auto listed = ours_.lower_bound({name, ""});
-      (listed != ours_.end() && listed->first == name ? changed : foreign).push_back(name);
+      if (force_ || is_unchanged(own_files_, folder_, name)) continue;
+      const auto listed = own_files_.lower_bound({name, ""});
+      (listed != own_files_.end() && listed->first == name ? changed : foreign).push_back(name);
     }
     return foreign.empty() && changed.empty();
   };
-  // Another run may publish between the look at its manifest and the look at its files: its manifest is known then.
+  // Another run may publish between reading its manifest and comparing its files. On the next pass its manifest is
+  // known.
   if (all_are_ours() || all_are_ours() || all_are_ours()) return;
-  for (const std::string& name : foreign) tell_in_the_way(folder_ / name);
+  for (const std::string& name : foreign) report_obstacle(folder_ / name);
   std::string message = folder_.string() + " holds ";
   if (!foreign.empty()) message += fmt::format("files that fusee did not write: {}", fmt::join(foreign, ", "));
   if (!changed.empty())
@@ -158,11 +162,11 @@ void OutputFolder::stage(const OutputFile& file) {
   write_whole(staging_->path() / file.name, file.bytes);
 }
 
-/// Beside the folder where it can be replaced as a whole.
+/// Stages next to the folder when the folder can be replaced as a whole, otherwise inside it.
 void OutputFolder::open_staging() {
-  demand_ground(folder_);
+  demand_writable(folder_);
   const bool beside =
-      !stands(place_) || (is_replaceable(place_) && ::access(place_.parent_path().c_str(), W_OK | X_OK) == 0);
+      !entry_exists(place_) || (is_replaceable(place_) && ::access(place_.parent_path().c_str(), W_OK | X_OK) == 0);
   staging_ = std::make_unique<Staging>(place_, beside ? StagingSite::beside : StagingSite::inside);
 }
 
@@ -170,19 +174,19 @@ fs::path OutputFolder::staged_path(const std::string& name) const { return stagi
 
 void OutputFolder::withdraw(const std::vector<std::string>& names) { withdrawn_ = names; }
 
-/// True for a file of an earlier run that this one does not keep.
+/// True for an output of an earlier run that this run withdraws.
 bool OutputFolder::is_obsolete(const fs::path& folder, const std::string& name) const {
-  return contains(withdrawn_, name) && is_unchanged(ours_, folder, name);
+  return contains(withdrawn_, name) && is_unchanged(own_files_, folder, name);
 }
 
 /// Subfolders of earlier runs and of this one.
 std::set<std::string> OutputFolder::subfolders() const {
-  Subfolders all = subfolders_of(ours_);
+  Subfolders all = subfolders_of(own_files_);
   for (const std::string& name : staged_) add_subfolder(name, all);
   return all;
 }
 
-/// Gives what stays in the folder a second name among the new files; false when something has none.
+/// Hard-links the entries that are kept into the staging folder. Returns false when one cannot be linked.
 bool OutputFolder::link_others() const {
   bool complete = true;
   for (const std::string& name : entries_in(place_, subfolders())) {
@@ -194,11 +198,11 @@ bool OutputFolder::link_others() const {
   return complete;
 }
 
-/// By renames of the folder; false, with nothing changed, where that cannot be.
+/// Publishes by renaming folders. Returns false and changes nothing where that is impossible.
 bool OutputFolder::publish_as_folder(std::vector<Diagnostic>& notes) {
   if (staging_->site() == StagingSite::inside) return false;
   const fs::path& made = staging_->path();
-  if (!stands(place_)) {
+  if (!entry_exists(place_)) {
     flush_all({made});
     return move_if_free(made, place_);
   }
@@ -206,9 +210,9 @@ bool OutputFolder::publish_as_folder(std::vector<Diagnostic>& notes) {
   const bool linked = link_others();
   flush_all({made});
   if (!staging_->take_place_of(place_, /*by_exchange=*/linked)) return false;
-  // Of folders, of what has no second name, and of what came since. Another run may have published in between: its set
-  // is the earlier one now.
-  add_written_files(staging_->old(), ours_);
+  // Moves folders, entries without hard links and entries made in the meantime. Another run may have published since,
+  // so that old/ holds its set.
+  add_written_files(staging_->old(), own_files_);
   const auto obsolete = [this](const std::string& name) { return is_obsolete(staging_->old(), name); };
   if (move_entries(staging_->old(), place_, subfolders(), obsolete) >= 0) {
     staging_->remove_old();
@@ -234,7 +238,7 @@ void OutputFolder::publish_one_by_one() {
     if (move_entries(old, place_, subfolders()) >= 0) staging_->remove_old();
     fail_output("cannot write", target, code);
   };
-  // The manifest goes first and comes last: where it stands, the set is whole.
+  // The manifest is removed first and written last: its presence marks a complete set.
   std::vector<std::string> names = entries_in(place_, subfolders());
   std::partition(names.begin(), names.end(), [](const std::string& name) { return name == k_manifest; });
   for (const std::string& name : names) {
@@ -252,7 +256,7 @@ void OutputFolder::publish_one_by_one() {
   remove_empty_subfolders();
 }
 
-/// Those whose files were withdrawn.
+/// Removes subfolders whose files were all withdrawn.
 void OutputFolder::remove_empty_subfolders() const {
   for (const std::string& subfolder : subfolders()) ::rmdir((place_ / subfolder).c_str());
 }
@@ -265,7 +269,7 @@ void OutputFolder::publish(std::vector<Diagnostic>& notes) {
   std::vector<fs::path> made;
   for (const std::string& name : staged_) made.push_back(staged_path(name));
   for (const std::string& subfolder : subfolders()) {
-    if (stands(staged_path(subfolder))) made.push_back(staged_path(subfolder));
+    if (entry_exists(staged_path(subfolder))) made.push_back(staged_path(subfolder));
   }
   flush_all(made);
   if (FileAccess* access = FileAccess::current()) {
@@ -287,8 +291,8 @@ void write_file(const fs::path& path, std::string_view bytes, bool force) {
   std::error_code error;
   const fs::path target = fs::is_symlink(path) ? fs::weakly_canonical(path, error) : path;
   const bool is_file = fs::is_regular_file(fs::symlink_status(target));
-  if (stands(target) && !(force && is_file)) {
-    tell_in_the_way(path);
+  if (entry_exists(target) && !(force && is_file)) {
+    report_obstacle(path);
     if (!is_file) throw OutputError(path.string() + " exists and is not a regular file", "choose another name");
     throw OutputError(path.string() + " exists", "choose another name, or overwrite it with --force");
   }
@@ -296,7 +300,7 @@ void write_file(const fs::path& path, std::string_view bytes, bool force) {
   if (name.empty() || name == "." || name == "..")
     throw OutputError(path.string() + " names no file", "add a file name");
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  demand_ground(folder);
+  demand_writable(folder);
   remove_staged_leftovers(target);
   const Staging staging(target, StagingSite::beside);
   const fs::path made = staging.path() / "file";

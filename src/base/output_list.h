@@ -1,5 +1,6 @@
 /// \file
-/// Internal: the files of a run as JSON, in manifests and in answers. OutputFolder reads it back to know its own.
+/// Internal: the output files as JSON, for manifests and answers. OutputFolder reads it back to recognize its own
+/// files.
 #pragma once
 
 #include <vector>

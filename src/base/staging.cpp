@@ -21,12 +21,12 @@ namespace fs = std::filesystem;
 void fail_output(const std::string& what, const fs::path& path, int code) {
   std::string hint;
   if (code == ENOSPC || code == EDQUOT) hint = "the disk is full: make room, or choose another folder with -o";
-  if (code == EFBIG) hint = "files may not be that large here: ulimit -f, or the file system's own limit";
+  if (code == EFBIG) hint = "the file exceeds a size limit: ulimit -f, or that of the file system";
   if (code == EACCES || code == EPERM || code == EROFS) hint = "choose a folder that you may write to with -o";
   throw OutputError(what + " " + path.string() + ": " + std::error_code(code, std::generic_category()).message(), hint);
 }
 
-bool stands(const fs::path& path) {
+bool entry_exists(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(fs::symlink_status(path, ignored));
 }
@@ -48,7 +48,7 @@ void write_whole(const fs::path& path, std::string_view bytes) {
     if (written < 0) fail_output("cannot write", path, errno);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
-  // Starts the transfer to the disk while the next files are made: flush_all() waits less. A failure does not matter.
+  // Starts the transfer to the disk while the next files are made, which shortens flush_all(). Failure is harmless.
   ::sync_file_range(file.number(), 0, 0, SYNC_FILE_RANGE_WRITE);
   if (!file.close()) fail_output("cannot write", path, errno);
 }
@@ -56,7 +56,7 @@ void write_whole(const fs::path& path, std::string_view bytes) {
 void flush_all(const std::vector<fs::path>& paths) {
   const auto flush = [](const fs::path& path) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    // Some file systems know no fsync of folders: that is no failure.
+    // Some file systems do not support fsync of folders, which is no failure.
     if (!file.ok() || (::fsync(file.number()) != 0 && errno != EINVAL && errno != ENOTSUP))
       fail_output("cannot write", path, errno);
   };
@@ -99,7 +99,7 @@ fs::path staging_ground(const fs::path& place, StagingSite site) {
 Staging::Staging(const fs::path& place, StagingSite site) : Staging(site) {
   const fs::path ground = staging_ground(place, site);
   root_ = ground / fmt::format(".fusee-{}-{}-XXXXXX", ::getpid(), staging_key(place, site));
-  for (fs::path path = ground; !path.empty() && !stands(path); path = path.parent_path()) made_.push_back(path);
+  for (fs::path path = ground; !path.empty() && !entry_exists(path); path = path.parent_path()) made_.push_back(path);
   std::error_code error;
   fs::create_directories(ground, error);
   if (error) fail_output("cannot make the folder", ground, error.value());
@@ -109,12 +109,12 @@ Staging::Staging(const fs::path& place, StagingSite site) : Staging(site) {
   path_ = root_ / "new";
   lock_ = Descriptor(::open(root_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   ::flock(lock_.number(), LOCK_EX | LOCK_NB);
-  // With the rights of an ordinary folder: it may become one.
+  // The rights of an ordinary folder, as it may become the output folder.
   if (::mkdir(path_.c_str(), 0777) != 0) fail_output("cannot write in", root_, errno);
 }
 
 void Staging::remove() const {
-  if (stands(old())) return;  // the next run needs both
+  if (entry_exists(old())) return;  // the next run needs both
   std::error_code ignored;
   fs::remove_all(path_, ignored);
   fs::remove_all(root_ / "obsolete", ignored);
@@ -124,7 +124,7 @@ void Staging::remove() const {
 
 void Staging::remove_old() const {
   std::error_code ignored;
-  // By one rename first: a kill must not leave a part of the earlier files as if they were all.
+  // One rename first: after a kill, partly removed earlier files must not look complete.
   if (::rename(old().c_str(), (root_ / "obsolete").c_str()) == 0) fs::remove_all(root_ / "obsolete", ignored);
 }
 
@@ -150,7 +150,7 @@ bool Staging::mark_ready() {
   return true;
 }
 
-// ---- one at a time --------------------------------------------------------------------------------------------------
+// ---- lock for one-by-one replacement --------------------------------------------------------------------------------
 
 ReplacementLock::ReplacementLock(const fs::path& folder) : path_(folder / ".fusee-lock") {
   using namespace std::chrono_literals;
@@ -163,7 +163,7 @@ ReplacementLock::ReplacementLock(const fs::path& folder) : path_(folder / ".fuse
     if (opened.st_uid != ::geteuid() || (opened.st_mode & 077) != 0) return;
     const bool locked = ::flock(file.number(), LOCK_EX | LOCK_NB) == 0;
     if (!locked && errno != EWOULDBLOCK) return;
-    // The run that held it removed the file: this one may have no name any more.
+    // The previous holder removes the file, so the locked file may no longer be the named one.
     if (!locked || ::lstat(path_.c_str(), &named) != 0 || named.st_ino != opened.st_ino) continue;
     file_ = std::move(file);
     return;

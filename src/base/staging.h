@@ -1,6 +1,5 @@
 /// \file
-/// Internal: the private folder in which new files wait until they take their place, and the file operations of
-/// publishing.
+/// Internal: the private folder that holds new files until they are published, and the file operations of publishing.
 #pragma once
 
 #include <fcntl.h>
@@ -17,65 +16,67 @@ namespace fusee {
 /// OutputError: "<what> <path>: <meaning of the code>", with a hint where one is known.
 [[noreturn]] void fail_output(const std::string& what, const std::filesystem::path& path, int code);
 
-/// True when `path` itself exists, whatever it is (a dangling link too).
-bool stands(const std::filesystem::path& path);
+/// True when the entry itself exists, dangling links included.
+bool entry_exists(const std::filesystem::path& path);
 
-/// `folder` from the root, without links, dots and a slash at its end.
+/// `folder` as an absolute path without links, dots and trailing slash.
 std::filesystem::path place_of(const std::filesystem::path& folder);
 
-/// Makes a new file. OutputError when it exists or its bytes do not get there; a short write is no success.
+/// Creates a new file. Throws OutputError when it exists or is not written completely.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);
 
-/// Flushes files and folders to the disk, together: fewer waits than one after another.
+/// Flushes files and folders to the disk concurrently, which waits less than one after another.
 void flush_all(const std::vector<std::filesystem::path>& paths);
 
-/// Names in a folder; empty when it cannot be read.
+/// Names in a folder; empty when the folder cannot be read.
 std::vector<std::string> names_in(const std::filesystem::path& folder);
 
-/// Renames `from` to `to`, each seen from an open folder, unless something stands there; false with errno.
+/// Renames `from` to `to`, relative to the given folders, unless `to` exists. Returns false and sets errno on failure.
 bool move_if_free(const std::filesystem::path& from, const std::filesystem::path& to, int from_folder = AT_FDCWD,
                   int to_folder = AT_FDCWD);
 
-/// A staging folder lies beside the place (a folder or a file) that it is made for, or inside it.
+/// Location of a staging folder: next to the place (a folder or a file) that it serves, or inside it.
 enum class StagingSite { beside, inside };
 
 /// The private folder of one run: `.fusee-<process>-<key>-XXXXXX`, mode 0700, locked while the run lives. The key is
-/// derived from the name of the place, so that the next run into this place finds what a killed one left
+/// derived from the name of the place, so that the next run into this place finds the leftovers of a killed one
 /// (leftovers.h). It holds
 ///   new/       the new files
-///   old/       what stood in the place: the earlier folder, or those of its files that are replaced
+///   old/       the earlier folder, or those of its files that are replaced
 ///   ready/     the new files, once all earlier ones are in old/ (files replaced one by one)
 ///   obsolete/  earlier files that are being removed
-/// The destructor leaves it for the next run while it holds old/, and removes it otherwise, with the folders that were
-/// made above it and are still empty.
+/// The destructor removes the staging folder and the empty folders made above it, unless it holds old/, which the next
+/// run needs.
 class Staging {
  public:
-  /// Makes the folders above it that are missing too. OutputError when one cannot be made.
+  /// Makes missing parent folders too. Throws OutputError when one cannot be made.
   Staging(const std::filesystem::path& place, StagingSite site);
   ~Staging() { remove(); }
   Staging(const Staging&) = delete;
   Staging& operator=(const Staging&) = delete;
 
   StagingSite site() const { return site_; }
-  /// Of the new files.
+  /// The folder of the new files.
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path old() const { return root_ / "old"; }
-  /// As the destructor does; path() stays what it was.
+  /// Removes the folder as the destructor does. path() keeps its value.
   void remove() const;
   /// Removes the earlier files.
   void remove_old() const;
 
-  /// The new files become `place`, and the folder that stood there becomes old(): by one exchange, or, where the
-  /// system has none or `by_exchange` is false, by two renames. False, with nothing changed, where neither is possible.
+  /// Publishes the new folder as `place` and keeps the earlier folder as old(). Uses one atomic exchange; without
+  /// `by_exchange`, or when the system has no exchange, two renames. Returns false and changes nothing when neither
+  /// works.
   bool take_place_of(const std::filesystem::path& place, bool by_exchange);
-  /// Marks the earlier files as complete in old/: from now on a killed run is completed, no longer undone.
+  /// Marks old/ as complete: from now on, recovery completes a killed run instead of undoing it.
   bool mark_ready();
 
  private:
-  explicit Staging(StagingSite site) : site_(site) {}  ///< so that what the other has made is removed when it throws
+  /// Delegated to, so that ~Staging() runs when the public constructor throws
+  explicit Staging(StagingSite site) : site_(site) {}
 
   std::filesystem::path root_, path_;
-  std::vector<std::filesystem::path> made_;  ///< above it, innermost first
+  std::vector<std::filesystem::path> made_;  ///< parent folders that were made, innermost first
   StagingSite site_;
   Descriptor lock_{-1};
 };
@@ -85,11 +86,11 @@ std::string staging_key(const std::filesystem::path& place, StagingSite site);
 /// The folder that holds the staging folders of a place.
 std::filesystem::path staging_ground(const std::filesystem::path& place, StagingSite site);
 
-/// While it lives no other run of this user replaces files one by one in `folder`. Its lock file can be opened by this
-/// user alone; where it cannot be made there is no lock.
+/// Excludes other runs of this user that replace files one by one in `folder`. Only this user can open the lock file.
+/// Where it cannot be made there is no lock.
 class ReplacementLock {
  public:
-  /// Waits for the run that holds it; OutputError after a minute.
+  /// Waits for the run that holds the lock. Throws OutputError after a minute.
   explicit ReplacementLock(const std::filesystem::path& folder);
   ~ReplacementLock();
   ReplacementLock(const ReplacementLock&) = delete;

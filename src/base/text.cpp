@@ -13,7 +13,7 @@
 namespace fusee {
 namespace {
 
-/// "-0", "-0.000" → without the sign.
+/// Removes the sign of "-0" and "-0.000".
 std::string without_negative_zero(std::string text) {
   if (!text.empty() && text[0] == '-' && text.find_first_of("123456789", 1) == std::string::npos &&
       text.find_first_not_of("-0.", 0) == std::string::npos) {
@@ -42,8 +42,8 @@ void append_utf8(std::string& text, std::uint32_t point) {
   }
 }
 
-/// One character of UTF-8, taken off the front; none where no well-formed one stands there, and the longest beginning
-/// of one is taken, as JSON's writer does too. Overlong forms, surrogates and what lies beyond U+10FFFF are not well
+/// Removes one UTF-8 character from the front of `text`. If it is not well formed, removes its longest well-formed
+/// prefix and returns nullopt, as JSON writers do. Overlong forms, surrogates and values above U+10FFFF are not well
 /// formed (Unicode 15, table 3-7).
 std::optional<char32_t> take_character(std::string_view& text) {
   const auto lead = static_cast<unsigned char>(text[0]);
@@ -71,7 +71,7 @@ bool is_fit(char32_t code) {
   return !control && !reorders && !no_character;
 }
 
-/// Copies `text`, with what `unfit` makes of each character that is not fit, and none for bytes that are no character.
+/// Copies `text` and replaces each unfit character by `unfit(code)`. `code` is nullopt for malformed bytes.
 template <class Unfit>
 std::string with_unfit(std::string_view text, const Unfit& unfit) {
   std::string fit;
@@ -93,7 +93,7 @@ constexpr std::string_view k_replacement = "\uFFFD";
 }  // namespace
 
 bool is_utf8(std::string_view text) {
-  // Most text is ASCII, and a log of a million rows is read line by line.
+  // Fast path: most text is ASCII, and logs of a million rows are checked line by line.
   unsigned char all = 0;
   for (const char c : text) all |= static_cast<unsigned char>(c);
   if (all < 0x80) return true;
@@ -122,7 +122,7 @@ std::string unicode_escaped(std::string_view text) {
 
 std::string shortest(double value) { return without_negative_zero(fmt::format("{}", value)); }
 
-// Drawings hold numbers by the ten thousand: std::to_chars() rounds as fmt does, in a quarter of the time.
+// Drawings contain tens of thousands of numbers. std::to_chars() rounds as fmt does in a quarter of the time.
 std::string fixed(double value, int decimals) {
   std::array<char, 512> text;
   const auto [end, error] =
@@ -174,7 +174,7 @@ std::optional<std::string> utf8_of_utf16(std::string_view bytes) {
 }
 
 std::size_t characters(std::string_view text) {
-  // Every byte that does not continue one.
+  // Counts the bytes that are not continuation bytes.
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 

@@ -13,22 +13,22 @@ namespace fusee {
 namespace {
 
 void demand_zip(bool done, zip_t* archive, const std::string& step) {
-  if (done) return;  // an archive that was closed has no words any more
+  if (done) return;  // after closing, the archive has no error text
   demand(false, fmt::format("{}: {}", step, archive == nullptr ? "no memory" : zip_strerror(archive)));
 }
 
 void add_entry(zip_t* archive, const ZipEntry& entry) {
   constexpr zip_uint16_t k_midnight = 0;
-  constexpr zip_uint16_t k_first_of_1980 = (1 << 5) | 1;  // the zero of DOS dates
+  constexpr zip_uint16_t k_first_of_1980 = (1 << 5) | 1;  // the earliest DOS date
   zip_source_t* part = zip_source_buffer(archive, entry.bytes.data(), entry.bytes.size(), 0);
   demand_zip(part != nullptr, archive, entry.name);
   const zip_int64_t added = zip_file_add(archive, entry.name.c_str(), part, ZIP_FL_ENC_UTF_8);
   if (added < 0) zip_source_free(part);
   demand_zip(added >= 0, archive, entry.name);
   const auto index = static_cast<zip_uint64_t>(added);
-  // A date of its own, in DOS fields: zip_file_set_mtime() would go through the local time zone.
+  // DOS date fields: zip_file_set_mtime() would depend on the local time zone.
   demand_zip(zip_file_set_dostime(archive, index, k_midnight, k_first_of_1980, 0) == 0, archive, entry.name);
-  constexpr zip_uint32_t k_quick = 3;  // twice as fast as the usual 6, and a fifth larger
+  constexpr zip_uint32_t k_quick = 3;  // twice as fast as the default 6, a fifth larger
   demand_zip(zip_set_file_compression(archive, index, ZIP_CM_DEFLATE, k_quick) == 0, archive, entry.name);
 }
 

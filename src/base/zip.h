@@ -1,5 +1,5 @@
 /// \file
-/// Internal: zip archives in memory, the same bytes for the same entries, read without trust.
+/// Internal: reproducible zip archives in memory, and a reader for untrusted ones.
 #pragma once
 
 #include <cstdint>
@@ -18,23 +18,24 @@ struct ZipEntry {
   std::string_view bytes;  ///< must outlive the call
 };
 
-/// An archive of these in this order. Every date is the zero of DOS dates.
+/// An archive of the entries in the given order, all dated 1980-01-01.
 std::string zip_bytes(const std::vector<ZipEntry>& entries);
 
-/// An archive that somebody gave us. `bytes` must outlive it.
+/// An untrusted archive. `bytes` must outlive it.
 class ZipArchive {
  public:
-  /// InputError of `name` when it is none; `expected` is what it should have been ("a zip archive with a 3MF model").
+  /// Throws InputError for `name` when it is no archive. `expected` names what is expected ("a zip archive with a 3MF
+  /// model").
   ZipArchive(std::string_view bytes, std::string name, const std::string& expected);
 
   std::size_t size() const;
   std::string name_of(std::size_t entry) const;
-  /// A file as a zip of ours holds it: no folder, no link, not encrypted.
+  /// True for a regular, unencrypted file: no folder and no link.
   bool is_plain_file(std::size_t entry) const;
-  /// Whatever its capitals.
+  /// Index of an entry, by its name in any capitalization.
   std::optional<std::size_t> find(const std::string& entry) const;
-  /// The bytes of an entry, taken off `budget`: what an entry says of its size proves nothing. InputError, with
-  /// `limits` for a person, where they are more.
+  /// The bytes of an entry, subtracted from `budget`. The declared size of an entry is not trusted. Throws InputError
+  /// with `limits` when the budget is exceeded.
   std::string unpacked(std::size_t entry, std::uint64_t& budget, const std::string& limits) const;
 
  private:
@@ -42,7 +43,7 @@ class ZipArchive {
   std::unique_ptr<zip, void (*)(zip*)> archive_;
 };
 
-/// InputError of a place in an archive.
+/// Throws InputError for an offset in an archive entry.
 [[noreturn]] void fail_in_entry(const std::string& file, const std::string& entry, std::ptrdiff_t offset,
                                 const std::string& message);
 

@@ -47,7 +47,7 @@ std::vector<const Effect*> catalogue(const Mechanism& declared, const Measuremen
     if (std::none_of(more.begin(), more.end(), is_replaced)) all.push_back(&effect);
   }
   std::erase_if(all, [&](const Effect* effect) {
-    return !effect->is_looked_for || !can_be_seen(effect->needs, declared, measurement) ||
+    return !effect->is_tested || !can_be_seen(effect->needs, declared, measurement) ||
            std::find(without.begin(), without.end(), effect->name) != without.end();
   });
   std::stable_sort(all.begin(), all.end(), [](const Effect* a, const Effect* b) {

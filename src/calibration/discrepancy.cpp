@@ -52,7 +52,7 @@ Eigen::MatrixXd rough_curves(const std::vector<RowFacts>& facts) {
   for (Eigen::Index i = 0; i < k_nodes; ++i) {
     for (Eigen::Index j = 0; j < k_nodes; ++j) K(i, j) = kernel(node(i), node(j));
   }
-  const SymmetricEigen eigen = eigen_of(K);
+  const SymmetricEigen eigen = eigendecomposition(K);
   Eigen::MatrixXd at_rows(static_cast<Eigen::Index>(facts.size()), k_nodes);
   for (Eigen::Index i = 0; i < at_rows.rows(); ++i) {
     for (Eigen::Index j = 0; j < k_nodes; ++j)

@@ -491,7 +491,7 @@ Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& decl
   if (!law.exists()) return {};
   Eigen::Index row = 0;
   for (const Run& run : evidence.measurement.runs) {
-    for (const Sample& sample : run.samples) given[row++] -= law.theta_straight_on(sample.alpha);
+    for (const Sample& sample : run.samples) given[row++] -= law.theta_extrapolated(sample.alpha);
   }
   for (double& angle : given) angle = std::isfinite(angle) ? angle : 0.0;
   return given;

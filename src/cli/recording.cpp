@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 bool stands_as_other(const fs::path& file) {
   try {
-    return stands(file) && !is_bundle(read_output(file, k_largest_bundle));
+    return entry_exists(file) && !is_bundle(read_output(file, k_largest_bundle));
   } catch (const InputError&) {
     return true;
   }

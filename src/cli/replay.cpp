@@ -91,13 +91,13 @@ void put_in_the_way(const Bundle& bundle, const fs::path& folder) {
   for (const std::string& path : bundle.in_the_way) {
     const fs::path place = folder / path;
     fs::create_directories(path.ends_with('/') ? place : place.parent_path(), ignored);
-    if (!path.ends_with('/') && !stands(place)) write_file(place, "", /*force=*/false);
+    if (!path.ends_with('/') && !entry_exists(place)) write_file(place, "", /*force=*/false);
   }
 }
 
 void demand_free(const fs::path& folder) {
   std::error_code error;
-  if (!stands(folder) || (fs::is_directory(fs::symlink_status(folder)) && fs::is_empty(folder, error))) return;
+  if (!entry_exists(folder) || (fs::is_directory(fs::symlink_status(folder)) && fs::is_empty(folder, error))) return;
   throw OutputError(folder.string() + " exists and is not an empty folder", "choose another one with -o");
 }
 

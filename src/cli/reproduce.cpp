@@ -48,9 +48,9 @@ std::string assumed_text(const PaperAssumptions& a) {
          rounded(a.mu) + ", F_c " + rounded(a.tip_force) + " N\n\n";
 }
 
-Json windows_json(const std::vector<WindowsOf>& windows) {
+Json windows_json(const std::vector<ParameterWindows>& windows) {
   Json json = Json::object();
-  for (const WindowsOf& of : windows) {
+  for (const ParameterWindows& of : windows) {
     json[of.parameter] = Json::array();
     for (const Window& window : of.windows) {
       json[of.parameter].push_back(

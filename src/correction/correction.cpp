@@ -48,7 +48,7 @@ double lost_motion(const Imperfections& found, const Mechanism& declared, double
 /// What earlier calibrations found was part of the declared model this time, so far as a mechanism can have it; the
 /// rest was found anew.
 Imperfections composed(const DeclaredMechanism& declared, const Imperfections& found) {
-  Imperfections total = found_again(declared.identified, found, kind_of(declared));
+  Imperfections total = merge_findings(declared.identified, found, kind_of(declared));
   total.joint.mean_load = declared.identified.joint.mean_load;
   return total;
 }

@@ -29,7 +29,7 @@ double tapered_integral(double u, double length) {
 
 }  // namespace
 
-PitchSpiral::PitchSpiral(const Mechanism& mechanism, const TakeOffs& take_offs, const SmoothSeries* lengthening)
+PitchSpiral::PitchSpiral(const Mechanism& mechanism, const TakeOffs& take_offs, const ChebyshevSeries* lengthening)
     : take_offs_(take_offs),
       lengthening_(lengthening),
       collar_(mechanism.guides.collar),

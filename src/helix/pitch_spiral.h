@@ -28,7 +28,7 @@ struct FreePath {
 class PitchSpiral {
  public:
   /// `lengthening`: q of the side, null for a planar tendon.
-  PitchSpiral(const Mechanism& mechanism, const TakeOffs& take_offs, const SmoothSeries* lengthening);
+  PitchSpiral(const Mechanism& mechanism, const TakeOffs& take_offs, const ChebyshevSeries* lengthening);
 
   double working_begin() const { return samples_.front().curve.psi; }
   double working_end() const { return samples_.back().curve.psi; }
@@ -48,7 +48,7 @@ class PitchSpiral {
   double lengthened(double alpha) const { return lengthening_ != nullptr ? lengthening_->at(alpha).d0 : 0.0; }
 
   const TakeOffs& take_offs_;
-  const SmoothSeries* lengthening_;
+  const ChebyshevSeries* lengthening_;
   bool collar_;
   double spare_;
   std::vector<TakeOff> samples_;

@@ -82,7 +82,7 @@ struct SideIteration {
 };
 
 SideIteration solve_side(const Mechanism& mechanism, const Transmission& transmission, Side side,
-                         const SmoothSeries* before, const MinLead& least_lead, const std::vector<double>& nodes,
+                         const ChebyshevSeries* before, const MinLead& least_lead, const std::vector<double>& nodes,
                          HelixAccuracy accuracy) {
   const TakeOffs take_offs(transmission, side);
   const PitchSpiral curve(mechanism, take_offs, before);
@@ -126,7 +126,7 @@ Windings wind(const Mechanism& mechanism, const MinLead& least_lead, HelixAccura
   windings.transmission = std::make_unique<Transmission>(mechanism);
   for (int i = 0; i < rounds; ++i) {
     const Transmission& law = *windings.transmission;
-    const std::vector<double> nodes = SmoothSeries::nodes(law.alpha_min(), law.alpha_max(), k_nodes);
+    const std::vector<double> nodes = ChebyshevSeries::nodes(law.alpha_min(), law.alpha_max(), k_nodes);
     const SlopedPaths* before = windings.paths.get();
     const SideIteration left =
         solve_side(mechanism, law, Side::left, before ? &before->q1 : nullptr, least_lead, nodes, accuracy);
@@ -139,8 +139,8 @@ Windings wind(const Mechanism& mechanism, const MinLead& least_lead, HelixAccura
     if (before != nullptr && (closure < k_settled || no_better)) break;
     constexpr double k_least_coefficient = 1e-12;
     windings.paths = std::make_shared<SlopedPaths>(
-        SlopedPaths{SmoothSeries(law.alpha_min(), law.alpha_max(), left.q, k_least_coefficient),
-                    SmoothSeries(law.alpha_min(), law.alpha_max(), right.q, k_least_coefficient)});
+        SlopedPaths{ChebyshevSeries(law.alpha_min(), law.alpha_max(), left.q, k_least_coefficient),
+                    ChebyshevSeries(law.alpha_min(), law.alpha_max(), right.q, k_least_coefficient)});
     windings.transmission = std::make_unique<Transmission>(mechanism, windings.paths);
   }
   if (accuracy == HelixAccuracy::coarse) windings.closure = 0;

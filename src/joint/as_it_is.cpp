@@ -1,15 +1,14 @@
 #include "fusee/joint/as_it_is.h"
 
-#include "joint/needed_law.h"
+#include "joint/compensating_law.h"
 
-// The corrected pulley is drawn so that what was identified undoes itself:
-//
-// - geometry, friction, tendon: the mechanism has them, and the law stays the declared θ(α), with P1 round where that
-//   suffices and as a table where not;
-// - stretch, weight: the law is drawn further by what the joint gives way under its mean load (needed_law);
-// - scale 1 + s: one more shrinkage;
-// - radius offset, wave of the profile, runout: the curves are drawn further in, with the wave the other way, and off
-//   the axis the other way (draw_for_making).
+// The corrected pulley is drawn so that the identified deviations cancel:
+// - geometry, friction, tendon: part of the mechanism. The law remains the declared θ(α), with a round P1 if that
+//   suffices, otherwise as a table.
+// - stretch, weight: the law includes the deflection under the mean load (compensating_law).
+// - scale 1 + s: an additional shrinkage.
+// - radius offset, wave of the profile, runout: the curves are drawn with the opposite offset, wave and eccentricity
+//   (draw_for_making).
 
 namespace fusee {
 namespace {
@@ -27,9 +26,13 @@ bool changes_statics(const Imperfections& at) {
 
 }  // namespace
 
-RoundChoice round_choice(const DeclaredMechanism& declared) { return round_choice(declared, needed_law(declared)); }
+RoundChoice round_choice(const DeclaredMechanism& declared) {
+  return round_choice(declared, compensating_law(declared));
+}
 
-double tied_at(const DeclaredMechanism& declared) { return declared.transmission ? 0.0 : needed_law(declared).home; }
+double tied_at(const DeclaredMechanism& declared) {
+  return declared.transmission ? 0.0 : compensating_law(declared).home;
+}
 
 JointAsItIs as_it_is(const DeclaredMechanism& declared, LawSearch search) {
   const Imperfections& at = declared.identified;
@@ -37,7 +40,7 @@ JointAsItIs as_it_is(const DeclaredMechanism& declared, LawSearch search) {
   const bool nothing_to_do = !changes_geometry(at) && !changes_statics(at) && at.pulley.scale == 0;
   if (declared.transmission || nothing_to_do) return joint;
   joint.mechanism = identified_joint(declared);
-  const NeededLaw needed = needed_law(declared, search);
+  const CompensatingLaw needed = compensating_law(declared, search);
   if ((changes_geometry(at) || needed.shifted) && !needed.rows.empty()) {
     const RoundChoice choice = round_choice(declared, needed);
     if (choice.suffices) {

@@ -5,7 +5,7 @@
 
 namespace fusee {
 
-// τ ẋ = driver − x, exact for a driver that stays.
+// τ ẋ = driver − x, solved exactly for a constant driver.
 void CreepMemory::hold(double driver, double time) {
   if (!(time > 0)) return;
   for (std::size_t i = 0; i < elements_.size(); ++i)

@@ -14,67 +14,68 @@
 #include "joint/upper_span_table.h"
 #include "joint/wound_profile.h"
 
-// What is known of a tendon is how much material lies above its reference point on the pin's rim, below it, and on the
-// pulley. Material crosses the reference point only by slipping. The reference stands still, so the tendon's pull on
-// the joint is exactly T_up m(θ) and on the pulley exactly T_low p(α), and energy balances: with U = T²/(2 EA) per
-// material, motor work − load work = stored + (T_up + U_up − T_low − U_low) · crossed + what is lost in the groove.
+// State of a tendon: the material above its reference point on the pin's rim, below it, and on the pulley. Material
+// crosses the reference point only by slipping. The reference point is fixed, so that the tendon pulls with exactly
+// T_up m(θ) on the joint and T_low p(α) on the pulley, and energy balances: with U = T²/(2 EA) per material, motor work
+// − load work = stored + (T_up + U_up − T_low − U_low) · crossed + losses in the groove.
 //
-// Winding an arc ds takes ds/(1 + T_low/EA) of material: by the trapezoid over a step, with the step's own T_low.
-// Paying out gives back what lies there, last first. What lies deeper slides (wound_profile.h) and gives material to
-// the span or takes it, the more the further T_low goes from what it was: to the balance of the spans a longer lower
-// span, of a length that depends on T_low, found together with it.
+// Winding an arc ds takes ds/(1 + T_low/EA) of material, by the trapezoidal rule over a step with the step's own T_low.
+// Paying out returns the stored material, last first. Deeper material slides (wound_profile.h) and exchanges material
+// with the span, more so the further T_low departs from its earlier value. The balance of the spans sees this as a
+// longer lower span whose length depends on T_low, and both are solved together.
 //
-// The simpler law, to pay out at the tension of the moment, was tried and is wrong with friction: as tension is
-// higher while winding than while paying out, each cycle carries material past the pulley, and θ creeps by 0.005° a
-// cycle (EA 31 kN, 5 N on both, μ 0.15; 0.18° at EA 850 N) for ever, where the profile settles within three cycles.
+// The simpler law, paying out at the present tension, is wrong with friction. Tension is higher while winding than
+// while paying out, so each cycle would carry material past the pulley and θ would drift by 0.005° a cycle (EA 31 kN, 5
+// N on both, μ 0.15; 0.18° at EA 850 N). The stored profile settles within three cycles.
 
 namespace fusee {
 namespace {
 
-/// Both tendons slack by more than this together: the joint has play. mm
-constexpr double k_least_play = 1e-6;
-/// Searches for what slides on the pulleys, and for the ratio of a tendon's tensions over a pin that gives way. Two or
-/// three do; where a tendon sticks on such a pin each leaves the give's share of the compliance, and where what slides
-/// turns round it may take some halving.
+/// Total slack of both tendons above which the joint has play. mm
+constexpr double k_min_play = 1e-6;
+/// Iterations for the sliding on the pulleys and for the tension ratio over a compliant pin. Usually two or three
+/// suffice. A tendon that sticks on a compliant pin converges more slowly, and a reversal of the sliding may need some
+/// halving.
 constexpr int k_rounds = 40;
-constexpr double k_least_strain = 1e-14;
-/// The first search, and the last ones by single steps, which square the miss.
+constexpr double k_min_strain = 1e-14;
+/// Tolerance of the first search, and limit below which single Newton steps converge quadratically.
 constexpr double k_rough_step = 1e-5;   // rad
 constexpr double k_newton_step = 1e-3;  // rad
 constexpr int k_newton_rounds = 6;
-/// The same before the joint's place was searched for: from row to row it is mostly nearer than this to where it is
-/// looked for.
-constexpr double k_glide = 0.02;  // rad
-/// Dry friction that goes by the tendons' pull is found to this share of itself, or in so many rounds more.
-constexpr double k_near_dry = 1e-4;
-constexpr int k_rubbing_rounds = 6;
-/// Tendons at less hold nothing: what rounding leaves in one that just pushed a loose joint along. N
-constexpr double k_least_hold = 1e-4;
-/// Before the place where a tendon leaves its drum. rad
-constexpr double k_hair = 1e-9;
-/// A joint that moves is pulled by its friction, but for this share.
+/// Distance below which Newton steps are used without a search: most rows start closer to their solution.
+constexpr double k_newton_range = 0.02;  // rad
+/// Relative tolerance of dry friction that depends on tension, and the maximum number of iterations for it.
+constexpr double k_friction_tolerance = 1e-4;
+constexpr int k_friction_rounds = 6;
+/// Tension below which a tendon holds nothing: the rounding error of one that just pushed a loose joint. N
+constexpr double k_min_tension = 1e-4;
+/// Distance before the lift-off angle at which the tendon still lies on the drum. rad
+constexpr double k_before_lift_off = 1e-9;
+/// Relative tolerance for the tension that moves the joint against its friction.
 constexpr double k_rounding = 1e-6;
 
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
-/// A sheath holds at so many places, each in the middle of its part (threaded_balance.h). One without friction is one
-/// place, and as good as none.
+/// Number of places at which a sheath holds, each in the middle of its part (threaded_balance.h). Without friction one
+/// place suffices.
 std::size_t bends_of(const SheathLoad& sheath) { return sheath.log_ratio > 0 ? ThreadedSpans::k_bends : 1; }
-/// What each of both spans has of what lies in the sheath; of the pieces between bends each has twice that.
+/// Fraction of the sheath that belongs to each end span; each inner piece has twice that.
 double end_share(const SheathLoad& sheath) { return 0.5 / static_cast<double>(bends_of(sheath)); }
 
-/// So is its give shared, a spring of each span, at home as it was mounted. A spring of c N⁻¹ is to its span as EA c of
-/// tendon that no temperature and no creep reaches (see Give).
+/// Share of a sheath's compliance that belongs to one span, relative to its length when mounted at home. A spring of c
+/// N⁻¹ equals a tendon of length EA c without temperature and creep (see PinCompliance).
 struct SheathShare {
   double length = 0;
   double unseen = 0;
-  double mounted = 0;  ///< by how much the spring is longer at home than without tension
+  double mounted = 0;  ///< elongation of the spring at home relative to zero tension
 
   SheathShare(const SheathLoad& sheath, double share, double EA, double home)
-      : length(share * sheath.length), unseen(share * sheath.give * EA), mounted(share * sheath.give * home) {}
+      : length(share * sheath.length),
+        unseen(share * sheath.compliance * EA),
+        mounted(share * sheath.compliance * home) {}
 };
 
-/// Of what lies between the bends of a sheath, from the joint to the pulley.
+/// The tendon between the bends of a sheath, from the joint to the pulley.
 struct InSheath {
   std::array<double, ThreadedSpans::k_bends - 1> material{};
   std::array<double, ThreadedSpans::k_bends - 1> tension{};
@@ -84,44 +85,44 @@ struct InSheath {
 /// One tendon in its right-hand image, with its history.
 struct TendonHistory {
   Side side = Side::left;
-  double rim_reference = 0;  ///< normal of the point of the rim between upper and lower part, rad
+  double rim_reference = 0;  ///< normal of the rim's reference point between upper and lower part, rad
   double upper_material = 0;
   double lower_material = 0;
   InSheath sheath;
   WoundProfile wound;
-  /// What lies on the joint's drum, seen from the link, where it rubs there; else that is a part of the upper span.
+  /// The tendon on the joint's drum, in the frame of the link, if it rubs there; otherwise that part belongs to the
+  /// upper span.
   std::optional<WoundProfile> on_drum;
-  double behind_drum = 0;  ///< straight, from the drum to the tendon's end
+  double behind_drum = 0;  ///< straight length from the drum to the tendon's end
   double upper = 0;        ///< tensions at the last step
   double lower = 0;
   double home = 0;       ///< tension at home, N
-  Vec2 home_push{0, 0};  ///< on its pin at home, which stands there as declared, N
-  double ratio = 1;      ///< lower per upper tension that Give is seen with
-  double strained = 0;   ///< by how much the strain of the lower span grew in the last step
+  Vec2 home_push{0, 0};  ///< force on its pin at home, where the pin is as declared, N
+  double ratio = 1;      ///< lower per upper tension, for PinCompliance
+  double strained = 0;   ///< increase of the lower span's strain in the last step
 };
 
-/// A tendon's directions at its pin, away from it, and what it pushes the pin with.
-struct AtPin {
+/// Directions of a tendon at its pin, away from it, and its force on the pin.
+struct PinDirections {
   Vec2 up, down;
 
-  AtPin(double upper_normal, double lower_normal)
+  PinDirections(double upper_normal, double lower_normal)
       : up(-std::sin(upper_normal), std::cos(upper_normal)), down(std::sin(lower_normal), -std::cos(lower_normal)) {}
   Vec2 push(double upper, double lower) const { return upper * up + lower * down; }
 };
 
-/// A pin that gives way by c N⁻¹ takes up·d and down·d from the path's two parts, d = c (push − home's): to first
-/// order, with the moment arms of the pin where it was. By the span's own tension that is a spring behind it, and as EA
-/// times its compliance is a length of tendon that nobody sees, no equation changes: both spans get their `unseen`
-/// length of path and material. The tension of the other span acts by its ratio to this one's, which the step finds by
-/// repeating.
-struct Give {
+/// A pin of compliance c N⁻¹ shortens the two parts of the path by up·d and down·d, d = c (push − home_push): to first
+/// order, with the moment arms of the undisplaced pin. The effect of a span's own tension is a spring in series, equal
+/// to an additional length of tendon EA c, and no equation changes: both spans get an `unseen` length of path and
+/// material. The other span's tension enters by its ratio to this one's, which the step iterates.
+struct PinCompliance {
   double upper_unseen = 0;
   double lower_unseen = 0;
-  double upper_length = 0;  ///< by what home's push no longer takes
+  double upper_length = 0;  ///< change due to the force at home, which the declared path includes
   double lower_length = 0;
 
-  Give() = default;
-  Give(const AtPin& at, const TendonHistory& tendon, double per_newton, double EA) {
+  PinCompliance() = default;
+  PinCompliance(const PinDirections& at, const TendonHistory& tendon, double per_newton, double EA) {
     const double across = at.up.dot(at.down);
     upper_unseen = per_newton * EA * (1.0 + across * tendon.ratio);
     lower_unseen = per_newton * EA * (1.0 + across / tendon.ratio);
@@ -131,18 +132,18 @@ struct Give {
 };
 
 /// A tendon at the pulley angle of a step, before θ is known.
-struct AtAlpha {
+struct TendonAtAlpha {
   LowerPath path;
-  double lower_length = 0;  ///< of the span, from the rim's reference
-  double swelling = 1;      ///< 1 + expansion: of material since home
-  Spans spans;              ///< all but the upper length and the capstan factor, without what comes from the pulley
-  Turned turned;
-  Slide slide;       ///< what slides on the pulley, at a strain near the one that will be found
-  double moved = 0;  ///< by how much the search last moved that strain
+  double lower_length = 0;  ///< length of the span from the rim's reference point
+  double swelling = 1;      ///< 1 + expansion of the material since home
+  Spans spans;              ///< without the upper length, the capstan factor and the exchange with the pulley
+  TurnedPulley turned;
+  Slide slide;       ///< sliding on the pulley at a strain close to the solution
+  double moved = 0;  ///< last change of that strain by the search
 };
 
-/// The drum as a groove that turns with the link: from the tendon's end to where the span takes off. A tendon that is
-/// free of it has nothing there.
+/// The drum as a groove that turns with the link, from the tendon's end to the take-off. A free tendon has nothing on
+/// it.
 GroovePlace place_on_drum(const PinPlace& place, double on_drum, double behind) {
   return {on_drum, on_drum > 0 ? place.drum * on_drum : -behind};
 }
@@ -151,10 +152,11 @@ GroovePlace place_of(Side side, const LowerPath& path, double alpha) {
   return {path.normal + mirror_sign(side) * alpha, path.wound};
 }
 
-AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, const JointModel& model, const JointStep& step) {
+TendonAtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, const JointModel& model,
+                       const JointStep& step) {
   const PinPlace& pin = model.pins[tendon.side == Side::left ? 0 : 1];
   const double expansion = step.tendon.expansion[tendon.side == Side::left ? 0 : 1];
-  AtAlpha at;
+  TendonAtAlpha at;
   at.path = path;
   at.lower_length = path.reach + pin.rho * (tendon.rim_reference - pin.off_pin(path.normal)) +
                     end_share(model.sheath) * model.sheath.length;
@@ -164,28 +166,28 @@ AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, const Joint
   at.spans.lower_length = at.lower_length;
   at.spans.lower_material = at.swelling * tendon.lower_material;
   at.turned = tendon.wound.turned_to(place_of(tendon.side, path, step.alpha), at.swelling);
-  // Mostly the strain goes on as it went.
+  // The strain usually continues its trend.
   const double last = tendon.wound.strain(at.swelling);
   at.slide = tendon.wound.slide(at.turned, std::max(0.5 * last, last + tendon.strained), at.swelling);
   return at;
 }
 
-void give_way(Spans& spans, const SheathShare& sheath) {
+void add_compliance(Spans& spans, const SheathShare& sheath) {
   spans.upper_length += sheath.unseen + sheath.mounted;
   spans.upper_material += sheath.unseen;
   spans.lower_length += sheath.unseen + sheath.mounted;
   spans.lower_material += sheath.unseen;
 }
 
-void give_way(Spans& spans, const Give& give) {
+void add_compliance(Spans& spans, const PinCompliance& give) {
   spans.upper_length += give.upper_unseen + give.upper_length;
   spans.upper_material += give.upper_unseen;
   spans.lower_length += give.lower_unseen + give.lower_length;
   spans.lower_material += give.lower_unseen;
 }
 
-/// A span of a tendon whose waves straighten, about the tension `pull`: to first order a spring of the compliance
-/// waves.slope(pull), which is to the span as EA times that of tendon that no temperature reaches (see Give).
+/// A span of a tendon whose waves straighten, linearized at the tension `pull`: a spring of compliance
+/// waves.slope(pull), equal to a tendon of length EA times that without temperature (see PinCompliance).
 Spans with_waves(Spans spans, const CableStiffening& waves, double pull, double home) {
   const double slope = waves.slope(pull), unseen = slope * spans.EA;
   spans.upper_length += unseen + slope * pull + waves.gained(home) - waves.gained(pull);
@@ -193,22 +195,21 @@ Spans with_waves(Spans spans, const CableStiffening& waves, double pull, double 
   return spans;
 }
 
-/// With what slides on the pulley as a part of the lower span: exact in value and slope at the slide's own strain.
-Spans with_slide(Spans spans, const AtAlpha& at) {
+/// Includes the sliding on the pulley as part of the lower span: exact in value and slope at the slide's own strain.
+Spans with_slide(Spans spans, const TendonAtAlpha& at) {
   spans.lower_length += at.slide.length;
   spans.lower_material += at.swelling * at.slide.freed + at.slide.length / (1.0 + at.slide.strain);
   return spans;
 }
 
-/// How near a slide's strain has to be to the one found with it.
-double near_strain(const JointModel& model) { return std::max(model.last_step, k_least_strain); }
+/// Tolerance of the strain for which a slide is computed.
+double near_strain(const JointModel& model) { return std::max(model.last_step, k_min_strain); }
 
-/// Slides by the strain that is expected `next`. Was it already as by the one that was found `now`: by its strain, or
-/// because what it gives up to there is what its span said of it?
+/// Updates the slide to the expected strain `next`. Returns true if it was already consistent with the strain `now`, or
+/// if the predicted exchange with its span was accurate.
 ///
-/// Newton's steps; where they swing back they run in circles round a kink (what slides turns round), and half of one
-/// breaks the circle.
-bool slide_found(AtAlpha& at, const WoundProfile& wound, double now, double next, const JointModel& model) {
+/// Newton steps. Near a kink (a reversal of the sliding) they may cycle; halved steps break the cycle.
+bool update_slide(TendonAtAlpha& at, const WoundProfile& wound, double now, double next, const JointModel& model) {
   const double near = near_strain(model);
   const double strain = at.slide.strain, freed = at.slide.freed, length = at.slide.length;
   const bool same = std::abs(now - strain) <= near;
@@ -223,33 +224,33 @@ bool slide_found(AtAlpha& at, const WoundProfile& wound, double now, double next
   return same || (!swings && missed <= model.last_step * at.path.p);
 }
 
-/// Spans with what lies in a sheath of friction.
-struct Threaded {
+/// Spans with the tendon in a sheath with friction.
+struct ThreadedState {
   ThreadedSpans spans;
   ThreadedBalance slid;
 };
 
-/// What rubs on the joint's drum.
-struct Rubbing {
-  Turned turned;
+/// Sliding on the joint's drum.
+struct DrumSlide {
+  TurnedPulley turned;
   Slide slide;
 };
 
-/// A tendon at a trial θ. What few joints have is not copied with those of the others.
+/// A tendon at a trial θ. Rarely used parts are allocated separately, so that copies are cheap.
 struct Trial {
-  UpperSpanTable::Look span;
-  double upper_length = 0;  ///< of the path
+  UpperSpanTable::Values span;
+  double upper_length = 0;  ///< length of the path
   Spans spans;
-  std::unique_ptr<Threaded> threaded;  ///< the same spans, where friction in a sheath holds
-  std::unique_ptr<Rubbing> on_drum;    ///< where the tendon rubs there
+  std::unique_ptr<ThreadedState> threaded;  ///< the same spans with friction in a sheath
+  std::unique_ptr<DrumSlide> on_drum;       ///< set if the tendon rubs on the drum
   TendonBalance balance;
   double wrap = 0;
-  double pull = 0;         ///< on the joint, towards the tendon's own side: T_up m
-  double slope = 0;        ///< of pull with respect to the image's θ
-  double lower_slope = 0;  ///< of the lower span's tension
+  double pull = 0;         ///< torque on the joint, towards the tendon's own side: T_up m
+  double slope = 0;        ///< derivative of pull by the image's θ
+  double lower_slope = 0;  ///< derivative of the lower span's tension
 };
 
-/// The spans with the pieces of tendon between the bends of their sheath.
+/// The spans including the pieces of tendon between the bends of the sheath.
 ThreadedSpans threaded(const Spans& spans, const TendonHistory& tendon, const JointModel& model, double swelling) {
   const SheathShare piece(model.sheath, 2.0 * end_share(model.sheath), spans.EA, tendon.home);
   ThreadedSpans all;
@@ -265,23 +266,23 @@ ThreadedSpans threaded(const Spans& spans, const TendonHistory& tendon, const Jo
   return all;
 }
 
-/// What is seen of it from both ends.
+/// The balance as seen from both ends.
 TendonBalance from_ends(const ThreadedBalance& slid) {
   return {slid.tension.front(), slid.tension.back(), slid.crossed.front(),
           slid.contact,         slid.per_length,     slid.per_hold};
 }
 
-/// What rubs on the drum is to the upper span what slides on the pulley is to the lower one; `balanced` gives the
-/// strain that the span then has. Newton's steps, halved where a kink throws them back.
+/// Couples the tendon on the drum with the upper span, as sliding on the pulley is coupled with the lower span.
+/// `balanced` returns the resulting strain of the span. Newton steps, halved near a kink.
 template <typename Balanced>
-void rub_on_drum(Trial& trial, const TendonHistory& tendon, const AtAlpha& at, const JointModel& model,
+void rub_on_drum(Trial& trial, const TendonHistory& tendon, const TendonAtAlpha& at, const JointModel& model,
                  Balanced balanced) {
   const PinPlace& pin = model.pins[tendon.side == Side::left ? 0 : 1];
   const GroovePlace takes_off = place_on_drum(pin, trial.span.on_drum, tendon.behind_drum);
   trial.upper_length -= takes_off.arc + tendon.behind_drum;
   const double length = trial.spans.upper_length - takes_off.arc - tendon.behind_drum;
   const double material = trial.spans.upper_material;
-  trial.on_drum = std::make_unique<Rubbing>(Rubbing{tendon.on_drum->turned_to(takes_off, at.swelling), {}});
+  trial.on_drum = std::make_unique<DrumSlide>(DrumSlide{tendon.on_drum->turned_to(takes_off, at.swelling), {}});
   double strain = tendon.on_drum->strain(at.swelling), moved = 0;
   for (int i = 0; i < k_rounds; ++i) {
     const Slide& slide = trial.on_drum->slide = tendon.on_drum->slide(trial.on_drum->turned, strain, at.swelling);
@@ -295,8 +296,8 @@ void rub_on_drum(Trial& trial, const TendonHistory& tendon, const AtAlpha& at, c
   }
 }
 
-Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
-            double theta) {
+Trial evaluate_trial(const TendonHistory& tendon, const TendonAtAlpha& at, const UpperSpanTable& upper,
+                     const JointModel& model, double theta) {
   const PinPlace& pin = model.pins[tendon.side == Side::left ? 0 : 1];
   const double off_pin = pin.off_pin(at.path.normal);
   const SheathShare sheath(model.sheath, end_share(model.sheath), at.spans.EA, tendon.home);
@@ -304,12 +305,12 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
   trial.span = upper.at(mirror_sign(tendon.side) * theta);
   trial.spans = with_slide(at.spans, at);
   trial.upper_length = trial.spans.upper_length = trial.span.length - pin.rho * tendon.rim_reference + sheath.length;
-  if (model.pin_give > 0)
-    give_way(trial.spans, Give({trial.span.normal, off_pin}, tendon, model.pin_give, at.spans.EA));
-  if (model.sheath.give > 0) give_way(trial.spans, sheath);
+  if (model.pin_compliance > 0)
+    add_compliance(trial.spans, PinCompliance({trial.span.normal, off_pin}, tendon, model.pin_compliance, at.spans.EA));
+  if (model.sheath.compliance > 0) add_compliance(trial.spans, sheath);
   trial.wrap = trial.span.normal - off_pin;
   const double on_pin = model.guide.log_ratio(trial.wrap);
-  if (bends_of(model.sheath) > 1) trial.threaded = std::make_unique<Threaded>();
+  if (bends_of(model.sheath) > 1) trial.threaded = std::make_unique<ThreadedState>();
   const auto balance_once = [&] {
     if (trial.threaded) {
       ThreadedSpans& spans = trial.threaded->spans = threaded(trial.spans, tendon, model, at.swelling);
@@ -324,7 +325,7 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
   };
   const auto balanced = [&] {
     if (!(model.waves.most > 0)) return balance_once() / at.spans.EA;
-    // The spring stiffens as it is pulled, so that Newton's steps come from one side.
+    // The spring stiffens with tension, so Newton steps converge from one side.
     const Spans straight = trial.spans;
     double pull = tendon.upper;
     for (int i = 0; i < k_rounds; ++i) {
@@ -356,11 +357,11 @@ struct Residual {
   double slope = 0;
 };
 
-/// A root of a function that falls from `least` to `most`: Newton's steps, kept within what is known to enclose it.
-/// Where it is not known yet, steps grow towards the end; the last one is shorter than `last_step`. Null when the
-/// function does not change its sign.
+/// Root of a function that decreases from `least` to `most`: Newton steps within the known bracket. Before a bracket is
+/// known, steps grow towards the end. The last step is shorter than `last_step`. Null when the function does not change
+/// its sign.
 template <typename Function>
-std::optional<double> fallen_to_zero(double start, double least, double most, double last_step, Function function) {
+std::optional<double> find_root(double start, double least, double most, double last_step, Function function) {
   double low = least;
   double high = most;
   bool low_seen = false;
@@ -376,30 +377,30 @@ std::optional<double> fallen_to_zero(double start, double least, double most, do
     if ((falls && x >= most) || (!falls && x <= least)) return std::nullopt;
     double next = at.slope < 0 ? x - at.value / at.slope : x + (falls ? stride : -stride);
     if (low_seen && high_seen) {
-      // Kinks can make Newton's steps run in circles: now and then a step halves what is left.
+      // Kinks can make Newton steps cycle, so some steps bisect.
       if (!(next > low && next < high) || i % 12 > 9) next = 0.5 * (low + high);
     } else {
       next = std::clamp(next, x - stride, x + stride);
       next = falls ? std::min(std::max(next, x), most) : std::max(std::min(next, x), least);
       stride *= 2.0;
     }
-    // Newton's steps square the miss, but for a kink in between.
+    // Newton steps converge quadratically, except across a kink.
     if (std::abs(next - x) <= last_step || !(high - low > last_step)) return next;
     x = next;
   }
   return x;
 }
 
-/// Between a drum and the tendon's end there is as much at every angle at which the tendon lies on the drum.
+/// Straight length between drum and tendon end, constant while the tendon lies on the drum.
 double straight_behind(const PinPlace& place) {
   const auto leaves = lift_off(place);
-  return leaves ? upper_span(place, *leaves - k_hair).behind_drum : 0.0;
+  return leaves ? upper_span(place, *leaves - k_before_lift_off).behind_drum : 0.0;
 }
 
-/// Samples of the groove over the range: its radius changes little from one to the next.
+/// Samples of the groove over the range; its radius changes little between them.
 constexpr int k_groove_places = 64;
 
-/// The groove of one tendon as the pulley's turning lays it open.
+/// The groove of one tendon over the range of the pulley.
 std::shared_ptr<const GrooveArc> groove_of(const JointModel& model, Side side) {
   const bool right = side == Side::right;
   const double from = right ? model.alpha_least : model.alpha_most;
@@ -413,13 +414,13 @@ std::shared_ptr<const GrooveArc> groove_of(const JointModel& model, Side side) {
     if (!along.empty() && !(place.turn > along.back().turn && place.arc > along.back().arc)) continue;
     along.push_back(place);
   }
-  // What turns inward all along is no groove, and no pulley; who asks all the same is told of a round one.
+  // A curve that turns inward everywhere is not a groove; a round one is assumed.
   if (along.size() < 2) {
     const LowerPath home = model.lower(0.0)[right ? 1 : 0];
     const GroovePlace place = place_of(side, home, 0.0);
     along = {place, {place.turn + 1.0, place.arc + std::abs(home.p)}};
   }
-  return std::make_shared<const GrooveArc>(std::move(along), model.knots_beyond[right ? 1 : 0]);
+  return std::make_shared<const GrooveArc>(std::move(along), model.arcs_to_knots[right ? 1 : 0]);
 }
 
 TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path, double tension) {
@@ -446,19 +447,20 @@ TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path,
   tendon.sheath.tension.fill(tension);
   tendon.wound = WoundProfile(groove_of(model, side), model.groove_friction, place_of(side, path, 0.0), density);
   tendon.upper = tendon.lower = tendon.home = tension;
-  tendon.home_push = AtPin(span.normal, off_pin).push(tension, tension);
+  tendon.home_push = PinDirections(span.normal, off_pin).push(tension, tension);
   return tendon;
 }
 
-/// What the pulley takes in with the tendon that is wound and what it gives with the material that slides out, at the
-/// take-off's strain of the step's beginning and end, less what it holds more. What slides out by dM at strain ε takes
-/// EA (ε + ε²/2) dM of work.
-struct Wound {
-  double energy = 0;  ///< that it holds more
+/// Energy balance of a pulley over a step: the energy of the wound tendon minus the work of the released material, at
+/// the mean take-off strain of the step, minus the increase of the stored energy. Releasing dM at the strain ε takes EA
+/// (ε + ε²/2) dM of work.
+struct WindingEnergy {
+  double energy = 0;  ///< increase of the stored energy
   double friction = 0;
 };
 
-Wound wind(WoundProfile& wound, const Turned& turned, const Slide& slide, double swelling, double EA) {
+WindingEnergy accept_winding(WoundProfile& wound, const TurnedPulley& turned, const Slide& slide, double swelling,
+                             double EA) {
   const double before = wound.strain(swelling);
   const double now = slide.strain;
   const double arc = turned.take_off.arc - wound.take_off().arc;
@@ -470,11 +472,11 @@ Wound wind(WoundProfile& wound, const Turned& turned, const Slide& slide, double
   return {more, EA * (work * (swelling * slide.freed + laid) + energy) - more};
 }
 
-/// Work that a tendon at the tension `t` brings with material that crosses to it.
+/// Work carried by a unit of material that crosses at the tension `t`.
 double head(double t, double EA) { return t + energy_per_material(t, EA); }
 
-/// What is lost at every bend of a sheath, and what its pieces then are.
-double pull_through(TendonHistory& tendon, const Threaded& threaded, double swelling) {
+/// Work lost at the bends of a sheath; updates its pieces.
+double accept_sheath(TendonHistory& tendon, const ThreadedState& threaded, double swelling) {
   const double EA = threaded.spans.EA;
   const ThreadedBalance& now = threaded.slid;
   InSheath& sheath = tendon.sheath;
@@ -495,41 +497,43 @@ double pull_through(TendonHistory& tendon, const Threaded& threaded, double swel
   return lost;
 }
 
-/// What a tendon's step did with energy.
-struct Spent {
-  double wound = 0;  ///< energy that went onto pulley and drum (negative: came off)
+/// Energy changes of a tendon in one step.
+struct EnergyChange {
+  double wound = 0;  ///< energy wound onto pulley and drum (negative: unwound)
   double friction = 0;
   double groove_friction = 0;
 };
 
-/// Takes a trial as what happened; what slides, but for `near`.
-Spent settle(TendonHistory& tendon, AtAlpha& at, const Trial& trial, double near) {
+/// Makes a trial permanent. The slide is recomputed only if its strain is off by more than `near`.
+EnergyChange accept_trial(TendonHistory& tendon, TendonAtAlpha& at, const Trial& trial, double near) {
   const double EA = at.spans.EA;
   const TendonBalance& now = trial.balance;
-  const Threaded* threaded = trial.threaded.get();
-  const double to_joint = threaded ? threaded->slid.crossed.back() : now.crossed;  // out of the lower span
+  const ThreadedState* threaded = trial.threaded.get();
+  const double to_joint = threaded ? threaded->slid.crossed.back() : now.crossed;  // material that left the lower span
   if (std::abs(at.slide.strain - now.lower / EA) > near)
     at.slide = tendon.wound.slide(at.turned, now.lower / EA, at.swelling);
-  const Wound on_pulley = wind(tendon.wound, at.turned, at.slide, at.swelling, EA);
-  Spent spent{on_pulley.energy, 0, on_pulley.friction};
+  const WindingEnergy on_pulley = accept_winding(tendon.wound, at.turned, at.slide, at.swelling, EA);
+  EnergyChange change{on_pulley.energy, 0, on_pulley.friction};
   const auto dropped = [EA](double upper, double lower) { return head(upper, EA) - head(lower, EA); };
-  spent.friction = threaded ? pull_through(tendon, *threaded, at.swelling)
-                            : 0.5 * (dropped(tendon.upper, tendon.lower) + dropped(now.upper, now.lower)) * now.crossed;
+  change.friction = threaded
+                        ? accept_sheath(tendon, *threaded, at.swelling)
+                        : 0.5 * (dropped(tendon.upper, tendon.lower) + dropped(now.upper, now.lower)) * now.crossed;
   tendon.upper_material += now.crossed / at.swelling;
   if (tendon.on_drum) {
-    const Wound on_drum = wind(*tendon.on_drum, trial.on_drum->turned, trial.on_drum->slide, at.swelling, EA);
+    const WindingEnergy on_drum =
+        accept_winding(*tendon.on_drum, trial.on_drum->turned, trial.on_drum->slide, at.swelling, EA);
     tendon.upper_material += trial.on_drum->slide.freed;
-    spent.wound += on_drum.energy;
-    spent.friction += on_drum.friction;
+    change.wound += on_drum.energy;
+    change.friction += on_drum.friction;
   }
   tendon.lower_material = (at.spans.lower_material - to_joint) / at.swelling + at.slide.freed;
   tendon.strained = (now.lower - tendon.lower) / EA;
   tendon.upper = now.upper;
   tendon.lower = now.lower;
-  return spent;
+  return change;
 }
 
-TendonState state_of(const TendonHistory& tendon, const AtAlpha& at, const Trial& trial) {
+TendonState state_of(const TendonHistory& tendon, const TendonAtAlpha& at, const Trial& trial) {
   TendonState state;
   state.upper = trial.balance.upper;
   state.lower = trial.balance.lower;
@@ -557,30 +561,32 @@ double energy_of_spans(const TendonHistory& tendon, const JointModel& model) {
          tendon.lower_material * energy_per_material(tendon.lower, EA);
 }
 
-/// Above that of home, where the pin gives way already.
-double energy_of_pin(const TendonHistory& tendon, const AtAlpha& at, const Trial& trial, const JointModel& model) {
-  if (!(model.pin_give > 0)) return 0;
+/// Energy of a compliant pin, relative to home.
+double energy_of_pin(const TendonHistory& tendon, const TendonAtAlpha& at, const Trial& trial,
+                     const JointModel& model) {
+  if (!(model.pin_compliance > 0)) return 0;
   const PinPlace& place = model.pins[tendon.side == Side::left ? 0 : 1];
-  const AtPin pin(trial.span.normal, place.off_pin(at.path.normal));
-  return 0.5 * model.pin_give * (pin.push(tendon.upper, tendon.lower).squaredNorm() - tendon.home_push.squaredNorm());
+  const PinDirections pin(trial.span.normal, place.off_pin(at.path.normal));
+  return 0.5 * model.pin_compliance *
+         (pin.push(tendon.upper, tendon.lower).squaredNorm() - tendon.home_push.squaredNorm());
 }
 
-/// The same of its sheath, every part of which gives way to the tension in it.
+/// Energy of a compliant sheath, relative to home.
 double energy_of_sheath(const TendonHistory& tendon, const SheathLoad& sheath) {
-  if (!(sheath.give > 0)) return 0;
+  if (!(sheath.compliance > 0)) return 0;
   const double share = end_share(sheath), at_home = tendon.home * tendon.home;
   double sum = share * (tendon.upper * tendon.upper + tendon.lower * tendon.lower - 2.0 * at_home);
   if (bends_of(sheath) > 1) {
     for (const double inside : tendon.sheath.tension) sum += 2.0 * share * (inside * inside - at_home);
   }
-  return 0.5 * sheath.give * sum;
+  return 0.5 * sheath.compliance * sum;
 }
 
-/// Where a joint comes to rest.
-struct Rest {
+/// Result of the equilibrium search.
+struct RestState {
   double theta = 0;
-  double held = 0;     ///< by its bearing against what pulls it, N·mm
-  bool stays = false;  ///< where it was
+  double held = 0;     ///< torque of the bearing's friction, N·mm
+  bool stays = false;  ///< true if the joint did not move
   std::array<Trial, 2> trials = {};
 };
 
@@ -589,28 +595,28 @@ struct Rest {
 struct JointMotion::State {
   JointModel model;
   std::array<TendonHistory, 2> tendons;
-  std::array<double, 2> released{};  ///< so far, mm
+  std::array<double, 2> released{};  ///< length released so far, mm
   double theta = 0;
-  bool loose = false;       ///< at the last step
-  double dry = 0;           ///< friction that holds the joint, N·mm
+  bool loose = false;       ///< the joint was loose at the last step
+  double dry = 0;           ///< dry friction on the joint, N·mm
   double expected = 0;      ///< model.expected at the last step
-  double wound_energy = 0;  ///< since home
+  double wound_energy = 0;  ///< energy wound onto the pulleys since home
   double home_energy = 0;
   double friction = 0;
   double groove_friction = 0;
 
   explicit State(JointModel joint);
-  /// Pull of the tendons beyond the load, towards +θ.
+  /// Torque of the tendons minus that of the load, towards +θ.
   Residual residual(const std::array<Trial, 2>& trials, const JointStep& step, double at_theta) const;
-  std::array<Trial, 2> trials(const std::array<AtAlpha, 2>& at, double at_theta) const;
-  std::optional<Rest> balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double start,
-                               double last_step) const;
-  std::optional<Rest> settled(std::array<AtAlpha, 2>& at, const JointStep& step, double start);
-  std::optional<Rest> rubbed(std::array<AtAlpha, 2>& at, const JointStep& step, double start);
-  bool consistent(std::array<AtAlpha, 2>& at, const std::array<Trial, 2>& now, double move);
+  std::array<Trial, 2> trials(const std::array<TendonAtAlpha, 2>& at, double at_theta) const;
+  std::optional<RestState> balanced(const std::array<TendonAtAlpha, 2>& at, const JointStep& step, double start,
+                                    double last_step) const;
+  std::optional<RestState> solve_coupled(std::array<TendonAtAlpha, 2>& at, const JointStep& step, double start);
+  std::optional<RestState> solve_with_friction(std::array<TendonAtAlpha, 2>& at, const JointStep& step, double start);
+  bool update_coupling(std::array<TendonAtAlpha, 2>& at, const std::array<Trial, 2>& now, double move);
   bool is_loose(const EquilibriumPoint& point, const std::array<Trial, 2>& now) const;
-  EquilibriumPoint accept(std::array<AtAlpha, 2>& at, const JointStep& step, const Rest& rest);
-  EquilibriumPoint refuse(const JointStep& step) const;
+  EquilibriumPoint accept(std::array<TendonAtAlpha, 2>& at, const JointStep& step, const RestState& rest);
+  EquilibriumPoint without_equilibrium(const JointStep& step) const;
 };
 
 JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
@@ -624,9 +630,9 @@ JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
   for (const TendonHistory& tendon : tendons) home_energy += energy_of_spans(tendon, model);
 }
 
-std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at, double at_theta) const {
-  return {tried(tendons[0], at[0], model.upper->left, model, at_theta),
-          tried(tendons[1], at[1], model.upper->right, model, at_theta)};
+std::array<Trial, 2> JointMotion::State::trials(const std::array<TendonAtAlpha, 2>& at, double at_theta) const {
+  return {evaluate_trial(tendons[0], at[0], model.upper->left, model, at_theta),
+          evaluate_trial(tendons[1], at[1], model.upper->right, model, at_theta)};
 }
 
 Residual JointMotion::State::residual(const std::array<Trial, 2>& trials, const JointStep& step,
@@ -636,40 +642,42 @@ Residual JointMotion::State::residual(const std::array<Trial, 2>& trials, const 
           right.slope + left.slope - model.own_slope(at_theta)};
 }
 
-/// With what slides on the pulleys as `at` has it.
-std::optional<Rest> JointMotion::State::balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double start,
-                                                 double last_step) const {
-  // Its bearing holds the joint as long as it is not pulled by more; then it moves on until it is pulled by that much.
+/// Solves for θ with the sliding on the pulleys as given in `at`.
+std::optional<RestState> JointMotion::State::balanced(const std::array<TendonAtAlpha, 2>& at, const JointStep& step,
+                                                      double start, double last_step) const {
+  // Friction of the bearing holds the joint up to its limit; beyond it the joint moves until the torque equals the
+  // limit.
   double held = 0;
   const auto pull = [&](double at_theta) {
     Residual beyond = residual(trials(at, at_theta), step, at_theta);
     beyond.value -= held;
     return beyond;
   };
-  // A joint that nothing pulls stays where it is, and one that is loose is only pushed; any other keeps its deviation
-  // from where it is expected.
+  // The joint stays if friction holds it. A loose joint is only pushed, so its search starts at the present angle;
+  // otherwise it starts at the expected angle plus the present deviation.
   if (theta > model.theta_least && theta < model.theta_most) {
     const double here = pull(theta).value;
-    if (std::abs(here) <= dry) return Rest{theta, 0, true};
+    if (std::abs(here) <= dry) return RestState{theta, 0, true};
     held = std::copysign(dry, here);
     if (loose || dry > 0) start = theta;
   }
-  const auto found = fallen_to_zero(start, model.theta_least, model.theta_most, last_step, pull);
+  const auto found = find_root(start, model.theta_least, model.theta_most, last_step, pull);
   if (!found) return std::nullopt;
-  return Rest{*found, held, false};
+  return RestState{*found, held, false};
 }
 
-/// What slides on both pulleys, and where pins give way the ratios of both tendons' tensions, taken as they will be
-/// when the joint has moved on by `move`; were they so already?
-bool JointMotion::State::consistent(std::array<AtAlpha, 2>& at, const std::array<Trial, 2>& now, double move) {
+/// Updates the sliding on both pulleys, and the tension ratios of compliant pins, to the state expected after the joint
+/// moves by `move`. Returns true if they were consistent already.
+bool JointMotion::State::update_coupling(std::array<TendonAtAlpha, 2>& at, const std::array<Trial, 2>& now,
+                                         double move) {
   constexpr double near_ratio = 1e-7;
   bool same = true;
   for (std::size_t i = 0; i < 2; ++i) {
     const TendonBalance& balance = now[i].balance;
     const double next = balance.lower + mirror_sign(tendons[i].side) * move * now[i].lower_slope;
     const double EA = at[i].spans.EA;
-    same = slide_found(at[i], tendons[i].wound, balance.lower / EA, next / EA, model) && same;
-    if (!(model.pin_give > 0 && balance.upper > 0 && balance.lower > 0)) continue;
+    same = update_slide(at[i], tendons[i].wound, balance.lower / EA, next / EA, model) && same;
+    if (!(model.pin_compliance > 0 && balance.upper > 0 && balance.lower > 0)) continue;
     const double ratio = balance.lower / balance.upper;
     if (std::abs(ratio - tendons[i].ratio) <= near_ratio) continue;
     tendons[i].ratio = ratio;
@@ -678,25 +686,26 @@ bool JointMotion::State::consistent(std::array<AtAlpha, 2>& at, const std::array
   return same;
 }
 
-/// The joint's place and what slides, found together, both by a step of Newton's each. Where that does not do (a kink,
-/// a bearing that holds, nothing that holds) one after the other.
-std::optional<Rest> JointMotion::State::settled(std::array<AtAlpha, 2>& at, const JointStep& step, double start) {
+/// Solves for the joint angle and the sliding together by simultaneous Newton steps. Falls back to alternating searches
+/// at a kink, with friction of the bearing, or without taut tendons.
+std::optional<RestState> JointMotion::State::solve_coupled(std::array<TendonAtAlpha, 2>& at, const JointStep& step,
+                                                           double start) {
   bool searched = false;
   const auto search = [&](double from) {
     const double exactly = std::exchange(searched, true) ? model.last_step : std::max(model.last_step, k_rough_step);
     return balanced(at, step, from, exactly);
   };
-  // Where pins give way there may be two places that hold, and the search finds the one that is in keeping.
-  const bool first_search = loose || dry > 0 || model.pin_give > 0;
+  // With compliant pins there may be two solutions; the search finds the one consistent with the history.
+  const bool first_search = loose || dry > 0 || model.pin_compliance > 0;
   auto rest =
-      first_search ? search(start) : std::optional(Rest{std::clamp(start, model.theta_least, model.theta_most)});
+      first_search ? search(start) : std::optional(RestState{std::clamp(start, model.theta_least, model.theta_most)});
   for (int i = 0; i < k_rounds && rest; ++i) {
     rest->trials = trials(at, rest->theta);
     const Residual beyond = residual(rest->trials, step, rest->theta);
     const double move = beyond.slope < 0 && !rest->stays ? -(beyond.value - rest->held) / beyond.slope : 0.0;
-    const bool same = consistent(at, rest->trials, move);
-    const bool held = std::max(rest->trials[0].balance.upper, rest->trials[1].balance.upper) >= k_least_hold;
-    if (!searched && !(held && beyond.slope < 0 && std::abs(move) <= k_glide)) {
+    const bool same = update_coupling(at, rest->trials, move);
+    const bool held = std::max(rest->trials[0].balance.upper, rest->trials[1].balance.upper) >= k_min_tension;
+    if (!searched && !(held && beyond.slope < 0 && std::abs(move) <= k_newton_range)) {
       rest = search(start);
       continue;
     }
@@ -710,32 +719,35 @@ std::optional<Rest> JointMotion::State::settled(std::array<AtAlpha, 2>& at, cons
   return rest;
 }
 
-/// Settled, with as much dry friction as the tendons' pull asks for there.
-std::optional<Rest> JointMotion::State::rubbed(std::array<AtAlpha, 2>& at, const JointStep& step, double start) {
-  std::optional<Rest> rest = settled(at, step, start);
-  for (int i = 0; i < k_rubbing_rounds && rest; ++i) {
+/// Solves with dry friction that depends on the resulting tensions.
+std::optional<RestState> JointMotion::State::solve_with_friction(std::array<TendonAtAlpha, 2>& at,
+                                                                 const JointStep& step, double start) {
+  std::optional<RestState> rest = solve_coupled(at, step, start);
+  for (int i = 0; i < k_friction_rounds && rest; ++i) {
     const double due = model.dry_friction(rest->trials[0].balance.upper, rest->trials[1].balance.upper);
-    if (std::abs(due - dry) <= k_near_dry * due) break;
+    if (std::abs(due - dry) <= k_friction_tolerance * due) break;
     dry = due;
-    rest = settled(at, step, start);
+    rest = solve_coupled(at, step, start);
   }
   return rest;
 }
 
-/// Nothing but its bearing's friction keeps the joint where it is in its play. That is no hold: a joint was named whose
-/// friction of 0.007 N·mm made rows sure that without it rest anywhere (four false groups of 34 on wide joints).
+/// True if only the bearing's friction keeps the joint in place within its play. This counts as loose: otherwise an
+/// identified friction of 0.007 N·mm made rows appear certain that can rest anywhere (four false positives of 34 on
+/// wide joints).
 bool JointMotion::State::is_loose(const EquilibriumPoint& point, const std::array<Trial, 2>& now) const {
   const auto hardly_pulls = [&](const TendonState& tendon, const Trial& trial) {
     const double held = dry > 0 ? (1.0 + k_rounding) * dry / trial.span.m : 0.0;
-    return tendon.upper < k_least_hold + held;
+    return tendon.upper < k_min_tension + held;
   };
   if (!hardly_pulls(point.t1, now[0]) || !hardly_pulls(point.t2, now[1])) return false;
-  // What keeps a tendon taut until the friction is used up is given back before the play begins.
+  // The stretch that friction sustains is released before the play begins.
   const double taken_up = dry > 0 ? point.t1.stretch + point.t2.stretch : 0.0;
-  return point.t1.slack + point.t2.slack - taken_up > k_least_play;
+  return point.t1.slack + point.t2.slack - taken_up > k_min_play;
 }
 
-EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const JointStep& step, const Rest& rest) {
+EquilibriumPoint JointMotion::State::accept(std::array<TendonAtAlpha, 2>& at, const JointStep& step,
+                                            const RestState& rest) {
   const std::array<Trial, 2>& now = rest.trials;
   const double found = rest.theta;
   EquilibriumPoint point;
@@ -745,17 +757,17 @@ EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const Jo
   point.theta = theta = found;
   point.stiffness = point.stiffness_stuck = model.own_slope(found);
   for (std::size_t i = 0; i < 2; ++i) {
-    const Spent spent = settle(tendons[i], at[i], now[i], near_strain(model));
-    wound_energy += spent.wound;
-    friction += spent.friction;
-    groove_friction += spent.groove_friction;
+    const EnergyChange change = accept_trial(tendons[i], at[i], now[i], near_strain(model));
+    wound_energy += change.wound;
+    friction += change.friction;
+    groove_friction += change.groove_friction;
     point.stored += energy_of_spans(tendons[i], model) + energy_of_pin(tendons[i], at[i], now[i], model) +
                     energy_of_sheath(tendons[i], model.sheath);
     (i == 0 ? point.t1 : point.t2) = state_of(tendons[i], at[i], now[i]);
     const double m = now[i].span.m;
     const double geometric = now[i].balance.upper * now[i].span.dm;
     point.stiffness_stuck += stuck_rate(now[i].spans, now[i].balance) * m * m - geometric;
-    const Threaded* threaded = now[i].threaded.get();
+    const ThreadedState* threaded = now[i].threaded.get();
     const double passing =
         threaded ? sliding_rate(threaded->spans, threaded->slid) : sliding_rate(now[i].spans, now[i].balance);
     point.stiffness += passing * m * m - geometric;
@@ -773,7 +785,7 @@ EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const Jo
   return point;
 }
 
-EquilibriumPoint JointMotion::State::refuse(const JointStep& step) const {
+EquilibriumPoint JointMotion::State::without_equilibrium(const JointStep& step) const {
   EquilibriumPoint point;
   point.status = EquilibriumStatus::no_equilibrium;
   point.alpha = step.alpha;
@@ -798,20 +810,20 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
   State& state = *state_;
   const JointModel& model = state.model;
   const std::array<LowerPath, 2> paths = model.lower(step.alpha);
-  std::array<AtAlpha, 2> at;
+  std::array<TendonAtAlpha, 2> at;
   for (std::size_t i = 0; i < 2; ++i) {
-    if (!std::isfinite(paths[i].wound)) return state.refuse(step);
+    if (!std::isfinite(paths[i].wound)) return state.without_equilibrium(step);
     at[i] = at_alpha(state.tendons[i], paths[i], model, step);
     at[i].spans.lower_material += at[i].swelling * (step.tendon.released[i] - state.released[i]);
     const bool has_path =
         at[i].lower_length > 0 && at[i].spans.lower_material + at[i].swelling * at[i].turned.came_off > 0;
-    if (!has_path) return state.refuse(step);
+    if (!has_path) return state.without_equilibrium(step);
   }
-  // Where the law ends nothing is expected: the search starts from where the joint stands.
+  // Beyond the law's range nothing is expected: the search starts from the present angle.
   const double known = model.expected(step.alpha);
   const double expected = std::isfinite(known) ? known : state.expected;
-  const auto rest = state.rubbed(at, step, state.theta + expected - state.expected);
-  if (!rest) return state.refuse(step);
+  const auto rest = state.solve_with_friction(at, step, state.theta + expected - state.expected);
+  if (!rest) return state.without_equilibrium(step);
   state.expected = expected;
   state.released = step.tendon.released;
   return state.accept(at, step, *rest);

@@ -14,24 +14,25 @@
 namespace fusee {
 namespace {
 
-/// Steps in which a joint is brought from home to where its run begins. What happened before the log is not known; a
-/// joint that came straight from home is the least that can be assumed.
+/// Steps from home to the beginning of a run. The motion before the log is unknown; a direct approach from home is the
+/// simplest assumption.
 constexpr int k_approach = 24;
 
-/// What sensors and play may add to the angles that were logged, rad.
+/// Margin for the effect of sensors and play on the logged angles, rad.
 constexpr double k_beyond = 0.1;
 
-/// The order of a wave of no size, and the time of a slip of none, do nothing.
+/// Resets the order of a wave of zero amplitude, so that equivalent values compare equal.
 template <typename Wave>
-void forget_idle_order(Wave& wave) {
+void reset_idle_order(Wave& wave) {
   if (wave.wave_sin == 0 && wave.wave_cos == 0) wave.wave_order = Wave{}.wave_order;
 }
 
-/// What moves the mechanism: the same for all sensors, and for numbers that do nothing beside the others.
-Imperfections that_move(Imperfections at) {
+/// The imperfections that affect the motion, in canonical form: without the joint sensor, and without irrelevant
+/// numbers.
+Imperfections motion_key(Imperfections at) {
   at.sensor = {};
-  forget_idle_order(at.motor);
-  forget_idle_order(at.pulley.outline);
+  reset_idle_order(at.motor);
+  reset_idle_order(at.pulley.outline);
   if (at.tendon.slip == 0 && at.ratio_joint.step == 0) at.tendon.slip_time = 0;
   if (at.tendon.pretension_share() == 0) at.tendon.pretension = 0;
   return at;
@@ -48,22 +49,22 @@ double first_temperature(const BenchLog& log) {
   return 0;
 }
 
-/// Play of α that `load` has not taken up, rad.
+/// Play of α that remains under `load`, rad.
 double slack_of(const RatioJointError& joint, double load) {
   return joint.slack / (1.0 + joint.slack_taken_up * std::abs(load));
 }
 
-std::vector<double> shown_by_sensor(const BenchRun& run, std::vector<double> theta, const Imperfections& at) {
+std::vector<double> sensor_readings(const BenchRun& run, std::vector<double> theta, const Imperfections& at) {
   return sensed(run, std::move(theta), turned(at.sensor, run.mounting.joint_sensor_turned));
 }
 
-/// Where the joint stands; within its play where it was last pushed.
-double standing(const EquilibriumPoint& point) {
+/// Angle of the joint; within its play, the angle to which it was last pushed.
+double angle_or_nan(const EquilibriumPoint& point) {
   return point.status == EquilibriumStatus::no_equilibrium ? std::numeric_limits<double>::quiet_NaN() : point.theta;
 }
 double play_of(const EquilibriumPoint& point) { return std::max(point.loose_above, point.loose_below); }
 
-/// Whether a joint without memory of time moves alike in both.
+/// True when a joint without time dependence moves equally in both runs.
 bool are_driven_alike(const BenchRun& one, const BenchRun& other) {
   const auto alike = [&one](const BenchRow& a, const BenchRow& b) {
     return a.alpha == b.alpha && (!one.has_load || a.load == b.load) &&
@@ -74,12 +75,12 @@ bool are_driven_alike(const BenchRun& one, const BenchRun& other) {
          std::equal(one.rows.begin(), one.rows.end(), other.rows.begin(), other.rows.end(), alike);
 }
 
-bool minds_time(const Imperfections& at) {
+bool depends_on_time(const Imperfections& at) {
   return at.tendon.creep != 0 || at.tendon.slip != 0 || !(at.ratio_joint == RatioJointError{});
 }
 
 JointState state_of(const EquilibriumPoint& point) {
-  JointState state{point.status, standing(point)};
+  JointState state{point.status, angle_or_nan(point)};
   state.loose = play_of(point);
   if (point.status == EquilibriumStatus::no_equilibrium) return state;
   state.t1 = point.t1;
@@ -88,7 +89,7 @@ JointState state_of(const EquilibriumPoint& point) {
   return state;
 }
 
-void look_paths_up(JointModel& model, double least, double most) {
+void tabulate_paths(JointModel& model, double least, double most) {
   const auto table = std::make_shared<const LowerPathTable>(model, least, most);
   model.lower = [table](double alpha) { return table->paths(alpha); };
   model.expected = [table](double alpha) { return table->expected(alpha); };
@@ -152,8 +153,8 @@ Forward::Forward(const Mechanism& declared, const BenchLog& log, const std::opti
   if (!earlier) return;
   earlier_motion_ = mechanism(earlier->joint);
   earlier_ = earlier;
-  latest_ = {};  // later runs do not remember the earlier ones
-  // A part that both states have alike is not moved twice, but by the one that it is of.
+  latest_ = {};  // later runs must not find the motions of earlier ones
+  // Runs of the later state refer only to runs of the later state.
   for (std::size_t i = earlier->runs; i < log.size(); ++i) {
     if (driven_[i] >= earlier->runs) continue;
     driven_[i] = earlier->runs;
@@ -161,7 +162,7 @@ Forward::Forward(const Mechanism& declared, const BenchLog& log, const std::opti
   }
 }
 
-/// The earlier state with what was added to it; as they are without one.
+/// The earlier state plus the imperfections; only the imperfections if there is none.
 Imperfections Forward::whole(const Imperfections& imperfections) const {
   return earlier_ ? changed(earlier_->joint, imperfections, kind_of(declared_)) : imperfections;
 }
@@ -175,7 +176,7 @@ JointMotion Forward::at_home(const Imperfections& at) {
   if (known == nullptr) {
     known = &latest_geometry_[next_geometry_++ % latest_geometry_.size()];
     *known = {key, imperfect_geometry(*made_, declared_, at)};
-    look_paths_up(*known->model, alpha_least_ - k_beyond, alpha_most_ + k_beyond);
+    tabulate_paths(*known->model, alpha_least_ - k_beyond, alpha_most_ + k_beyond);
   }
   JointModel model = *known->model;
   set_imperfect_statics(model, declared_, at);
@@ -194,7 +195,7 @@ TendonChange Forward::change(std::size_t index, const BenchRow& row, const Imper
   return change;
 }
 
-/// Between the end of the run before and the first row, s.
+/// Time between the end of the previous run and the first row, s.
 double Forward::time_before(std::size_t index) const {
   if (index == 0 || log_[index].rows.empty() || log_[index - 1].rows.empty()) return 0;
   const double end = log_[index - 1].rows.back().time + clock_[index - 1];
@@ -277,20 +278,20 @@ void Forward::move(const Imperfections& at, const std::vector<std::size_t>& runs
 }
 
 const Forward::Motion& Forward::mechanism(const Imperfections& imperfections) {
-  const Imperfections key = that_move(imperfections);
+  const Imperfections key = motion_key(imperfections);
   for (const Motion& motion : latest_) {
     if (motion.key == key && !motion.theta.empty()) return motion;
   }
   Motion& place = latest_[next_++ % latest_.size()];
   place = {key, Readings(log_.size()), Readings(log_.size())};
-  const std::vector<std::size_t>& stands_for = minds_time(key) ? all_ : driven_;
+  const std::vector<std::size_t>& stands_for = depends_on_time(key) ? all_ : driven_;
   const std::size_t first = earlier_ ? earlier_->runs : 0;
   std::vector<std::size_t> moved;
   for (const std::size_t run : all_) {
     if (stands_for[run] == run && run >= first) moved.push_back(run);
   }
   move(key, moved, [&](std::size_t run, const EquilibriumPoint& point) {
-    place.theta[run].push_back(standing(point));
+    place.theta[run].push_back(angle_or_nan(point));
     place.loose[run].push_back(play_of(point));
   });
   for (const std::size_t run : all_) {
@@ -306,20 +307,20 @@ Readings Forward::operator()(const Imperfections& imperfections) {
   Readings readings = mechanism(at).theta;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const bool is_earlier = earlier_ && i < earlier_->runs;
-    readings[i] = shown_by_sensor(log_[i], std::move(readings[i]), is_earlier ? earlier_->joint : at);
+    readings[i] = sensor_readings(log_[i], std::move(readings[i]), is_earlier ? earlier_->joint : at);
   }
   return readings;
 }
 
 std::vector<std::vector<JointState>> Forward::states(const Imperfections& at) {
   std::vector<std::vector<JointState>> all(log_.size());
-  move(that_move(at), all_, [&](std::size_t run, const EquilibriumPoint& point) {
+  move(motion_key(at), all_, [&](std::size_t run, const EquilibriumPoint& point) {
     all[run].push_back(made_ ? state_of(point) : JointState{point.status, point.theta});
   });
   for (std::size_t i = 0; i < log_.size(); ++i) {
     std::vector<double> theta;
     for (const JointState& state : all[i]) theta.push_back(state.theta);
-    theta = shown_by_sensor(log_[i], std::move(theta), at);
+    theta = sensor_readings(log_[i], std::move(theta), at);
     for (std::size_t k = 0; k < theta.size(); ++k) all[i][k].shown = theta[k];
   }
   return all;

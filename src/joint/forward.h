@@ -1,5 +1,4 @@
-/// \file
-/// What the sensor of a joint would have logged, given how it differs from what was declared.
+/// Forward model: predicts the sensor log of a joint from its deviations.
 #pragma once
 
 #include <array>
@@ -16,15 +15,16 @@
 
 namespace fusee {
 
-/// What both tendons of a joint have crept by. It is kept between runs, while the joint rests at home without load.
+/// Creep of both tendons. It persists between runs, in which the joint rests at home without load.
 class TendonCreep {
  public:
-  /// `per_decade` of the elastic strain, and the joint at home; tendons that hung there for long creep no more there.
+  /// `per_decade`: creep as a fraction of the elastic strain. Tendons have rested at home for long and do not creep
+  /// further there.
   TendonCreep(double per_decade, double EA, JointMotion home, const JointStep& rest);
 
-  /// Unloaded length added, as a fraction, when the tensions of the moment go on for `time` s.
+  /// Additional relative length if the present tensions act for `time` s more.
   std::array<double, 2> after(double time) const;
-  /// From the tensions of the moment to those of `now` within `time` s.
+  /// Proceeds from the present tensions to those of `now` within `time` s.
   void hold(const EquilibriumPoint& now, double time);
   void rest(double time);
 
@@ -33,27 +33,26 @@ class TendonCreep {
 
   double per_decade_;
   double EA_;
-  std::array<double, 2> at_rest_{};  ///< strain
-  std::array<double, 2> beyond_{};   ///< strain beyond that, at the moment
+  std::array<double, 2> at_rest_{};  ///< strain at rest
+  std::array<double, 2> beyond_{};   ///< present strain beyond at_rest_
   std::array<CreepMemory, 2> memory_;
 };
 
-/// The joint on its bench. Keeps the latest motions of the mechanism, since sensors do not change them, and the
-/// latest geometries, which few of the effects change. For one thread.
+/// The joint on its bench. Caches the latest motions, which do not depend on sensor errors, and the latest geometries,
+/// which few effects change. Not thread-safe.
 class Forward {
  public:
   Forward(const Mechanism& declared, const BenchLog& log) : Forward(declared, log, declared) {}
   /// With a pulley that was made for another joint.
   Forward(const Mechanism& declared, const BenchLog& log, const Mechanism& made_for);
-  /// With runs of an earlier state, if there is one: imperfections are then what was added to it, and act in the later
-  /// runs alone.
+  /// With runs of an earlier state, if any: imperfections are then added to it and act only in the later runs.
   Forward(const Mechanism& declared, const BenchLog& log, const std::optional<EarlierState>& earlier);
 
-  /// NaN where the mechanism has no equilibrium. Where both tendons are slack, where the joint was last pushed.
+  /// NaN without an equilibrium. With both tendons slack: the angle to which the joint was last pushed.
   Readings operator()(const Imperfections& imperfections);
-  /// How far from there the joint could be, since nothing holds it, rad; zero where a tendon is taut.
+  /// Possible deviation from that angle within the play, rad; zero where a tendon is taut.
   const Readings& looseness(const Imperfections& imperfections) { return mechanism(whole(imperfections)).loose; }
-  /// All that is known of the joint, row by row.
+  /// The complete state of the joint at each row.
   std::vector<std::vector<JointState>> states(const Imperfections& imperfections);
 
  private:
@@ -71,7 +70,7 @@ class Forward {
   Imperfections whole(const Imperfections& imperfections) const;
   const Motion& mechanism(const Imperfections& imperfections);
   JointMotion at_home(const Imperfections& imperfections);
-  /// Calls `found` with what every row of these runs finds; of a joint declared by a ratio only θ is known.
+  /// Calls `found` for every row of these runs; for a joint declared by a ratio only θ is known.
   void move(const Imperfections& imperfections, const std::vector<std::size_t>& runs,
             const std::function<void(std::size_t run, const EquilibriumPoint&)>& found);
   void elastic(std::size_t run, JointMotion motion, const Imperfections& imperfections, TendonCreep& creep,
@@ -82,11 +81,11 @@ class Forward {
 
   const Mechanism& declared_;
   const BenchLog& log_;
-  std::vector<double> clock_;        ///< added to the time of each run
-  std::vector<std::size_t> all_;     ///< runs
-  std::vector<std::size_t> driven_;  ///< the first run that was driven as each is, but for its pace
+  std::vector<double> clock_;        ///< offset of each run's time
+  std::vector<std::size_t> all_;     ///< all runs
+  std::vector<std::size_t> driven_;  ///< for each run, the first run with identical inputs except for its speed
   std::optional<EarlierState> earlier_;
-  std::optional<Motion> earlier_motion_;  ///< of all runs, in the earlier state
+  std::optional<Motion> earlier_motion_;  ///< all runs in the earlier state
   double first_temperature_ = 0;
   std::optional<MadePulleys> made_;
   double alpha_least_ = 0;

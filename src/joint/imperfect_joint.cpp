@@ -11,13 +11,13 @@
 namespace fusee {
 namespace {
 
-/// Far below any sensor's noise, and far below what a fit's steps move θ by. rad
+/// Convergence limit for θ, far below sensor noise and the steps of a fit. rad
 constexpr double k_last_step = 1e-9;
 
-constexpr double k_least_drum = 1e-3;       // mm: a drum that is hardly one is still a drum
-constexpr double k_least_stiffness = 1e-3;  // of the declared EA
+constexpr double k_least_drum = 1e-3;       // mm; keeps a shrunk drum a drum
+constexpr double k_least_stiffness = 1e-3;  // fraction of the declared EA
 
-/// An end that is tied on the drum is tied on the drum as it is.
+/// Moves an end inside the drum onto its surface.
 void tie_on_drum(std::optional<Attachment>& end, const Joint& joint) {
   if (!end) return;
   const double across = end->across - joint.drum_centre.across, along = end->along - joint.drum_centre.along;
@@ -43,7 +43,7 @@ void mount_drum(Joint& joint, const JointError& at) {
   tie_on_drum(joint.attachment2, joint);
 }
 
-/// A file may say that its sheaths do not bend, or not give: what was found then stands for itself.
+/// Applies sheath errors. A sheath declared without bends, or rigid, gets the identified values alone.
 void mount_sheath(Sheath& sheath, const SheathError& at) {
   if (!sheath.is_there() || at == SheathError{}) return;
   const double friction = std::max(0.0, sheath.mu * sheath.bend + at.friction);
@@ -63,7 +63,7 @@ MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
   mechanism.guides.EB += at.pins.left.outward;
   mechanism.guides.ED += at.pins.right.outward;
   mechanism.guides.OE += at.pins.left.down;
-  mechanism.pulley.EF -= at.pins.left.down;  // the pulley's axis stays
+  mechanism.pulley.EF -= at.pins.left.down;  // the pulley's axis does not move
   mechanism.guides.D_below_B += at.pins.right.down - at.pins.left.down;
   mechanism.guides.radius = std::max(0.0, mechanism.guides.radius + at.pins.radius);
   Guides& guides = mechanism.guides;
@@ -85,13 +85,13 @@ GeometryError geometry_of(const Imperfections& at) {
           at.joint.drum, at.joint.end1, at.joint.end2, at.joint.path1, at.joint.path2};
 }
 
-/// Pulleys made for `declared` and imperfect themselves, seen from pins as mounted.
+/// Geometry of imperfect pulleys made for `declared`, with pins as mounted.
 JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared, const Imperfections& at) {
   const OutlineError& outline = at.pulley.outline;
   const MadePulleys larger = made.offset_by(outline.offset / (1.0 + at.pulley.scale));
   JointModel model = joint_model(larger, mounted(declared, at));
-  // The pulley's centre off the axis is, to a tendon, a pin that moves the other way; a pulley larger by a factor, pins
-  // that stand closer by it.
+  // For a tendon, an eccentric pulley equals a pin moved the opposite way, and a pulley scaled by a factor equals pins
+  // closer by that factor.
   const bool as_made = at.pulley.scale == 0 && outline.runout_x == 0 && outline.runout_y == 0;
   if (!as_made) {
     model.lower = [larger, pins = model.pins, scale = 1.0 + at.pulley.scale, x = outline.runout_x,
@@ -116,8 +116,8 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
       return paths;
     };
   }
-  // A wave moves the line that touches it and turns it too little to matter, and where on the line it is touched by its
-  // slope, too little to tell what is wound from what is free; on the left the image's arc runs the other way.
+  // A wave shifts the tangent line; its rotation is negligible, as is the shift of the contact along the line. On the
+  // left the image's arc runs the other way.
   if (outline.wave_sin != 0 || outline.wave_cos != 0) {
     model.lower = [without = model.lower, outline](double alpha) {
       std::array<LowerPath, 2> paths = without(alpha);
@@ -147,7 +147,7 @@ void set_imperfect_statics(JointModel& model, const Mechanism& declared, const I
   model.bearing_friction = std::max(0.0, at.joint.friction);
   model.rubbing = {std::max(0.0, at.joint.rubbing.by_area), std::max(0.0, at.joint.rubbing.by_lesser)};
   model.waves = at.tendon.waves;
-  model.pin_give = std::max(0.0, at.pins.give);
+  model.pin_compliance = std::max(0.0, at.pins.give);
   const Weight weight = with_error({model.weight, model.tilt}, at.joint.weight);
   model.weight = weight.moment;
   model.tilt = weight.tilt;

@@ -1,5 +1,4 @@
-/// \file
-/// The statics of a joint that is not as declared: pulleys made for the declaration and imperfect themselves, in the
+/// Statics of an imperfect joint: imperfect pulleys made for the declaration, in the mechanism as mounted.
 /// mechanism as mounted.
 #pragma once
 
@@ -8,7 +7,7 @@
 
 namespace fusee {
 
-/// What the tendons' paths depend on: joints that have it in common have their geometry in common.
+/// The deviations on which the tendon paths depend. Equal values allow a geometry to be reused.
 struct GeometryError {
   PulleyError pulley;
   PinPlaceError left_pin;
@@ -25,17 +24,17 @@ struct GeometryError {
 };
 GeometryError geometry_of(const Imperfections& imperfections);
 
-/// Both tendons' paths. Of the imperfections only geometry_of() acts.
+/// Both tendon paths. Only the part geometry_of() of the imperfections matters.
 JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared, const Imperfections& imperfections);
-/// A weight that turns the joint against +θ with moment · sin(tilt − θ).
+/// Weight of the link: moment · sin(tilt − θ) against +θ.
 struct Weight {
   double moment = 0;  ///< N·mm
   double tilt = 0;    ///< rad
 };
-/// What the joint weighs when it was declared so and found to weigh `error` more.
+/// The declared weight with the identified additional torque `error`.
 Weight with_error(const Weight& declared, const WeightError& error);
 
-/// Stiffness, friction, pretension, slack and weight, in a model of that geometry.
+/// Sets stiffness, friction, pretension, slack and weight in a model of that geometry.
 void set_imperfect_statics(JointModel& model, const Mechanism& declared, const Imperfections& imperfections);
 
 }  // namespace fusee

@@ -5,12 +5,12 @@
 namespace fusee {
 namespace {
 
-struct OnDrum {
+struct DrumContact {
   bool somewhere = false;
   bool everywhere = false;
 };
 
-OnDrum on_drum(const Mechanism& mechanism, Side side) {
+DrumContact on_drum(const Mechanism& mechanism, Side side) {
   if (!(mechanism.joint.drum_radius > 0)) return {};
   const auto leaves = lift_off(pin_place(mechanism, side, mechanism.seen_pitch_radius()));
   if (!leaves) return {};
@@ -39,7 +39,7 @@ bool has_part(const Mechanism& mechanism, const Needs& needs) {
 std::vector<const Effect*> effects_of(const Mechanism& mechanism) {
   std::vector<const Effect*> all;
   for (const Effect& effect : effects(kind_of(mechanism))) {
-    if (effect.is_looked_for && has_part(mechanism, effect.needs)) all.push_back(&effect);
+    if (effect.is_tested && has_part(mechanism, effect.needs)) all.push_back(&effect);
   }
   return all;
 }

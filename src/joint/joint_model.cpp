@@ -10,10 +10,10 @@
 namespace fusee {
 namespace {
 
-/// How far beyond the declared range the joint may be pushed while it still has its moment arms.
+/// Extension of the range up to which the joint may be pushed, while the moment arms exist.
 constexpr double k_reach = radians(60.0);
 
-/// The first θ from `start` towards `end` at which a moment arm vanishes; `end` when none does.
+/// The first θ from `start` towards `end` at which a moment arm vanishes; `end` if none does.
 double last_with_arms(const std::array<PinPlace, 2>& pins, double start, double end) {
   const auto has_arms = [&](double theta) {
     return upper_span(pins[0], -theta).m > 0 && upper_span(pins[1], theta).m > 0;
@@ -35,20 +35,19 @@ double last_with_arms(const std::array<PinPlace, 2>& pins, double start, double 
   return end;
 }
 
-/// What the pitch curve has at the element that touches the tendon when the declared joint stands at `at`, seen in the
-/// image.
+/// The element of the pitch curve that touches the tendon when the declared joint is at `at`, in the image.
 struct CurveElement {
   double normal = 0;  ///< in the pulley's frame
   double support = 0;
-  double arc = 0;    ///< but for a constant
-  double reach = 0;  ///< of the declared line, from the foot of the axis' perpendicular: w
+  double arc = 0;    ///< up to a constant
+  double reach = 0;  ///< w: length of the declared line from the foot of the axis' perpendicular
   double slope = 0;  ///< d support / d declared α: p'
-  double ahead = 0;  ///< dh/dψ: from that foot to the element, towards the pin
+  double ahead = 0;  ///< dh/dψ: distance from that foot to the element, towards the pin
 };
 
-// Inextensible tendon: what is above the pin, what lies between it and the pulley, and what is wound add up to a
-// constant along the declared law, which gives the arc in closed form: s = −L_up(θ) − (w − h') + ρψ. The element is
-// touched at h n + h' t, not at the foot of the axis' perpendicular; ψ' = 1 + p'/w, so h' = p'/(1 + p'/w).
+// The tendon is inextensible: its lengths above the pin, between pin and pulley, and on the pulley have a constant sum
+// along the declared law. This gives the arc in closed form: s = −L_up(θ) − (w − h') + ρψ. The contact is at h n + h'
+// t, not at the foot of the axis' perpendicular. From ψ' = 1 + p'/w follows h' = p'/(1 + p'/w).
 CurveElement element(const PinPlace& place, Side side, const TransmissionPoint& at, double offset) {
   const double sign = mirror_sign(side);
   const TendonPoint& tendon = side == Side::right ? at.t2 : at.t1;
@@ -63,8 +62,9 @@ CurveElement element(const PinPlace& place, Side side, const TransmissionPoint& 
   return curve;
 }
 
-/// Where the range alone takes more than one turn of either pulley, both tendons lie in helical grooves.
-std::array<double, 2> knots_beyond(const JointModel& model, const Mechanism& mechanism) {
+/// Arc from the range to the knots. If the range takes more than one turn of either pulley, both have helical grooves
+/// with spare turns.
+std::array<double, 2> arcs_to_knots(const JointModel& model, const Mechanism& mechanism) {
   const auto least = model.lower(model.alpha_least), most = model.lower(model.alpha_most);
   std::array<double, 2> spare{};
   bool several = false;
@@ -72,12 +72,12 @@ std::array<double, 2> knots_beyond(const JointModel& model, const Mechanism& mec
     const double sign = i == 1 ? 1.0 : -1.0;
     const double turned = most[i].normal - least[i].normal + sign * (model.alpha_most - model.alpha_least);
     several = several || std::abs(turned) > k_two_pi;
-    // Spare turns go on as a circle.
+    // Spare turns are circular.
     spare[i] = k_two_pi * mechanism.body.spare_turns * std::abs((i == 1 ? least : most)[i].p);
-    if (!std::isfinite(spare[i])) return {k_knot_beyond, k_knot_beyond};
+    if (!std::isfinite(spare[i])) return {k_arc_to_knot, k_arc_to_knot};
   }
   const bool may = mechanism.pulley.winding != WindingChoice::one_turn;
-  return several && may ? spare : std::array{k_knot_beyond, k_knot_beyond};
+  return several && may ? spare : std::array{k_arc_to_knot, k_arc_to_knot};
 }
 
 }  // namespace
@@ -88,11 +88,11 @@ MadePulleys MadePulleys::offset_by(double by) const {
   return larger;
 }
 
-// A line of the pulley's frame with normal ψ_b stands at ψ = ψ_b − α; it touches the mounted pin's circle on the outer
-// side when
+// A line of the pulley's frame with the normal ψ_b has the direction ψ = ψ_b − α. It touches the mounted pin's circle
+// on the outer side when
 //   F = c cos(φ − ψ) + ρ − h(ψ_b) = 0.
-// The curve is known by the declared α0 at which each of its elements is touched: ψ_b' = 1 + h'/w0, so F' = w ψ_b' − h'
-// with w the mounted reach c sin(φ − ψ). Mounted as declared, the first look (α0 = α) is the answer.
+// The curve is parametrized by the declared α0 at which each element is touched: ψ_b' = 1 + h'/w0, so F' = w ψ_b' − h'
+// with w = c sin(φ − ψ). If mounted as declared, the start α0 = α is the solution.
 LowerPath MadePulleys::path(Side side, const LowerGuide& mounted, double alpha, const TransmissionPoint& first) const {
   const PinPlace& place = declared_.place(side);
   const double sign = mirror_sign(side);
@@ -106,7 +106,7 @@ LowerPath MadePulleys::path(Side side, const LowerGuide& mounted, double alpha, 
     const double miss = c * std::cos(phi - normal) + mounted.rho - curve.support;
     if (std::abs(miss) <= 1e-12 * c) return {curve.support, normal, reach - curve.ahead, curve.arc};
     const double step = sign * miss / (reach * (1.0 + curve.slope / curve.reach) - curve.slope);
-    // By the declared joint angle, in which the usual laws are closed formulas.
+    // Iterates over the declared joint angle, in which the usual laws are closed formulas.
     const double theta = at.theta - step * at.g;
     if (!(std::abs(theta) < k_pi)) break;
     at = declared_.at_theta(theta);
@@ -134,7 +134,7 @@ JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
   model.expected = [made](double alpha) { return made.declared().theta(alpha); };
   model.alpha_least = made.declared().alpha_min();
   model.alpha_most = made.declared().alpha_max();
-  model.knots_beyond = knots_beyond(model, mounted);
+  model.arcs_to_knots = arcs_to_knots(model, mounted);
   set_statics(model, in);
   model.theta_least = last_with_arms(model.pins, 0.0, mounted.joint.theta_min - k_reach);
   model.theta_most = last_with_arms(model.pins, 0.0, mounted.joint.theta_max + k_reach);

@@ -9,7 +9,7 @@ namespace {
 constexpr double k_step = 0.024;  // rad
 constexpr std::size_t k_most_pieces = 4096;
 
-/// What each of the points 0 … 5 weighs in the value at `u` of the quintic through all of them (Lagrange).
+/// Lagrange weights of the points 0 … 5 at `u`.
 std::array<double, 6> weights_at(double u) {
   constexpr std::size_t count = 6;
   constexpr std::array<double, count> k_others{-120, 24, -12, 12, -24, 120};  // ∏ (k − j) over the other points j
@@ -46,9 +46,9 @@ bool LowerPathTable::covers(double alpha) const {
   return alpha >= least_ && alpha < least_ + step_ * static_cast<double>(values_.size() - 1);
 }
 
-LowerPathTable::Near LowerPathTable::near(double alpha) const {
+LowerPathTable::Interpolation LowerPathTable::near(double alpha) const {
   const double place = (alpha - least_) / step_;
-  // Between the third and the fourth place, but for the ends.
+  // `alpha` lies between the third and the fourth node, except at the ends.
   const auto before = static_cast<std::size_t>(place);
   const std::size_t first = std::min(before - std::min<std::size_t>(before, 2), values_.size() - 6);
   return {first, weights_at(place - static_cast<double>(first))};
@@ -56,19 +56,19 @@ LowerPathTable::Near LowerPathTable::near(double alpha) const {
 
 std::array<LowerPath, 2> LowerPathTable::paths(double alpha) const {
   if (!covers(alpha)) return exact_(alpha);
-  const Near near = this->near(alpha);
+  const Interpolation near = this->near(alpha);
   Knot at{};
   for (std::size_t i = 0; i < near.weights.size(); ++i) {
     for (std::size_t k = 0; k < k_members; ++k) at[k] += near.weights[i] * values_[near.first + i][k];
   }
-  // Next to where the law ends a quintic knows nothing.
+  // Next to the end of the law the interpolation is invalid.
   if (!std::isfinite(at[3]) || !std::isfinite(at[7])) return exact_(alpha);
   return {LowerPath{at[0], at[1], at[2], at[3]}, LowerPath{at[4], at[5], at[6], at[7]}};
 }
 
 double LowerPathTable::expected(double alpha) const {
   if (!covers(alpha)) return exact_expected_(alpha);
-  const Near near = this->near(alpha);
+  const Interpolation near = this->near(alpha);
   double expected = 0;
   for (std::size_t i = 0; i < near.weights.size(); ++i) expected += near.weights[i] * values_[near.first + i].back();
   return expected;

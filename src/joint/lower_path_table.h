@@ -1,5 +1,4 @@
-/// \file
-/// Where both tendons run between pin and pulley, looked up: a fit asks for the same geometry at thousands of places.
+/// Lookup table of both tendon paths between pin and pulley, since a fit evaluates one geometry at thousands of angles.
 #pragma once
 
 #include <array>
@@ -10,11 +9,11 @@
 
 namespace fusee {
 
-/// By quintics through six pulley angles a degree and a half or so apart: to 1e-7 mm of JointModel::lower. The function
-/// itself answers outside and where a tendon has no path.
+/// Quintic interpolation over six pulley angles about 1.5° apart, accurate to 1e-7 mm. Outside the table, and where a
+/// tendon has no path, JointModel::lower is called.
 class LowerPathTable {
  public:
-  /// Over pulley angles from `least` to `most`, rad.
+  /// Covers pulley angles from `least` to `most`, rad.
   LowerPathTable(const JointModel& model, double least, double most);
 
   std::array<LowerPath, 2> paths(double alpha) const;
@@ -26,13 +25,13 @@ class LowerPathTable {
   static constexpr std::size_t k_members = 9;
   using Knot = std::array<double, k_members>;
 
-  /// Of six neighbouring places: the first one, and what each weighs in the value at `alpha`.
-  struct Near {
+  /// Six neighbouring nodes: index of the first, and the interpolation weights at `alpha`.
+  struct Interpolation {
     std::size_t first = 0;
     std::array<double, 6> weights{};
   };
   bool covers(double alpha) const;
-  Near near(double alpha) const;
+  Interpolation near(double alpha) const;
 
   double least_;
   double step_;

@@ -14,9 +14,9 @@
 namespace fusee {
 namespace {
 
-/// Draws a point further in by what making moves it out. Making moves points w along their normals, which moves the
-/// support of a curve with radius of curvature ρ by w + w'²/(2ρ) (support_wave).
-void draw_wave_out(OutlinePoint& point, const OutlineError& outline) {
+/// Displaces a point against the wave of making. Making moves points by w along their normals, which changes the
+/// support of a curve with the radius of curvature ρ by w + w'²/(2ρ) (support_wave).
+void correct_wave(OutlinePoint& point, const OutlineError& outline) {
   if (outline.wave_sin == 0 && outline.wave_cos == 0) return;
   const OutlineWave w = outline_wave(point.psi, outline);
   const double rho = point.curvature_radius;
@@ -26,24 +26,24 @@ void draw_wave_out(OutlinePoint& point, const OutlineError& outline) {
   point.curvature_radius -= w.outward + w.bend;
 }
 
-/// A point whose normal is across the line between those beside it.
+/// The made position of a point whose normal is perpendicular to the line between its neighbours.
 Vec2 made_between(const Vec2& point, const Vec2& before, const Vec2& after, const OutlineError& outline) {
   const Vec2 along = (after - before).normalized(), normal(along.y(), -along.x());
   return point + Vec2(outline.runout_x, outline.runout_y) +
          outline_wave(std::atan2(normal.y(), normal.x()), outline).outward * normal;
 }
 
-// More than the rounding of neighbouring points turns a polygon.
+// Inward turn above the rounding of neighbouring points.
 constexpr double k_most_inward = radians(0.5);
 
-struct Turn {
+struct CornerTurn {
   double turn = std::numeric_limits<double>::infinity();
   double at = 0;  ///< direction of the normal
 };
 
-// The least by which a polygon turns to the left at a corner.
-Turn least_turn(const std::vector<OutlinePoint>& points) {
-  Turn least;
+// The smallest left turn of a polygon at a corner.
+CornerTurn least_turn(const std::vector<OutlinePoint>& points) {
+  CornerTurn least;
   const std::size_t n = points.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 before = points[i].position - points[(i + n - 1) % n].position,
@@ -63,8 +63,8 @@ OutlineWave outline_wave(double psi, const OutlineError& outline) {
   return {outward, slope, -n * n * outward};
 }
 
-// Every point of the outline is moved along its normal by w. The farthest point along ψ is then a neighbour: beside w
-// it gains w'²/(2ρ), with ρ the radius of curvature, for which the support stands.
+// Every outline point moves by w along its normal. The farthest point along ψ is then a neighbour: the support changes
+// by w + w'²/(2ρ), with the radius of curvature ρ approximated by the support.
 SupportWave support_wave(double psi, double support, const OutlineError& outline) {
   const double n = outline.wave_order;
   const double s = outline.wave_sin;
@@ -79,7 +79,7 @@ SupportWave support_wave(double psi, double support, const OutlineError& outline
 }
 
 OutlinePoint drawn_for_making(OutlinePoint point, const OutlineError& outline) {
-  draw_wave_out(point, outline);
+  correct_wave(point, outline);
   point.position -= Vec2(outline.runout_x, outline.runout_y) + outline.offset * point.normal;
   point.curvature_radius -= outline.offset;
   return point;

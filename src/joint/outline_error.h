@@ -1,13 +1,12 @@
-/// \file
-/// Pitch curves that came out of making otherwise than they were drawn: a wave along their normals, as it acts on
-/// tendons and as it is drawn out.
+/// Pitch curves that deviate from their drawing by a wave along their normals: effect on tendons, and correction in the
+/// drawing.
 #pragma once
 
 #include "fusee/mechanism/imperfections.h"
 
 namespace fusee {
 
-/// By how much making moves a point of an outline out along its normal `psi`: s sin nψ + c cos nψ, and its derivatives.
+/// Outward displacement of an outline point along its normal `psi`, s sin nψ + c cos nψ, with derivatives.
 struct OutlineWave {
   double outward = 0;  ///< mm
   double slope = 0;
@@ -15,7 +14,7 @@ struct OutlineWave {
 };
 OutlineWave outline_wave(double psi, const OutlineError& outline);
 
-/// What a wave of the outline adds to the curve's support, and to the arc up to there.
+/// Change of a curve's support and arc length due to a wave.
 struct SupportWave {
   double outward = 0;
   double arc = 0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Eight contacts leave steps of an eighth of the hysteresis. Four and sixteen change the held-out residual of five
+// Eight contacts leave steps of an eighth of the hysteresis. Four or sixteen change the held-out residual of five
 // measured joints by less than 1 %.
 
 namespace fusee {

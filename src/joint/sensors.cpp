@@ -6,19 +6,19 @@
 namespace fusee {
 namespace {
 
-/// Of a way between two stands: a motor that stands to this part of it stands.
-constexpr double k_stands = 0.02;
+/// Relative motion below which a motor counts as dwelling.
+constexpr double k_dwell_tolerance = 0.02;
 
-/// Whether α went from stand to stand on its way to row `i`, with no row between them: nobody knows when it arrived,
-/// and who reads a joint from point to point waits until it stands.
-bool arrived_unseen(const BenchRun& run, std::size_t i) {
+/// True when α moved between dwells before row `i` without logged rows in between: the arrival time is unknown, and
+/// point-to-point logs are read after settling.
+bool has_unknown_arrival(const BenchRun& run, std::size_t i) {
   if (i == 0 || i + 1 >= run.rows.size()) return false;
   const auto way = [&](std::size_t to) { return std::abs(run.rows[to].alpha - run.rows[to - 1].alpha); };
-  const double most = k_stands * way(i);
+  const double most = k_dwell_tolerance * way(i);
   return way(i + 1) < most && (i == 1 || way(i - 1) < most);
 }
 
-/// θ at the time `lag` earlier, straight between samples. Before the first sample the joint stood still.
+/// θ at the time `lag` earlier, linear between samples. Before the first sample the joint rests.
 std::vector<double> delayed(const BenchRun& run, const std::vector<double>& theta, double lag) {
   std::vector<double> late(theta.size());
   std::size_t j = 0;
@@ -28,23 +28,23 @@ std::vector<double> delayed(const BenchRun& run, const std::vector<double>& thet
     const double from = run.rows[j].time;
     const double step = j + 1 < theta.size() ? run.rows[j + 1].time - from : 0.0;
     const double share = step > 0 ? std::clamp((time - from) / step, 0.0, 1.0) : 0.0;
-    late[i] = share == 0                   ? theta[j]
-              : arrived_unseen(run, j + 1) ? theta[j + 1]
-                                           : theta[j] + share * (theta[j + 1] - theta[j]);
+    late[i] = share == 0                        ? theta[j]
+              : has_unknown_arrival(run, j + 1) ? theta[j + 1]
+                                                : theta[j] + share * (theta[j + 1] - theta[j]);
   }
   return late;
 }
 
-/// Through τ y' = θ − y, exact for θ that goes straight between samples. Before the first sample the joint stood still;
-/// after a place without a reading the filter begins anew.
+/// θ after the filter τ y' = θ − y, exact for linear θ between samples. Before the first sample the joint rests; after
+/// a gap the filter restarts.
 std::vector<double> filtered(const BenchRun& run, const std::vector<double>& theta, double lag) {
   std::vector<double> smooth = theta;
   for (std::size_t i = 1; i < theta.size(); ++i) {
     const double time = run.rows[i].time - run.rows[i - 1].time;
     if (!(time > 0)) {
       smooth[i] = smooth[i - 1];
-    } else if (std::isfinite(smooth[i - 1]) && !arrived_unseen(run, i)) {
-      const double behind = lag * (theta[i] - theta[i - 1]) / time;  // of a ramp, once it has settled
+    } else if (std::isfinite(smooth[i - 1]) && !has_unknown_arrival(run, i)) {
+      const double behind = lag * (theta[i] - theta[i - 1]) / time;  // lag behind a ramp in steady state
       smooth[i] = theta[i] - behind + (smooth[i - 1] - theta[i - 1] + behind) * std::exp(-time / lag);
     }
   }
@@ -57,7 +57,7 @@ double wave(double angle, double order, double sin_part, double cos_part) {
   return sin_part * std::sin(order * angle) + cos_part * (std::cos(order * angle) - 1.0);
 }
 
-/// sin n(x + a) and cos n(x + a) in terms of nx.
+/// Transforms the coefficients of sin n(x + a) and cos n(x + a) to those of nx.
 void turn_wave(double angle, double& sin_part, double& cos_part) {
   if (angle == 0) return;
   const double c = std::cos(angle), s = std::sin(angle);

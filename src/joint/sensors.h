@@ -1,6 +1,4 @@
-/// \file
-/// Both ends of the chain: what the motor's sensor hides of the shaft, the play behind it, and what the joint's sensor
-/// shows.
+/// Sensors at both ends of the chain, and the play behind the motor's sensor.
 #pragma once
 
 #include <vector>
@@ -10,14 +8,14 @@
 
 namespace fusee {
 
-/// What a sensor errs by, seen after it was turned by `angle` and its zero set again.
+/// The errors of a sensor after it was turned by `angle` and its zero set again.
 MotorSensorError turned(MotorSensorError error, double angle);
 JointSensorError turned(JointSensorError error, double angle);
 
-/// Where the shaft stands when the sensor shows `alpha`, rad.
+/// Angle of the shaft when the sensor reads `alpha`, rad.
 double shaft_angle(double alpha, const MotorSensorError& error);
 
-/// The play operator: follows its input at a distance of half the width, and stands still in between.
+/// The play operator: follows its input at half the width, and rests in between.
 class Play {
  public:
   explicit Play(double input) : output_(input) {}
@@ -27,7 +25,7 @@ class Play {
   double output_;
 };
 
-/// θ of a run as the joint's sensor shows it, rad.
+/// Readings of the joint sensor for θ of a run, rad.
 std::vector<double> sensed(const BenchRun& run, std::vector<double> theta, const JointSensorError& error);
 
 }  // namespace fusee

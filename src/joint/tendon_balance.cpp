@@ -10,15 +10,15 @@ double tension(double EA, double length, double material) {
   return length > material ? EA * (length / material - 1.0) : 0.0;
 }
 
-/// Sliding with T_up = ratio · T_low.
-struct Sliding {
+/// SlidingTendon with T_up = ratio · T_low.
+struct SlidingTendon {
   const Spans& spans;
   double ratio;
 
   double total() const { return spans.upper_material + spans.lower_material; }
   double stretch() const { return spans.upper_length + spans.lower_length - total(); }
 
-  // All material is in the two spans: X = Lu t/(k + t) + Ll t/(rk + t), with t the upper tension, X the stretch and k =
+  // All material is in the two spans: X = Lu t/(k + t) + Ll t/(rk + t), with the upper tension t, the stretch X and k =
   // EA. A quadratic whose roots differ in sign: total·t² + b t − X r k² = 0.
   double upper_tension() const {
     const double k = spans.EA;
@@ -40,7 +40,7 @@ struct Sliding {
   }
 };
 
-/// No tension anywhere: only so much material crosses as frees the span that was taut.
+/// Without tension: material crosses only to relieve the span that was taut.
 TendonBalance untensioned(const Spans& spans, double upper, double lower) {
   TendonBalance none;
   none.contact = PinContact::slack;
@@ -60,7 +60,7 @@ TendonBalance balance(const Spans& spans) {
     return stuck;
   }
   const bool up = upper > lower;
-  const Sliding sliding{spans, up ? spans.capstan : 1.0 / spans.capstan};
+  const SlidingTendon sliding{spans, up ? spans.capstan : 1.0 / spans.capstan};
   if (!(sliding.stretch() > 0)) return untensioned(spans, upper, lower);
   const double t = sliding.upper_tension();
   TendonBalance slid{t, t / sliding.ratio, 0.0, up ? PinContact::slip_up : PinContact::slip_down};
@@ -77,7 +77,7 @@ double stuck_rate(const Spans& spans, const TendonBalance& now) {
 
 double sliding_rate(const Spans& spans, const TendonBalance& now) {
   if (!(now.upper > 0 && now.lower > 0)) return stuck_rate(spans, now);
-  return Sliding{spans, now.upper / now.lower}.per_length(now.upper);
+  return SlidingTendon{spans, now.upper / now.lower}.per_length(now.upper);
 }
 
 }  // namespace fusee

@@ -10,26 +10,27 @@ constexpr std::size_t k_bends = ThreadedSpans::k_bends;
 constexpr std::size_t k_spans = k_bends + 1;
 using Slides = std::array<int, k_bends>;
 
-/// Which bends hold and which slide is found by trial. Sets that were tried are few (a front that runs through the
-/// sheath from one end); rounding alone can make one return.
+/// The sets of holding and sliding bends are found by trial. Few sets occur, as a front runs through the sheath from
+/// one end; only rounding can repeat one.
 constexpr int k_most_trials = 64;
 constexpr int k_most_steps = 60;
-/// After a step of this share what is left is rounding.
+/// Relative step after which the quadratically converging error is rounding.
 constexpr double k_squared_away = 1e-7;
-/// Material that goes the wrong way past a bend by less is rounding's, of the length of a span.
+/// Material passing a bend in the wrong direction below this fraction of a span is rounding.
 constexpr double k_rounding = 1e-14;
 
 double tension_of(double EA, double length, double material) {
   return length > material ? EA * (length / material - 1.0) : 0.0;
 }
 
-/// Spans `first` … `last`, all bends between them sliding: tensions in fixed ratios to that of the first.
-struct Joined {
+/// Spans `first` … `last` with all bends between them sliding: their tensions have fixed ratios to that of the first.
+struct SlidingSpans {
   const ThreadedSpans& spans;
   std::size_t first, last;
   std::array<double, k_spans> ratio{};
 
-  Joined(const ThreadedSpans& all, const Slides& slides, std::size_t begin) : spans(all), first(begin), last(begin) {
+  SlidingSpans(const ThreadedSpans& all, const Slides& slides, std::size_t begin)
+      : spans(all), first(begin), last(begin) {
     ratio[first] = 1.0;
     while (last < k_bends && slides[last] != 0) {
       ratio[last + 1] = ratio[last] * std::exp(-slides[last] * spans.holds[last]);
@@ -41,16 +42,16 @@ struct Joined {
     for (std::size_t i = first; i <= last; ++i) sum += spans.length[i] - spans.material[i];
     return sum;
   }
-  double softness(std::size_t i, double t) const {
+  double compliance(std::size_t i, double t) const {
     const double share = 1.0 / (1.0 + ratio[i] * t / spans.EA);
     return spans.length[i] * ratio[i] / spans.EA * share * share;
   }
-  double softness(double t) const {
+  double compliance(double t) const {
     double sum = 0;
-    for (std::size_t i = first; i <= last; ++i) sum += softness(i, t);
+    for (std::size_t i = first; i <= last; ++i) sum += compliance(i, t);
     return sum;
   }
-  /// Newton's step to where all material is in these spans: Σ L/(1 + r t/EA) = Σ n.
+  /// Newton step towards the tension at which all material is in these spans: Σ L/(1 + r t/EA) = Σ n.
   double step_from(double t) const {
     double beyond = 0, slope = 0;
     for (std::size_t i = first; i <= last; ++i) {
@@ -60,7 +61,7 @@ struct Joined {
     }
     return beyond * spans.EA / slope;
   }
-  // Hollow: steps from 0 come up to it, and each squares the miss.
+  // The function is convex, so that steps from 0 converge monotonically and quadratically.
   double tension() const {
     if (first == last) return tension_of(spans.EA, spans.length[first], spans.material[first]);
     if (!(stretch() > 0)) return 0;
@@ -73,7 +74,7 @@ struct Joined {
   }
 };
 
-/// Without tension what hangs loose fills what is short, and no more moves: the spans' material.
+/// Material of spans without tension: excess material fills the missing length, and no more moves.
 void fill(const ThreadedSpans& spans, std::size_t first, std::size_t last, std::array<double, k_spans>& material) {
   double wanted = 0;
   for (std::size_t i = first; i <= last; ++i) {
@@ -88,36 +89,36 @@ void fill(const ThreadedSpans& spans, std::size_t first, std::size_t last, std::
   }
 }
 
-/// What comes out if these bends slide.
-ThreadedBalance with(const ThreadedSpans& spans, const Slides& slides) {
+/// The balance if these bends slide.
+ThreadedBalance balance_of(const ThreadedSpans& spans, const Slides& slides) {
   ThreadedBalance now;
   now.slides = slides;
   for (std::size_t first = 0; first < k_spans;) {
-    const Joined joined(spans, slides, first);
-    const double t = joined.tension();
+    const SlidingSpans sliding(spans, slides, first);
+    const double t = sliding.tension();
     std::array<double, k_spans> material = spans.material;
-    for (std::size_t i = first; i <= joined.last; ++i) {
-      now.tension[i] = joined.ratio[i] * t;
-      if (joined.last > first) material[i] = spans.length[i] / (1.0 + now.tension[i] / spans.EA);
+    for (std::size_t i = first; i <= sliding.last; ++i) {
+      now.tension[i] = sliding.ratio[i] * t;
+      if (sliding.last > first) material[i] = spans.length[i] / (1.0 + now.tension[i] / spans.EA);
     }
-    if (joined.last > first && t == 0) fill(spans, first, joined.last, material);
+    if (sliding.last > first && t == 0) fill(spans, first, sliding.last, material);
     double gained = 0;
-    for (std::size_t i = first; i < joined.last; ++i) {
+    for (std::size_t i = first; i < sliding.last; ++i) {
       gained += material[i] - spans.material[i];
       now.crossed[i] = gained;
     }
     if (first == 0 && t > 0) {
-      const double all = joined.softness(t);
+      const double all = sliding.compliance(t);
       now.per_length = 1.0 / ((1.0 + t / spans.EA) * all);
-      now.per_hold = slides[0] * t * (all - joined.softness(0, t)) / all;
-      now.lower_per_upper = joined.last == k_bends ? joined.ratio[k_bends] : 0.0;
+      now.per_hold = slides[0] * t * (all - sliding.compliance(0, t)) / all;
+      now.lower_per_upper = sliding.last == k_bends ? sliding.ratio[k_bends] : 0.0;
     }
-    first = joined.last + 1;
+    first = sliding.last + 1;
   }
   return now;
 }
 
-/// Bends that hold more than they can slide. False if there are none.
+/// Lets bends slide that exceed their friction. False if there are none.
 bool let_slide(const ThreadedSpans& spans, const ThreadedBalance& now, Slides& slides) {
   bool any = false;
   for (std::size_t j = 0; j < k_bends; ++j) {
@@ -130,7 +131,7 @@ bool let_slide(const ThreadedSpans& spans, const ThreadedBalance& now, Slides& s
   return any;
 }
 
-/// The bend that slides against its friction by most holds. False if there is none.
+/// Stops the bend that slides most against its friction. False if there is none.
 bool hold(const ThreadedSpans& spans, const ThreadedBalance& now, Slides& slides) {
   std::size_t worst = k_bends;
   double most = k_rounding;
@@ -156,10 +157,10 @@ PinContact contact_of(const ThreadedBalance& now) {
 
 ThreadedBalance balance(const ThreadedSpans& spans, const Slides& likely) {
   Slides slides = likely;
-  ThreadedBalance now = with(spans, slides);
+  ThreadedBalance now = balance_of(spans, slides);
   for (int trial = 0; trial < k_most_trials; ++trial) {
     if (!hold(spans, now, slides) && !let_slide(spans, now, slides)) break;
-    now = with(spans, slides);
+    now = balance_of(spans, slides);
   }
   now.contact = contact_of(now);
   return now;
@@ -168,12 +169,12 @@ ThreadedBalance balance(const ThreadedSpans& spans, const Slides& likely) {
 double sliding_rate(const ThreadedSpans& spans, const ThreadedBalance& now) {
   const double t = now.tension[0];
   if (!(t > 0)) return 0;
-  double softness = 0;
+  double compliance = 0;
   for (std::size_t i = 0; i < k_spans; ++i) {
     const double share = 1.0 / (1.0 + now.tension[i] / spans.EA);
-    softness += spans.length[i] * now.tension[i] / (t * spans.EA) * share * share;
+    compliance += spans.length[i] * now.tension[i] / (t * spans.EA) * share * share;
   }
-  return 1.0 / ((1.0 + t / spans.EA) * softness);
+  return 1.0 / ((1.0 + t / spans.EA) * compliance);
 }
 
 }  // namespace fusee

@@ -1,11 +1,10 @@
-/// \file
-/// One tendon over its pin and through its sheath, at given lengths: which tensions its spans take where each bend of
-/// the sheath holds by a friction of its own.
+/// Balance of one tendon over its pin and through its sheath for given lengths: the tensions of its spans, where each
+/// bend of the sheath has its own friction.
 ///
-/// Friction in a sheath is spread over it. Where the motor turns back, what lies next to it slides first, and the rest
-/// follows as its tension is reached; the joint stands still until the last of it does. Friction at one place lets the
-/// half of the sheath before it give all at once: by then the same, on the way there by up to 1/8 of what the sheath
-/// stretches under the whole change. With n places it is 1/n² of that.
+/// Friction in a sheath is distributed. When the motor reverses, the adjacent tendon slides first and the rest follows
+/// as its tension is reached; the joint rests until all of it slides. Concentrated friction would release half of the
+/// sheath at once: equal in the end, but with an error of up to 1/8 of the sheath's stretch on the way. With n places
+/// the error is 1/n² of that.
 #pragma once
 
 #include <array>
@@ -15,8 +14,8 @@
 
 namespace fusee {
 
-/// From the joint to the pulley. Material and lengths are Spans'; `holds[j]`: ln of the ratio of the tensions on both
-/// sides of bend j that its friction holds, between the spans j and j + 1. The pin's is in the first.
+/// Spans from the joint to the pulley, with lengths and material as in Spans. `holds[j]`: ln of the tension ratio that
+/// friction sustains at bend j, between the spans j and j + 1. The first includes the pin.
 struct ThreadedSpans {
   static constexpr std::size_t k_bends = 6;
   std::array<double, k_bends + 1> length{};
@@ -27,18 +26,18 @@ struct ThreadedSpans {
 
 struct ThreadedBalance {
   std::array<double, ThreadedSpans::k_bends + 1> tension{};
-  std::array<double, ThreadedSpans::k_bends> crossed{};  ///< material that went past each bend, towards the joint, mm
+  std::array<double, ThreadedSpans::k_bends> crossed{};  ///< material that passed each bend towards the joint, mm
   std::array<int, ThreadedSpans::k_bends> slides{};      ///< 1: towards the joint, −1: to the pulley, 0: holds
-  PinContact contact = PinContact::stick;                ///< slides: at every bend, the same way
-  double per_length = 0;                                 ///< of the upper tension, by the upper length
-  double per_hold = 0;                                   ///< and by holds[0]
-  double lower_per_upper = 0;                            ///< how the lower tension follows it; 0 where a bend holds
+  PinContact contact = PinContact::stick;                ///< slip: at every bend, in one direction
+  double per_length = 0;                                 ///< d upper tension / d upper length
+  double per_hold = 0;                                   ///< d upper tension / d holds[0]
+  double lower_per_upper = 0;                            ///< d lower tension / d upper tension; 0 where a bend holds
 };
 
-/// `likely`: which bends slide, probably; it says where to begin and not what comes out.
+/// `likely`: an initial guess of the sliding bends; it does not affect the result.
 ThreadedBalance balance(const ThreadedSpans& spans, const std::array<int, ThreadedSpans::k_bends>& likely);
 
-/// d upper / d its length with all bends passing it at the present ratios of tensions.
+/// d upper / d its length with all bends sliding at the present tension ratios.
 double sliding_rate(const ThreadedSpans& spans, const ThreadedBalance& now);
 
 }  // namespace fusee

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t k_pieces = 160;
 
-/// A curve's value, slope and curvature at an end of a piece, by pieces.
+/// Value, slope and curvature at the end of an interval, in units of the interval.
 struct End {
   double value, slope, bend;
 };
@@ -34,12 +34,12 @@ double slope_at(const std::array<double, 6>& c, double u) {
   return c[1] + u * (2.0 * c[2] + u * (3.0 * c[3] + u * (4.0 * c[4] + u * 5.0 * c[5])));
 }
 
-/// What of a span is looked up, over the pieces' own length.
+/// The tabulated quantities of a span, in units of the interval.
 struct Knot {
   End length, m, normal;
 };
 
-/// The moment arm is what the path loses by an angle.
+/// Lengthens the path; the moment arm is minus its derivative by θ.
 UpperSpan made_longer(UpperSpan span, double theta, const PathError& by) {
   span.length += (by.slope + (by.square + by.cube * theta) * theta) * theta;
   span.m -= by.slope + (2.0 * by.square + 3.0 * by.cube * theta) * theta;
@@ -57,17 +57,17 @@ Knot knot_at(const PinPlace& place, double theta, double h, const PathError& lon
 
 }  // namespace
 
-// No piece reaches over the place where the tendon leaves the drum, at which its arm has a kink: below it the span is a
-// straight line of θ, or, on a drum off the axis, has pieces of its own.
+// No interval contains the lift-off angle, where the arm has a kink. Below it the span is linear in θ, or, for an
+// eccentric drum, has its own intervals.
 UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most, const PathError& longer) {
   if (const auto leaves = lift_off(place); leaves && *leaves > least) {
-    // The free branch begins a hair beyond, with slopes of its own.
+    // The free branch begins slightly beyond, with its own slopes.
     constexpr double k_hair = 1e-12;
     on_drum_until_ = std::min(*leaves, most);
     on_drum_ = upper_span(place, least);
     on_drum_from_ = least;
     wound_up_ = on_drum_.on_drum + on_drum_.normal + least;
-    if (place.drum_off != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_hair, longer);
+    if (place.drum_offset != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_hair, longer);
     least = *leaves + k_hair;
     if (least >= most) return;
   }
@@ -89,7 +89,7 @@ UpperSpanTable::Pieces UpperSpanTable::pieces(const PinPlace& place, double leas
   return all;
 }
 
-UpperSpanTable::Look UpperSpanTable::at(double theta) const {
+UpperSpanTable::Values UpperSpanTable::at(double theta) const {
   const bool on_drum = theta <= on_drum_until_ || free_.curves.empty();
   if (on_drum && over_drum_.curves.empty()) {
     const double turned = std::clamp(theta, on_drum_from_, on_drum_until_) - on_drum_from_;

@@ -1,6 +1,4 @@
-/// \file
-/// A tendon's upper span over all joint angles, looked up: the geometry that an equilibrium asks for many times at
-/// every step.
+/// Lookup table of a tendon's upper span over the joint angle, which an equilibrium evaluates many times per step.
 #pragma once
 
 #include <array>
@@ -12,15 +10,15 @@
 
 namespace fusee {
 
-/// By quintics between places a degree or so apart that take over values, slopes and curvatures: upper_span() to 1e-10
-/// of R where the span is not near its end.
+/// Quintics between nodes about a degree apart that match values, slopes and curvatures. Accurate to 1e-10 of R, except
+/// near the end of a span.
 class UpperSpanTable {
  public:
-  /// From `least` to `most` of the right-hand image's joint angle, rad. What lies on a drum about the axis is not
-  /// `longer`.
+  /// Covers joint angles of the right-hand image from `least` to `most`, rad. The part on a drum about the axis is not
+  /// lengthened by `longer`.
   UpperSpanTable(const PinPlace& place, double least, double most, const PathError& longer = {});
 
-  struct Look {
+  struct Values {
     double length = 0;   ///< UpperSpan::length, mm
     double m = 0;        ///< moment arm about O, mm
     double dm = 0;       ///< dm/dθ
@@ -28,10 +26,10 @@ class UpperSpanTable {
     double dnormal = 0;  ///< d normal / dθ
     double on_drum = 0;  ///< UpperSpan::on_drum, rad
   };
-  Look at(double theta) const;
+  Values at(double theta) const;
 
  private:
-  /// A quintic over a piece, from its least angle on in pieces.
+  /// A quintic over one interval, in units of intervals from its lower end.
   using Quintic = std::array<double, 6>;
   struct Piece {
     Quintic length, m, normal;
@@ -43,15 +41,15 @@ class UpperSpanTable {
   };
   static Pieces pieces(const PinPlace& place, double least, double most, const PathError& longer);
 
-  double on_drum_until_ = -std::numeric_limits<double>::infinity();  ///< rad; from there on it is looked up
+  double on_drum_until_ = -std::numeric_limits<double>::infinity();  ///< rad; the table begins there
   double on_drum_from_ = 0;
   UpperSpan on_drum_;    ///< at on_drum_from_
-  double wound_up_ = 0;  ///< what lies on the drum, normal and θ add up to, rad
-  Pieces over_drum_;     ///< of a drum off the axis; about it: none
+  double wound_up_ = 0;  ///< sum of wrap on the drum, normal and θ, rad
+  Pieces over_drum_;     ///< for an eccentric drum only
   Pieces free_;
 };
 
-/// Of the left tendon's image and of the right one.
+/// Tables of the left tendon's image and of the right tendon.
 struct UpperSpans {
   UpperSpans(const std::array<PinPlace, 2>& pins, double theta_least, double theta_most,
              const std::array<PathError, 2>& longer)

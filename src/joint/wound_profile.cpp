@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
-// With T at the take-off, the sliding part ends where the bound T e^{∓μφ} meets what lies there: the stored profile
-// obeys the law itself, so that nothing beyond can slide. Material that slides moves along the arc by its strain's
-// share of a millimetre; the profile is kept by place, not by element. Exact where it slides, since there the bound is
-// all there is to know, and where it does not, since nothing moves.
+// With T at the take-off, the sliding part ends where the bound T e^{∓μφ} meets the stored tension. The stored profile
+// obeys the law itself, so that nothing beyond can slide. Sliding material moves along the arc by a small fraction of a
+// millimetre, so the profile is stored by place, not by element. This is exact where the tendon slides, because the
+// bound determines the state, and where it does not, because nothing moves.
 //
-// No piece is a grid's: what slid is one piece however long, what was laid one a step. Over a stroke each piece is
-// pushed and popped once.
+// Pieces do not follow a grid: a slid part is one piece of any length, a laid part one per step. Over a stroke each
+// piece is pushed and popped once.
 
 namespace fusee {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 double strain_of(double density, double swelling) { return std::max(0.0, 1.0 / (swelling * density) - 1.0); }
 double density_of(double strain, double swelling) { return 1.0 / (swelling * (1.0 + strain)); }
 
-/// Elastic energy of an arc length, over EA.
+/// Elastic energy per arc length, over EA.
 double energy_per_arc(double density, double swelling) {
   const double strain = strain_of(density, swelling);
   return 0.5 * strain * strain / (1.0 + strain);
@@ -29,17 +29,17 @@ WoundContent linear(double arc, double density_from, double density_to, double s
           0.5 * (energy_per_arc(density_from, swelling) + energy_per_arc(density_to, swelling)) * arc};
 }
 
-/// Gauss's places and weights on [−1, 1].
+/// Nodes and weights of the three-point Gauss quadrature on [−1, 1].
 constexpr std::array<std::array<double, 2>, 3> k_gauss{
     {{-0.774596669241483377, 5.0 / 18.0}, {0.0, 8.0 / 18.0}, {0.774596669241483377, 5.0 / 18.0}}};
-/// Of the wrap, rad, and of what falls over it by e^{μφ}: 1e-7 of its change.
+/// Panel width of the quadrature in wrap (rad) and in μφ, for an error of 1e-7 of the change.
 constexpr double k_panel = 1.0;
-/// Less strain than this is none: to logarithms it is that much.
+/// Strain that counts as zero in logarithms.
 constexpr double k_no_strain = 1e-17;
 
 double log_of(double strain) { return std::log(std::max(strain, k_no_strain)); }
 
-/// e^x and e^−x to rounding, for |x| ≤ 0.4.
+/// e^x and e^−x to machine precision, for |x| ≤ 0.4.
 std::array<double, 2> both_ways(double x) {
   const double y = x * x;
   const double even =
@@ -48,20 +48,20 @@ std::array<double, 2> both_ways(double x) {
   return {even + odd, even - odd};
 }
 
-struct SlidStretch {
+struct SlidContent {
   WoundContent held;
   double length = 0;  ///< as Slide::length
 };
 
-/// What lies between `from` and `to` with the strain ε e^{fall (to − turn)}, ε at `to`.
+/// Content between `from` and `to` with the strain ε e^{fall (to − turn)}, ε at `to`.
 ///
-/// By parts: ∫ f(q) ds over q = e^{fall φ} is f(1) (s_to − s_from) + fall ∫ (s − s_from) q f'(q) dψ, exact where
-/// nothing falls.
-SlidStretch sliding(const GrooveArc& groove, const GroovePlace& from, const GroovePlace& to, double strain, double fall,
+/// By parts: ∫ f(q) ds over q = e^{fall φ} is f(1) (s_to − s_from) + fall ∫ (s − s_from) q f'(q) dψ, exact for fall =
+/// 0.
+SlidContent sliding(const GrooveArc& groove, const GroovePlace& from, const GroovePlace& to, double strain, double fall,
                     double swelling) {
   const double arc = to.arc - from.arc;
   const double whole = 1.0 + strain;
-  SlidStretch sum{{arc / whole, 0.5 * strain * strain / whole * arc}, arc};
+  SlidContent sum{{arc / whole, 0.5 * strain * strain / whole * arc}, arc};
   const double turn = to.turn - from.turn;
   if (fall != 0 && turn > 0) {
     const int panels = static_cast<int>(std::ceil(turn * std::max(1.0, std::abs(fall)) / k_panel));
@@ -99,7 +99,7 @@ WoundContent operator-(const WoundContent& all, const WoundContent& part) {
   return {all.material - part.material, all.energy - part.energy};
 }
 
-/// `piece` below `place`. Mostly little of it is taken off, which is sooner summed up than what stays.
+/// The part of `piece` below `place`. Usually little is removed, which is integrated faster than the remainder.
 WoundPiece below(const GrooveArc& groove, WoundPiece piece, const GroovePlace& place, double swelling) {
   if (piece.slid) {
     const double above = strain_of(piece.density_to, swelling);
@@ -119,29 +119,29 @@ WoundPiece below(const GrooveArc& groove, WoundPiece piece, const GroovePlace& p
   return piece;
 }
 
-/// The bound of what slides, as its logarithm: a straight line over the turning.
+/// The bound of the sliding part: its logarithm is linear in the turn.
 struct Bound {
-  double turn = 0;  ///< of its upper end
+  double turn = 0;  ///< turn of its upper end
   double log_strain = 0;
   double fall = 0;
-  bool pulls = true;  ///< else it lets go
+  bool pulls = true;  ///< true: pulls; false: releases
 
-  /// By how much it is beyond what has the logarithm of its strain `there`, which it moves where that is positive.
+  /// Excess of the bound over a strain with the logarithm `there`; positive if it moves the tendon.
   double beyond(double at, double there) const {
     const double by = log_strain + fall * (turn - at) - there;
     return pulls ? by : -by;
   }
 };
 
-/// Where the bound stops moving `piece`; `piece.to` where it moves nothing of it, `piece.from` where all. Given the
-/// logarithms of the strains at its ends.
+/// The place on `piece` at which the bound stops to move the tendon: `piece.to` if nothing moves, `piece.from` if all does. Takes the logarithms of
+/// the strains at its ends.
 GroovePlace cut_of(const WoundPiece& piece, double log_from, double log_to, const Bound& bound,
                    const GrooveArc& groove) {
   const double at_to = bound.beyond(piece.to.turn, log_to);
   if (!(at_to > 0)) return piece.to;
   const double at_from = bound.beyond(piece.from.turn, log_from);
   if (at_from > 0) return piece.from;
-  // Straight in between: exact where the piece has slid, and what was laid in a step is short.
+  // Linear interpolation: exact for a slid piece, and a piece laid in one step is short.
   const double share = at_to / (at_to - at_from);
   const double turn = piece.to.turn - share * (piece.to.turn - piece.from.turn);
   if (!piece.slid) return {turn, piece.to.arc - share * (piece.to.arc - piece.from.arc)};
@@ -174,8 +174,8 @@ GrooveArc::GrooveArc(std::vector<GroovePlace> along, double knot_beyond) {
   knot_ = {knots_.front().turn - knot_beyond / knots_.front().slope, knots_.front().arc - knot_beyond};
 }
 
-// What lies straight between drum and knot has the strain of the drum's end: for sliding(), whose sums are by parts
-// from the knot's arc on, it is as good as more arc at the same turn.
+// The straight part between drum and knot has the strain of the drum's end. In sliding(), which integrates by parts
+// from the knot's arc, it acts as additional arc at the same turn.
 GrooveArc GrooveArc::round(double radius, double behind) {
   GrooveArc drum({{0.0, 0.0}, {1.0, radius}}, 0.0);
   drum.knot_.arc -= behind;
@@ -187,7 +187,7 @@ double GrooveArc::arc(double turn) const {
   const Knot& last = knots_.back();
   if (turn <= first.turn) return first.arc + (turn - first.turn) * first.slope;
   if (turn >= last.turn) return last.arc + (turn - last.turn) * last.slope;
-  // The knots are nearly as far apart everywhere.
+  // The nodes are nearly equidistant.
   std::size_t i = std::min(static_cast<std::size_t>((turn - first.turn) * per_turn_), knots_.size() - 2);
   while (knots_[i].turn > turn) --i;
   while (knots_[i + 1].turn < turn) ++i;
@@ -211,8 +211,8 @@ double WoundProfile::strain_at_knot(double swelling) const {
   return pieces_.empty() ? strain(swelling) : strain_of(pieces_.front().density_from, swelling);
 }
 
-Turned WoundProfile::turned_to(const GroovePlace& take_off, double swelling) const {
-  Turned turned;
+TurnedPulley WoundProfile::turned_to(const GroovePlace& take_off, double swelling) const {
+  TurnedPulley turned;
   turned.take_off = take_off;
   turned.before = take_off.arc > take_off_.arc ? take_off_ : take_off;
   turned.lies = strain(swelling);
@@ -243,7 +243,7 @@ Turned WoundProfile::turned_to(const GroovePlace& take_off, double swelling) con
   return turned;
 }
 
-Slide WoundProfile::slide(const Turned& turned, double strain, double swelling) const {
+Slide WoundProfile::slide(const TurnedPulley& turned, double strain, double swelling) const {
   Slide slide;
   slide.strain = strain;
   slide.below = turned.below;
@@ -287,14 +287,14 @@ Slide WoundProfile::slide(const Turned& turned, double strain, double swelling) 
     slide.rest = pieces_[--slide.below];
     log_to = slide.rest.density_to == density ? log_from : log_of(strain_of(slide.rest.density_to, swelling));
   }
-  const SlidStretch moved = sliding(*groove_, slide.cut, turned.before, top, bound.fall, swelling);
+  const SlidContent moved = sliding(*groove_, slide.cut, turned.before, top, bound.fall, swelling);
   slide.sliding = moved.held;
   slide.freed += came_loose - moved.held.material;
   slide.length += moved.length * shared;
   return slide;
 }
 
-WoundContent WoundProfile::accept(const Turned& turned, const Slide& slide, double swelling) {
+WoundContent WoundProfile::accept(const TurnedPulley& turned, const Slide& slide, double swelling) {
   WoundContent more{-turned.past_knot.material, -turned.past_knot.energy};
   for (std::size_t i = slide.below; i < pieces_.size(); ++i) {
     more.material -= pieces_[i].held.material;

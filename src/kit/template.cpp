@@ -148,8 +148,8 @@ class TemplateMaker {
       pin.place = {sign * place.pin().x(), place.pin().y()};
       pin.radius = pin.collar = mechanism_.guides.radius;
       holes.push_back({side == Side::left ? "pin_B" : "pin_D", pin.place, pin_hole});
-      if (!place.mouth) continue;
-      const Vec2 exit = place.pulley_axis() + Vec2(sign * place.mouth->across, place.mouth->above);
+      if (!place.sheath_exit) continue;
+      const Vec2 exit = place.pulley_axis() + Vec2(sign * place.sheath_exit->across, place.sheath_exit->above);
       holes.push_back({side == Side::left ? "mouth_1" : "mouth_2", exit, ferrule()});
     }
     const Vec2 pulley = pin_place(mechanism_, Side::left, 0).pulley_axis();

@@ -26,7 +26,7 @@ std::vector<Sample> some_of(const Run& run) {
 /// Median of what is measured beyond what is declared, with α moved by `turn`; rad.
 double beyond(const std::vector<Sample>& samples, const DeclaredLaw& law, double turn) {
   std::vector<double> values;
-  for (const Sample& sample : samples) values.push_back(sample.theta - law.theta_straight_on(sample.alpha + turn));
+  for (const Sample& sample : samples) values.push_back(sample.theta - law.theta_extrapolated(sample.alpha + turn));
   return median_of(std::move(values));
 }
 
@@ -128,7 +128,7 @@ Slopes slopes_of(const DeclaredLaw& law, const Measurement& measurement) {
     }
     for (const Sample& sample : samples) {
       products += (sample.alpha - alpha) * (sample.theta - theta);
-      declared_products += (sample.alpha - alpha) * law.theta_straight_on(sample.alpha);
+      declared_products += (sample.alpha - alpha) * law.theta_extrapolated(sample.alpha);
       squares += (sample.alpha - alpha) * (sample.alpha - alpha);
       theta_squares += (sample.theta - theta) * (sample.theta - theta);
     }

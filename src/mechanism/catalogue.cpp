@@ -23,7 +23,7 @@ std::string text(const toml::table& item, const char* key) {
   return *value;
 }
 
-/// The keys of a horn are those of [horn] in a mechanism file, in its units.
+/// A horn has the keys and units of [horn] in a mechanism file.
 HornType make(const toml::table& item, HornType type) {
   DeclaredMechanism mechanism;
   for (const Field& field : fields()) {

@@ -17,7 +17,7 @@ struct Replacement {
   std::string text;
 };
 
-/// toml++ counts lines from 1 and columns in code points from 1.
+/// Byte offset of a toml++ position. Lines and columns (code points) count from 1.
 std::size_t offset_of(std::string_view text, const toml::source_position& position) {
   std::size_t at = 0;
   for (toml::source_index line = 1; line < position.line; ++line)
@@ -30,7 +30,7 @@ std::size_t offset_of(std::string_view text, const toml::source_position& positi
   return at;
 }
 
-/// A number as TOML, of a kind that reads back the same.
+/// A number as TOML that reads back exactly.
 std::string number_text(double value) { return shortest(value); }
 
 const toml::node* written_node(const toml::table& root, const NumberKey& key) {
@@ -40,12 +40,11 @@ const toml::node* written_node(const toml::table& root, const NumberKey& key) {
   return ends == nullptr ? nullptr : ends->get(static_cast<std::size_t>(key.end));
 }
 
-/// The numbers of the file with their new values, and nothing else of it: what a pair is made whole from that gets one
-/// of its numbers only.
+/// The numbers of the file with their new values. Completes a pair when only one of its numbers is edited.
 DeclaredMechanism edited_numbers(const toml::table& root, const std::vector<ValueEdit>& edits) {
   DeclaredMechanism mechanism = default_mechanism();
   for (const FieldKind kind :
-       {FieldKind::number, FieldKind::range, FieldKind::point}) {  // a point may stand on a number
+       {FieldKind::number, FieldKind::range, FieldKind::point}) {  // points may depend on numbers
     for (const std::string& name : number_key_names()) {
       const auto key = find_number_key(name);
       if (key->field->kind != kind) continue;
@@ -59,7 +58,7 @@ DeclaredMechanism edited_numbers(const toml::table& root, const std::vector<Valu
   return mechanism;
 }
 
-/// A line for a key that its table does not hold yet.
+/// A new line for a key that its table does not contain.
 Replacement new_line(std::string_view text, const toml::table& root, const Field& field, std::string_view value,
                      std::vector<std::string>& new_tables) {
   const std::string line = std::string(field.key) + " = " + std::string(value);
@@ -71,7 +70,7 @@ Replacement new_line(std::string_view text, const toml::table& root, const Field
     }
     const std::size_t begin = offset_of(text, table->source().begin);
     if (text[begin] != '[')
-      return {begin, begin, table_name + "." + line + "\n"};  // of dotted keys: "joint.length_mm = 1"
+      return {begin, begin, table_name + "." + line + "\n"};  // table of dotted keys: "joint.length_mm = 1"
     const std::size_t at = std::min(text.find('\n', begin), text.size());
     return {at, at, "\n" + line};
   }
@@ -81,7 +80,7 @@ Replacement new_line(std::string_view text, const toml::table& root, const Field
   return {text.size(), text.size(), first ? (ended ? "\n[" : "\n\n[") + table_name + "]\n" + line + "\n" : line + "\n"};
 }
 
-/// The file with the two keys that a former one stands for in its place.
+/// The file with each former key replaced by its two successors.
 std::string without_former_keys(std::string text) {
   const toml::table root = toml::parse(text);
   for (const auto& [table_name, node] : root) {
@@ -111,7 +110,7 @@ std::string edit_values(std::string_view as_written, const std::vector<ValueEdit
   const toml::table root = toml::parse(text);
   std::vector<Replacement> replacements;
   std::vector<std::string> new_tables, new_pairs;
-  // Keys of one new table one after another.
+  // Groups the keys of a new table.
   std::vector<ValueEdit> ordered = edits;
   std::stable_sort(ordered.begin(), ordered.end(), [](const ValueEdit& a, const ValueEdit& b) {
     return a.key.substr(0, a.key.find('.')) < b.key.substr(0, b.key.find('.'));

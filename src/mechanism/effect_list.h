@@ -1,4 +1,4 @@
-/// \file
+/// Internal: the list of effects that list_effects.cmake generates from effects/.
 /// Internal: what list_effects.cmake makes of the files in effects/.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace fusee {
 
-/// What every file of effects/ gives, in the order of their names.
+/// The effects of all files in effects/, sorted by file name.
 std::vector<Effect> effect_list(JointKind kind);
 
 }  // namespace fusee

@@ -18,11 +18,11 @@ std::vector<Effect> in_order(JointKind kind) {
   return all;
 }
 
-double as_it_stands(double value) { return value; }
+double unconverted(double value) { return value; }
 double percent(double fraction) { return 100.0 * fraction; }
 double fraction(double percent) { return percent / 100.0; }
-double per_million(double fraction) { return 1e6 * fraction; }
-double of_a_million(double ppm) { return 1e-6 * ppm; }
+double to_ppm(double fraction) { return 1e6 * fraction; }
+double from_ppm(double ppm) { return 1e-6 * ppm; }
 
 }  // namespace
 
@@ -109,7 +109,7 @@ double prior_of(const EffectParameter& parameter, double largest_load) {
 }
 
 double value_of(const Imperfections& joint, const EffectParameter& parameter) {
-  Imperfections copy = joint;  // numbers are reached through a reference that may write
+  Imperfections copy = joint;  // parameters are accessed through a mutable reference
   return parameter.number(copy);
 }
 
@@ -129,17 +129,17 @@ void reset(Imperfections& joint, const EffectParameter& parameter) {
   set_value(joint, parameter, value_of({}, parameter));
 }
 
-Imperfections found_again(const Imperfections& before, const Imperfections& found, JointKind kind) {
+Imperfections merge_findings(const Imperfections& before, const Imperfections& found, JointKind kind) {
   Imperfections total = found;
   for (const Effect& effect : effects(kind)) {
-    if (effect.found_again != nullptr) {
-      effect.found_again(before, total);
+    if (effect.merge != nullptr) {
+      effect.merge(before, total);
       continue;
     }
     for (const EffectParameter& parameter : effect.parameters) {
       const double first = value_of(before, parameter), second = value_of(found, parameter);
-      if (parameter.again == WhenFoundAgain::added) set_value(total, parameter, second + first);
-      if (parameter.again == WhenFoundAgain::compounded) set_value(total, parameter, (1 + first) * (1 + second) - 1);
+      if (parameter.merge_rule == MergeRule::add) set_value(total, parameter, second + first);
+      if (parameter.merge_rule == MergeRule::compound) set_value(total, parameter, (1 + first) * (1 + second) - 1);
     }
   }
   return total;
@@ -147,7 +147,7 @@ Imperfections found_again(const Imperfections& before, const Imperfections& foun
 
 Imperfections changed(const Imperfections& before, const Imperfections& change, JointKind kind) {
   Imperfections after = before;
-  // No effect of a joint declared by a ratio has its zero: the file leaves it free.
+  // Joints declared by a ratio have no effect for the sensor's zero, which their file leaves free.
   after.sensor.zero += change.sensor.zero;
   for (const Effect& effect : effects(kind)) {
     const bool changes = std::any_of(effect.parameters.begin(), effect.parameters.end(),
@@ -165,7 +165,7 @@ Imperfections beyond_mechanism(const Imperfections& found, JointKind kind) {
   Imperfections rest = found;
   for (const Effect& effect : effects(kind)) {
     for (const EffectParameter& parameter : effect.parameters) {
-      if (parameter.again != WhenFoundAgain::anew) reset(rest, parameter);
+      if (parameter.merge_rule != MergeRule::replace) reset(rest, parameter);
     }
   }
   return rest;
@@ -174,7 +174,7 @@ Imperfections beyond_mechanism(const Imperfections& found, JointKind kind) {
 namespace key {
 
 IdentifiedKey plain(std::string_view name, std::string_view unit, double least, double most, std::string_view meaning) {
-  return {name, unit, meaning, least, most, as_it_stands, as_it_stands};
+  return {name, unit, meaning, least, most, unconverted, unconverted};
 }
 IdentifiedKey in_degrees(std::string_view name, double least, double most, std::string_view meaning) {
   return {name, "deg", meaning, least, most, degrees, radians};
@@ -183,7 +183,7 @@ IdentifiedKey in_percent(std::string_view name, double least, double most, std::
   return {name, "%", meaning, least, most, percent, fraction};
 }
 IdentifiedKey in_ppm(std::string_view name, std::string_view meaning) {
-  return {name, "ppm_per_K", meaning, -1e5, 1e5, per_million, of_a_million};
+  return {name, "ppm_per_K", meaning, -1e5, 1e5, to_ppm, from_ppm};
 }
 
 }  // namespace key

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: the files of profiles/ that were compiled in (embed_profiles.cmake).
+/// Internal: the files of profiles/, compiled in (embed_profiles.cmake).
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 namespace fusee {
 
 struct EmbeddedFile {
-  std::string_view name;  ///< without its ending
+  std::string_view name;  ///< without the suffix
   std::string_view text;
 };
 

@@ -10,8 +10,8 @@
 namespace fusee {
 namespace {
 
-/// The fields that a word means: a dotted name, a key (of every table that has it), a table, or all for "".
-std::vector<const Field*> meant(std::string_view word) {
+/// The fields that match a word: a dotted name, a key (in every table that has it), a table, or all for "".
+std::vector<const Field*> matching_fields(std::string_view word) {
   std::vector<const Field*> found;
   const std::vector<std::string> tables = field_tables();
   const bool is_table = !word.empty() && std::find(tables.begin(), tables.end(), word) != tables.end();
@@ -28,7 +28,7 @@ std::vector<const Field*> meant(std::string_view word) {
                    nearest.empty() ? "fusee explain lists all keys" : "did you mean " + nearest + "?");
 }
 
-/// One thing of the catalogue.
+/// One entry of the catalogue.
 std::string entry(const std::string& words) { return wrapped(words, "    ", "      "); }
 
 std::string horn_words(const Horn& horn) {
@@ -45,14 +45,14 @@ std::string horn_words(const Horn& horn) {
 }
 
 std::string horn_list() {
-  std::string text = "  There are (profiles/catalogue/horns.toml):\n";
+  std::string text = "  Known horns (profiles/catalogue/horns.toml):\n";
   for (const HornType& type : horns())
     text += entry(type.name + ": " + type.description + "; " + horn_words(type.horn) + ". " + type.source);
   return text;
 }
 
 std::string shaft_list() {
-  std::string text = "  There are (profiles/catalogue/shafts.toml):\n";
+  std::string text = "  Known shafts (profiles/catalogue/shafts.toml):\n";
   for (const ShaftType& type : shafts()) {
     text += entry(type.name + ": " + type.description + "; " + shortest(type.diameter) + " mm" +
                   (type.flat > 0 ? ", " + shortest(type.flat) + " mm over the flat" : "") + ". " + type.source);
@@ -74,12 +74,12 @@ std::string material_list() {
   std::string text = "  Known materials (profiles/catalogue/materials.toml):\n";
   for (const MaterialType& type : material_types()) {
     text += entry(type.name + ": shrinks " + shortest(type.shrinkage_least) + " to " + shortest(type.shrinkage_most) +
-                  " %, mostly " + shortest(type.shrinkage_typical) + " %. " + type.description + ". " + type.source);
+                  " %, typically " + shortest(type.shrinkage_typical) + " %. " + type.description + ". " + type.source);
   }
   return text;
 }
 
-/// What of the catalogue helps with a key.
+/// The part of the catalogue that is useful for a key.
 std::string catalogue_text(const Field& field) {
   if (field.name() == "body.horn") return horn_list();
   if (field.name() == "body.shaft") return shaft_list();
@@ -97,7 +97,7 @@ std::string field_text(const Field& field) {
   return text + wrapped(default_text(field), "  ", "  ");
 }
 
-/// Key by key, by tables.
+/// A list of keys, grouped by table.
 std::string list_text(const std::vector<const Field*>& list) {
   std::size_t width = 0;
   for (const Field* field : list) width = std::max(width, field->key.size());
@@ -179,7 +179,7 @@ Json catalogue_json() {
 }  // namespace
 
 std::string explain(std::string_view key) {
-  const std::vector<const Field*> list = meant(key);
+  const std::vector<const Field*> list = matching_fields(key);
   const bool one_key = !key.empty() && (list.front()->key == key || list.front()->name() == key);
   if (!one_key) return list_text(list);
   std::string text;
@@ -190,7 +190,7 @@ std::string explain(std::string_view key) {
 std::string explain_json(std::string_view key) {
   Json json;
   json["schema"] = 1;
-  for (const Field* field : meant(key)) json["fields"].push_back(field_json(*field));
+  for (const Field* field : matching_fields(key)) json["fields"].push_back(field_json(*field));
   json["catalogue"] = catalogue_json();
   return json_text(json, 2);
 }

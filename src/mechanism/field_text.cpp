@@ -7,7 +7,7 @@
 namespace fusee {
 namespace {
 
-/// Control characters, quotes and backslashes as TOML escapes them.
+/// Control characters, quotes and backslashes escaped as in TOML.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -104,7 +104,7 @@ std::string toml_string(std::string_view text) { return "\"" + escaped(text) + "
 std::string as_shown(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return unicode_escaped(escaped(text));
   std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a UTF-8 character
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // do not split a UTF-8 character
   return unicode_escaped(escaped(text.substr(0, end))) + "...";
 }
 
@@ -119,7 +119,7 @@ std::string condition_text(const Field& field) {
 
 std::string default_text(const Field& field) {
   const std::string only = field.only_when.empty() ? "" : " with " + condition_text(field);
-  if (!field.otherwise.empty()) return "left out: " + std::string(field.otherwise);
+  if (!field.otherwise.empty()) return "if omitted: " + std::string(field.otherwise);
   if (field.fallback.empty()) return "required" + only;
   const std::string unit = field.unit.empty() ? "" : " " + std::string(field.unit);
   return "default " + std::string(field.fallback) + unit + (only.empty() ? "" : "; used only" + only);

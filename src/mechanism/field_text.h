@@ -1,5 +1,5 @@
 /// \file
-/// Internal: what messages, the writer, explain and the schema say about one field.
+/// Internal: texts about one field for messages, the writer, explain and the schema.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ namespace fusee {
 
 /// "40 mm", "-5 %", "3".
 std::string with_unit(double value, std::string_view unit);
-/// What may stand there: "1 to 10000 mm", "two angles, -175 to 175 deg", "\"exact\" or \"paper\"", "true or false".
+/// Allowed values: "1 to 10000 mm", "two angles, -175 to 175 deg", "\"exact\" or \"paper\"", "true or false".
 std::string allowed_text(const Field& field);
-/// What it is: "a number in mm", "two angles [lowest, highest] in deg" …
+/// Kind of value: "a number in mm", "two angles [lowest, highest] in deg" …
 std::string kind_text(const Field& field);
-/// The text a person typed, safe and short enough to be shown: control characters escaped, cut after `longest` bytes.
+/// Text typed by the user, made printable: control characters escaped, cut after `longest` bytes.
 std::string as_shown(std::string_view text, std::size_t longest = 60);
-/// The same in quotes.
+/// As as_shown(), in quotes.
 std::string in_quotes(std::string_view text);
 /// `"exact" or "paper"`.
 std::string choices_text(const std::vector<std::string_view>& choices);
@@ -26,7 +26,7 @@ std::string choices_text(const std::vector<std::string_view>& choices);
 std::string toml_string(std::string_view text);
 /// "required", "required with law = \"linear\"", "default 40 mm".
 std::string default_text(const Field& field);
-/// Field::only_when as it is written in a file: `law = "linear"`.
+/// Field::only_when in the file's syntax: `law = "linear"`.
 std::string condition_text(const Field& field);
 
 }  // namespace fusee

@@ -12,9 +12,9 @@
 namespace fusee {
 namespace {
 
-// ---- how a row reaches its member -----------------------------------------------------------------------------------
+// ---- accessors of members -------------------------------------------------------------------------------------------
 
-double as_it_is(double value) { return value; }
+double identity(double value) { return value; }
 double in_percent(double fraction) { return 100.0 * fraction; }
 double from_percent(double percent) { return percent / 100.0; }
 
@@ -71,11 +71,11 @@ auto& member_of(DeclaredMechanism& mechanism) {
 
 // ---- builders of rows -----------------------------------------------------------------------------------------------
 
-/// What all kinds of rows have in common.
+/// Common properties of all kinds of rows.
 struct Row {
   std::string_view name;  ///< "joint.length_mm"
   std::string_view symbol;
-  std::string_view fallback;  ///< "" without only_when: required
+  std::string_view fallback;  ///< "" without only_when: mandatory
   std::string_view meaning;
   std::string_view only_when = {};
 };
@@ -94,7 +94,7 @@ Field base_field(const Row& row, FieldKind kind) {
   return field;
 }
 
-template <auto Part, auto Member, Conversion to_file = as_it_is, Conversion from_file = as_it_is>
+template <auto Part, auto Member, Conversion to_file = identity, Conversion from_file = identity>
 Field number(const Row& row, std::string_view unit, double least, double most) {
   Field field = base_field(row, FieldKind::number);
   field.unit = unit;
@@ -145,7 +145,7 @@ Field boolean(const Row& row) {
   return field;
 }
 
-/// `least`, `most`: of each number of the list.
+/// `least`, `most`: bounds of each number of the list.
 template <auto Part, auto Member>
 Field numbers(const Row& row, double least, double most) {
   Field field = base_field(row, FieldKind::numbers);
@@ -169,7 +169,7 @@ std::vector<std::string_view> shaft_names() {
   return names;
 }
 
-// ---- rows that are not one member -----------------------------------------------------------------------------------
+// ---- rows without a member of their own -----------------------------------------------------------------------------
 
 Field schema_field() {
   Field field = base_field({"schema", "", "", "version of this file format"}, FieldKind::number);
@@ -180,8 +180,8 @@ Field schema_field() {
 }
 
 Field name_field() {
-  Field field = base_field({"name", "", "\"joint\"", "what the joint is called; stands in the files that are made"},
-                           FieldKind::text);
+  Field field =
+      base_field({"name", "", "\"joint\"", "name of the joint; appears in the output files"}, FieldKind::text);
   field.get_text = [](const DeclaredMechanism& mechanism) { return mechanism.name; };
   field.set_text = [](DeclaredMechanism& mechanism, std::string_view value) { mechanism.name = value; };
   return field;
@@ -223,8 +223,8 @@ Field attachment_field(std::string_view name, std::string_view meaning) {
 }
 
 Field transmission_kind_field() {
-  Field field = base_field({"transmission.kind", "", "", "a joint that is not this mechanism, for calibrate alone"},
-                           FieldKind::choice);
+  Field field =
+      base_field({"transmission.kind", "", "", "a joint declared by a ratio, for calibrate only"}, FieldKind::choice);
   field.choices = {"ratio"};
   field.get_text = [](const DeclaredMechanism& m) { return std::string(m.transmission ? "ratio" : ""); };
   field.set_text = [](DeclaredMechanism& m, std::string_view) {
@@ -247,8 +247,8 @@ Field transmission_ratio_field() {
 }
 
 // ---- the table ------------------------------------------------------------------------------------------------------
-// Bounds are those of things that can be made and of formulas that make sense, with room to spare: they catch a slipped
-// decimal point or a wrong unit. Whether a pulley exists is for synthesis to say.
+// Bounds are generous: they exclude values that cannot be made or computed, and catch wrong units and decimal points.
+// Synthesis decides if a pulley exists.
 
 void add_load(std::vector<Field>& table) {
   constexpr auto load = &Mechanism::load;
@@ -262,8 +262,8 @@ void add_load(std::vector<Field>& table) {
       {"load.lever_mm", "", "0", "from the joint axis along OC to the centre of that mass"}, "mm", -10000, 10000));
   table.push_back(number<load, &Load::tilt, degrees, radians>(
       {"load.tilt_deg", "", "0",
-       "the joint angle at which OC points straight up: 0 at home, 90: level at home, the weight loads tendon 2; 180: "
-       "it hangs down at home"},
+       "the joint angle at which OC points straight up; 0: upright at home; 90: horizontal at home, so that the weight "
+       "loads tendon 2; 180: hanging down at home"},
       "deg", -360, 360));
 }
 
@@ -276,34 +276,32 @@ void add_sheath(std::vector<Field>& table) {
     field.is_set = [](const DeclaredMechanism& m) { return m.sheath.is_there(); };
     table.push_back(std::move(field));
   };
-  constexpr std::string_view asked = "no sheath; needed with any key of [sheath]";
+  constexpr std::string_view asked = "no sheath; required with any key of [sheath]";
   add(number<sheath, &Sheath::length>({"sheath.length_mm", "", "",
                                        "length of each tendon's Bowden sheath from its pin to the motor; the sheath "
                                        "points straight down at the pin"},
                                       "mm", 1, 100000),
       asked);
   add(number<sheath, &Sheath::bend, degrees, radians>(
-          {"sheath.bend_deg", "", "",
-           "sum of the bends of a sheath, those at its ends among them: 180 for a half turn, whatever the radius"},
+          {"sheath.bend_deg", "", "", "total bend of a sheath, ends included: 180 for a half turn of any radius"},
           "deg", 0, 3600),
       asked);
   add(number<sheath, &Sheath::mu>(
           {"sheath.friction", "", "0.08",
-           "capstan coefficient between tendon and sheath: it takes e^(friction bend) of a tension"},
+           "capstan coefficient between tendon and sheath: it reduces a tension by a factor e^(friction bend)"},
           "", 0, 1),
       {});
   add(number<sheath, &Sheath::stiffness>(
-          {"sheath.stiffness_N_per_mm", "", "0",
-           "of a sheath in compression: force per mm by which it gets shorter; 0: rigid"},
-          "N/mm", 0, 1000000),
+          {"sheath.stiffness_N_per_mm", "", "0", "axial stiffness of a sheath in compression; 0: rigid"}, "N/mm", 0,
+          1000000),
       {});
   add(number<sheath, &Sheath::exit_across>(
           {"sheath.exit_across_mm", "", "",
-           "the mouths at the motor stand this far to the left and right of the pulley's axis"},
+           "distance of the sheath exits at the motor to the left and right of the pulley's axis"},
           "mm", 0.1, 10000),
       asked);
   add(number<sheath, &Sheath::exit_above>(
-          {"sheath.exit_above_mm", "", "", "the mouths at the motor stand this far above the pulley's axis"}, "mm", 1,
+          {"sheath.exit_above_mm", "", "", "height of the sheath exits at the motor above the pulley's axis"}, "mm", 1,
           10000),
       asked);
 }
@@ -313,8 +311,7 @@ void add_spring(std::vector<Field>& table) {
   constexpr auto has_spring = [](const DeclaredMechanism& m) { return m.spring != Spring{}; };
   table.push_back(number<spring, &Spring::stiffness>(
       {"spring.stiffness_Nmm_per_rad", "", "0",
-       "stiffness of a spring about the joint's axis, between base and link; 0: its torque is preload_Nmm at every "
-       "angle"},
+       "stiffness of a spring about the joint's axis, between base and link; 0: constant torque preload_Nmm"},
       "Nmm_per_rad", 0, 10000000));
   table.back().is_set = has_spring;
   table.push_back(number<spring, &Spring::preload>(
@@ -322,7 +319,7 @@ void add_spring(std::vector<Field>& table) {
   table.back().is_set = has_spring;
   table.push_back(number<spring, &Spring::free, degrees, radians>(
       {"spring.free_deg", "", "0",
-       "the joint angle at which its torque is preload_Nmm: without one, where it is slack"},
+       "the joint angle at which the spring's torque is preload_Nmm; without preload: its rest angle"},
       "deg", -360, 360));
   table.back().is_set = has_spring;
 }
@@ -335,102 +332,100 @@ void add_mechanism(std::vector<Field>& table) {
   table.push_back(number<joint, &Joint::R>(
       {"joint.length_mm", "R", "", "from the joint axis O to the tendons' attachment C"}, "mm", 1, 10000));
   table.push_back(range_field());
-  table.push_back(number<joint, &Joint::drum_radius>(
-      {"joint.drum_radius_mm", "", "0",
-       "radius of a drum about O, fixed to the link: a tendon that would cut it lies on it, its centre line half its "
-       "thickness further out; 0: none"},
-      "mm", 0, 5000));
+  table.push_back(
+      number<joint, &Joint::drum_radius>({"joint.drum_radius_mm", "", "0",
+                                          "radius of a drum about O, fixed to the link, on which tendons wrap with "
+                                          "their centre line half a thickness further out; 0: none"},
+                                         "mm", 0, 5000));
   table.back().is_set = [](const DeclaredMechanism& m) { return m.joint.drum_radius > 0; };
   table.push_back(number<joint, &Joint::drum_mu>(
       {"joint.drum_friction", "", "0",
-       "capstan coefficient between tendon and drum: what lies on the drum slides as far as this lets it, up to the "
-       "tendon's end; 0: freely"},
+       "capstan coefficient between tendon and drum; it limits how far a tendon slides on the drum; 0: slides freely"},
       "", 0, 1));
   table.back().is_set = [](const DeclaredMechanism& m) { return m.joint.drum_mu > 0; };
-  table.push_back(attachment_field<&Joint::attachment1>("joint.attachment1_mm",
-                                                        "where tendon 1 ends, in the link at home: [to the right, "
-                                                        "along OC]; nearer to O than the drum's pitch circle, and "
-                                                        "not within the drum, it lies on that circle"));
-  table.push_back(attachment_field<&Joint::attachment2>("joint.attachment2_mm",
-                                                        "where tendon 2 ends, in the link at home: [to the right, "
-                                                        "along OC]; over the drum's top it may stand left of O"));
+  table.push_back(
+      attachment_field<&Joint::attachment1>("joint.attachment1_mm",
+                                            "end of tendon 1 in the link at home: [to the right, along OC]; between "
+                                            "the drum and its pitch circle it is moved onto that circle"));
+  table.push_back(attachment_field<&Joint::attachment2>(
+      "joint.attachment2_mm",
+      "end of tendon 2 in the link at home: [to the right, along OC]; over the drum's top it may be left of O"));
   table.push_back(number<guides, &Guides::EB>(
-      {"guides.EB_mm", "EB", "", "guide pin B stands this far to the left of the line of the axes"}, "mm", 0.1, 10000));
+      {"guides.EB_mm", "EB", "", "distance of guide pin B to the left of the line through the axes"}, "mm", 0.1,
+      10000));
   table.push_back(number<guides, &Guides::ED>(
-      {"guides.ED_mm", "ED", "", "guide pin D stands this far to the right of the line of the axes"}, "mm", 0.1,
+      {"guides.ED_mm", "ED", "", "distance of guide pin D to the right of the line through the axes"}, "mm", 0.1,
       10000));
   table.push_back(number<guides, &Guides::OE>(
       {"guides.OE_mm", "OE", "",
        "from the joint axis to the line of the pins; positive: the pins are below the joint, away from C"},
       "mm", -10000, 10000));
   table.push_back(number<guides, &Guides::radius>(
-      {"guides.radius_mm", "", "2", "radius of the guide pins themselves; 0 is a point"}, "mm", 0, 500));
+      {"guides.radius_mm", "", "2", "radius of the guide pins themselves; 0: a point"}, "mm", 0, 500));
   table.push_back(number<guides, &Guides::mu>(
       {"guides.friction", "mu", "0.12", "capstan coefficient of friction at the pins"}, "", 0, 2));
   constexpr auto has_idlers = [](const DeclaredMechanism& m) { return m.guides.kind == GuideKind::idler; };
   table.push_back(choice<guides, &Guides::kind>(
       {"guides.kind", "", "\"pin\"",
-       "pin: a tendon slides over it (guides.friction); idler: it turns on a bearing, which takes far less"}));
+       "pin: the tendon slides over it (guides.friction); idler: it turns on a bearing, with far less friction"}));
   table.back().is_set = has_idlers;
   table.push_back(number<guides, &Guides::bearing_radius>(
       {"guides.bearing_radius_mm", "", "1.5",
-       "radius at which the bearing of an idler rubs: of a plain bearing its shaft's, of balls half their pitch circle",
+       "friction radius of an idler's bearing: the shaft radius of a plain bearing, the pitch radius of a ball bearing",
        "guides.kind=idler"},
       "mm", 0, 500));
   table.back().is_set = has_idlers;
   table.push_back(number<guides, &Guides::bearing_friction>(
       {"guides.bearing_friction", "", "0.005",
-       "coefficient of friction there: 0.0015 to 0.005 of balls, 0.1 to 0.2 of plastic on steel", "guides.kind=idler"},
+       "friction coefficient of that bearing: 0.0015 to 0.005 for balls, 0.1 to 0.2 for plastic on steel",
+       "guides.kind=idler"},
       "", 0, 1));
   table.back().is_set = has_idlers;
-  table.push_back(boolean<guides, &Guides::collar>(
-      {"guides.collar", "", "false",
-       "true: a collar keeps a tendon that is wound several times at its guide's height, and its lower span alone "
-       "slopes; false: it finds its height on the guide, and slopes as a whole"}));
+  table.push_back(boolean<guides, &Guides::collar>({"guides.collar", "", "false",
+                                                    "true: a collar holds a multi-turn tendon at its guide's height, "
+                                                    "and only its lower span slopes; false: the whole tendon slopes"}));
   table.back().is_set = [](const DeclaredMechanism& m) { return m.guides.collar; };
   add_sheath(table);
-  table.push_back(number<pulley, &PulleyDrive::EF>({"pulley.EF_mm", "EF", "",
-                                                    "from the line of the pins down to the pulley's axis; with a "
-                                                    "sheath the pulley may stand anywhere: only where it "
-                                                    "is drawn"},
-                                                   "mm", 1, 10000));
+  table.push_back(number<pulley, &PulleyDrive::EF>(
+      {"pulley.EF_mm", "EF", "",
+       "from the line of the pins down to the pulley's axis; with a sheath it only sets where the pulley is drawn"},
+      "mm", 1, 10000));
   table.push_back(number<pulley, &PulleyDrive::r1>(
       {"pulley.r1_mm", "r1", "", "radius of the round pulley P1, to the tendon's centre line", "pulley.law=compensate"},
       "mm", 0.1, 10000));
-  table.push_back(choice<pulley, &PulleyDrive::law>({"pulley.law", "", "\"compensate\"",
-                                                     "compensate: P1 round, P2 keeps both tendons taut; linear: theta "
-                                                     "= alpha/ratio; table: theta(alpha) from a CSV; torque: the motor "
-                                                     "holds [load] and [spring] with the torque that is wanted"}));
+  table.push_back(choice<pulley, &PulleyDrive::law>(
+      {"pulley.law", "", "\"compensate\"",
+       "compensate: P1 round, P2 keeps both tendons taut; linear: theta = alpha/ratio; table: theta(alpha) from a CSV; "
+       "torque: the motor holds [load] and [spring] with the wanted torque"}));
   table.push_back(number<pulley, &PulleyDrive::ratio>({"pulley.ratio", "", "", "alpha per theta", "pulley.law=linear"},
                                                       "", 0.01, 1000));
   table.push_back(text<pulley, &PulleyDrive::table>(
-      {"pulley.table", "", "", "CSV file with columns alpha_deg, theta_deg; its place is relative to this file",
+      {"pulley.table", "", "", "CSV file with columns alpha_deg, theta_deg; its path is relative to this file",
        "pulley.law=table"}));
-  table.push_back(number<pulley, &PulleyDrive::motor_torque>(
-      {"pulley.motor_torque_Nmm", "", "0",
-       "the motor torque, towards +alpha, that holds [load] and [spring] at every angle, without friction; 0: "
-       "pulley.torque_table says",
-       "pulley.law=torque"},
-      "Nmm", -10000000, 10000000));
+  table.push_back(
+      number<pulley, &PulleyDrive::motor_torque>({"pulley.motor_torque_Nmm", "", "0",
+                                                  "the motor torque, towards +alpha, that holds [load] and [spring] at "
+                                                  "every angle, without friction; 0: given by pulley.torque_table",
+                                                  "pulley.law=torque"},
+                                                 "Nmm", -10000000, 10000000));
   table.back().is_set = [](const DeclaredMechanism& m) { return m.pulley.motor_torque != 0; };
-  table.push_back(text<pulley, &PulleyDrive::torque_table>(
-      {"pulley.torque_table", "", "\"\"",
-       "CSV file with columns theta_deg, motor_torque_Nmm, in place of motor_torque_Nmm; its place is relative to this "
-       "file",
-       "pulley.law=torque"}));
+  table.push_back(
+      text<pulley, &PulleyDrive::torque_table>({"pulley.torque_table", "", "\"\"",
+                                                "CSV file with columns theta_deg, motor_torque_Nmm, in place of "
+                                                "motor_torque_Nmm; its path is relative to this file",
+                                                "pulley.law=torque"}));
   table.back().is_set = [](const DeclaredMechanism& m) { return !m.pulley.torque_table.empty(); };
   table.push_back(choice<pulley, &PulleyDrive::method>({"pulley.method", "", "\"exact\"",
                                                         "exact: the envelope of the tendon lines over the real pins; "
                                                         "paper: point pins, r2 drawn in polar coordinates"}));
   table.push_back(number<pulley, &PulleyDrive::mu>(
       {"pulley.friction", "mu", "0.2",
-       "effective friction between tendon and groove: what lies on the pulley slides as far as this lets it, up to a "
-       "knot 5 mm of arc beyond the range; in a V of full angle b the material's over sin(b/2)"},
+       "effective friction coefficient between tendon and groove; it limits how far the wound tendon slides, up to a "
+       "knot 5 mm of arc beyond the range; in a V groove of full angle b: the material's coefficient over sin(b/2)"},
       "", 0, 2));
   table.push_back(choice<pulley, &PulleyDrive::winding>(
       {"pulley.winding", "", "\"auto\"",
-       "auto: a tendon is wound several times, in a helical groove, where one turn does not suffice; one_turn: such a "
-       "pulley is refused"}));
+       "auto: multi-turn helical grooves where one turn does not suffice; one_turn: such a pulley is rejected"}));
   table.back().is_set = [](const DeclaredMechanism& m) { return m.pulley.winding != WindingChoice::automatic; };
   table.push_back(
       number<tendon, &Tendon::diameter>({"tendon.diameter_mm", "d", "", "thickness of the tendon"}, "mm", 0.01, 50));
@@ -440,15 +435,15 @@ void add_mechanism(std::vector<Field>& table) {
   table.push_back(number<tendon, &Tendon::pretension>(
       {"tendon.pretension_N", "", "5", "pretension of tendon 1 at home"}, "N", 0, 100000));
   table.push_back(number<tendon, &Tendon::bend_ratio>(
-      {"tendon.bend_ratio", "D/d", "8", "smallest bend diameter per tendon diameter before a warning"}, "", 1, 1000));
+      {"tendon.bend_ratio", "D/d", "8", "minimum bend diameter per tendon diameter before a warning"}, "", 1, 1000));
   table.push_back(number<tendon, &Tendon::strength>(
       {"tendon.strength_N", "", "0",
-       "the tension at which a tendon breaks without a knot, as makers state it; 0: that of "
-       "the catalogue's tendon of this diameter and modulus, if there is one"},
+       "breaking tension of the tendon without a knot, as its maker states it; 0: that of the catalogue's tendon of "
+       "this diameter and modulus, if there is one"},
       "N", 0, 1000000));
   table.push_back(number<tendon, &Tendon::knot_efficiency>(
       {"tendon.knot_efficiency", "", "0.5",
-       "share of its strength that a tendon keeps at a knot: 0.5 is assumed, what braided HMPE keeps"},
+       "fraction of its strength that a tendon keeps at a knot; 0.5 is usual for braided HMPE"},
       "", 0.05, 1));
   add_load(table);
   add_spring(table);
@@ -463,41 +458,41 @@ void add_body(std::vector<Field>& table) {
       {"body.groove_angle_deg", "", "50", "full angle between the walls of a groove"}, "deg", 0, 120));
   table.push_back(number<body, &Body::groove_depth>(
       {"body.groove_depth_mm", "", "0",
-       "from a groove's floor to its lip; 0: twice the tendon's diameter, at least 0.8 mm"},
+       "from a groove's floor to its edge; 0: twice the tendon's diameter, at least 0.8 mm"},
       "mm", 0, 50));
   table.push_back(number<body, &Body::seat_ratio>(
       {"body.seat_ratio", "", "0.55", "seat radius of a u groove per tendon diameter"}, "", 0.5, 2));
   table.push_back(choice<body, &Body::flange>(
       {"body.flange", "", "\"follow\"", "follow: flanges are parallel to the groove's outline; round: circles"}));
   table.push_back(number<body, &Body::flange_thickness>(
-      {"body.flange_thickness_mm", "", "1.2", "thickness of the flanges at the lip"}, "mm", 0.2, 50));
+      {"body.flange_thickness_mm", "", "1.2", "thickness of the flanges at the groove's edge"}, "mm", 0.2, 50));
   table.push_back(number<body, &Body::hub_diameter>(
       {"body.hub_diameter_mm", "", "0", "diameter of the hub; 0: from the bore and the set screw"}, "mm", 0, 1000));
   table.push_back(number<body, &Body::hub_height>(
       {"body.hub_height_mm", "", "8",
-       "height of the hub above the top flange; 0: no hub; left out, with a note, where there is no room for one"},
+       "height of the hub above the top flange; 0: no hub; omitted, with a note, where it does not fit"},
       "mm", 0, 500));
   table.push_back(
       choice<body, &Body::bore>({"body.bore", "", "\"round\"", "shape of the bore; horn: a servo horn is screwed on"}));
   table.push_back(number<body, &Body::bore_diameter>(
       {"body.bore_diameter_mm", "", "0",
-       "diameter of the shaft, across flats for hex and square; 0: 5 mm, or what there is room for; printed round as a "
-       "polygon around this circle, for a printer's corners cut inside of a curve"},
+       "diameter of the shaft, across flats for hex and square; 0: 5 mm, less where space is short; a round bore is "
+       "printed as a polygon around this circle, because printers cut inside of curves"},
       "mm", 0, 500));
   table.push_back(number<body, &Body::bore_flat>(
       {"body.bore_flat_mm", "", "0", "from the flat of a D shaft to its far side; 0: 0.9 times the diameter",
        "body.bore=d"},
       "mm", 0, 500));
   table.push_back(text<body, &Body::horn>({"body.horn", "", "\"own\"",
-                                           "which servo horn is screwed on; own: the one that [horn] describes",
+                                           "the servo horn that is screwed on; own: the one that [horn] describes",
                                            "body.bore=horn"}));
   table.push_back(text<body, &Body::shaft>(
       {"body.shaft", "", "\"none\"",
-       "which motor's shaft the bore is for, in place of bore, bore_diameter_mm and bore_flat_mm"},
+       "the motor shaft that the bore is for, in place of bore, bore_diameter_mm and bore_flat_mm"},
       shaft_names()));
   table.push_back(text<body, &Body::set_screw>(
       {"body.set_screw", "", "\"auto\"",
-       "screw through the hub onto the shaft; auto: M3 where the hub has room for it, else none"},
+       "screw through the hub onto the shaft; auto: M3 where it fits into the hub, else none"},
       {"auto", "none", "M2", "M2.5", "M3", "M4", "M5", "M6"}));
   table.push_back(boolean<body, &Body::nut_trap>(
       {"body.nut_trap", "", "true",
@@ -508,16 +503,15 @@ void add_body(std::vector<Field>& table) {
       "mm", 0, 50));
   table.push_back(number<body, &Body::knot_pocket>(
       {"body.knot_pocket_mm", "", "0",
-       "diameter of the pocket for a tendon's knot; 0: 3.5 tendon diameters, or what there is room for"},
+       "diameter of the pocket for a tendon's knot; 0: 3.5 tendon diameters, less where space is short"},
       "mm", 0, 100));
   table.push_back(number<body, &Body::wrap, degrees, radians>(
       {"body.wrap_deg", "", "0",
-       "least wrap of a tendon past the arc that it leaves from, before its tie-off: relieves the knot; 0: as much as "
-       "there is room for"},
+       "minimum wrap of a tendon between its active arc and its tie-off, which relieves the knot; 0: as much as fits"},
       "deg", 0, 330));
-  table.push_back(choice<body, &Body::tail>({"body.tail", "", "\"slot\"",
-                                             "where a tendon's end lies beyond its knot; slot: in a straight slot of "
-                                             "the face, where there is room for one"}));
+  table.push_back(choice<body, &Body::tail>(
+      {"body.tail", "", "\"slot\"",
+       "place of a tendon's end beyond its knot; slot: in a straight slot of the face, if it fits"}));
   table.push_back(text<body, &Body::clamp_screw>(
       {"body.clamp_screw", "", "\"none\"", "screw whose head clamps the tail at the end of its slot"},
       {"none", "M2", "M2.5", "M3"}));
@@ -526,16 +520,16 @@ void add_body(std::vector<Field>& table) {
   table.push_back(number<body, &Body::mark_depth>({"body.mark_depth_mm", "", "0.4", "depth or height of the marks"},
                                                   "mm", 0.05, 5));
   table.push_back(number<body, &Body::min_wall>(
-      {"body.min_wall_mm", "", "0", "no wall of the part may be thinner; 0: 1.2 mm, thinner on small pulleys"}, "mm", 0,
+      {"body.min_wall_mm", "", "0", "minimum wall thickness of the part; 0: 1.2 mm, thinner on small pulleys"}, "mm", 0,
       50));
   table.push_back(number<body, &Body::lead>(
       {"body.lead_mm", "", "0",
-       "of helical grooves: least height from one turn to the next; 0: what groove and rib need"},
+       "helical grooves: minimum height from one turn to the next; 0: as groove and rib require"},
       "mm", 0, 50));
   table.back().is_set = [](const DeclaredMechanism& m) { return m.body.lead != 0; };
   table.push_back(number<body, &Body::spare_turns>(
       {"body.spare_turns", "", "1",
-       "of helical grooves: turns before and after what the range winds; they take the tension from the knot"},
+       "helical grooves: turns before and after those that the range winds; they relieve the knot"},
       "", 0.25, 5));
   table.back().is_set = [](const DeclaredMechanism& m) { return m.body.spare_turns != 1; };
 }
@@ -547,19 +541,17 @@ void add_horn(std::vector<Field>& table) {
       {"horn.bolt_circle_mm", "", "0", "diameter of the circle through the centres of the screws", k_when}, "mm", 0,
       500));
   table.push_back(whole_number<horn, &Horn::bolt_count>(
-      {"horn.bolt_count", "", "0", "screws, evenly on that circle", k_when}, 0, 24));
+      {"horn.bolt_count", "", "0", "number of screws, evenly spaced on that circle", k_when}, 0, 24));
   table.push_back(number<horn, &Horn::bolt_hole>(
-      {"horn.bolt_hole_mm", "", "0",
-       "diameter of the holes that they pass through; material.hole_compensation_mm is added", k_when},
+      {"horn.bolt_hole_mm", "", "0", "diameter of the screws' clearance holes; material.hole_compensation_mm is added",
+       k_when},
       "mm", 0, 50));
   table.push_back(number<horn, &Horn::first_bolt, degrees, radians>(
-      {"horn.first_bolt_deg", "", "0", "where on the circle the first screw stands at home, from +x towards +y",
-       k_when},
-      "deg", -360, 360));
+      {"horn.first_bolt_deg", "", "0", "direction of the first screw at home, from +x towards +y", k_when}, "deg", -360,
+      360));
   table.push_back(number<horn, &Horn::centre_hole>(
       {"horn.centre_hole_mm", "", "0",
-       "diameter of the hole for the screw in the middle: wide enough for its head and the driver, where it holds the "
-       "horn",
+       "diameter of the hole for the central screw: wide enough for its head and the driver, if it holds the horn",
        k_when},
       "mm", 0, 500));
   table.push_back(number<horn, &Horn::boss_diameter>(
@@ -567,11 +559,11 @@ void add_horn(std::vector<Field>& table) {
        k_when},
       "mm", 0, 500));
   table.push_back(number<horn, &Horn::boss_height>(
-      {"horn.boss_height_mm", "", "0", "how far the boss stands above the face; 0: the horn is flat", k_when}, "mm", 0,
+      {"horn.boss_height_mm", "", "0", "height of the boss above the face; 0: the horn is flat", k_when}, "mm", 0,
       100));
   table.push_back(whole_number<horn, &Horn::spline_teeth>(
       {"horn.spline_teeth", "", "0",
-       "teeth of the servo's output shaft, where the pulley is pushed onto that and not screwed onto a horn", k_when},
+       "teeth of the servo's output shaft, for a pulley that is pushed onto the shaft instead of a horn", k_when},
       0, 120));
   table.push_back(number<horn, &Horn::spline_diameter>(
       {"horn.spline_diameter_mm", "", "0", "diameter of that shaft over its teeth", k_when}, "mm", 0, 100));
@@ -579,8 +571,7 @@ void add_horn(std::vector<Field>& table) {
       number<horn, &Horn::spline_depth>({"horn.spline_depth_mm", "", "0", "depth of its teeth", k_when}, "mm", 0, 20));
   table.push_back(number<horn, &Horn::spline_length>(
       {"horn.spline_length_mm", "", "0",
-       "how far that shaft reaches into the pulley, where a shoulder and horn.centre_hole_mm follow; 0: the teeth go "
-       "through",
+       "length of that shaft in the pulley, followed by a shoulder and horn.centre_hole_mm; 0: the teeth go through",
        k_when},
       "mm", 0, 100));
 }
@@ -588,41 +579,37 @@ void add_horn(std::vector<Field>& table) {
 void add_making(std::vector<Field>& table) {
   constexpr auto material = &Mechanism::material;
   constexpr auto cut = &Mechanism::cut;
-  table.push_back(text<material, &Material::name>(
-      {"material.name", "", "\"PLA\"", "what the part is made of; stands in the report"}));
-  table.push_back(number<material, &Material::shrinkage, in_percent, from_percent>(
-      {"material.shrinkage_percent", "", "0", "by how much a print comes out smaller; the mesh is made larger by it"},
-      "%", -5, 10));
   table.push_back(
-      number<material, &Material::hole_compensation>({"material.hole_compensation_mm", "", "0.2",
-                                                      "added to the diameter of holes and the bore, which print too "
-                                                      "small; of a round one, whose print is a polygon, to "
-                                                      "that of the circle which its sides touch"},
-                                                     "mm", -1, 2));
+      text<material, &Material::name>({"material.name", "", "\"PLA\"", "material of the part; appears in the report"}));
+  table.push_back(number<material, &Material::shrinkage, in_percent, from_percent>(
+      {"material.shrinkage_percent", "", "0", "shrinkage of a print; the mesh is enlarged by it"}, "%", -5, 10));
+  table.push_back(number<material, &Material::hole_compensation>(
+      {"material.hole_compensation_mm", "", "0.2",
+       "added to the diameter of holes and the bore, which print too small; for a round bore, printed as a polygon, to "
+       "its inscribed circle"},
+      "mm", -1, 2));
   table.push_back(number<material, &Material::elephant_foot>(
       {"material.elephant_foot_mm", "", "0.4",
-       "chamfer at the edge that lies on the printer's bed, smaller on a thin lip; 0: none"},
+       "chamfer at the edge on the printer's bed, smaller at a thin groove edge; 0: none"},
       "mm", 0, 3));
   constexpr auto print = &Mechanism::print;
-  table.push_back(
-      choice<print, &Print::parts>({"print.parts", "", "\"auto\"",
-                                    "one: P1 and P2 in one piece, with a cone under the middle flange where it stands "
-                                    "out over P1; two: each printed "
-                                    "for itself and pinned together; auto: one, unless that cone would be high"}));
+  table.push_back(choice<print, &Print::parts>(
+      {"print.parts", "", "\"auto\"",
+       "one: P1 and P2 in one part, with an overhang support cone under the middle flange where it extends beyond P1; "
+       "two: printed separately and pinned together; auto: one, unless that cone would be high"}));
   table.push_back(number<print, &Print::overhang, degrees, radians>(
       {"print.overhang_deg", "", "45",
-       "the flattest slope above the horizontal that a face looking down may have; 90 is upright"},
+       "flattest printable slope of a downward face above the horizontal; 90: vertical"},
       "deg", 20, 75));
   table.push_back(boolean<print, &Print::supports>(
-      {"print.supports", "", "false", "true: the printer makes supports, and the part is not shaped to need none"}));
+      {"print.supports", "", "false", "true: the printer adds supports, and the part is not shaped to avoid them"}));
   table.push_back(number<print, &Print::nozzle>(
       {"print.nozzle_mm", "", "0.4",
        "diameter of the printer's nozzle, the width of one line: a warning names flanges and walls that are thinner"},
       "mm", 0.05, 5));
+  table.push_back(number<cut, &Cut::kerf>({"cut.kerf_mm", "", "0.2", "width of the cut"}, "mm", 0, 10));
   table.push_back(
-      number<cut, &Cut::kerf>({"cut.kerf_mm", "", "0.2", "width of what the cutter takes away"}, "mm", 0, 10));
-  table.push_back(number<cut, &Cut::plate>(
-      {"cut.plate_mm", "", "3", "thickness of the plates that the part is stacked of"}, "mm", 0.1, 100));
+      number<cut, &Cut::plate>({"cut.plate_mm", "", "3", "thickness of the stacked plates"}, "mm", 0.1, 100));
   table.push_back(number<cut, &Cut::sheet_width>(
       {"cut.sheet_width_mm", "", "300", "width of the sheet that plates are cut from"}, "mm", 10, 10000));
   table.push_back(
@@ -636,23 +623,24 @@ void add_making(std::vector<Field>& table) {
 void add_optimize(std::vector<Field>& table) {
   constexpr auto optimize = &DeclaredMechanism::optimize;
   table.push_back(texts<optimize, &Optimization::objectives>(
-      {"optimize.objective", "", "[\"max_tension\"]", "what is made small (min_bend: large); two or three for a front"},
+      {"optimize.objective", "", "[\"max_tension\"]",
+       "quantities to minimize (min_bend: to maximize); two or three for a front"},
       {"max_tension", "max_error", "footprint", "motor_torque", "min_bend"}));
   table.push_back(
-      texts<optimize, &Optimization::variables>({"optimize.variables", "", "[]", "keys of this file that may change"}));
+      texts<optimize, &Optimization::variables>({"optimize.variables", "", "[]", "keys of this file to optimize"}));
   table.push_back(numbers<optimize, &Optimization::lower>(
-      {"optimize.lower", "", "[]", "least value of each variable, in its own unit"}, -1e6, 1e6));
+      {"optimize.lower", "", "[]", "lower bound of each variable, in its own unit"}, -1e6, 1e6));
   table.push_back(numbers<optimize, &Optimization::upper>(
-      {"optimize.upper", "", "[]", "largest value of each variable, in its own unit"}, -1e6, 1e6));
+      {"optimize.upper", "", "[]", "upper bound of each variable, in its own unit"}, -1e6, 1e6));
   table.push_back(texts<optimize, &Optimization::tied>(
-      {"optimize.tied", "", "[]", "keys that follow others: \"guides.EB_mm = guides.ED_mm\""}));
+      {"optimize.tied", "", "[]", "keys that depend on others: \"guides.EB_mm = guides.ED_mm\""}));
   table.push_back(texts<optimize, &Optimization::constraints>(
       {"optimize.constraints", "", "[]", "linear conditions on keys: \"guides.EB_mm <= 0.5 * joint.length_mm\""}));
   table.push_back(boolean<optimize, &Optimization::feasible>(
-      {"optimize.feasible", "", "false", "only designs of which a pulley can be made"}));
+      {"optimize.feasible", "", "false", "only designs for which a pulley can be made"}));
 }
 
-/// The row of a number that an effect's file declares.
+/// The row of a parameter that an effect's file declares.
 Field identified(const EffectParameter& parameter) {
   const IdentifiedKey& key = parameter.key;
   Field field;
@@ -672,24 +660,24 @@ Field identified(const EffectParameter& parameter) {
   return field;
 }
 
-/// What no effect has: the load that the joint carried while it was measured.
+/// The one row without an effect: the load during the measurement.
 Field mean_load() {
   EffectParameter load;
   load.number = [](Imperfections& joint) -> double& { return joint.joint.mean_load; };
   load.key = key::plain("mean_load_N", "N", -1e+06, 1e+06,
-                        "beside load.tip_force_N, the tip force under which the joint is to follow its law");
+                        "tip force beyond load.tip_force_N at which the joint must follow its target motion");
   return identified(load);
 }
 
-/// An effect's numbers: first those that are added to a declared one.
+/// An effect's parameters, those added to a declared number first.
 std::vector<EffectParameter> in_file_order(const Effect& effect) {
   std::vector<EffectParameter> parameters = effect.parameters;
   std::stable_partition(parameters.begin(), parameters.end(),
-                        [](const EffectParameter& p) { return p.again != WhenFoundAgain::anew; });
+                        [](const EffectParameter& p) { return p.merge_rule != MergeRule::replace; });
   return parameters;
 }
 
-/// What shows at once stands before what takes time.
+/// Immediate effects first, then those that develop in time.
 std::vector<Effect> in_file_order(std::span<const Effect> all) {
   std::vector<Effect> ordered(all.begin(), all.end());
   std::stable_partition(ordered.begin(), ordered.end(),
@@ -697,8 +685,8 @@ std::vector<Effect> in_file_order(std::span<const Effect> all) {
   return ordered;
 }
 
-/// Of every effect, whichever kind of joint can have it: a file may change its kind and keep its findings. In the order
-/// of the chain, with what only a joint declared by a ratio has before the joint's sensor.
+/// Rows for the effects of all kinds of joints, so that a file may change its kind and keep its values. Order: along
+/// the chain, with those of ratio joints before the joint's sensor.
 void add_identified(std::vector<Field>& table) {
   std::vector<Field> rows, of_sensors;
   const auto add = [&](const Effect& effect) {
@@ -720,38 +708,41 @@ void add_prior(std::vector<Field>& table) {
   const auto reading = [&table]<auto Member>(std::string_view name, std::string_view meaning) {
     table.push_back(numbers<&DeclaredMechanism::prior, Member>({name, "", "[]", meaning}, -1e6, 1e6));
   };
-  reading.operator()<&Prior::EB>("prior.EB_mm", "measured by hand: [value, standard uncertainty]");
-  reading.operator()<&Prior::ED>("prior.ED_mm", "the same of guides.ED_mm");
-  reading.operator()<&Prior::OE>("prior.OE_mm", "the same of guides.OE_mm");
-  reading.operator()<&Prior::OE1>("prior.OE1_mm", "the same of guides.OE_mm, of the left pin alone");
-  reading.operator()<&Prior::OE2>("prior.OE2_mm", "the same of the right pin alone");
-  reading.operator()<&Prior::EF>("prior.EF_mm", "the same of pulley.EF_mm");
-  reading.operator()<&Prior::guide_radius>("prior.guide_radius_mm", "the same of guides.radius_mm");
-  reading.operator()<&Prior::length>("prior.length_mm", "the same of joint.length_mm");
-  reading.operator()<&Prior::radius_offset>("prior.radius_offset_mm",
-                                            "the same of the made pulley's pitch radius less the drawn one");
+  reading.operator()<&Prior::EB>("prior.EB_mm", "guides.EB_mm measured by hand: [value, standard uncertainty]");
+  reading.operator()<&Prior::ED>("prior.ED_mm", "guides.ED_mm measured by hand");
+  reading.operator()<&Prior::OE>("prior.OE_mm", "guides.OE_mm measured by hand");
+  reading.operator()<&Prior::OE1>("prior.OE1_mm", "guides.OE_mm measured by hand, of the left pin only");
+  reading.operator()<&Prior::OE2>("prior.OE2_mm", "guides.OE_mm measured by hand, of the right pin only");
+  reading.operator()<&Prior::EF>("prior.EF_mm", "pulley.EF_mm measured by hand");
+  reading.operator()<&Prior::guide_radius>("prior.guide_radius_mm", "guides.radius_mm measured by hand");
+  reading.operator()<&Prior::length>("prior.length_mm", "joint.length_mm measured by hand");
+  reading.operator()<&Prior::radius_offset>(
+      "prior.radius_offset_mm", "pitch radius of the made pulley minus that of the drawn one, measured by hand");
   reading.operator()<&Prior::pulley_scale>("prior.pulley_scale",
-                                           "the same of the made pulley's size per the drawn one");
-  reading.operator()<&Prior::modulus>("prior.modulus_MPa", "the same of tendon.modulus_MPa");
-  reading.operator()<&Prior::drum_radius>("prior.drum_radius_mm", "the same of joint.drum_radius_mm");
+                                           "size of the made pulley / size of the drawn one, measured by hand");
+  reading.operator()<&Prior::modulus>("prior.modulus_MPa", "tendon.modulus_MPa measured by hand");
+  reading.operator()<&Prior::drum_radius>("prior.drum_radius_mm", "joint.drum_radius_mm measured by hand");
   reading.operator()<&Prior::attachment1_across>("prior.attachment1_across_mm",
-                                                 "the same of joint.attachment1_mm's first number");
-  reading.operator()<&Prior::attachment1_along>("prior.attachment1_along_mm", "the same of its second");
+                                                 "first number of joint.attachment1_mm, measured by hand");
+  reading.operator()<&Prior::attachment1_along>("prior.attachment1_along_mm",
+                                                "second number of joint.attachment1_mm, measured by hand");
   reading.operator()<&Prior::attachment2_across>("prior.attachment2_across_mm",
-                                                 "the same of joint.attachment2_mm's first number");
-  reading.operator()<&Prior::attachment2_along>("prior.attachment2_along_mm", "the same of its second");
-  reading.operator()<&Prior::motor_offset>("prior.motor_offset_deg",
-                                           "the same of how far the shaft stands beyond what the motor sensor shows");
-  reading.operator()<&Prior::backlash>("prior.backlash_deg", "the same of the play between motor and pulley, of alpha");
+                                                 "first number of joint.attachment2_mm, measured by hand");
+  reading.operator()<&Prior::attachment2_along>("prior.attachment2_along_mm",
+                                                "second number of joint.attachment2_mm, measured by hand");
+  reading.operator()<&Prior::motor_offset>(
+      "prior.motor_offset_deg", "angle of the shaft minus the reading of the motor sensor, measured by hand");
+  reading.operator()<&Prior::backlash>("prior.backlash_deg",
+                                       "play between motor and pulley, of alpha, measured by hand");
   reading.operator()<&Prior::runout_x>("prior.runout_x_mm",
-                                       "the same of the pulley's centre off its axis, at home to the right");
-  reading.operator()<&Prior::runout_y>("prior.runout_y_mm", "the same upwards");
-  reading.operator()<&Prior::guide_give>("prior.guide_give_mm_per_N",
-                                         "the same of how far a pin moves under a newton of the tendon's force on it");
-  reading.operator()<&Prior::zero>("prior.zero_deg", "the same of what the joint sensor shows at theta = 0");
+                                       "eccentricity of the pulley at home, to the right, measured by hand");
+  reading.operator()<&Prior::runout_y>("prior.runout_y_mm",
+                                       "eccentricity of the pulley at home, upwards, measured by hand");
+  reading.operator()<&Prior::guide_give>(
+      "prior.guide_give_mm_per_N", "displacement of a pin per newton of the tendon's force on it, measured by hand");
+  reading.operator()<&Prior::zero>("prior.zero_deg", "reading of the joint sensor at theta = 0, measured by hand");
   reading.operator()<&Prior::gain>("prior.gain_percent",
-                                   "the same of what the joint sensor shows too much from one end of the range to the "
-                                   "other");
+                                   "excess of the joint sensor's reading over the whole range, measured by hand");
 }
 
 std::vector<Field> make_table() {
@@ -799,8 +790,8 @@ std::span<const Field> fields() {
 }
 
 const FormerKey* find_former_key(std::string_view name) {
-  // Until pins stood apart. [identified] guide_down_mm moved them and the pulley's axis: no two numbers of now are
-  // that.
+  // Files from before the pins were separate. [identified] guide_down_mm moved the pins and the pulley's axis and has
+  // no successor.
   static constexpr FormerKey k_former = {"identified.guide_outward_mm",
                                          {"identified.guide1_outward_mm", "identified.guide2_outward_mm"}};
   return name == k_former.name ? &k_former : nullptr;
@@ -858,21 +849,21 @@ std::vector<std::string> field_tables() {
 std::string_view table_meaning(std::string_view table) {
   if (table == "joint") return "the joint and its range";
   if (table == "guides") return "the two pins that the tendons run over";
-  if (table == "sheath") return "Bowden sheaths between the pins and the motor, if there are any";
-  if (table == "pulley") return "where the pulley sits and what it must do";
+  if (table == "sheath") return "optional Bowden sheaths between the pins and the motor";
+  if (table == "pulley") return "place and function of the pulley";
   if (table == "tendon") return "both tendons";
-  if (table == "load") return "what the joint carries";
+  if (table == "load") return "the load on the joint";
   if (table == "spring") return "a spring about the joint's axis";
   if (table == "body") return "the body of the pulley";
   if (table == "horn") return "a servo's horn of your own, or its toothed shaft (body.bore = \"horn\")";
-  if (table == "material") return "what it is printed of";
-  if (table == "print") return "how the part is printed";
-  if (table == "cut") return "cutting it as a stack of plates";
-  if (table == "optimize") return "what fusee optimize may change, and what it is after";
-  if (table == "identified") return "what fusee calibrate found the joint to be, against what is declared";
-  if (table == "prior") return "what was measured of the joint by hand, each as [value, standard uncertainty]";
+  if (table == "material") return "the material of the part";
+  if (table == "print") return "print settings";
+  if (table == "cut") return "settings for cutting the part as a stack of plates";
+  if (table == "optimize") return "variables and objectives of fusee optimize";
+  if (table == "identified") return "deviations from the declared joint that fusee calibrate identified";
+  if (table == "prior") return "manual measurements of the joint, each as [value, standard uncertainty]";
   if (table == "transmission")
-    return "in place of joint, guides and pulley: a joint of another kind, for calibrate alone";
+    return "a joint of another kind, in place of joint, guides and pulley, for calibrate only";
   return "the file";
 }
 

@@ -6,8 +6,8 @@
 namespace fusee {
 namespace {
 
-// A bore of fewer teeth centres and carries badly; no servo has them.
-constexpr int k_least_teeth = 6;
+// A bore with fewer teeth centres and transmits poorly, and no servo has one.
+constexpr int k_min_teeth = 6;
 
 class Faults {
  public:
@@ -21,7 +21,7 @@ class Faults {
       check_no_spline();
       check_bolts();
       check_boss();
-      if (horn_.centre_hole <= 0) lacks("centre_hole_mm", "the screw in the middle is reached through it");
+      if (horn_.centre_hole <= 0) lacks("centre_hole_mm", "access to the central screw");
     }
     return std::move(faults_);
   }
@@ -36,29 +36,29 @@ class Faults {
   }
 
   void check_spline() {
-    if (horn_.spline_teeth < k_least_teeth) {
-      say("spline_teeth", "horn.spline_teeth = " + std::to_string(horn_.spline_teeth) + " are too few",
-          "at least " + std::to_string(k_least_teeth) + "; 0: no toothed shaft");
+    if (horn_.spline_teeth < k_min_teeth) {
+      say("spline_teeth", "horn.spline_teeth = " + std::to_string(horn_.spline_teeth) + " is too small",
+          "at least " + std::to_string(k_min_teeth) + "; 0: no toothed shaft");
     }
     if (horn_.spline_diameter <= 0) lacks("spline_diameter_mm", "over the shaft's teeth, for example 5.92");
     if (horn_.spline_depth <= 0) lacks("spline_depth_mm", "of the shaft's teeth, for example 0.3");
-    // Teeth deeper than they are wide have flanks steeper than those of any serration (DIN 5481: 60° between them).
+    // Teeth deeper than wide have flanks steeper than any serration (DIN 5481: 60° between them).
     const double pitch = k_pi * horn_.spline_diameter / horn_.spline_teeth;
     if (horn_.spline_diameter > 0 && horn_.spline_depth > pitch) {
       say("spline_depth_mm",
-          "horn.spline_depth_mm = " + shortest(horn_.spline_depth) + " mm is more than the teeth are wide, " +
+          "horn.spline_depth_mm = " + shortest(horn_.spline_depth) + " mm exceeds the width of the teeth, " +
               rounded(pitch, 3) + " mm",
           "make horn.spline_depth_mm smaller, or horn.spline_teeth");
     }
     if (horn_.spline_length > 0 && horn_.centre_hole <= 0)
       lacks("centre_hole_mm", "the screw that holds the pulley on the shaft passes through it");
     if (horn_.spline_length <= 0 && horn_.centre_hole > 0) {
-      say("centre_hole_mm", "horn.centre_hole_mm has no place where the teeth go through",
-          "add spline_length_mm, how far the shaft reaches into the pulley, or leave out centre_hole_mm");
+      say("centre_hole_mm", "horn.centre_hole_mm conflicts with teeth that go through",
+          "add spline_length_mm, the length of the shaft in the pulley, or leave out centre_hole_mm");
     }
   }
 
-  // A pulley sits on a servo's shaft, or on a horn that does.
+  // A pulley is mounted either on a servo's shaft or on a horn.
   void check_alone() {
     const bool boss = horn_.boss_diameter > 0 || horn_.boss_height > 0;
     const bool bolts = horn_.bolt_count > 0 || horn_.bolt_circle > 0 || horn_.bolt_hole > 0;
@@ -71,7 +71,7 @@ class Faults {
 
   void check_no_spline() {
     if (horn_.spline_diameter > 0 || horn_.spline_depth > 0 || horn_.spline_length > 0)
-      lacks("spline_teeth", "how many teeth the shaft has");
+      lacks("spline_teeth", "number of teeth of the shaft");
   }
 
   void check_bolts() {
@@ -80,17 +80,16 @@ class Faults {
       return lacks("bolt_circle_mm", "screws hold the pulley on the horn (or spline_teeth, on the servo's shaft)");
     }
     if (horn_.bolt_count <= 0) {
-      lacks("bolt_count", "how many screws stand on the circle of " + shortest(horn_.bolt_circle) + " mm");
+      lacks("bolt_count", "number of screws on the circle of " + shortest(horn_.bolt_circle) + " mm");
     }
     if (horn_.bolt_circle <= 0) lacks("bolt_circle_mm", "the diameter on which the screws stand");
     if (horn_.bolt_hole <= 0)
-      lacks("bolt_hole_mm", "what the screws pass through: 2.2 for M2, 3.2 for M3 (ISO 273, fine)");
+      lacks("bolt_hole_mm", "clearance holes of the screws: 2.2 for M2, 3.2 for M3 (ISO 273, fine)");
   }
 
   void check_boss() {
     if (horn_.boss_height > 0 && horn_.boss_diameter <= 0) lacks("boss_diameter_mm", "the boss sinks into the pulley");
-    if (horn_.boss_diameter > 0 && horn_.boss_height <= 0)
-      lacks("boss_height_mm", "how far the boss sinks into the pulley");
+    if (horn_.boss_diameter > 0 && horn_.boss_height <= 0) lacks("boss_height_mm", "depth of the boss in the pulley");
   }
 
   const Horn& horn_;

@@ -1,6 +1,6 @@
 /// \file
-/// Internal: what of [horn] contradicts itself or is missing. Whether its holes leave webs between them, and the pulley
-/// room for it, is for the body's conditions to say.
+/// Internal: contradictions and omissions in [horn]. Geometric conditions (webs between holes, room in the pulley) are
+/// checked by solid.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace fusee {
 
 struct HornFault {
-  std::string_view key;  ///< of [horn], at which it is said
+  std::string_view key;  ///< key of [horn] that the fault refers to
   std::string message;
   std::string hint;
 };

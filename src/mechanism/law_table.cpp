@@ -11,8 +11,8 @@ namespace fusee {
 namespace {
 
 constexpr double k_home_error_deg = 0.01;
-constexpr std::size_t k_fewest_rows = 4;
-constexpr std::size_t k_most_problems = 20;
+constexpr std::size_t k_min_rows = 4;
+constexpr std::size_t k_max_problems = 20;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
@@ -25,7 +25,7 @@ bool parse_number(std::string_view text, double& value) {
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
-/// What the two columns of a table are, and how far each goes.
+/// Names of the two columns of a table, and its maximum length.
 struct PairColumns {
   const char* first;
   const char* second;
@@ -35,12 +35,12 @@ struct PairColumns {
 
 constexpr PairColumns k_law_columns = {
     "alpha_deg", "theta_deg", "first a line alpha_deg,theta_deg, then one pair of angles a line, both increasing",
-    /// More than anyone writes; keeps time and memory bounded.
+    /// Bounds time and memory, far above any real table.
     100000};
 constexpr PairColumns k_torque_columns = {
     "theta_deg", "motor_torque_Nmm",
     "first a line theta_deg,motor_torque_Nmm, then an angle and the torque wanted there a line, the angles increasing",
-    /// The law is the integral over all of them, made anew for every look at a changed joint.
+    /// The law is integrated over all rows, anew for each changed joint.
     2000};
 
 /// One row in the file's units, with its line.
@@ -50,17 +50,17 @@ struct PairRow {
   double second = 0;
 };
 
-/// Lines and numbers of a table of two columns.
+/// Parser for a table of two columns.
 class PairTableReader {
  public:
   PairTableReader(const PairColumns& columns, const std::string& file, std::vector<Diagnostic>& problems)
       : columns_(columns), file_(file), problems_(problems) {}
 
-  /// `check` looks at each row beside the one before, which may be null.
+  /// `check` receives each row and the previous one, which may be null.
   template <typename Check>
   void read(std::string_view csv, Check check) {
     if (csv.substr(0, 3) == "\xEF\xBB\xBF") csv.remove_prefix(3);
-    for (int line = 1; !csv.empty() && problems_.size() < k_most_problems; ++line) {
+    for (int line = 1; !csv.empty() && problems_.size() < k_max_problems; ++line) {
       const std::size_t end = std::min(csv.find('\n'), csv.size());
       std::string_view text = csv.substr(0, end);
       csv.remove_prefix(std::min(end + 1, csv.size()));
@@ -70,11 +70,11 @@ class PairTableReader {
     if (!problems_.empty()) return;
     if (!header_read_) {
       fail(0, "the table is empty", columns_.hint);
-    } else if (rows_.size() < k_fewest_rows) {
-      fail(0,
-           "the table has " + std::to_string(rows_.size()) + " rows; a law needs at least " +
-               std::to_string(k_fewest_rows),
-           columns_.hint);
+    } else if (rows_.size() < k_min_rows) {
+      fail(
+          0,
+          "the table has " + std::to_string(rows_.size()) + " rows; a law needs at least " + std::to_string(k_min_rows),
+          columns_.hint);
     }
   }
 
@@ -92,9 +92,9 @@ class PairTableReader {
          hint);
   }
 
-  /// That θ, which `theta` takes from a row, covers the joint's range.
+  /// Checks that θ, selected by `theta`, covers the joint's range.
   void check_cover(const Joint& joint, double PairRow::*theta) {
-    // Half a millionth of a degree: what a table printed with six decimals may lack.
+    // Half a millionth of a degree: the rounding of a table with six decimals.
     constexpr double k_rounding_deg = 5e-7;
     const double least = degrees(joint.theta_min), most = degrees(joint.theta_max);
     const PairRow &first = rows_.front(), &last = rows_.back();
@@ -140,7 +140,7 @@ class PairTableReader {
   bool header_read_ = false;
 };
 
-/// Whether a row of θ(α) may stand there; what is no reason to leave it out is said all the same.
+/// Checks a row of θ(α). Returns false to drop the row; problems that keep the row are reported as well.
 bool is_law_row(PairTableReader& reader, const PairRow* before, const PairRow& row) {
   constexpr double k_largest_deg = 3600;
   if (std::abs(row.first) > k_largest_deg || std::abs(row.second) > 360) {
@@ -170,7 +170,7 @@ bool is_torque_row(PairTableReader& reader, const PairRow* before, const PairRow
   return true;
 }
 
-/// θ(0) by the cubic through the four rows around the gap below row `i` (Lagrange).
+/// θ(0) by cubic interpolation (Lagrange) of the four rows around the gap below row `i`.
 double theta_at_zero(const std::vector<PairRow>& rows, std::size_t i) {
   const std::size_t first = std::min(i < 2 ? 0 : i - 2, rows.size() - 4);
   double theta = 0;

@@ -11,7 +11,7 @@
 namespace fusee {
 namespace {
 
-constexpr int k_deepest = 32;
+constexpr int k_max_depth = 32;
 
 bool is_key_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -64,7 +64,7 @@ class RelationParser {
   void skip_blanks() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
   }
-  /// The next character that counts, or 0 at the end or after a fault.
+  /// The next non-blank character, or 0 at the end or after a fault.
   char next() {
     skip_blanks();
     return fault_ || at_ >= text_.size() ? '\0' : text_[at_];
@@ -84,7 +84,7 @@ class RelationParser {
     }
     fail(begin,
          c == '\0' ? "ends before its =, <= or >=" : "expected =, <= or >=, not " + in_quotes(text_.substr(begin, 1)),
-         c == '<' || c == '>' ? "write <= or >=: a border belongs to what it bounds"
+         c == '<' || c == '>' ? "write <= or >=; strict relations are not supported"
                               : "one relation of two sums, such as a <= 0.5 * b + 10");
     return {};
   }
@@ -106,7 +106,7 @@ class RelationParser {
       if (fault_) break;
       if (c == '/') {
         if (!other.terms.empty() || other.constant == 0)
-          fail(begin, "divides by something that is no number other than 0", "constraints are linear in the keys");
+          fail(begin, "divides by something other than a nonzero number", "constraints are linear in the keys");
         total = scaled(total, 1.0 / other.constant);
       } else if (!total.terms.empty() && !other.terms.empty()) {
         fail(begin, "multiplies keys with each other", "constraints are linear: a number times a key");
@@ -121,7 +121,7 @@ class RelationParser {
     const char c = next();
     const std::size_t begin = at_;
     if (c == '-' || c == '+' || c == '(') {
-      if (++depth_ > k_deepest) fail(begin, "nests too deep", "a sum of keys times numbers is enough");
+      if (++depth_ > k_max_depth) fail(begin, "nests too deep", "a sum of keys times numbers is enough");
       ++at_;
       LinearExpression inner = c == '(' ? sum() : factor();
       if (c == '(' && next() == ')') {

@@ -3,13 +3,12 @@
 namespace fusee {
 namespace {
 
-constexpr int k_deepest_brackets = 16;
-constexpr int k_most_dots = 16;
+constexpr int k_max_brackets = 16;
+constexpr int k_max_dots = 16;
 
-/// Index just behind the string that starts at `begin`, or the end of the text. TOML has four kinds: "…" and '…' on one
-/// line,
-/// """…""" and '''…''' over several; a backslash escapes in the " kinds only.
-std::size_t behind_string(std::string_view text, std::size_t begin) {
+/// Index after the string that starts at `begin`, or the end of the text. TOML has four kinds: "…" and '…' on one line,
+/// """…""" and '''…''' over several. A backslash escapes in the " kinds only.
+std::size_t end_of_string(std::string_view text, std::size_t begin) {
   const char quote = text[begin];
   const bool multiline = text.substr(begin, 3) == std::string(3, quote);
   std::size_t i = begin + (multiline ? 3 : 1);
@@ -33,7 +32,7 @@ std::optional<Place> too_deep_place(std::string_view toml, const std::string& fi
   for (std::size_t i = 0; i < toml.size();) {
     const char c = toml[i];
     if (c == '"' || c == '\'') {
-      const std::size_t end = behind_string(toml, i);
+      const std::size_t end = end_of_string(toml, i);
       for (; i < end; ++i) {
         if (toml[i] == '\n') ++line, line_begin = i + 1;
       }
@@ -46,7 +45,7 @@ std::optional<Place> too_deep_place(std::string_view toml, const std::string& fi
     if (c == '[' || c == '{') ++brackets;
     if ((c == ']' || c == '}') && brackets > 0) --brackets;
     dots = c == '.' ? dots + 1 : (c == '=' || c == ',' || c == '\n' || c == '[' || c == '{') ? 0 : dots;
-    if (brackets > k_deepest_brackets || dots > k_most_dots) {
+    if (brackets > k_max_brackets || dots > k_max_dots) {
       return Place{file, line, static_cast<int>(i - line_begin) + 1};
     }
     if (c == '\n') ++line, line_begin = i + 1;

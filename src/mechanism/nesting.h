@@ -1,4 +1,4 @@
-/// \file
+/// Internal: rejects deep nesting, because toml++ destroys tables recursively.
 /// Internal: keeps deep nesting away from toml++, whose tables are destroyed recursively.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace fusee {
 
-/// Where brackets or a dotted key nest deeper than any mechanism file does, or null. Strings and comments are passed
-/// over.
+/// The place where brackets or a dotted key nest deeper than in any mechanism file, or null. Strings and comments are
+/// skipped.
 std::optional<Place> too_deep_place(std::string_view toml, const std::string& file);
 
 }  // namespace fusee

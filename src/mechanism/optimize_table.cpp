@@ -10,8 +10,8 @@
 namespace fusee {
 namespace {
 
-constexpr std::size_t k_most_variables = 8;
-constexpr std::size_t k_most_objectives = 3;
+constexpr std::size_t k_max_variables = 8;
+constexpr std::size_t k_max_objectives = 3;
 
 class OptimizeTableCheck {
  public:
@@ -33,16 +33,16 @@ class OptimizeTableCheck {
   }
 
   void check_objectives() {
-    if (table_.objectives.size() > k_most_objectives) {
-      fail(item_place_("objective", k_most_objectives), "optimize.objective names more than three",
+    if (table_.objectives.size() > k_max_objectives) {
+      fail(item_place_("objective", k_max_objectives), "optimize.objective names more than three",
            "a front has two or three objectives");
     }
   }
 
   void check_variables() {
     const auto& variables = table_.variables;
-    if (variables.size() > k_most_variables)
-      fail(item_place_("variables", k_most_variables), "optimize.variables names more than eight keys",
+    if (variables.size() > k_max_variables)
+      fail(item_place_("variables", k_max_variables), "optimize.variables names more than eight keys",
            "leave some out");
     for (std::size_t i = 0; i < variables.size(); ++i) {
       const Place place = item_place_("variables", i);
@@ -52,7 +52,7 @@ class OptimizeTableCheck {
              nearest.empty() ? "fusee explain lists the keys" : "did you mean " + nearest + "?");
       } else if (std::find(variables.begin(), variables.begin() + static_cast<std::ptrdiff_t>(i), variables[i]) !=
                  variables.begin() + static_cast<std::ptrdiff_t>(i)) {
-        fail(place, variables[i] + " stands twice among the variables", "leave one out");
+        fail(place, variables[i] + " occurs twice among the variables", "leave one out");
       }
     }
     if (is_good_("lower") && is_good_("upper")) check_bounds();
@@ -91,12 +91,12 @@ class OptimizeTableCheck {
     }
   }
 
-  /// A relation, or nothing after its fault was said at its column.
+  /// The parsed relation; nullopt after its fault was reported at its column.
   std::optional<LinearRelation> relation(const std::string& key, std::size_t item, const std::string& text) {
     ParsedRelation parsed = parse_relation(text);
     if (!parsed.fault) return std::move(parsed.relation);
     Place place = item_place_(key, item);
-    // The opening quote stands before the text. With escapes in it the column is that of the text's own bytes.
+    // The opening quote precedes the text. Escapes in the text shift the reported column.
     if (place.line > 0) place.column += 1 + static_cast<int>(parsed.fault->at);
     fail(place,
          "optimize." + key + ": " + in_quotes(text) + ": " + parsed.fault->message + " (character " +
@@ -114,7 +114,7 @@ class OptimizeTableCheck {
       const auto& left = tie->left;
       if (tie->relation != Relation::equal || left.terms.size() != 1 || left.terms.front().factor != 1 ||
           left.constant != 0) {
-        fail(place, "optimize.tied: " + in_quotes(table_.tied[i]) + " does not say what one key is",
+        fail(place, "optimize.tied: " + in_quotes(table_.tied[i]) + " does not define a key",
              "write key = sum of other keys");
         continue;
       }

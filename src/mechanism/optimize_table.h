@@ -1,4 +1,4 @@
-/// \file
+/// Internal: checks [optimize] against the field table; errors carry columns.
 /// Internal: [optimize] held against the field table, each text with its column.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace fusee {
 
-/// `is_good(key)`: the key was read without an error. `item_place(key, i)`: where item i of its list stands; its line
-/// is 0 for --set.
+/// `is_good(key)`: the key was read without an error. `item_place(key, i)`: place of item i of its list; its line is 0
+/// for --set.
 void check_optimize_table(const Optimization& table, const std::function<bool(const std::string& key)>& is_good,
                           const std::function<Place(const std::string& key, std::size_t item)>& item_place,
                           std::vector<Diagnostic>& errors);

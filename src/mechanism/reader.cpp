@@ -18,34 +18,34 @@
 #include "mechanism/nesting.h"
 #include "mechanism/optimize_table.h"
 
-// From bytes to a DeclaredMechanism in four steps, each of which goes on after an error so that all errors of a file
-// come at once:
-//   1. toml++ reads the text (a syntax error is the only one that ends the reading at once);
-//   2. the tree is flattened to "table.key" → node with its place, and --set values replace or supply entries;
-//   3. each entry is held against its row of the field table, and what is required and absent is named;
-//   4. keys are held against each other, and the CSV of law = "table" or "torque" is loaded.
+// Reads bytes into a DeclaredMechanism in four steps. Each continues after errors, so that all errors of a file are
+// reported together:
+// 1. toml++ parses the text; only a syntax error ends the reading.
+// 2. The tree is flattened to "table.key" → node with its place, and --set values replace or add entries.
+// 3. Each entry is checked against its row of the field table; missing mandatory keys are reported.
+// 4. Keys are checked against each other, and the CSV of law = "table" or "torque" is loaded.
 
 namespace fusee {
 namespace {
 
-constexpr std::size_t k_largest_file = 1 << 20;
-constexpr std::size_t k_largest_table = 8 << 20;
-constexpr std::size_t k_longest_text = 200;
-constexpr std::size_t k_longest_list = 100;
-constexpr std::size_t k_most_errors = 100;
-constexpr double k_least_length = 0.001;  // mm
+constexpr std::size_t k_max_file_size = 1 << 20;
+constexpr std::size_t k_max_table_size = 8 << 20;
+constexpr std::size_t k_max_text_length = 200;
+constexpr std::size_t k_max_list_length = 100;
+constexpr std::size_t k_max_errors = 100;
+constexpr double k_min_length = 0.001;  // mm
 
 Place place_of(const toml::source_region& region, const std::string& file) {
   return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
-/// A value of the file or of --set, and where it stands.
+/// A value of the file or of --set, with its place.
 struct Entry {
   const toml::node* node = nullptr;
   Place place;
 };
 
-/// What messages call a value: `the string "abc"`, "a table", "4".
+/// A value as messages describe it: `the string "abc"`, "a table", "4".
 std::string described(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::string:
@@ -78,7 +78,7 @@ class MechanismReader {
   void parse(std::string_view text);
   void flatten();
   void flatten_table(const std::string& table, const toml::table& node);
-  void take_former(const FormerKey& former, const toml::table& table, const Entry& entry);
+  void take_former_key(const FormerKey& former, const toml::table& table, const Entry& entry);
   void apply(const Setting& setting);
   toml::table setting_value(const Setting& setting, const std::string& file);
   // Step 3
@@ -94,7 +94,7 @@ class MechanismReader {
   void take_texts(const Field& field, const Entry& entry);
   void take_shaft();
   bool is_needed(const Field& field) const;
-  void look_for_missing();
+  void report_missing();
   // Step 4
   void check_transmission();
   void check_unused();
@@ -121,13 +121,13 @@ class MechanismReader {
   toml::table root_;
   std::vector<std::unique_ptr<toml::table>> setting_values_;  ///< keeps the nodes of --set alive
   std::map<std::string, Entry> entries_;                      ///< by dotted name
-  /// --set of one number of two: on top of what the file says, or what it leaves out.
+  /// --set of one number of a pair, applied after the file's value or its default.
   std::vector<std::pair<NumberKey, Entry>> points_;
-  std::map<std::string, Place> tables_;  ///< those that stand in the file
+  std::map<std::string, Place> tables_;  ///< tables of the file
   std::vector<Diagnostic> errors_;
-  std::vector<Diagnostic> table_errors_;  ///< of the CSV: they stand behind those of the file
+  std::vector<Diagnostic> table_errors_;  ///< errors of the CSV, reported after those of the file
   std::vector<Diagnostic> warnings_;
-  std::map<std::string, bool> good_;  ///< fields that were taken without an error
+  std::map<std::string, bool> good_;  ///< fields that were read; false: with an error
   DeclaredMechanism mechanism_;
 };
 
@@ -153,7 +153,7 @@ Place MechanismReader::table_place(std::string_view table) const {
 // ---- 1. text → tree -------------------------------------------------------------------------------------------------
 
 void MechanismReader::parse(std::string_view text) {
-  if (text.size() > k_largest_file) throw InputError(name_, "is larger than 1 MB: this is no mechanism file");
+  if (text.size() > k_max_file_size) throw InputError(name_, "is larger than 1 MB: this is no mechanism file");
   if (text.find('\0') != std::string_view::npos)
     throw InputError(name_, "is a binary file", "a mechanism file is TOML, a text; see fusee new");
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
@@ -165,12 +165,12 @@ void MechanismReader::parse(std::string_view text) {
   try {
     root_ = toml::parse(text, name_);
   } catch (const toml::parse_error& error) {
-    // "Error while parsing key-value pair: expected …" → "expected …". It may quote the file's bytes.
+    // Strips the prefix of "Error while parsing key-value pair: expected …". The rest may quote the file's bytes.
     std::string_view what = error.description();
     const std::size_t colon = what.find(": ");
     if (what.substr(0, 5) == "Error" && colon != std::string_view::npos) what.remove_prefix(colon + 2);
     throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_),
-                                "not TOML: " + as_shown(what, k_longest_text),
+                                "not TOML: " + as_shown(what, k_max_text_length),
                                 "strings stand in quotes, lists in [ ], one key = value a line"});
   }
 }
@@ -198,12 +198,12 @@ void MechanismReader::fail_unknown(const Place& place, const std::string& table,
        table.empty() ? "" : "fusee explain " + table + " lists the keys of [" + table + "]");
 }
 
-void MechanismReader::take_former(const FormerKey& former, const toml::table& table, const Entry& entry) {
+void MechanismReader::take_former_key(const FormerKey& former, const toml::table& table, const Entry& entry) {
   for (const std::string_view now : former.now) {
     if (table.contains(now.substr(now.find('.') + 1)))
       return fail(entry.place,
-                  std::string(former.name) + " is " + std::string(former.now[0]) + " and " +
-                      std::string(former.now[1]) + " by now, one of which is there too",
+                  std::string(former.name) + " was replaced by " + std::string(former.now[0]) + " and " +
+                      std::string(former.now[1]) + " now, one of which is present as well",
                   "delete " + std::string(former.name));
     entries_[std::string(now)] = entry;
   }
@@ -213,7 +213,7 @@ void MechanismReader::flatten_table(const std::string& table, const toml::table&
   for (const auto& [key, value] : node) {
     const std::string name = table + "." + std::string(key.str());
     if (const FormerKey* former = find_former_key(name)) {
-      take_former(*former, node, {&value, place_of(value.source(), name_)});
+      take_former_key(*former, node, {&value, place_of(value.source(), name_)});
     } else if (find_field(name) == nullptr) {
       fail_unknown(place_of(key.source(), name_), table, std::string(key.str()));
     } else {
@@ -247,15 +247,15 @@ void MechanismReader::flatten() {
   }
 }
 
-/// The value of --set as TOML. A bare word is a string; what is neither is an error.
+/// The value of --set as TOML. A bare word is a string; anything else is an error.
 toml::table MechanismReader::setting_value(const Setting& setting, const std::string& file) {
   const bool one_line = setting.value.find_first_of("\r\n") == std::string::npos;
-  if (one_line && setting.value.size() <= 4 * k_longest_text && !too_deep_place(setting.value, file)) {
+  if (one_line && setting.value.size() <= 4 * k_max_text_length && !too_deep_place(setting.value, file)) {
     try {
       toml::table table = toml::parse("value = " + setting.value + "\n");
       if (table.size() == 1) return table;
     } catch (const toml::parse_error&) {
-      // Perhaps a bare word, below.
+      // May be a bare word, see below.
     }
   }
   toml::table table;
@@ -295,14 +295,14 @@ void MechanismReader::apply(const Setting& setting) {
     entries_[setting.key] = {node, {file, 0, 0}};
   } else {
     entries_.erase(setting.key);
-    good_[setting.key] = false;  // its error is said; do not call it missing as well
+    good_[setting.key] = false;  // its error is reported; do not report it as missing as well
   }
 }
 
 // ---- 3. entries → fields --------------------------------------------------------------------------------------------
 
-/// A length that may be 0, for a default or for none. Drawings round to 1e-6 mm, and a length that they round to 0
-/// would be neither.
+/// True for a length where 0 means a default or "none". Drawings round to 1e-6 mm, so that a tiny length would be
+/// neither 0 nor usable.
 bool is_declared_length(const Field& field) {
   return field.unit == "mm" && field.least == 0 && field.table != "identified";
 }
@@ -322,15 +322,15 @@ void MechanismReader::take_number(const Field& field, const Entry& entry, int en
     return fail(place, field.name() + " = " + with_unit(*value, field.unit) + " is out of range",
                 "allowed: " + allowed_text(field));
   }
-  if (is_declared_length(field) && *value > 0 && *value < k_least_length) {
+  if (is_declared_length(field) && *value > 0 && *value < k_min_length) {
     return fail(place, field.name() + " = " + with_unit(*value, field.unit) + " is less than a micrometre",
-                "0, or at least " + with_unit(k_least_length, field.unit));
+                "0, or at least " + with_unit(k_min_length, field.unit));
   }
   field.set(mechanism_, end, *value);
   good_[field.name()] = true;
 }
 
-/// Both numbers of a range or a point; false where one is wrong.
+/// Reads both numbers of a range or point; false if one is invalid.
 bool MechanismReader::take_pair(const Field& field, const Entry& entry) {
   const toml::array* ends = entry.node->as_array();
   if (ends == nullptr || ends->size() != 2) {
@@ -355,17 +355,17 @@ void MechanismReader::take_range(const Field& field, const Entry& entry) {
 void MechanismReader::demand_home(const Field& field, const Entry& entry, double lowest, double highest) {
   if (lowest <= 0 && highest >= 0 && lowest < highest) return;
   good_[field.name()] = false;
-  fail(entry.place, field.name() + " = [" + shortest(lowest) + ", " + shortest(highest) + "] deg does not hold home",
+  fail(entry.place, field.name() + " = [" + shortest(lowest) + ", " + shortest(highest) + "] deg does not include home",
        "the lowest angle is at most 0, the highest at least 0, and they differ");
 }
 
-/// Texts go into drawings, pages and comments of programs, and to the terminal.
+/// Texts appear in drawings, pages, program comments and on the terminal, so they must be one printable line.
 bool MechanismReader::demand_line(const Field& field, const Place& place, const std::string& text) {
-  if (text.size() > k_longest_text) {
-    fail(place, field.name() + " must be one line of at most " + std::to_string(k_longest_text) + " bytes",
+  if (text.size() > k_max_text_length) {
+    fail(place, field.name() + " must be one line of at most " + std::to_string(k_max_text_length) + " bytes",
          "take a shorter text");
   } else if (cleaned_line(text) != text) {
-    fail(place, field.name() + " = " + in_quotes(text) + " holds a character that is none of a text of one line",
+    fail(place, field.name() + " = " + in_quotes(text) + " contains a character that a one-line text must not have",
          "leave out control characters, line ends and marks that change the direction of writing");
   } else {
     return true;
@@ -398,7 +398,7 @@ void MechanismReader::take_text(const Field& field, const Entry& entry) {
 
 void MechanismReader::take_numbers(const Field& field, const Entry& entry) {
   const toml::array* list = entry.node->as_array();
-  if (list == nullptr || list->size() > k_longest_list) {
+  if (list == nullptr || list->size() > k_max_list_length) {
     return fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node),
                 "for example " + std::string(field.key) + " = [10, 20]");
   }
@@ -415,10 +415,10 @@ void MechanismReader::take_numbers(const Field& field, const Entry& entry) {
   good_[field.name()] = true;
 }
 
-/// A single text stands for a list of one.
+/// A single text is accepted as a list of one.
 void MechanismReader::take_texts(const Field& field, const Entry& entry) {
   const toml::array* list = entry.node->as_array();
-  if (!entry.node->is_string() && (list == nullptr || list->size() > k_longest_list)) {
+  if (!entry.node->is_string() && (list == nullptr || list->size() > k_max_list_length)) {
     return fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node));
   }
   std::vector<std::string>& values = field.texts(mechanism_);
@@ -446,7 +446,7 @@ void MechanismReader::take_texts(const Field& field, const Entry& entry) {
 
 void MechanismReader::take_points() {
   for (const auto& [key, entry] : points_) {
-    // A point that the file does not have is whole with one number; a range is not, and is missing.
+    // One number completes an omitted point, which has a default; an omitted range stays missing.
     if (key.field->kind == FieldKind::range && !entries_.contains(key.field->name())) continue;
     take_number(*key.field, entry, key.end, *entry.node);
     entries_.try_emplace(key.field->name(), entry);
@@ -478,15 +478,14 @@ void MechanismReader::take(const Field& field, const Entry& entry) {
   }
 }
 
-/// A key without a default that this mechanism uses. Where the choice that decides it is wrong itself, nothing is
-/// known.
+/// True for a used key without a default. If the choice that decides about it is invalid, the key is not required.
 bool MechanismReader::is_needed(const Field& field) const {
   const std::string decider(field.only_when.substr(0, field.only_when.find('=')));
   const auto decided = good_.find(decider);
   return (decided == good_.end() || decided->second) && is_used(field, mechanism_);
 }
 
-void MechanismReader::look_for_missing() {
+void MechanismReader::report_missing() {
   const bool other_joint = has_table("transmission");
   for (const Field& field : fields()) {
     const bool belongs_to_other = field.table == "transmission";
@@ -498,7 +497,7 @@ void MechanismReader::look_for_missing() {
     const std::string example =
         field.least == field.most && field.kind == FieldKind::number ? shortest(field.least) : "...";
     fail(table_place(field.table),
-         "missing key " + field.name() + (conditional ? " (needed with " + condition_text(field) + ")" : ""),
+         "missing key " + field.name() + (conditional ? " (required with " + condition_text(field) + ")" : ""),
          "add " + std::string(field.key) + " = " + example + " " + where + ": " + std::string(field.meaning) + "; " +
              allowed_text(field));
   }
@@ -514,8 +513,8 @@ void MechanismReader::check_transmission() {
          "[transmission] stands in place of [joint], [guides] and [pulley]: leave one side out");
   }
   if (good_.count("transmission.ratio") > 0 && good_["transmission.ratio"] && mechanism_.transmission->ratio == 0) {
-    fail(entries_["transmission.ratio"].place, "transmission.ratio = 0 turns nothing",
-         "theta = offset + alpha/ratio: any number but 0");
+    fail(entries_["transmission.ratio"].place, "transmission.ratio must not be 0",
+         "theta = offset + alpha/ratio: use any other number");
   }
 }
 
@@ -523,7 +522,7 @@ void MechanismReader::check_unused() {
   for (const Field& field : fields()) {
     const auto entry = entries_.find(field.name());
     if (entry == entries_.end() || is_used(field, mechanism_)) continue;
-    // Where the key that decides has no use itself, that is why.
+    // If the deciding key is itself unused, the message names its condition.
     const Field* decider = find_field(field.only_when.substr(0, field.only_when.find('=')));
     const Field& unmet = is_used(*decider, mechanism_) ? field : *decider;
     warn(entry->second.place, field.name() + " is not used: it is for " + condition_text(unmet) + " only");
@@ -541,42 +540,41 @@ void MechanismReader::check_idlers() {
   const Guides& guides = mechanism_.guides;
   if (guides.kind != GuideKind::idler) return;
   if (has("guides.friction")) {
-    warn(entries_["guides.friction"].place,
-         "guides.friction is not used: what an idler takes is guides.bearing_friction's");
+    warn(entries_["guides.friction"].place, "guides.friction is not used: idlers use guides.bearing_friction");
   }
   if (guides.bearing_radius > guides.radius && good_["guides.kind"]) {
     const std::string key =
         has("guides.bearing_radius_mm") || !has("guides.radius_mm") ? "guides.bearing_radius_mm" : "guides.radius_mm";
     fail(has(key) ? entries_[key].place : entries_["guides.kind"].place,
          "an idler's bearing of radius " + shortest(guides.bearing_radius) +
-             " mm (guides.bearing_radius_mm) does not go into "
+             " mm (guides.bearing_radius_mm) does not fit into "
              "an idler of " +
              shortest(guides.radius) + " mm (guides.radius_mm)",
-         "guides.radius_mm is an idler's own, to the floor of its groove");
+         "guides.radius_mm is the idler's radius at the floor of its groove");
   }
 }
 
-/// What a sheath cannot go without.
+/// Checks the keys that a sheath requires.
 void MechanismReader::check_sheath() {
   if (!has_table("sheath")) return;
   for (const Field& field : fields()) {
     if (field.table != "sheath" || !field.needed_in_table || has(field.name())) continue;
-    fail(table_place("sheath"), "missing key " + field.name() + " (a sheath needs it)",
+    fail(table_place("sheath"), "missing key " + field.name() + " (required with [sheath])",
          "add " + std::string(field.key) + " = ... under [sheath]: " + std::string(field.meaning) + "; " +
              allowed_text(field));
   }
   if (mechanism_.pulley.method == Method::paper && good_["pulley.method"])
-    fail(table_place("sheath"), "[sheath] does not go with pulley.method = \"paper\"",
-         "the paper's tendons run from pin to pulley: take method = \"exact\"");
+    fail(table_place("sheath"), "[sheath] cannot be combined with pulley.method = \"paper\"",
+         "the paper's tendons run from pin to pulley: use method = \"exact\"");
 }
 
-/// The paper's chain knows neither drum nor attachments apart, and draws for points what lies on a drum.
+/// The paper's formulas have neither drum nor separate attachments.
 void MechanismReader::check_method() {
   if (mechanism_.pulley.method != Method::paper) return;
   for (const char* key : {"joint.drum_radius_mm", "joint.attachment1_mm", "joint.attachment2_mm"}) {
     if (!has(key) || !good_[key] || !find_field(key)->is_set(mechanism_)) continue;
-    fail(entries_[key].place, std::string(key) + " does not go with pulley.method = \"paper\"",
-         "the paper's joint has one attachment C and no drum: take method = \"exact\"");
+    fail(entries_[key].place, std::string(key) + " cannot be combined with pulley.method = \"paper\"",
+         "the paper's joint has one attachment C and no drum: use method = \"exact\"");
   }
 }
 
@@ -603,7 +601,7 @@ void MechanismReader::check_horn() {
     return;
   }
   if (described == fields().end()) {
-    return fail(entries_["body.bore"].place, "body.bore = \"horn\" does not say which horn",
+    return fail(entries_["body.bore"].place, "body.bore = \"horn\" requires a horn",
                 "name one with body.horn (fusee explain body.horn lists them), or describe yours under [horn]");
   }
   const bool all_read = std::all_of(fields().begin(), fields().end(), [this](const Field& field) {
@@ -616,7 +614,7 @@ void MechanismReader::check_horn() {
   }
 }
 
-/// A shaft fills in what is not written; what is written must agree with it.
+/// A shaft supplies omitted keys; written keys must agree with it.
 void MechanismReader::take_shaft() {
   const ShaftType* shaft = find_shaft(mechanism_.body.shaft);
   if (shaft == nullptr) return;
@@ -634,12 +632,12 @@ void MechanismReader::take_shaft() {
     fail(entries_[key].place,
          std::string(key) + " = " + value_in(mechanism_) + " is not that of body.shaft = " + in_quotes(shaft->name) +
              ", which is " + value_in(with_shaft),
-         "leave out " + std::string(key) + ", which the shaft says, or body.shaft");
+         "leave out " + std::string(key) + ", which the shaft defines, or body.shaft");
   }
   mechanism_.body = with_shaft.body;
 }
 
-/// Places of the items of a list of [optimize]; of the whole value where it is a single text or came from --set.
+/// Places of list items in [optimize]; a single text or a --set value has one place.
 void MechanismReader::check_optimize() {
   if (!has_table("optimize")) return;
   const auto item_place = [this](const std::string& key, std::size_t item) {
@@ -662,7 +660,7 @@ void MechanismReader::check_prior() {
     if (field.table != "prior" || entry == entries_.end() || !good_[field.name()]) continue;
     const std::vector<double>& reading = field.numbers(mechanism_);
     if (reading.empty() || (reading.size() == 2 && reading[1] > 0)) continue;
-    fail(entry->second.place, field.name() + " takes two numbers: the value read and its standard uncertainty, above 0",
+    fail(entry->second.place, field.name() + " must be two numbers: the value and its standard uncertainty, above 0",
          "for example " + field.name() + " = [2.4, 0.02]");
   }
 }
@@ -676,7 +674,7 @@ void MechanismReader::load_table() {
   if (!has(key) || !good_[key] || !good_["joint.range_deg"] || (torque && table.empty())) return;
   const std::filesystem::path path = folder_ / std::filesystem::path(table);
   try {
-    const std::string csv = read_file(path, k_largest_table);
+    const std::string csv = read_file(path, k_max_table_size);
     if (torque)
       pulley.torque_rows = parse_torque_table(csv, path.string(), mechanism_.joint, table_errors_);
     else
@@ -685,35 +683,35 @@ void MechanismReader::load_table() {
     const Diagnostic& cause = error.diagnostics().front();
     fail(entries_[key].place, key + ": " + cause.place.file + ": " + cause.message,
          std::string("a CSV file with columns ") + (torque ? "theta_deg,motor_torque_Nmm" : "alpha_deg,theta_deg") +
-             "; its place is relative to the mechanism file");
+             "; its path is relative to the mechanism file");
   }
 }
 
-/// A law of torque says which torque, once.
+/// A torque law requires exactly one source of the wanted torque.
 void MechanismReader::check_torque_law() {
   const PulleyDrive& pulley = mechanism_.pulley;
   if (pulley.law != Law::torque || !good_["pulley.law"]) return;
   const auto is_read = [this](const char* key) { return !has(key) || good_[key]; };
   if (!is_read("pulley.motor_torque_Nmm") || !is_read("pulley.torque_table")) return;
   if (pulley.motor_torque == 0 && pulley.torque_table.empty()) {
-    fail(entries_["pulley.law"].place, "pulley.law = \"torque\" does not say which torque is wanted",
-         "give pulley.motor_torque_Nmm, the same at every angle, or pulley.torque_table, a CSV file with columns "
+    fail(entries_["pulley.law"].place, "pulley.law = \"torque\" requires a wanted torque",
+         "add pulley.motor_torque_Nmm, a constant torque, or pulley.torque_table, a CSV file with columns "
          "theta_deg,motor_torque_Nmm");
   }
   if (pulley.motor_torque != 0 && !pulley.torque_table.empty()) {
     fail(entries_["pulley.torque_table"].place,
-         "pulley.torque_table and pulley.motor_torque_Nmm both say which torque is wanted", "leave one of them out");
+         "pulley.torque_table and pulley.motor_torque_Nmm both define the wanted torque", "leave one of them out");
   }
   if (pulley.method == Method::paper) {
-    fail(entries_["pulley.method"].place, "pulley.law = \"torque\" does not go with pulley.method = \"paper\"",
-         "the paper has no such law: take method = \"exact\"");
+    fail(entries_["pulley.method"].place, "pulley.law = \"torque\" cannot be combined with pulley.method = \"paper\"",
+         "the paper has no such law: use method = \"exact\"");
   }
 }
 
 // ---- the whole ------------------------------------------------------------------------------------------------------
 
 void MechanismReader::finish(std::vector<Diagnostic>* warnings) {
-  // By place in the file; then what concerns all of it; then --set.
+  // Order: by place in the file, then errors about the whole file, then --set.
   const auto key = [this](const Diagnostic& d) {
     return std::make_tuple(d.place.file != name_, d.place.line == 0, d.place.line, d.place.column);
   };
@@ -721,9 +719,9 @@ void MechanismReader::finish(std::vector<Diagnostic>* warnings) {
   std::stable_sort(errors_.begin(), errors_.end(), by_place);
   std::stable_sort(warnings_.begin(), warnings_.end(), by_place);
   errors_.insert(errors_.end(), table_errors_.begin(), table_errors_.end());
-  if (errors_.size() > k_most_errors) {
-    const std::size_t more = errors_.size() - k_most_errors;
-    errors_.resize(k_most_errors);
+  if (errors_.size() > k_max_errors) {
+    const std::size_t more = errors_.size() - k_max_errors;
+    errors_.resize(k_max_errors);
     fail({name_, 0, 0}, "and " + std::to_string(more) + " more errors");
   }
   if (!errors_.empty()) throw InputError(errors_);
@@ -742,7 +740,7 @@ DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector
   }
   take_points();
   take_shaft();
-  look_for_missing();
+  report_missing();
   check_transmission();
   check_unused();
   check_method();
@@ -781,7 +779,7 @@ Place MechanismFile::place_of(std::string_view key) const {
 }
 
 MechanismFile read_mechanism(const std::filesystem::path& path, const std::vector<Setting>& settings) {
-  const std::string text = read_file(path, k_largest_file);
+  const std::string text = read_file(path, k_max_file_size);
   MechanismFile file;
   file.path = path.string();
   file.sha256 = sha256(text);

@@ -9,7 +9,7 @@
 namespace fusee {
 namespace {
 
-/// A table whose keys are all known; keys come with add().
+/// An object without unknown keys; add() adds keys.
 Json closed_object(std::string_view description) {
   return {{"type", "object"},
           {"description", description},
@@ -17,9 +17,8 @@ Json closed_object(std::string_view description) {
           {"additionalProperties", false}};
 }
 
-Json fallback_json(const Field& field) {
-  return parse_json(field.fallback);
-}  // TOML's numbers, strings and booleans are JSON's
+/// TOML's numbers, strings and booleans are valid JSON.
+Json fallback_json(const Field& field) { return parse_json(field.fallback); }
 
 Json field_schema(const Field& field) {
   Json json;
@@ -64,7 +63,7 @@ Json field_schema(const Field& field) {
   return json;
 }
 
-/// "pulley.law=linear" → if law is "linear" (or absent, where that is the default) then the key is required.
+/// "pulley.law=linear" → if law is "linear" (or absent, when that is the default) the key is required.
 Json condition_schema(const Field& field) {
   const std::size_t equals = field.only_when.find('=');
   const Field* decider = find_field(field.only_when.substr(0, equals));
@@ -75,7 +74,7 @@ Json condition_schema(const Field& field) {
   return {{"if", condition}, {"then", {{"required", {field.key}}}}};
 }
 
-/// Joint, guides, pulley and tendon, or [transmission] in their place.
+/// Requires joint, guides, pulley and tendon, or [transmission] instead.
 Json either_joint() {
   Json other;
   other["if"] = {{"required", {"transmission"}}};
@@ -99,7 +98,7 @@ std::string mechanism_schema() {
       schema["properties"][table] = closed_object(table_meaning(table));
     Json& object = table.empty() ? schema : schema["properties"][table];
     object["properties"][std::string(field.key)] = field_schema(field);
-    // A tendon may be left out beside [transmission]: either_joint() asks for it.
+    // A tendon may be omitted with [transmission]; either_joint() requires it otherwise.
     if ((field.required && table != "tendon") || field.needed_in_table) object["required"].push_back(field.key);
     if (field.fallback.empty() && !field.only_when.empty()) object["allOf"].push_back(condition_schema(field));
   }

@@ -27,7 +27,7 @@ std::string_view find_template(std::string_view name) {
   }
   const std::string nearest = nearest_word(name, names);
   throw InputError("", "there is no template " + in_quotes(name),
-                   (nearest.empty() ? "" : "did you mean " + nearest + "? ") + std::string("There are: ") + list);
+                   (nearest.empty() ? "" : "did you mean " + nearest + "? ") + std::string("Known templates: ") + list);
 }
 
 }  // namespace fusee

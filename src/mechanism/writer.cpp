@@ -21,9 +21,8 @@ bool reads_back(const Field& field, const DeclaredMechanism& mechanism, int end,
 
 }  // namespace
 
-/// Conversion from degrees or percent rounds, so that the nearest number of the file's unit may miss by one bit where a
-/// neighbour does not. A value that no number of the file's unit gives (it did not come from a file) is written to the
-/// last bit but one.
+/// Conversion from degrees or percent rounds, so the nearest number in the file's unit may miss by one bit where a
+/// neighbour is exact. Values that no number of the file's unit reproduces are written with an error in the last bit.
 std::string number_text(const Field& field, const DeclaredMechanism& mechanism, int end) {
   const double value = field.get(mechanism, end);
   for (int digits = 1; digits <= 17; ++digits) {
@@ -55,7 +54,7 @@ std::string list_text(const List& list, ToText to_text) {
 }
 
 std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
-  DeclaredMechanism copy = mechanism;  // lists are reached through a reference that may write
+  DeclaredMechanism copy = mechanism;  // lists are accessed through a mutable reference
   switch (field.kind) {
     case FieldKind::number:
       return number_text(field, mechanism, 0);
@@ -75,7 +74,7 @@ std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
   return {};
 }
 
-/// A key that has no use here and holds nothing, or its default, is written as a comment.
+/// True for an unused key that is empty or has its default; it is written as a comment.
 bool is_blank(const Field& field, const DeclaredMechanism& mechanism) {
   if (field.only_when.empty() || is_used(field, mechanism)) return false;
   if (field.get != nullptr) return field.get(mechanism, 0) == 0;
@@ -94,14 +93,14 @@ std::string comment(const Field& field) {
 }  // namespace
 
 std::string write_mechanism(const DeclaredMechanism& mechanism) {
-  std::string text = "# A mechanism of fusee. `fusee explain KEY` tells more about a key.\n";
+  std::string text = "# A mechanism file of fusee. `fusee explain KEY` describes a key.\n";
   std::string_view table;
   for (const Field& field : fields()) {
     const bool of_mechanism =
         field.table == "joint" || field.table == "guides" || field.table == "sheath" || field.table == "pulley";
     if (mechanism.transmission ? of_mechanism : field.table == "transmission") continue;
     if (field.is_set != nullptr && !field.is_set(mechanism)) continue;
-    // A ratio declares no tendon unless it does.
+    // A joint declared by a ratio may omit the tendon.
     if (mechanism.transmission && field.name() == "tendon.diameter_mm" && mechanism.tendon.diameter == 0) continue;
     if (field.table != table)
       text += "\n# " + std::string(table_meaning(field.table)) + "\n[" + std::string(field.table) + "]\n";

@@ -57,7 +57,7 @@ constexpr double k_always_wrapped = radians(10);  // least angle of wrap at the 
 /// which the tendon reaches the pin.
 void set_anchor(WrappedTendon& tendon, const PinPlace& place, double least, double most, double R) {
   // It enters a sheath straight down, if it is still wrapped then.
-  const bool down = place.mouth && least > radians(1);
+  const bool down = place.sheath_exit && least > radians(1);
   const double leaving = down ? 0.0 : least - k_always_wrapped;
   const Vec2 normal = unit(leaving), onwards(normal.y(), -normal.x());
   const double reach = down ? tendon.rho + 0.1 * R : 0.5 * R;
@@ -66,8 +66,8 @@ void set_anchor(WrappedTendon& tendon, const PinPlace& place, double least, doub
   tendon.anchor = mirrored(anchor, tendon.side);
   tendon.outer = mirrored(place.pin() + 3 * tendon.rho * unit(0.5 * (most + leaving)), tendon.side);
   tendon.home_length += reach - tendon.rho * leaving;
-  if (!place.mouth) return;
-  const Vec2 exit = place.pulley_axis() + Vec2(place.mouth->across, place.mouth->above);
+  if (!place.sheath_exit) return;
+  const Vec2 exit = place.pulley_axis() + Vec2(place.sheath_exit->across, place.sheath_exit->above);
   tendon.sheath_exit = mirrored(exit, tendon.side);
   tendon.home_length += (exit - anchor).norm();
 }
@@ -124,7 +124,7 @@ std::string set_tendon(WrappedTendon& tendon, const Mechanism& mechanism, Side s
   const double sign = mirror_sign(side), low = std::min(sign * map.theta_min, sign * map.theta_max),
                high = std::max(sign * map.theta_min, sign * map.theta_max);
   const auto leaves = lift_off(place);
-  if (leaves && place.drum_off != 0) return "it lies on a drum whose centre moves with the joint";
+  if (leaves && place.drum_offset != 0) return "it lies on a drum whose centre moves with the joint";
   if (leaves && low < *leaves && *leaves < high)
     return "it leaves the drum within the range, and simulators require a fixed point between two "
            "cylinders";

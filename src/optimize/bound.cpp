@@ -8,30 +8,31 @@
 #include "base/golden_section.h"
 #include "optimize/conditions_at.h"
 
-// A lower bound of  min over designs x of max over places s of f(x, s)  is  min over x of f(x, s)  at any s: so few,
-// well chosen places do. Each gives
+// A lower bound of  min over designs x of max over places s of f(x, s)  is  min over x of f(x, s)  at any s, so that a few
+// well-chosen places suffice. Each place gives
 //   1. the interval value of f over the box;
-//   2. linear functions that are nowhere above f: from a corner v, f(x) >= f(v) + Σ g_i (x_i − v_i) with g_i the end of
-//      the slope's interval that is on the safe side of that corner. So do the conditions that a design must keep, where
-//      they are tightest. All of them together are a linear program, whose multipliers prove its least value
-//      (relaxation.cpp): the bound's error shrinks with the square of the box. What they leave no room for is cut off;
-//   3. over point pins T_b is e^{μφ}/sin γ2, and the torque with a round P1 r1 e^{μφ}/sin γ1. There b/a, the cotangent
-//      of γ, is a quotient of two linear functions, and is bounded by weights exactly, where 1 and 2 only come near.
-//      Without friction whole surfaces of designs tie, and nothing less sharp could prove it.
+//   2. linear functions below f: from a corner v, f(x) >= f(v) + Σ g_i (x_i − v_i), where g_i is the end of the slope's
+//      interval on the safe side of that corner. The conditions on a design give linear functions too, at their tightest
+//      places. Together they form a linear program, whose multipliers prove its minimum (relaxation.cpp): the error of
+//      the bound is of second order in the size of the box. Parts of the box that they exclude are cut off;
+//   3. for point pins T_b is e^{μφ}/sin γ2, and the torque with a round P1 is r1 e^{μφ}/sin γ1. There b/a, the cotangent
+//      of γ, is a quotient of two linear functions, which weights bound exactly, while 1 and 2 only approximate it.
+//      Without friction whole surfaces of designs tie, and no weaker bound could prove the optimum.
 //
-// Conditions are looked at only where those who judge a design look too (k_places of the stroke): what a proof leaves
-// out is never accepted as a design.
+// Conditions are evaluated only where the evaluation of designs tests them (k_places of the stroke): designs excluded
+// by a proof are then never accepted.
 //
-// Everything between RoundingUp's construction and its end is computed with directed rounding, in functions the
-// compiler must not merge.
+// Between RoundingUp's construction and its end, rounding is directed; these functions must not be merged by the
+// compiler.
 
 namespace fusee {
 namespace {
 
-/// Where those who judge a design look: evaluate() of objectives.cpp, and feasibility.cpp.
+/// Number of places that the evaluation of a design tests: evaluate() of objectives.cpp, and feasibility.cpp.
 constexpr int k_places = 60;
 constexpr int k_places_of_drawing = 192;
-/// Of a constraint's largest term: rounding must not cut off a design that constraint_violation() lets pass.
+/// Slack relative to a constraint's largest term: rounding must not cut off designs that constraint_violation()
+/// accepts.
 constexpr double k_slack = 2e-12;
 
 struct NumberSlot {
@@ -72,16 +73,16 @@ Jet radians_of(const Jet& value) { return value * Jet(pi_interval() / 180.0); }
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-Box corner_of(const Box& box, const std::array<bool, k_most_variables>& at_upper) {
+Box corner_of(const Box& box, const std::array<bool, k_max_variables>& at_upper) {
   Box corner = box;
-  for (std::size_t i = 0; i < k_most_variables; ++i)
+  for (std::size_t i = 0; i < k_max_variables; ++i)
     (at_upper[i] ? corner.lower[i] : corner.upper[i]) = at_upper[i] ? box.upper[i] : box.lower[i];
   return corner;
 }
 
 bool is_finite(const LineBelow& line) {
   double sum = line.constant;
-  for (std::size_t i = 0; i < k_most_variables; ++i) sum += line.slope[i] + line.loss[i];
+  for (std::size_t i = 0; i < k_max_variables; ++i) sum += line.slope[i] + line.loss[i];
   return std::isfinite(sum);
 }
 
@@ -91,7 +92,7 @@ std::vector<double> middle_of(const Box& box, int count) {
   return middle;
 }
 
-/// By how much of its range the box became narrower, in the variable in which it did most.
+/// Largest relative reduction of a width of the box.
 double narrowed(const Box& before, const Box& after, int count) {
   double most = 0;
   for (std::size_t i = 0; i < index(count); ++i) {
@@ -101,30 +102,31 @@ double narrowed(const Box& before, const Box& after, int count) {
   return most;
 }
 
-/// In the link's frame the pin lies `a` beside OC and `b` below C: tan γ = a/b over a point pin, and at one joint angle
-/// both are linear in the variables.
+/// Position of the pin in the link's frame: `a` from the line OC and `b` below C. For a point pin tan γ = a/b, and at
+/// one joint angle both are linear in the variables.
 struct Legs {
   Jet a, b;
 };
 
 Legs legs(const DesignNumbers<Jet>& d, bool of_tendon_1, const StrokeNumbers<Jet>& n) {
-  const FromPin<Jet> to_C =
-      of_tendon_1 ? from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored()) : from_pin_in_link(d.R, d.ED, d.OE, n.theta);
+  const PinOffset<Jet> to_C = of_tendon_1 ? offset_from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored())
+                                          : offset_from_pin_in_link(d.R, d.ED, d.OE, n.theta);
   return {-to_C.x, to_C.y};
 }
 
 }  // namespace
 
-/// A function of the designs that is looked at, at one place of the stroke.
-struct Bounder::Asked {
+/// A function of the designs at one point of the stroke.
+struct BoundCalculator::Query {
   enum class Kind { objective, cap, needed } kind = Kind::objective;
   double place = 0;
-  Needed needed = Needed::wrap_B;
-  PinAngles least = {};  ///< in the box
+  DesignCondition needed = DesignCondition::wrap_B;
+  PinAngles least = {};  ///< bounds for the box
 };
 
-Bounder::Bounder(const Problem& problem, Objective objective) : problem_(problem), objective_(objective) {
-  // What moves a joint's drum or attachment gives it one.
+BoundCalculator::BoundCalculator(const Problem& problem, Objective objective)
+    : problem_(problem), objective_(objective) {
+  // A joint has a drum or an attachment if a variable changes one.
   Design lowest;
   for (const Variable& variable : problem.variables) lowest.push_back(variable.lower);
   const Mechanism base = mechanism_at(problem, lowest);
@@ -140,9 +142,9 @@ Bounder::Bounder(const Problem& problem, Objective objective) : problem_(problem
 
 // ---- values ---------------------------------------------------------------------------------------------------------
 
-/// Of intervals to be called while a RoundingUp lives.
+/// For intervals, call only while a RoundingUp exists.
 template <typename S>
-DesignNumbers<S> Bounder::numbers_of(const std::vector<S>& variables) const {
+DesignNumbers<S> BoundCalculator::numbers_of(const std::vector<S>& variables) const {
   const FileNumbers<double>& b = base_;
   const WideFileNumbers<double>& w = wide_base_;
   std::array<S, 26> n{b.R,
@@ -193,8 +195,8 @@ DesignNumbers<S> Bounder::numbers_of(const std::vector<S>& variables) const {
   return d;
 }
 
-/// To be called while a RoundingUp lives. A corner has no derivatives.
-DesignNumbers<Jet> Bounder::numbers_over(const Box& box) const {
+/// Call only while a RoundingUp exists. A corner has no derivatives.
+DesignNumbers<Jet> BoundCalculator::numbers_over(const Box& box) const {
   const int count = static_cast<int>(problem_.variables.size());
   const bool is_point = box.lower == box.upper;
   std::vector<Jet> variables;
@@ -205,34 +207,34 @@ DesignNumbers<Jet> Bounder::numbers_over(const Box& box) const {
   return numbers_of(variables);
 }
 
-/// What may not be positive, or the objective.
-Jet Bounder::value_of(const Asked& asked, const DesignNumbers<Jet>& numbers, Domain& domain) const {
-  if (asked.kind == Asked::Kind::needed) {
-    NeededValues<Jet> values;
-    if (!needed_at(numbers, Jet(asked.place), index(static_cast<int>(asked.needed)) + 1, values)) {
+/// The objective, or a function that must not be positive.
+Jet BoundCalculator::value_of(const Query& query, const DesignNumbers<Jet>& numbers, Domain& domain) const {
+  if (query.kind == Query::Kind::needed) {
+    ConditionValues<Jet> values;
+    if (!conditions_at(numbers, Jet(query.place), index(static_cast<int>(query.needed)) + 1, values)) {
       domain.possible = false;
       return 0.0;
     }
-    const NeededValue<Jet>& needed = values[static_cast<std::size_t>(asked.needed)];
+    const ConditionValue<Jet>& needed = values[static_cast<std::size_t>(query.needed)];
     domain.whole = domain.whole && needed.domain.whole;
     domain.possible = domain.possible && needed.domain.possible;
     return -needed.value;
   }
-  const StrokeNumbers<Jet> stroke = stroke_numbers(numbers, Jet(asked.place), domain);
-  if (asked.kind == Asked::Kind::objective) return objective_of(objective_, numbers, stroke);
+  const StrokeNumbers<Jet> stroke = stroke_numbers(numbers, Jet(query.place), domain);
+  if (query.kind == Query::Kind::objective) return objective_of(objective_, numbers, stroke);
   return objective_of(problem_.cap->objective, numbers, stroke) - Jet(problem_.cap->limit);
 }
 
-[[gnu::noinline]] Jet Bounder::value_at(const Asked& asked, const Box& box, Domain& domain) const {
+[[gnu::noinline]] Jet BoundCalculator::value_at(const Query& query, const Box& box, Domain& domain) const {
   const RoundingUp rounding;
   DesignNumbers<Jet> numbers = numbers_over(box);
-  numbers.least = asked.least;
-  return value_of(asked, numbers, domain);
+  numbers.least = query.least;
+  return value_of(query, numbers, domain);
 }
 
-/// No tendon's γ can be less in a possible design of the box: its wrap would be negative.
-[[gnu::noinline]] PinAngles Bounder::least_angles(const Box& box, double place) const {
-  constexpr double k_between_places = 2e-3;  // rad: what a wrap may dip below 0 between places that are looked at
+/// Lower bounds of the tendons' γ in possible designs of the box: below them a wrap would be negative.
+[[gnu::noinline]] PinAngles BoundCalculator::least_angles(const Box& box, double place) const {
+  constexpr double k_between_places = 2e-3;  // rad: possible negative wrap between tested places
   const RoundingUp rounding;
   DesignNumbers<Jet> d = numbers_over(box);
   if (d.wide) return d.least;
@@ -246,24 +248,24 @@ Jet Bounder::value_of(const Asked& asked, const DesignNumbers<Jet>& numbers, Dom
   Domain of_2;
   const Interval least = lower_line_of(d, Jet(n.r2.value.lower()), false, of_2).normal.value + theta - k_between_places;
   if (upper.possible && of_2.possible) d.least.of_2 = least.lower();
-  // What cuts nothing off need not be asked twice.
+  // Bounds without effect are dropped, to avoid a second evaluation.
   if (!(n.upper1.gamma.value.lower() <= d.least.of_1)) d.least.of_1 = PinAngles().of_1;
   if (!(n.upper2.gamma.value.lower() <= d.least.of_2)) d.least.of_2 = PinAngles().of_2;
   return d.least;
 }
 
-/// The same with derivatives where the box is a single design.
-[[gnu::noinline]] Jet Bounder::slopes_at(const Asked& asked, const Box& box, Domain& domain) const {
+/// The value with derivatives for a box that is a single design.
+[[gnu::noinline]] Jet BoundCalculator::slopes_at(const Query& query, const Box& box, Domain& domain) const {
   const RoundingUp rounding;
   const int count = static_cast<int>(problem_.variables.size());
   std::vector<Jet> variables;
   for (int i = 0; i < count; ++i) variables.push_back(Jet::variable(box.lower[index(i)], i, count));
-  return value_of(asked, numbers_of(variables), domain);
+  return value_of(query, numbers_of(variables), domain);
 }
 
 // ---- lines ----------------------------------------------------------------------------------------------------------
 
-Bounder::Lines Bounder::lines_of_constraints(const Box& box, double slack) const {
+BoundCalculator::Lines BoundCalculator::lines_of_constraints(const Box& box, double slack) const {
   Lines lines;
   for (const LinearConstraint& constraint : problem_.constraints) {
     LineBelow line;
@@ -281,18 +283,18 @@ Bounder::Lines Bounder::lines_of_constraints(const Box& box, double slack) const
   return lines;
 }
 
-LineBelow Bounder::line_from(const Box& box, const Asked& asked, const Jet& over, bool from_highest,
-                             bool& exists) const {
-  std::array<bool, k_most_variables> at_upper{};
+LineBelow BoundCalculator::line_from(const Box& box, const Query& query, const Jet& over, bool from_highest,
+                                     bool& exists) const {
+  std::array<bool, k_max_variables> at_upper{};
   for (std::size_t i = 0; i < problem_.variables.size(); ++i)
     at_upper[i] = (over.slope[i].lower() + over.slope[i].upper() < 0) != from_highest;
   const Box corner = corner_of(box, at_upper);
   Domain domain;
-  const Jet there = value_at(asked, corner, domain);
+  const Jet there = value_at(query, corner, domain);
   LineBelow line;
   line.constant = there.value.lower();
   line.corner = corner.lower;
-  line.of_objective = asked.kind == Asked::Kind::objective;
+  line.of_objective = query.kind == Query::Kind::objective;
   for (std::size_t i = 0; i < problem_.variables.size(); ++i) {
     line.slope[i] = at_upper[i] ? over.slope[i].upper() : over.slope[i].lower();
     line.loss[i] = (over.slope[i].upper() - over.slope[i].lower()) * (box.upper[i] - box.lower[i]);
@@ -301,25 +303,26 @@ LineBelow Bounder::line_from(const Box& box, const Asked& asked, const Jet& over
   return line;
 }
 
-/// The interval value, and lines from the two corners between which the function changes most. Both of the function
-/// itself, and of what it becomes where tendons are kept on their pins: that exists in larger boxes, and is sharper
-/// there, but bends where the tendon leaves.
-void Bounder::add_lines(const Box& box, Asked asked, Lines& lines, BoxBound& result, double limit) const {
-  const PinAngles least = least_angles(box, asked.place);
-  asked.least = least;
-  add_lines_of(box, asked, lines, result, limit);
+/// Adds the interval value, and lines from the two corners between which the function changes most. Uses both the
+/// function itself and its continuation with tendons kept on their pins, which exists in larger boxes and is tighter
+/// there, but has a kink where a tendon leaves its pin.
+void BoundCalculator::add_lines(const Box& box, Query query, Lines& lines, BoxBound& result, double limit) const {
+  const PinAngles least = least_angles(box, query.place);
+  query.least = least;
+  add_lines_of(box, query, lines, result, limit);
   if (!result.possible || least == PinAngles()) return;
-  asked.least = {};
-  add_lines_of(box, asked, lines, result, limit);
+  query.least = {};
+  add_lines_of(box, query, lines, result, limit);
 }
 
-void Bounder::add_lines_of(const Box& box, const Asked& asked, Lines& lines, BoxBound& result, double limit) const {
+void BoundCalculator::add_lines_of(const Box& box, const Query& query, Lines& lines, BoxBound& result,
+                                   double limit) const {
   Domain domain;
-  const Jet over = value_at(asked, box, domain);
+  const Jet over = value_at(query, box, domain);
   ++result.evaluations;
-  const bool of_objective = asked.kind == Asked::Kind::objective;
+  const bool of_objective = query.kind == Query::Kind::objective;
   if (!domain.possible) {
-    // An objective is asked for at places where nobody else looks: what has no value there proves nothing.
+    // Objectives are also evaluated at places that no design evaluation tests; a missing value proves nothing there.
     if (!of_objective) result.possible = false;
     return;
   }
@@ -330,10 +333,10 @@ void Bounder::add_lines_of(const Box& box, const Asked& asked, Lines& lines, Box
     result.possible = false;
   if (result.bound > limit) result.possible = false;
   if (!result.possible || !domain.whole || over.count == 0) return;
-  if (!of_objective && over.value.upper() <= 0) return;  // kept by all
+  if (!of_objective && over.value.upper() <= 0) return;  // satisfied by all designs
   for (const bool from_highest : {false, true}) {
     bool exists = false;
-    const LineBelow line = line_from(box, asked, over, from_highest, exists);
+    const LineBelow line = line_from(box, query, over, from_highest, exists);
     ++result.evaluations;
     if (exists) lines.push_back(line);
   }
@@ -341,12 +344,12 @@ void Bounder::add_lines_of(const Box& box, const Asked& asked, Lines& lines, Box
 
 // ---- places ---------------------------------------------------------------------------------------------------------
 
-/// Where f is largest, and where it is largest of its neighbours, in the middle of the box.
-void Bounder::ask_worst_places(Objective objective, bool of_cap, const DesignNumbers<double>& middle,
-                               std::vector<Asked>& asked) const {
+/// Adds the maximum of f in the middle of the box, and local maxima.
+void BoundCalculator::add_worst_places(Objective objective, bool of_cap, const DesignNumbers<double>& middle,
+                                       std::vector<Query>& query) const {
   constexpr int places = 25;
-  constexpr std::size_t k_most_asked = 3;
-  constexpr int k_steps = 16;  // to 4e-5 of the stroke: its square is what the bound misses
+  constexpr std::size_t k_max_queries = 3;
+  constexpr int k_steps = 16;  // to 4e-5 of the stroke; the bound's error is its square
   std::array<double, places> values{};
   const auto value_at_place = [&](double place) {
     Domain domain;
@@ -365,28 +368,28 @@ void Bounder::ask_worst_places(Objective objective, bool of_cap, const DesignNum
     found.emplace_back(-values[k], place);
   }
   std::sort(found.begin(), found.end());
-  for (std::size_t i = 0; i < std::min(k_most_asked, found.size()); ++i)
-    asked.push_back({of_cap ? Asked::Kind::cap : Asked::Kind::objective, found[i].second});
+  for (std::size_t i = 0; i < std::min(k_max_queries, found.size()); ++i)
+    query.push_back({of_cap ? Query::Kind::cap : Query::Kind::objective, found[i].second});
 }
 
-/// How the curves of a pulley bend where a tendon leaves its drum has no interval form: a bound without those
-/// conditions is a bound all the same.
-std::size_t Bounder::asked_conditions() const {
-  const std::size_t count = needed_count(problem_.feasible, problem_.base.pulley.method);
-  return wide_kind_.is_papers() ? count : std::min(count, k_needed_of_drawing);
+/// The curvature conditions have no interval form where a tendon leaves its drum. They are omitted, which leaves a
+/// valid bound.
+std::size_t BoundCalculator::condition_queries() const {
+  const std::size_t count = condition_count(problem_.feasible, problem_.base.pulley.method);
+  return wide_kind_.is_papers() ? count : std::min(count, k_drawing_conditions);
 }
 
-/// Where each condition is tightest in the middle of the box.
-void Bounder::ask_tightest_places(const DesignNumbers<double>& middle, std::vector<Asked>& asked) const {
-  const std::size_t count = asked_conditions();
+/// Adds the tightest place of each condition in the middle of the box.
+void BoundCalculator::add_tightest_places(const DesignNumbers<double>& middle, std::vector<Query>& query) const {
+  const std::size_t count = condition_queries();
   const auto value = [&](std::size_t which, int place, int places) {
-    NeededValues<double> values;
-    if (!needed_at(middle, static_cast<double>(place) / places, which + 1, values)) return -k_infinite;
+    ConditionValues<double> values;
+    if (!conditions_at(middle, static_cast<double>(place) / places, which + 1, values)) return -k_infinite;
     const double here = values[which].value;
     return here == here ? here : -k_infinite;
   };
   for (std::size_t which = 0; which < count; ++which) {
-    const int places = which < k_needed_always ? k_places : k_places_of_drawing, step = places / 12;
+    const int places = which < k_basic_conditions ? k_places : k_places_of_drawing, step = places / 12;
     int tightest = 0;
     double least = k_infinite;
     const auto look = [&](int place) {
@@ -400,23 +403,23 @@ void Bounder::ask_tightest_places(const DesignNumbers<double>& middle, std::vect
       look(around - by);
       look(around + by);
     }
-    asked.push_back({Asked::Kind::needed, static_cast<double>(tightest) / places, static_cast<Needed>(which)});
+    query.push_back({Query::Kind::needed, static_cast<double>(tightest) / places, static_cast<DesignCondition>(which)});
   }
 }
 
-std::vector<Bounder::Asked> Bounder::asked_around(const std::vector<double>& design) const {
+std::vector<BoundCalculator::Query> BoundCalculator::queries_around(const std::vector<double>& design) const {
   const DesignNumbers<double> middle = numbers_of(design);
-  std::vector<Asked> asked;
-  ask_tightest_places(middle, asked);
-  if (problem_.cap) ask_worst_places(problem_.cap->objective, true, middle, asked);
-  ask_worst_places(objective_, false, middle, asked);
-  return asked;
+  std::vector<Query> query;
+  add_tightest_places(middle, query);
+  if (problem_.cap) add_worst_places(problem_.cap->objective, true, middle, query);
+  add_worst_places(objective_, false, middle, query);
+  return query;
 }
 
 // ---- bounds ---------------------------------------------------------------------------------------------------------
 
-/// Bound 3. −infinity where it does not apply.
-[[gnu::noinline]] double Bounder::quotient_bound(const Box& box, double place, const Lines& constraints) const {
+/// Bound 3. −infinity if it does not apply.
+[[gnu::noinline]] double BoundCalculator::quotient_bound(const Box& box, double place, const Lines& constraints) const {
   const bool torque = objective_ == Objective::motor_torque;
   if (!problem_.base.has_point_pins() || !wide_kind_.is_papers() ||
       !(torque ? problem_.base.pulley.law == Law::compensate : objective_ == Objective::max_tension))
@@ -427,10 +430,10 @@ std::vector<Bounder::Asked> Bounder::asked_around(const std::vector<double>& des
   Domain domain;
   const StrokeNumbers<Jet> n = stroke_numbers(d, Jet(place), domain);
   const Legs over = legs(d, torque, n);
-  // Linear in the variables only where the angle is a number.
+  // Linear in the variables only if the angle is a number.
   if (!domain.possible || n.theta.angle.count != 0 || !(over.a.value.lower() > 0)) return -k_infinite;
   const Legs at_lower = legs(numbers_over(corner_of(box, {})), torque, n);
-  // b − q a >= g means b/a >= q + g/a: from any q that is below, one that is nearer.
+  // b − q a >= g implies b/a >= q + g/a: from any lower q, a better one.
   double q = (over.b.value / over.a.value).lower();
   for (int step = 0; step < 4; ++step) {
     const Jet difference = over.b - Jet(q) * over.a;
@@ -453,8 +456,8 @@ std::vector<Bounder::Asked> Bounder::asked_around(const std::vector<double>& des
   return (lever * Interval(per_sine.lower()) * exp(d.mu.value * n.phi.value)).lower();
 }
 
-/// Again where the box became much narrower: what was known of it has become sharper.
-BoxBound Bounder::bound(Box& box, double limit) const {
+/// Repeats if the box became much narrower, since its bounds are then tighter.
+BoxBound BoundCalculator::bound(Box& box, double limit) const {
   constexpr int k_passes = 3;
   constexpr double k_much = 0.3;
   const int count = static_cast<int>(problem_.variables.size());
@@ -466,9 +469,9 @@ BoxBound Bounder::bound(Box& box, double limit) const {
     if (!cut_by_lines(box, count, lines, limit)) result.possible = false;
     if (!result.possible) return result;
     const Box before = box;
-    const std::vector<Asked> all_asked = asked_around(middle_of(box, count));
-    for (const Asked& asked : all_asked) {
-      add_lines(box, asked, lines, result, limit);
+    const std::vector<Query> queries = queries_around(middle_of(box, count));
+    for (const Query& query : queries) {
+      add_lines(box, query, lines, result, limit);
       if (!result.possible) return result;
     }
     if (!cut_by_lines(box, count, lines, limit)) result.possible = false;
@@ -481,9 +484,9 @@ BoxBound Bounder::bound(Box& box, double limit) const {
     result.lowest.assign(least.lowest.begin(), least.lowest.begin() + count);
     if (narrowed(before, box, count) > k_much) continue;
     const Lines alone(lines.begin(), lines.begin() + constraints);
-    for (const Asked& asked : all_asked) {
-      if (asked.kind != Asked::Kind::objective) continue;
-      result.bound = std::max(result.bound, quotient_bound(box, asked.place, alone));
+    for (const Query& query : queries) {
+      if (query.kind != Query::Kind::objective) continue;
+      result.bound = std::max(result.bound, quotient_bound(box, query.place, alone));
     }
     break;
   }
@@ -493,21 +496,21 @@ BoxBound Bounder::bound(Box& box, double limit) const {
 
 // ---- guesses --------------------------------------------------------------------------------------------------------
 
-/// In plain numbers.
-double Bounder::excess_of(const Asked& asked, const std::vector<double>& design) const {
+/// The excess in floating-point numbers.
+double BoundCalculator::excess_of(const Query& query, const std::vector<double>& design) const {
   const DesignNumbers<double> numbers = numbers_of(design);
   Domain domain;
-  if (asked.kind != Asked::Kind::needed)
-    return objective_of(problem_.cap->objective, numbers, stroke_numbers(numbers, asked.place, domain)) -
+  if (query.kind != Query::Kind::needed)
+    return objective_of(problem_.cap->objective, numbers, stroke_numbers(numbers, query.place, domain)) -
            problem_.cap->limit;
-  NeededValues<double> values;
-  const auto which = static_cast<std::size_t>(asked.needed);
-  return needed_at(numbers, asked.place, which + 1, values) ? -values[which].value : k_infinite;
+  ConditionValues<double> values;
+  const auto which = static_cast<std::size_t>(query.needed);
+  return conditions_at(numbers, query.place, which + 1, values) ? -values[which].value : k_infinite;
 }
 
-// Lines through the values at the design itself. What bends away from them is found in the outcome, and taken off the
-// limits of the next round: else designs at a border that bulges would never be left.
-Design Bounder::lowest_around(const Design& design, double size) const {
+// Linearizes at the design. The curvature is estimated from the result and subtracted from the limits of the next
+// round; otherwise designs at a convex border would never leave it.
+Design BoundCalculator::lowest_around(const Design& design, double size) const {
   constexpr int k_rounds = 4;
   const std::size_t count = problem_.variables.size();
   Box at, around;
@@ -519,18 +522,18 @@ Design Bounder::lowest_around(const Design& design, double size) const {
     around.upper[i] = std::min(variable.upper, design[i] + half);
   }
   Lines lines = lines_of_constraints(around, 0.0);
-  std::vector<Asked> of_lines(lines.size());
-  for (const Asked& asked : asked_around(design)) {
+  std::vector<Query> of_lines(lines.size());
+  for (const Query& query : queries_around(design)) {
     Domain domain;
-    const Jet here = slopes_at(asked, at, domain);
+    const Jet here = slopes_at(query, at, domain);
     LineBelow line;
-    line.of_objective = asked.kind == Asked::Kind::objective;
+    line.of_objective = query.kind == Query::Kind::objective;
     line.constant = here.value.upper();
     line.corner = at.lower;
     for (std::size_t i = 0; i < count; ++i) line.slope[i] = here.slope[i].upper();
     if (!domain.possible || !domain.whole || here.count == 0 || !is_finite(line)) continue;
     lines.push_back(line);
-    of_lines.push_back(asked);
+    of_lines.push_back(query);
   }
   Design lowest;
   for (int round = 0; round < k_rounds; ++round) {
@@ -541,9 +544,9 @@ Design Bounder::lowest_around(const Design& design, double size) const {
     double most = 0;
     for (std::size_t r = problem_.constraints.size(); r < lines.size(); ++r) {
       if (lines[r].of_objective) continue;
-      for (const Asked& asked : asked_around(lowest)) {
-        if (asked.kind != of_lines[r].kind || asked.needed != of_lines[r].needed) continue;
-        const double excess = excess_of(asked, lowest);
+      for (const Query& query : queries_around(lowest)) {
+        if (query.kind != of_lines[r].kind || query.needed != of_lines[r].needed) continue;
+        const double excess = excess_of(query, lowest);
         if (!(excess > 0)) continue;
         most = std::max(most, excess);
         lines[r].constant += 1.1 * excess;
@@ -556,8 +559,8 @@ Design Bounder::lowest_around(const Design& design, double size) const {
 
 // ---- a single design ------------------------------------------------------------------------------------------------
 
-/// One piece of the stroke of one design.
-[[gnu::noinline]] Interval Bounder::value_over_piece(const Design& design, double low, double high) const {
+/// Encloses the objective of one design over a part of the stroke.
+[[gnu::noinline]] Interval BoundCalculator::value_over_piece(const Design& design, double low, double high) const {
   const RoundingUp rounding;
   const DesignNumbers<Jet> numbers = numbers_of(std::vector<Jet>(design.begin(), design.end()));
   const auto at = [&](const Jet& place) {
@@ -568,7 +571,7 @@ Design Bounder::lowest_around(const Design& design, double size) const {
   const Jet whole = at(Jet::variable({low, high}, 0, 1));
   Interval value = whole.value;
   if (whole.count == 0) return value;
-  // From the end towards which it does not fall, or from the middle.
+  // From the end towards which it does not decrease, or from the middle.
   const Interval slope = whole.slope[0];
   const double from = slope.lower() >= 0 ? high : slope.upper() <= 0 ? low : 0.5 * (low + high);
   const Interval centred = at(Jet(from)).value + slope * (Interval(low, high) - from);
@@ -576,7 +579,7 @@ Design Bounder::lowest_around(const Design& design, double size) const {
   return boost::numeric::empty(sharper) ? value : sharper;
 }
 
-double Bounder::rounded_up_value(const Design& design) const {
+double BoundCalculator::rounded_up_value(const Design& design) const {
   struct Piece {
     double low, high, upper;
     bool operator<(const Piece& other) const { return upper < other.upper; }

@@ -8,8 +8,8 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "optimize/bound.h"
-#include "optimize/hands.h"
 #include "optimize/random.h"
+#include "optimize/thread_pool.h"
 
 namespace fusee {
 namespace {
@@ -27,34 +27,34 @@ void demand_certifiable(const Problem& problem, Objective objective) {
   for (const ObjectiveInfo& candidate : objectives()) {
     if (candidate.certifiable) names += (names.empty() ? "" : ", ") + std::string(candidate.name);
   }
-  throw InputError(
-      "", obstacle,
-      "certified: " + names + ", with law compensate or linear, and of a joint as declared; else --method ga");
+  throw InputError("", obstacle,
+                   "certified: " + names +
+                       ", with law compensate or linear, and for a joint as declared; otherwise use --method ga");
 }
 
-/// A design and what it is worth.
-struct Tried {
+/// An evaluated design.
+struct EvaluatedDesign {
   Design design;
   Evaluation evaluation;
 };
 
-/// What became of a box: found without looking at any other box.
+/// Result for one box, independent of other boxes.
 struct Outcome {
-  bool kept = false;  ///< it may hold the optimum or a tie
+  bool kept = false;  ///< the box may contain the optimum or a tie
   Box box;
-  std::vector<Tried> tried;
+  std::vector<EvaluatedDesign> evaluated;
   long evaluations = 0;
 };
 
-class Search {
+class BranchAndBound {
  public:
-  Search(const Problem& problem, Objective objective, const CertifiedOptions& options)
+  BranchAndBound(const Problem& problem, Objective objective, const CertifiedOptions& options)
       : problem_(problem),
         count_(problem.variables.size()),
         objective_(objective),
         options_(options),
-        bounder_(problem, objective),
-        hands_(options.threads) {}
+        bounds_(problem, objective),
+        pool_(options.threads) {}
 
   CertifiedResult run() {
     start();
@@ -76,25 +76,25 @@ class Search {
  private:
   double tie_limit() const { return best_.empty() ? k_none : best_value_ + options_.tie * std::abs(best_value_); }
 
-  // ---- branch and bound
-  // ------------------------------------------------------------------------------------------------
+  // ---- branch and bound ----------------------------------------------------------------------------------------------
 
   void start() {
-    for (const Design& design : options_.first_tries) take(tried(design));
+    for (const Design& design : options_.first_tries) accept_if_better(evaluated(design));
     constexpr int k_first_tries = 200;
     Random random(1);
-    for (int i = 0; i < k_first_tries && !stopped(-k_none); ++i) take(tried(random_design(problem_, random)));
+    for (int i = 0; i < k_first_tries && !stopped(-k_none); ++i)
+      accept_if_better(evaluated(random_design(problem_, random)));
     for (std::size_t i = 0; i < count_; ++i) {
       root_.lower[i] = problem_.variables[i].lower;
       root_.upper[i] = problem_.variables[i].upper;
     }
     root_.bound = -k_none;
     polish();
-    take_in({root_});
+    process({root_});
   }
 
-  /// Best first, until the least bound left meets the best design. Then as much work again at most for a hundred times
-  /// less: what is wanted is the proof, but a better design on the way is welcome. False when it was stopped before.
+  /// Best-first search until the smallest bound meets the best design. Then up to the same effort again for a gap a
+  /// hundred times smaller, to improve the design. False if it was stopped before.
   bool branch() {
     const bool met = branch_until(0.5 * options_.gap, options_.most_boxes);
     if (met) branch_until(0.005 * options_.gap, std::min(options_.most_boxes, 2 * boxes_));
@@ -111,7 +111,7 @@ class Search {
         for (const Box& half : halves(queue_.top())) batch.push_back(half);
         queue_.pop();
       }
-      take_in(batch);
+      process(batch);
     }
     return true;
   }
@@ -133,21 +133,21 @@ class Search {
     return stopped_;
   }
 
-  /// Boxes are bounded side by side, against what is known before; what comes of them is taken in their order.
+  /// Boxes are bounded in parallel, with the knowledge from before; results are taken in order.
   std::vector<Outcome> outcomes_of(const std::vector<Box>& boxes) {
     std::vector<Outcome> outcomes(boxes.size());
-    hands_.each(boxes.size(), [&](std::size_t i) { outcomes[i] = bounded(boxes[i], i < k_mended); });
+    pool_.each(boxes.size(), [&](std::size_t i) { outcomes[i] = bounded(boxes[i], i < k_mended); });
     boxes_ += static_cast<long>(boxes.size());
     for (const Outcome& outcome : outcomes) evaluations_ += outcome.evaluations;
     return outcomes;
   }
 
-  void take_in(const std::vector<Box>& boxes) {
+  void process(const std::vector<Box>& boxes) {
     const std::vector<Outcome> outcomes = outcomes_of(boxes);
     for (const Outcome& outcome : outcomes) {
-      for (const Tried& one : outcome.tried) take(one);
+      for (const EvaluatedDesign& one : outcome.evaluated) accept_if_better(one);
     }
-    // Where designs tie, a better one by a rounding error comes with every batch.
+    // Among ties, every batch finds a design better by a rounding error.
     if (!best_.empty() && best_value_ < polished_ - 0.1 * options_.gap * std::abs(best_value_)) polish();
     keep(outcomes);
   }
@@ -162,27 +162,28 @@ class Search {
     }
   }
 
-  /// `mends`: where the design that it comes to lies beyond a border, one beside it is looked for.
+  /// `mends`: if the resulting design is infeasible, a feasible one near it is searched.
   Outcome bounded(const Box& given, bool mends) const {
     Outcome outcome;
     outcome.box = given;
-    const BoxBound bound = bounder_.bound(outcome.box, tie_limit());
+    const BoxBound bound = bounds_.bound(outcome.box, tie_limit());
     outcome.evaluations = bound.evaluations;
     if (!bound.possible) return outcome;
     outcome.kept = true;
     outcome.box.bound = std::max(outcome.box.bound, bound.bound);
     outcome.box.cut = promising_cut(outcome.box, bound);
     if (bound.bound > best_value_) return outcome;
-    outcome.tried.push_back(tried(bound.lowest.empty() ? middle_of(outcome.box) : kept(bound.lowest, outcome.box)));
-    if (best_.empty() && !bound.lowest.empty()) outcome.tried.push_back(tried(middle_of(outcome.box)));
-    if (mends && !bound.lowest.empty() && !outcome.tried.front().evaluation.possible) {
-      const Design mended = bounder_.lowest_around(bound.lowest, std::max(1e-3, relative_size(outcome.box)));
-      if (!mended.empty()) outcome.tried.push_back(tried(kept(mended, root_)));
+    outcome.evaluated.push_back(
+        evaluated(bound.lowest.empty() ? middle_of(outcome.box) : kept(bound.lowest, outcome.box)));
+    if (best_.empty() && !bound.lowest.empty()) outcome.evaluated.push_back(evaluated(middle_of(outcome.box)));
+    if (mends && !bound.lowest.empty() && !outcome.evaluated.front().evaluation.possible) {
+      const Design mended = bounds_.lowest_around(bound.lowest, std::max(1e-3, relative_size(outcome.box)));
+      if (!mended.empty()) outcome.evaluated.push_back(evaluated(kept(mended, root_)));
     }
     return outcome;
   }
 
-  /// Moves one variable as far as the constraints ask, within the box: to the last digit, which no linear program does.
+  /// Moves one variable within the box as far as the constraints require, exactly, unlike a linear program.
   Design moved_into_constraints(Design design, std::size_t i, const Box& box) const {
     for (const LinearConstraint& constraint : problem_.constraints) {
       double excess = -constraint.b;
@@ -193,7 +194,7 @@ class Search {
     return design;
   }
 
-  /// Within the constraints, where moving a single variable does it.
+  /// Satisfies the constraints, if moving a single variable suffices.
   Design kept(const Design& design, const Box& box) const {
     for (std::size_t i = 0; i < count_ && !problem_.constraints.empty(); ++i) {
       const Design moved = moved_into_constraints(design, i, box);
@@ -202,9 +203,11 @@ class Search {
     return design;
   }
 
-  Tried tried(const Design& design) const { return {design, evaluate_design(problem_, objective_, design)}; }
+  EvaluatedDesign evaluated(const Design& design) const {
+    return {design, evaluate_design(problem_, objective_, design)};
+  }
 
-  void take(const Tried& one) {
+  void accept_if_better(const EvaluatedDesign& one) {
     if (!one.evaluation.possible) {
       if (best_.empty()) ++reasons_[one.evaluation.reason.substr(0, one.evaluation.reason.find(" at "))];
     } else if (one.evaluation.value < best_value_ || best_.empty()) {
@@ -214,16 +217,16 @@ class Search {
     }
   }
 
-  /// Makes the best design better by linear programs in ever smaller boxes around it: the sooner it is good, the fewer
-  /// boxes have to be looked at.
+  /// Improves the best design by linear programs in shrinking boxes around it. An early good design reduces the number
+  /// of boxes.
   void polish() {
     constexpr double k_least = 1e-8, k_smaller = 0.25, k_larger = 2.0;
     constexpr int k_steps = 40;
     double size = 0.05;
     for (int step = 0; step < k_steps && size > k_least && !best_.empty() && !stopped(-k_none); ++step) {
       const double before = best_value_;
-      const Design lowest = bounder_.lowest_around(best_, size);
-      if (!lowest.empty()) take(tried(kept(lowest, root_)));
+      const Design lowest = bounds_.lowest_around(best_, size);
+      if (!lowest.empty()) accept_if_better(evaluated(kept(lowest, root_)));
       size *= best_value_ < before - 1e-3 * options_.gap * std::abs(before) ? k_larger : k_smaller;
     }
     polished_ = best_value_;
@@ -235,7 +238,8 @@ class Search {
     for (std::size_t i = 0; i < count_; ++i) {
       const double range = root_.upper[i] - root_.lower[i];
       const double relative = range > 0 ? (box.upper[i] - box.lower[i]) / range : 0.0;
-      // Without slopes, or where they say nothing, the widest; else where the bound is least sharp.
+      // Without slopes, or if they are uninformative, the widest variable; otherwise that with the largest error of the
+      // bound.
       const double promise = bound.lowest.empty() ? relative : bound.loss[i] + 1e-3 * relative * std::abs(bound.bound);
       if (relative > 0 && promise > most) most = promise, cut = static_cast<int>(i);
     }
@@ -257,13 +261,12 @@ class Search {
     return middle;
   }
 
-  // ---- the answer
-  // ------------------------------------------------------------------------------------------------------
+  // ---- result --------------------------------------------------------------------------------------------------------
 
   void finish(CertifiedResult& result) {
     result.best = best_;
     result.theta = best_theta_;
-    result.value = bounder_.rounded_up_value(best_);
+    result.value = bounds_.rounded_up_value(best_);
     result.lower_bound = queue_.empty() ? best_value_ : std::min(best_value_, queue_.top().bound);
     result.relative_gap = (result.value - result.lower_bound) / std::abs(result.lower_bound);
     result.proven = result.relative_gap <= options_.gap;
@@ -286,7 +289,7 @@ class Search {
 
   int widest(const Box& box) const { return promising_cut(box, BoxBound()); }
 
-  /// Halves the widest boxes that may hold a tie until there are many or all are small.
+  /// Bisects the largest boxes that may contain a tie, until there are many or all are small.
   void gather_ties(TieSet& ties) {
     constexpr double k_small = 1.0 / 512.0;
     for (; !queue_.empty(); queue_.pop()) tie_boxes_.push_back(queue_.top());
@@ -344,24 +347,24 @@ class Search {
     }
   }
 
-  /// Halves that are bounded side by side: enough to keep eight threads busy, few beside those of a search. The search
-  /// is the same on any number of threads.
+  /// Halves per batch: enough for eight threads, and few compared with a search. The search does not depend on the
+  /// number of threads.
   static constexpr std::size_t k_batch = 32;
-  static constexpr std::size_t k_mended = 4;  ///< of a batch, the most promising
+  static constexpr std::size_t k_mended = 4;  ///< number of the most promising boxes of a batch
 
   const Problem& problem_;
   std::size_t count_;
   Objective objective_;
   CertifiedOptions options_;
-  Bounder bounder_;
-  Hands hands_;
+  BoundCalculator bounds_;
+  ThreadPool pool_;
   Box root_;
   Design best_;
   double best_value_ = k_none;
   double best_theta_ = 0;
-  double polished_ = k_none;  ///< what polishing last came to
+  double polished_ = k_none;  ///< result of the last polishing
   std::priority_queue<Box, std::vector<Box>, HigherBound> queue_;
-  std::vector<Box> tie_boxes_;  ///< above the best value, within the tie
+  std::vector<Box> tie_boxes_;  ///< boxes above the best value, within the tie
   std::map<std::string, long> reasons_;
   long boxes_ = 0;
   long evaluations_ = 0;
@@ -392,24 +395,23 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
     return key.key == "joint.drum_radius_mm" && !(least_of(key, problem.variables) > 0);
   });
   if (begins_without_drum)
-    return "joint.drum_radius_mm from 0 on has no interval form: a drum of hardly any radius is not the joint without "
-           "one";
+    return "joint.drum_radius_mm with a lower bound of 0 has no interval form: a tiny drum differs from none";
   const bool begins_rigid = std::any_of(problem.moving.begin(), problem.moving.end(), [&](const MovingKey& key) {
     return key.key == "sheath.stiffness_N_per_mm" && !(least_of(key, problem.variables) > 0);
   });
   if (begins_rigid)
-    return "sheath.stiffness_N_per_mm from 0 on has no interval form: 0 is a rigid sheath, and hardly any stiffness a "
-           "soft one";
+    return "sheath.stiffness_N_per_mm with a lower bound of 0 has no interval form: 0 is a rigid sheath, a tiny "
+           "stiffness a compliant one";
   if (objective == Objective::max_error && problem.base.joint.drum_mu > 0)
     return "max_error with joint.drum_friction has no interval form: its optimum cannot be certified";
   if (problem.as_it_is)
-    return "[identified] has no interval form: the optimum of the joint as it is cannot be certified";
+    return "[identified] has no interval form: the optimum of the identified joint cannot be certified";
   return "";
 }
 
 CertifiedResult certified_optimum(const Problem& problem, Objective objective, const CertifiedOptions& options) {
   demand_certifiable(problem, objective);
-  return Search(problem, objective, options).run();
+  return BranchAndBound(problem, objective, options).run();
 }
 
 }  // namespace fusee

@@ -1,10 +1,10 @@
 /// \file
-/// Internal: what has to hold for a design to be possible, and (feasible = true) for its pulleys to be drawn, as
-/// functions that must not be negative: for numbers, to see where they are tightest, and for intervals with
-/// derivatives, to prove that a box holds no such design.
+/// Internal: conditions that make a design possible and, if feasible = true, its pulleys drawable, as functions that
+/// must be nonnegative. They serve numbers, to find their tightest places, and intervals with derivatives, to prove
+/// that a box contains no such design.
 ///
-/// The conditions of profile/feasibility.cpp, by the same equations. Not among them is the arc that closes a pulley: it
-/// is found by a search and has no interval form. (That a free span is left follows from the take-off's advance.)
+/// These are the conditions of profile/feasibility.cpp, by the same equations. The closing arc is not among them: it is
+/// found by a search and has no interval form. (A remaining free span follows from the advance of the take-off.)
 #pragma once
 
 #include "optimize/objective_at.h"
@@ -12,8 +12,8 @@
 
 namespace fusee {
 
-/// At one place of the stroke. The first four are those of every design that has a value.
-enum class Needed {
+/// Conditions at one point of the stroke. The first four apply to every design that has a value.
+enum class DesignCondition {
   clear_of_B,
   clear_of_D,
   wrap_B,
@@ -25,26 +25,26 @@ enum class Needed {
   floor_1,
   floor_2
 };
-constexpr std::size_t k_needed_always = 4;
-constexpr std::size_t k_needed_of_drawing = 6;  ///< method = "paper": radii too
-constexpr std::size_t k_needed_most = 10;       ///< method = "exact"
+constexpr std::size_t k_basic_conditions = 4;
+constexpr std::size_t k_drawing_conditions = 6;  ///< method = "paper": radii too
+constexpr std::size_t k_max_conditions = 10;     ///< method = "exact"
 
-/// How many of them a design is asked for.
-inline std::size_t needed_count(bool feasible, Method method) {
-  if (!feasible) return k_needed_always;
-  return method == Method::exact ? k_needed_most : k_needed_of_drawing;
+/// Number of these conditions that apply.
+inline std::size_t condition_count(bool feasible, Method method) {
+  if (!feasible) return k_basic_conditions;
+  return method == Method::exact ? k_max_conditions : k_drawing_conditions;
 }
 
 template <typename S>
-struct NeededValue {
+struct ConditionValue {
   S value = 0.0;
   Domain domain;
 };
 template <typename S>
-using NeededValues = std::array<NeededValue<S>, k_needed_most>;
+using ConditionValues = std::array<ConditionValue<S>, k_max_conditions>;
 
-/// How the radius p answers to the image's joint angle: p'/p and its derivative, and what of the law's slope stands in
-/// it.
+/// Relative derivatives of the radius p by the image's joint angle: p'/p, its derivative, and the contribution of the
+/// law's slope.
 template <typename S>
 struct RadiusSlope {
   S q, dq, of_law;
@@ -61,12 +61,12 @@ RadiusSlope<S> arm_slope(const DesignNumbers<S>& d, const UpperNumbers<S>& upper
   return {q, cotangent * bend - squared(omega) - squared(q), S(0.0)};
 }
 
-/// With dp/dα = p g q and d²p/dα² = p g² (q² + q of_law + q'), and the take-off's ψ' = 1 + p'/w of
-/// profile/take_off.cpp: the radius of curvature times ψ'³ is p ψ'³ + p'' − (p − ρ)(p'/w)³. No quotient by ψ', which
-/// other conditions keep positive.
+/// With dp/dα = p g q, d²p/dα² = p g² (q² + q of_law + q') and the take-off's ψ' = 1 + p'/w of profile/take_off.cpp,
+/// the radius of curvature times ψ'³ is p ψ'³ + p'' − (p − ρ)(p'/w)³. Division by ψ' is avoided; other conditions keep
+/// it positive.
 template <typename S>
 void add_curve(const DesignNumbers<S>& d, const S& p, const S& to_pin, const S& g, const RadiusSlope<S>& slope,
-               const Domain& before, NeededValue<S>& advance, NeededValue<S>& floor) {
+               const Domain& before, ConditionValue<S>& advance, ConditionValue<S>& floor) {
   Domain domain = before;
   const S w = cathetus(to_pin, S(p - d.rho), domain);
   const S by_turn = p * g * slope.q / w;
@@ -78,39 +78,41 @@ void add_curve(const DesignNumbers<S>& d, const S& p, const S& to_pin, const S& 
       domain};
 }
 
-/// `count` of them. False where a tendon has no moment arm: nothing else can be asked then.
+/// Evaluates the first `count` conditions. False if a tendon has no moment arm, so that the others are undefined.
 template <typename S>
-bool needed_at(const DesignNumbers<S>& d, const S& place, std::size_t count, NeededValues<S>& values) {
+bool conditions_at(const DesignNumbers<S>& d, const S& place, std::size_t count, ConditionValues<S>& values) {
   Domain arms;
   const StrokeNumbers<S> n = upper_stroke(d, place, arms);
   if (!arms.possible) return false;
-  const auto set = [&values](Needed which, const S& value, const Domain& domain) {
+  const auto set = [&values](DesignCondition which, const S& value, const Domain& domain) {
     values[static_cast<std::size_t>(which)] = {value, domain};
   };
-  set(Needed::clear_of_B, clear_of_guide(d, n.r1, true), arms);
-  set(Needed::clear_of_D, clear_of_guide(d, n.r2, false), arms);
+  set(DesignCondition::clear_of_B, clear_of_guide(d, n.r1, true), arms);
+  set(DesignCondition::clear_of_D, clear_of_guide(d, n.r2, false), arms);
   Domain of_B = arms, of_D = arms;
   const S wrap_B = wrap_over_B(d, n, of_B);
-  set(Needed::wrap_B, wrap_B, of_B);
+  set(DesignCondition::wrap_B, wrap_B, of_B);
   const S wrap_D = n.upper2.gamma - n.theta.angle - off_pin(d, lower_line_of(d, n.r2, false, of_D).normal);
-  set(Needed::wrap_D, wrap_D, of_D);
-  if (count <= k_needed_always) return true;
-  set(Needed::radius_1, n.r1 - d.half, arms);
-  set(Needed::radius_2, n.r2 - d.half, arms);
-  if (count <= k_needed_of_drawing) return true;
+  set(DesignCondition::wrap_D, wrap_D, of_D);
+  if (count <= k_basic_conditions) return true;
+  set(DesignCondition::radius_1, n.r1 - d.half, arms);
+  set(DesignCondition::radius_2, n.r2 - d.half, arms);
+  if (count <= k_drawing_conditions) return true;
   const RadiusSlope<S> of_1 = arm_slope(d, n.upper1), of_2 = arm_slope(d, n.upper2);
-  const auto at = [&values](Needed which) -> NeededValue<S>& { return values[static_cast<std::size_t>(which)]; };
+  const auto at = [&values](DesignCondition which) -> ConditionValue<S>& {
+    return values[static_cast<std::size_t>(which)];
+  };
   if (d.linear) {
     const S g = 1.0 / d.ratio;
-    add_curve(d, n.r1, d.to_B, g, of_1, arms, at(Needed::advance_1), at(Needed::floor_1));
-    add_curve(d, n.r2, d.to_D, g, of_2, arms, at(Needed::advance_2), at(Needed::floor_2));
+    add_curve(d, n.r1, d.to_B, g, of_1, arms, at(DesignCondition::advance_1), at(DesignCondition::floor_1));
+    add_curve(d, n.r2, d.to_D, g, of_2, arms, at(DesignCondition::advance_2), at(DesignCondition::floor_2));
     return true;
   }
-  // p2 = r1 m2/m1, and tendon 1 is seen in the other image: m1'/m1 changes its sign, its derivative does not.
-  set(Needed::advance_1, S(1.0), arms);
-  set(Needed::floor_1, n.r1 - d.half - k_least_floor_radius, arms);
+  // p2 = r1 m2/m1. Tendon 1 belongs to the other image: m1'/m1 changes its sign, its derivative does not.
+  set(DesignCondition::advance_1, S(1.0), arms);
+  set(DesignCondition::floor_1, n.r1 - d.half - k_least_floor_radius, arms);
   add_curve(d, n.r2, d.to_D, S(d.r1 / (d.R * n.upper1.sine)), {of_2.q + of_1.q, of_2.dq - of_1.dq, of_1.q}, arms,
-            at(Needed::advance_2), at(Needed::floor_2));
+            at(DesignCondition::advance_2), at(DesignCondition::floor_2));
   return true;
 }
 

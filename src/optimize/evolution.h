@@ -1,6 +1,6 @@
 /// \file
-/// Internal: designs from designs, by selection, crossing and mutation. Plain values, so that what does it (pagmo) can
-/// be a module of its own, loaded where a search asks for it.
+/// Internal: interface of an evolutionary algorithm (selection, crossover, mutation), in plain values. Its
+/// implementation (pagmo) can be a module that is loaded on demand.
 #pragma once
 
 #include <map>
@@ -10,8 +10,8 @@
 namespace fusee {
 
 enum class EvolutionKind {
-  genetic,  ///< one cost: tournament, simulated binary crossover, polynomial mutation; the best is kept
-  nsga2,    ///< two or three
+  genetic,  ///< one cost: tournament, simulated binary crossover, polynomial mutation, elitism
+  nsga2,    ///< two or three costs
 };
 
 struct EvolutionSettings {
@@ -23,24 +23,24 @@ struct EvolutionSettings {
 
 using CostsOfDesigns = std::map<std::vector<double>, std::vector<double>>;
 
-/// Generations, one after the other; the same on every machine. What one asks the costs of depends on the one before
-/// alone: it is asked first, so that they can be found side by side.
+/// A sequence of generations, reproducible on every machine. The designs that a generation evaluates depend only on the
+/// generation before, so that their costs can be computed in parallel beforehand.
 class Evolution {
  public:
   virtual ~Evolution() = default;
   virtual void begin(const std::vector<std::vector<double>>& designs, const CostsOfDesigns& known) = 0;
   virtual std::vector<std::vector<double>> next_designs() = 0;
-  /// Needs the costs of all of next_designs().
+  /// Requires the costs of all of next_designs().
   virtual void advance(const CostsOfDesigns& known) = 0;
   virtual std::vector<std::vector<double>> designs() const = 0;
   virtual std::vector<std::vector<double>> costs() const = 0;
-  /// Of one cost: the least so far.
+  /// For one cost: the best design so far.
   virtual std::vector<double> best() const = 0;
-  /// Places in designs() of those that no other is better than in everything.
+  /// Indices in designs() of the non-dominated ones.
   virtual std::vector<std::size_t> front() const = 0;
 };
 
-/// What the module `fusee-evolution` exports under this name; weak: a program that links it needs no module.
+/// Export of the module `fusee-evolution`; weak, so that a program may link it instead.
 struct EvolutionMaker {
   std::unique_ptr<Evolution> (*make)(const EvolutionSettings& settings);
 };

@@ -1,5 +1,5 @@
 /// \file
-/// Evolution by pagmo. The one file that knows it, in a module and in a library (CMakeLists.txt).
+/// Evolution by pagmo. The only file that uses pagmo, in a module and in a library (CMakeLists.txt).
 #include <pagmo/algorithm.hpp>
 #include <pagmo/algorithms/nsga2.hpp>
 #include <pagmo/algorithms/sga.hpp>
@@ -14,8 +14,8 @@
 namespace fusee {
 namespace {
 
-/// What pagmo asks of designs: it is told what is known, or, when it is to say which it will ask of, nothing.
-struct Costing {
+/// Costs for pagmo: known values, or, with `known` null, a record of the designs that pagmo requests.
+struct CostRecorder {
   EvolutionSettings settings;
   const CostsOfDesigns* known = nullptr;
   std::vector<std::vector<double>> asked;
@@ -31,9 +31,9 @@ struct Costing {
   }
 };
 
-/// What pagmo copies about; the costing is shared.
+/// The problem that pagmo copies; the costs are shared.
 struct PagmoProblem {
-  Costing* costing = nullptr;
+  CostRecorder* costing = nullptr;
 
   pagmo::vector_double fitness(const pagmo::vector_double& design) const { return costing->fitness(design); }
   std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
@@ -42,7 +42,7 @@ struct PagmoProblem {
   pagmo::vector_double::size_type get_nobj() const { return costing->settings.costs; }
 };
 
-/// One generation a call, so that each can be looked at.
+/// One generation per call, so that each can be inspected.
 pagmo::algorithm algorithm_of(const EvolutionSettings& settings) {
   if (settings.kind == EvolutionKind::nsga2)
     return pagmo::algorithm(pagmo::nsga2(1u, 0.95, 10.0, 0.02, 50.0, settings.seed));
@@ -63,7 +63,7 @@ class PagmoEvolution final : public Evolution {
     for (const auto& design : designs) population_.push_back(design);
     costing_.known = nullptr;
   }
-  /// A generation is run on a copy to see the designs; advance() runs it once more, with what they cost.
+  /// Runs a generation on a copy to record its designs; advance() repeats it with their costs.
   std::vector<std::vector<double>> next_designs() override {
     costing_.asked.clear();
     (void)pagmo::algorithm(algorithm_).evolve(population_);
@@ -83,7 +83,7 @@ class PagmoEvolution final : public Evolution {
   }
 
  private:
-  Costing costing_;
+  CostRecorder costing_;
   pagmo::algorithm algorithm_;
   pagmo::population population_;
 };

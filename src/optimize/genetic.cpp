@@ -12,31 +12,31 @@
 #include "base/module.h"
 #include "fusee/base/diagnostics.h"
 #include "optimize/evolution.h"
-#include "optimize/hands.h"
 #include "optimize/random.h"
+#include "optimize/thread_pool.h"
 
 namespace fusee {
 namespace {
 
-/// What a design that breaks a constraint costs: more than any possible one, and more the further off it is.
+/// Cost of a design that violates a constraint: above any possible one, and increasing with the violation.
 constexpr double k_penalty = 1e12;
-/// The best so far where nothing was possible so far.
-constexpr double k_none_yet = 1e300;
+/// The best value before any design was possible.
+constexpr double k_no_value = 1e300;
 
-/// What designs cost, and why they are not possible.
+/// Costs of a design, and the reason why it is not possible.
 struct Costs {
   std::vector<double> costs;
   std::string reason;
 };
 
-/// A reason without its numbers: of its kind there are few.
+/// A reason without its numbers, so that there are few kinds.
 std::string kind_of(std::string reason) {
   reason.erase(std::remove_if(reason.begin(), reason.end(), [](char c) { return (c >= '0' && c <= '9') || c == '.'; }),
                reason.end());
   return reason;
 }
 
-class Reasons {
+class ReasonCounter {
  public:
   void add(const std::string& reason) {
     if (reason.empty()) return;
@@ -46,7 +46,7 @@ class Reasons {
   std::string commonest() const {
     const auto most = std::max_element(kinds_.begin(), kinds_.end(),
                                        [](const auto& a, const auto& b) { return a.second.count < b.second.count; });
-    return most == kinds_.end() ? "no design keeps the constraints" : most->second.example;
+    return most == kinds_.end() ? "no design satisfies the constraints" : most->second.example;
   }
 
  private:
@@ -57,21 +57,21 @@ class Reasons {
   std::map<std::string, Kind> kinds_;
 };
 
-/// Thrown where a search is to stop, and caught here.
-struct Stopped {};
+/// Thrown to stop a search, and caught in this file.
+struct SearchStopped {};
 
-/// What a generation asks for is judged side by side.
-struct GenerationJudge {
+/// Evaluates the designs of a generation in parallel.
+struct GenerationEvaluator {
   const Problem& problem;
   std::vector<Objective> objectives;
-  Hands hands;
+  ThreadPool pool;
   KeepGoing keep_going;
   SearchProgress progress;
   CostsOfDesigns known;
-  Reasons reasons;
+  ReasonCounter reasons;
 
-  GenerationJudge(const Problem& of, std::vector<Objective> by, const GeneticOptions& options)
-      : problem(of), objectives(std::move(by)), hands(options.threads), keep_going(options.keep_going) {}
+  GenerationEvaluator(const Problem& of, std::vector<Objective> by, const GeneticOptions& options)
+      : problem(of), objectives(std::move(by)), pool(options.threads), keep_going(options.keep_going) {}
 
   Costs costs_of(const Design& design) const {
     Costs result;
@@ -88,14 +88,14 @@ struct GenerationJudge {
     return result;
   }
 
-  /// A few at a time: in between it is asked whether to go on.
-  void judge(const std::vector<Design>& designs) {
+  /// Evaluates a few at a time and checks in between for a stop.
+  void evaluator(const std::vector<Design>& designs) {
     constexpr std::size_t k_at_once = 16;
     known.clear();
     for (std::size_t begin = 0; begin < designs.size(); begin += k_at_once) {
-      if (keep_going && !keep_going(progress)) throw Stopped();
+      if (keep_going && !keep_going(progress)) throw SearchStopped();
       std::vector<Costs> costs(std::min(k_at_once, designs.size() - begin));
-      hands.each(costs.size(), [&](std::size_t i) { costs[i] = costs_of(designs[begin + i]); });
+      pool.each(costs.size(), [&](std::size_t i) { costs[i] = costs_of(designs[begin + i]); });
       for (std::size_t i = 0; i < costs.size(); ++i) {
         reasons.add(costs[i].reason);
         known[designs[begin + i]] = std::move(costs[i].costs);
@@ -105,43 +105,43 @@ struct GenerationJudge {
   }
 };
 
-/// Linked into this program, or else a module beside it.
+/// Linked into this program, or loaded from a module.
 const EvolutionMaker& evolution_maker() {
   if (&fusee_evolution_maker_1 != nullptr) return fusee_evolution_maker_1;
   static const LoadedModule module = load_module("fusee-evolution", k_evolution_maker);
   if (module.found == nullptr)
-    throw InputError("", "no search by evolution: " + module.why_not, "--method certified does without");
+    throw InputError("", "evolutionary search is unavailable: " + module.why_not,
+                     "use --method certified, which does not need it");
   return *static_cast<const EvolutionMaker*>(module.found);
 }
 
-std::unique_ptr<Evolution> evolution_of(const GenerationJudge& judge, EvolutionKind kind, unsigned seed) {
-  EvolutionSettings settings{kind, {}, {}, static_cast<unsigned>(judge.objectives.size()), seed};
-  for (const Variable& variable : judge.problem.variables) {
+std::unique_ptr<Evolution> evolution_of(const GenerationEvaluator& evaluator, EvolutionKind kind, unsigned seed) {
+  EvolutionSettings settings{kind, {}, {}, static_cast<unsigned>(evaluator.objectives.size()), seed};
+  for (const Variable& variable : evaluator.problem.variables) {
     settings.lower.push_back(variable.lower);
     settings.upper.push_back(variable.upper);
   }
   return evolution_maker().make(settings);
 }
 
-void advance(Evolution& evolution, GenerationJudge& judge) {
-  judge.judge(evolution.next_designs());
-  evolution.advance(judge.known);
+void advance(Evolution& evolution, GenerationEvaluator& evaluator) {
+  evaluator.evaluator(evolution.next_designs());
+  evolution.advance(evaluator.known);
 }
 
-/// Random designs, those outside of a constraint drawn again: a thin set of possible designs must not be missed at the
-/// start.
-void begin(Evolution& evolution, GenerationJudge& judge, const GeneticOptions& options) {
+/// Random designs; those that violate a constraint are drawn again, so that a thin feasible set is found at the start.
+void begin(Evolution& evolution, GenerationEvaluator& evaluator, const GeneticOptions& options) {
   constexpr int k_most_draws = 200;
   Random random(options.seed);
   std::vector<Design> designs;
   for (unsigned i = 0; i < options.population; ++i) {
-    Design design = random_design(judge.problem, random);
-    for (int draw = 0; draw < k_most_draws && constraint_violation(judge.problem, design) > 0; ++draw)
-      design = random_design(judge.problem, random);
+    Design design = random_design(evaluator.problem, random);
+    for (int draw = 0; draw < k_most_draws && constraint_violation(evaluator.problem, design) > 0; ++draw)
+      design = random_design(evaluator.problem, random);
     designs.push_back(std::move(design));
   }
-  judge.judge(designs);
-  evolution.begin(designs, judge.known);
+  evaluator.evaluator(designs);
+  evolution.begin(designs, evaluator.known);
 }
 
 Generation described(unsigned number, const Evolution& evolution, Objective objective, double best_before) {
@@ -161,36 +161,36 @@ Generation described(unsigned number, const Evolution& evolution, Objective obje
   return generation;
 }
 
-std::optional<double> found(double best) { return std::abs(best) < k_none_yet ? std::optional(best) : std::nullopt; }
+std::optional<double> found(double best) { return std::abs(best) < k_no_value ? std::optional(best) : std::nullopt; }
 
 }  // namespace
 
 GeneticResult genetic_optimum(const Problem& problem, Objective objective, const GeneticOptions& options) {
-  GenerationJudge judge(problem, {objective}, options);
-  const auto evolution = evolution_of(judge, EvolutionKind::genetic, options.seed);
+  GenerationEvaluator evaluator(problem, {objective}, options);
+  const auto evolution = evolution_of(evaluator, EvolutionKind::genetic, options.seed);
   GeneticResult result;
-  double best = info(objective).largest ? -k_none_yet : k_none_yet;
+  double best = info(objective).largest ? -k_no_value : k_no_value;
   try {
-    begin(*evolution, judge, options);
+    begin(*evolution, evaluator, options);
     for (unsigned number = 0; number <= options.generations; ++number) {
-      judge.progress.done = static_cast<double>(number) / options.generations;
-      if (number > 0) advance(*evolution, judge);
+      evaluator.progress.done = static_cast<double>(number) / options.generations;
+      if (number > 0) advance(*evolution, evaluator);
       result.generations.push_back(described(number, *evolution, objective, best));
       best = result.generations.back().best;
-      judge.progress.best = found(best);
+      evaluator.progress.best = found(best);
       result.best = evolution->best();
     }
-  } catch (const Stopped&) {
+  } catch (const SearchStopped&) {
     result.stopped = true;
   }
-  result.evaluations = judge.progress.evaluations;
+  result.evaluations = evaluator.progress.evaluations;
   if (!result.best.empty()) {
     const Evaluation evaluation = evaluate_design(problem, objective, result.best);
     result.found = evaluation.possible;
     result.value = evaluation.value;
     result.theta = evaluation.theta;
   }
-  if (!result.found) result.reason = judge.reasons.commonest();
+  if (!result.found) result.reason = evaluator.reasons.commonest();
   return result;
 }
 
@@ -199,22 +199,22 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options)
     throw InputError("", "a front needs two or three objectives",
                      "for example optimize.objective = [\"max_tension\", \"footprint\"]");
   }
-  GenerationJudge judge(problem, problem.objectives, options);
-  const auto evolution = evolution_of(judge, EvolutionKind::nsga2, options.seed);
+  GenerationEvaluator evaluator(problem, problem.objectives, options);
+  const auto evolution = evolution_of(evaluator, EvolutionKind::nsga2, options.seed);
   ParetoResult result;
   bool has_begun = false;
   try {
-    begin(*evolution, judge, options);
+    begin(*evolution, evaluator, options);
     has_begun = true;
     for (; result.generations < options.generations; ++result.generations) {
-      judge.progress.done = static_cast<double>(result.generations) / options.generations;
-      advance(*evolution, judge);
+      evaluator.progress.done = static_cast<double>(result.generations) / options.generations;
+      advance(*evolution, evaluator);
     }
-  } catch (const Stopped&) {
+  } catch (const SearchStopped&) {
     result.stopped = true;
   }
-  result.evaluations = judge.progress.evaluations;
-  result.reason = judge.reasons.commonest();
+  result.evaluations = evaluator.progress.evaluations;
+  result.reason = evaluator.reasons.commonest();
   if (!has_begun) return result;
   const auto designs = evolution->designs(), costs = evolution->costs();
   for (const std::size_t i : evolution->front()) {

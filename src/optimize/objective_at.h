@@ -1,6 +1,5 @@
-/// \file
-/// Internal: objectives at one place of the stroke, by the paper's equations (transmission/equations.h), for numbers
-/// and for intervals with derivatives: what is evaluated and what is proven are the same.
+/// Internal: objectives at one point of the stroke, by the paper's equations (transmission/equations.h), for numbers
+/// and for intervals with derivatives, so that the proven formulas are the evaluated ones.
 #pragma once
 
 #include "fusee/mechanism/mechanism.h"
@@ -11,30 +10,31 @@
 
 namespace fusee {
 
-/// The least γ of both tendons: with less the tendon has left its pin. An angle below is taken to be this, for designs
-/// that are not possible anyway: so that a function over a box exists, and is smooth, also beside the possible ones.
+/// Lower bounds of γ of both tendons: below them, a tendon has left its pin. Smaller angles are replaced by the bound,
+/// which only affects impossible designs. Functions over a box are then defined and smooth beyond the possible designs
+/// too.
 struct PinAngles {
   double of_1 = -1e300, of_2 = -1e300;
 
   bool operator==(const PinAngles&) const = default;
 };
 
-/// The numbers of a mechanism that [1]-[11] use.
+/// Numbers of a mechanism that [1]-[11] use.
 template <typename S>
 struct DesignNumbers {
   S R, EB, ED, OE, EF, r1, ratio, mu;
   S rho;        ///< ρp
   S stiffness;  ///< A E of the tendon, N
   S theta_min, theta_max;
-  S to_B, to_D;                                       ///< c: from the pulley's axis to the pins, mm
-  S angle_B, angle_D;                                 ///< their directions in the right-hand image, rad
+  S to_B, to_D;                                       ///< c: distances of the pins from the pulley's axis, mm
+  S angle_B, angle_D;                                 ///< directions of the pins in the right-hand image, rad
   bool linear = false;                                ///< law = linear: θ = α/ratio; else compensate
-  S half;                                             ///< of the tendon's diameter, mm
-  PinAngles least;                                    ///< what boxes know of the place that is looked at
-  std::optional<WideNumbers<S>> wide = std::nullopt;  ///< where the joint is not the paper's
+  S half;                                             ///< half of the tendon's diameter, mm
+  PinAngles least;                                    ///< bounds for a box at the evaluated point
+  std::optional<WideNumbers<S>> wide = std::nullopt;  ///< set if the joint is not the paper's
 };
 
-/// The same as they stand in the file, but for angles, which are rad.
+/// The numbers as in the file, except that angles are in rad.
 template <typename S>
 struct FileNumbers {
   S R, EB, ED, OE, EF, r1, ratio, mu, radius, diameter, modulus, theta_min, theta_max;
@@ -61,31 +61,31 @@ DesignNumbers<S> design_numbers(const FileNumbers<S>& file, Law law, bool point_
 /// One tendon above its pin.
 template <typename S>
 struct UpperNumbers {
-  S gamma;  ///< between OC and the tendon, rad: in its image, its normal's direction and θ
-  S sine;   ///< of gamma: the moment arm is R sin γ. In other joints than the paper's the arm per R
+  S gamma;  ///< angle between OC and the tendon, rad: in its image, the direction of its normal plus θ
+  S sine;   ///< sin γ: the moment arm is R sin γ. For other joints than the paper's: arm / R
   S free;   ///< C to the pin, mm
 };
 
 template <typename S>
 struct StrokeNumbers {
-  TurnedBy<S> theta;
+  RotationAngle<S> theta;
   UpperNumbers<S> upper1, upper2;  ///< of both tendons
   S r1, r2;
   S reach;  ///< pin D to the foot of G's perpendicular, mm
-  S phi;    ///< wrap over pin D [8]
+  S phi;    ///< wrap on pin D [8]
 };
 
-/// Above the pin, in the frame of the link; below it, from the pulley's axis. Over intervals by sharp.h.
+/// The tendon's line above the pin, in the frame of the link; for intervals by sharp.h.
 template <typename S>
-UpperLine<S> upper_line_of(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, Domain& domain) {
-  return upper_line(from_pin_in_link(d.R, e, d.OE, theta), d.rho, domain);
+UpperLine<S> upper_line_of(const DesignNumbers<S>& d, const S& e, const RotationAngle<S>& theta, Domain& domain) {
+  return upper_line(offset_from_pin_in_link(d.R, e, d.OE, theta), d.rho, domain);
 }
-inline UpperLine<Jet> upper_line_of(const DesignNumbers<Jet>& d, const Jet& e, const TurnedBy<Jet>& theta,
+inline UpperLine<Jet> upper_line_of(const DesignNumbers<Jet>& d, const Jet& e, const RotationAngle<Jet>& theta,
                                     Domain& domain) {
   const SharpLine line = sharp_upper_line(d.R, e, d.OE, d.rho, theta, domain);
   return {line.normal, line.reach};
 }
-/// Of a joint's sheaths, if there are any.
+/// The joint's sheaths, if any.
 template <typename S>
 const SheathNumbers<S>* sheath_of(const DesignNumbers<S>& d) {
   return d.wide && d.wide->sheath ? &*d.wide->sheath : nullptr;
@@ -103,20 +103,20 @@ inline LowerLine<Jet> lower_line_of(const DesignNumbers<Jet>& d, const Jet& p, b
   return {line.normal, line.reach};
 }
 
-/// Outward normal where a tendon leaves its pin: its line's to the pulley, or straight down into a sheath.
+/// Outward normal where a tendon leaves its pin: that of its line to the pulley, or straight down into a sheath.
 template <typename S>
 S off_pin(const DesignNumbers<S>& d, const S& lower_normal) {
   return sheath_of(d) != nullptr ? S(0.0) : lower_normal;
 }
 
-/// By how much a pulley's radius stays below what its tendon's pin or mouth allows.
+/// Distance of a pulley's radius from the limit set by its tendon's pin or sheath exit.
 template <typename S>
 S clear_of_guide(const DesignNumbers<S>& d, const S& radius, bool of_B) {
   if (const auto* sheath = sheath_of(d)) return sheath->to_mouth - radius;
   return (of_B ? d.to_B : d.to_D) - (radius - d.rho);
 }
 
-/// Of a tendon that has a moment arm, of a joint that is not the paper's.
+/// Numbers of a tendon with a moment arm, of a joint that is not the paper's.
 template <typename S>
 UpperNumbers<S> wide_upper_numbers(const DesignNumbers<S>& d, const TendonEnd<S>& end, const S& e, const S& theta,
                                    Domain& domain) {
@@ -125,9 +125,9 @@ UpperNumbers<S> wide_upper_numbers(const DesignNumbers<S>& d, const TendonEnd<S>
   return {path.normal + theta, positive_part(S(path.arm / d.R), domain), path.free};
 }
 
-/// Of a tendon that has a moment arm.
+/// Numbers of a tendon with a moment arm.
 template <typename S>
-UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, double least,
+UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const RotationAngle<S>& theta, double least,
                               Domain& domain) {
   const UpperLine<S> line = upper_line_of(d, e, theta, domain);
   const S gamma = larger(line.normal, S(least));
@@ -147,20 +147,20 @@ void set_upper_numbers(const DesignNumbers<S>& d, StrokeNumbers<S>& n, Domain& d
   n.upper1 = upper_numbers(d, d.EB, n.theta.mirrored(), d.least.of_1, domain);
 }
 
-/// Both tendons above their pins and the radii that follow from their arms: no pulley is looked at yet.
+/// Both tendons above their pins and the radii that follow from their arms, without their lines to the pulley.
 template <typename S>
 StrokeNumbers<S> upper_stroke(const DesignNumbers<S>& d, const S& place, Domain& domain) {
   StrokeNumbers<S> n;
-  n.theta = turned_by(d.theta_min + place * (d.theta_max - d.theta_min));
+  n.theta = rotation_angle(d.theta_min + place * (d.theta_max - d.theta_min));
   set_upper_numbers(d, n, domain);
-  // Arms in units of R, which cancels: an interval is the sharper the less often a number stands in a formula.
+  // Arms are in units of R, which cancels: an interval is tighter when each variable occurs less often.
   const S slope = d.linear ? d.R / d.ratio : slope_over_round_pulley(d.r1, n.upper1.sine);
   n.r1 = d.linear ? pulley_radius(n.upper1.sine, slope) : d.r1;
   n.r2 = pulley_radius(n.upper2.sine, slope);
   return n;
 }
 
-/// `place`: 0 at the lowest, 1 at the highest joint angle. Tendon 2 may have left its pin: phi is negative there.
+/// `place`: 0 at the lowest, 1 at the highest joint angle. phi is negative if tendon 2 has left its pin.
 template <typename S>
 StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, Domain& domain) {
   StrokeNumbers<S> n = upper_stroke(d, place, domain);
@@ -170,13 +170,13 @@ StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, Domai
   return n;
 }
 
-/// Of tendon 1 over pin B.
+/// Wrap of tendon 1 on pin B.
 template <typename S>
 S wrap_over_B(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, Domain& domain) {
   return S(n.upper1.gamma + n.theta.angle) - off_pin(d, lower_line_of(d, n.r1, true, domain).normal);
 }
 
-/// The rectangle around link, pins and pulley in this pose. mm²
+/// Area of the rectangle around link, pins and pulley in this pose. mm²
 template <typename S>
 S footprint_at(const DesignNumbers<S>& d, const StrokeNumbers<S>& n) {
   const S x = d.R * n.theta.sine, y = d.R * n.theta.cosine;
@@ -194,25 +194,24 @@ S below_guide(const DesignNumbers<S>& d, const S& above, const S& wrap) {
   return tension_below_pin(above, d.mu, wrap);
 }
 
-/// [9] with what lies in a sheath, which gives way to the mean of its ends.
+/// [9] including the tendon in a sheath, which is compliant to the mean of its end tensions.
 template <typename S>
 S elongation_at(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, const S& above, const S& off_pin) {
   const S on_pin = d.rho * n.phi;
   if (const auto* sheath = sheath_of(d)) {
     const S below = tension_below_pin(off_pin, sheath->mu, sheath->bend);
-    const S sheathed = sheath->length + d.stiffness * sheath->give;
+    const S sheathed = sheath->length + d.stiffness * sheath->compliance;
     return elongation_of_tendon(above, off_pin, n.upper2.free, on_pin, S(0.0), d.stiffness) +
            elongation_of_tendon(off_pin, below, S(0.0), sheathed, n.reach, d.stiffness);
   }
   return elongation_of_tendon(above, off_pin, n.upper2.free, on_pin, n.reach, d.stiffness);
 }
 
-/// What of the objective this place of the stroke alone would give: the objective is the largest over the range. Per
-/// newton of tip force.
+/// Contribution of this point to the objective, which is the maximum over the range. Per newton of tip force.
 template <typename S>
 S objective_of(Objective objective, const DesignNumbers<S>& d, const StrokeNumbers<S>& n) {
   if (objective == Objective::footprint) return footprint_at(d, n);
-  // A newton across OC turns by R, and the arm is R sin γ: R cancels here too.
+  // A newton across OC has the torque R, and the arm is R sin γ: R cancels here too.
   const S above = tension_above_pin(S(1.0), n.upper2.sine);
   const S off_pin = below_guide(d, above, n.phi);
   const auto* sheath = sheath_of(d);
@@ -223,7 +222,7 @@ S objective_of(Objective objective, const DesignNumbers<S>& d, const StrokeNumbe
   return (180.0 / k_pi) * angle_of_elongation(elongation, S(d.R * n.upper2.sine));  // max_error, in degrees
 }
 
-/// Both tendons are wanted on their pins too, or the law θ(α) ends.
+/// Requires both tendons on their pins, since the law θ(α) ends otherwise.
 template <typename S>
 S objective_at(Objective objective, const DesignNumbers<S>& d, const S& place, Domain& domain) {
   const StrokeNumbers<S> n = stroke_numbers(d, place, domain);

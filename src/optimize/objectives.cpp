@@ -26,10 +26,10 @@ constexpr std::array<ObjectiveInfo, 5> k_objectives{{
      false},
 }};
 
-/// Places of the stroke that are looked at; where the worst lies between two, it is searched for.
-constexpr int k_places_looked_at = 61;
+/// Sampled places of the stroke; a maximum between two of them is searched.
+constexpr int k_sampled_places = 61;
 constexpr double k_impossible = 1e300;
-/// A value beyond this is no design: a moment arm is as good as gone.
+/// A larger value counts as impossible: a moment arm is practically zero.
 constexpr double k_largest = 1e12;
 
 Evaluation impossible(std::string reason) {
@@ -43,37 +43,37 @@ struct PlaceValue {
   double value = -k_impossible;
 };
 
-double place_of(int i) { return static_cast<double>(i) / (k_places_looked_at - 1); }
+double place_of(int i) { return static_cast<double>(i) / (k_sampled_places - 1); }
 
-/// Whether there can be a largest value within a step of `i`: it is as large as its neighbours, and at an end of the
-/// range the value grows inward.
+/// True if a local maximum may lie within a step of `i`: no neighbour is larger, and at an end of the range the value
+/// increases inward.
 template <typename Value>
-bool peaks_near(const std::array<double, k_places_looked_at>& values, int i, Value value) {
+bool peaks_near(const std::array<double, k_sampled_places>& values, int i, Value value) {
   const auto k = static_cast<std::size_t>(i);
-  constexpr double k_inward = 0.25 / (k_places_looked_at - 1);
+  constexpr double k_inward = 0.25 / (k_sampled_places - 1);
   if (i == 0) return values[k] >= values[k + 1] && value(k_inward) > values[k];
-  if (i == k_places_looked_at - 1) return values[k] >= values[k - 1] && value(1.0 - k_inward) > values[k];
+  if (i == k_sampled_places - 1) return values[k] >= values[k - 1] && value(1.0 - k_inward) > values[k];
   return values[k] >= values[k - 1] && values[k] >= values[k + 1];
 }
 
-/// Largest of `value(place)` over places 0 … 1; not finite where it has none. Of several peaks the highest may lie
-/// further from the places that are looked at than another: all that come near are followed to their tops.
+/// Maximum of `value(place)` over places 0 … 1; impossible where it is not finite. The highest of several peaks may lie
+/// further from the samples than another one, so all candidates near the maximum are refined.
 template <typename Value>
 Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
   constexpr double k_near = 1e-2;  // a step of a sixtieth misses less of a peak
-  std::array<double, k_places_looked_at> values{};
+  std::array<double, k_sampled_places> values{};
   PlaceValue worst;
-  for (int i = 0; i < k_places_looked_at; ++i) {
+  for (int i = 0; i < k_sampled_places; ++i) {
     const double here = value(place_of(i));
     if (!(std::abs(here) < k_largest)) return impossible("");
     values[static_cast<std::size_t>(i)] = here;
     if (here > worst.value) worst = {place_of(i), here};
   }
   const double at_least = worst.value - k_near * std::abs(worst.value);
-  for (int i = 0; i < k_places_looked_at; ++i) {
+  for (int i = 0; i < k_sampled_places; ++i) {
     if (!(values[static_cast<std::size_t>(i)] >= at_least) || !peaks_near(values, i, value)) continue;
-    const Bracket neighbours = {std::max(0, i - 1) / (k_places_looked_at - 1.0),
-                                std::min(i + 1, k_places_looked_at - 1) / (k_places_looked_at - 1.0)};
+    const Bracket neighbours = {std::max(0, i - 1) / (k_sampled_places - 1.0),
+                                std::min(i + 1, k_sampled_places - 1) / (k_sampled_places - 1.0)};
     const double refined = golden_section(neighbours, 24, [&](double at) { return -value(at); }).middle();
     const double there = value(refined);
     if (there > worst.value) worst = {refined, there};
@@ -85,7 +85,7 @@ Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
   return evaluation;
 }
 
-/// Laws and joints whose equations objective_at.h has.
+/// Laws and joints covered by the equations of objective_at.h.
 bool has_closed_form(const Mechanism& mechanism) {
   return mechanism.pulley.law != Law::table && mechanism.pulley.law != Law::torque && !mechanism.sheath.is_there() &&
          mechanism.joint.drum_centre == Attachment{} && mechanism.guides.D_below_B == 0;
@@ -99,8 +99,8 @@ DesignNumbers<double> numbers_of(const Mechanism& mechanism) {
   return numbers;
 }
 
-/// The same equations through Transmission and paper_forces(): what has no closed form, and the words for why there is
-/// no value.
+/// Solves the equations by Transmission and paper_forces(): for cases without a closed form, and for the reason of a
+/// missing value.
 Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechanism) {
   const Transmission transmission(mechanism);
   if (const auto theta = transmission.dead_centre()) {
@@ -119,9 +119,9 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
     const TransmissionPoint point = transmission.at_theta(mechanism.joint.theta_min + place * range);
     const std::string where = " at θ = " + rounded(degrees(point.theta), 3) + "°";
     if (!(point.t1.lower_reach > 0))
-      reason = "pin B stands in pulley P1" + where;
+      reason = "pin B lies inside pulley P1" + where;
     else if (!(point.t2.lower_reach > 0))
-      reason = "pin D stands in pulley P2" + where;
+      reason = "pin D lies inside pulley P2" + where;
     else if (!(point.t1.wrap >= 0))
       reason = "tendon 1 leaves pin B" + where;
     else if (!(point.t2.wrap >= 0))
@@ -136,11 +136,11 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
   };
   Evaluation evaluation = largest_over_range(mechanism, value);
   if (!evaluation.possible)
-    evaluation.reason = reason.empty() ? "a force grows without bound: a moment arm is nearly gone" : reason;
+    evaluation.reason = reason.empty() ? "a force grows without bound: a moment arm is nearly zero" : reason;
   return evaluation;
 }
 
-/// Smallest radius of curvature of both pitch curves; the envelope's own condition is that it is positive.
+/// Minimum radius of curvature of both pitch curves; the envelope exists if it is positive.
 Evaluation smallest_bend(const Mechanism& mechanism) {
   const Transmission transmission(mechanism);
   if (transmission.dead_centre()) return evaluate_by_transmission(Objective::max_tension, mechanism);
@@ -152,7 +152,7 @@ Evaluation smallest_bend(const Mechanism& mechanism) {
   };
   Evaluation evaluation = largest_over_range(mechanism, tightness);
   evaluation.value = -evaluation.value;
-  if (!evaluation.possible) evaluation.reason = "a pin stands in a pulley";
+  if (!evaluation.possible) evaluation.reason = "a pin lies inside a pulley";
   return evaluation;
 }
 
@@ -189,7 +189,7 @@ Evaluation evaluate(Objective objective, const Mechanism& mechanism) {
     const double value = objective_at(objective, numbers, place, domain);
     return domain.possible ? value : 2.0 * k_impossible;
   });
-  // The slow way knows why.
+  // The slow evaluation reports the reason.
   if (!evaluation.possible) evaluation.reason = evaluate_by_transmission(objective, mechanism).reason;
   return evaluation;
 }

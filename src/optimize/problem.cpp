@@ -69,7 +69,7 @@ void add_constraints(Problem& problem, const Optimization& table) {
     add_constraint(problem, left, right, text);
     if (relation.relation == Relation::equal) add_constraint(problem, right, left, text);
   }
-  // A tied key must stay a value that the file accepts.
+  // A tied key must stay within the file's bounds.
   const Affine none{std::vector<double>(problem.variables.size(), 0.0), 0.0};
   for (std::size_t i = problem.variables.size(); i < problem.moving.size(); ++i) {
     const MovingKey& tied = problem.moving[i];
@@ -93,19 +93,19 @@ std::vector<Variable> variables_of(const Optimization& table) {
   return variables;
 }
 
-/// What the making of a pulley is judged by.
-std::vector<double> making(const Mechanism& mechanism) {
+/// Values of the conditions for feasibility_values a pulley.
+std::vector<double> feasibility_values(const Mechanism& mechanism) {
   const Transmission transmission(mechanism);
   std::vector<double> values;
   for (const Condition& condition : attempt(mechanism, transmission).conditions) values.push_back(condition.value);
   return values;
 }
 
-/// Whether turning this variable alone ever changes an objective, its possibility or (when demanded) the making of the
+/// True if changing this variable alone affects an objective, its possibility or (if required) the conditions of the
 /// pulley.
 bool has_effect(const Problem& problem, std::size_t variable) {
   Random random(1);
-  bool nothing_is_possible = true;  // then nothing is known of effects either
+  bool nothing_is_possible = true;  // then effects are unknown as well
   for (int trial = 0; trial < 12; ++trial) {
     Design a = random_design(problem, random);
     Design b = a;
@@ -117,7 +117,7 @@ bool has_effect(const Problem& problem, std::size_t variable) {
       if (value_a.possible != value_b.possible || value_a.value != value_b.value) return true;
       if (value_a.possible) nothing_is_possible = false;
     }
-    if (problem.feasible && making(at_a) != making(at_b)) return true;
+    if (problem.feasible && feasibility_values(at_a) != feasibility_values(at_b)) return true;
   }
   return nothing_is_possible;
 }
@@ -180,7 +180,7 @@ double constraint_violation(const Problem& problem, const Design& design) {
 
 namespace {
 
-/// To pulleys of one turn or, where the mechanism may have them, of several.
+/// Obstacle to pulleys of one turn or, if allowed, of several.
 std::optional<std::string> obstacle_to_pulleys(const Problem& problem, const Mechanism& mechanism) {
   const auto obstacle = obstacle_to(mechanism);
   if (!obstacle) return std::nullopt;
@@ -194,7 +194,7 @@ std::optional<std::string> obstacle_to_pulleys(const Problem& problem, const Mec
 Evaluation evaluate_design(const Problem& problem, Objective objective, const Design& design) {
   Evaluation none;
   if (constraint_violation(problem, design) > 0) {
-    none.reason = "a constraint is not kept";
+    none.reason = "a constraint is violated";
     return none;
   }
   const Mechanism mechanism = judged(problem, mechanism_at(problem, design));
@@ -218,7 +218,7 @@ Evaluation evaluate_design(const Problem& problem, Objective objective, const De
 
 namespace {
 
-/// By the file or by what moves.
+/// True if the file or a variable adds a drum or attachments.
 bool is_widened(const Problem& problem) {
   return !problem.base.joint.is_plain() ||
          std::any_of(problem.moving.begin(), problem.moving.end(), [](const MovingKey& moving) {
@@ -230,15 +230,14 @@ bool is_widened(const Problem& problem) {
 
 bool has_footprint(const Problem& problem) { return !is_widened(problem) && !problem.base.sheath.is_there(); }
 
-Problem make_problem(const MechanismFile& file, JointGate as_it_is, TurnsGate several_turns) {
+Problem make_problem(const MechanismFile& file, JointConverter as_it_is, HelicalCheck several_turns) {
   const Optimization& table = file.mechanism.optimize;
   if (file.mechanism.transmission)
     throw InputError(file.path, "declares [transmission] in place of a mechanism",
                      "only a joint with guides and pulley can be optimised");
   if (table.variables.empty()) {
-    throw InputError(
-        file.path, "has no [optimize] variables",
-        "say what may change, for example variables = [\"joint.length_mm\"], lower = [100], upper = [300]");
+    throw InputError(file.path, "has no [optimize] variables",
+                     "add variables, for example variables = [\"joint.length_mm\"], lower = [100], upper = [300]");
   }
   if (table.objectives.empty())
     throw InputError(file.path, "optimize.objective is empty", "name one, for example objective = \"max_tension\"");
@@ -255,14 +254,14 @@ Problem make_problem(const MechanismFile& file, JointGate as_it_is, TurnsGate se
   const bool asks_footprint =
       std::count(problem.objectives.begin(), problem.objectives.end(), Objective::footprint) > 0;
   if (asks_footprint && is_widened(problem))
-    throw InputError(file.path, "footprint knows no drum and no attachments but C yet", "choose another objective");
-  if (asks_footprint && problem.base.sheath.is_there())
-    throw InputError(file.path, "footprint knows no pulley that stands elsewhere, through sheaths",
+    throw InputError(file.path, "footprint is not defined for drums and separate attachments",
                      "choose another objective");
+  if (asks_footprint && problem.base.sheath.is_there())
+    throw InputError(file.path, "footprint is not defined for joints with sheaths", "choose another objective");
   const bool turns_sheath = std::any_of(problem.moving.begin(), problem.moving.end(),
                                         [](const MovingKey& moving) { return moving.key.starts_with("sheath."); });
   if (turns_sheath && !problem.base.sheath.is_there())
-    throw InputError(file.path, "optimize turns a number of [sheath], and the file has none", "declare the sheath");
+    throw InputError(file.path, "[optimize] varies a key of [sheath], which the file lacks", "declare the sheath");
   demand_effects(problem, file.path);
   return problem;
 }

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: the same numbers on every machine. (The distributions of the standard library are not.)
+/// Internal: reproducible random numbers, unlike the distributions of the standard library.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
   }
-  /// Within [0, 1).
+  /// Uniform in [0, 1).
   double fraction() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
 
  private:

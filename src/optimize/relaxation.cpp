@@ -3,22 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-// Σ λ_r F_r over lines of weight λ_r >= 0 is bounded from below by one linear function, and that over a box by its
-// corners: whatever the weights are, the outcome is true. So the weights come from plain numbers (simplex.cpp), and
-// only the sum is computed with directed rounding, in functions that the compiler must not merge.
+// A sum Σ λ_r F_r over lines with weights λ_r >= 0 is bounded from below by one linear function, and that function over
+// a box by its corners. This is valid for any weights. They are therefore computed in floating-point numbers
+// (simplex.cpp), and only the sum with directed rounding, in functions that the compiler must not merge.
 
 namespace fusee {
 namespace {
 
 /// constant + slope · (x − lower), in intervals.
-struct Sum {
+struct WeightedSum {
   Interval constant = 0.0;
-  std::array<Interval, k_most_variables> slope{};
-  Interval of_objective = 0.0;  ///< weight of the objective in it
+  std::array<Interval, k_max_variables> slope{};
+  Interval of_objective = 0.0;  ///< total weight of the objective
 };
 
-/// To be called while a RoundingUp lives.
-double least_over(const Sum& sum, const Box& box, int count) {
+/// Call only while a RoundingUp exists.
+double least_over(const WeightedSum& sum, const Box& box, int count) {
   Interval least = sum.constant;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const Interval width = Interval(box.upper[i]) - box.lower[i];
@@ -27,8 +27,9 @@ double least_over(const Sum& sum, const Box& box, int count) {
   return least.lower();
 }
 
-Sum weighted(const Box& box, int count, const std::vector<LineBelow>& lines, const std::vector<double>& weights) {
-  Sum sum;
+WeightedSum weighted(const Box& box, int count, const std::vector<LineBelow>& lines,
+                     const std::vector<double>& weights) {
+  WeightedSum sum;
   for (std::size_t r = 0; r < lines.size(); ++r) {
     if (!(weights[r] > 0)) continue;
     const Interval weight = weights[r];
@@ -43,8 +44,8 @@ Sum weighted(const Box& box, int count, const std::vector<LineBelow>& lines, con
   return sum;
 }
 
-/// Designs at which the sum stays <= `most` lie in what is left of the box.
-bool cut(Box& box, int count, const Sum& sum, double most) {
+/// Shrinks the box to contain the designs for which the sum is <= `most`.
+bool cut(Box& box, int count, const WeightedSum& sum, double most) {
   const double least = least_over(sum, box, count);
   if (least > most) return false;
   if (!(std::abs(least) < k_infinite)) return true;
@@ -52,7 +53,7 @@ bool cut(Box& box, int count, const Sum& sum, double most) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const Interval width = Interval(whole.upper[i]) - whole.lower[i];
     const double slope = sum.slope[i].lower();
-    // The sum is least at one end of the variable; from there it grows by |slope| · way at least.
+    // The sum has its minimum at one end of the variable and increases from there by at least |slope| · way.
     if (slope == 0) continue;
     const double way = ((Interval(most) - least) / std::abs(slope)).upper();
     if (!(way < width.lower())) continue;
@@ -65,30 +66,30 @@ bool cut(Box& box, int count, const Sum& sum, double most) {
 [[gnu::noinline]] bool cut_by_sum(Box& box, int count, const std::vector<LineBelow>& lines,
                                   const std::vector<double>& weights, double limit) {
   const RoundingUp rounding;
-  const Sum sum = weighted(box, count, lines, weights);
+  const WeightedSum sum = weighted(box, count, lines, weights);
   const double most = (sum.of_objective * limit).upper();
   return cut(box, count, sum, most);
 }
 
-/// What the weighted lines prove of the objective; infinite when they prove that there is no design.
+/// Bound of the objective by the weighted lines; infinite if they prove that there is no design.
 [[gnu::noinline]] double bound_by(const Box& box, int count, const std::vector<LineBelow>& lines,
                                   const std::vector<double>& weights) {
   const RoundingUp rounding;
-  const Sum sum = weighted(box, count, lines, weights);
+  const WeightedSum sum = weighted(box, count, lines, weights);
   const double least = least_over(sum, box, count);
   if (sum.of_objective.lower() > 0) return (Interval(least) / sum.of_objective).lower();
   return least > 0 ? k_infinite : -k_infinite;
 }
 
-/// The lines over the unit cube, each of size 1.
-struct Scaled {
+/// The lines over the unit cube, each scaled to size 1.
+struct ScaledProgram {
   LinearProgram program;
   std::vector<double> scale;
   double objective_scale = 1;
 };
 
-Scaled scaled(const Box& box, int count, const std::vector<LineBelow>& lines, double least) {
-  Scaled result;
+ScaledProgram scaled(const Box& box, int count, const std::vector<LineBelow>& lines, double least) {
+  ScaledProgram result;
   result.program.variables = count;
   double objective_size = 0;
   double least_of_rows = -k_infinite;
@@ -119,7 +120,7 @@ Scaled scaled(const Box& box, int count, const std::vector<LineBelow>& lines, do
     for (double& a : row.a) a /= result.scale[r];
     row.b /= result.scale[r];
   }
-  // Below what any line says alone: what is there from the start has no weights that prove it.
+  // Below the bound of every single line: a start value at the bound has no weights that prove it.
   result.program.least_t = std::max(least / objective_size, least_of_rows / objective_size - 1.0);
   return result;
 }
@@ -139,7 +140,7 @@ bool cut_by_lines(Box& box, int count, const std::vector<LineBelow>& lines, doub
 LeastOfLines least_of_lines(Box& box, int count, const std::vector<LineBelow>& lines, double least, double limit) {
   LeastOfLines result;
   result.bound = least;
-  const Scaled scale = scaled(box, count, lines, least);
+  const ScaledProgram scale = scaled(box, count, lines, least);
   const LinearAnswer answer = solve(scale.program, limit / scale.objective_scale);
   std::vector<double> weights(lines.size(), 0.0);
   double sum_of_weights = 0;

@@ -1,6 +1,6 @@
 /// \file
-/// Internal: linear functions that are nowhere above what they stand for, over a box; what they prove together, and
-/// what they cut off the box.
+/// Internal: linear functions that bound others from below over a box, the bounds that they prove together, and the
+/// parts that they cut off the box.
 #pragma once
 
 #include <array>
@@ -11,35 +11,35 @@
 
 namespace fusee {
 
-static_assert(Jet::k_most == k_most_variables);
+static_assert(Jet::k_most == k_max_variables);
 
 struct Box {
-  std::array<double, k_most_variables> lower{};
-  std::array<double, k_most_variables> upper{};
-  double bound = 0;  ///< no design of the box is better
-  int cut = 0;       ///< the variable whose halving promises most
+  std::array<double, k_max_variables> lower{};
+  std::array<double, k_max_variables> upper{};
+  double bound = 0;  ///< lower bound on all designs of the box
+  int cut = 0;       ///< the variable to bisect
 };
 
-/// F(x) >= constant + slope · (x − corner) over the box, where F is the objective, or has to be <= 0.
+/// F(x) >= constant + slope · (x − corner) over the box, where F is the objective or a function that must be <= 0.
 struct LineBelow {
   double constant = 0;
-  std::array<double, k_most_variables> slope{};
-  std::array<double, k_most_variables> corner{};
+  std::array<double, k_max_variables> slope{};
+  std::array<double, k_max_variables> corner{};
   bool of_objective = false;
-  std::array<double, k_most_variables> loss{};  ///< how far below F it may be for each variable's width
+  std::array<double, k_max_variables> loss{};  ///< possible distance below F due to each variable's width
 };
 
 struct LeastOfLines {
-  bool possible = true;                           ///< false: no design of the box keeps all of them below their limits
-  double bound = 0;                               ///< the objective is nowhere below
-  std::array<double, k_most_variables> lowest{};  ///< where the lines together are lowest: a guess
-  std::array<double, k_most_variables> loss{};    ///< by which variable the bound may be too low
+  bool possible = true;                          ///< false: no design of the box satisfies all of them
+  double bound = 0;                              ///< lower bound of the objective
+  std::array<double, k_max_variables> lowest{};  ///< estimated minimizer of the lines together
+  std::array<double, k_max_variables> loss{};    ///< contribution of each variable to the error of the bound
 };
 
-/// Rigorous, whatever the rounding. Cuts off the box what the lines allow nowhere with an objective of at most `limit`.
-/// Needs a box whose objective is known to be `least` or more.
+/// Rigorous under any rounding. Cuts off the parts of the box in which the lines exclude an objective of at most
+/// `limit`. `least`: a known lower bound of the objective over the box.
 LeastOfLines least_of_lines(Box& box, int count, const std::vector<LineBelow>& lines, double least, double limit);
-/// What each line alone cuts off. False when nothing is left.
+/// Cuts with each line separately. False if nothing is left.
 bool cut_by_lines(Box& box, int count, const std::vector<LineBelow>& lines, double limit);
 
 }  // namespace fusee

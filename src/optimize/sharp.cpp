@@ -1,18 +1,18 @@
 #include "optimize/sharp.h"
 
 // Upper line: with n = (cos γ, sin γ), t = n' and C − P = (x, y) in the link's frame, (C − P)·n = ρ and (C − P)·t = f.
-// Differentiated, f dγ = dρ − cos γ dx − sin γ dy; x = −(e cos θ + oe sin θ), y = R + oe cos θ − e sin θ give
+// Differentiated: f dγ = dρ − cos γ dx − sin γ dy. With x = −(e cos θ + oe sin θ) and y = R + oe cos θ − e sin θ:
 //   f ∂γ = ∂ρ − sin γ ∂R + cos(γ − θ) ∂e − sin(γ − θ) ∂oe + (e sin(γ − θ) + oe cos(γ − θ)) ∂θ.
 // Lower line: (e, ef)·n = p − ρ with n = (cos ν, sin ν) gives  w ∂ν = ∂p − ∂ρ − cos ν ∂e − sin ν ∂ef.
 //
-// To be called while a RoundingUp lives.
+// Call only while a RoundingUp exists.
 
 namespace fusee {
 namespace {
 
 using Arguments = std::array<Interval, 4>;
 
-/// Where a function that answers to its arguments with these slopes is least, or largest.
+/// The arguments at which a function with these slopes has its minimum or maximum.
 Arguments at_end(const Arguments& arguments, const Arguments& slopes, bool largest) {
   Arguments ends = arguments;
   for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -22,10 +22,10 @@ Arguments at_end(const Arguments& arguments, const Arguments& slopes, bool large
   return ends;
 }
 
-/// `value` and `slopes` of arguments; `whole` as far as the formula goes. Only signs of the slopes are used.
+/// Tightens `value` by evaluating at the ends. Only the signs of the slopes are used.
 template <typename Value, typename Slopes>
 Interval between_ends(const Arguments& arguments, Interval value, Value value_of, Slopes slopes_of) {
-  constexpr int k_rounds = 3;  // a sharper value makes sharper slopes
+  constexpr int k_rounds = 3;  // a tighter value gives tighter slopes
   const auto is_number = [](const Interval& argument) { return argument.lower() == argument.upper(); };
   if (std::all_of(arguments.begin(), arguments.end(), is_number)) return value;
   for (int round = 0; round < k_rounds; ++round) {
@@ -39,14 +39,14 @@ Interval between_ends(const Arguments& arguments, Interval value, Value value_of
   return value;
 }
 
-/// Direction and length of C − P, and whether C lies outside of the pin's circle everywhere.
-struct Seen {
+/// Direction and length of C − P, and whether C lies outside the pin's circle everywhere.
+struct TangentLine {
   Interval normal, reach;
   Domain domain;
 };
 
-Seen upper_of(const Interval& x, const Interval& y, const Interval& rho) {
-  Seen seen;
+TangentLine upper_of(const Interval& x, const Interval& y, const Interval& rho) {
+  TangentLine seen;
   const Interval distance = sqrt(squared(x) + squared(y));
   const Interval towards = direction(Jet(x), Jet(y), seen.domain).value;
   seen.normal = towards - acos(unit_part(rho / distance, seen.domain));
@@ -54,8 +54,8 @@ Seen upper_of(const Interval& x, const Interval& y, const Interval& rho) {
   return seen;
 }
 
-Seen lower_of(const Interval& p, const Interval& rho, const Interval& e, const Interval& ef) {
-  Seen seen;
+TangentLine lower_of(const Interval& p, const Interval& rho, const Interval& e, const Interval& ef) {
+  TangentLine seen;
   const Interval beyond = p - rho, square = squared(e) + squared(ef);
   const Interval towards = direction(Jet(e), Jet(ef), seen.domain).value;
   seen.normal = towards - acos(unit_part(beyond / sqrt(square), seen.domain));
@@ -71,18 +71,18 @@ int count_of(std::initializer_list<const Jet*> jets) {
 
 }  // namespace
 
-SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet& rho, const TurnedBy<Jet>& theta,
+SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet& rho, const RotationAngle<Jet>& theta,
                            Domain& domain) {
   const Interval sine = theta.sine.value, cosine = theta.cosine.value, angle = theta.angle.value;
   const auto seen_from = [&](const Arguments& a) {
     return upper_of(-(a[1] * cosine + a[2] * sine), a[0] + a[2] * cosine - a[1] * sine, a[3]);
   };
   const Arguments arguments{R.value, e.value, oe.value, rho.value};
-  const Seen crude = seen_from(arguments);
+  const TangentLine crude = seen_from(arguments);
   domain.possible = domain.possible && crude.domain.possible;
   domain.whole = domain.whole && crude.domain.whole;
   if (!crude.domain.possible || !crude.domain.whole) return {Jet(crude.normal), Jet(crude.reach)};
-  // All of them over f, which is positive.
+  // Slopes times f, which is positive.
   const auto slopes_at = [&](const Interval& gamma) {
     return Arguments{-sin(gamma), cos(gamma - angle), -sin(gamma - angle), Interval(1.0)};
   };
@@ -94,7 +94,7 @@ SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet&
   const Interval by_angle = e.value * -slopes[2] + oe.value * slopes[1];
   SharpLine line{Jet(gamma), Jet(crude.reach)};
   line.normal.count = line.reach.count = count;
-  // Where a line's length answers to: C moves along the line, or the tangent point round the pin.
+  // Derivatives of the line's length: C moves along the line, or the tangent point moves round the pin.
   const Interval along_R = cos(gamma);
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const Interval turned = slopes[0] * R.slope[i] + slopes[1] * e.slope[i] + slopes[2] * oe.slope[i] + rho.slope[i] +
@@ -111,7 +111,7 @@ SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet&
 SharpLine sharp_lower_line(const Jet& p, const Jet& rho, const Jet& e, const Jet& ef, Domain& domain) {
   const auto seen_from = [](const Arguments& a) { return lower_of(a[0], a[1], a[2], a[3]); };
   const Arguments arguments{p.value, rho.value, e.value, ef.value};
-  const Seen crude = seen_from(arguments);
+  const TangentLine crude = seen_from(arguments);
   domain.possible = domain.possible && crude.domain.possible;
   domain.whole = domain.whole && crude.domain.whole;
   if (!crude.domain.possible || !crude.domain.whole) return {Jet(crude.normal), Jet(crude.reach)};

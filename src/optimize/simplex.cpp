@@ -4,17 +4,17 @@
 #include <cmath>
 #include <utility>
 
-// Every row has a slack, s t − a·y − b >= 0. At the start the slacks are basic, y and t stand at their lower ends; the
-// costs are 0 for y and 1 for t, so that the start is dual feasible and every step keeps it so: whenever the steps end,
-// the costs of the slacks are weights that prove a bound.
+// Every row has a slack, s t − a·y − b >= 0. Initially the slacks are basic, and y and t are at their lower ends. The
+// costs are 0 for y and 1 for t, so that the start is dual feasible and every step preserves this. At any end of the
+// iteration the costs of the slacks are weights that prove a bound.
 
 namespace fusee {
 namespace {
 
-constexpr double k_kept = 1e-10;  ///< a violation of this size is none: rows are of size 1
-constexpr double k_pivot = 1e-9;  ///< smaller ones only spread rounding
-constexpr int k_most_steps = 100;
-/// Where t does not say which y is best, each has a tiny cost of its own: among equals the steps would go in circles.
+constexpr double k_tolerance = 1e-10;  ///< tolerance of violations: rows have size 1
+constexpr double k_pivot = 1e-9;       ///< smaller pivots only spread rounding errors
+constexpr int k_max_steps = 100;
+/// Small cost of each y: where t does not determine the best y, equal steps would cycle.
 constexpr double k_cost_of_place = 1e-9;
 
 class Tableau {
@@ -39,7 +39,7 @@ class Tableau {
 
   LinearAnswer run(double enough) {
     LinearAnswer answer;
-    for (int step = 0; step < k_most_steps && t_ <= enough; ++step) {
+    for (int step = 0; step < k_max_steps && t_ <= enough; ++step) {
       const std::size_t row = most_violated();
       if (row == basic_.size()) break;
       const std::size_t column = entering(row);
@@ -68,7 +68,7 @@ class Tableau {
   double& at(std::size_t row, std::size_t column) { return table_[row * columns_ + column]; }
   double lower(std::size_t variable) const { return variable == columns_ - 1 ? program_.least_t : 0.0; }
   double upper(std::size_t variable) const { return variable < columns_ - 1 ? 1.0 : k_infinite; }
-  /// Below its lower end (< 0) or above its upper (> 0).
+  /// Violation of the lower (< 0) or upper (> 0) bound.
   double excess(std::size_t row) const {
     const double low = lower(basic_[row]), high = upper(basic_[row]);
     return value_[row] < low ? value_[row] - low : value_[row] > high ? value_[row] - high : 0.0;
@@ -76,14 +76,15 @@ class Tableau {
 
   std::size_t most_violated() const {
     std::size_t most = basic_.size();
-    double largest = k_kept;
+    double largest = k_tolerance;
     for (std::size_t i = 0; i < basic_.size(); ++i) {
       if (std::abs(excess(i)) > largest) largest = std::abs(excess(i)), most = i;
     }
     return most;
   }
 
-  /// The column that moves the row's variable towards its bound and whose cost bears it longest; of equals the largest.
+  /// The column that moves the row's variable towards its bound and has the smallest cost ratio; among equals, the
+  /// largest pivot.
   std::size_t entering(std::size_t row) {
     const double wanted = excess(row) < 0 ? 1.0 : -1.0;
     std::size_t best = columns_;
@@ -118,7 +119,7 @@ class Tableau {
     for (std::size_t j = 0; j < columns_; ++j) cost_[j] = (j == column ? 0.0 : cost_[j]) + factor * at(row, j);
   }
 
-  /// The row says: its variable is a sum of which nothing can be moved towards the bound that it breaks.
+  /// Weights from a row whose variable cannot be moved towards the violated bound.
   std::vector<double> weights_against(std::size_t row) {
     const double sign = excess(row) < 0 ? 1.0 : -1.0;
     std::vector<double> weights(program_.rows.size(), 0.0);
@@ -130,8 +131,8 @@ class Tableau {
     return weights;
   }
 
-  std::array<double, k_most_variables> point() const {
-    std::array<double, k_most_variables> y{};
+  std::array<double, k_max_variables> point() const {
+    std::array<double, k_max_variables> y{};
     for (const Nonbasic& variable : nonbasic_) {
       if (variable.variable + 1 < columns_) y[variable.variable] = variable.at_upper ? 1.0 : 0.0;
     }
@@ -144,7 +145,7 @@ class Tableau {
   const LinearProgram& program_;
   std::size_t columns_;  ///< variables and t; the slack of row i is variable columns_ + i
   std::vector<double> table_;
-  std::vector<double> value_;  ///< of the basic variables
+  std::vector<double> value_;  ///< values of the basic variables
   std::vector<std::size_t> basic_;
   std::vector<Nonbasic> nonbasic_;
   std::vector<double> cost_;

@@ -1,5 +1,5 @@
-/// \file
-/// Internal: small linear programs in plain numbers. What comes out is a guess: relaxation.cpp makes proofs of it.
+/// Internal: small linear programs in floating-point numbers. The result is an estimate, from which relaxation.cpp
+/// makes proofs.
 #pragma once
 
 #include <array>
@@ -8,13 +8,13 @@
 
 namespace fusee {
 
-constexpr int k_most_variables = 8;
+constexpr int k_max_variables = 8;
 inline constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
-/// The least t over 0 <= y <= 1 and t >= least_t with  a·y + b <= s t  in every row.
+/// Minimizes t over 0 <= y <= 1 and t >= least_t subject to  a·y + b <= s t  in every row.
 struct LinearProgram {
   struct Row {
-    std::array<double, k_most_variables> a{};
+    std::array<double, k_max_variables> a{};
     double b = 0;
     double s = 0;
   };
@@ -24,13 +24,14 @@ struct LinearProgram {
 };
 
 struct LinearAnswer {
-  bool possible = true;  ///< false: no y keeps all rows, and `weights` show it
+  bool possible = true;  ///< false: no y satisfies all rows, as `weights` prove
   double t = 0;
-  std::array<double, k_most_variables> y{};
-  std::vector<double> weights;  ///< >= 0, one a row: t is at least their sum of the rows (or that sum stays above 0)
+  std::array<double, k_max_variables> y{};
+  /// >= 0, one per row: t is at least the weighted sum of the rows (or that sum is always positive)
+  std::vector<double> weights;
 };
 
-/// By the dual simplex method with bounds. Stops once t is above `enough`.
+/// Dual simplex method with bounds. Stops when t exceeds `enough`.
 LinearAnswer solve(const LinearProgram& program, double enough);
 
 }  // namespace fusee

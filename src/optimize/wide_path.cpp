@@ -33,7 +33,7 @@ WideFileNumbers<double> wide_file_numbers(const Mechanism& mechanism) {
 }
 
 double twist_of(double across, double along, Domain&) {
-  // Straight below O it is reached from the right, as pin_place() says.
+  // An end straight below O is reached from the right, as in pin_place().
   return across == 0 && along < 0 ? k_pi : std::atan2(across, along);
 }
 
@@ -51,19 +51,19 @@ namespace {
 double quarter_turn(double) { return 0.5 * k_pi; }
 Jet quarter_turn(const Jet&) { return Jet(0.5 * pi_interval()); }
 
-UpperLine<double> line_from_end(double away, double e, double oe, double rho, const TurnedBy<double>& turned,
+UpperLine<double> line_from_end(double away, double e, double oe, double rho, const RotationAngle<double>& turned,
                                 Domain& domain) {
-  return upper_line(from_pin_in_link(away, e, oe, turned), rho, domain);
+  return upper_line(offset_from_pin_in_link(away, e, oe, turned), rho, domain);
 }
-UpperLine<Jet> line_from_end(const Jet& away, const Jet& e, const Jet& oe, const Jet& rho, const TurnedBy<Jet>& turned,
-                             Domain& domain) {
+UpperLine<Jet> line_from_end(const Jet& away, const Jet& e, const Jet& oe, const Jet& rho,
+                             const RotationAngle<Jet>& turned, Domain& domain) {
   const SharpLine line = sharp_upper_line(away, e, oe, rho, turned, domain);
   return {line.normal, line.reach};
 }
 
 template <typename S>
 WidePath<S> free_path(const TendonEnd<S>& end, const S& e, const S& oe, const S& rho, const S& theta, Domain& domain) {
-  const TurnedBy<S> turned = turned_by(S(theta + end.twist));
+  const RotationAngle<S> turned = rotation_angle(S(theta + end.twist));
   const UpperLine<S> line = line_from_end(end.away, e, oe, rho, turned, domain);
   return {line.normal - turned.angle, end.away * sin(line.normal), line.free};
 }
@@ -79,16 +79,16 @@ DrumLine<S> drum_line(const S& drum, const S& e, const S& oe, const S& rho, Doma
   return {atan(S(-oe / e)) + acos(unit_part(S(beyond / distance), domain)), cathetus(distance, beyond, domain)};
 }
 
-enum class Lies { free, on_drum, either };
-Lies where_it_lies(double wound) { return wound >= 0 ? Lies::on_drum : Lies::free; }
-Lies where_it_lies(const Jet& wound) {
-  if (wound.value.lower() >= 0) return Lies::on_drum;
-  return wound.value.upper() < 0 ? Lies::free : Lies::either;
+enum class DrumState { free, on_drum, either };
+DrumState drum_state(double wound) { return wound >= 0 ? DrumState::on_drum : DrumState::free; }
+DrumState drum_state(const Jet& wound) {
+  if (wound.value.lower() >= 0) return DrumState::on_drum;
+  return wound.value.upper() < 0 ? DrumState::free : DrumState::either;
 }
 
-/// A number is one or the other.
-double joined(double a, double) { return a; }
-Jet joined(const Jet& a, const Jet& b) {
+/// A number belongs to one branch.
+double hull_of(double a, double) { return a; }
+Jet hull_of(const Jet& a, const Jet& b) {
   Jet both(boost::numeric::hull(a.value, b.value));
   both.count = std::max(a.count, b.count);
   for (std::size_t i = 0; i < static_cast<std::size_t>(both.count); ++i)
@@ -103,16 +103,16 @@ WidePath<S> path_of(const TendonEnd<S>& end, const std::optional<S>& drum, const
   const DrumLine<S> line = drum_line(*drum, e, oe, rho, domain);
   const S opening = end.is_on_drum ? S(0.0) : S(acos(unit_part(S(*drum / end.away), domain)));
   const S wound = quarter_turn(theta) - (theta + end.twist) - opening - line.normal;
-  const Lies lies = where_it_lies(wound);
-  if (lies == Lies::free) return free_path(end, e, oe, rho, theta, domain);
+  const DrumState lies = drum_state(wound);
+  if (lies == DrumState::free) return free_path(end, e, oe, rho, theta, domain);
   const S to_drum = end.is_on_drum ? S(0.0) : S(cathetus(end.away, *drum, domain));
   const WidePath<S> on_drum{line.normal, *drum, to_drum + *drum * wound + line.length};
-  if (lies == Lies::on_drum) return on_drum;
+  if (lies == DrumState::on_drum) return on_drum;
   Domain of_free;
   const WidePath<S> free = free_path(end, e, oe, rho, theta, of_free);
   domain.whole = domain.whole && of_free.whole;
   if (!of_free.possible) return on_drum;
-  return {joined(on_drum.normal, free.normal), joined(on_drum.arm, free.arm), joined(on_drum.free, free.free)};
+  return {hull_of(on_drum.normal, free.normal), hull_of(on_drum.arm, free.arm), hull_of(on_drum.free, free.free)};
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
-/// \file
-/// Internal: the upper path of a tendon of a joint that is not the paper's: from an attachment of its own, over a drum
-/// on the joint where it lies on one. For numbers and for intervals with derivatives; the same as upper_span() of
+/// Internal: the upper path of a tendon of a joint that is not the paper's, from a separate attachment and possibly
+/// over a drum on the joint. For numbers and for intervals with derivatives; equivalent to upper_span() of
 /// transmission/tendon_path.h, which has the derivation.
 ///
-/// In the frame of a tendon's end (the link's, turned by the end's twist τ) an attachment is a lever point: equations
-/// and sharp bounds of C hold for it, with its distance from O for R and θ + τ for θ. On the drum the line to the pin
-/// stands still, and the arm is ρ0. Over a box that holds lift-off both pieces are joined: arm, direction and length
-/// are continuous there, and their slopes those of one piece or of the other, so that the mean value theorem holds.
+/// In the frame of a tendon's end (the link's frame rotated by the end's twist τ) an attachment is a lever point. The
+/// equations and enclosures for C apply to it, with its distance from O for R and θ + τ for θ. On the drum the line to
+/// the pin is fixed, and the arm is ρ0. In a box that contains the lift-off both branches are joined: arm, direction
+/// and length are continuous there, and their slopes are those of one branch or the other, so that the mean value
+/// theorem holds.
 #pragma once
 
 #include <optional>
@@ -17,11 +17,11 @@
 
 namespace fusee {
 
-/// Other scalars than these know the paper's joint alone.
+/// Only these scalar types support other joints than the paper's.
 template <typename S>
 constexpr bool k_may_be_wide = std::is_same_v<S, double> || std::is_same_v<S, Jet>;
 
-/// Which numbers a mechanism has that the paper's has not.
+/// Features of a mechanism that the paper's joint lacks.
 struct WideKind {
   bool drum = false, own1 = false, own2 = false, idlers = false, sheath = false;
   bool sheath_gives = false;
@@ -31,7 +31,7 @@ struct WideKind {
 
 WideKind wide_kind(const Mechanism& mechanism);
 
-/// Those numbers as they stand in the file, but for angles, which are rad. mm.
+/// The numbers of these features as in the file, except that angles are in rad. mm.
 template <typename S>
 struct WideFileNumbers {
   S drum_radius, across1, along1, across2, along2, bearing_radius, bearing_friction;
@@ -43,17 +43,17 @@ WideFileNumbers<double> wide_file_numbers(const Mechanism& mechanism);
 /// A tendon's end in its right-hand image.
 template <typename S>
 struct TendonEnd {
-  S away;                   ///< from O, mm
-  S twist;                  ///< at home, clockwise from OC, rad
+  S away;                   ///< distance from O, mm
+  S twist;                  ///< angle at home, clockwise from OC, rad
   bool is_on_drum = false;  ///< on its pitch circle, in the whole box
 };
 
-/// The sheath of either tendon: between its pin, which it leaves straight down, and its mouth at the motor, a point.
+/// The sheath of each tendon, from its pin, which the tendon leaves straight down, to its exit at the motor, a point.
 template <typename S>
 struct SheathNumbers {
   S length, bend, mu;
-  S give;           ///< mm per N
-  S across, above;  ///< the mouth, from the pulley's axis
+  S compliance;     ///< mm/N
+  S across, above;  ///< exit, relative to the pulley's axis
   S to_mouth;       ///< c, mm
   S angle;          ///< φ, rad
 };
@@ -61,21 +61,21 @@ struct SheathNumbers {
 template <typename S>
 struct WideNumbers {
   TendonEnd<S> end1, end2;
-  std::optional<S> drum;  ///< ρ0, to the centre line of a tendon that lies on it
-  std::optional<S>
-      turning;  ///< of idlers: friction of the bearing times its radius per the idler's, to the centre line
+  std::optional<S> drum;  ///< ρ0: drum radius to the tendon's centre line
+  /// For idlers: friction of the bearing times its radius, divided by the idler's radius to the centre line.
+  std::optional<S> turning;
   std::optional<SheathNumbers<S>> sheath;
   Domain domain;  ///< of the ends
 };
 
-/// Clockwise from straight up, within ±180°.
+/// Angle clockwise from straight up, within ±180°.
 double twist_of(double across, double along, Domain& domain);
 Jet twist_of(const Jet& across, const Jet& along, Domain& domain);
 
 inline bool is_at_most(double a, double b) { return a <= b; }
 inline bool is_at_most(const Jet& a, const Jet& b) { return a.value.upper() <= b.value.lower(); }
 
-/// An end within the drum's pitch circle lies on it.
+/// An end within the drum's pitch circle is moved onto it.
 template <typename S>
 TendonEnd<S> tendon_end(const S& away, const S& twist, const std::optional<S>& drum) {
   if (!drum) return {away, twist};
@@ -107,7 +107,7 @@ WideNumbers<S> wide_numbers(const WideKind& kind, const WideFileNumbers<S>& file
     return tendon_end(S(hypot(across, along)), twist_of(across, along, wide.domain), wide.drum);
   };
   const TendonEnd<S> C = tendon_end(R, S(0.0), wide.drum);
-  // Tendon 1 is seen in the mirror.
+  // Tendon 1 is mirrored.
   wide.end1 = kind.own1 ? own(-file.across1, file.along1) : C;
   wide.end2 = kind.own2 ? own(file.across2, file.along2) : C;
   if (kind.idlers) wide.turning = S(file.bearing_friction * file.bearing_radius / rho);
@@ -119,18 +119,18 @@ WideNumbers<S> wide_numbers(const WideKind& kind, const WideFileNumbers<S>& file
 template <typename S>
 struct WidePath {
   S normal;  ///< direction of the line's outward normal at the pin, rad
-  S arm;     ///< about O, mm
+  S arm;     ///< moment arm about O, mm
   S free;    ///< from the end to the pin's tangent point, over the drum, mm
 };
 
-/// Over the pin at (e, −oe), `rho` from its centre, at joint angle `theta` of the image.
+/// Path over the pin at (e, −oe) with the radius `rho`, at joint angle `theta` of the image.
 WidePath<double> wide_path(const TendonEnd<double>& end, const std::optional<double>& drum, double e, double oe,
                            double rho, double theta, Domain& domain);
-/// To be called while a RoundingUp lives.
+/// Call only while a RoundingUp exists.
 WidePath<Jet> wide_path(const TendonEnd<Jet>& end, const std::optional<Jet>& drum, const Jet& e, const Jet& oe,
                         const Jet& rho, const Jet& theta, Domain& domain);
 
-/// [7] of a bearing: (T2 − T1) ρ = μb rb (T1 + T2) sin(φ/2), as transmission/guide_friction.cpp has it.
+/// [7] for a bearing: (T2 − T1) ρ = μb rb (T1 + T2) sin(φ/2), as in transmission/guide_friction.cpp.
 template <typename S>
 S tension_below_idler(const S& above, const S& turning, const S& wrap) {
   const S epsilon = turning * sin(S(0.5 * larger(wrap, S(0.0))));

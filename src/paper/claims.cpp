@@ -14,10 +14,10 @@ namespace {
 
 using Holds = std::function<bool(const PaperAssumptions&)>;
 
-/// What counts as "the same": values to a millionth, places of the stroke to a thousandth of it.
+/// Tolerances of "the same": values, and positions in the stroke.
 constexpr double k_same_value = 1e-6;
 constexpr double k_same_place = 1e-3;
-/// A joint that follows a straight line to this is called linear: what the paper takes the trouble to analyse. deg
+/// Deviation from a straight line up to which a joint counts as linear. deg
 constexpr double k_linear = 0.1;
 
 // ---- predicates -----------------------------------------------------------------------------------------------------
@@ -48,7 +48,7 @@ CertifiedResult optimum_of(const PaperAssumptions& assumptions, Objective object
   const Problem problem = make_problem(file);
   CertifiedOptions options;
   options.gap = gap;
-  options.most_tie_boxes = 1;  // ties are not asked for
+  options.most_tie_boxes = 1;  // ties are not needed
   options.most_boxes = 60000;
   options.keep_going = keep_going;
   options.first_tries = {{file.mechanism.joint.R, file.mechanism.guides.ED, file.mechanism.guides.OE}};
@@ -65,12 +65,12 @@ Lengths table_4_lengths(const PaperAssumptions& assumptions) {
   return {mechanism.joint.R, mechanism.guides.ED, mechanism.guides.OE};
 }
 
-/// Is no design of the box better in this objective than these lengths, by more than a millionth?
+/// True if no design of the box is better in this objective than these lengths by more than a millionth.
 bool is_optimal(const PaperAssumptions& assumptions, Objective objective, const Lengths& at) {
   const Evaluation here = evaluate(objective, paper_mechanism(assumptions, at.R, at.ED, at.OE));
   if (!here.possible) return false;
   const double enough = here.value * (1.0 - k_same_value);
-  // A better neighbour spares the search, and a better design anywhere ends it.
+  // A better neighbour avoids the search, and any better design ends it.
   const Optimization box = paper_problem_file(assumptions).mechanism.optimize;
   const double step = 1e-3 * assumptions.unit;
   for (const auto& [ED, OE] : {std::pair{-step, 0.0}, {0.0, step}, {-step, step}}) {
@@ -85,19 +85,19 @@ bool is_optimal(const PaperAssumptions& assumptions, Objective objective, const 
 
 // ---- windows --------------------------------------------------------------------------------------------------------
 
-std::vector<WindowsOf> windows_of(const PaperAssumptions& assumptions, const Holds& holds) {
+std::vector<ParameterWindows> windows_of(const PaperAssumptions& assumptions, const Holds& holds) {
   struct Searched {
     const char* parameter;
     const char* unit;
     double PaperAssumptions::*member;
     double low, high;
   };
-  // μ 0 is left out: there whole surfaces tie. r1 from where P2 turns once; EF from a pulley that touches the pins'
-  // line.
+  // μ = 0 is excluded, because whole surfaces tie there. r1 begins where P2 turns once; EF where the pulley touches the
+  // line of the pins.
   constexpr Searched searched[] = {{"mu", "", &PaperAssumptions::mu, 0.01, 0.51},
                                    {"r1", "mm", &PaperAssumptions::r1, 2.0, 42.0},
                                    {"EF", "mm", &PaperAssumptions::EF, 20.0, 220.0}};
-  std::vector<WindowsOf> all;
+  std::vector<ParameterWindows> all;
   for (const Searched& one : searched) {
     PaperAssumptions changed = assumptions;
     const auto holds_at = [&](double value) {
@@ -109,17 +109,17 @@ std::vector<WindowsOf> windows_of(const PaperAssumptions& assumptions, const Hol
   return all;
 }
 
-bool is_everywhere(const WindowsOf& of) {
+bool is_everywhere(const ParameterWindows& of) {
   return of.windows.size() == 1 && of.windows[0].open_low && of.windows[0].open_high;
 }
 
-/// With the windows of the assumed numbers: everywhere, somewhere, nowhere.
-Claim judged(Claim claim, const PaperAssumptions& assumptions, const Holds& holds) {
+/// Verdict from the windows of the assumed numbers: everywhere, somewhere, nowhere.
+Claim with_verdict(Claim claim, const PaperAssumptions& assumptions, const Holds& holds) {
   claim.windows = windows_of(assumptions, holds);
   const bool here = holds(assumptions);
   const bool everywhere = here && std::all_of(claim.windows.begin(), claim.windows.end(), is_everywhere);
   const bool somewhere = here || std::any_of(claim.windows.begin(), claim.windows.end(),
-                                             [](const WindowsOf& of) { return !of.windows.empty(); });
+                                             [](const ParameterWindows& of) { return !of.windows.empty(); });
   claim.verdict = everywhere ? Verdict::holds : somewhere ? Verdict::holds_only_if : Verdict::does_not_hold;
   return claim;
 }
@@ -137,10 +137,11 @@ Claim optimum_claim(const Reproduction& so_far) {
   claim.equations_give = "R " + in_mm(rows[0].computed) + ", EB = ED " + in_mm(rows[1].computed) + ", OE " +
                          in_mm(rows[2].computed) + " mm with max T_b/F_c " + fixed(so_far.optimum, 4) +
                          ", proven to a millionth";
-  return judged(std::move(claim), so_far.assumptions, table_4_is_optimal);
+  return with_verdict(std::move(claim), so_far.assumptions, table_4_is_optimal);
 }
 
-/// The designs with all three at bounds are few: is the best of them the optimum? ED is also bounded by EB <= R/2.
+/// True if the best of the few designs with all three lengths at bounds is the optimum. ED is also bounded by EB <=
+/// R/2.
 bool all_at_bounds(const PaperAssumptions& assumptions) {
   const Optimization table = paper_problem_file(assumptions).mechanism.optimize;
   Lengths best = table_4_lengths(assumptions);
@@ -172,7 +173,7 @@ Claim bounds_claim(const Reproduction& so_far) {
                              : at    ? " at its bound"
                                      : " inside");
   }
-  return judged(std::move(claim), so_far.assumptions, all_at_bounds);
+  return with_verdict(std::move(claim), so_far.assumptions, all_at_bounds);
 }
 
 template <typename Value>
@@ -187,7 +188,7 @@ Claim place_claim(const Reproduction& so_far, const std::string& name, const std
   claim.equations_give = "largest " + rounded(value(worst), 4) + " " + unit +
                          " at θ = " + rounded(degrees(worst.point.theta), 3) + "°; at the limits " +
                          rounded(value(stroke.front()), 4) + " and " + rounded(value(stroke.back()), 4) + " " + unit;
-  return judged(std::move(claim), so_far.assumptions, largest_at_negative_limit(value));
+  return with_verdict(std::move(claim), so_far.assumptions, largest_at_negative_limit(value));
 }
 
 Claim same_optimum_claim(const Reproduction& so_far) {
@@ -201,7 +202,7 @@ Claim same_optimum_claim(const Reproduction& so_far) {
                          rounded(least.value * force, 5) + "° at R " + in_mm(least.best[0]) + ", ED " +
                          in_mm(least.best[1]) + ", OE " + in_mm(least.best[2]) + " mm, " +
                          rounded(100.0 * (1.0 - least.value / here), 2) + " % less";
-  return judged(std::move(claim), so_far.assumptions, [](const PaperAssumptions& assumptions) {
+  return with_verdict(std::move(claim), so_far.assumptions, [](const PaperAssumptions& assumptions) {
     const Lengths at = table_4_lengths(assumptions);
     return is_optimal(assumptions, Objective::max_error, at) && is_optimal(assumptions, Objective::max_tension, at);
   });
@@ -213,9 +214,10 @@ Claim linear_claim(const Reproduction& so_far) {
   claim.paper_says = "the non-circular P2 linearizes the joint";
   const auto table_4_stroke = paper_stroke(table_4_mechanism(so_far.assumptions), 2000);
   claim.equations_give = "θ(α) leaves the line that fits best by ±" + fixed(nonlinearity(table_4_stroke), 2) +
-                         "°, that of least squares over α by up to " + fixed(off_least_squares(table_4_stroke), 2) +
+                         "°, that of least squares over α by up to " +
+                         fixed(least_squares_nonlinearity(table_4_stroke), 2) +
                          "°: a round P1 alone decides θ(α), P2 only keeps tendon 2 taut";
-  return judged(std::move(claim), so_far.assumptions, [](const PaperAssumptions& assumptions) {
+  return with_verdict(std::move(claim), so_far.assumptions, [](const PaperAssumptions& assumptions) {
     const auto stroke = paper_stroke(table_4_mechanism(assumptions));
     return !stroke.empty() && nonlinearity(stroke) < k_linear;
   });
@@ -226,7 +228,7 @@ Claim drawing_claim(const Reproduction& so_far) {
   claim.name = "profile_by_drawing_r2_against_alpha";
   claim.paper_says = "P2's profile is r2 drawn against α in polar coordinates";
   Mechanism mechanism = table_4_mechanism(so_far.assumptions);
-  mechanism.tendon.diameter = 0.01;  // the drawing knows no thickness
+  mechanism.tendon.diameter = 0.01;  // the drawing has no thickness
   SynthesisOptions options;
   options.advice = false;
   const SynthesisResult drawn = synthesise(mechanism, options);

@@ -1,6 +1,6 @@
 #include "paper/steps.h"
 
-// The paper's figures are known here by what its text and its captions say of them; each carries how it was read.
+// The paper's figures, identified by its text and captions; each states its interpretation.
 
 namespace fusee {
 namespace {

@@ -17,7 +17,7 @@ constexpr double k_table_4[] = {1.0, 0.5, -0.4};  // R, EB = ED, OE
 constexpr double k_lower[] = {1.0, 0.3, -0.4};
 constexpr double k_upper[] = {3.0, 1.5, 0.5};
 
-/// Of the linear law that needs the same turn of the motor.
+/// Ratio of the linear law with the same motor stroke.
 double same_stroke_ratio(const Mechanism& mechanism) {
   const Transmission transmission(mechanism);
   return (transmission.alpha_max() - transmission.alpha_min()) /
@@ -147,7 +147,7 @@ double nonlinearity(const std::vector<StrokePlace>& stroke) {
   return degrees(deviation(0.5 * (low + high)));
 }
 
-double off_least_squares(const std::vector<StrokePlace>& stroke) {
+double least_squares_nonlinearity(const std::vector<StrokePlace>& stroke) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const StrokePlace& place : stroke) {
     const double a = place.point.alpha, t = place.point.theta;

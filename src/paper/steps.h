@@ -10,23 +10,23 @@ namespace fusee {
 /// The paper's optimum: R 1, EB = ED 0.5, OE −0.4 in its unit of length.
 Mechanism table_4_mechanism(const PaperAssumptions& assumptions);
 
-/// The chain [1]-[11] at one place of the stroke.
+/// The forces [1]-[11] at one point of the stroke.
 struct StrokePlace {
   TransmissionPoint point;
   PaperForces forces;
 };
-/// Evenly spaced over α; empty where the law does not exist.
+/// Evenly spaced in α; empty where the law does not exist.
 std::vector<StrokePlace> paper_stroke(const Mechanism& mechanism, int steps = 60);
 
 /// Largest distance of θ(α) from its best straight line, deg.
 double nonlinearity(const std::vector<StrokePlace>& stroke);
-/// The same from the line of least squares through evenly spaced α.
-double off_least_squares(const std::vector<StrokePlace>& stroke);
+/// Largest distance from the least squares line through evenly spaced α.
+double least_squares_nonlinearity(const std::vector<StrokePlace>& stroke);
 
 std::vector<Claim> paper_claims(const Reproduction& so_far, const std::function<void(std::string_view)>& before_step);
 std::vector<PaperFigure> paper_figures(const PaperAssumptions& assumptions, const GeneticResult& evolution);
 std::vector<LawCost> law_costs(const PaperAssumptions& assumptions);
-/// Is Table 4 the optimum with these numbers: no design of the box is better by more than a millionth?
+/// True if no design of the box is better than Table 4 by more than a millionth.
 bool table_4_is_optimal(const PaperAssumptions& assumptions);
 
 }  // namespace fusee

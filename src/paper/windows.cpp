@@ -36,7 +36,7 @@ std::vector<Window> windows_where(const std::function<bool(double)>& holds, doub
   return windows;
 }
 
-std::string windows_text(const WindowsOf& of) {
+std::string windows_text(const ParameterWindows& of) {
   std::string text;
   for (const Window& window : of.windows) {
     text += text.empty() ? "" : " and ";

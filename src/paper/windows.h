@@ -1,5 +1,5 @@
 /// \file
-/// Internal: over which stretches of a number does something hold?
+/// Internal: intervals of a number in which a predicate holds.
 #pragma once
 
 #include <functional>
@@ -9,11 +9,11 @@
 
 namespace fusee {
 
-/// Looks at `steps` + 1 evenly spaced values and halves its way to every border between two that differ. A stretch
-/// narrower than a step is missed.
+/// Evaluates `steps` + 1 evenly spaced values and bisects between values that differ. Intervals narrower than a step
+/// are missed.
 std::vector<Window> windows_where(const std::function<bool(double)>& holds, double low, double high, int steps);
 
 /// "0.132 to 0.249", "up to 0.21", "nowhere".
-std::string windows_text(const WindowsOf& windows);
+std::string windows_text(const ParameterWindows& windows);
 
 }  // namespace fusee

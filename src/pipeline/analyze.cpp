@@ -21,7 +21,7 @@ AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options
                      "[transmission] is for 'fusee calibrate'");
   }
   AnalysisResult result = analyse(as_it_is(file.mechanism).mechanism, options);
-  result.warnings = likely_slips(file);
+  result.warnings = likely_input_errors(file);
   // A tendon that breaks is no doubt but an error.
   if (const auto overloaded = overloaded_tendon(file); overloaded && !result.breaks_at)
     result.warnings.push_back(*overloaded);

@@ -9,7 +9,7 @@
 #include <future>
 #include <memory>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/analysis/plausibility.h"
 #include "fusee/export/drawings.h"
 #include "fusee/export/mesh_files.h"
@@ -114,12 +114,12 @@ DracoFile write_climbing(Workshop& shop) {
   const TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
   shop.step("writing meshes and drawings");
-  auto draco = beside([&] { return draco_file(mesh, shop.options.tolerance); });
-  auto profile = beside([&] { return profile_dxf(product, shop.options.dxf); });
-  auto threemf = beside([&] { return threemf_bytes(mesh, name); });
-  auto obj = beside([&] { return obj_text(mesh, name); });
-  auto scad = beside([&] { return scad_text(product); });
-  auto step = beside([&] { return shop.options.step ? step_file(product) : StepFile(); }, shop.options.step);
+  auto draco = run_async([&] { return draco_file(mesh, shop.options.tolerance); });
+  auto profile = run_async([&] { return profile_dxf(product, shop.options.dxf); });
+  auto threemf = run_async([&] { return threemf_bytes(mesh, name); });
+  auto obj = run_async([&] { return obj_text(mesh, name); });
+  auto scad = run_async([&] { return scad_text(product); });
+  auto step = run_async([&] { return shop.options.step ? step_file(product) : StepFile(); }, shop.options.step);
   shop.stage("pulley.stl", stl_bytes(mesh, name));
   shop.stage("pulley.obj", shop.take(obj));
   shop.stage("pulley.3mf", shop.take(threemf));
@@ -183,15 +183,15 @@ struct Looks {
 void look_at_mesh(Looks& looks, const Workshop& shop) {
   const Product& product = shop.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
-  looks.mesh = beside([&shop] { return shop.mesh_of("pulley.stl"); }).share();
-  looks.of_pulley = beside([&shop, &product, mesh = looks.mesh] {
+  looks.mesh = run_async([&shop] { return shop.mesh_of("pulley.stl"); }).share();
+  looks.of_pulley = run_async([&shop, &product, mesh = looks.mesh] {
     return check_pulley(mesh.get(), product.joint.mechanism, product.synthesis, product.pulley, shop.options.tolerance);
   });
-  looks.as_built =
-      beside([&product, mesh = looks.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh.get()); });
+  looks.as_built = run_async(
+      [&product, mesh = looks.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh.get()); });
   if (product.pulley.parts.empty())
     looks.of_printed.push_back(
-        beside([&mechanism, mesh = looks.mesh] { return print_checks(mechanism.print, mesh.get()); }));
+        run_async([&mechanism, mesh = looks.mesh] { return print_checks(mechanism.print, mesh.get()); }));
 }
 
 /// Every file that has a part in it, in order, each made beside the others.
@@ -200,39 +200,40 @@ Looks write_parts(Workshop& shop) {
   const TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
   shop.step("writing meshes and drawings");
-  auto draco = beside([&] { return draco_file(mesh, shop.options.tolerance); });
-  auto plates = beside([&] { return plates_dxf(product, shop.options.dxf); });
-  auto profile = beside([&] { return profile_dxf(product, shop.options.dxf); });
-  auto threemf = beside([&] { return threemf_bytes(plate_of(product.pulley), name); });
-  auto obj = beside([&] { return obj_text(mesh, name); });
-  auto scad = beside([&] { return scad_text(product); });
-  auto holding = beside([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
-  auto step = beside([&] { return shop.options.step ? step_file(product) : StepFile(); }, shop.options.step);
+  auto draco = run_async([&] { return draco_file(mesh, shop.options.tolerance); });
+  auto plates = run_async([&] { return plates_dxf(product, shop.options.dxf); });
+  auto profile = run_async([&] { return profile_dxf(product, shop.options.dxf); });
+  auto threemf = run_async([&] { return threemf_bytes(plate_of(product.pulley), name); });
+  auto obj = run_async([&] { return obj_text(mesh, name); });
+  auto scad = run_async([&] { return scad_text(product); });
+  auto holding = run_async([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
+  auto step = run_async([&] { return shop.options.step ? step_file(product) : StepFile(); }, shop.options.step);
   Looks looks;
   shop.stage("pulley.stl", stl_bytes(mesh, name));
   look_at_mesh(looks, shop);
   shop.stage("pulley.obj", shop.take(obj));
-  looks.of_obj = beside([&shop, read = looks.mesh] { return same_mesh(read.get(), shop.mesh_of("pulley.obj")); });
+  looks.of_obj = run_async([&shop, read = looks.mesh] { return same_mesh(read.get(), shop.mesh_of("pulley.obj")); });
   shop.stage("pulley.3mf", shop.take(threemf));
-  looks.of_3mf = beside([&shop, &product] { return same_mesh(plate_of(product.pulley), shop.mesh_of("pulley.3mf")); });
+  looks.of_3mf =
+      run_async([&shop, &product] { return same_mesh(plate_of(product.pulley), shop.mesh_of("pulley.3mf")); });
   for (const PrintedPart& part : product.pulley.parts) {
     shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
-    looks.of_printed.push_back(beside([&shop, &part] { return checks_of_printed(shop, part); }));
+    looks.of_printed.push_back(run_async([&shop, &part] { return checks_of_printed(shop, part); }));
   }
   DracoFile file = shop.take(draco);
   shop.stage("pulley.drc", file.bytes);
-  looks.of_draco = beside([&shop, read = looks.mesh, made = std::make_shared<const DracoFile>(std::move(file))] {
+  looks.of_draco = run_async([&shop, read = looks.mesh, made = std::make_shared<const DracoFile>(std::move(file))] {
     return draco_checks(shop, read.get(), *made);
   });
   if (shop.options.step) stage_step(shop, shop.take(step));
   shop.stage("pulley.scad", shop.take(scad));
   shop.stage("profile.dxf", shop.take(profile));
-  looks.of_profile = beside([&shop] { return check_part(shop.read_back("profile.dxf")); });
+  looks.of_profile = run_async([&shop] { return check_part(shop.read_back("profile.dxf")); });
   shop.stage("plates.dxf", shop.take(plates));
-  looks.of_plates = beside([&shop] { return check_part(shop.read_back("plates.dxf")); });
+  looks.of_plates = run_async([&shop] { return check_part(shop.read_back("plates.dxf")); });
   product.holding = shop.take(holding);
   const bool is_step = has_step(shop);
-  looks.of_step = beside([&shop, is_step] { return is_step ? step_checks(shop) : std::vector<Check>(); }, is_step);
+  looks.of_step = run_async([&shop, is_step] { return is_step ? step_checks(shop) : std::vector<Check>(); }, is_step);
   return looks;
 }
 
@@ -241,10 +242,10 @@ struct Tables {
   std::future<std::string> profile, p1, p2, transmission;
 };
 Tables begin_tables(const Product& product) {
-  return {beside([&product] { return profile_csv(product); }),
-          beside([&product] { return pitch_curve_csv(product, Side::left); }),
-          beside([&product] { return pitch_curve_csv(product, Side::right); }),
-          beside([&product] { return transmission_csv(product); })};
+  return {run_async([&product] { return profile_csv(product); }),
+          run_async([&product] { return pitch_curve_csv(product, Side::left); }),
+          run_async([&product] { return pitch_curve_csv(product, Side::right); }),
+          run_async([&product] { return transmission_csv(product); })};
 }
 
 /// What the looks found.
@@ -274,14 +275,15 @@ Tables check_climbing(Workshop& shop, const DracoFile& draco) {
   const Mechanism& mechanism = product.joint.mechanism;
   shop.step("checking what was written");
   const TriangleMesh mesh = shop.mesh_of("pulley.stl");
-  auto of_draco = beside([&] { return draco_checks(shop, mesh, draco); });
-  auto of_3mf = beside([&] { return same_mesh(mesh, shop.mesh_of("pulley.3mf")); });
-  auto of_obj = beside([&] { return same_mesh(mesh, shop.mesh_of("pulley.obj")); });
-  auto of_profile = beside([&] { return check_part(shop.read_back("profile.dxf")); });
-  auto of_pulley = beside([&] { return check_several_turns(product, mesh); });
-  auto of_printing = beside([&] { return print_checks(mechanism.print, mesh); });
-  auto as_built = beside([&] { return rewind_several_turns(product, mesh); });
-  auto of_step = beside([&] { return has_step(shop) ? step_checks(shop) : std::vector<Check>(); }, shop.options.step);
+  auto of_draco = run_async([&] { return draco_checks(shop, mesh, draco); });
+  auto of_3mf = run_async([&] { return same_mesh(mesh, shop.mesh_of("pulley.3mf")); });
+  auto of_obj = run_async([&] { return same_mesh(mesh, shop.mesh_of("pulley.obj")); });
+  auto of_profile = run_async([&] { return check_part(shop.read_back("profile.dxf")); });
+  auto of_pulley = run_async([&] { return check_several_turns(product, mesh); });
+  auto of_printing = run_async([&] { return print_checks(mechanism.print, mesh); });
+  auto as_built = run_async([&] { return rewind_several_turns(product, mesh); });
+  auto of_step =
+      run_async([&] { return has_step(shop) ? step_checks(shop) : std::vector<Check>(); }, shop.options.step);
   shop.add(shop.take(of_pulley));
   shop.step("winding tendons on it");
   product.helix->as_built = shop.take(as_built);
@@ -320,13 +322,13 @@ Tables write_and_check_parts(Workshop& shop) {
 void write_texts(Workshop& shop, Tables tables) {
   const Product& product = shop.result.product;
   shop.step("writing tables, report and manifest");
-  auto report = beside([&] { return report_html(product); });
+  auto report = run_async([&] { return report_html(product); });
   shop.stage("profile.csv", shop.take(tables.profile));
   shop.stage("profile_p1.csv", shop.take(tables.p1));
   shop.stage("profile_p2.csv", shop.take(tables.p2));
   shop.stage("transmission.csv", shop.take(tables.transmission));
   shop.stage("report.html", shop.take(report));
-  auto manifest = beside([&] { return manifest_json(product, shop.result.outputs); });
+  auto manifest = run_async([&] { return manifest_json(product, shop.result.outputs); });
   shop.stage("manifest.json", shop.take(manifest));
 }
 
@@ -351,11 +353,11 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   const Mechanism& mechanism = product.joint.mechanism;
   const TriangleMesh& mesh = product.pulley.mesh;
   announce(quietly, "checking its mesh");
-  auto of_plates = beside([&] {
+  auto of_plates = run_async([&] {
     const std::string drawing = plates_dxf(product, options.dxf);
     return all_ok(check_part(read_dxf(drawing, "plates.dxf")));
   });
-  auto of_printing = beside([&] {
+  auto of_printing = run_async([&] {
     if (product.pulley.parts.empty()) return all_ok(print_checks(mechanism.print, mesh));
     return std::all_of(product.pulley.parts.begin(), product.pulley.parts.end(),
                        [&](const PrintedPart& part) { return all_ok(print_checks(mechanism.print, part.mesh)); });
@@ -397,7 +399,7 @@ class Look {
   }
 
   /// That its largest part leaves time for.
-  int makings() const {
+  int builds_left() const {
     const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.tolerance / largest_));
     const double points = std::max(k_two_pi / turn, own_points_);
     return std::max(1, static_cast<int>(k_points_for_advice / points));
@@ -451,13 +453,13 @@ Advice advice_for(const Product& product, const BuildOptions& options) {
   }
   const Look look(product, options);
   std::atomic<int> begun = 0;
-  const Judge judge{.obstacles = [&](const Mechanism& changed) { return look(changed); },
-                    .made =
-                        [&](const Mechanism& changed) {
-                          ++begun;
-                          return is_made(with_declared(file, changed), options);
-                        },
-                    .makings = [&] { return look.makings() - begun; }};
+  const FeasibilityOracle judge{.obstacles = [&](const Mechanism& changed) { return look(changed); },
+                                .made =
+                                    [&](const Mechanism& changed) {
+                                      ++begun;
+                                      return is_made(with_declared(file, changed), options);
+                                    },
+                                .builds_left = [&] { return look.builds_left() - begun; }};
   return body_advice(file.mechanism, judge, product.pulley.layout.parts);
 }
 
@@ -493,7 +495,7 @@ const std::vector<std::string>& output_names() {
 BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   BuildResult result;
   result.product.file = file;
-  auto doubted = beside([&file] { return doubts(file); });
+  auto doubted = run_async([&file] { return plausibility_warnings(file); });
   result.product.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   if (const auto why = options.step ? step_missing() : std::nullopt)

@@ -144,7 +144,7 @@ void publish(const Bench& bench, OutputFolder& folder) {
 CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::filesystem::path>& runs,
                           const CalibrateOptions& options) {
   CalibrateResult result;
-  result.product.file = with_doubts_and_turns(file);
+  result.product.file = with_plausibility_warnings_and_turns(file);
   const Bench bench{file, options, result};
   OutputFolder target(options.folder, options.force);
   const RunFiles files = run_files(runs, options.hold_out);

@@ -47,7 +47,7 @@ void publish(const CompareOptions& options, OutputFolder& folder, CompareResult&
 CompareResult compare(const MechanismFile& file, const std::vector<std::filesystem::path>& before,
                       const std::vector<std::filesystem::path>& after, const CompareOptions& options) {
   CompareResult result;
-  result.product.file = with_doubts_and_turns(file);
+  result.product.file = with_plausibility_warnings_and_turns(file);
   std::optional<OutputFolder> target;
   if (!options.folder.empty()) {
     target.emplace(options.folder, options.force);

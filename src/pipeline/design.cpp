@@ -1,6 +1,6 @@
 #include "pipeline/design.h"
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/export/drawings.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
@@ -46,7 +46,7 @@ bool design(Product& product, double tolerance, const std::function<void(std::st
   product.pulley.conditions = turns_inward_as_drawn(product.synthesis, product.joint.outline);
   if (!product.pulley.conditions.empty()) return false;
   if (before_step) before_step("making the body");
-  auto cut_layout = beside([&] { return layout_to_cut(mechanism, product.synthesis); });
+  auto cut_layout = run_async([&] { return layout_to_cut(mechanism, product.synthesis); });
   product.pulley = make_pulley(mechanism, product.synthesis, search);
   product.cut_layout = cut_layout.get();
   if (!product.pulley.made()) return false;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/analysis/plausibility.h"
 #include "fusee/base/text.h"
 #include "fusee/export/mesh_files.h"
@@ -65,9 +65,9 @@ MadePart made(const KitPart& part, const KitProduct& product) {
 void make_files(KitResult& result, const KitOptions& options) {
   KitProduct& product = result.product;
   say(options, "making parts");
-  auto drawing = beside([&] { return kit_dxf(product, options.dxf); });
+  auto drawing = run_async([&] { return kit_dxf(product, options.dxf); });
   std::vector<std::future<MadePart>> parts;
-  for (const KitPart& part : product.plan.parts) parts.push_back(beside([&] { return made(part, product); }));
+  for (const KitPart& part : product.plan.parts) parts.push_back(run_async([&] { return made(part, product); }));
   product.checks = kit_fit_checks(product.plan);
   for (auto& part : parts) {
     MadePart one = part.get();
@@ -118,7 +118,7 @@ bool has_kit(const MechanismFile& file, double tolerance) {
 /// What would make room for a model whose pulley can be made.
 Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, const KitOptions& options) {
   const KitPlan& plan = product.plan;
-  const Judge judge{
+  const FeasibilityOracle judge{
       .obstacles =
           [&](const Mechanism& changed) {
             if (!plan.heights) return obstacles_to_kit(with_declared(file, changed).mechanism);
@@ -164,7 +164,7 @@ std::vector<Check> kit_fit_checks(const KitPlan& plan) {
 KitResult kit(const MechanismFile& file, const KitOptions& options) {
   KitResult result;
   KitProduct& product = result.product;
-  product.pulley.file = with_doubts(file);
+  product.pulley.file = with_plausibility_warnings(file);
   product.pulley.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   target.claim(
@@ -183,7 +183,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options) {
     return result;
   }
   const PlanOptions bench;
-  auto planned = beside([&] { return plan_runs(file.mechanism, bench); });
+  auto planned = run_async([&] { return plan_runs(file.mechanism, bench); });
   target.claim(kit_names(product.plan));
   if (!product.pulley.helix)
     product.pulley.holding = tendon_holding(mechanism, product.pulley.synthesis, product.pulley.pulley);

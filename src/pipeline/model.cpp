@@ -196,7 +196,7 @@ void write_files(ModelResult& result) {
 ModelResult model(const MechanismFile& file, const ModelOptions& options) {
   ModelResult result;
   ModelProduct& product = result.product;
-  product.file = with_doubts_and_turns(file);
+  product.file = with_plausibility_warnings_and_turns(file);
   if (options.declared) product.file.mechanism.identified = {};
   product.with_polynomial = options.with_polynomial;
   product.most_error = options.most_error;

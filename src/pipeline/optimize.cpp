@@ -19,7 +19,7 @@ bool joint_differs(DeclaredMechanism declared) {
 
 /// The one place where a design as declared becomes the joint that is judged. What was identified is an addition to the
 /// declared number: the design's declared numbers come first, then what is added to them.
-JointGate joint_gate(const DeclaredMechanism& declared) {
+JointConverter joint_gate(const DeclaredMechanism& declared) {
   if (declared.transmission || !joint_differs(declared)) return {};
   return [](const DeclaredMechanism& design) { return as_it_is(design).mechanism; };
 }
@@ -171,7 +171,7 @@ SearchMethod strongest_method(const MechanismFile& file) { return strongest_meth
 OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options) {
   OptimizeResult result;
   result.problem = problem_of(file);
-  result.warnings = doubts(file);
+  result.warnings = plausibility_warnings(file);
   const std::vector<Diagnostic> bends = tight_bends(file);
   result.warnings.insert(result.warnings.end(), bends.begin(), bends.end());
   const SearchMethod method = options.method ? *options.method : strongest_method(result.problem);

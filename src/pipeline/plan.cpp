@@ -27,7 +27,7 @@ std::vector<std::string> run_names() {
 
 PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options) {
   PlanResult result;
-  result.product.file = with_doubts_and_turns(file);
+  result.product.file = with_plausibility_warnings_and_turns(file);
   result.product.noise = options.plan.noise;
   result.product.minutes = options.plan.minutes;
   result.without_law = without_law(file.mechanism);

@@ -170,9 +170,9 @@ std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file) {
   return warnings;
 }
 
-MechanismFile with_doubts_and_turns(MechanismFile file) {
+MechanismFile with_plausibility_warnings_and_turns(MechanismFile file) {
   const auto turns = note_on_turns(file);
-  file = with_doubts(std::move(file));
+  file = with_plausibility_warnings(std::move(file));
   if (turns) file.warnings.push_back(*turns);
   return file;
 }
@@ -362,10 +362,10 @@ class TurnsLook {
 
 Advice advice_for_several_turns(const Product& product, const TurnsTrial& trial) {
   TurnsLook look(product.file.mechanism, trial);
-  const Judge judge{.obstacles = [&look](const Mechanism& changed) { return look.obstacles(changed); },
-                    .made = [&look](const Mechanism& changed) { return look.make(changed); },
-                    .is_dear = true,
-                    .makings = [&look] { return look.makings_left(); }};
+  const FeasibilityOracle judge{.obstacles = [&look](const Mechanism& changed) { return look.obstacles(changed); },
+                                .made = [&look](const Mechanism& changed) { return look.make(changed); },
+                                .is_expensive = true,
+                                .builds_left = [&look] { return look.makings_left(); }};
   DeclaredMechanism in_one = product.file.mechanism;
   const Field& parts = *find_field("print.parts");
   if (const std::string from = parts.get_text(in_one); from == "two") {

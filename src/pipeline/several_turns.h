@@ -23,8 +23,8 @@ std::optional<Diagnostic> note_on_turns(const MechanismFile& file);
 /// Where its pulleys bend a tendon tighter than tendon.bend_ratio wants, and where a tendon leaves its groove at too
 /// large an angle; nothing where they turn less than once.
 std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file);
-/// with_doubts(), and that note.
-MechanismFile with_doubts_and_turns(MechanismFile file);
+/// with_plausibility_warnings(), and that note.
+MechanismFile with_plausibility_warnings_and_turns(MechanismFile file);
 
 /// Spirals and body of product.joint in place of what one turn could not be; as design() otherwise.
 bool design_several_turns(Product& product, double tolerance,

@@ -39,7 +39,7 @@ void add_noise(std::vector<JointState>& states, double noise, std::uint64_t seed
 SimulateResult simulate(const MechanismFile& file, const std::filesystem::path& log, const SimulateOptions& options) {
   SimulateResult result;
   Simulation& simulation = result.simulation;
-  simulation.file = with_doubts_and_turns(file);
+  simulation.file = with_plausibility_warnings_and_turns(file);
   simulation.log = read_driving(log, file.mechanism, options.columns);
   result.without_law = without_law(file.mechanism);
   if (result.without_law) return result;

@@ -73,7 +73,7 @@ class Court {
     for (const double size : k_unknown_sizes)
       unnamed_.push_back(
           with_model(signatures.unknown_first(), signatures.columns() - signatures.unknown_first(), size));
-    const SymmetricEigen parts = eigen_of(known.runs + known.readings);
+    const SymmetricEigen parts = eigendecomposition(known.runs + known.readings);
     noise_ = parts.vectors * parts.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
     model_first_ = signatures.model_first();
     model_count_ = static_cast<Eigen::Index>(model.size());

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/text.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/profile/synthesis.h"
@@ -15,63 +15,64 @@
 namespace fusee {
 namespace {
 
-/// A number of the file, or both ends of a range together, as one dial to turn.
-struct Dial {
+/// A variable of the search: a number of the file, or both ends of a range together.
+struct DesignVariable {
   std::string key;
   std::string symbol;
   std::string unit;
   double value = 0;
   double least = 0;
   double most = 0;
-  /// How far a step of 100 % goes: the value's size, or a length of the joint for numbers near zero.
+  /// Change at a step of 100 %: the value's magnitude, or a length of the joint for numbers near zero.
   double scale = 1;
-  std::function<void(Mechanism&, double)> turn;
+  std::function<void(Mechanism&, double)> set;
 };
 
-// A number of the pulley or its body is changed more readily than one of the joint.
+// Numbers of the pulley or its body are easier to change than those of the joint.
 constexpr double k_easier = 3.0;
 
-std::optional<Dial> number_dial(const Mechanism& mechanism, const std::string& key) {
+std::optional<DesignVariable> number_variable(const Mechanism& mechanism, const std::string& key) {
   const Field* field = find_field(key);
   if (field == nullptr || field->kind != FieldKind::number) return std::nullopt;
-  Dial dial;
-  dial.key = key;
-  dial.symbol = field->symbol.empty() ? key : std::string(field->symbol);
-  dial.unit = field->unit;
-  dial.value = number_of(mechanism, *field);
-  dial.least = field->least;
-  dial.most = field->most;
-  dial.scale = std::max(std::abs(dial.value), field->unit == "mm" && field->least < 0 ? 0.1 * mechanism.joint.R : 0.0);
-  dial.turn = [field](Mechanism& changed, double value) { set_number(changed, *field, 0, value); };
-  return dial;
+  DesignVariable variable;
+  variable.key = key;
+  variable.symbol = field->symbol.empty() ? key : std::string(field->symbol);
+  variable.unit = field->unit;
+  variable.value = number_of(mechanism, *field);
+  variable.least = field->least;
+  variable.most = field->most;
+  variable.scale =
+      std::max(std::abs(variable.value), field->unit == "mm" && field->least < 0 ? 0.1 * mechanism.joint.R : 0.0);
+  variable.set = [field](Mechanism& changed, double value) { set_number(changed, *field, 0, value); };
+  return variable;
 }
 
-/// Across and along of the attachments that the file gives.
-std::vector<Dial> attachment_dials(const Mechanism& mechanism) {
-  std::vector<Dial> all;
+/// Both coordinates of the attachments that the file contains.
+std::vector<DesignVariable> attachment_variables(const Mechanism& mechanism) {
+  std::vector<DesignVariable> all;
   for (const char* key : {"joint.attachment1_mm", "joint.attachment2_mm"}) {
     const Field* field = find_field(key);
     if (!field->is_set(DeclaredMechanism{mechanism})) continue;
     for (const int end : {0, 1}) {
       const std::string name = std::string(key) + (end == 0 ? "[0]" : "[1]");
       const double value = number_of(mechanism, *field, end);
-      const auto turn = [field, end](Mechanism& changed, double to) { set_number(changed, *field, end, to); };
+      const auto set = [field, end](Mechanism& changed, double to) { set_number(changed, *field, end, to); };
       all.push_back({name, name, "mm", value, field->least, field->most,
-                     std::max(std::abs(value), 0.1 * mechanism.joint.R), turn});
+                     std::max(std::abs(value), 0.1 * mechanism.joint.R), set});
     }
   }
   return all;
 }
 
-/// Both ends of a symmetric range together; else each end alone.
-std::vector<Dial> range_dials(const Mechanism& mechanism) {
+/// One variable for a symmetric range, otherwise one per end.
+std::vector<DesignVariable> range_variables(const Mechanism& mechanism) {
   const Field* field = find_field("joint.range_deg");
   if (field == nullptr) return {};
   const double low = number_of(mechanism, *field);
   const double high = number_of(mechanism, *field, 1);
   double least = field->least, most = field->most;
   if (mechanism.pulley.law == Law::table && !mechanism.pulley.rows.empty()) {
-    // Past its rows a table says nothing.
+    // A table defines no law beyond its rows.
     least = std::max(least, degrees(mechanism.pulley.rows.front().theta));
     most = std::min(most, degrees(mechanism.pulley.rows.back().theta));
   }
@@ -79,261 +80,268 @@ std::vector<Dial> range_dials(const Mechanism& mechanism) {
     least = std::max(least, degrees(mechanism.pulley.torque_rows.front().theta));
     most = std::min(most, degrees(mechanism.pulley.torque_rows.back().theta));
   }
-  Dial both{"joint.range_deg", "the range", "deg", high, 0.5, std::min(most, -least), high, {}};
-  both.turn = [field](Mechanism& changed, double value) {
+  DesignVariable both{"joint.range_deg", "the range", "deg", high, 0.5, std::min(most, -least), high, {}};
+  both.set = [field](Mechanism& changed, double value) {
     set_number(changed, *field, 0, -value);
     set_number(changed, *field, 1, value);
   };
   if (std::abs(low + high) < 1e-9) return {both};
-  Dial lower{"joint.range_deg[0]", "the range's lower end", "deg", low, least, 0.0, std::abs(low), {}};
-  lower.turn = [field](Mechanism& changed, double value) { set_number(changed, *field, 0, value); };
-  Dial upper{"joint.range_deg[1]", "the range's upper end", "deg", high, 0.0, most, std::abs(high), {}};
-  upper.turn = [field](Mechanism& changed, double value) { set_number(changed, *field, 1, value); };
+  DesignVariable lower{"joint.range_deg[0]", "the range's lower end", "deg", low, least, 0.0, std::abs(low), {}};
+  lower.set = [field](Mechanism& changed, double value) { set_number(changed, *field, 0, value); };
+  DesignVariable upper{"joint.range_deg[1]", "the range's upper end", "deg", high, 0.0, most, std::abs(high), {}};
+  upper.set = [field](Mechanism& changed, double value) { set_number(changed, *field, 1, value); };
   return {lower, upper};
 }
 
-std::vector<Dial> dials(const Mechanism& mechanism, const std::vector<std::string>& more_keys) {
+std::vector<DesignVariable> design_variables(const Mechanism& mechanism, const std::vector<std::string>& more_keys) {
   std::vector<std::string> keys{"joint.length_mm",  "guides.EB_mm", "guides.ED_mm",      "guides.OE_mm",
                                 "guides.radius_mm", "pulley.EF_mm", "tendon.diameter_mm"};
-  std::vector<Dial> all;
-  const auto own = mechanism.pulley.law == Law::compensate ? number_dial(mechanism, "pulley.r1_mm")
-                   : mechanism.pulley.law == Law::linear   ? number_dial(mechanism, "pulley.ratio")
-                   : mechanism.pulley.motor_torque != 0    ? number_dial(mechanism, "pulley.motor_torque_Nmm")
+  std::vector<DesignVariable> all;
+  const auto own = mechanism.pulley.law == Law::compensate ? number_variable(mechanism, "pulley.r1_mm")
+                   : mechanism.pulley.law == Law::linear   ? number_variable(mechanism, "pulley.ratio")
+                   : mechanism.pulley.motor_torque != 0    ? number_variable(mechanism, "pulley.motor_torque_Nmm")
                                                            : std::nullopt;
   if (own) {
     all.push_back(*own);
     all.back().scale *= k_easier;
   }
   for (const std::string& key : keys) {
-    if (const auto dial = number_dial(mechanism, key)) all.push_back(*dial);
+    if (const auto variable = number_variable(mechanism, key)) all.push_back(*variable);
   }
   for (const std::string& key : more_keys) {
-    auto dial = number_dial(mechanism, key);
-    if (!dial) continue;
-    dial->least = std::max(dial->least, 1e-3 * dial->value);
-    dial->scale *= k_easier;
-    all.push_back(*dial);
+    auto variable = number_variable(mechanism, key);
+    if (!variable) continue;
+    variable->least = std::max(variable->least, 1e-3 * variable->value);
+    variable->scale *= k_easier;
+    all.push_back(*variable);
   }
   if (mechanism.sheath.is_there()) {
-    // Where the pulley stands is nothing to its tendons; where the mouths do is.
-    std::erase_if(all, [](const Dial& dial) { return dial.key == "pulley.EF_mm"; });
+    // With a sheath, the tendons depend on the sheath exits and not on the pulley's position.
+    std::erase_if(all, [](const DesignVariable& variable) { return variable.key == "pulley.EF_mm"; });
     for (const char* key : {"sheath.exit_across_mm", "sheath.exit_above_mm"})
-      all.push_back(*number_dial(mechanism, key));
+      all.push_back(*number_variable(mechanism, key));
   }
-  if (mechanism.joint.drum_radius > 0) all.push_back(*number_dial(mechanism, "joint.drum_radius_mm"));
-  for (const Dial& dial : attachment_dials(mechanism)) all.push_back(dial);
-  for (const Dial& dial : range_dials(mechanism)) all.push_back(dial);
+  if (mechanism.joint.drum_radius > 0) all.push_back(*number_variable(mechanism, "joint.drum_radius_mm"));
+  for (const DesignVariable& variable : attachment_variables(mechanism)) all.push_back(variable);
+  for (const DesignVariable& variable : range_variables(mechanism)) all.push_back(variable);
   return all;
 }
 
-std::string change_text(const Dial& dial, double to) {
+std::string change_text(const DesignVariable& variable, double to) {
   const std::string amount = rounded(to, 3);
-  if (dial.symbol == "the range") return "the range ±" + amount + "°";
-  const std::string unit = dial.unit == "deg" ? "°" : dial.unit.empty() ? "" : " " + dial.unit;
-  return dial.symbol + (to > dial.value ? " ≥ " : " ≤ ") + amount + unit;
+  if (variable.symbol == "the range") return "the range ±" + amount + "°";
+  const std::string unit = variable.unit == "deg" ? "°" : variable.unit.empty() ? "" : " " + variable.unit;
+  return variable.symbol + (to > variable.value ? " ≥ " : " ≤ ") + amount + unit;
 }
 
-/// `value` to three digits: nearest, and next towards `direction`.
+/// `value` rounded to three digits: to the nearest, and towards `direction`.
 std::array<double, 2> in_three_digits(double value, double direction) {
   if (value == 0) return {0, 0};
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
   const double scaled = value / unit;
-  // Through the text: what is tried is what a reader of the text will write.
+  // Rounded via the text, so that the tested number is the one that the user writes.
   const auto written = [](double number) { return std::stod(rounded(number, 3)); };
   return {written(std::round(scaled) * unit), written((direction > 0 ? std::ceil(scaled) : std::floor(scaled)) * unit)};
 }
 
-/// A dial and the way it is turned.
-struct Turn {
-  const Dial* dial;
+/// A variable and the direction of its change.
+struct SearchDirection {
+  const DesignVariable* variable;
   double direction;
 
-  /// Downwards a number that cannot be negative is divided: a step of 100 % halves it, and none goes past all that is
-  /// positive.
+  /// Decreases of a nonnegative number divide it: a step of 100 % halves it, so that it stays positive.
   double at(double step) const {
-    const double by = step * dial->scale;
-    const bool divided = direction < 0 && dial->least >= 0 && dial->value > 0;
-    const double to = divided ? dial->value / (1.0 + by / dial->value) : dial->value + direction * by;
-    return std::clamp(to, dial->least, dial->most);
+    const double by = step * variable->scale;
+    const bool divided = direction < 0 && variable->least >= 0 && variable->value > 0;
+    const double to = divided ? variable->value / (1.0 + by / variable->value) : variable->value + direction * by;
+    return std::clamp(to, variable->least, variable->most);
   }
-  /// A further step changes no more.
+  /// True when a further step changes nothing, because the bound is reached.
   bool ends_before(double step, double before) const { return at(step) == at(before); }
 };
 
-// A turn by 2 % of the number, and further each time; five times its size is another joint.
+// Steps begin at 2 % of the number and grow. Five times its magnitude would be another joint.
 constexpr double k_first_step = 0.02;
 constexpr double k_step_ratio = 2.4;
 constexpr double k_last_step = 4.0;
-// The border is halved down to this share of the number's size: three digits.
+// Bisection ends at this fraction of the number's magnitude: three digits.
 constexpr double k_border = 5e-4;
-// So many changes are enough to choose from where a look tells all, and so many where each takes a whole making.
-constexpr std::size_t k_enough = 3;
-constexpr std::size_t k_enough_made = 2;
-// No more makings are begun than these, and no more looks taken; then what is found is what there is.
-constexpr int k_most_makings = 4;
-constexpr int k_most_looks = 400;
-// Pairs are tried among so many turns that help most.
+// Sufficient number of changes, with the fast test only and with full builds.
+constexpr std::size_t k_sufficient = 3;
+constexpr std::size_t k_sufficient_builds = 2;
+// Upper bounds on full builds and fast tests.
+constexpr int k_max_builds = 4;
+constexpr int k_max_evaluations = 400;
+// Number of the most helpful changes that are combined in pairs.
 constexpr std::size_t k_helpful = 4;
 
-/// The search for one mechanism.
-class Adviser {
+/// Search for one mechanism.
+class AdviceSearch {
  public:
-  Adviser(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys, std::size_t enough)
-      : mechanism_(mechanism), judge_(judge), dials_(dials(mechanism, more_keys)), enough_(enough) {
-    for (const Dial& dial : dials_) {
-      if (!(dial.scale > 0)) continue;
-      for (const double direction : {-1.0, 1.0}) turns_.push_back({&dial, direction});
+  AdviceSearch(const Mechanism& mechanism, const FeasibilityOracle& judge, const std::vector<std::string>& more_keys,
+               std::size_t sufficient)
+      : mechanism_(mechanism),
+        judge_(judge),
+        variables_(design_variables(mechanism, more_keys)),
+        sufficient_(sufficient) {
+    for (const DesignVariable& variable : variables_) {
+      if (!(variable.scale > 0)) continue;
+      for (const double direction : {-1.0, 1.0}) directions_.push_back({&variable, direction});
     }
-    learned_.resize(turns_.size());
+    records_.resize(directions_.size());
   }
 
-  /// All dials a step further at a time: the nearest changes are found first, and a dial that has one is left alone.
+  /// Advances all variables step by step, so that the nearest changes are found first. A variable with a change is
+  /// finished.
   std::vector<Change> alone() {
     std::vector<Change> found;
-    std::vector<const Dial*> done;
-    for (double step = k_first_step; step < k_last_step && found.size() < enough_ && may_look(); step *= k_step_ratio) {
-      const std::vector<std::size_t> asked = asked_at(step, done);
+    std::vector<const DesignVariable*> done;
+    for (double step = k_first_step; step < k_last_step && found.size() < sufficient_ && has_evaluations_left();
+         step *= k_step_ratio) {
+      const std::vector<std::size_t> due = due_at(step, done);
       std::vector<Mechanism> there;
-      for (const std::size_t t : asked) there.push_back(turned({turns_[t]}, {turns_[t].at(step)}));
-      const std::vector<std::vector<Condition>> left = look_at(there);
+      for (const std::size_t t : due) there.push_back(changed_mechanism({directions_[t]}, {directions_[t].at(step)}));
+      const std::vector<std::vector<Condition>> left = evaluate(there);
       std::vector<Candidate> here;
-      for (std::size_t i = 0; i < asked.size(); ++i) {
-        Learned& learned = learned_[asked[i]];
-        const double before = std::exchange(learned.step, step);
-        const Turn& turn = turns_[asked[i]];
+      for (std::size_t i = 0; i < due.size(); ++i) {
+        SearchRecord& record = records_[due[i]];
+        const double before = std::exchange(record.step, step);
+        const SearchDirection& search = directions_[due[i]];
         if (!left[i].empty()) {
-          learn(learned, left[i]);
-        } else if (std::count(done.begin(), done.end(), turn.dial) == 0) {
-          // A dial that is not proven here is not tried again: each proof is a whole making.
-          done.push_back(turn.dial);
-          here.push_back(Candidate{{turn}, before, step, step, 0, {}});
+          record_effect(record, left[i]);
+        } else if (std::count(done.begin(), done.end(), search.variable) == 0) {
+          // Each confirmation is a full build, so that a variable is confirmed only once.
+          done.push_back(search.variable);
+          here.push_back(Candidate{{search}, before, step, step, 0, {}});
         }
       }
-      sort_by_border(here, enough_ - found.size());
-      for (const Candidate& proven : made_of(here, enough_ - found.size())) found.push_back(proven.changes().front());
+      sort_by_border(here, sufficient_ - found.size());
+      for (const Candidate& proven : built(here, sufficient_ - found.size())) found.push_back(proven.changes().front());
     }
     return found;
   }
 
-  /// Two dials turned by the same step, of those that help most alone: after alone() found nothing.
+  /// Changes two of the most helpful variables by equal steps, when alone() found nothing.
   std::vector<Change> together() {
-    std::vector<std::size_t> helpful(turns_.size());
+    std::vector<std::size_t> helpful(directions_.size());
     std::iota(helpful.begin(), helpful.end(), std::size_t{0});
     std::stable_sort(helpful.begin(), helpful.end(),
-                     [this](std::size_t a, std::size_t b) { return learned_[a].help > learned_[b].help; });
+                     [this](std::size_t a, std::size_t b) { return records_[a].gain > records_[b].gain; });
     helpful.resize(std::min(helpful.size(), k_helpful));
     double before = 0;
     for (double step = 2 * k_first_step; step < k_last_step; before = step, step *= k_step_ratio) {
-      const std::vector<std::vector<Turn>> pairs = pairs_of(helpful);
+      const std::vector<std::vector<SearchDirection>> pairs = pairs_of(helpful);
       std::vector<Mechanism> there;
-      for (const std::vector<Turn>& both : pairs) there.push_back(turned(both, values(both, step)));
-      const std::vector<std::vector<Condition>> left = look_at(there);
+      for (const std::vector<SearchDirection>& both : pairs)
+        there.push_back(changed_mechanism(both, values(both, step)));
+      const std::vector<std::vector<Condition>> left = evaluate(there);
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         if (!left[i].empty()) continue;
-        const std::vector<Candidate> proven = made_of({Candidate{pairs[i], before, step, step, 0, {}}}, 1);
+        const std::vector<Candidate> proven = built({Candidate{pairs[i], before, step, step, 0, {}}}, 1);
         if (!proven.empty()) return proven.front().changes();
-        if (makings_left() == 0) return {};
+        if (builds_left() == 0) return {};
       }
     }
     return {};
   }
 
  private:
-  /// Turns of dials between a step that does not do and one that does, as near to each other as was looked for.
+  /// A change with an infeasible and a feasible step, narrowed by bisection.
   struct Candidate {
-    std::vector<Turn> turns;
+    std::vector<SearchDirection> directions;
     double bad = 0, good = 0, far = 0;
-    int begun = 0;           ///< of the numbers to try: near the border, then where the search had stood
-    std::vector<double> to;  ///< what is tried, or was last
+    int trials = 0;          ///< number of trials: first near the border, then at the original step
+    std::vector<double> to;  ///< the trial values, current or last
 
     double distance(double step) const {
-      const Turn& turn = turns.front();
-      return std::abs(turn.at(step) - turn.dial->value) / turn.dial->scale;
+      const SearchDirection& search = directions.front();
+      return std::abs(search.at(step) - search.variable->value) / search.variable->scale;
     }
     bool is_at_border() const { return good - bad <= k_border; }
     std::vector<Change> changes() const {
       std::vector<Change> all;
-      for (std::size_t i = 0; i < turns.size(); ++i) all.push_back(change(*turns[i].dial, to[i]));
+      for (std::size_t i = 0; i < directions.size(); ++i) all.push_back(change(*directions[i].variable, to[i]));
       return all;
     }
   };
-  /// What is known of a turn by now.
-  struct Learned {
-    double step = 0;  ///< that it was last looked at
-    double help = 0;  ///< by how much it brought what fails down
-    int waits = 0;    ///< steps that are left out before it is looked at again
-    int waited = 0;   ///< that were, the last time
+  /// Results for one variable and direction.
+  struct SearchRecord {
+    double step = 0;     ///< the last evaluated step
+    double gain = 0;     ///< best reduction of the failed conditions
+    int skips_left = 0;  ///< steps to skip before the next evaluation
+    int skips = 0;       ///< steps skipped before the last evaluation
   };
 
-  bool may_look() const { return looks_ < k_most_looks; }
+  bool has_evaluations_left() const { return evaluations_ < k_max_evaluations; }
 
-  /// Of these turns, each with each of another dial; no more than may be looked at.
-  std::vector<std::vector<Turn>> pairs_of(const std::vector<std::size_t>& turns) const {
-    std::vector<std::vector<Turn>> pairs;
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-      for (std::size_t j = i + 1; j < turns.size(); ++j) {
-        const Turn &one = turns_[turns[i]], &other = turns_[turns[j]];
-        if (one.dial != other.dial) pairs.push_back({one, other});
+  /// Pairs of these changes with different variables, limited by the evaluations left.
+  std::vector<std::vector<SearchDirection>> pairs_of(const std::vector<std::size_t>& directions) const {
+    std::vector<std::vector<SearchDirection>> pairs;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      for (std::size_t j = i + 1; j < directions.size(); ++j) {
+        const SearchDirection &one = directions_[directions[i]], &other = directions_[directions[j]];
+        if (one.variable != other.variable) pairs.push_back({one, other});
       }
     }
-    pairs.resize(std::min(pairs.size(), static_cast<std::size_t>(std::max(0, k_most_looks - looks_))));
+    pairs.resize(std::min(pairs.size(), static_cast<std::size_t>(std::max(0, k_max_evaluations - evaluations_))));
     return pairs;
   }
-  /// None knows of another: where a look is dear, half of them on a thread of their own.
-  std::vector<std::vector<Condition>> look_at(const std::vector<Mechanism>& changed) {
+  /// Evaluations are independent. If full builds are required, half of them run on a second thread.
+  std::vector<std::vector<Condition>> evaluate(const std::vector<Mechanism>& changed) {
     std::vector<std::vector<Condition>> left(changed.size());
     const auto every_other = [&](std::size_t first) {
       for (std::size_t i = first; i < changed.size(); i += 2) left[i] = judge_.obstacles(changed[i]);
     };
-    looks_ += static_cast<int>(changed.size());
-    auto others = beside([&every_other] { every_other(1); }, judge_.made && changed.size() > 1);
+    evaluations_ += static_cast<int>(changed.size());
+    auto others = run_async([&every_other] { every_other(1); }, judge_.made && changed.size() > 1);
     every_other(0);
     others.get();
     return left;
   }
 
-  static std::vector<double> values(const std::vector<Turn>& turns, double step) {
+  static std::vector<double> values(const std::vector<SearchDirection>& directions, double step) {
     std::vector<double> all;
-    for (const Turn& turn : turns) all.push_back(turn.at(step));
+    for (const SearchDirection& search : directions) all.push_back(search.at(step));
     return all;
   }
-  Mechanism turned(const std::vector<Turn>& turns, const std::vector<double>& to) const {
+  Mechanism changed_mechanism(const std::vector<SearchDirection>& directions, const std::vector<double>& to) const {
     Mechanism changed = mechanism_;
-    for (std::size_t i = 0; i < turns.size(); ++i) turns[i].dial->turn(changed, to[i]);
+    for (std::size_t i = 0; i < directions.size(); ++i) directions[i].variable->set(changed, to[i]);
     return changed;
   }
 
-  /// The turns that are looked at where all are turned by `step`.
-  std::vector<std::size_t> asked_at(double step, const std::vector<const Dial*>& done) {
-    std::vector<std::size_t> asked;
-    for (std::size_t t = 0; t < turns_.size(); ++t) {
-      if (std::count(done.begin(), done.end(), turns_[t].dial) > 0 || turns_[t].ends_before(step, learned_[t].step))
+  /// The changes to evaluate at `step`.
+  std::vector<std::size_t> due_at(double step, const std::vector<const DesignVariable*>& done) {
+    std::vector<std::size_t> due;
+    for (std::size_t t = 0; t < directions_.size(); ++t) {
+      if (std::count(done.begin(), done.end(), directions_[t].variable) > 0 ||
+          directions_[t].ends_before(step, records_[t].step))
         continue;
-      if (learned_[t].waits > 0) {
-        --learned_[t].waits;
+      if (records_[t].skips_left > 0) {
+        --records_[t].skips_left;
       } else {
-        asked.push_back(t);
+        due.push_back(t);
       }
     }
-    asked.resize(std::min(asked.size(), static_cast<std::size_t>(k_most_looks - looks_)));
-    return asked;
+    due.resize(std::min(due.size(), static_cast<std::size_t>(k_max_evaluations - evaluations_)));
+    return due;
   }
 
-  /// What the turn is good for where it is not enough. One that brings nothing down where a look is dear is asked again
-  /// at longer and longer intervals: further on something else may give way.
-  void learn(Learned& learned, const std::vector<Condition>& left) {
+  /// Records the effect of a change that is not sufficient. With an expensive test, a change without effect is
+  /// evaluated at growing intervals.
+  void record_effect(SearchRecord& record, const std::vector<Condition>& left) {
     if (first_.empty()) first_ = judge_.obstacles(mechanism_);
-    learned.help = std::max(learned.help, weight(first_) - weight(left));
-    if (!judge_.is_dear) return;
+    record.gain = std::max(record.gain, weight(first_) - weight(left));
+    if (!judge_.is_expensive) return;
     std::vector<Condition> as_before = left;
     std::erase_if(as_before, [this](const Condition& condition) {
       return std::none_of(first_.begin(), first_.end(),
                           [&condition](const Condition& first) { return first.name == condition.name; });
     });
-    learned.waited = weight(as_before) < weight(first_) ? 0 : learned.waited + 1;
-    learned.waits = learned.waited;
+    record.skips = weight(as_before) < weight(first_) ? 0 : record.skips + 1;
+    record.skips_left = record.skips;
   }
-  /// A condition counts for itself and for what it fails by, in its limit's size.
+  /// Sum over failed conditions of 1 plus the violation relative to the limit.
   static double weight(const std::vector<Condition>& left) {
     double sum = 0;
     for (const Condition& condition : left) {
@@ -343,20 +351,21 @@ class Adviser {
     return sum;
   }
 
-  /// Each halfway back towards its border.
+  /// Bisects each candidate once towards its border.
   void halve(const std::vector<Candidate*>& candidates) {
     std::vector<Mechanism> middles;
     for (const Candidate* candidate : candidates)
-      middles.push_back(turned(candidate->turns, values(candidate->turns, 0.5 * (candidate->bad + candidate->good))));
-    const std::vector<std::vector<Condition>> left = look_at(middles);
+      middles.push_back(changed_mechanism(candidate->directions,
+                                          values(candidate->directions, 0.5 * (candidate->bad + candidate->good))));
+    const std::vector<std::vector<Condition>> left = evaluate(middles);
     for (std::size_t i = 0; i < left.size(); ++i) {
       Candidate& candidate = *candidates[i];
       (left[i].empty() ? candidate.good : candidate.bad) = 0.5 * (candidate.bad + candidate.good);
     }
   }
 
-  /// In the order of their borders, as far as the first `wanted` go: the others are looked at no longer than they may
-  /// be among these.
+  /// Sorts the candidates by their borders, as far as the first `wanted` require: others are narrowed only while they
+  /// may be among these.
   void sort_by_border(std::vector<Candidate>& candidates, std::size_t wanted) {
     while (!candidates.empty()) {
       std::stable_sort(candidates.begin(), candidates.end(),
@@ -367,26 +376,26 @@ class Adviser {
         if (!candidate.is_at_border() && candidate.distance(candidate.bad) <= last.distance(last.good))
           open.push_back(&candidate);
       }
-      if (open.empty() || !may_look()) return;
+      if (open.empty() || !has_evaluations_left()) return;
       halve(open);
     }
   }
 
-  /// The next numbers to try, in three digits on the safe side; false where there are none.
-  bool take_next(Candidate& candidate) {
-    while (!candidate.is_at_border() && may_look()) halve({&candidate});
-    while (candidate.begun < 2) {
-      const double step = candidate.begun++ == 0 ? candidate.good : candidate.far;
+  /// Chooses the next trial values, rounded to three digits on the safe side; false when there are none.
+  bool next_trial(Candidate& candidate) {
+    while (!candidate.is_at_border() && has_evaluations_left()) halve({&candidate});
+    while (candidate.trials < 2) {
+      const double step = candidate.trials++ == 0 ? candidate.good : candidate.far;
       for (const std::size_t digit : {std::size_t{0}, std::size_t{1}}) {
         std::vector<double> to;
         bool is_new = true;
-        for (const Turn& turn : candidate.turns) {
-          to.push_back(in_three_digits(turn.at(step), turn.direction)[digit]);
-          is_new =
-              is_new && to.back() != turn.dial->value && to.back() >= turn.dial->least && to.back() <= turn.dial->most;
+        for (const SearchDirection& search : candidate.directions) {
+          to.push_back(in_three_digits(search.at(step), search.direction)[digit]);
+          is_new = is_new && to.back() != search.variable->value && to.back() >= search.variable->least &&
+                   to.back() <= search.variable->most;
         }
-        if (!is_new || !judge_.obstacles(turned(candidate.turns, to)).empty()) continue;
-        if (to == candidate.to) break;  // and the other rounding differs by too little to be worth a making
+        if (!is_new || !judge_.obstacles(changed_mechanism(candidate.directions, to)).empty()) continue;
+        if (to == candidate.to) break;  // the other rounding differs too little to justify a full build
         candidate.to = to;
         return true;
       }
@@ -394,18 +403,18 @@ class Adviser {
     return false;
   }
 
-  /// The first `wanted` that are made, each with what was made. Two makings at a time; which are begun does not depend
-  /// on how long each takes.
-  std::vector<Candidate> made_of(std::vector<Candidate> candidates, std::size_t wanted) {
+  /// The first `wanted` candidates that pass a full build. Two builds run at a time; the selection does not depend on
+  /// their durations.
+  std::vector<Candidate> built(std::vector<Candidate> candidates, std::size_t wanted) {
     std::vector<Candidate> proven;
-    while (proven.size() < wanted && makings_left() > 0) {
-      const std::size_t at_once = std::min({wanted - proven.size(), makings_left(), std::size_t{2}});
+    while (proven.size() < wanted && builds_left() > 0) {
+      const std::size_t at_once = std::min({wanted - proven.size(), builds_left(), std::size_t{2}});
       std::vector<Candidate> tried, later;
       for (Candidate& candidate : candidates) {
         const bool is_full = tried.size() == at_once;
         if (is_full)
           later.push_back(std::move(candidate));
-        else if (take_next(candidate))
+        else if (next_trial(candidate))
           tried.push_back(std::move(candidate));
       }
       if (tried.empty()) break;
@@ -417,55 +426,55 @@ class Adviser {
     return proven;
   }
 
-  std::size_t makings_left() const {
-    if (!judge_.made) return k_enough;
-    const int left = k_most_makings - makings_;
-    return static_cast<std::size_t>(std::max(0, judge_.makings ? std::min(left, judge_.makings()) : left));
+  std::size_t builds_left() const {
+    if (!judge_.made) return k_sufficient;
+    const int left = k_max_builds - builds_;
+    return static_cast<std::size_t>(std::max(0, judge_.builds_left ? std::min(left, judge_.builds_left()) : left));
   }
 
   std::vector<bool> make(const std::vector<Candidate>& candidates) {
     if (!judge_.made) return std::vector<bool>(candidates.size(), true);
-    std::vector<std::future<bool>> begun;
-    for (std::size_t i = 0; i < candidates.size(); ++i, ++makings_) {
-      begun.push_back(
-          beside([this, changed = turned(candidates[i].turns, candidates[i].to)] { return judge_.made(changed); },
-                 i + 1 < candidates.size()));
+    std::vector<std::future<bool>> trials;
+    for (std::size_t i = 0; i < candidates.size(); ++i, ++builds_) {
+      trials.push_back(run_async([this, changed = changed_mechanism(candidates[i].directions,
+                                                                    candidates[i].to)] { return judge_.made(changed); },
+                                 i + 1 < candidates.size()));
     }
     std::vector<bool> made(candidates.size());
-    for (std::size_t i = candidates.size(); i-- > 0;) made[i] = begun[i].get();  // the last one in this thread
+    for (std::size_t i = candidates.size(); i-- > 0;) made[i] = trials[i].get();  // the last one runs in this thread
     return made;
   }
 
-  static Change change(const Dial& dial, double to) {
-    return {dial.key, dial.value, to, dial.unit, change_text(dial, to)};
+  static Change change(const DesignVariable& variable, double to) {
+    return {variable.key, variable.value, to, variable.unit, change_text(variable, to)};
   }
 
   const Mechanism& mechanism_;
-  const Judge& judge_;
-  std::vector<Dial> dials_;
-  std::vector<Turn> turns_;
-  std::vector<Learned> learned_;  ///< of each turn
+  const FeasibilityOracle& judge_;
+  std::vector<DesignVariable> variables_;
+  std::vector<SearchDirection> directions_;
+  std::vector<SearchRecord> records_;  ///< one per direction
   std::vector<Condition> first_;
-  std::size_t enough_;
-  int looks_ = 0;
-  int makings_ = 0;
+  std::size_t sufficient_;
+  int evaluations_ = 0;
+  int builds_ = 0;
 };
 
 }  // namespace
 
 std::vector<Change> nearest_changes(const Mechanism& mechanism, const std::function<bool(const Mechanism&)>& possible,
                                     const std::vector<std::string>& more_keys) {
-  const Judge judge{[&possible](const Mechanism& changed) {
+  const FeasibilityOracle judge{[&possible](const Mechanism& changed) {
     return possible(changed) ? std::vector<Condition>{} : std::vector<Condition>(1);
   }};
-  return Adviser(mechanism, judge, more_keys, k_enough).alone();
+  return AdviceSearch(mechanism, judge, more_keys, k_sufficient).alone();
 }
 
-Advice find_advice(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys,
-                   std::size_t known) {
-  const std::size_t enough = judge.made ? k_enough_made : k_enough;
-  if (known >= enough) return {};
-  Adviser adviser(mechanism, judge, more_keys, enough - known);
+Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& judge,
+                   const std::vector<std::string>& more_keys, std::size_t known) {
+  const std::size_t sufficient = judge.made ? k_sufficient_builds : k_sufficient;
+  if (known >= sufficient) return {};
+  AdviceSearch adviser(mechanism, judge, more_keys, sufficient - known);
   Advice advice{adviser.alone(), {}};
   if (advice.alone.empty()) advice.together = adviser.together();
   return advice;

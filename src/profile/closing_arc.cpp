@@ -9,23 +9,23 @@ namespace {
 
 constexpr int k_segments = 192;
 
-/// ∫ ρ t dψ over a segment on which ρ goes linearly from r0 to r1: the way the curve goes there.
+/// ∫ ρ t dψ over a segment with ρ linear from r0 to r1: the displacement along the curve.
 /// With t = n' and ∫ n = −t:  [ρ n] − slope ∫ n = r1 n1 − r0 n0 + slope (t1 − t0).
-Vec2 way_between(double turn, const Vec2& n0, const Vec2& n1, double r0, double r1) {
+Vec2 displacement_between(double turn, const Vec2& n0, const Vec2& n1, double r0, double r1) {
   const double slope = (r1 - r0) / turn;
   return r1 * n1 - r0 * n0 + slope * (turned_left(n1) - turned_left(n0));
 }
-Vec2 way(double psi0, double psi1, double r0, double r1) {
-  return way_between(psi1 - psi0, unit(psi0), unit(psi1), r0, r1);
+Vec2 displacement(double psi0, double psi1, double r0, double r1) {
+  return displacement_between(psi1 - psi0, unit(psi0), unit(psi1), r0, r1);
 }
 
-/// A radius of curvature at each knot, and how it answers to the two multipliers of the closure.
+/// Radius of curvature at each knot as a function of the two multipliers of the closure equations.
 struct Knots {
   std::vector<double> psi;
-  std::vector<Vec2> normal;  ///< unit(psi)
-  std::vector<Vec2> hat;     ///< way of a radius that is 1 at the knot and 0 at its neighbours
-  std::vector<double> rest;  ///< radius that the arc would like to have: the ends', then that of a curve about the axis
-  std::vector<double> window;  ///< how freely the radius may leave it: nothing at the ends
+  std::vector<Vec2> normal;            ///< unit(psi)
+  std::vector<Vec2> hat_displacement;  ///< displacement due to a radius that is 1 at the knot and 0 at its neighbours
+  std::vector<double> rest;    ///< preferred radius: that of the ends, in between that of a curve about the axis
+  std::vector<double> window;  ///< weight of deviations from the preferred radius: zero at the ends
   std::vector<double> least;
 
   double radius(std::size_t i, const Vec2& multipliers) const {
@@ -33,12 +33,12 @@ struct Knots {
   }
 };
 
-/// The share that an end's curvature still has at `turn` past it: 1 at the end, 0 after a sixth of a turn, or sooner
-/// where the end is so flat that a sixth of a turn of it would lead far away.
-double share_of(const CurvePoint& end, double turn, double whole) {
+/// Weight of an end's curvature at `turn` from it: 1 at the end, 0 after a sixth of a turn. For a flat end the interval
+/// is shorter, as a sixth of a turn would lead too far away.
+double end_weight(const CurvePoint& end, double turn, double whole) {
   const double ramp = std::min(0.4 * whole, radians(60.0) * std::min(1.0, end.h / end.radius));
-  const double way = std::min(1.0, turn / ramp);
-  return 1.0 - way * way * (3.0 - 2.0 * way);
+  const double displacement = std::min(1.0, turn / ramp);
+  return 1.0 - displacement * displacement * (3.0 - 2.0 * displacement);
 }
 
 Knots make_knots(const CurvePoint& begin, const CurvePoint& end, double least_radius) {
@@ -46,8 +46,8 @@ Knots make_knots(const CurvePoint& begin, const CurvePoint& end, double least_ra
   const double whole = end.psi - begin.psi;
   for (int i = 0; i <= k_segments; ++i) {
     const double u = static_cast<double>(i) / k_segments;
-    const double of_begin = share_of(begin, whole * u, whole);
-    const double of_end = share_of(end, whole * (1.0 - u), whole);
+    const double of_begin = end_weight(begin, whole * u, whole);
+    const double of_end = end_weight(end, whole * (1.0 - u), whole);
     const double about_axis = begin.h + (end.h - begin.h) * u;
     knots.psi.push_back(begin.psi + whole * u);
     knots.normal.push_back(unit(knots.psi.back()));
@@ -56,38 +56,39 @@ Knots make_knots(const CurvePoint& begin, const CurvePoint& end, double least_ra
     knots.least.push_back(std::min(least_radius, knots.rest.back()));
   }
   const double step = knots.psi[1] - knots.psi[0];
-  for (const double psi : knots.psi) knots.hat.push_back(way(psi - step, psi, 0, 1) + way(psi, psi + step, 1, 0));
+  for (const double psi : knots.psi)
+    knots.hat_displacement.push_back(displacement(psi - step, psi, 0, 1) + displacement(psi, psi + step, 1, 0));
   return knots;
 }
 
-/// Where the arc ends up with these multipliers, seen from where it should.
+/// Position error of the arc's end for these multipliers.
 Vec2 closure_gap(const Knots& knots, const Vec2& multipliers, const Vec2& target) {
   Vec2 gap = -target;
   double radius = knots.radius(0, multipliers);
   for (std::size_t i = 0; i + 1 < knots.psi.size(); ++i) {
     const double next = knots.radius(i + 1, multipliers);
-    gap += way_between(knots.psi[i + 1] - knots.psi[i], knots.normal[i], knots.normal[i + 1], radius, next);
+    gap += displacement_between(knots.psi[i + 1] - knots.psi[i], knots.normal[i], knots.normal[i + 1], radius, next);
     radius = next;
   }
   return gap;
 }
 
-/// d gap / d multipliers over the knots that are free to move.
+/// d gap / d multipliers over the knots that are not at their bound.
 Eigen::Matrix2d closure_slope(const Knots& knots, const Vec2& multipliers) {
   Eigen::Matrix2d slope = Eigen::Matrix2d::Zero();
   for (std::size_t i = 1; i + 1 < knots.psi.size(); ++i) {
     if (knots.radius(i, multipliers) <= knots.least[i]) continue;
-    slope += knots.hat[i] * (knots.window[i] * turned_left(knots.normal[i])).transpose();
+    slope += knots.hat_displacement[i] * (knots.window[i] * turned_left(knots.normal[i])).transpose();
   }
   return slope;
 }
 
 }  // namespace
 
-// The arc would like to leave its ends with their curvature and go round the axis between them: ρ0(ψ). Of all radii of
-// curvature ρ(ψ) ≥ ρ_least that close the curve, ∫ρ t dψ = V, the one nearest to ρ0, weighed by 1/window, is ρ =
-// max(ρ_least, ρ0 + window · λ·t(ψ)): the multipliers λ of the two closure equations are found by Newton's method on a
-// convex dual. When no convex arc closes the curve they run away.
+// The preferred radius ρ0(ψ) equals the curvature radius at the ends and that of a curve about the axis in between.
+// Among all ρ(ψ) ≥ ρ_least that close the curve, ∫ρ t dψ = V, the one nearest to ρ0 with weight 1/window is ρ =
+// max(ρ_least, ρ0 + window · λ·t(ψ)). Newton's method on the convex dual finds the multipliers λ of the two closure
+// equations. They diverge when no convex arc closes the curve.
 std::optional<ClosingArc> ClosingArc::between(const CurvePoint& begin, const CurvePoint& end, double least_radius) {
   if (!(end.psi > begin.psi) || !(begin.radius > 0) || !(end.radius > 0)) return std::nullopt;
   const Knots knots = make_knots(begin, end, least_radius);
@@ -119,7 +120,7 @@ std::optional<ClosingArc> ClosingArc::between(const CurvePoint& begin, const Cur
     arc.radii_.push_back(knots.radius(i, multipliers));
     if (i > 0) {
       arc.positions_.push_back(arc.positions_.back() +
-                               way(knots.psi[i - 1], knots.psi[i], arc.radii_[i - 1], arc.radii_[i]));
+                               displacement(knots.psi[i - 1], knots.psi[i], arc.radii_[i - 1], arc.radii_[i]));
     }
   }
   return arc;
@@ -142,7 +143,7 @@ CurvePoint ClosingArc::at(double psi) const {
   const double psi0 = begin_ + static_cast<double>(i) * step_;
   const double radius = this->radius(here);
   Vec2 position = positions_[i];
-  if (psi > psi0) position += way(psi0, psi, radii_[i], radius);
+  if (psi > psi0) position += displacement(psi0, psi, radii_[i], radius);
   return {psi, position.dot(unit(psi)), position.dot(turned_left(unit(psi))), radius};
 }
 

@@ -1,5 +1,4 @@
-/// \file
-/// The rest of a pitch curve: from the end of the active arc round to its beginning, convex and with continuous
+/// The closing arc of a pitch curve, from the end of the active arc to its beginning: convex, with continuous
 /// curvature.
 #pragma once
 
@@ -10,21 +9,22 @@
 
 namespace fusee {
 
-/// Radius of curvature linear between equally spaced knots; position, support and tangent follow by exact integration.
+/// The radius of curvature is linear between equally spaced knots. Position, support and tangent follow by exact
+/// integration.
 class ClosingArc {
  public:
-  /// From `begin` counter-clockwise to `end` (end.psi > begin.psi), nowhere bent more sharply than `least_radius` (or
-  /// than the ends themselves are). Null when no convex arc joins the two: their tangents meet on the wrong side.
+  /// Joins `begin` counter-clockwise to `end` (end.psi > begin.psi) with a radius of at least `least_radius`, or that
+  /// of the ends if smaller. Null when no convex arc exists.
   static std::optional<ClosingArc> between(const CurvePoint& begin, const CurvePoint& end, double least_radius);
 
   CurvePoint at(double psi) const;
   double radius(double psi) const;  ///< at(psi).radius
   double length() const;
-  /// The smallest distance of a tangent from the axis; below zero the axis lies outside.
+  /// Minimum distance of a tangent from the axis; negative if the axis is outside.
   double least_support() const;
 
  private:
-  /// Of the knot before, and the share of the way to the next one.
+  /// The preceding knot, and the fraction of the way to the next one.
   struct Place {
     std::size_t knot;
     double share;

@@ -14,16 +14,16 @@ namespace fusee {
 namespace {
 
 constexpr int k_samples = 192;
-/// Arc that the closing arc must leave for the tendon's lap and its tie-off at the wound end, in tendon diameters.
+/// Arc reserved on the closing arc for the tendon's lap and tie-off at the wound end, in tendon diameters.
 constexpr double k_anchor_lap = 5.0;
 
 std::string number(Side side) { return side == Side::left ? "1" : "2"; }
 std::string pin_name(Side side) { return side == Side::left ? "B" : "D"; }
-std::string mouth_name(Side side) { return "the mouth of sheath " + number(side); }
-/// "r2 turns inward", "r1 …".
+std::string exit_name(Side side) { return "the exit of sheath " + number(side); }
+/// "r1" or "r2".
 std::string radius_name(Side side) { return "r" + number(side); }
 
-/// A quantity of the stroke that must stay above a limit.
+/// A quantity along the stroke that must exceed a limit.
 struct Probe {
   std::string name;
   std::string unit;
@@ -32,12 +32,12 @@ struct Probe {
   std::function<std::string(const std::string& where, double value)> failure;
 };
 
-/// The joint angle of the image at which the probe is smallest: the smallest sample, refined between its neighbours.
+/// The point of the stroke where the probe is smallest: the smallest sample, refined between its neighbours.
 TakeOff tightest(const TakeOffs& take_offs, const std::vector<TakeOff>& samples, const Probe& probe) {
   std::size_t smallest = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double value = probe.value(samples[i]);
-    // A value that does not exist is the tightest of all.
+    // An undefined value counts as the tightest.
     if (!(value == value)) return samples[i];
     if (value < probe.value(samples[smallest])) smallest = i;
   }
@@ -49,7 +49,7 @@ TakeOff tightest(const TakeOffs& take_offs, const std::vector<TakeOff>& samples,
   return probe.value(refined) < probe.value(samples[smallest]) ? refined : samples[smallest];
 }
 
-Condition judged(const Probe& probe, const TakeOff& worst) {
+Condition condition_of_probe(const Probe& probe, const TakeOff& worst) {
   Condition condition;
   condition.name = probe.name;
   condition.alpha = worst.stroke.alpha;
@@ -61,7 +61,7 @@ Condition judged(const Probe& probe, const TakeOff& worst) {
   return condition;
 }
 
-/// The upper half of a tendon, and the pin of the other one.
+/// Clearance between the upper half of a tendon and the other tendon's pin.
 Probe clear_of_other_pin(const TakeOffs& take_offs) {
   const Side side = take_offs.side();
   const std::string pin = pin_name(side == Side::left ? Side::right : Side::left);
@@ -76,7 +76,7 @@ Probe clear_of_other_pin(const TakeOffs& take_offs) {
           }};
 }
 
-/// Probes in the order in which a failure makes the later ones meaningless.
+/// Probes ordered so that a failure makes the later ones meaningless.
 std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_offs) {
   const Side side = take_offs.side();
   const double half = 0.5 * mechanism.tendon.diameter;
@@ -90,18 +90,18 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
                              ": less than half the tendon's diameter, the groove floor would cross the axis";
                     }});
   const LowerGuide lower = place.lower();
-  const std::string from = place.mouth ? "mouth_" + number(side) : "pin_" + pin;
+  const std::string from = place.sheath_exit ? "mouth_" + number(side) : "pin_" + pin;
   probes.push_back({"line_reaches_" + from, "mm", 0.0,
                     [=](const TakeOff& t) { return lower.c() - std::abs(tendon(t).p - lower.rho); },
                     [=](const std::string& where, double value) {
                       return radius_name(side) + " is too large at " + where + ": " +
-                             (place.mouth ? mouth_name(side) : "pin " + pin) + " stands " + rounded(-value) +
+                             (place.sheath_exit ? exit_name(side) : "pin " + pin) + " lies " + rounded(-value) +
                              " mm inside the pulley's pitch curve";
                     }});
   probes.push_back({"tendon_on_pin_" + pin, "deg", 0.0, [=](const TakeOff& t) { return degrees(tendon(t).wrap); },
                     [=](const std::string& where, double value) {
                       return "tendon " + number(side) + " leaves pin " + pin + " at " + where + ": its wrap there" +
-                             (place.mouth ? ", down into its sheath," : "") + " is " + rounded(value, 3) +
+                             (place.sheath_exit ? ", down into its sheath," : "") + " is " + rounded(value, 3) +
                              "° and must stay above 0°";
                     }});
   if (!mechanism.joint.is_plain()) probes.push_back(clear_of_other_pin(take_offs));
@@ -117,14 +117,14 @@ std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take
   probes.push_back({"take_off_advances_P" + number(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.dpsi; },
                     [=](const std::string& where, double) {
                       return radius_name(side) + " changes so fast at " + where +
-                             " that the take-off point runs backwards";
+                             " that the take-off point moves backwards";
                     }});
   probes.push_back({"convex_floor_P" + number(side), "mm", k_least_floor_radius,
                     [=](const TakeOff& t) { return t.curve.radius - half; },
                     [=](const std::string& where, double value) {
-                      return radius_name(side) + " turns inward at " + where + ": the groove floor " +
-                             (value > 0 ? "bends there with a radius of only " : "is hollow there, with a radius of ") +
-                             rounded(std::abs(value), 3) + " mm, and must bulge with more than " +
+                      const std::string radius = " (radius of curvature " + rounded(std::abs(value), 3) + " mm)";
+                      return "P" + number(side) + " would be " + (value > 0 ? "too sharp" : "concave") + " at " +
+                             where + radius + ": a tendon requires a convex groove floor with a radius above " +
                              rounded(k_least_floor_radius) + " mm";
                     }});
   probes.push_back({"free_span_" + number(side), "mm", 0.0,
@@ -132,22 +132,22 @@ std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take
                     [=](const std::string& where, double value) {
                       return "tendon " + number(side) + " has no free span between " +
                              (sheathed ? "its sheath" : "pin") + " and pulley at " + where + " (" + rounded(value, 3) +
-                             " mm): the " + (sheathed ? "mouth" : "pin") + " stands in the pulley";
+                             " mm): the " + (sheathed ? "sheath exit" : "pin") + " lies inside the pulley";
                     }});
   return probes;
 }
 
-/// Appends the conditions; true when all hold.
+/// Appends the conditions up to the first failure; true when all hold.
 bool judge(std::vector<Condition>& conditions, const std::vector<Probe>& probes, const TakeOffs& take_offs,
            const std::vector<TakeOff>& samples) {
   for (const Probe& probe : probes) {
-    conditions.push_back(judged(probe, tightest(take_offs, samples, probe)));
+    conditions.push_back(condition_of_probe(probe, tightest(take_offs, samples, probe)));
     if (!conditions.back().ok) return false;
   }
   return true;
 }
 
-/// The joint angles of the image at which samples are taken, 0 … k_samples.
+/// The sampled joint angles of the image, 0 … k_samples.
 struct StrokeOfImage {
   double begin = 0, end = 0;
 
@@ -161,7 +161,7 @@ std::vector<TakeOff> take_samples(const Mechanism& mechanism, const TakeOffs& ta
   const StrokeOfImage stroke(mechanism, take_offs.side());
   std::vector<TakeOff> samples;
   samples.reserve(k_samples + 1);
-  // Where a tendon leaves its drum the curve is looked at from both sides.
+  // The curve is sampled on both sides of each lift-off angle.
   const std::vector<double> kinks = lift_offs(mechanism, take_offs.transmission(), take_offs.side());
   auto kink = kinks.begin();
   double last = stroke.begin;
@@ -177,8 +177,8 @@ std::vector<TakeOff> take_samples(const Mechanism& mechanism, const TakeOffs& ta
   return samples;
 }
 
-/// Where a tendon leaves its drum its arm bends upwards at once. A curve drawn with it runs straight there; one drawn
-/// with its inverse, as P2 is with tendon 1's where P1 is round, would have to be hollow.
+/// A tendon's arm has a kink upwards where it leaves its drum. A curve drawn with that arm is straight there; a curve
+/// drawn with its inverse, as P2 with the arm of tendon 1 for a round P1, would need a hollow.
 bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs,
                      SideAttempt& attempt) {
   const Side side = take_offs.side();
@@ -195,7 +195,7 @@ bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechan
     if (!condition.ok) {
       const std::string other = number(side == Side::left ? Side::right : Side::left);
       condition.message = "tendon " + other + " leaves the drum at " + at_alpha_text(condition.alpha) + ", and P" +
-                          number(side) + " would have to be hollow there by " + rounded(-piece, 3) +
+                          number(side) + " would need a hollow there of " + rounded(-piece, 3) +
                           " mm: beside a round P" + other + " it stays on the drum, or off it, over the whole range";
     }
     conditions.push_back(condition);
@@ -204,7 +204,8 @@ bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechan
   return true;
 }
 
-/// The end of the active arc where the tendon stays wound: in the image the beginning of the stroke.
+/// The condition that active arc and anchor lap fit into one turn. The tendon stays wound at the beginning of the
+/// image's stroke.
 Condition one_turn(const Mechanism& mechanism, Side side, const std::vector<TakeOff>& samples) {
   // A polar drawing spans the motor's own turn.
   const double active = mechanism.pulley.method == Method::exact
@@ -223,7 +224,7 @@ Condition one_turn(const Mechanism& mechanism, Side side, const std::vector<Take
                         rounded(degrees(lap), 3) + "° for the anchor: more than one turn" +
                         (mechanism.pulley.winding == WindingChoice::automatic &&
                                  mechanism.pulley.method == Method::exact && !mechanism.sheath.is_there()
-                             ? ", and only 'fusee build', 'kit', 'optimize' and 'rewind' know several"
+                             ? ", and only 'fusee build', 'kit', 'optimize' and 'rewind' support several"
                              : "");
   }
   return condition;
@@ -250,7 +251,7 @@ Condition closes(const Mechanism& mechanism, Side side, const SideAttempt& attem
   return condition;
 }
 
-/// The joint is driven over a place where a tendon has no lever.
+/// The condition that both tendons have a moment arm over the whole range.
 Condition dead_centre(const Transmission& transmission) {
   Condition condition;
   condition.name = "moment_arms";
@@ -262,7 +263,7 @@ Condition dead_centre(const Transmission& transmission) {
   const Side side = left ? Side::left : Side::right;
   condition.value = degrees(theta);
   condition.alpha = transmission.alpha(theta);
-  if (!std::isfinite(condition.alpha)) condition.alpha = 0;  // C within a pin
+  if (!std::isfinite(condition.alpha)) condition.alpha = 0;  // C lies within a pin
   condition.message = "tendon " + number(side) +
                       " has no moment arm about the joint at θ = " + rounded(degrees(theta), 4) + "°, " +
                       at_alpha_text(condition.alpha) + " (dead centre, or C runs into pin " + pin_name(side) +
@@ -270,8 +271,8 @@ Condition dead_centre(const Transmission& transmission) {
   return condition;
 }
 
-/// A smooth curve through rows that rise need not rise between them. Looked for along α, between
-/// the rows that enclose the range: the ends of the stroke themselves are known only if it does not.
+/// The condition that the smooth curve through the table increases between its rows too. Tested along α, because the
+/// ends of the stroke are defined only if it holds.
 Condition law_grows(const Mechanism& mechanism, const Transmission& transmission) {
   constexpr int steps = 1024;
   const std::vector<LawRow>& rows = mechanism.pulley.rows;
@@ -299,7 +300,7 @@ Condition law_grows(const Mechanism& mechanism, const Transmission& transmission
   return condition;
 }
 
-/// The motor turns forward wherever the joint does: load and wanted torque push against each other at every angle.
+/// The condition that load and wanted torque have the same sign at every angle, so that motor and joint turn together.
 Condition torque_holds(const Mechanism& mechanism) {
   const TorqueMatch worst = tightest_torque(mechanism);
   Condition condition;
@@ -311,15 +312,15 @@ Condition torque_holds(const Mechanism& mechanism) {
   const std::string where = " at θ = " + rounded(degrees(worst.theta), 4) + "°";
   const std::string load = "[load] and [spring] turn the joint with " + rounded(worst.load, 4) + " N·mm against +θ";
   if (worst.motor == 0) {
-    condition.message = "the wanted torque of the motor is 0" + where + ", where " + load + ": nothing holds it";
+    condition.message = "the wanted torque of the motor is 0" + where + ", where " + load;
   } else {
-    condition.message = load + where + ", and the motor is wanted to hold " + rounded(worst.motor, 4) +
+    condition.message = load + where + ", and the wanted torque of the motor is " + rounded(worst.motor, 4) +
                         " N·mm: both must have the same sign and not be 0 over the whole range";
   }
   return condition;
 }
 
-/// As round as there is room for, with sharper bends where there is not.
+/// The closing arc with the largest minimum radius of a few candidates; sharper bends where necessary.
 std::optional<ClosingArc> close(const Mechanism& mechanism, const std::vector<TakeOff>& samples) {
   const CurvePoint& end = samples.back().curve;
   CurvePoint next_turn = samples.front().curve;
@@ -337,7 +338,7 @@ SideAttempt attempt_side(std::vector<Condition>& conditions, const Mechanism& me
   SideAttempt side{take_offs, take_samples(mechanism, take_offs), std::nullopt, {}};
   if (!judge(conditions, path_probes(mechanism, take_offs), take_offs, side.samples)) return side;
   const bool exact = mechanism.pulley.method == Method::exact;
-  // A polar drawing is not asked to be the envelope of anything: it is drawn, and what it does wrong is measured.
+  // A polar drawing need not be an envelope: it is drawn as it is, and its error is measured.
   if (exact && !judge(conditions, curve_probes(mechanism, take_offs), take_offs, side.samples)) return side;
   if (exact && !judge_lift_offs(conditions, mechanism, take_offs, side)) return side;
   if (turns == Turns::many) return side;
@@ -378,7 +379,7 @@ Attempt attempt(const Mechanism& mechanism, const Transmission& transmission, Tu
 
 namespace {
 
-/// Of a few of the samples that attempt_side() looks at, so that both agree.
+/// A failure at a few of the samples of attempt_side(), with the same probes.
 std::optional<Condition> failure_at_few_places(const Mechanism& mechanism, const TakeOffs& take_offs) {
   std::vector<Probe> probes = path_probes(mechanism, take_offs);
   if (mechanism.pulley.method == Method::exact) {
@@ -388,7 +389,7 @@ std::optional<Condition> failure_at_few_places(const Mechanism& mechanism, const
   for (int i = 0; i <= k_samples; i += k_samples / 8) {
     const TakeOff at = take_offs.at(stroke.theta(i));
     for (const Probe& probe : probes) {
-      if (!(probe.value(at) > probe.limit)) return judged(probe, at);
+      if (!(probe.value(at) > probe.limit)) return condition_of_probe(probe, at);
     }
   }
   return std::nullopt;
@@ -432,10 +433,10 @@ std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt
       return a.curve.radius < b.curve.radius;
     });
     if (tightest->curve.radius >= least) continue;
-    warnings.push_back("P" + number(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) +
-                       " mm at " + at_alpha_text(tightest->stroke.alpha) + "; this tendon wants " + rounded(least, 3) +
-                       " mm or more (tendon.bend_ratio, D/d = " + rounded(mechanism.tendon.bend_ratio, 3) +
-                       "): it will wear there");
+    warnings.push_back(
+        "P" + number(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) + " mm at " +
+        at_alpha_text(tightest->stroke.alpha) + "; this tendon requires " + rounded(least, 3) +
+        " mm or more (tendon.bend_ratio, D/d = " + rounded(mechanism.tendon.bend_ratio, 3) + "): it will wear there");
   }
   return warnings;
 }

@@ -1,6 +1,5 @@
-/// \file
-/// Can the two pitch curves exist? Every condition on the law, the tendons' paths and the curves, tightest place
-/// included.
+/// Feasibility of both pitch curves: all conditions on the law, the tendon paths and the curves, each with its tightest
+/// place.
 #pragma once
 
 #include <array>
@@ -13,12 +12,12 @@
 
 namespace fusee {
 
-/// One side of an attempt at a pulley. Index 0 of pairs is tendon 1, P1, pin B; index 1 tendon 2, P2, pin D.
+/// One side of an attempted synthesis. Index 0 of pairs is tendon 1, P1, pin B; index 1 is tendon 2, P2, pin D.
 struct SideAttempt {
   TakeOffs take_offs;
   std::vector<TakeOff> samples;       ///< by increasing joint angle of the image
   std::optional<ClosingArc> closing;  ///< method = "exact"
-  std::vector<double> straight = {};  ///< ψ at which the active arc runs straight: a tendon leaves its drum there
+  std::vector<double> straight = {};  ///< ψ at which the active arc is straight because a tendon leaves its drum
 };
 
 struct Attempt {
@@ -28,18 +27,17 @@ struct Attempt {
   bool feasible() const;
 };
 
-/// many: the curves do not close, and may be as long as they like.
+/// many: the curves do not close and may have any length.
 enum class Turns { one, many };
 
-/// Looks at everything. Conditions that an earlier failure makes meaningless are left out. The attempt refers to
-/// `transmission`.
+/// Tests all conditions, except those that an earlier failure makes meaningless. The result refers to `transmission`.
 Attempt attempt(const Mechanism& mechanism, const Transmission& transmission, Turns turns = Turns::one);
 
-/// The first condition found that does not hold; null where all do. What costs least to see is looked at first: the
-/// law, then a few places of both curves, all of them only then, and the closing arcs last.
+/// The first failed condition; null when all hold. Order of tests: the law, a few points of both curves, all points,
+/// the closing arcs.
 std::optional<Condition> first_failure(const Mechanism& mechanism, const Transmission& transmission);
 
-/// What no condition forbids but a person should know: bends tighter than the tendon likes.
+/// Warnings that do not prevent making: bends tighter than the tendon permits.
 std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt& attempt);
 
 /// "α = −88°".

@@ -21,7 +21,7 @@ Polygon parallel(const Outline& outline, double distance) {
 double sagitta(const Vec2& from, double psi_from, const Vec2& to, double psi_to) {
   const Vec2 along = to - from;
   const double chord = along.norm(), turn = std::remainder(psi_to - psi_from, k_two_pi);
-  // From the tangent at `from` to the chord, and on to the tangent at `to`.
+  // Angles from the tangent at `from` to the chord, and from there to the tangent at `to`.
   const double first = std::remainder(std::atan2(along.y(), along.x()) - psi_from - 0.5 * k_pi, k_two_pi);
   const double second = turn - first;
   const double of_an_arc = chord * turn / 8.0;

@@ -14,10 +14,10 @@ EnvelopeCurve::EnvelopeCurve(const TakeOffs& take_offs, const std::vector<TakeOf
                              std::vector<double> straight)
     : take_offs_(take_offs), samples_(samples), closing_(closing), straight_(std::move(straight)) {}
 
-// The ends belong to the active arc, also after a rounding error in the turn.
-constexpr double k_slip = 1e-12;
-double EnvelopeCurve::turned(double psi) const { return turned_into(active_begin() - k_slip, psi); }
-bool EnvelopeCurve::is_active(double turned) const { return turned <= active_end() + k_slip; }
+// The ends belong to the active arc in spite of rounding errors of full turns.
+constexpr double k_rounding = 1e-12;
+double EnvelopeCurve::turned(double psi) const { return turned_into(active_begin() - k_rounding, psi); }
+bool EnvelopeCurve::is_active(double turned) const { return turned <= active_end() + k_rounding; }
 
 CurvePoint EnvelopeCurve::at(double psi) const {
   const double here = turned(psi);

@@ -1,5 +1,5 @@
 /// \file
-/// One side's closed pitch curve as a function of the direction of its normal.
+/// One side's closed pitch curve as a function of its normal direction.
 #pragma once
 
 #include <memory>
@@ -10,29 +10,29 @@
 
 namespace fusee {
 
-/// A groove floor that bends more sharply is an edge, not a seat. mm
+/// A groove floor with a smaller radius is an edge, not a seat. mm
 inline constexpr double k_least_floor_radius = 0.05;
 
 /// Convex, closed, in the right-hand image of its side.
 class PitchCurve {
  public:
   virtual ~PitchCurve() = default;
-  /// At any ψ.
+  /// Point with normal direction ψ, any angle.
   virtual CurvePoint at(double psi) const = 0;
-  /// at(psi).radius, which may be had for less.
+  /// The radius of at(psi), possibly at lower cost.
   virtual double radius(double psi) const { return at(psi).radius; }
-  /// Normals at the ends of the active arc; end > begin, less than a turn apart.
+  /// Normal directions at the ends of the active arc; end > begin, less than a turn apart.
   virtual double active_begin() const = 0;
   virtual double active_end() const = 0;
-  /// Directions at which the curve runs straight: samples stand on both sides of each.
+  /// Directions at which the curve is straight; samples are placed on both sides of each.
   virtual std::vector<double> straight_directions() const { return {}; }
 };
 
-/// method = "exact": the envelope of the tendon's lines, closed by an arc. Refers to what it is given: keep it alive.
+/// method = "exact": the envelope of the tendon's lines and a closing arc. Keeps references to its arguments.
 class EnvelopeCurve : public PitchCurve {
  public:
-  /// `samples`: take-offs by increasing joint angle of the image, over the whole range, ψ increasing. `straight`: ψ of
-  /// the active arc's straight pieces.
+  /// `samples`: take-offs over the whole range, with increasing joint angle of the image and increasing ψ. `straight`:
+  /// ψ of the active arc's straight parts.
   EnvelopeCurve(const TakeOffs& take_offs, const std::vector<TakeOff>& samples, const ClosingArc& closing,
                 std::vector<double> straight);
 
@@ -53,7 +53,7 @@ class EnvelopeCurve : public PitchCurve {
   std::vector<double> straight_;
 };
 
-/// `psi` turned by full turns into [start, start + 2π).
+/// `psi` shifted by full turns into [start, start + 2π).
 double turned_into(double start, double psi);
 
 }  // namespace fusee

@@ -16,7 +16,7 @@ Condition attachment_outside_drum(const Mechanism& mechanism, Side side) {
   const auto& own = side == Side::left ? joint.attachment1 : joint.attachment2;
   const std::string tendon = digit_of(side);
   const std::string key = own ? "joint.attachment" + tendon + "_mm" : "joint.length_mm";
-  // A place on the drum, by figures that a person rounded to the last digit of a double.
+  // Tolerates rounding of a place on the drum in the last digits of a double.
   constexpr double rounding = 1e-9;
   Condition condition;
   condition.name = "attachment_outside_drum_" + tendon;
@@ -36,12 +36,12 @@ Condition drum_clear_of_pin(const Mechanism& mechanism, Side side) {
   const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
   Condition condition;
   condition.name = "drum_clear_of_pin_" + name_of_pin(side);
-  condition.value = place.pin().norm() - place.drum_off - mechanism.joint.drum_radius - mechanism.guides.radius;
+  condition.value = place.pin().norm() - place.drum_offset - mechanism.joint.drum_radius - mechanism.guides.radius;
   condition.unit = "mm";
   condition.ok = condition.value > 0;
   if (!condition.ok) {
-    condition.message = "pin " + name_of_pin(side) + " stands " + rounded(-condition.value, 3) +
-                        " mm in the drum (joint.drum_radius_mm, guides.radius_mm)";
+    condition.message = "pin " + name_of_pin(side) + " lies " + rounded(-condition.value, 3) +
+                        " mm inside the drum (joint.drum_radius_mm, guides.radius_mm)";
   }
   return condition;
 }

@@ -19,8 +19,8 @@ struct PolarPoint {
 double normal_of(const PolarPoint& point) { return point.angle - std::atan2(point.slope, point.r); }
 Vec2 position_of(const PolarPoint& point) { return point.r * unit(point.angle); }
 
-/// The radius halfway round the closing side: a cubic that meets both ends with their slopes, never beyond the larger
-/// of them.
+/// The radius at the fraction u of the closing side: a cubic with the radii and slopes of both ends, bounded by the
+/// larger radius.
 double closing_radius(const PolarPoint& begin, const PolarPoint& end, double u) {
   const double span = end.angle - begin.angle;
   const double v = 1.0 - u;
@@ -29,7 +29,7 @@ double closing_radius(const PolarPoint& begin, const PolarPoint& end, double u) 
   return std::clamp(cubic, 0.8 * std::min(begin.r, end.r), std::max(begin.r, end.r));
 }
 
-/// The stroke in the image, evenly spaced in the pulley's angle, which is the drawing's.
+/// The stroke in the image, evenly spaced in the pulley's angle, which is the angle of the drawing.
 std::vector<PolarPoint> active_points(const TakeOffs& take_offs) {
   const Transmission& transmission = take_offs.transmission();
   const double sign = mirror_sign(take_offs.side());
@@ -90,8 +90,7 @@ Vec2 corner_of(const HalfPlane& a, const HalfPlane& b) {
   return (a.limit * -turned_left(b.normal) + b.limit * turned_left(a.normal)) / area;
 }
 
-/// A convex polygon with every edge moved inward: the half planes come sorted by direction, and those that a later one
-/// makes idle are dropped.
+/// A convex polygon with all edges moved inward. The half planes are sorted by direction; redundant ones are dropped.
 Polygon shrunk(const Polygon& hull, double distance) {
   std::deque<HalfPlane> kept;
   for (HalfPlane plane : half_planes(hull)) {
@@ -106,8 +105,8 @@ Polygon shrunk(const Polygon& hull, double distance) {
   return convex_hull(rest);
 }
 
-/// How far `points` lie inside their convex `hull` at most. Its corners, most of them, need no look.
-double hollow(const Polygon& hull, const std::vector<PolarPoint>& points) {
+/// Maximum depth of `points` inside their convex `hull`. Most points are corners of the hull and are skipped.
+double hollow_depth(const Polygon& hull, const std::vector<PolarPoint>& points) {
   double deepest = 0;
   const std::vector<HalfPlane> planes = half_planes(hull);
   const auto in_order = [](const Vec2& a, const Vec2& b) { return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y()); };
@@ -131,7 +130,7 @@ PolarCurve::PolarCurve(const Mechanism& mechanism, const TakeOffs& take_offs)
   active_begin_ = normal_of(active.front());
   active_end_ = normal_of(active.back());
   const Polygon hull = convex_hull(closed_drawing(active));
-  deepest_hollow_ = hollow(hull, active);
+  deepest_hollow_ = hollow_depth(hull, active);
   core_ = shrunk(hull, rounding_);
   normals_ = edge_normals(core_);
 }
@@ -147,7 +146,7 @@ Vec2 PolarCurve::position(double psi) const {
 CurvePoint PolarCurve::at(double psi) const {
   constexpr double probe = radians(1.0);
   const Vec2 x = position(psi);
-  // Beside a bridge the side without it tells how the curve bends.
+  // Next to a bridge, the side without it has the curvature.
   const double radius = std::min((position(psi + probe) - x).norm(), (x - position(psi - probe)).norm()) / probe;
   return {psi, x.dot(unit(psi)), x.dot(turned_left(unit(psi))), radius};
 }

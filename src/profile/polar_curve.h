@@ -6,11 +6,11 @@
 
 namespace fusee {
 
-/// The closed polar drawing as a string and a groove see it: hollows bridged, corners rounded to the tendon's own
+/// The closed polar drawing as a string and a groove follow it: hollows bridged, corners rounded to the tendon's
 /// radius.
 ///
-/// r is drawn from the direction that the tendon's normal has at home. Between the ends of the stroke it is closed by a
-/// cubic in polar coordinates. The paper does not say where on the shaft its profile sits, nor how it is closed.
+/// r is drawn from the direction of the tendon's normal at home. A cubic in polar coordinates closes the curve between
+/// the ends of the stroke. The paper specifies neither the orientation on the shaft nor the closing.
 class PolarCurve : public PitchCurve {
  public:
   PolarCurve(const Mechanism& mechanism, const TakeOffs& take_offs);
@@ -19,14 +19,14 @@ class PolarCurve : public PitchCurve {
   double active_begin() const override { return active_begin_; }
   double active_end() const override { return active_end_; }
   std::vector<double> straight_directions() const override;
-  /// How far the drawing lies inside its own convex hull, mm.
+  /// Maximum depth of the drawing inside its convex hull, mm.
   double deepest_hollow() const { return deepest_hollow_; }
 
  private:
   Vec2 position(double psi) const;
 
   Polygon core_;                 ///< the hull, shrunk by rounding_
-  std::vector<double> normals_;  ///< of the edge that leaves each corner of core_, increasing over one turn
+  std::vector<double> normals_;  ///< normals of the edges that leave the corners of core_, increasing over one turn
   double rounding_ = 0;
   double active_begin_ = 0;
   double active_end_ = 0;

@@ -10,14 +10,14 @@
 #include "profile/string_above.h"
 #include "transmission/alpha_range.h"
 
-// The second route. Nothing here knows a support function, a derivative or an envelope: a string is laid round the
-// corners of a polygon, over a disc and to a point, its length is added up piece by piece, and the joint angle at which
-// that length is what it was at home is found by bisection.
+// Independent verification: no support functions, derivatives or envelopes. A string is laid round the corners of a
+// polygon, over a disc and to a point. Its length is summed piece by piece, and bisection finds the joint angle at
+// which the length equals that at home.
 
 namespace fusee {
 namespace {
 
-/// One string on its pulley, pin, drum and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
+/// One string on pulley, pin, drum and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
 class String {
  public:
   String(const Mechanism& mechanism, const Polygon& floor, double hand)
@@ -40,7 +40,7 @@ class String {
     home_length_ = length(0.0);
   }
 
-  /// Moves the pulley; small steps, so that turns are counted.
+  /// Turns the pulley. Steps must be small, so that turns are counted.
   void turn_to(double alpha) {
     alpha_ = alpha;
     const Vec2 pin = above_.guide_seen_from_pulley(alpha);
@@ -50,12 +50,12 @@ class String {
     started_ = true;
     span_ = above_.lower_span(pin, corners_[corner_]);
     if (!(span_ > 0)) {
-      throw InputError("", "the groove floor of " + pulley_name() + " swallows its " +
-                               (above_.is_sheathed() ? "sheath's mouth" : "guide pin"));
+      throw InputError("", "the groove floor of " + pulley_name() + " contains its " +
+                               (above_.is_sheathed() ? "sheath exit" : "guide pin"));
     }
   }
 
-  /// By how much the way from a fixed place of the pulley to the joint at `theta` is longer than at home.
+  /// Increase, relative to home, of the length from a fixed place of the pulley to the joint at `theta`.
   double excess(double theta) const { return length(theta) - home_length_; }
 
   double hand() const { return hand_; }
@@ -64,14 +64,14 @@ class String {
  private:
   std::string pulley_name() const { return hand_ > 0 ? "P2" : "P1"; }
 
-  /// But for a constant.
+  /// The length up to a constant.
   double length(double theta) const { return hand_ * wound() + span_ + above_.length(theta, normal_ - alpha_); }
 
   double tangent_normal(const Vec2& pin, std::size_t corner) const {
     return above_.lower_normal(pin, corners_[corner]);
   }
 
-  /// Walks to the corner whose tangent leaves all others inside.
+  /// Moves to the corner whose tangent has all other corners inside.
   void find_corner(const Vec2& pin) {
     const std::size_t count = corners_.size();
     for (std::size_t steps = 0; steps < 2 * count; ++steps) {
@@ -85,11 +85,11 @@ class String {
         return;
       }
     }
-    // Two neighbours that each point to the other, by rounding: both are right.
+    // Due to rounding, two neighbours may point to each other: both are valid.
   }
 
-  /// Counter-clockwise along the centre line on the pulley, full turns included: edges passed, and arcs of d/2 about
-  /// the corners.
+  /// Length wound counter-clockwise along the centre line, full turns included: passed edges, and arcs of radius d/2
+  /// about the corners.
   double wound() const {
     const double before = corner_ == 0 ? edge_normals_.back() - k_two_pi : edge_normals_[corner_ - 1];
     const double turns = std::round((normal_ - 0.5 * (before + edge_normals_[corner_])) / k_two_pi);
@@ -98,7 +98,7 @@ class String {
 
   Polygon corners_;
   std::vector<double> along_;         ///< length of the edges before each corner
-  std::vector<double> edge_normals_;  ///< of the edge that leaves each corner, increasing
+  std::vector<double> edge_normals_;  ///< normals of the edges that leave each corner, increasing
   double girth_ = 0;
   double home_length_ = 0;
   double hand_;
@@ -107,13 +107,13 @@ class String {
 
   double alpha_ = 0;
   std::size_t corner_ = 0;
-  double normal_ = 0;  ///< of the lower span in the pulley's frame, turns counted
+  double normal_ = 0;  ///< normal of the lower span in the pulley's frame, turns counted
   double span_ = 0;
   bool started_ = false;
 };
 
-/// The joint angle at which the string is as long as at home. Its length grows with θ on the left and falls on the
-/// right, up to the dead centre: so the bracket starts narrow.
+/// The joint angle at which the string has its length at home. The length increases with θ on the left and decreases on
+/// the right up to the dead centre, so the bracket starts narrow.
 double taut_theta(const String& string, double alpha, double guess) {
   const auto growing = [&string](double theta) { return -string.hand() * string.excess(theta); };
   double reach = 0.005;
@@ -158,13 +158,13 @@ void note_largest(RewindResult& result) {
   }
 }
 
-/// The joint held by the first string; the slack is that of the last, none where it is the first.
+/// Winds with the joint held by the first string. The slack is that of the last string, 0 if there is only one.
 RewindResult wind(const Transmission& declared, std::vector<String> strings, int steps) {
   const auto turn_to = [&strings](double alpha) {
     for (String& string : strings) string.turn_to(alpha);
   };
   RewindResult result;
-  // From home to one end and back through home to the other, so that turns are counted without a jump.
+  // From home to one end and back through home to the other, so that turns are counted without jumps.
   for (int i = 0; i < steps; ++i) turn_to(declared.alpha_min() * i / steps);
   for (const double alpha : alphas_over_range(declared, steps)) {
     turn_to(alpha);

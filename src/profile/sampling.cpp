@@ -6,12 +6,12 @@
 namespace fusee {
 namespace {
 
-/// Between two probes of the curvature: the radius of a nearly straight piece doubles within half a degree.
+/// Spacing of curvature probes: the radius of a nearly straight part doubles within half a degree.
 constexpr double k_probe = radians(0.2);
-/// Directions nearer than this are one: a strip between them would be a sliver.
+/// Directions closer than this are merged: a strip between them would be a sliver.
 constexpr double k_smallest_turn = radians(0.1);
-/// Chords that turn by no more are not halved; and, where a large part asks for finer ones, none whose half is shorter
-/// than this, mm: beside a bridge of 0.2 m a chord that turns by 0.02° has a sagitta of 9 µm.
+/// Chords with a smaller turn are not halved. On large parts, neither are chords whose half would be shorter than this,
+/// mm: next to a bridge of 0.2 m a chord with a turn of 0.02° has a sagitta of 9 µm.
 constexpr double k_finest_turn = radians(0.02);
 constexpr double k_shortest_half = 0.02;
 
@@ -23,11 +23,11 @@ CurvePoint mirrored(const PitchCurve& image, double psi) {
   return point;
 }
 
-/// Between two ends, however far a curve runs away: half a metre within a nanometre takes as many.
-constexpr double k_most_chords = 5e4;
+/// Upper bound on the chords between two ends: half a metre within a nanometre needs that many.
+constexpr double k_max_chords = 5e4;
 
-/// The largest turn at ψ that both curves, and their parallels, bear. A chord's sagitta is an eighth of chord times
-/// turn: however straight a curve is there, no chord is longer than `longest`, and so the number of chords has a bound.
+/// The largest turn at ψ that satisfies the tolerance on both curves and their parallels. The sagitta of a chord is
+/// chord · turn / 8. No chord exceeds `longest`, which bounds the number of chords.
 double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi, double longest,
                     const SamplingOptions& options) {
   const double radius = std::max(left.radius(k_pi - psi), right.radius(psi)) + options.reach;
@@ -36,25 +36,25 @@ double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi,
   return std::min(options.largest_turn, std::max(of_an_arc, of_a_straight));
 }
 
-/// Of both curves and their parallels, and more.
+/// Upper bound on the chords of both curves and their parallels.
 double longest_chord(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& options) {
-  constexpr int k_looks = 64;
+  constexpr int k_directions = 64;
   double furthest = 0;
-  for (int i = 0; i < k_looks; ++i) {
-    const double psi = k_two_pi * i / k_looks;
+  for (int i = 0; i < k_directions; ++i) {
+    const double psi = k_two_pi * i / k_directions;
     furthest = std::max({furthest, mirrored(left, psi).position().norm(), right.at(psi).position().norm()});
   }
   return 4.0 * furthest + 2.0 * options.reach;
 }
 
-/// What rounding to a mesh's floats takes off the tolerance, out there. Within a quarter of a metre it is less than
-/// what is left for it elsewhere.
-double lost_in_floats(double reach, double tolerance) {
+/// Loss of tolerance by rounding to a mesh's floats at distance `reach`. Within a quarter of a metre it is below a
+/// reserve.
+double tolerance_lost_to_floats(double reach, double tolerance) {
   constexpr double k_left_for_it = 1e-5;
   return std::clamp(reach * 0x1p-24 * std::sqrt(2.0) - k_left_for_it, 0.0, 0.5 * tolerance);
 }
 
-/// Directions from `begin` up to (not with) `end`, as dense as the curves ask.
+/// Appends directions from `begin` to `end` (exclusive) with the density that the tolerance requires.
 void append_directions(std::vector<double>& directions, const PitchCurve& left, const PitchCurve& right, double begin,
                        double end, double longest, const SamplingOptions& options) {
   const int probes = std::max(8, static_cast<int>(std::ceil((end - begin) / k_probe)));
@@ -63,12 +63,12 @@ void append_directions(std::vector<double>& directions, const PitchCurve& left, 
   for (int i = 1; i <= probes; ++i) {
     const double psi = begin + (end - begin) * i / probes;
     const double density = 1.0 / allowed_turn(left, right, psi, longest, options);
-    // The denser end of the step rules it: the bound on the sagitta holds inside the step too.
+    // The denser end of the step counts, so that the bound on the sagitta holds within the step.
     count[static_cast<std::size_t>(i)] =
         count[static_cast<std::size_t>(i) - 1] + std::max(previous, density) * (end - begin) / probes;
     previous = density;
   }
-  const int chords = static_cast<int>(std::clamp(std::ceil(count.back()), 1.0, k_most_chords));
+  const int chords = static_cast<int>(std::clamp(std::ceil(count.back()), 1.0, k_max_chords));
   std::size_t probe = 1;
   for (int i = 0; i < chords; ++i) {
     const double wanted = count.back() * i / chords;
@@ -78,8 +78,8 @@ void append_directions(std::vector<double>& directions, const PitchCurve& left, 
   }
 }
 
-/// The wanted directions in one turn from the first on, each pair of near ones made one.
-std::vector<double> kept_apart(std::vector<double> wanted) {
+/// The wanted directions within one turn from the first, with near ones merged.
+std::vector<double> merge_near(std::vector<double> wanted) {
   const double first = wanted.front();
   for (double& psi : wanted) psi = turned_into(first, psi);
   std::sort(wanted.begin(), wanted.end());
@@ -94,7 +94,7 @@ OutlinePoint outline_point(const CurvePoint& curve) {
   return {curve.psi, curve.position(), unit(curve.psi), curve.radius};
 }
 
-/// Of both curves in one direction.
+/// Points of both curves in one direction.
 struct Pair {
   OutlinePoint left, right;
 
@@ -114,8 +114,8 @@ std::size_t nearest(const std::vector<Pair>& points, double psi) {
   return wanted - (above - 1)->psi() < above_value - wanted ? index - 1 : index % points.size();
 }
 
-/// Beside the bridge over a hollow a drawn curve bends within a probe: chords there are halved until none has more
-/// sagitta, as an arc, than is allowed, or there are as many as a curve may have.
+/// Next to a bridge over a hollow, a drawn curve bends within one probe. Chords there are halved until their sagitta,
+/// as an arc, is within the tolerance, or the maximum number of chords is reached.
 void halve_coarse_chords(std::vector<Pair>& points, const PitchCurve& left, const PitchCurve& right, double longest,
                          const SamplingOptions& options) {
   constexpr int k_halvings = 12;
@@ -133,14 +133,14 @@ void halve_coarse_chords(std::vector<Pair>& points, const PitchCurve& left, cons
       if (turn > finest && chord * turn / 8.0 > options.tolerance)
         finer.push_back(pair_at(left, right, 0.5 * (here.psi() + next.psi())));
     }
-    if (finer.size() == points.size() || static_cast<double>(finer.size()) > k_most_chords) return;
+    if (finer.size() == points.size() || static_cast<double>(finer.size()) > k_max_chords) return;
     points = std::move(finer);
   }
 }
 
 }  // namespace
 
-std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& asked) {
+std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& requested) {
   const std::array<double, 4> ends{right.active_begin(), right.active_end(), k_pi - left.active_end(),
                                    k_pi - left.active_begin()};
   std::vector<double> wanted(ends.begin(), ends.end());
@@ -149,10 +149,10 @@ std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, c
   for (const double psi : left.straight_directions()) {
     wanted.insert(wanted.end(), {k_pi - psi - k_smallest_turn, k_pi - psi + k_smallest_turn});
   }
-  const std::vector<double> mandatory = kept_apart(std::move(wanted));
-  const double longest = longest_chord(left, right, asked);
-  const SamplingOptions options{asked.tolerance - lost_in_floats(0.25 * longest, asked.tolerance), asked.reach,
-                                asked.largest_turn};
+  const std::vector<double> mandatory = merge_near(std::move(wanted));
+  const double longest = longest_chord(left, right, requested);
+  const SamplingOptions options{requested.tolerance - tolerance_lost_to_floats(0.25 * longest, requested.tolerance),
+                                requested.reach, requested.largest_turn};
   std::vector<double> directions;
   for (std::size_t i = 0; i < mandatory.size(); ++i) {
     const double end = i + 1 < mandatory.size() ? mandatory[i + 1] : mandatory.front() + k_two_pi;

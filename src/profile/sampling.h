@@ -1,6 +1,4 @@
-/// \file
-/// Both pitch curves, sampled at common directions of the normal so that no chord leaves its curve by more than a
-/// tolerance.
+/// Sampling of both pitch curves at common normal directions, with bounded sagitta of the chords.
 #pragma once
 
 #include <array>
@@ -12,9 +10,8 @@ namespace fusee {
 
 struct SamplingOptions {
   double tolerance = 0.01;  ///< largest sagitta, mm
-  double reach = 0;         ///< of the outermost parallel curve that must keep it, outward from the pitch curve, mm
-  /// However coarse the tolerance, a chord turns no further: a string wound on the polygon is then right to 5e-5 of its
-  /// length.
+  double reach = 0;         ///< outward offset of the outermost parallel curve that must satisfy the tolerance, mm
+  /// Maximum turn of a chord at any tolerance. A string wound on the polygon is then accurate to 5e-5 of its length.
   double largest_turn = radians(2.0);
 };
 

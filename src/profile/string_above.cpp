@@ -7,27 +7,27 @@
 namespace fusee {
 namespace {
 
-/// The centre of a string's pin, seen from the joint.
+/// Centre of a string's pin, relative to the joint.
 Vec2 pin_of(const Mechanism& mechanism, double hand) {
   const Guides& guides = mechanism.guides;
   return hand > 0 ? Vec2(guides.ED, -guides.OE - guides.D_below_B) : Vec2(-guides.EB, -guides.OE);
 }
 
-/// Where a string ends in the link at home.
+/// End of a string in the link at home.
 Vec2 end_of(const Mechanism& mechanism, double hand) {
   const Joint& joint = mechanism.joint;
   const auto& own = hand > 0 ? joint.attachment2 : joint.attachment1;
   return own ? Vec2(own->across, own->along) : Vec2(0.0, joint.R);
 }
 
-/// What a string comes to its pulley from, seen from the pulley's axis: its pin, or the mouth of its sheath.
+/// The last guide before the pulley (pin or sheath exit), relative to the pulley's axis.
 Vec2 above_pulley(const Mechanism& mechanism, double hand) {
   if (mechanism.sheath.is_there()) return {hand * mechanism.sheath.exit_across, mechanism.sheath.exit_above};
   const Vec2 pin = pin_of(mechanism, hand);
   return {pin.x(), pin.y() + mechanism.guides.OE + mechanism.pulley.EF};
 }
 
-/// Where a place of the link at home is, turned clockwise with it.
+/// A point of the link at home, turned clockwise with the link.
 Vec2 with_link(const Vec2& home, double theta) {
   return {std::cos(theta) * home.x() + std::sin(theta) * home.y(),
           std::cos(theta) * home.y() - std::sin(theta) * home.x()};
@@ -45,14 +45,14 @@ StringAbove::StringAbove(const Mechanism& mechanism, double hand)
       drum_centre_(mechanism.joint.drum_centre.across, mechanism.joint.drum_centre.along),
       pin_(pin_of(mechanism, hand)),
       from_axis_(above_pulley(mechanism, hand)) {
-  // Out of the drum a string comes at its own height.
+  // A string leaves the drum at its pitch circle.
   if (const double away = (end_ - drum_centre_).norm(); away < drum_)
     end_ = drum_centre_ + drum_ / away * (end_ - drum_centre_);
   if (drum_ > 0 && !(pin_.norm() - drum_centre_.norm() > drum_ - half_ + mechanism.guides.radius))
-    throw InputError("", "a guide pin stands in the drum", "joint.drum_radius_mm smaller, or pins further out");
+    throw InputError("", "a guide pin lies inside the drum", "reduce joint.drum_radius_mm, or move the pins outwards");
 }
 
-/// Seen from the pulley, which turns clockwise, the world turns the other way.
+/// In the frame of the pulley, which turns clockwise, the world turns counter-clockwise.
 Vec2 StringAbove::guide_seen_from_pulley(double alpha) const {
   return {std::cos(alpha) * from_axis_.x() - std::sin(alpha) * from_axis_.y(),
           std::sin(alpha) * from_axis_.x() + std::cos(alpha) * from_axis_.y()};
@@ -68,7 +68,7 @@ double StringAbove::lower_span(const Vec2& guide, const Vec2& corner) const {
   return std::sqrt((reach - (half_ - lower_rho())) * (reach + (half_ - lower_rho())));
 }
 
-/// What joins two discs with the string on the outer side of both, or a disc and a point.
+/// The line that touches two discs, or a disc and a point, with the string on their outer side.
 StringAbove::Piece StringAbove::from_pin_to(const Vec2& centre, double radius) const {
   const Vec2 away = centre - pin_;
   const double distance = away.norm(), larger = rho_ - radius;
@@ -86,14 +86,14 @@ double StringAbove::length(double theta, double lower_normal) const {
     up = from_pin_to(centre, drum_);
     up.length += drum_ * wound + std::sqrt(std::max(0.0, (away - drum_) * (away + drum_)));
   }
-  // Into a sheath it goes straight down from the pin's outer side; what lies in there keeps its length.
+  // The string enters a sheath straight down from the pin's outer side; its length inside is constant.
   const double below = !sheathed_ ? lower_normal : hand_ > 0 ? 0.0 : k_pi;
   const double wrap = turned_near(hand_ * (up.normal - below), 0.5 * k_pi);
   return rho_ * wrap + up.length;
 }
 
-/// Over which angle the string lies on the drum; it is free of it below 0. An end at home is reached over the drum's
-/// outer side: both its direction and the pin's are counted from straight below O, the string's own way round.
+/// Wrap angle of the string on the drum; negative if it is clear of it. An end at home is reached over the drum's outer
+/// side, so both its direction and the pin's are counted from straight below O in the winding sense.
 double StringAbove::wound_on_drum(double theta) const {
   const auto counted = [this](double angle) {
     const double own = hand_ > 0 ? angle : k_pi - angle;

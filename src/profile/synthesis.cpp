@@ -12,12 +12,12 @@
 namespace fusee {
 namespace {
 
-/// How far outward of a pitch curve the body's outermost parallel curve lies: the flange's lip, and a little more.
+/// Distance from a pitch curve to the body's outermost parallel curve: the groove edge and a margin.
 double flange_reach(const Mechanism& mechanism) { return mechanism.groove_depth() + mechanism.tendon.diameter; }
 
-/// A chord that turns by δ is shorter than its arc by δ²/24 of it. On pulleys about as large as the joint's own drum
-/// that is so much of the joint's angle as well: over a wide range chords are shorter, for 0.0015° at its end. Joints
-/// without drum and with one attachment turn less, by levers longer than their pulleys.
+/// A chord with turn δ is shorter than its arc by δ²/24. For pulleys about as large as the joint's drum the joint angle
+/// has the same relative error, so chords are shorter over a wide range, for 0.0015° at its end. Plain joints turn
+/// less, because their levers exceed their pulleys.
 double largest_turn(const Mechanism& mechanism) {
   constexpr double k_lost = radians(0.0015);
   const double usual = SamplingOptions{}.largest_turn;
@@ -122,7 +122,7 @@ std::string SynthesisResult::brief() const {
     text += (text.empty() ? "" : "; ") + condition.message;
   }
   const std::string change = advice_sentence(advice);
-  return text + ": " + (change.empty() ? "no change of one number alone would make it possible" : change);
+  return text + ": " + (change.empty() ? "no change of a single number makes it possible" : change);
 }
 
 }  // namespace fusee

@@ -4,8 +4,8 @@ namespace fusee {
 
 TakeOffs::TakeOffs(const Transmission& transmission, Side side) : transmission_(&transmission), side_(side) {}
 
-// The pitch curve is the envelope of the tendon's lines. In the turning pulley the line's normal stands at
-// ψ(α) = φ − acos((p − ρ)/c) + α, so with w = sqrt(c² − (p − ρ)²), the reach to the pin,
+// The pitch curve is the envelope of the tendon's lines. In the frame of the turning pulley the line's normal is ψ(α) =
+// φ − acos((p − ρ)/c) + α. With w = sqrt(c² − (p − ρ)²), the reach to the pin:
 //   ψ' = 1 + p'/w      w' = −(p − ρ) p'/w      ψ'' = p''/w − p'w'/w²
 //   dh/dψ = p'/ψ'      d²h/dψ² = (p'' − dh/dψ ψ'')/ψ'²
 TakeOff TakeOffs::at(double image_theta) const {

@@ -1,7 +1,8 @@
 /// \file
-/// method = "exact": where a tendon leaves its pulley, one point of the pitch curve for each place of the stroke.
+/// method = "exact": the point where a tendon leaves its pulley, for each point of the stroke.
 ///
-/// Everything in this room up to the sampled outline lives in the right-hand image of the tendon, in the pulley's
+/// Up to the sampled outline, this module works in the right-hand image of the tendon, in the pulley's frame. P1 is the
+/// mirror image (x → −x, α → −α, θ → −θ) of the curve computed for it.
 /// frame: P1 is the mirror image (x → −x, α → −α, θ → −θ) of what is computed here for it.
 #pragma once
 
@@ -14,7 +15,7 @@ struct CurvePoint {
   double psi = 0;     ///< direction of the outward normal
   double h = 0;       ///< support: distance of the tangent from the axis
   double dh = 0;      ///< dh/dψ
-  double radius = 0;  ///< of curvature
+  double radius = 0;  ///< radius of curvature
 
   Vec2 position() const { return h * unit(psi) + dh * turned_left(unit(psi)); }
 };
@@ -22,10 +23,11 @@ struct CurvePoint {
 struct TakeOff {
   TransmissionPoint stroke;  ///< of the mechanism itself, not of its image
   CurvePoint curve;          ///< in the image
-  double dpsi = 0;           ///< dψ/dα of the image; must stay positive
+  double dpsi = 0;           ///< dψ/dα of the image; must be positive
 };
 
-/// The take-off points of one side, by the joint angle of its image. Refers to the transmission: keep it alive.
+/// The take-off points of one side as a function of the joint angle of its image. Keeps a reference to the
+/// transmission.
 class TakeOffs {
  public:
   TakeOffs(const Transmission& transmission, Side side);

@@ -54,7 +54,7 @@ const std::vector<Alternatives>& printing_alternatives() {
 
 class BodyAdviser {
  public:
-  BodyAdviser(const Mechanism& mechanism, const Judge& judge, Parts refused)
+  BodyAdviser(const Mechanism& mechanism, const FeasibilityOracle& judge, Parts refused)
       : mechanism_(mechanism),
         judge_(judge),
         refused_(refused == Parts::one   ? "one"
@@ -75,9 +75,9 @@ class BodyAdviser {
       if (std::any_of(failed.begin(), failed.end(), is_about)) add_word(advice.alone, words);
     }
     // Without curves, no number of the body alone would help.
-    Judge judge = judge_;
-    judge.is_dear = !obstacle_to(mechanism_);  // each try plans a body
-    std::vector<std::string> keys = judge.is_dear ? written_keys(mechanism_) : std::vector<std::string>{};
+    FeasibilityOracle judge = judge_;
+    judge.is_expensive = !obstacle_to(mechanism_);  // each try plans a body
+    std::vector<std::string> keys = judge.is_expensive ? written_keys(mechanism_) : std::vector<std::string>{};
     const auto is_height = [](const Condition& condition) { return condition.name == k_height_condition; };
     if (!mechanism_.print.supports && std::any_of(failed.begin(), failed.end(), is_height))
       keys.emplace_back("print.overhang_deg");
@@ -93,7 +93,7 @@ class BodyAdviser {
  private:
   bool helps(const Mechanism& changed) const {
     if (!judge_.obstacles(changed).empty()) return false;
-    return !judge_.made || ((!judge_.makings || judge_.makings() > 0) && judge_.made(changed));
+    return !judge_.made || ((!judge_.builds_left || judge_.builds_left() > 0) && judge_.made(changed));
   }
 
   // Adds the first alternative that helps, other than the present value.
@@ -123,7 +123,7 @@ class BodyAdviser {
   }
 
   const Mechanism& mechanism_;
-  const Judge& judge_;
+  const FeasibilityOracle& judge_;
   std::string_view refused_;  ///< a word of print.parts
 };
 
@@ -145,7 +145,7 @@ std::vector<Condition> obstacles(const Mechanism& mechanism) {
   return synthesis.made() ? body_obstacles(mechanism, synthesis) : failed_of(synthesis.conditions);
 }
 
-Advice body_advice(const Mechanism& mechanism, const Judge& judge, Parts refused) {
+Advice body_advice(const Mechanism& mechanism, const FeasibilityOracle& judge, Parts refused) {
   return BodyAdviser(mechanism, judge, refused).all();
 }
 

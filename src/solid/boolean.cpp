@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
 #include "solid/corefinement.h"
@@ -147,7 +147,7 @@ std::optional<Corefined> corefined_apart(const TriangleMesh& near, const Triangl
   const std::vector<ContactGroup> all = contact_groups(near, tool);
   std::vector<std::future<std::optional<Corefined>>> others;
   for (std::size_t k = 1; k < all.size(); ++k)
-    others.push_back(beside([&all, k] { return corefined(all[k].near, all[k].tool); }));
+    others.push_back(run_async([&all, k] { return corefined(all[k].near, all[k].tool); }));
   std::optional<Corefined> whole = corefined(all.front().near, all.front().tool);
   for (auto& other : others) {
     const std::optional<Corefined> part = other.get();
@@ -479,7 +479,7 @@ std::vector<std::future<Division>> foreseen_divisions(const TriangleMesh& body,
     }
     if (!is_apart) continue;
     divisions[k] =
-        beside([near = neighbourhood(ordered, touched).near, &tool = tools[k]] { return divided(near, tool); });
+        run_async([near = neighbourhood(ordered, touched).near, &tool = tools[k]] { return divided(near, tool); });
   }
   return divisions;
 }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "fusee/solid/mesh.h"
@@ -274,7 +274,8 @@ std::vector<Check> check_mesh(const TriangleMesh& mesh) {
   // Equal facets would make the search for crossings quadratic in their number.
   const ExaminedSurface others = faulty.none() ? ExaminedSurface() : without_faulty_facets(welded.mesh, faulty);
   const ExaminedSurface& examined = faulty.none() ? welded : others;
-  auto crossings = beside([&examined] { return crossing_check(examined); }, mesh.triangles.size() > k_worth_a_thread);
+  auto crossings =
+      run_async([&examined] { return crossing_check(examined); }, mesh.triangles.size() > k_worth_a_thread);
   add_surface_checks(examined, checks);
   checks.push_back(crossings.get());
   return checks;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/units.h"
 #include "solid/downward_faces.h"
 #include "solid/nearest_segment.h"
@@ -222,7 +222,7 @@ std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, C
     return ledges;
   };
   const std::size_t half = heights.size() / 2;
-  auto upper = beside([&] { return ledges_between(half, heights.size() - 1); });
+  auto upper = run_async([&] { return ledges_between(half, heights.size() - 1); });
   std::vector<Vec3> ledges = ledges_between(0, half);
   for (const Vec3& ledge : upper.get()) ledges.push_back(ledge);
   return ledges;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "solid/body.h"
@@ -131,10 +131,10 @@ class FeatureCutter {
       result.volume = result.volume + added - outcome->common_volume;
     }
     result.mesh = laid_on_bed(std::move(result.mesh), piece_, layout_.scale * layout_.z_mate);
-    auto soundness = beside([&result] { return soundness_of(result.mesh); }, piece_ == Piece::whole);
+    auto soundness = run_async([&result] { return soundness_of(result.mesh); }, piece_ == Piece::whole);
     // For a large part this takes long, and is wasted if its mesh has a fault, so it then runs after the checks.
     const bool is_worth_a_thread = is_printed() && result.mesh.triangles.size() < k_large_body;
-    auto unprintable = beside([&] { return unprintable_places_of(result.mesh); }, is_worth_a_thread);
+    auto unprintable = run_async([&] { return unprintable_places_of(result.mesh); }, is_worth_a_thread);
     result.checks = check_mesh(result.mesh);
     if (!all_ok(result.checks)) return std::nullopt;
     if (piece_ == Piece::whole) result.soundness = soundness.get();
@@ -474,7 +474,7 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
   const PieceMaker maker(mechanism, synthesis, plan, marks, corners);
   // A blank that is no valid solid is a bug, not a rejection.
-  auto gate = beside([&maker] { maker.demand_solids(); });
+  auto gate = run_async([&maker] { maker.demand_solids(); });
   const int variants = std::min(effort.variants, first + maker.ways(effort.variants));
   bool is_marked = true;
   BestCut cut = best_cut(maker, true, anchors, first, variants, enough);

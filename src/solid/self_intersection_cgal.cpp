@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/units.h"
 #include "solid/box_tree.h"
 #include "solid/self_intersection.h"
@@ -279,8 +279,8 @@ CrossingSearch find_crossing(const TriangleMesh& welded) {
     });
     return search;
   };
-  auto in_rest = beside([&] { return search_in([&](const auto& look) { return tree.any_pair_in_the_rest(look); }); },
-                        facets.boxes.size() > k_worth_halving);
+  auto in_rest = run_async([&] { return search_in([&](const auto& look) { return tree.any_pair_in_the_rest(look); }); },
+                           facets.boxes.size() > k_worth_halving);
   const CrossingSearch first = search_in([&](const auto& look) { return tree.any_pair_in_first_half(look); });
   is_over = first.facets || first.gave_up;
   const CrossingSearch rest = in_rest.get();

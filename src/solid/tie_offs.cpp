@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/beside.h"
+#include "base/run_async.h"
 #include "fusee/base/units.h"
 #include "solid/face_holes.h"
 
@@ -172,7 +172,7 @@ std::vector<PlannedAnchor> TieOffPlanner::all(BodyLayout& layout, const WoundTie
   if (!wound.both()) return anchors;
   // Both searches are independent. The nearest are found faster than a thread starts.
   const bool takes_long = mechanism_.body.wrap <= 0 && wishes_.wrap == WrapChoice::furthest;
-  auto pair2 = beside([&] { return wrapped_furthest(layout, ground2_, *wound.p2); }, takes_long);
+  auto pair2 = run_async([&] { return wrapped_furthest(layout, ground2_, *wound.p2); }, takes_long);
   const TieOffPair pair1 = wrapped_furthest(layout, ground1_, *wound.p1);
   const TieOffPair of_p2 = pair2.get();
   add(anchors, layout, ground1_, pair1);

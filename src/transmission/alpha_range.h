@@ -1,5 +1,5 @@
 /// \file
-/// Internal: places along a declared law.
+/// Internal: sampling of a target motion.
 #pragma once
 
 #include <algorithm>
@@ -9,17 +9,17 @@
 
 namespace fusee {
 
-/// steps + 1 pulley angles, evenly over the range, both ends among them.
+/// steps + 1 pulley angles, evenly spaced over the range, both ends included.
 inline std::vector<double> alphas_over_range(const Transmission& law, int steps) {
   std::vector<double> alphas;
   for (int i = 0; i <= steps; ++i) alphas.push_back(law.alpha_min() + (law.alpha_max() - law.alpha_min()) * i / steps);
   return alphas;
 }
 
-/// The law evenly in α over its range, home included.
+/// Points of the law evenly spaced in α, home included.
 inline std::vector<TransmissionPoint> stroke_over_range(const Transmission& transmission, int steps) {
   std::vector<double> alphas = alphas_over_range(transmission, steps);
-  // Home is a row of its own, in place of the nearest one when that is home but for rounding.
+  // Home is a row of its own, unless a row equals it up to rounding.
   const auto after = std::lower_bound(alphas.begin(), alphas.end(), -1e-9);
   if (after != alphas.end() && *after < 1e-9) {
     *after = 0.0;

@@ -18,7 +18,7 @@ bool DeclaredLaw::reaches(double alpha) const {
   return !law_ || (alpha > law_->alpha_min() - 0.1 * alpha_range() && alpha < law_->alpha_max() + 0.1 * alpha_range());
 }
 
-double DeclaredLaw::theta_straight_on(double alpha) const {
+double DeclaredLaw::theta_extrapolated(double alpha) const {
   if (!law_) return slope_ * alpha;
   const double within = std::clamp(alpha, law_->alpha_min(), law_->alpha_max());
   return law_->theta(within) + slope_ * (alpha - within);

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: θ(α) as a file declares it, whether by tendons or by a ratio.
+/// Internal: the θ(α) that a file declares, by tendons or by a ratio.
 #pragma once
 
 #include <optional>
@@ -12,21 +12,21 @@ class DeclaredLaw {
  public:
   explicit DeclaredLaw(const Mechanism& declared);
 
-  /// False where the law of the tendons does not exist over the range: then nothing else may be asked but slope().
+  /// False when the tendons' law does not exist over the range. Then only slope() may be called.
   bool exists() const { return !law_ || !law_->dead_centre(); }
-  /// Of a ratio the zero is free.
+  /// True when the zero of α is defined; a ratio leaves it free.
   bool has_zero() const { return law_.has_value(); }
-  /// dθ/dα from end to end; 0 where the law does not exist.
+  /// Mean dθ/dα over the range; 0 where the law does not exist.
   double slope() const { return slope_; }
-  /// rad; 0 for a ratio, which has no range.
+  /// Range of α, rad; 0 for a ratio, which has no range.
   double alpha_range() const { return law_ ? law_->alpha_max() - law_->alpha_min() : 0; }
-  /// Whether most of a run may lie there.
+  /// True when α lies in the range or within 10 % of its width outside.
   bool reaches(double alpha) const;
 
-  /// Beyond the range the law itself goes on …
+  /// θ(α); the law itself extrapolates beyond the range.
   double theta(double alpha) const { return law_ ? law_->theta(alpha) : alpha / ratio_; }
-  /// … or its mean slope, however far.
-  double theta_straight_on(double alpha) const;
+  /// θ(α), extrapolated with the mean slope, however far.
+  double theta_extrapolated(double alpha) const;
 
  private:
   double ratio_ = 1;

@@ -6,18 +6,17 @@
 namespace fusee {
 namespace {
 
-/// A bearing that takes more of the tension than this holds the idler like a pin: no file that is read comes near.
-constexpr double k_most_loss = 0.999;
+/// Upper bound of the bearing's share of the tension. Above it the idler holds like a fixed pin; valid files stay far
+/// below.
+constexpr double k_max_loss = 0.999;
 
-double loss(double turning, double wrap) {
-  return std::min(k_most_loss, turning * std::sin(0.5 * std::max(0.0, wrap)));
-}
+double loss(double turning, double wrap) { return std::min(k_max_loss, turning * std::sin(0.5 * std::max(0.0, wrap))); }
 
 }  // namespace
 
-// Both tensions press the idler onto its bearing with (T1 + T2) sin(φ/2), to first order in their difference, and the
-// bearing holds against them with the moment μb rb times that: (T2 − T1) ρ = μb rb (T1 + T2) sin(φ/2). With
-// ε = μb (rb/ρ) sin(φ/2), T2/T1 = (1 + ε)/(1 − ε).
+// Both tensions press the idler onto its bearing with (T1 + T2) sin(φ/2), to first order in their difference. The
+// bearing resists with μb rb times that: (T2 − T1) ρ = μb rb (T1 + T2) sin(φ/2). With ε = μb (rb/ρ) sin(φ/2), T2/T1 =
+// (1 + ε)/(1 − ε).
 double GuideFriction::log_ratio(double wrap) const {
   return is_idler ? 2.0 * std::atanh(loss(turning, wrap)) : mu * std::max(0.0, wrap);
 }
@@ -34,8 +33,8 @@ GuideFriction guide_friction(const Mechanism& mechanism) {
   return {0, guides.bearing_friction * guides.bearing_radius / mechanism.guide_pitch_radius(), true};
 }
 
-// A bent sheath pushes its tendon aside as pins do, so that by its bends β alone, wherever they are and however wide,
-// T2/T1 = e^{μβ} [7]. It is pressed from end to end by the tension of what lies in it.
+// A bent sheath deflects its tendon like pins do. By its total bend β alone, independent of bend positions and radii,
+// T2/T1 = e^{μβ} [7]. The tension of the enclosed tendon compresses it from end to end.
 SheathLoad sheath_load(const Mechanism& mechanism) {
   const Sheath& sheath = mechanism.sheath;
   if (!sheath.is_there()) return {};

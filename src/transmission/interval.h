@@ -1,9 +1,9 @@
 /// \file
-/// Internal: intervals that hold the true value whatever the rounding, and first derivatives carried along with them.
+/// Internal: interval arithmetic that encloses the true value under any rounding, with first derivatives.
 ///
-/// Boost.Interval's four operations round outward while a RoundingUp lives; they are wrong without one. Elementary
-/// functions come from the C library, whose errors in any rounding mode are at most 2 units in the last place (glibc
-/// manual, "Errors in Math Functions"): four are taken.
+/// Boost.Interval's four operations round outward while a RoundingUp exists, and are wrong without one. Elementary
+/// functions come from the C library, with errors of at most 2 units in the last place in any rounding mode (glibc
+/// manual, "Errors in Math Functions"). Four are assumed here.
 #pragma once
 
 #include <algorithm>
@@ -20,35 +20,35 @@ using RoundedInterval = boost::numeric::interval<
                 boost::numeric::interval_lib::save_state<boost::numeric::interval_lib::rounded_arith_opp<double>>,
                 boost::numeric::interval_lib::checking_base<double>>>;
 using Interval = boost::numeric::interval_lib::unprotect<RoundedInterval>::type;
-/// Rounds upward while it lives. Keep it and the arithmetic in functions of their own: the compiler may move arithmetic
-/// over its ends.
+/// Sets upward rounding for its lifetime. Keep it in one function and the arithmetic in another: the compiler may move
+/// arithmetic across its ends.
 using RoundingUp = RoundedInterval::traits_type::rounding;
 
-inline double stretch_of(double value) {
+inline double rounding_margin(double value) {
   return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(value) + std::numeric_limits<double>::min();
 }
-inline double below(double value) { return -(stretch_of(value) - value); }
-inline double above(double value) { return value + stretch_of(value); }
+inline double below(double value) { return -(rounding_margin(value) - value); }
+inline double above(double value) { return value + rounding_margin(value); }
 
-/// A function that grows.
+/// Interval image of an increasing function.
 template <typename Function>
-Interval grown(const Interval& x, Function function) {
+Interval increasing_image(const Interval& x, Function function) {
   return {below(function(x.lower())), above(function(x.upper()))};
 }
 
 inline Interval exp(const Interval& x) {
-  return grown(x, [](double v) { return std::exp(v); });
+  return increasing_image(x, [](double v) { return std::exp(v); });
 }
 inline Interval atan(const Interval& x) {
-  return grown(x, [](double v) { return std::atan(v); });
+  return increasing_image(x, [](double v) { return std::atan(v); });
 }
 inline Interval acos(const Interval& x) { return {below(std::acos(x.upper())), above(std::acos(x.lower()))}; }
 inline Interval sqrt(const Interval& x) {
-  return grown(x, [](double v) { return std::sqrt(std::max(v, 0.0)); });
+  return increasing_image(x, [](double v) { return std::sqrt(std::max(v, 0.0)); });
 }
 inline Interval pi_interval() { return {below(k_pi), above(k_pi)}; }
 
-/// Of angles within ±2.5 π: those of the joint lie within ±π, those of lines within 1.5 π, and both are added.
+/// Sine for angles within ±2.5 π. Joint angles lie within ±π, line directions within 1.5 π, and sums of both occur.
 inline Interval sin(const Interval& x) {
   const Interval low = {below(std::sin(x.lower())), above(std::sin(x.lower()))};
   const Interval high = {below(std::sin(x.upper())), above(std::sin(x.upper()))};
@@ -76,7 +76,7 @@ inline Interval positive_part(const Interval& x, Domain& domain) {
   return {least, std::max(x.upper(), least)};
 }
 
-/// What of x lies within ±1.
+/// The part of x within ±1.
 inline Interval unit_part(const Interval& x, Domain& domain) {
   if (!(x.lower() <= 1 && x.upper() >= -1)) domain.possible = false;
   if (x.lower() > -1 && x.upper() < 1) return x;
@@ -98,7 +98,7 @@ struct Jet {
   int count = 0;  ///< slopes in use; 0: a constant
 
   Jet() = default;
-  Jet(double constant) : value(constant) {}           // NOLINT: constants stand in formulas
+  Jet(double constant) : value(constant) {}           // NOLINT: constants occur in formulas
   Jet(const Interval& constant) : value(constant) {}  // NOLINT
   static Jet variable(const Interval& value, int index, int count) {
     Jet jet(value);
@@ -108,14 +108,14 @@ struct Jet {
   }
 };
 
-/// f(a) with df/da.
+/// f(a), given its value and df/da.
 inline Jet chained(const Jet& a, const Interval& value, const Interval& derivative) {
   Jet jet(value);
   jet.count = a.count;
   for (std::size_t i = 0; i < static_cast<std::size_t>(a.count); ++i) jet.slope[i] = derivative * a.slope[i];
   return jet;
 }
-/// f(a, b) with both partial derivatives.
+/// f(a, b), given its value and both partial derivatives.
 inline Jet chained(const Jet& a, const Jet& b, const Interval& value, const Interval& da, const Interval& db) {
   if (b.count == 0) return chained(a, value, da);
   if (a.count == 0) return chained(b, value, db);
@@ -149,7 +149,7 @@ inline Jet acos(const Jet& a) { return chained(a, acos(a.value), -1.0 / sqrt(1.0
 inline Jet larger(const Jet& a, const Jet& b) {
   if (a.value.lower() >= b.value.upper()) return a;
   if (b.value.lower() >= a.value.upper()) return b;
-  // Somewhere in the box one, somewhere the other: the slope lies between both.
+  // Either may be larger within the box, so the slope lies between both.
   return chained(a, b, larger(a.value, b.value), Interval(0.0, 1.0), Interval(0.0, 1.0));
 }
 inline Jet positive_part(const Jet& a, Domain& domain) {
@@ -165,7 +165,7 @@ inline Jet unit_part(const Jet& a, Domain& domain) {
 inline void demand_not_negative(const Jet& a, Domain& domain) { demand_not_negative(a.value, domain); }
 
 inline Jet hypot(const Jet& a, const Jet& b) { return sqrt(squared(a) + squared(b)); }
-/// Squared before they are subtracted: an interval is the sharper the less often a number stands in a formula.
+/// Squares before subtracting: an interval is tighter when each variable occurs less often.
 inline Jet cathetus(const Jet& hypotenuse, const Jet& other, Domain& domain) {
   return sqrt(positive_part(squared(hypotenuse) - squared(other), domain));
 }

@@ -33,14 +33,14 @@ double node_angle(int i, int count) { return k_pi * (i + 0.5) / count; }
 
 }  // namespace
 
-std::vector<double> SmoothSeries::nodes(double low, double high, int count) {
+std::vector<double> ChebyshevSeries::nodes(double low, double high, int count) {
   std::vector<double> places;
   for (int i = 0; i < count; ++i)
     places.push_back(0.5 * (low + high) + 0.5 * (high - low) * std::cos(node_angle(i, count)));
   return places;
 }
 
-SmoothSeries::SmoothSeries(double low, double high, const std::vector<double>& values, double least)
+ChebyshevSeries::ChebyshevSeries(double low, double high, const std::vector<double>& values, double least)
     : low_(low), high_(high) {
   const int count = static_cast<int>(values.size());
   std::vector<double>& c = coefficients_[0];
@@ -54,7 +54,7 @@ SmoothSeries::SmoothSeries(double low, double high, const std::vector<double>& v
     coefficients_[order] = derivative_of(coefficients_[order - 1], 2.0 / (high_ - low_));
 }
 
-SmoothSeries::Value SmoothSeries::at(double x) const {
+ChebyshevSeries::Value ChebyshevSeries::at(double x) const {
   const double t = (2.0 * x - low_ - high_) / (high_ - low_);
   return {chebyshev_sum(coefficients_[0], t), chebyshev_sum(coefficients_[1], t), chebyshev_sum(coefficients_[2], t),
           chebyshev_sum(coefficients_[3], t)};

@@ -11,7 +11,7 @@ namespace {
 
 using LawSpline = Eigen::Spline<double, 1>;
 
-/// Control values so that the spline of `degree` over `knots` takes `values` at `places`: a banded system.
+/// Control values for which the spline of `degree` over `knots` takes `values` at `places`: a banded system.
 Eigen::VectorXd collocate(const LawSpline::KnotVectorType& places, const LawSpline::KnotVectorType& knots,
                           const Eigen::VectorXd& values, Eigen::Index degree) {
   const Eigen::Index count = places.size();
@@ -29,7 +29,7 @@ Eigen::VectorXd collocate(const LawSpline::KnotVectorType& places, const LawSpli
   return solver.solve(values);
 }
 
-/// The spline through all rows, over places from 0 to 1.
+/// The spline through all rows, with places scaled to 0 … 1.
 LawSpline interpolated(const std::vector<LawRow>& rows) {
   const auto count = static_cast<Eigen::Index>(rows.size());
   const double first = rows.front().alpha;
@@ -49,7 +49,7 @@ LawSpline interpolated(const std::vector<LawRow>& rows) {
 
 }  // namespace
 
-// The spline is asked for thousands of values: each knot span is kept as the polynomial that it is.
+// The spline is evaluated thousands of times, so each knot span is stored as its polynomial.
 Transmission::TableLaw::TableLaw(const std::vector<LawRow>& rows) : last_(rows.empty() ? 0.0 : rows.back().alpha) {
   demand(rows.size() >= 2, "a table law needs two rows or more, not " + std::to_string(rows.size()));
   const double first = rows.front().alpha;
@@ -83,7 +83,7 @@ LawValue Transmission::TableLaw::at(double alpha) const {
   const Piece& piece = *(after - 1);
   const double x = inside - piece.begin;
   LawValue law;
-  for (std::size_t k = piece.powers.size(); k-- > 0;) {  // Horner, for the value and its derivatives at once
+  for (std::size_t k = piece.powers.size(); k-- > 0;) {  // Horner's scheme for the value and its derivatives together
     law.d3 = law.d3 * x + 3.0 * law.d2;
     law.d2 = law.d2 * x + 2.0 * law.d1;
     law.d1 = law.d1 * x + law.theta;

@@ -18,20 +18,19 @@ struct LawValue {
   double d3 = 0;
 };
 
-/// An interpolating B-spline of degree five (less for fewer than six rows): its third derivative, which the
-/// curvature of the pulley contains, is still smooth. Beyond its ends it goes on with the end's value and slopes
-/// (Taylor).
+/// An interpolating B-spline of degree five (less for fewer than six rows). The pulley's curvature contains the third
+/// derivative, which is still smooth. Beyond the ends it is extrapolated by the Taylor polynomial there.
 struct Transmission::TableLaw {
  public:
   explicit TableLaw(const std::vector<LawRow>& rows);
   LawValue at(double alpha) const;
   double first_alpha() const { return pieces_.front().begin; }
   double last_alpha() const { return last_; }
-  /// Where one polynomial ends and the next begins.
+  /// Values of α at which one polynomial ends and the next begins.
   std::vector<double> breaks() const;
 
  private:
-  /// The polynomial of one knot span, by powers of α − begin.
+  /// The polynomial of one knot span, in powers of α − begin.
   struct Piece {
     double begin = 0;
     std::array<double, 6> powers{};

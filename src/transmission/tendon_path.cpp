@@ -19,8 +19,8 @@ PinPlace seen_from_C(const Mechanism& mechanism, Side side, double rho) {
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr UpperSpan k_no_span = {k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan};
 
-/// The line that touches drum and pin, both on its inner side: it passes the drum's centre E at ρ0 and the pin's centre
-/// at ρ, so that (P − E)·n = ρ0 − ρ, and going up it meets the pin first.
+/// The line that touches drum and pin, both on its inner side. It passes the drum's centre E at ρ0 and the pin's centre
+/// at ρ: (P − E)·n = ρ0 − ρ.
 struct DrumLine {
   double normal = 0;
   double length = 0;  ///< from tangent point to tangent point
@@ -35,36 +35,37 @@ std::optional<DrumLine> drum_line(const PinPlace& place, const Vec2& centre) {
                   std::sqrt((distance - beyond) * (distance + beyond))};
 }
 
-/// The tendon's end seen from the drum's centre.
-struct FromDrum {
+/// The tendon's end relative to the drum's centre.
+struct DrumOffset {
   double away = 0;
   double twist = 0;  ///< at home, clockwise from OC, rad
 };
 
-FromDrum end_from_drum(const PinPlace& place) {
-  if (place.drum_off == 0) return {place.R, place.twist};
+DrumOffset end_offset_from_drum(const PinPlace& place) {
+  if (place.drum_offset == 0) return {place.R, place.twist};
   const double ahead = place.drum_twist - place.twist;
-  const Vec2 seen(-place.drum_off * std::sin(ahead), place.R - place.drum_off * std::cos(ahead));
+  const Vec2 seen(-place.drum_offset * std::sin(ahead), place.R - place.drum_offset * std::cos(ahead));
   return {std::max(place.drum, seen.norm()), place.twist + std::atan2(seen.x(), seen.y())};
 }
 
-/// How far the tendon's end stands behind the normal of the tangent from it to the drum.
-double opening(const PinPlace& place, const FromDrum& end) { return std::acos(place.drum / end.away); }
+/// Angle between the direction of the tendon's end and the normal of its tangent to the drum.
+double opening(const PinPlace& place, const DrumOffset& end) { return std::acos(place.drum / end.away); }
 
-double wound_on(const PinPlace& place, const FromDrum& end, const DrumLine& line, double theta) {
+double wound_on(const PinPlace& place, const DrumOffset& end, const DrumLine& line, double theta) {
   const double turned = end.twist == 0 ? theta : theta + end.twist;
   return 0.5 * k_pi - turned - opening(place, end) - line.normal;
 }
 
-// The drum's centre E goes round O by e = OE: (P − E)·n = ρ0 − ρ is the free tendon's (C − P)·n = ρ (free_span) with E
-// for C and ρ − ρ0 for ρ, so that normal and line move as there, with k = e sin(θ + ε + ψ) for its arm:
+// Tendon on a drum whose centre E moves round O at the distance e = OE. (P − E)·n = ρ0 − ρ is the free tendon's (C −
+// P)·n = ρ (free_span) with E for C and ρ − ρ0 for ρ. Normal and line therefore move as there, with k = e sin(θ + ε +
+// ψ) for the arm:
 //
 //   m = ρ0 + k      a = e cos(θ + ε + ψ)      ψ' = −a/f      ω = 1 + ψ'      f' = −k − (ρ − ρ0)ψ'
 //   m' = aω         ψ'' = (kω − ψ'f')/f       m'' = −kω² + aψ''
 //
-// and, what lies on the drum being π/2 − θ − opening − ψ, for the length L' = ρ0 (−1 − ψ') + f' + ρψ' = −m. A drum
-// about O has e = 0: the line at the pin stands still, and what the joint turns by, the drum winds.
-UpperSpan span_on_drum(const PinPlace& place, const FromDrum& end, const DrumLine& line, double wound, double theta) {
+// The wrap on the drum is π/2 − θ − opening − ψ, so the length satisfies L' = ρ0 (−1 − ψ') + f' + ρψ' = −m. For a drum
+// about O, e = 0: the line at the pin stays fixed and the drum winds by the joint rotation.
+UpperSpan span_on_drum(const PinPlace& place, const DrumOffset& end, const DrumLine& line, double wound, double theta) {
   UpperSpan span;
   span.m = place.drum;
   span.normal = line.normal;
@@ -73,9 +74,9 @@ UpperSpan span_on_drum(const PinPlace& place, const FromDrum& end, const DrumLin
   span.behind_drum = std::sqrt((end.away - place.drum) * (end.away + place.drum));
   span.free = span.behind_drum + place.drum * wound + line.length;
   span.length = span.free + place.rho * span.normal;
-  if (place.drum_off == 0) return span;
+  if (place.drum_offset == 0) return span;
   const double direction = theta + place.drum_twist + line.normal;
-  const double arm = place.drum_off * std::sin(direction), a = place.drum_off * std::cos(direction);
+  const double arm = place.drum_offset * std::sin(direction), a = place.drum_offset * std::cos(direction);
   const double omega = 1.0 - a / line.length;
   const double dlength = -arm - (place.rho - place.drum) * (omega - 1.0);
   span.dnormal = omega - 1.0;
@@ -88,7 +89,7 @@ UpperSpan span_on_drum(const PinPlace& place, const FromDrum& end, const DrumLin
 
 UpperSpan free_span(const PinPlace& place, double theta);
 
-/// An end that a drum off the axis would swallow comes out on its pitch circle.
+/// Moves an end inside an eccentric drum onto the drum's pitch circle.
 void keep_out_of_drum(PinPlace& place) {
   const Vec2 centre = drum_centre(place, 0.0);
   const Vec2 end = place.R * Vec2(std::sin(place.twist), std::cos(place.twist));
@@ -105,7 +106,7 @@ PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
   const Joint& joint = mechanism.joint;
   PinPlace place = seen_from_C(mechanism, side, rho);
   if (const Sheath& sheath = mechanism.sheath; sheath.is_there()) {
-    place.mouth = LowerGuide{sheath.exit_across, sheath.exit_above, 0};
+    place.sheath_exit = LowerGuide{sheath.exit_across, sheath.exit_above, 0};
     place.in_sheath = sheath.length;
   }
   if (joint.is_plain()) return place;
@@ -114,13 +115,13 @@ PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
     const double x = mirror_sign(side) * own->across;
     place.at_C = false;
     place.R = std::hypot(x, own->along);
-    // Straight below O it is reached over the drum's outer side, from the right.
+    // An end straight below O is reached over the drum's outer side, from the right.
     place.twist = x == 0 && own->along < 0 ? k_pi : std::atan2(x, own->along);
   }
   if (joint.drum_centre == Attachment{}) place.R = std::max(place.R, place.drum);
   if (const Attachment& centre = joint.drum_centre; place.drum > 0 && centre != Attachment{}) {
     const double x = mirror_sign(side) * centre.across;
-    place.drum_off = std::hypot(x, centre.along);
+    place.drum_offset = std::hypot(x, centre.along);
     place.drum_twist = std::atan2(x, centre.along);
     keep_out_of_drum(place);
   }
@@ -128,19 +129,20 @@ PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
 }
 
 Vec2 drum_centre(const PinPlace& place, double theta) {
-  if (place.drum_off == 0) return Vec2(0.0, 0.0);
+  if (place.drum_offset == 0) return Vec2(0.0, 0.0);
   const double turned = theta + place.drum_twist;
-  return place.drum_off * Vec2(std::sin(turned), std::cos(turned));
+  return place.drum_offset * Vec2(std::sin(turned), std::cos(turned));
 }
 
 std::optional<double> lift_off(const PinPlace& place) {
   if (!(place.drum > 0)) return std::nullopt;
-  const FromDrum end = end_from_drum(place);
+  const DrumOffset end = end_offset_from_drum(place);
   const auto home = drum_line(place, drum_centre(place, 0.0));
   if (!home) return std::nullopt;
   double leaves = 0.5 * k_pi - opening(place, end) - home->normal - end.twist;
-  // About a drum off the axis the line turns a little too: what is wound falls with θ by 1 + ψ', which is nearly 1.
-  for (int i = 0; i < 60 && place.drum_off != 0; ++i) {
+  // On an eccentric drum the line turns a little too: the wound angle falls with θ at the rate 1 + ψ' ≈ 1, so the
+  // iteration converges fast.
+  for (int i = 0; i < 60 && place.drum_offset != 0; ++i) {
     const auto line = drum_line(place, drum_centre(place, leaves));
     if (!line) return std::nullopt;
     const double wound = wound_on(place, end, *line, leaves);
@@ -150,39 +152,40 @@ std::optional<double> lift_off(const PinPlace& place) {
   return leaves;
 }
 
-// With a drum, the end's direction from its centre is π/2 − θ − τ, and the tangent from it to the drum has its normal
-// an opening of acos(ρ0/R) before that. Where this is further round than the line from drum to pin, what is between
-// lies on the drum.
+// With a drum, the direction of the end from its centre is π/2 − θ − τ. The normal of the tangent from the end to the
+// drum lies acos(ρ0/R) before it. Where that normal is beyond the line from drum to pin, the tendon lies on the drum in
+// between.
 UpperSpan upper_span(const PinPlace& place, double theta) {
   const double turned = place.twist == 0 ? theta : theta + place.twist;
   if (!(place.drum > 0)) return free_span(place, turned);
   const auto line = drum_line(place, drum_centre(place, theta));
   if (!line) return k_no_span;
-  const FromDrum end = end_from_drum(place);
+  const DrumOffset end = end_offset_from_drum(place);
   const double wound = wound_on(place, end, *line, theta);
   return wound >= 0 ? span_on_drum(place, end, *line, wound, theta) : free_span(place, turned);
 }
 
 namespace {
 
-// Differentiating (C − P)·n = ρ (upper_line) with C = R (sin θ, cos θ), C' = R (cos θ, −sin θ) gives, with ψ the
-// direction of n and f the free length,
+// Differentiating (C − P)·n = ρ (upper_line) with C = R (sin θ, cos θ), C' = R (cos θ, −sin θ), with ψ the direction of
+// n and f the free length:
 //
 //   m   = R sin(θ + ψ)        f = (C − P)·t = sqrt(D² − ρ²)          a = R cos(θ + ψ)
 //   ψ'  = −a/f                f' = −m − ρψ'                          ω = 1 + ψ'
 //   m'  = aω                  a' = −mω                               ψ'' = (mω − ψ'f')/f
 //   m'' = −mω² + aψ''
 //
-// and, for the length f + ρψ above a fixed point of the rim, L' = f' + ρψ' = −m: virtual work.
+// The length f + ρψ above a fixed point of the rim satisfies L' = f' + ρψ' = −m: virtual work.
 UpperSpan free_span(const PinPlace& place, double theta) {
   Domain domain;
-  const UpperLine<double> line = upper_line(from_pin(place.R, place.e, place.oe, turned_by(theta)), place.rho, domain);
+  const UpperLine<double> line =
+      upper_line(offset_from_pin(place.R, place.e, place.oe, rotation_angle(theta)), place.rho, domain);
   if (!domain.possible) return k_no_span;
 
   UpperSpan span;
   span.normal = line.normal;
-  // The normal of a line with an arm is less than a quarter turn from the direction of its end: where ends come round
-  // from the other side, that says which turn is meant.
+  // The normal lies less than a quarter turn from the end's direction when the arm is positive. This selects the turn
+  // for ends that come round from the other side.
   if (place.twist != 0 || place.drum > 0)
     span.normal += k_two_pi * std::round((0.5 * k_pi - theta - span.normal) / k_two_pi);
   span.free = line.free;

@@ -10,19 +10,20 @@
 namespace fusee {
 namespace {
 
-/// Gauss's places and weights on [−1, 1], the positive ones: exact to degree 15.
-constexpr std::array<std::array<double, 2>, 4> k_eight{{{0.1834346424956498, 0.3626837833783620},
-                                                        {0.5255324099163290, 0.3137066458778873},
-                                                        {0.7966664774136267, 0.2223810344533745},
-                                                        {0.9602898564975363, 0.1012285362903763}}};
-/// No stretch is longer: a weight's sine over it is a polynomial of degree 15 to the last digit.
-constexpr int k_stretches = 64;
-/// How far beyond the range, in its own size, the law goes on as declared where it can.
-constexpr double k_beyond = 0.1;
-/// There dα/dθ keeps this share of what it has at the range's end.
+/// Positive nodes and weights of the eight-point Gauss quadrature on [−1, 1], exact to degree 15.
+constexpr std::array<std::array<double, 2>, 4> k_gauss_eight{{{0.1834346424956498, 0.3626837833783620},
+                                                              {0.5255324099163290, 0.3137066458778873},
+                                                              {0.7966664774136267, 0.2223810344533745},
+                                                              {0.9602898564975363, 0.1012285362903763}}};
+/// Number of intervals over the range. Within one, the sine of a weight equals a polynomial of degree 15 to the last
+/// digit.
+constexpr int k_intervals = 64;
+/// Extension beyond the range, as a fraction of it, in which the declared law continues where possible.
+constexpr double k_extension = 0.1;
+/// Minimum dα/dθ in the extension, as a fraction of its value at the end of the range.
 constexpr double k_least_share = 0.3;
 
-/// The table as a spline over θ, or none where one torque is wanted everywhere.
+/// The table as a spline over θ; null when one torque applies everywhere.
 template <typename Spline>
 std::shared_ptr<const Spline> spline_of(const std::vector<TorqueRow>& rows) {
   if (rows.empty()) return nullptr;
@@ -40,9 +41,9 @@ TorqueMatch Transmission::TorqueLaw::match(double theta) const {
 
 double Transmission::TorqueLaw::slope(double theta) const { return match(theta).slope(); }
 
-void Transmission::TorqueLaw::look(double theta) {
+void Transmission::TorqueLaw::examine(double theta) {
   const TorqueMatch here = match(theta);
-  // A place without a value is the tightest of all.
+  // An angle without a value counts as the tightest.
   constexpr double none = -std::numeric_limits<double>::infinity();
   const auto value = [](const TorqueMatch& at) { return std::isfinite(at.slope()) ? at.slope() : none; };
   if (value(here) < value(tightest_)) tightest_ = here;
@@ -54,7 +55,7 @@ Transmission::TorqueLaw::TorqueLaw(const Mechanism& mechanism)
   const double low = mechanism.joint.theta_min, high = mechanism.joint.theta_max;
   tightest_ = match(low);
   std::vector<double> breaks = {0.0};
-  for (int i = 0; i <= k_stretches; ++i) breaks.push_back((low * (k_stretches - i) + high * i) / k_stretches);
+  for (int i = 0; i <= k_intervals; ++i) breaks.push_back((low * (k_intervals - i) + high * i) / k_intervals);
   if (wanted_) {
     for (const double theta : wanted_->breaks()) breaks.push_back(std::clamp(theta, low, high));
   }
@@ -62,19 +63,20 @@ Transmission::TorqueLaw::TorqueLaw(const Mechanism& mechanism)
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
   places_ = breaks;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    look(places_[i]);
+    examine(places_[i]);
     if (i > 0) {
       const double middle = 0.5 * (places_[i - 1] + places_[i]), half = 0.5 * (places_[i] - places_[i - 1]);
-      for (const auto& [at, weight] : k_eight) {
-        look(middle - half * at);
-        look(middle + half * at);
+      for (const auto& [at, weight] : k_gauss_eight) {
+        examine(middle - half * at);
+        examine(middle + half * at);
       }
     }
   }
   if (!fails_at_) set_ends();
 }
 
-/// Beyond the range a load may turn its sign, and a table's last polynomial may go anywhere.
+/// Beyond the range the load may change its sign and the table's last polynomial may diverge, so the extension is
+/// checked.
 void Transmission::TorqueLaw::set_ends() {
   const double low = places_.front(), high = places_.back();
   const auto end = [this](double from, double beyond) {
@@ -89,10 +91,10 @@ void Transmission::TorqueLaw::set_ends() {
     }
     return from;
   };
-  least_ = end(low, -k_beyond * (high - low));
-  most_ = end(high, k_beyond * (high - low));
-  if (least_ < low) places_.insert(places_.begin(), least_);
-  if (most_ > high) places_.push_back(most_);
+  extended_min_ = end(low, -k_extension * (high - low));
+  extended_max_ = end(high, k_extension * (high - low));
+  if (extended_min_ < low) places_.insert(places_.begin(), extended_min_);
+  if (extended_max_ > high) places_.push_back(extended_max_);
 
   const std::size_t home = static_cast<std::size_t>(std::find(places_.begin(), places_.end(), 0.0) - places_.begin());
   alphas_.assign(places_.size(), 0.0);
@@ -104,12 +106,13 @@ void Transmission::TorqueLaw::set_ends() {
 double Transmission::TorqueLaw::integral(double from, double to) const {
   const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
   double sum = 0;
-  for (const auto& [at, weight] : k_eight) sum += weight * (slope(middle - half * at) + slope(middle + half * at));
+  for (const auto& [at, weight] : k_gauss_eight)
+    sum += weight * (slope(middle - half * at) + slope(middle + half * at));
   return half * sum;
 }
 
 double Transmission::TorqueLaw::alpha(double theta) const {
-  const double inside = std::clamp(theta, least_, most_);
+  const double inside = std::clamp(theta, extended_min_, extended_max_);
   const auto after = std::upper_bound(places_.begin() + 1, places_.end() - 1, inside);
   const std::size_t i = static_cast<std::size_t>(after - places_.begin()) - 1;
   const double alpha = alphas_[i] + integral(places_[i], inside);
@@ -117,7 +120,7 @@ double Transmission::TorqueLaw::alpha(double theta) const {
 }
 
 LawValue Transmission::TorqueLaw::at(double theta) const {
-  const double inside = std::clamp(theta, least_, most_);
+  const double inside = std::clamp(theta, extended_min_, extended_max_);
   const LawValue motor = wanted_ ? wanted_->at(inside) : LawValue{mechanism_.pulley.motor_torque};
   const TorqueOverTheta load = law_load_torque(mechanism_, inside);
   const double u = motor.theta / load.value;

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: α(θ) that lets a motor hold the declared load with the torque that is wanted of it.
+/// Internal: α(θ) at which a motor holds the declared load with the wanted torque.
 #pragma once
 
 #include <memory>
@@ -12,20 +12,20 @@
 
 namespace fusee {
 
-/// Virtual work, without friction: M dα = τ dθ, with τ what [load] and [spring] turn the joint with against +θ and M
-/// the motor's torque towards +α. So dα/dθ = τ/M, and α is its integral from home:
+/// Virtual work without friction: M dα = τ dθ, where τ is the torque of [load] and [spring] against +θ and M the motor
+/// torque towards +α. Therefore dα/dθ = τ/M, and α is its integral from home:
 ///
 ///   dθ/dα = u = M/τ     d²θ/dα² = u u'     d³θ/dα³ = u (u'² + u u'')      (' by θ)
 ///
-/// Integrated by Gauss between the places where M's polynomials meet. A little beyond the range it goes on as declared,
-/// further out with the slope that it has there.
+/// Gauss quadrature integrates between the breaks of M's polynomials. Slightly beyond the range the declared law
+/// continues, further out with constant slope.
 struct Transmission::TorqueLaw {
  public:
   explicit TorqueLaw(const Mechanism& mechanism);
 
-  /// Where τ/M is smallest; the law exists where that is positive.
+  /// The angle where τ/M is smallest. The law exists if τ/M is positive there.
   const TorqueMatch& tightest() const { return tightest_; }
-  /// The place next to home where it is not positive.
+  /// The angle nearest to home where τ/M is not positive.
   std::optional<double> fails_at() const { return fails_at_; }
 
   double alpha(double theta) const;
@@ -36,14 +36,14 @@ struct Transmission::TorqueLaw {
   TorqueMatch match(double theta) const;
   double slope(double theta) const;
   double integral(double from, double to) const;
-  void look(double theta);
+  void examine(double theta);
   void set_ends();
 
-  Mechanism mechanism_;  ///< what the law is of: joint, pulley, load, spring
+  Mechanism mechanism_;  ///< defines the law: joint, pulley, load, spring
   std::shared_ptr<const TableLaw> wanted_;
-  std::vector<double> places_;   ///< θ between which is integrated, home among them
-  std::vector<double> alphas_;   ///< there
-  double least_ = 0, most_ = 0;  ///< θ between which the law goes on as declared
+  std::vector<double> places_;                  ///< breaks of the quadrature in θ, home included
+  std::vector<double> alphas_;                  ///< α at these places
+  double extended_min_ = 0, extended_max_ = 0;  ///< θ range within which the declared law continues
   TorqueMatch tightest_;
   std::optional<double> fails_at_;
 };

@@ -11,7 +11,7 @@
 namespace fusee {
 namespace {
 
-/// Moment arm of one tendon and its derivatives with respect to the mechanism's θ.
+/// Moment arm of one tendon and its derivatives by the mechanism's θ.
 struct Arm {
   UpperSpan span;
   double m = 0;
@@ -27,7 +27,7 @@ Arm arm(const PinPlace& place, Side side, double theta) {
 
 double to_world(Side side, double image_angle) { return side == Side::right ? image_angle : k_pi - image_angle; }
 
-/// By how much a pulley's radius differs from that of a planar tendon, and its derivatives.
+/// Difference of a pulley's radius from that of a planar tendon, with derivatives.
 struct Excess {
   double p = 0, dp = 0, d2p = 0;
 };
@@ -39,7 +39,7 @@ TendonPoint tendon_point(const PinPlace& place, Side side, const Arm& arm, doubl
   point.p = pulley_radius(arm.m, g) + excess.p;
   point.dp = arm.dm * g * g + arm.m * dg + excess.dp;
   point.d2p = arm.d2m * g * g * g + 3.0 * arm.dm * g * dg + arm.m * d2g + excess.d2p;
-  Domain unasked;  // where a pin stands in a pulley the numbers are NaN
+  Domain unasked;  // NaN where the pin lies inside the pulley
   const LowerGuide guide = place.lower();
   const LowerLine<double> lower = lower_line(point.p, guide.rho, guide.c(), guide.phi(), unasked);
   point.upper_normal = to_world(side, arm.span.normal);
@@ -52,8 +52,8 @@ TendonPoint tendon_point(const PinPlace& place, Side side, const Arm& arm, doubl
   return point;
 }
 
-/// θ(a(α)) with a = α + q/r1: the chain rule, three times.
-void lengthen(TransmissionPoint& point, const SmoothSeries::Value& q, double r1) {
+/// θ(a(α)) with a = α + q/r1: chain rule up to the third derivative.
+void lengthen(TransmissionPoint& point, const ChebyshevSeries::Value& q, double r1) {
   const double d1 = 1.0 + q.d1 / r1, d2 = q.d2 / r1, d3 = q.d3 / r1;
   const double g = point.g, dg = point.dg, d2g = point.d2g;
   point.g = g * d1;
@@ -61,15 +61,15 @@ void lengthen(TransmissionPoint& point, const SmoothSeries::Value& q, double r1)
   point.d2g = d2g * d1 * d1 * d1 + 3.0 * dg * d1 * d2 + g * d3;
 }
 
-/// dq/dα of the tendon's image: L + σ = q + const, and d(L + σ) = −m dθ + p dα there.
-Excess excess_of(const SmoothSeries::Value& q, Side side) {
+/// dq/dα in the tendon's image: L + σ = q + const and d(L + σ) = −m dθ + p dα.
+Excess excess_of(const ChebyshevSeries::Value& q, Side side) {
   const double sign = mirror_sign(side);
   return {sign * q.d1, sign * q.d2, sign * q.d3};
 }
 
-/// A place where `holds` turns false between `good` and `bad`, to the last digits.
+/// Bisects to the place between `good` and `bad` where `holds` turns false, to machine precision.
 template <typename Predicate>
-double border(double good, double bad, Predicate holds) {
+double bisect_border(double good, double bad, Predicate holds) {
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (good + bad);
     (holds(middle) ? good : bad) = middle;
@@ -77,10 +77,9 @@ double border(double good, double bad, Predicate holds) {
   return bad;
 }
 
-/// The root of a function that grows from `low` to `high`: Newton's steps, halved back into the bracket where they
-/// leave it.
+/// The root of an increasing function in [low, high]: Newton steps, replaced by bisection when they leave the bracket.
 template <typename ValueAndSlope>
-double grown_to(double target, double low, double high, double start, ValueAndSlope evaluate) {
+double solve_increasing(double target, double low, double high, double start, ValueAndSlope evaluate) {
   double x = std::clamp(start, low, high);
   for (int i = 0; i < 80; ++i) {
     const auto [value, slope] = evaluate(x);
@@ -95,7 +94,7 @@ double grown_to(double target, double low, double high, double start, ValueAndSl
   return x;
 }
 
-/// Joint angles a little beyond the range are still answered: integrators and root finders step over its ends.
+/// Joint angles slightly beyond the range are evaluated, because integrators and root finders step over its ends.
 constexpr double k_margin = 0.02;
 
 }  // namespace
@@ -132,12 +131,12 @@ Transmission::Transmission(const Mechanism& mechanism, double rho)
   const auto has_arms = [this](double theta) {
     return upper_span(left_, -theta).m > 0 && upper_span(right_, theta).m > 0;
   };
-  // From home outwards, so that what is named is the first place where it fails.
+  // From home outwards, so that the first failing angle is reported.
   constexpr int steps = 64;
   for (int i = 0; i <= steps && !dead_centre_; ++i) {
     for (const double end : {theta_min_, theta_max_}) {
       const double theta = end * i / steps;
-      if (!has_arms(theta)) dead_centre_ = i == 0 ? 0.0 : border(end * (i - 1) / steps, theta, has_arms);
+      if (!has_arms(theta)) dead_centre_ = i == 0 ? 0.0 : bisect_border(end * (i - 1) / steps, theta, has_arms);
     }
   }
   if (!dead_centre_) find_range();
@@ -149,8 +148,8 @@ void Transmission::find_range() {
   alpha_max_ = last;
 }
 
-// A round P1 pays out r1 α, of which q1 does not reach the joint: what is left turns it as a planar tendon does at
-//   α + q1(α)/r1
+// A round P1 pays out r1 α, of which q1 does not reach the joint. The remainder turns the joint like a planar tendon at
+// α + q1(α)/r1.
 double Transmission::alpha(double theta) const {
   const double planar = planar_alpha(theta);
   if (law_ != Law::compensate || paths_ == nullptr) return planar;
@@ -171,7 +170,7 @@ double Transmission::theta(double alpha) const {
 double Transmission::planar_alpha(double theta) const {
   switch (law_) {
     case Law::compensate:
-      // Tendon 1 is wound on a round pulley: what its upper span takes, P1 pays out.
+      // Tendon 1 is wound on a round pulley: P1 pays out what the upper span takes.
       return (upper_span(left_, -theta).length - home_length_) / r1_;
     case Law::linear:
       return theta * ratio_;
@@ -183,7 +182,7 @@ double Transmission::planar_alpha(double theta) const {
   const double reach = table_->last_alpha() - table_->first_alpha();
   const double low = table_->first_alpha() - k_margin * reach;
   const double high = table_->last_alpha() + k_margin * reach;
-  return grown_to(theta, low, high, 0.5 * (low + high), [this](double a) {
+  return solve_increasing(theta, low, high, 0.5 * (low + high), [this](double a) {
     const LawValue value = table_->at(a);
     return std::array{value.theta, value.d1};
   });
@@ -202,7 +201,7 @@ double Transmission::planar_theta(double alpha) const {
   const double span = theta_max_ - theta_min_;
   const double stroke = alpha_max_ - alpha_min_;
   const double start = theta_min_ + span * (alpha - alpha_min_) / stroke;
-  return grown_to(alpha, theta_min_ - k_margin * span, theta_max_ + k_margin * span, start, [this](double t) {
+  return solve_increasing(alpha, theta_min_ - k_margin * span, theta_max_ + k_margin * span, start, [this](double t) {
     if (torque_) return std::array{torque_->alpha(t), 1.0 / torque_->at(t).d1};
     const UpperSpan upper = upper_span(left_, -t);
     return std::array{(upper.length - home_length_) / r1_, upper.m / r1_};
@@ -247,7 +246,7 @@ TransmissionPoint Transmission::at(double alpha, double theta) const {
   point.t1 = tendon_point(left_, Side::left, arm1, point.g, point.dg, point.d2g, excess1);
   point.t2 = tendon_point(right_, Side::right, arm2, point.g, point.dg, point.d2g, excess2);
   if (law_ == Law::compensate) {
-    // Exactly round, not round to the last digit: a circle in gives a circle out.
+    // Exactly round, without rounding error: a round P1 must give a circular outline.
     point.t1.p = r1_;
     point.t1.dp = 0;
     point.t1.d2p = 0;

@@ -17,7 +17,7 @@ AnalysisOptions quick() {
   return options;
 }
 
-TEST(Analysis, RowsCoverTheRangeAndHoldHome) {
+TEST(Analysis, RowsCoverRangeAndHome) {
   const AnalysisResult result = analyse(forearm(), quick());
   ASSERT_TRUE(result.exists);
   ASSERT_GE(result.rows.size(), 61u);
@@ -32,14 +32,14 @@ TEST(Analysis, RowsCoverTheRangeAndHoldHome) {
   }
 }
 
-TEST(Analysis, BothModelsAgreeWhereThePapersAssumptionsHold) {
-  // One slack tendon, stiff, moving one way: T_b, torque and stiffness are the paper's, but that its tendon ends at the
-  // foot of the axis' perpendicular, and not where it touches the pulley.
+TEST(Analysis, ModelsAgreeUnderPaperAssumptions) {
+  // One slack tendon, stiff, moving one way: T_b, torque and stiffness agree with the paper, except that its tendon
+  // ends at the foot of the axis' perpendicular and not at the contact on the pulley.
   Mechanism mechanism = forearm();
   mechanism.tendon.pretension = 0;
   mechanism.tendon.modulus = 1e6;
   mechanism.guides.mu = 0;
-  mechanism.pulley.mu = 1e12;  // what is wound is no part of the spring
+  mechanism.pulley.mu = 1e12;  // the wound tendon does not act as a spring
   mechanism.load.tip_force = 10.0;
   const JointModel model = joint_model(mechanism);
   for (const AnalysisRow& row : analyse(mechanism, quick()).rows) {
@@ -48,13 +48,13 @@ TEST(Analysis, BothModelsAgreeWhereThePapersAssumptionsHold) {
     EXPECT_NEAR(row.rising.t2.lower / row.paper.Tb, 1.0, 2e-4);
     EXPECT_NEAR(row.rising.motor_torque / row.paper.motor_torque, 1.0, 2e-4);
     EXPECT_NEAR(free * row.rising.stiffness / row.paper.stiffness, 1.0, 2e-3);
-    // [9] leaves out what is wound: after a cycle that lies stretched too, up to two fifths more tendon here.
+    // [9] omits the wound tendon, which is stretched after a cycle: up to two fifths more tendon here.
     EXPECT_GT((row.declared.theta - row.rising.theta) / row.paper.theta_error, 0.99);
     EXPECT_LT((row.declared.theta - row.rising.theta) / row.paper.theta_error, 1.45);
   }
 }
 
-TEST(Analysis, FindsTheLargestTension) {
+TEST(Analysis, FindsLargestTension) {
   Mechanism mechanism = forearm();
   mechanism.load.tip_force = 10.0;
   const AnalysisResult result = analyse(mechanism, quick());
@@ -70,7 +70,7 @@ TEST(Analysis, FindsTheLargestTension) {
   EXPECT_NEAR(result.largest_paper_tension.value, most, 0.02 * most);
 }
 
-TEST(Analysis, NamesWhereATendonIsSlack) {
+TEST(Analysis, ReportsSlackRanges) {
   Mechanism mechanism = forearm();
   mechanism.load.tip_force = 10.0;
   const AnalysisResult loaded = analyse(mechanism, quick());
@@ -78,7 +78,7 @@ TEST(Analysis, NamesWhereATendonIsSlack) {
   EXPECT_EQ(loaded.slack1[0].from, loaded.rows.front().declared.alpha);
   EXPECT_TRUE(loaded.slack2.empty());
   EXPECT_TRUE(loaded.untensioned.empty());
-  // The least pretension that keeps it taut, to 1 %.
+  // The minimum pretension that keeps it taut, within 1 %.
   ASSERT_TRUE(loaded.taut_pretension.has_value());
   mechanism.tendon.pretension = *loaded.taut_pretension;
   EXPECT_TRUE(analyse(mechanism, quick()).slack1.empty());
@@ -86,7 +86,7 @@ TEST(Analysis, NamesWhereATendonIsSlack) {
   EXPECT_FALSE(analyse(mechanism, quick()).slack1.empty());
 }
 
-TEST(Analysis, SaysWhereNothingHoldsTheJoint) {
+TEST(Analysis, ReportsLooseRanges) {
   Mechanism mechanism = forearm();
   mechanism.tendon.pretension = 0;
   const AnalysisResult result = analyse(mechanism, quick());
@@ -94,7 +94,7 @@ TEST(Analysis, SaysWhereNothingHoldsTheJoint) {
   EXPECT_FALSE(result.lost_at.has_value());
 }
 
-TEST(Analysis, SaysWhatADrumHolds) {
+TEST(Analysis, ReportsDrumFriction) {
   Mechanism mechanism = testing::finger();
   mechanism.load.tip_force = 20.0;
   const AnalysisResult smooth = analyse(mechanism, quick());
@@ -111,27 +111,27 @@ TEST(Analysis, SaysWhatADrumHolds) {
   EXPECT_GT(hold.at_end.value, smooth.largest_at_joint.value / hold.ratio);
 }
 
-TEST(Analysis, SaysWhereTheTendonBreaks) {
+TEST(Analysis, ReportsBreakingPoint) {
   Mechanism mechanism = forearm();
   mechanism.load.tip_force = 100.0;
   const AnalysisResult result = analyse(mechanism, quick());
   const double at_joint = result.largest_at_joint.value, most = result.largest_tension.tension;
   ASSERT_LT(at_joint, most);
-  // At its knot at C, where the tendon would bear it …
+  // At its knot at C, where the tendon itself would hold.
   mechanism.tendon.knot_efficiency = 0.5;
   mechanism.tendon.strength = 1.9 * at_joint;
   EXPECT_EQ(analyse(mechanism, quick()).breaks_at, result.largest_at_joint.alpha);
-  // … below its pin, where the knot would …
+  // Below its pin, where the knot would hold.
   mechanism.tendon.knot_efficiency = 1.0;
   mechanism.tendon.strength = 0.5 * (at_joint + most);
   EXPECT_EQ(analyse(mechanism, quick()).breaks_at, result.largest_tension.alpha);
-  // … and nowhere.
+  // Nowhere.
   mechanism.tendon.knot_efficiency = 0.5;
   mechanism.tendon.strength = 2.1 * most;
   EXPECT_FALSE(analyse(mechanism, quick()).breaks_at.has_value());
 }
 
-TEST(Analysis, KnowsTendonsOfTheCatalogue) {
+TEST(Analysis, FindsCatalogueStrength) {
   EXPECT_EQ(tendon_strength(forearm().tendon)->source, "hmpe-1.0");
   Tendon other = forearm().tendon;
   other.modulus *= 1.5;
@@ -140,7 +140,7 @@ TEST(Analysis, KnowsTendonsOfTheCatalogue) {
   EXPECT_EQ(tendon_strength(other)->tension, 77.0);
 }
 
-TEST(Analysis, SaysWhyThereIsNone) {
+TEST(Analysis, ReportsObstacles) {
   Mechanism mechanism = forearm();
   mechanism.joint.theta_max = radians(80);
   const AnalysisResult result = analyse(mechanism, quick());
@@ -151,7 +151,7 @@ TEST(Analysis, SaysWhyThereIsNone) {
   EXPECT_FALSE(result.advice.empty());
 }
 
-TEST(Analysis, SaysWhereALoadPullsTheJointAway) {
+TEST(Analysis, ReportsLostEquilibrium) {
   Mechanism mechanism = forearm();
   mechanism.tendon.modulus = 30.0;
   mechanism.load.tip_force = 200.0;
@@ -159,7 +159,7 @@ TEST(Analysis, SaysWhereALoadPullsTheJointAway) {
   ASSERT_TRUE(result.lost_at.has_value());
 }
 
-TEST(Analysis, IsTheSameEachTime) {
+TEST(Analysis, IsReproducible) {
   const AnalysisResult one = analyse(linear_wrist(), quick());
   const AnalysisResult two = analyse(linear_wrist(), quick());
   for (std::size_t i = 0; i < one.tolerances.size(); ++i)

@@ -21,7 +21,7 @@ const ErrorSource& named(const std::vector<ErrorSource>& sources, const std::str
   throw std::out_of_range(name);
 }
 
-TEST(RigidJoint, AsDeclaredIsTheDeclaredLaw) {
+TEST(RigidJoint, ReproducesDeclaredLaw) {
   for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
     const Transmission transmission(mechanism);
     for (const double theta : {-0.3, 0.0, 0.4}) {
@@ -32,7 +32,7 @@ TEST(RigidJoint, AsDeclaredIsTheDeclaredLaw) {
   }
 }
 
-TEST(RigidJoint, DerivativesAreThoseOfDifferences) {
+TEST(RigidJoint, DerivativesAgreeWithDifferences) {
   constexpr double step = 1e-4;
   for (const Mechanism& mechanism :
        {forearm(), linear_wrist(), unsymmetric(), testing::finger(), testing::ankle(), testing::sheathed_wrist()}) {
@@ -51,8 +51,8 @@ TEST(RigidJoint, DerivativesAreThoseOfDifferences) {
   }
 }
 
-// The drum's centre is no dimension of a file, but calibrate finds it off the axis. Moving the drum changes the path by
-// what the straight pieces on either side pull on it.
+// The drum's centre is not a dimension of a file, but calibration may find it off the axis. Moving the drum changes the
+// path by the components along the straight parts on either side.
 template <bool is_across>
 void move_drum(Alteration& joint, double by) {
   (is_across ? joint.mounted.joint.drum_centre.across : joint.mounted.joint.drum_centre.along) += by;
@@ -65,7 +65,7 @@ double by_drum_centre(const PinPlace& pin, const LowerPath&, Side side, double t
   return pulled.dot(is_across ? Vec2(mirror_sign(side) * across) : along);
 }
 
-TEST(RigidJoint, ADrumOffTheAxisIsThePullOnItByDifferences) {
+TEST(RigidJoint, DrumCentreAgreesWithDifferences) {
   constexpr double step = 1e-4;
   const std::vector<Dimension> centre = {{"across", move_drum<true>, by_drum_centre<true>},
                                          {"along", move_drum<false>, by_drum_centre<false>}};
@@ -85,14 +85,15 @@ TEST(RigidJoint, ADrumOffTheAxisIsThePullOnItByDifferences) {
   }
 }
 
-TEST(RigidJoint, ScalingAllLengthsChangesNothing) {
-  // An exact null direction of the mechanism: by Euler, length times derivative over all lengths adds up to zero.
+TEST(RigidJoint, IsInvariantToScaling) {
+  // An exact null direction of the mechanism: by Euler's theorem, the sum of length times derivative over all lengths
+  // is zero.
   const Mechanism m = unsymmetric();
   const Transmission transmission(m);
   const double lengths[] = {m.joint.R,       m.guides.EB, m.guides.ED,      m.guides.OE,
                             m.guides.radius, m.pulley.EF, m.tendon.diameter};
   const double alpha = transmission.alpha(0.4);
-  // Its pulleys scale too, which no offset does: their part is what P1, round, gives for r1.
+  // The pulleys scale too, which an offset does not describe: their contribution equals that of r1 for the round P1.
   double sum = 0;
   for (std::size_t i = 0; i < std::size(lengths); ++i)
     sum += lengths[i] * derivative(as_declared(m), dimensions(m)[i], alpha).theta;
@@ -101,7 +102,7 @@ TEST(RigidJoint, ScalingAllLengthsChangesNothing) {
   EXPECT_NEAR(sum, 0.0, 1e-10);
 }
 
-TEST(RigidJoint, AllChangesAtOnceAreEachOnItsOwn) {
+TEST(RigidJoint, CombinedChangesEqualSingleChanges) {
   const Mechanism mechanism = unsymmetric();
   const MadePulleys made(mechanism);
   const double alpha = made.declared().alpha(0.3);
@@ -114,28 +115,28 @@ TEST(RigidJoint, AllChangesAtOnceAreEachOnItsOwn) {
   }
 }
 
-TEST(ErrorSources, OfTheReferenceAreTheKnownOnes) {
-  // A pin radius of 2 mm ignored: +1.4/−0.85° at the ends of the stroke.
+TEST(ErrorSources, AgreeWithReference) {
+  // Ignoring a pin radius of 2 mm: +1.4/−0.85° at the ends of the stroke.
   Mechanism pins = reference();
   pins.guides.radius = 2.0;
   pins.tendon.diameter = 1e-6;
   const ErrorSource pin = named(error_sources(pins), "pin_radius_ignored");
   EXPECT_NEAR(degrees(pin.most), 1.4, 0.05);
   EXPECT_NEAR(degrees(pin.least), -0.85, 0.05);
-  // A tendon 1 mm thick: −0.9/+0.8° by the pulley that is thicker by half of it …
+  // A tendon 1 mm thick: −0.9/+0.8° due to the pulley, which is thicker by half of it.
   Mechanism point_pins = reference();
   point_pins.tendon.diameter = 1e-6;
   const MadePulleys drawn(point_pins);
   const RigidJoint thicker(drawn.offset_by(0.5), point_pins);
   EXPECT_NEAR(degrees(thicker.at(drawn.declared().alpha_min()).theta) + 30.0, -0.9, 0.05);
   EXPECT_NEAR(degrees(thicker.at(drawn.declared().alpha_max()).theta) - 30.0, 0.8, 0.05);
-  // … of which the pins, thicker too, take back a part: a quarter of the 2 mm above.
+  // The thicker pins compensate part of it: a quarter of the 2 mm above.
   const ErrorSource thick = named(error_sources(reference()), "tendon_thickness_ignored");
   EXPECT_NEAR(degrees(thick.least), -0.9 + 1.4 / 4, 0.06);
   EXPECT_NEAR(degrees(thick.most), 0.8 - 0.85 / 4, 0.05);
 }
 
-TEST(ErrorSources, StretchAndFrictionVanishWithTheirCause) {
+TEST(ErrorSources, VanishWithTheirCause) {
   Mechanism mechanism = forearm();
   mechanism.load.tip_force = 10.0;
   mechanism.guides.mu = mechanism.pulley.mu = 0;
@@ -148,7 +149,7 @@ TEST(ErrorSources, StretchAndFrictionVanishWithTheirCause) {
   EXPECT_NEAR(named(error_sources(mechanism), "friction").most, 0.0, 1e-9);
 }
 
-TEST(Tolerances, BothRoadsAgree) {
+TEST(Tolerances, MethodsAgree) {
   AnalysisOptions options;
   options.samples = 2000;
   for (const Mechanism& mechanism : {forearm(), linear_wrist()}) {
@@ -156,7 +157,7 @@ TEST(Tolerances, BothRoadsAgree) {
     ASSERT_EQ(effects.size(), dimensions(mechanism).size() + 1);
     EXPECT_EQ(effects.back().key, "all");
     for (const ToleranceEffect& effect : effects) {
-      // Twice a standard deviation of 2000 samples: ± 5 %.
+      // Twice the standard deviation of 2000 samples: ± 5 %.
       EXPECT_NEAR(effect.theta_by_monte_carlo, effect.theta_by_derivative, 0.06 * effect.theta_by_derivative + 1e-12)
           << effect.key;
       EXPECT_NEAR(effect.slack_by_monte_carlo, effect.slack_by_derivative, 0.06 * effect.slack_by_derivative + 1e-9)
@@ -166,7 +167,7 @@ TEST(Tolerances, BothRoadsAgree) {
   }
 }
 
-TEST(Tolerances, GrowWithTheTolerance) {
+TEST(Tolerances, ScaleWithTolerance) {
   AnalysisOptions fine;
   fine.samples = 50;
   fine.tolerance = 0.01;
@@ -176,7 +177,7 @@ TEST(Tolerances, GrowWithTheTolerance) {
   const auto b = tolerance_effects(forearm(), coarse);
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_NEAR(10 * a[i].theta_by_derivative, b[i].theta_by_derivative, 1e-14);
-    // The same samples, ten times as large.
+    // Both draw equal samples; the second scales them by ten.
     EXPECT_NEAR(10 * a[i].theta_by_monte_carlo, b[i].theta_by_monte_carlo, 0.01 * b[i].theta_by_monte_carlo + 1e-14);
   }
 }

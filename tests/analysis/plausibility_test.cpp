@@ -1,4 +1,4 @@
-// A word in time: every doubt has a file on which it speaks and one beside it on which it must not.
+// Plausibility warnings: each has a file that triggers it and a similar one that must not.
 #include "fusee/analysis/plausibility.h"
 
 #include <gmock/gmock.h>
@@ -54,10 +54,10 @@ MechanismFile file_of(const Mechanism& mechanism) {
   return file;
 }
 
-/// All that is doubted, as a person reads it.
+/// All warnings as printed text.
 std::vector<std::string> said(const MechanismFile& file) {
   std::vector<std::string> texts;
-  for (const Diagnostic& doubt : doubts(file)) {
+  for (const Diagnostic& doubt : plausibility_warnings(file)) {
     EXPECT_EQ(doubt.severity, Severity::warning);
     texts.push_back(doubt.message + " | " + doubt.hint);
   }
@@ -67,7 +67,7 @@ std::vector<std::string> said(const std::vector<Setting>& settings) { return sai
 
 // ---- where nothing is odd -------------------------------------------------------------------------------------------
 
-TEST(Plausibility, no_profile_is_doubted) {
+TEST(Plausibility, AcceptsProfiles) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles")) {
     if (entry.path().extension() != ".toml") continue;
@@ -79,7 +79,7 @@ TEST(Plausibility, no_profile_is_doubted) {
   EXPECT_GE(files, 7);
 }
 
-TEST(Plausibility, a_joint_declared_by_its_ratio_has_nothing_to_doubt) {
+TEST(Plausibility, AcceptsRatioJoints) {
   const DeclaredMechanism jaw =
       parse_mechanism("schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.09\n", "jaw.toml");
   MechanismFile file;
@@ -88,13 +88,13 @@ TEST(Plausibility, a_joint_declared_by_its_ratio_has_nothing_to_doubt) {
   EXPECT_THAT(tight_bends(file), IsEmpty());
 }
 
-// OE lies between −0.5 R and 0.2 R. The only ones that are doubted have their pins below the joint and a radius that
-// varies fourfold and more, at most 1.6-fold with them above: 3 of 300, 13 of 2000.
-TEST(Plausibility, random_joints_are_doubted_for_good_reasons_only) {
+// OE lies between −0.5 R and 0.2 R. Warnings occur only for pins below the joint and a radius that varies fourfold and
+// more, at most 1.6-fold with pins above: 3 of 300, 13 of 2000.
+TEST(Plausibility, RarelyWarnsOfRandomJoints) {
   int doubted = 0, cases = 0;
   testing::expect_law(300, [&](const Mechanism& mechanism) {
     ++cases;
-    for (const Diagnostic& doubt : doubts(file_of(mechanism))) {
+    for (const Diagnostic& doubt : plausibility_warnings(file_of(mechanism))) {
       ++doubted;
       RC_ASSERT(doubt.message.find("guides.OE_mm") == 0);
       RC_ASSERT(mechanism.guides.OE > 0);
@@ -104,12 +104,12 @@ TEST(Plausibility, random_joints_are_doubted_for_good_reasons_only) {
   EXPECT_LE(doubted, cases / 50);
 }
 
-// What a slip does to them: most are seen.
-TEST(Plausibility, slips_of_random_joints_are_seen) {
+// Most input errors in random joints are detected.
+TEST(Plausibility, DetectsErrorsInRandomJoints) {
   struct Kind {
     const char* name;
     void (*slip)(Mechanism&);
-    double least;  ///< share that is seen
+    double least;  ///< fraction that is detected
     int seen = 0;
   };
   std::vector<Kind> kinds = {
@@ -134,7 +134,7 @@ TEST(Plausibility, slips_of_random_joints_are_seen) {
     for (Kind& kind : kinds) {
       Mechanism slipped = mechanism;
       kind.slip(slipped);
-      kind.seen += likely_slips(file_of(slipped)).empty() ? 0 : 1;
+      kind.seen += likely_input_errors(file_of(slipped)).empty() ? 0 : 1;
     }
     return synthesise(mechanism, {.advice = false}).made();
   });
@@ -146,13 +146,13 @@ TEST(Plausibility, slips_of_random_joints_are_seen) {
 
 // ---- the sign of OE -------------------------------------------------------------------------------------------------
 
-TEST(SignOfOE, is_doubted_where_the_pulley_grows_tenfold) {
+TEST(SignOfOE, WarnsOfUnevenPulley) {
   EXPECT_THAT(said({{"guides.OE_mm", "40"}}),
               ElementsAre(AllOf(HasSubstr("guides.OE_mm = 40 mm: positive is below the joint"),
                                 HasSubstr("the radius of P2 varies 10-fold"), HasSubstr("did you mean -40?"))));
 }
 
-TEST(SignOfOE, is_doubted_where_only_the_other_makes_a_pulley) {
+TEST(SignOfOE, WarnsIfOnlyOppositeIsFeasible) {
   MechanismFile file = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/linear_wrist.toml");
   file.mechanism.guides.OE *= -1;
   ASSERT_FALSE(synthesise(file.mechanism, {.advice = false}).made());
@@ -160,33 +160,33 @@ TEST(SignOfOE, is_doubted_where_only_the_other_makes_a_pulley) {
               ElementsAre(AllOf(HasSubstr("no such pulley can be made"), HasSubstr("did you mean -37.5?"))));
 }
 
-TEST(SignOfOE, is_left_alone_where_pins_below_do_well) {
+TEST(SignOfOE, AcceptsPinsBelow) {
   EXPECT_THAT(said({{"guides.OE_mm", "10"}, {"joint.range_deg", "[-15, 15]"}}), IsEmpty());
   EXPECT_THAT(said({{"guides.OE_mm", "0"}}), IsEmpty());
-  // Nothing can be made with either sign: the sign is not what is wrong.
+  // No pulley exists with either sign: the sign is not the error.
   EXPECT_THAT(said({{"guides.OE_mm", "40"}, {"pulley.r1_mm", "60"}}), IsEmpty());
 }
 
 // ---- radians --------------------------------------------------------------------------------------------------------
 
-TEST(Radians, in_the_range) {
+TEST(Radians, WarnsInRange) {
   EXPECT_THAT(said({{"joint.range_deg", "[-0.5236, 0.7854]"}}),
               ElementsAre(AllOf(HasSubstr("joint.range_deg = [-0.5236, 0.7854]"), HasSubstr("[-30, 45]"))));
   EXPECT_THAT(said({{"joint.range_deg", "[0, 1.5708]"}}), ElementsAre(HasSubstr("[0, 90]")));
   EXPECT_THAT(said({{"joint.range_deg", "[-2, 2]"}}), IsEmpty());
 }
 
-TEST(Radians, in_the_tilt) {
+TEST(Radians, WarnsInTilt) {
   const auto tilted = [](const char* tilt) {
     return said({{"load.mass_kg", "0.2"}, {"load.lever_mm", "50"}, {"load.tilt_deg", tilt}});
   };
   EXPECT_THAT(tilted("1.5708"), ElementsAre(AllOf(HasSubstr("load.tilt_deg = 1.571"), HasSubstr("= 90"))));
   EXPECT_THAT(tilted("-3.14"), ElementsAre(HasSubstr("load.tilt_deg = -180")));
   for (const char* fine : {"0", "90", "1.5", "5.5", "3", "-2.2", "180"}) EXPECT_THAT(tilted(fine), IsEmpty()) << fine;
-  EXPECT_THAT(said({{"load.tilt_deg", "1.5708"}}), IsEmpty());  // nothing weighs anything
+  EXPECT_THAT(said({{"load.tilt_deg", "1.5708"}}), IsEmpty());  // nothing has weight
 }
 
-TEST(Radians, in_the_groove) {
+TEST(Radians, WarnsInGroove) {
   EXPECT_THAT(said({{"body.groove_angle_deg", "0.8727"}}),
               ElementsAre(AllOf(HasSubstr("body.groove_angle_deg"), HasSubstr("= 50"))));
   for (const char* fine : {"0", "1", "2", "5", "50"})
@@ -195,7 +195,7 @@ TEST(Radians, in_the_groove) {
 
 // ---- lengths --------------------------------------------------------------------------------------------------------
 
-TEST(Lengths, one_in_cm_is_named_with_what_was_meant) {
+TEST(Lengths, SuggestsUnitOfOneLength) {
   const auto expect = [](const std::string& key, const char* value, const std::string& meant) {
     EXPECT_THAT(said({{key, value}}),
                 ElementsAre(AllOf(HasSubstr(key + " = " + value + " mm"), HasSubstr(key + " = " + meant + " mm"))));
@@ -205,20 +205,20 @@ TEST(Lengths, one_in_cm_is_named_with_what_was_meant) {
   expect("pulley.EF_mm", "8", "80");
   expect("pulley.r1_mm", "1.6", "16");
   expect("joint.length_mm", "10", "100");
-  // … and ten times too large.
+  // Ten times too large.
   expect("guides.EB_mm", "500", "50");
   expect("guides.OE_mm", "-400", "-40");
   expect("pulley.r1_mm", "160", "16");
   expect("joint.length_mm", "1000", "100");
 }
 
-TEST(Lengths, two_that_are_odd_are_named_each) {
+TEST(Lengths, ReportsTwoOddLengths) {
   EXPECT_THAT(said({{"guides.EB_mm", "5"}, {"pulley.r1_mm", "160"}}),
               ElementsAre(HasSubstr("guides.EB_mm"), HasSubstr("pulley.r1_mm")));
 }
 
-TEST(Lengths, unusual_proportions_are_a_wish) {
-  EXPECT_THAT(said({{"pulley.EF_mm", "600"}}), IsEmpty());  // a motor far off
+TEST(Lengths, AcceptsUnusualProportions) {
+  EXPECT_THAT(said({{"pulley.EF_mm", "600"}}), IsEmpty());  // a distant motor
   EXPECT_THAT(said({{"guides.EB_mm", "20"}, {"guides.ED_mm", "20"}}), IsEmpty());
   EXPECT_THAT(said({{"pulley.r1_mm", "5"}}), IsEmpty());
   EXPECT_THAT(said({{"guides.OE_mm", "0"}}), IsEmpty());
@@ -230,7 +230,7 @@ std::vector<Setting> all_times(double factor) {
           {"guides.OE_mm", text(-40)},    {"pulley.EF_mm", text(80)}, {"pulley.r1_mm", text(16)}};
 }
 
-TEST(Lengths, all_in_cm_are_small_for_tendon_and_pins) {
+TEST(Lengths, DetectsAllLengthsInCm) {
   EXPECT_THAT(said(all_times(0.1)),
               ElementsAre(AllOf(HasSubstr("joint.length_mm = 10 mm is small for a tendon of 1 mm"), HasSubstr("in cm?"),
                                 HasSubstr("joint.length_mm = 100"))));
@@ -238,42 +238,43 @@ TEST(Lengths, all_in_cm_are_small_for_tendon_and_pins) {
   thin.push_back({"tendon.diameter_mm", "0.2"});
   EXPECT_THAT(said(thin), ElementsAre(HasSubstr("a pin of 2 mm (guides.radius_mm)")));
   thin.push_back({"guides.radius_mm", "0.3"});
-  EXPECT_THAT(said(thin), IsEmpty());  // a joint of a centimetre, of fitting parts
+  EXPECT_THAT(said(thin), IsEmpty());  // a joint of a centimetre with matching parts
   thin.push_back({"body.bore_diameter_mm", "5"});
   EXPECT_THAT(said(thin), ElementsAre(HasSubstr("a shaft of 5 mm (body.bore_diameter_mm)")));
 }
 
-TEST(Lengths, a_thick_tendon_on_a_stout_pulley_is_a_wish) {
+TEST(Lengths, AcceptsThickTendon) {
   EXPECT_THAT(said({{"tendon.diameter_mm", "4"}, {"tendon.modulus_MPa", "3000"}}), IsEmpty());
 }
 
 // ---- the tendon -----------------------------------------------------------------------------------------------------
 
-TEST(Modulus, in_GPa) {
+TEST(Modulus, WarnsOfGPa) {
   EXPECT_THAT(said({{"tendon.modulus_MPa", "40"}}), ElementsAre(HasSubstr("tendon.modulus_MPa = 40000")));
   for (const TendonType& type : tendon_types())
     EXPECT_THAT(said({{"tendon.modulus_MPa", std::to_string(type.modulus)}}), IsEmpty()) << type.name;
-  // In Pa it is no modulus at all.
+  // In Pa it is no valid modulus.
   EXPECT_THROW(file_with({{"tendon.modulus_MPa", "40e9"}}), InputError);
 }
 
-TEST(Overload, beyond_a_declared_strength) {
+TEST(Overload, WarnsBeyondDeclaredStrength) {
   const std::vector<Setting> loaded = {{"load.tip_force_N", "50"}, {"tendon.strength_N", "60"}};
-  EXPECT_THAT(said(loaded),
-              ElementsAre(AllOf(HasSubstr("it bears 30 N there (tendon.strength_N, tendon.knot_efficiency)"),
-                                HasSubstr("[load]"))));
+  EXPECT_THAT(
+      said(loaded),
+      ElementsAre(AllOf(HasSubstr("exceed its strength of 30 N there (tendon.strength_N, tendon.knot_efficiency)"),
+                        HasSubstr("[load]"))));
   EXPECT_THAT(said({{"load.tip_force_N", "50"}, {"tendon.strength_N", "200"}}), IsEmpty());
 }
 
-TEST(Overload, beyond_what_the_nearest_tendon_bears_is_an_estimate_and_says_so) {
+TEST(Overload, WarnsBeyondEstimatedStrength) {
   const std::vector<std::string> texts = said({{"load.tip_force_N", "500"}, {"tendon.diameter_mm", "0.9"}});
   EXPECT_THAT(texts, ElementsAre(HasSubstr("an estimate from hmpe-1.0 of the catalogue by its section")));
   EXPECT_THAT(said({{"load.tip_force_N", "200"}, {"tendon.diameter_mm", "0.9"}}), IsEmpty());
-  // Of a tendon that is like none of the catalogue nothing is said.
+  // A tendon unlike any of the catalogue causes no warning.
   EXPECT_THAT(said({{"load.tip_force_N", "500"}, {"tendon.modulus_MPa", "300000"}}), IsEmpty());
 }
 
-TEST(Overload, is_the_tension_of_analyze) {
+TEST(Overload, AgreesWithAnalysis) {
   DeclaredMechanism loaded = testing::forearm();
   loaded.load.tip_force = 50;
   loaded.tendon.strength = 60;
@@ -285,7 +286,7 @@ TEST(Overload, is_the_tension_of_analyze) {
   EXPECT_EQ(doubt->message, tendon_breaks({table.largest_tension, table.largest_at_joint}, *table.strength)->message);
 }
 
-TEST(Bends, name_the_key_where_they_are_tight) {
+TEST(Bends, WarnOfTightBends) {
   MechanismFile file = file_with({{"tendon.bend_ratio", "40"}});
   ASSERT_THAT(tight_bends(file), SizeIs(2));
   EXPECT_THAT(tight_bends(file).front().message, HasSubstr("tendon.bend_ratio"));
@@ -294,13 +295,13 @@ TEST(Bends, name_the_key_where_they_are_tight) {
 
 // ---- places ---------------------------------------------------------------------------------------------------------
 
-TEST(Places, a_warning_stands_at_its_key) {
+TEST(Places, WarningsNameTheirKey) {
   MechanismFile file;
   file.path = "arm.toml";
   std::string text = k_forearm;
   text.replace(text.find("-40.0"), 5, "40.0");
   file.mechanism = parse_mechanism(text, file.path, ".", {}, &file.warnings, &file.places);
-  const MechanismFile doubted = with_doubts(file);
+  const MechanismFile doubted = with_plausibility_warnings(file);
   ASSERT_THAT(doubted.warnings, SizeIs(1));
   EXPECT_THAT(to_text(doubted.warnings.front()), HasSubstr("arm.toml:11:9: warning: guides.OE_mm = 40 mm"));
   EXPECT_EQ(file_with({{"guides.OE_mm", "40"}}).place_of("guides.OE_mm").file, "--set guides.OE_mm=40");

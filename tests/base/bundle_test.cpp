@@ -1,4 +1,4 @@
-// A bundle is read as it was written, and nothing that anybody sends as one does harm.
+// Bundle files: round trip, and rejection of hostile input.
 #include "base/bundle.h"
 
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ std::string refusal(const std::string& bytes) {
   return "";
 }
 
-/// The entries of the example, to be spoilt.
+/// The entries of the example, to be corrupted.
 struct Entries {
   std::string index, result = "a line\n", spec = std::string("a\0b\r\n", 5), law;
   std::vector<ZipEntry> all;
@@ -61,7 +61,7 @@ struct Entries {
   }
 };
 
-TEST(Bundles, AreReadAsTheyWereWritten) {
+TEST(Bundles, RoundTrips) {
   const std::string bytes = bundle_bytes(example());
   const Bundle read = read_bundle(bytes, "bug.zip");
   EXPECT_TRUE(is_bundle(bytes));
@@ -75,7 +75,7 @@ TEST(Bundles, AreReadAsTheyWereWritten) {
   EXPECT_EQ(read.outcome.messages[0].place.column, 7);
 }
 
-TEST(Bundles, RefuseNamesThatLeadOut) {
+TEST(Bundles, RejectEscapingNames) {
   for (const char* name :
        {"../evil", "/evil", "files/../evil", "files/./evil", "files//evil", "files\\evil", "c:evil"}) {
     Entries entries;
@@ -85,7 +85,7 @@ TEST(Bundles, RefuseNamesThatLeadOut) {
   }
 }
 
-TEST(Bundles, HoldWhatTheyListAndNothingElse) {
+TEST(Bundles, RejectUnlistedEntries) {
   Entries more;
   more.all.push_back({"files/more", "x"});
   EXPECT_THAT(refusal(zip_bytes(more.all)), HasSubstr("files/more: is not listed"));
@@ -97,7 +97,7 @@ TEST(Bundles, HoldWhatTheyListAndNothingElse) {
   EXPECT_THAT(refusal(zip_bytes(changed.all)), HasSubstr("the bundle.files[0].sha256 is not that of files/arm.toml"));
 }
 
-TEST(Bundles, RefuseWhatIsNoIndex) {
+TEST(Bundles, RejectMalformedIndex) {
   for (const std::string& index :
        {std::string("{}"), std::string("[]"), std::string(50000, '['), std::string("\0", 1)}) {
     Entries entries;
@@ -112,7 +112,7 @@ Bundle read_again(const Bundle& bundle) { return read_bundle(bundle_bytes(bundle
 
 std::string refusal_of(const Bundle& bundle) { return refusal(bundle_bytes(bundle)); }
 
-TEST(Bundles, RefuseHiddenAndUnshowableNames) {
+TEST(Bundles, RejectHiddenAndUnprintableNames) {
   for (const char* name : {".fusee-1-x/.publishing", ".hidden", "a/.b", "a/..", ".", "a\u0085b", "a\u202Eb", "a\nb",
                            "a\x1b[2J", "x\uFFFE"}) {
     EXPECT_FALSE(is_inner_path(name)) << name;
@@ -131,7 +131,7 @@ TEST(Bundles, RefuseHiddenAndUnshowableNames) {
     EXPECT_TRUE(is_inner_path(name)) << name;
 }
 
-TEST(Bundles, MakeFewFilesAndFolders) {
+TEST(Bundles, RejectTooManyFilesAndFolders) {
   Bundle bundle = example();
   for (std::size_t i = 0; i < k_most_bundled_files; ++i) bundle.in_the_way.push_back("made/" + std::to_string(i) + "/");
   EXPECT_THAT(refusal_of(bundle), HasSubstr("at most 2000 files and folders"));
@@ -147,20 +147,20 @@ TEST(Bundles, MakeFewFilesAndFolders) {
   EXPECT_EQ(read_again(bundle).in_the_way, bundle.in_the_way);
 }
 
-TEST(Bundles, NameNoFileThatIsAFolder) {
+TEST(Bundles, RejectFileThatIsAFolder) {
   Bundle bundle = example();
   bundle.in_the_way = {"arm.toml/"};
   EXPECT_THAT(refusal_of(bundle), HasSubstr("arm.toml is a file and a folder"));
 }
 
-TEST(Bundles, HaveAnIndexOfBoundedSize) {
+TEST(Bundles, RejectTooLargeIndex) {
   Entries entries;
   const std::string index = "[" + std::string(std::size_t{17} << 20, ' ') + "]";
   entries.all[0].bytes = index;
   EXPECT_THAT(refusal(zip_bytes(entries.all)), HasSubstr("bundle.json: unpacks to too much"));
 }
 
-TEST(Bundles, UnpackToAsMuchAsIsAllowed) {
+TEST(Bundles, RejectTooMuchContent) {
   const std::string zeros(1 << 20, '\0');
   const std::string bytes = zip_bytes({{"zeros", zeros}});
   const ZipArchive archive(bytes, "bomb.zip", "a zip");
@@ -169,7 +169,7 @@ TEST(Bundles, UnpackToAsMuchAsIsAllowed) {
   EXPECT_LT(bytes.size(), zeros.size() / 100);
 }
 
-TEST(Bundles, OfTheFuzzersCorpus) {
+TEST(Bundles, ReadFuzzingCorpus) {
   int read = 0;
   for (const auto& entry : fs::directory_iterator(fs::path(FUSEE_SOURCE_DIR) / "tests/fuzz/corpus/bundle"))
     read += refusal(read_file(entry.path(), k_any_size)).empty() ? 1 : 0;

@@ -22,33 +22,33 @@ Eigen::MatrixXd some_definite(Eigen::Index size) {
   return root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(size, size);
 }
 
-// Larger than a block of Eigen's algorithms, which treat small matrices otherwise.
+// The largest size exceeds a block of Eigen's algorithms, which handle small matrices separately.
 class Decompositions : public testing::TestWithParam<Eigen::Index> {};
 
-TEST_P(Decompositions, OfSymmetricMatricesMultiplyBack) {
+TEST_P(Decompositions, EigenvectorsReproduceMatrix) {
   const Eigen::MatrixXd A = some_definite(GetParam());
-  const SymmetricEigen eigen = eigen_of(A);
+  const SymmetricEigen eigen = eigendecomposition(A);
   EXPECT_LT((A * eigen.vectors - eigen.vectors * eigen.values.asDiagonal()).norm(), 1e-11 * A.norm());
   EXPECT_LT((eigen.vectors.transpose() * eigen.vectors - Eigen::MatrixXd::Identity(A.rows(), A.rows())).norm(), 1e-11);
   for (Eigen::Index k = 1; k < A.rows(); ++k) EXPECT_LE(eigen.values[k - 1], eigen.values[k]);
 }
 
-TEST_P(Decompositions, KnowWhetherAllEigenvaluesAreAboveZero) {
+TEST_P(Decompositions, DetectPositiveDefiniteness) {
   const Eigen::MatrixXd A = some_definite(GetParam()), one = Eigen::MatrixXd::Identity(A.rows(), A.cols());
-  const double least = eigen_of(A).values[0];
+  const double least = eigendecomposition(A).values[0];
   EXPECT_TRUE(is_positive_definite(A));
   EXPECT_TRUE(is_positive_definite(A - 0.999 * least * one));
   EXPECT_FALSE(is_positive_definite(A - 1.001 * least * one));
   EXPECT_FALSE(is_positive_definite(-A));
 }
 
-TEST_P(Decompositions, SolveWhatTheyAreGiven) {
+TEST_P(Decompositions, SolutionsSatisfyEquations) {
   const Eigen::MatrixXd A = some_definite(GetParam()), X = some(GetParam(), 3);
   EXPECT_LT((solved(A, Eigen::MatrixXd(A * X)) - X).norm(), 1e-9 * X.norm());
   EXPECT_LT((solved(A, Eigen::VectorXd(A * X.col(1))) - X.col(1)).norm(), 1e-9 * X.norm());
 }
 
-TEST_P(Decompositions, LeaveOfLeastSquaresWhatIsUprightOnTheColumns) {
+TEST_P(Decompositions, LeastSquaresResidualIsOrthogonal) {
   const Eigen::MatrixXd A = some(2 * GetParam(), GetParam());
   const Eigen::VectorXd b = some(2 * GetParam(), 1).col(0).array().cos();
   const Eigen::VectorXd left = b - A * LeastSquares(A).nearest(b);

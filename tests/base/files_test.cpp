@@ -31,7 +31,7 @@ std::string bytes_of(const fs::path& path) {
 
 void put(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
-/// Names in a folder, hidden ones too, sorted.
+/// Sorted names in a folder, hidden entries included.
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
@@ -39,7 +39,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-/// A manifest as fusee writes it.
+/// A manifest in fusee's format.
 OutputFile manifest_of(const std::vector<OutputFile>& files) {
   nlohmann::json manifest = {{"schema", 1}, {"tool", "fusee 0.1.0"}, {"outputs", nlohmann::json::array()}};
   for (const OutputFile& file : files) {
@@ -48,7 +48,7 @@ OutputFile manifest_of(const std::vector<OutputFile>& files) {
   return {"manifest.json", manifest.dump()};
 }
 
-/// One whole run.
+/// One complete run.
 void publish(const fs::path& folder, const std::vector<OutputFile>& files, bool force = false) {
   OutputFolder output(folder, force);
   output.stage(manifest_of(files));
@@ -57,7 +57,7 @@ void publish(const fs::path& folder, const std::vector<OutputFile>& files, bool 
   output.publish(notes);
 }
 
-/// What OutputError says; "" when nothing is thrown.
+/// The message of the thrown OutputError; "" when nothing is thrown.
 template <class Action>
 std::string output_error(Action action) {
   try {
@@ -88,10 +88,10 @@ class Files : public testing::Test {
   void TearDown() override { fs::remove_all(root_); }
 
   fs::path root_;
-  std::vector<Diagnostic> notes_;  ///< of the last run
+  std::vector<Diagnostic> notes_;  ///< notes of the last run
 };
 
-/// The process stands in `folder` while it lives, so that no other folder may take its place.
+/// Makes `folder` the current folder while the object lives, so that no other folder can replace it.
 class StandingIn {
  public:
   explicit StandingIn(const fs::path& folder) : before_(fs::current_path()) { fs::current_path(folder); }
@@ -111,12 +111,12 @@ TEST_F(Files, ReadsBytesAsTheyAre) {
   EXPECT_EQ(read_file(root_ / "empty", 0), "");
 }
 
-TEST_F(Files, ReadsFilesThatHideTheirSize) {
+TEST_F(Files, ReadsFilesWithoutReportedSize) {
   EXPECT_THAT(read_file("/proc/self/status", 1 << 20), HasSubstr("Pid:"));
   EXPECT_THAT(input_error([] { read_file("/proc/self/status", 10); }), HasSubstr("is larger than 10 bytes"));
 }
 
-TEST_F(Files, RefusesWhatIsNoFile) {
+TEST_F(Files, RejectsNonRegularFiles) {
   EXPECT_THAT(input_error([&] { read_file(root_ / "missing", 10); }),
               HasSubstr("missing: error: cannot be read: No such file"));
   EXPECT_THAT(input_error([&] { read_file(root_, 10); }), HasSubstr("is a directory"));
@@ -126,9 +126,9 @@ TEST_F(Files, RefusesWhatIsNoFile) {
   EXPECT_THAT(input_error([&] { read_file(root_ / "pipe", 10); }), HasSubstr("is not a regular file"));
 }
 
-TEST_F(Files, RefusesLargeFilesBeforeReading) {
+TEST_F(Files, RejectsLargeFilesBeforeReading) {
   put(root_ / "large", "");
-  fs::resize_file(root_ / "large", std::uintmax_t{1} << 40);  // a hole: no blocks
+  fs::resize_file(root_ / "large", std::uintmax_t{1} << 40);  // sparse file without blocks
   EXPECT_THAT(input_error([&] { read_file(root_ / "large", 1000); }), HasSubstr("is larger than 1000 bytes"));
   put(root_ / "just", "1234567");
   EXPECT_THAT(input_error([&] { read_file(root_ / "just", 6); }), HasSubstr("is larger than 6 bytes"));
@@ -167,9 +167,9 @@ TEST_F(Files, LeavesNothingWithoutPublishing) {
   EXPECT_THAT(names_in(root_ / "mine"), IsEmpty());
 }
 
-// An interrupted program discards what it staged while its other threads go on: one of them asked a folder that was no
-// more where its file was (signal 11, one interruption in 750).
-TEST_F(Files, SaysWhereItsFilesWereAfterTheyAreDiscarded) {
+// An interrupted program discards its staged files while other threads still call staged_path(). This once crashed
+// (signal 11).
+TEST_F(Files, StagedPathOutlivesDiscard) {
   OutputFolder output(root_ / "a" / "b", false);
   output.stage({"x.stl", "xyz"});
   const fs::path there = output.staged_path("x.stl");
@@ -178,7 +178,7 @@ TEST_F(Files, SaysWhereItsFilesWereAfterTheyAreDiscarded) {
   EXPECT_EQ(output.staged_path("x.stl"), there);
 }
 
-TEST_F(Files, OverwritesItsOwnWork) {
+TEST_F(Files, OverwritesOwnFiles) {
   publish(root_ / "out", {{"x.stl", "old"}, {"y.obj", "same"}});
   EXPECT_TRUE(OutputFolder(root_ / "out", false).has_earlier_run());
   publish(root_ / "out", {{"x.stl", "new"}, {"y.obj", "same"}});
@@ -186,7 +186,7 @@ TEST_F(Files, OverwritesItsOwnWork) {
   EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl", "y.obj"));
 }
 
-TEST_F(Files, RefusesForeignFiles) {
+TEST_F(Files, RejectsForeignFiles) {
   fs::create_directory(root_ / "out");
   put(root_ / "out" / "x.stl", "somebody's");
   put(root_ / "out" / "notes.txt", "somebody's");
@@ -203,7 +203,7 @@ TEST_F(Files, RefusesForeignFiles) {
   EXPECT_EQ(bytes_of(root_ / "out" / "notes.txt"), "somebody's");
 }
 
-TEST_F(Files, RefusesFilesChangedSince) {
+TEST_F(Files, RejectsChangedFiles) {
   publish(root_ / "out", {{"x.stl", "old"}, {"y.obj", "same"}});
   put(root_ / "out" / "x.stl", "edited by hand");
   EXPECT_THAT(output_error([&] {
@@ -216,7 +216,7 @@ TEST_F(Files, RefusesFilesChangedSince) {
   EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "new");
 }
 
-TEST_F(Files, ClaimNamesAllAtOnceAndWritesNothing) {
+TEST_F(Files, ClaimListsAllConflictsAndWritesNothing) {
   publish(root_ / "out", {{"x.stl", "old"}});
   put(root_ / "out" / "x.stl", "edited");
   put(root_ / "out" / "z.csv", "foreign");
@@ -229,7 +229,7 @@ TEST_F(Files, ClaimNamesAllAtOnceAndWritesNothing) {
   EXPECT_FALSE(fs::exists(root_ / "new"));
 }
 
-TEST_F(Files, ABrokenOrForeignManifestIsSomebodyElses) {
+TEST_F(Files, BrokenManifestIsForeign) {
   for (const std::string& manifest :
        {std::string("{\"tool\":\"fusee"), std::string("{\"tool\":\"npm\",\"outputs\":[]}"), std::string("[]"),
         std::string("{}"), std::string("{\"tool\":\"fusee\",\"outputs\":{}}"), std::string(200000, '['),
@@ -246,7 +246,7 @@ TEST_F(Files, ABrokenOrForeignManifestIsSomebodyElses) {
   }
 }
 
-TEST_F(Files, NeverReplacesWhatIsNoFile) {
+TEST_F(Files, NeverReplacesNonRegularFile) {
   fs::create_directories(root_ / "out" / "x.stl");
   EXPECT_THAT(output_error([&] {
                 publish(root_ / "out", {{"x.stl", "new"}}, /*force=*/true);
@@ -255,7 +255,7 @@ TEST_F(Files, NeverReplacesWhatIsNoFile) {
   EXPECT_TRUE(fs::is_directory(root_ / "out" / "x.stl"));
 }
 
-TEST_F(Files, TheFolderMayNotBeAFile) {
+TEST_F(Files, RejectsFileAsFolder) {
   put(root_ / "file", "bytes");
   for (const fs::path& folder : {root_ / "file", root_ / "file" / "below", root_ / "file" / "below" / "further"}) {
     EXPECT_THAT(output_error([&] {
@@ -268,15 +268,15 @@ TEST_F(Files, TheFolderMayNotBeAFile) {
   EXPECT_EQ(bytes_of(root_ / "file"), "bytes");
 }
 
-TEST_F(Files, AFolderThatTakesNoFilesIsAnOutputError) {
-  // /proc lets nobody make files, not even root.
+TEST_F(Files, UnwritableFolderIsOutputError) {
+  // In /proc no user can create files, not even root.
   EXPECT_NE(output_error([&] { publish("/proc", {{"x.stl", "new"}}); }), "");
   EXPECT_NE(output_error([&] { publish("/proc/fusee/out", {{"x.stl", "new"}}); }), "");
   EXPECT_NE(output_error([&] { write_file("/proc/x.stl", "new", false); }), "");
 }
 
-TEST_F(Files, AFullDiskLeavesEarlierFilesWhole) {
-  // A file system of 1 MB, seen by this process alone.
+TEST_F(Files, FullDiskKeepsEarlierFiles) {
+  // A file system of 1 MB, mounted for this process only.
   const fs::path disk = root_ / "disk";
   fs::create_directory(disk);
   const bool alone = ::unshare(CLONE_NEWNS) == 0 && ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0;
@@ -294,7 +294,7 @@ TEST_F(Files, AFullDiskLeavesEarlierFilesWhole) {
   EXPECT_EQ(after, before);
 }
 
-/// Runs `action` in a child and kills it where it stops by itself.
+/// Runs `action` in a child process and kills the child when it stops itself.
 template <class Action>
 void kill_after(Action action) {
   const pid_t child = ::fork();
@@ -307,21 +307,21 @@ void kill_after(Action action) {
   ASSERT_TRUE(WIFSIGNALED(status));
 }
 
-TEST_F(Files, WhatAKilledRunStagedIsRemovedByTheNext) {
+TEST_F(Files, NextRunRemovesLeftovers) {
   publish(root_ / "out", {{"x.stl", "old"}});
   kill_after([&] {
     OutputFolder* output = new OutputFolder(root_ / "out", false);
     output->stage({"x.stl", "half"});
   });
   EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl"));
-  EXPECT_EQ(names_in(root_).size(), 2u);  // the staging folder is still there, beside it
+  EXPECT_EQ(names_in(root_).size(), 2u);  // the staging folder still exists
   EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "old");
   publish(root_ / "out", {{"x.stl", "new"}});
   EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl"));
   EXPECT_THAT(names_in(root_), ElementsAre("out"));
 }
 
-TEST_F(Files, ALivingRunIsLeftAlone) {
+TEST_F(Files, KeepsStagingOfLivingRun) {
   OutputFolder living(root_ / "out", false);
   living.stage({"x.stl", "mine"});
   publish(root_ / "out", {{"y.obj", "other"}});
@@ -330,7 +330,7 @@ TEST_F(Files, ALivingRunIsLeftAlone) {
   EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "mine");
 }
 
-TEST_F(Files, WhatElseIsInTheFolderStays) {
+TEST_F(Files, KeepsOtherEntries) {
   publish(root_ / "out", {{"x.stl", "old"}});
   put(root_ / "out" / "notes.txt", "mine");
   put(root_ / "out" / ".hidden", "mine");
@@ -344,23 +344,23 @@ TEST_F(Files, WhatElseIsInTheFolderStays) {
   const auto notes = inode("notes.txt");
   publish(root_ / "out", {{"x.stl", "new"}});
   EXPECT_THAT(names_in(root_ / "out"), ElementsAre(".hidden", "link", "manifest.json", "notes.txt", "x.stl"));
-  EXPECT_EQ(inode("notes.txt"), notes);  // an editor that holds it open still does
+  EXPECT_EQ(inode("notes.txt"), notes);  // the inode is kept, for editors that hold the file open
   EXPECT_EQ(fs::status(root_ / "out").permissions(), fs::perms::owner_all | fs::perms::group_read);
   EXPECT_THAT(names_in(root_), ElementsAre("out"));
 }
 
-TEST_F(Files, TheFolderThatWeStandInStays) {
+TEST_F(Files, KeepsCurrentFolder) {
   publish(root_ / "out", {{"x.stl", "old"}});
   {
     const StandingIn standing(root_ / "out");
     publish(".", {{"x.stl", "new"}});
-    EXPECT_EQ(bytes_of("x.stl"), "new");  // of this folder, which still has its name
+    EXPECT_EQ(bytes_of("x.stl"), "new");  // the current folder keeps its name
     EXPECT_TRUE(fs::equivalent(".", root_ / "out"));
   }
   EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl"));
 }
 
-TEST_F(Files, AFolderBehindALinkStaysBehindIt) {
+TEST_F(Files, KeepsLinkToFolder) {
   publish(root_ / "out", {{"x.stl", "old"}});
   fs::create_directory_symlink("out", root_ / "link");
   publish(root_ / "link", {{"x.stl", "new"}});
@@ -368,7 +368,7 @@ TEST_F(Files, AFolderBehindALinkStaysBehindIt) {
   EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "new");
 }
 
-TEST_F(Files, WithdrawsWhatAnEarlierRunWrote) {
+TEST_F(Files, RemovesWithdrawnFiles) {
   for (const bool whole : {true, false}) {
     const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"x.stl", "old"}, {"p1.stl", "old"}, {"p2.stl", "old"}});
@@ -386,7 +386,7 @@ TEST_F(Files, WithdrawsWhatAnEarlierRunWrote) {
   }
 }
 
-TEST_F(Files, SubfolderKeepsWhatWasFilledIn) {
+TEST_F(Files, SubfolderKeepsEditedFiles) {
   for (const bool whole : {true, false}) {
     const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"next/page.html", "old"}, {"next/run_1.csv", "old"}, {"next/run_2.csv", "old"}});
@@ -409,7 +409,7 @@ TEST_F(Files, SubfolderKeepsWhatWasFilledIn) {
   }
 }
 
-TEST_F(Files, EmptiedSubfolderGoes) {
+TEST_F(Files, RemovesEmptiedSubfolder) {
   for (const bool whole : {true, false}) {
     const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"x.stl", "old"}, {"next/run_1.csv", "old"}});
@@ -424,7 +424,7 @@ TEST_F(Files, EmptiedSubfolderGoes) {
   }
 }
 
-TEST_F(Files, SubfolderIsNeverALinkOrFile) {
+TEST_F(Files, RejectsLinkOrFileAsSubfolder) {
   fs::create_directories(root_ / "elsewhere");
   for (const bool link : {true, false}) {
     const fs::path folder = root_ / (link ? "link" : "file");
@@ -440,8 +440,8 @@ TEST_F(Files, SubfolderIsNeverALinkOrFile) {
   EXPECT_TRUE(fs::is_empty(root_ / "elsewhere"));
 }
 
-TEST_F(Files, BothOfTwoRunsPublish) {
-  // Both began before either published: neither may take the other's files for somebody's.
+TEST_F(Files, ConcurrentRunsBothPublish) {
+  // Both runs begin before either publishes. Neither may treat the other's files as foreign.
   for (const bool whole : {true, false}) {
     const fs::path folder = root_ / (whole ? "whole" : "current");
     publish(folder, {{"x.stl", "old"}});
@@ -460,7 +460,7 @@ TEST_F(Files, BothOfTwoRunsPublish) {
   }
 }
 
-TEST_F(Files, OutputsHaveOrdinaryRights) {
+TEST_F(Files, OutputsHaveDefaultRights) {
   publish(root_ / "out", {{"x.stl", "new"}});
   const mode_t mask = ::umask(0);
   ::umask(mask);
@@ -468,7 +468,7 @@ TEST_F(Files, OutputsHaveOrdinaryRights) {
   EXPECT_EQ(static_cast<mode_t>(fs::status(root_ / "out").permissions()), 0777 & ~mask);
 }
 
-TEST_F(Files, NamesStayWithinTheFolder) {
+TEST_F(Files, RejectsEscapingNames) {
   OutputFolder output(root_ / "out", false);
   for (const char* name : {"", "../x", "a/../x", "a/b/c", "a/", "a/.hidden", ".hidden", "/etc/x"})
     EXPECT_THROW(output.stage({name, ""}), Bug) << name;
@@ -497,7 +497,7 @@ TEST_F(Files, WritesThroughALink) {
   EXPECT_EQ(bytes_of(root_ / "target"), "two");
 }
 
-TEST_F(Files, WritesOverFilesOnly) {
+TEST_F(Files, OverwritesRegularFilesOnly) {
   EXPECT_THAT(output_error([&] { write_file(root_, "x", true); }), HasSubstr("is not a regular file"));
   ASSERT_EQ(mkfifo((root_ / "pipe").c_str(), 0600), 0);
   EXPECT_THAT(output_error([&] { write_file(root_ / "pipe", "x", true); }), HasSubstr("is not a regular file"));
@@ -509,7 +509,7 @@ TEST_F(Files, WritesOverFilesOnly) {
   EXPECT_FALSE(fs::exists(root_ / "missing"));
 }
 
-TEST_F(Files, NamesMayBeginAndEndWithDots) {
+TEST_F(Files, AcceptsNamesWithDots) {
   for (const char* name : {"...", ".hidden.toml", "x..", "..x"}) {
     write_file(root_ / name, "one", false);
     EXPECT_EQ(bytes_of(root_ / name), "one") << name;

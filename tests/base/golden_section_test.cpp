@@ -7,7 +7,7 @@
 namespace fusee {
 namespace {
 
-TEST(GoldenSection, FindsTheOnlyMinimum) {
+TEST(GoldenSection, FindsMinimum) {
   for (const double least : {-0.9, 0.0, 0.31, 1.9}) {
     const auto kinked = [least](double x) { return std::abs(x - least); };
     const Bracket left = golden_section({-1.0, 2.0}, 40, kinked);
@@ -16,12 +16,12 @@ TEST(GoldenSection, FindsTheOnlyMinimum) {
   }
 }
 
-TEST(GoldenSection, GoesToTheEndWhereTheFunctionFalls) {
+TEST(GoldenSection, FindsMinimumAtEnd) {
   EXPECT_NEAR(golden_section({0.0, 1.0}, 40, [](double x) { return -x; }).middle(), 1.0, 1e-7);
   EXPECT_NEAR(golden_section({0.0, 1.0}, 40, [](double x) { return x; }).middle(), 0.0, 1e-7);
 }
 
-TEST(GoldenSection, AsksOnceAStep) {
+TEST(GoldenSection, EvaluatesOncePerStep) {
   int asked = 0;
   golden_section({0.0, 1.0}, 20, [&asked](double x) { return ++asked, x * x; });
   EXPECT_EQ(asked, 22);

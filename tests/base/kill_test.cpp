@@ -1,5 +1,5 @@
-// A run that publishes is killed before each of its calls that change a file system, one after another. This program's
-// own rename(), link() … stand in front of the system's, count, and kill.
+// Kills a publishing run before each of its file system calls, one after another. This program replaces rename(),
+// link() and others by its own versions, which count and kill.
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -21,14 +21,14 @@
 
 namespace {
 
-/// Calls until the one that does not happen; 0: all happen.
+/// Calls left until the one that is prevented; 0: no call is prevented.
 int calls_left = 0;
-/// What happens in its place: the run is killed, or the call fails.
+/// The prevented call kills the run (true) or fails (false).
 bool kills = true;
-/// False as in a file system whose only rename is the plain one.
+/// False simulates a file system without renameat2 exchange.
 bool has_exchange = true;
 
-/// False when the call fails.
+/// Returns false when the call must fail.
 bool may_change() {
   if (calls_left == 0 || --calls_left > 0) return true;
   if (kills) ::kill(::getpid(), SIGKILL);
@@ -61,7 +61,7 @@ int unlinkat(int folder, const char* path, int flags) noexcept { return changed(
 int rmdir(const char* path) noexcept { return changed(SYS_unlinkat, AT_FDCWD, path, AT_REMOVEDIR); }
 int mkdir(const char* path, mode_t mode) noexcept { return changed(SYS_mkdirat, AT_FDCWD, path, mode); }
 int chmod(const char* path, mode_t mode) noexcept { return changed(SYS_fchmodat, AT_FDCWD, path, mode); }
-int fsync(int) { return 0; }  // a kill loses nothing that was written; waiting for the disk is most of the time
+int fsync(int) { return 0; }  // a kill loses no written bytes, and fsync would dominate the run time
 ssize_t write(int file, const void* bytes, size_t count) {
   return may_change() ? ::syscall(SYS_write, file, bytes, count) : -1;
 }
@@ -74,7 +74,7 @@ namespace fs = std::filesystem;
 
 using Folder = std::map<std::string, std::string>;
 
-/// Everything but what a killed run staged.
+/// All files except those staged by a killed run.
 Folder files_in(const fs::path& folder) {
   Folder files;
   if (!fs::exists(folder)) return files;
@@ -110,7 +110,7 @@ std::vector<Diagnostic> publish_set(const fs::path& folder, const Folder& files,
   return notes;
 }
 
-/// True when it was killed.
+/// True when the run was killed.
 template <class Action>
 bool killed_before(int call, Action action) {
   const pid_t child = ::fork();
@@ -125,13 +125,13 @@ bool killed_before(int call, Action action) {
   return WIFSIGNALED(status);
 }
 
-/// What stands in a folder before a run publishes into it.
+/// Contents of a folder before a run publishes into it.
 struct Ground {
   const char* name;
-  bool earlier_run;  ///< of fusee
-  bool others;       ///< a file and a folder of somebody else's
-  bool exchange;     ///< the file system exchanges folders
-  bool stood_in;     ///< the run's current folder: no other folder may take its place
+  bool earlier_run;  ///< fusee has published here before
+  bool others;       ///< the folder holds a foreign file and a foreign folder
+  bool exchange;     ///< the file system can exchange folders
+  bool stood_in;     ///< it is the run's current folder, which cannot be replaced
 };
 
 class Kill : public testing::TestWithParam<Ground> {
@@ -147,7 +147,7 @@ class Kill : public testing::TestWithParam<Ground> {
     fs::remove_all(root_);
   }
 
-  /// The folder as it is before the run.
+  /// The folder before the run.
   fs::path prepared(int call) const {
     const Ground& ground = GetParam();
     fs::path folder = root_ / std::to_string(call) / "out";
@@ -172,7 +172,7 @@ class Kill : public testing::TestWithParam<Ground> {
     if (GetParam().others) files.insert(others_.begin(), others_.end());
     return files;
   }
-  /// Without what is not a fusee output.
+  /// Without files that are not fusee outputs.
   Folder without_others(Folder files) const {
     for (const auto& [name, bytes] : others_) files.erase(name);
     return files;
@@ -195,11 +195,11 @@ TEST_P(Kill, LeavesOldOrNewSet) {
     ASSERT_EQ(files_in(folder), with_others(before));
     killed = killed_before(call, [&] { run_in(folder); });
     const Folder left = without_others(files_in(folder));
-    // Between two renames there is no set, and nothing that claims to be one.
+    // Between two renames there is no set and no manifest.
     ASSERT_TRUE(left == before || left == newer_ || left.count("manifest.json") == 0)
         << "killed before call " << call << ": " << testing::PrintToString(left);
     ASSERT_TRUE(killed || left == newer_);
-    // The next run, which writes a file of another name, puts back what lies aside.
+    // The next run, which writes a file of another name, restores the files set aside.
     const std::vector<Diagnostic> notes = publish_set(folder, {{"other.csv", "next"}}, {});
     Folder next = files_in(folder);
     EXPECT_EQ(next.erase("other.csv"), 1u);
@@ -243,7 +243,7 @@ TEST_P(Kill, FailedCallLeavesOldOrNewSet) {
     ASSERT_TRUE(WIFEXITED(status));
     code = WEXITSTATUS(status);
     refused += code == 6 ? 1 : 0;
-    // What could not be moved back lies aside until the next run.
+    // Files that could not be moved back stay aside until the next run.
     publish_set(folder, {{"other.csv", "next"}}, {});
     Folder next = files_in(folder);
     next.erase("other.csv");

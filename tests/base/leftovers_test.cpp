@@ -1,4 +1,4 @@
-// What lies in an output folder and beside it, whoever put it there.
+// Recovery ignores or restores leftovers, whoever made them.
 
 #include "base/leftovers.h"
 
@@ -27,7 +27,7 @@ class Leftovers : public ::testing::Test {
     ASSERT_NE(mkdtemp(pattern.data()), nullptr);
     root_ = pattern;
   }
-  /// A leftover of `out` beside it, with an old folder in which one file lies.
+  /// A leftover of `out`, with an old/ folder that holds one file.
   std::filesystem::path leftover(const char* file) const {
     const std::string key = staging_key(root_ / "out", StagingSite::beside);
     const std::filesystem::path folder = root_ / (".fusee-3999999-" + key + "-aaaaaa");
@@ -50,7 +50,7 @@ TEST_F(Leftovers, NeverReachOutside) {
   }
 }
 
-TEST_F(Leftovers, PutBackMissingFolder) {
+TEST_F(Leftovers, RestoreMissingFolder) {
   leftover("notes.txt");
   const std::vector<Diagnostic> notes = recover_leftovers(root_ / "out");
   ASSERT_EQ(notes.size(), 1u);
@@ -67,7 +67,7 @@ TEST_F(Leftovers, NeverOverwrite) {
   EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
-TEST_F(Leftovers, OfOtherRightsAreIgnoredWithNote) {
+TEST_F(Leftovers, ReportUntrustedFolder) {
   const std::filesystem::path folder = leftover("notes.txt");
   std::filesystem::permissions(folder, std::filesystem::perms::group_read, std::filesystem::perm_options::add);
   const std::vector<Diagnostic> notes = recover_leftovers(root_ / "out");
@@ -76,7 +76,7 @@ TEST_F(Leftovers, OfOtherRightsAreIgnoredWithNote) {
   EXPECT_TRUE(std::filesystem::exists(folder / "old" / "notes.txt"));
 }
 
-TEST_F(Leftovers, OfLivingRunsAreLeftAlone) {
+TEST_F(Leftovers, KeepStagingOfLivingRuns) {
   const std::filesystem::path folder = leftover("notes.txt");
   const Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY));
   ASSERT_EQ(::flock(lock.number(), LOCK_EX), 0);
@@ -84,7 +84,7 @@ TEST_F(Leftovers, OfLivingRunsAreLeftAlone) {
   EXPECT_TRUE(std::filesystem::exists(folder / "old" / "notes.txt"));
 }
 
-TEST_F(Leftovers, OfOtherPlacesAreLeftAlone) {
+TEST_F(Leftovers, KeepStagingOfOtherPlaces) {
   const std::filesystem::path folder = leftover("notes.txt");
   EXPECT_THAT(recover_leftovers(root_ / "other"), ::testing::IsEmpty());
   EXPECT_TRUE(std::filesystem::exists(folder / "old" / "notes.txt"));

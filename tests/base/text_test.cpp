@@ -1,4 +1,4 @@
-// Numbers to text: what a reader gets back, and nothing that he would stumble over.
+// Number formatting and text sanitizing.
 #include "fusee/base/text.h"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 namespace fusee {
 namespace {
 
-TEST(Text, TrimmedFixedLosesZerosAndNothingElse) {
+TEST(Text, TrimmedFixedRemovesOnlyZeros) {
   EXPECT_EQ(trimmed_fixed(2.5, 3), "2.5");
   EXPECT_EQ(trimmed_fixed(3, 3), "3");
   EXPECT_EQ(trimmed_fixed(100, 0), "100");
@@ -24,7 +24,7 @@ TEST(Text, FixedRoundsAsPrintfDoes) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 100000; ++i) {
     const double size = std::pow(10.0, static_cast<double>(random() % 20) - 9.0);
-    // Every fourth lies halfway between two numbers, as far as a double can.
+    // Every fourth value lies exactly between two decimals, where a double can represent it.
     const double value = i % 4 == 0 ? static_cast<double>(random() % 4096) / 64.0
                                     : size * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
     const int decimals = static_cast<int>(random() % 13);
@@ -37,14 +37,14 @@ TEST(Text, FixedRoundsAsPrintfDoes) {
   EXPECT_EQ(fixed(std::numeric_limits<double>::infinity(), 2), "inf");
 }
 
-TEST(Text, RoundedKeepsItsDigitsAndNoZerosBehindThem) {
+TEST(Text, RoundedKeepsSignificantDigits) {
   EXPECT_EQ(rounded(18.9), "18.9");
   EXPECT_EQ(rounded(0.012345), "0.01235");
   EXPECT_EQ(rounded(1200), "1200");
   EXPECT_EQ(rounded(-2.0), "-2");
 }
 
-TEST(Text, Utf16OfEitherOrderBecomesUtf8) {
+TEST(Text, ConvertsUtf16OfBothByteOrders) {
   using namespace std::string_literals;
   EXPECT_EQ(utf8_of_utf16("\xFF\xFEs\0\xB0\0\xAC\x20"s), "s°€");
   EXPECT_EQ(utf8_of_utf16("\xFE\xFF\0s\0\xB0\x20\xAC"s), "s°€");
@@ -54,7 +54,7 @@ TEST(Text, Utf16OfEitherOrderBecomesUtf8) {
   EXPECT_EQ(utf8_of_utf16("solid"), std::nullopt);
 }
 
-TEST(Text, WrapsByCharactersAndKeepsLongWordsWhole) {
+TEST(Text, WrapsByCharacters) {
   EXPECT_EQ(wrapped("one two", "  - ", "    "), "  - one two\n");
   EXPECT_EQ(wrapped("", "  ", "  "), "  \n");
   const std::string word(40, 'x'), umlauts = "äöüäöüäöüäöüäöüäöüäöüäöüäöüäöüäöüäöü";  // 36 characters, 72 bytes
@@ -64,7 +64,7 @@ TEST(Text, WrapsByCharactersAndKeepsLongWordsWhole) {
   EXPECT_EQ(characters("3 × 4 …"), 7u);
 }
 
-TEST(Text, CleanedLeavesNothingThatATerminalObeys) {
+TEST(Text, CleanedRemovesControlCharacters) {
   EXPECT_EQ(cleaned("θ = 3°, größe 日本 😀 \uFFFD\n\tx"), "θ = 3°, größe 日本 😀 \uFFFD\n\tx");
   for (const char* one : {"\x1b", "\r", "\x07", "\x7f", "\u0080", "\u009b", "\u200e", "\u200f", "\u061c", "\u202a",
                           "\u202e", "\u2066", "\u2069", "\u2028", "\ufffe", "\uffff", "\ufdd0", "\xf0\x9f\xbf\xbe"})
@@ -73,7 +73,7 @@ TEST(Text, CleanedLeavesNothingThatATerminalObeys) {
   EXPECT_EQ(cleaned_line("a\n\tb\x1b"), "a  b\uFFFD");
 }
 
-TEST(Text, CleanedIsUtf8WhateverTheBytes) {
+TEST(Text, CleanedIsValidUtf8) {
   for (const std::string bytes : {"\xff", "\x9b", "\xc2", "\xe2\x82", "\xc0\xaf", "\xe0\x80\x80", "\xed\xa0\x80",
                                   "\xf4\x90\x80\x80", "\xf8\x88\x80\x80\x80"}) {
     EXPECT_FALSE(is_utf8(bytes));
@@ -83,7 +83,7 @@ TEST(Text, CleanedIsUtf8WhateverTheBytes) {
     EXPECT_EQ(cleaned(clean), clean);
   }
   EXPECT_EQ(cleaned("\xe2\x82\x82\xe2"), "₂\uFFFD");
-  EXPECT_EQ(cleaned("\xe2\x82.\xf0\x9f\x98"), "\uFFFD.\uFFFD");  // each broken one once, as in JSON
+  EXPECT_EQ(cleaned("\xe2\x82.\xf0\x9f\x98"), "\uFFFD.\uFFFD");  // each malformed sequence once, as in JSON
 }
 
 TEST(Text, UnicodeEscapesAreJson) {

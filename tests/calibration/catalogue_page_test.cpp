@@ -26,7 +26,7 @@ std::string catalogue_table() {
       "| place | effect | how it shows | its numbers | taken out by | how to separate it "
       "|\n|---|---|---|---|---|---|\n";
   for (const Effect& effect : effects(JointKind::tendons)) {
-    std::string shown = effect.is_looked_for ? numbers(effect) : "", by = corrected_by(effect.correctable_by);
+    std::string shown = effect.is_tested ? numbers(effect) : "", by = corrected_by(effect.correctable_by);
     if (const Effect* other = find_effect(effect.name, JointKind::ratio)) {
       if (numbers(*other) != shown) shown += (shown.empty() ? "ratio: " : "; ratio: ") + numbers(*other);
       if (other->correctable_by != effect.correctable_by) by += "; ratio: " + corrected_by(other->correctable_by);

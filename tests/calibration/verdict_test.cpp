@@ -391,9 +391,9 @@ TEST(FoundEffects, SayWhatTheirSignMeans) {
 
 TEST(Effects, ThatACaliperReadsAskForWhatItReads) {
   const std::vector<std::pair<std::string, std::string>> words = {
-      {"guide_radius", "diameter with a caliper and write half of it as [prior] guide_radius_mm"},
-      {"radius_offset", "write half of what both are too large together (too small: negative)"},
-      {"guide_position", "below the joint's axis the right pin lies (above it: negative) and write [prior] OE2_mm"}};
+      {"guide_radius", "diameter with a caliper and enter half of it as prior.guide_radius_mm"},
+      {"radius_offset", "enter half of their total excess (negative: too small)"},
+      {"guide_position", "the right pin is below the joint's axis (above it: negative) and enter it as prior.OE2_mm"}};
   for (const auto& [name, expected] : words) {
     const Effect* effect = find_effect(name, JointKind::tendons);
     ASSERT_NE(effect, nullptr);

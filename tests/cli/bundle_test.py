@@ -301,7 +301,7 @@ class Hostile(Packed):
         self.refuse(3, "files/more.toml: is not listed")
         self.setUp()
         self.edit("bug.zip", lambda index: None, [("files/arm.toml", "x")])
-        self.refuse(3, "files/arm.toml: stands twice|sha256")
+        self.refuse(3, "files/arm.toml: occurs twice|sha256")
         self.setUp()
         self.edit("bug.zip", lambda index: index["files"].append(index["files"][0]))
         self.refuse(3, r"files\[1\].path is not in the bundle, or listed twice")

@@ -1,4 +1,4 @@
-// A cable that rubs along its way and straightens as it is pulled. The second route is a chain of springs.
+// A rubbing cable that straightens under tension, compared with a chain of springs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,14 +15,14 @@ namespace {
 using testing::forearm;
 using testing::RubbedChain;
 
-/// Both routes along the same ways of motor and load; how far they part.
+/// Both models along the same motor and load paths, and their difference.
 struct Routes {
   RubbedChain chain;
   RubbingCable cable;
   double driven = 0, load = 0;
   double chain_at = 0, cable_at = 0;
 
-  /// The largest difference on the way.
+  /// The largest difference along the path.
   double to(double driven_to, double load_to) {
     constexpr int steps = 40;
     double parted = 0;
@@ -38,7 +38,7 @@ struct Routes {
   }
 };
 
-/// Friction of the whole way is twice its mean over it.
+/// Friction of the whole cable is twice its mean along it.
 Routes rubbed_without_load(double mean) {
   RatioJointError joint;
   joint.compliance = 1;
@@ -46,32 +46,32 @@ Routes rubbed_without_load(double mean) {
   return {RubbedChain(0, 2 * mean), RubbingCable(joint, 0)};
 }
 
-TEST(RubbingCable, SlipsAsAChainDoesUnderChangingLoad) {
+TEST(RubbingCable, AgreesWithChainUnderChangingLoad) {
   constexpr double mean = 0.1, width = 2 * mean;
   Routes routes = rubbed_without_load(mean);
   routes.to(2, 0);
   const double on_the_way_up = routes.cable_at;
   EXPECT_LT(routes.to(2, 0.5), 0.02 * width);
-  EXPECT_LT(routes.to(2, 0.3), 0.02 * width);  // taken off a little: some of the contacts slip back
+  EXPECT_LT(routes.to(2, 0.3), 0.02 * width);  // slightly unloaded: some of the contacts slip back
   EXPECT_LT(routes.to(2, 0.4), 0.02 * width);
   EXPECT_LT(routes.to(2, 0), 0.02 * width);
   EXPECT_NEAR(routes.cable_at, on_the_way_up, 0.02 * width);
 }
 
-TEST(RubbingCable, LosesAsMuchAsAChainAfterAReversal) {
+TEST(RubbingCable, AgreesWithChainAfterReversal) {
   constexpr double mean = 0.1, width = 2 * mean;
   Routes routes = rubbed_without_load(mean);
   routes.to(2, 0.2);
   for (const double end : {1.0, 2.0, 0.0}) {
-    // On the way the joint of a chain stands until all contacts have slipped, that of the cable sets in bit by bit: by
-    // theory they part by a quarter of the width.
+    // During a reversal the chain's joint rests until all contacts have slipped, while the cable responds gradually:
+    // theory predicts a difference of a quarter of the width.
     EXPECT_LT(routes.to(end, 0.2), 0.27 * width);
     EXPECT_NEAR(routes.cable_at, routes.chain_at, 0.02 * width) << end;
   }
 }
 
-TEST(RubbingCable, HoldsTheShareThatACapstanHolds) {
-  constexpr double turned = 0.2, load = 3;  // μφ of the whole way
+TEST(RubbingCable, AgreesWithCapstan) {
+  constexpr double turned = 0.2, load = 3;  // μφ of the whole cable
   RatioJointError joint;
   joint.compliance = 1;
   joint.friction.share = turned / 2;
@@ -81,12 +81,12 @@ TEST(RubbingCable, HoldsTheShareThatACapstanHolds) {
   const double chain_up = routes.chain_at, cable_up = routes.cable_at;
   routes.to(0, load);
   const double chain_width = routes.chain_at - chain_up + 4, cable_width = routes.cable_at - cable_up + 4;
-  // e^μφ against 1 + μφ: the cube of it over six, per μφ.
+  // e^μφ against 1 + μφ: the cube of μφ over six, per μφ.
   EXPECT_NEAR(cable_width, turned * load, 1e-12);
   EXPECT_NEAR(chain_width, cable_width, 0.02 * cable_width);
 }
 
-TEST(RubbingCable, KeepsLessAsItStiffens) {
+TEST(RubbingCable, HysteresisShrinksWithStiffness) {
   RatioJointError joint;
   joint.compliance = 0.5;
   joint.waves = {.most = 0.2, .rate = 2};
@@ -107,7 +107,7 @@ TEST(RubbingCable, KeepsLessAsItStiffens) {
   EXPECT_GT(width(0.3), 1.3 * width(3));
 }
 
-TEST(RubbingCable, IsAPlainComplianceWithoutFriction) {
+TEST(RubbingCable, IsElasticWithoutFriction) {
   RatioJointError joint;
   joint.compliance = 0.3;
   RubbingCable cable(joint, 0);
@@ -126,7 +126,7 @@ JointModel wavy(CableStiffening waves) {
   return model;
 }
 
-/// At home, the load coming on.
+/// Loads the joint gradually at home.
 std::vector<EquilibriumPoint> loaded(const JointModel& model, double tip_force, int steps) {
   std::vector<JointStep> path;
   for (int i = 0; i <= steps; ++i) path.push_back({0, tip_force * i / steps, 0});
@@ -135,13 +135,13 @@ std::vector<EquilibriumPoint> loaded(const JointModel& model, double tip_force, 
 
 constexpr CableStiffening k_waves{.most = 0.4, .rate = 0.15};
 
-TEST(WavyTendon, IsLongerByWhatItsWavesGive) {
+TEST(WavyTendon, LengthensByItsWaves) {
   const std::vector<EquilibriumPoint> straight = loaded(wavy({}), 8, 20), points = loaded(wavy(k_waves), 8, 20);
   EXPECT_GT(std::abs(points.back().theta - straight.back().theta), radians(0.05));
   const EquilibriumPoint& home = points.front();
   for (const auto tendon : {&EquilibriumPoint::t1, &EquilibriumPoint::t2}) {
     const auto given = [&](double pull) { return 0.4 - 0.4 / (1 + 0.15 * pull); };
-    // Without friction one tension is all along it, and the home one says how much material there is.
+    // Without friction the tension is uniform, and that at home determines the material.
     const double strained = (home.*tendon).stretch / (home.*tendon).upper;
     for (const EquilibriumPoint& point : points) {
       const TendonState& state = point.*tendon;
@@ -152,7 +152,7 @@ TEST(WavyTendon, IsLongerByWhatItsWavesGive) {
   }
 }
 
-TEST(WavyTendon, StiffensAsItIsPulled) {
+TEST(WavyTendon, StiffensWithTension) {
   const auto softness = [](double force) {
     const auto at = [&](double f) { return loaded(wavy(k_waves), f, 40).back().theta; };
     const auto straight = [&](double f) { return loaded(wavy({}), f, 40).back().theta; };
@@ -161,7 +161,7 @@ TEST(WavyTendon, StiffensAsItIsPulled) {
   EXPECT_GT(softness(0.1), 1.1 * softness(20));
 }
 
-TEST(WavyTendon, GivesBackItsWork) {
+TEST(WavyTendon, ConservesEnergy) {
   const auto missing = [](const JointModel& model) {
     const std::vector<EquilibriumPoint> points = loaded(model, 8, 1000);
     double load = 0;
@@ -174,7 +174,7 @@ TEST(WavyTendon, GivesBackItsWork) {
   EXPECT_LT(std::abs(missing(wavy(k_waves)) - missing(wavy({}))), 1e-3 * held);
 }
 
-TEST(WavyTendon, StandsAtHomeWhereItWasTied) { EXPECT_NEAR(loaded(wavy(k_waves), 0, 3).back().theta, 0, 1e-12); }
+TEST(WavyTendon, KeepsHome) { EXPECT_NEAR(loaded(wavy(k_waves), 0, 3).back().theta, 0, 1e-12); }
 
 }  // namespace
 }  // namespace fusee

@@ -1,8 +1,8 @@
-// The full model against a second program that shares no equation with it but the declared law: geometry from
-// coordinates, the tendon on the pin as a chain of short springs over many points of friction, slipping by relaxation,
-// what is wound as a pile of short pieces (backward Euler instead of the trapezoid), the joint by false position. They
-// agree to 1e-4 without friction, where only the step differs, and to 2e-3 with it, where the chain slips bit by bit
-// along the pin and the model all at once.
+// The full model compared with an independent program that shares only the declared law. It computes the geometry from
+// coordinates, and models the tendon on the pin as a chain of short springs over many points of friction that slip by
+// relaxation. The wound tendon is a stack of short pieces (backward Euler instead of the trapezoidal rule), and false
+// position solves for the joint. Agreement: 1e-4 without friction, where only the step differs, and 2e-3 with friction,
+// where the chain slips gradually along the pin and the model all at once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,18 +35,18 @@ UpperLine upper_line(double R, double theta, const Vec2& pin, double rho) {
   const Vec2 line = (C - tangent).normalized();
   UpperLine upper;
   upper.free = (C - tangent).norm();
-  upper.normal = std::atan2(-line.x(), line.y());  // line turned right
+  upper.normal = std::atan2(-line.x(), line.y());  // line rotated to the right
   upper.arm = std::abs(cross(C, line));
   return upper;
 }
 
-/// A tendon below its pin, in its right-hand image: from the pin's tangent point to where it touches the pulley.
+/// A tendon below its pin, in its right-hand image: from the pin's tangent point to the contact on the pulley.
 struct Lower {
   double reach = 0;
   double normal = 0;
 };
 
-/// The pulley is touched where neighbouring lines of its own frame cross.
+/// The contact is the intersection of neighbouring lines in the pulley's frame.
 Lower free_below(const Transmission& law, Side side, double image_alpha) {
   struct Line {
     double p, reach, normal;
@@ -59,13 +59,13 @@ Lower free_below(const Transmission& law, Side side, double image_alpha) {
   constexpr double step = 1e-4;
   const Line here = line(image_alpha), before = line(image_alpha - step), after = line(image_alpha + step);
   const double turned_before = before.normal - step - here.normal, turned_after = after.normal + step - here.normal;
-  // Both lines with the normals (cos, sin) of their turning: how far along the line in between they cross.
+  // Both lines with the normals (cos, sin) of their directions: position of the intersection along the line in between.
   const double crossing =
       (std::cos(turned_before) * after.p - std::cos(turned_after) * before.p) / std::sin(turned_after - turned_before);
   return {here.reach - crossing, here.normal};
 }
 
-/// What a mechanism gives one of its tendons, in its right-hand image.
+/// Inputs from the mechanism for one tendon, in its right-hand image.
 struct Given {
   Given(const Mechanism& mechanism, Side its_side)
       : law(mechanism),
@@ -115,7 +115,7 @@ class Chain {
     pile_density_ = 1.0 / (1.0 + home_tension / given_.EA);
   }
 
-  /// The pulley moves on; θ is not known yet.
+  /// Turns the pulley; θ is not known yet.
   void turn(double image_alpha) {
     next_ = given_.lower(image_alpha);
     winding_ = wound_by(image_alpha);
@@ -155,7 +155,7 @@ class Chain {
   }
 
  private:
-  /// Arc that comes onto the pulley: what comes over the pin (∫p dα, Simpson) less what the lower line takes.
+  /// Arc wound onto the pulley: material passing the pin (∫p dα, Simpson) minus the change of the lower line.
   double wound_by(double image_alpha) const {
     const double between = given_.arm(0.5 * (alpha_ + image_alpha));
     const double over = (image_alpha - alpha_) / 6 * (given_.arm(alpha_) + 4 * between + given_.arm(image_alpha));
@@ -166,8 +166,7 @@ class Chain {
     return static_cast<std::size_t>(std::lower_bound(rim_.begin(), rim_.end(), normal) - rim_.begin());
   }
 
-  /// Points of friction that the tendon newly lies on split its end pieces; those that it left join them. Then the
-  /// lengths as they are.
+  /// Splits the end pieces at new friction points, joins them at abandoned ones, and then updates the lengths.
   void fit(std::vector<Piece>& pieces, std::size_t& first, std::size_t& last, const UpperLine& upper,
            const Lower& lower) const {
     const std::size_t new_first = index_above(lower.normal);
@@ -213,7 +212,7 @@ class Chain {
     pieces.back().length = upper.free + given_.rho * (upper.normal - rim_[last - 1]);
   }
 
-  /// Lets material slip at each point of friction until nowhere the ratio of tensions is beyond it.
+  /// Lets material slip at each friction point until no tension ratio exceeds its limit.
   void relax(std::vector<Piece>& pieces, std::size_t first, double upper_normal) const {
     const std::size_t points = pieces.size() - 1;
     std::vector<double> ratio(points);
@@ -239,7 +238,7 @@ class Chain {
     if (up > ratio * down) factor = ratio;
     if (down > ratio * up) factor = 1.0 / ratio;
     if (factor == 0) return 0;
-    // One Newton step on up = factor · down; the next pass does the rest.
+    // One Newton step on up = factor · down; the next pass corrects it.
     const double up_slope = -given_.EA * above.length / (above.material * above.material);
     const double down_slope = given_.EA * below.length / (below.material * below.material);
     double crossing = -(up - factor * down) / (up_slope - factor * down_slope);
@@ -281,9 +280,9 @@ class Chain {
 
   Given given_;
   double mu_;
-  std::vector<double> rim_;    ///< normals of the points of friction, fixed on the rim
-  std::vector<Piece> pieces_;  ///< from the pulley up
-  std::size_t first_, last_;   ///< rim points the tendon lies on
+  std::vector<double> rim_;    ///< normals of the friction points, fixed on the rim
+  std::vector<Piece> pieces_;  ///< from the pulley upwards
+  std::size_t first_, last_;   ///< first and last rim points that the tendon touches
   Lower lower_, next_;
   double alpha_ = 0, alpha_next_ = 0, winding_ = 0;
   std::vector<Laid> pile_;
@@ -291,7 +290,7 @@ class Chain {
 };
 
 /// A tendon without friction on its pin, in its right-hand image: elements of equal material from the knot on, each
-/// with the strain that it has on the pulley; those past the take-off are the span.
+/// with its strain on the pulley. Those beyond the take-off form the span.
 class Elements {
  public:
   Elements(const Mechanism& mechanism, Side side, double home_tension, int count)
@@ -322,7 +321,7 @@ class Elements {
     double at_high = excess(high, length, nullptr);
     if (at_low <= 0) high = 0;
     for (int i = 0; i < 60 && high - low > 1e-14 && at_low > 0; ++i) {
-      // Illinois.
+      // Illinois method.
       const double strain = low - at_low * (high - low) / (at_high - at_low);
       const double value = excess(strain, length, nullptr);
       if (std::abs(value) < 1e-13) {
@@ -346,8 +345,8 @@ class Elements {
   }
 
  private:
-  /// Arc from the knot and turning of the normal, along the range: what comes over the pin (∫p dα) less what the lower
-  /// line takes.
+  /// Arc from the knot and turn of the normal along the range: material passing the pin (∫p dα) minus the change of the
+  /// lower line.
   void survey() {
     const bool right = given_.side == Side::right;
     const double from = right ? given_.law.alpha_min() : -given_.law.alpha_max();
@@ -416,7 +415,7 @@ struct Row {
   double load = 0;  ///< torque
 };
 
-/// From home through `rows`.
+/// Moves from home through `rows`.
 template <typename Tendon>
 std::vector<Simulated> simulate(const Mechanism& mechanism, const std::vector<Row>& rows, int points) {
   const Vec2 left_pin(mechanism.guides.EB, -mechanism.guides.OE);
@@ -438,7 +437,7 @@ std::vector<Simulated> simulate(const Mechanism& mechanism, const std::vector<Ro
     double at_low = beyond(low);
     double at_high = beyond(high);
     for (int i = 0; i < 60; ++i) {
-      // Illinois: false position that halves the value of an end kept twice.
+      // Illinois method: false position that halves the value of an end kept twice.
       theta = low - at_low * (high - low) / (at_high - at_low);
       const double value = beyond(theta);
       if (std::abs(value) < 1e-9 || high - low < 1e-14) break;
@@ -472,8 +471,8 @@ std::vector<Row> up_and_down(const Mechanism& mechanism, double load, int steps)
 }
 
 struct Disagreement {
-  double theta = 0;    ///< largest difference of θ, as a part of the largest deviation from the law
-  double tension = 0;  ///< of any tension, as a part of the largest
+  double theta = 0;    ///< largest difference of θ relative to the largest deviation from the law
+  double tension = 0;  ///< largest difference of a tension relative to the largest tension
 };
 
 Disagreement disagreement(const Mechanism& mechanism, const std::vector<Row>& rows,
@@ -514,7 +513,7 @@ Mechanism rubbery(double radius, double friction) {
   return mechanism;
 }
 
-TEST(Chain, WithoutFrictionIsTheModelToTheStep) {
+TEST(Chain, AgreesWithoutFriction) {
   const Disagreement coarse = from_chain(rubbery(2.0, 0.0), 500.0, 15, 1);
   const Disagreement fine = from_chain(rubbery(2.0, 0.0), 500.0, 60, 1);
   EXPECT_LT(fine.theta, 2e-4);
@@ -522,15 +521,15 @@ TEST(Chain, WithoutFrictionIsTheModelToTheStep) {
   EXPECT_NEAR(coarse.theta / fine.theta, 4.0, 1.0);
 }
 
-TEST(Chain, WithFrictionOverManyPointsOfThePin) {
+TEST(Chain, AgreesWithFriction) {
   const Disagreement rough = from_chain(rubbery(6.0, 0.15), 500.0, 40, 3);
   EXPECT_LT(rough.theta, 5e-3);
   EXPECT_LT(rough.tension, 5e-3);
 }
 
-// What lies on the pulleys as 500 elements of the tendon that move with it, each kept within what the capstan law lets
-// it have: no profile by place, no piece that is cut, no span that stands for others.
-TEST(Elements, OfTheTendonSlideInTheGrooveAsTheModelSays) {
+// The wound tendon as 500 moving elements, each kept within the bounds of the capstan law: no profile by place, no cut
+// pieces, no equivalent spans.
+TEST(Elements, AgreeWithGrooveSliding) {
   // Measured: 1.3e-4, 5.3e-4, 5.8e-4 of the deviation.
   const std::vector<double> all{0.05, 0.2, 0.5}, one{0.2};
   for (const double friction : std::getenv("FUSEE_LONG_TESTS") != nullptr ? all : one) {
@@ -543,7 +542,7 @@ TEST(Elements, OfTheTendonSlideInTheGrooveAsTheModelSays) {
     const Disagreement off = disagreement(mechanism, rows, elements);
     EXPECT_LT(off.theta, 1e-3) << friction;
     EXPECT_LT(off.tension, 2e-4) << friction;
-    // Seen failing: with another friction.
+    // Another friction coefficient must be detected.
     mechanism.pulley.mu = friction + 0.15;
     EXPECT_GT(disagreement(mechanism, rows, elements).theta, 1e-2) << friction;
   }

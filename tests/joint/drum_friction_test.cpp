@@ -15,9 +15,9 @@
 namespace fusee {
 namespace {
 
-/// A string from its end over a drum to where tension pulls it, in links of unstretched length h that keep their
-/// material. A knot between two links slips where their tensions part by more than its share of the wrap lets them, and
-/// only so far. Found by relaxation; no profile, no bounds of what slides, no pieces.
+/// A string from its end over a drum, in links of the unstretched length h that keep their material. A knot between two
+/// links slips when their tension ratio exceeds the capstan limit, and only up to it. Solved by relaxation, without
+/// profile, bounds or pieces.
 class StringInLinks {
  public:
   StringInLinks(double drum, double behind, double friction, double EA, double link, double home)
@@ -26,7 +26,7 @@ class StringInLinks {
     while (knots_.back() < long_enough) knots_.push_back(knots_.back() + link * (1.0 + home / EA));
   }
 
-  /// `wrap` of it lies on the drum, and beyond that it is at `tension`.
+  /// Sets the wrap on the drum and the tension beyond it.
   void to(double wrap, double tension) {
     const double taut = link_ * (1.0 + tension / EA_);
     const double takes_off = wrap > 0 ? behind_ + drum_ * wrap : 0.0;
@@ -45,7 +45,7 @@ class StringInLinks {
     }
   }
 
-  /// From the end to where it leaves the drum.
+  /// Material from the end to the lift-off point.
   double material(double wrap) const {
     const double takes_off = wrap > 0 ? behind_ + drum_ * wrap : 0.0;
     const auto next = std::upper_bound(knots_.begin(), knots_.end(), takes_off);
@@ -60,7 +60,7 @@ class StringInLinks {
     const double from = std::max(behind_, 0.5 * (low + here)), to = std::min(takes_off, 0.5 * (here + high));
     const double holds = std::exp(friction_ * std::max(0.0, to - from) / drum_);
     const double below = here - low - link_, above = high - here - link_;
-    double ratio = 0;  // of above to below
+    double ratio = 0;  // above to below
     if (above > below * holds)
       ratio = holds;
     else if (below > above * holds)
@@ -72,7 +72,7 @@ class StringInLinks {
   }
 
   double drum_, behind_, friction_, EA_, link_;
-  std::vector<double> knots_;  ///< places along the string's way, seen from the link, mm
+  std::vector<double> knots_;  ///< positions along the string, in the frame of the link, mm
 };
 
 Mechanism rubbing(Mechanism mechanism, double friction, double modulus) {
@@ -82,12 +82,13 @@ Mechanism rubbing(Mechanism mechanism, double friction, double modulus) {
   return mechanism;
 }
 
-/// Held in its grooves as it was wound, and free on its pins, all of a tendon is known but for what lies on the drum:
-/// span and what is wound have the span's tension. So the string's links must hold the rest at every place.
+/// With infinite groove friction and without pin friction, everything about a tendon is known except for the part on
+/// the drum, because span and wound part have the span's tension. The string's links must therefore contain the
+/// remainder at every angle.
 struct Compared {
-  double slides = 0;  ///< by how much the drum at most holds less or more than at the span's tension, mm
-  double apart = 0;   ///< of the tendon's material, mm
-  double at_end = 0;  ///< of the tension at the end, as a fraction of the span's
+  double slides = 0;  ///< largest excess or deficit of material on the drum relative to the span's tension, mm
+  double apart = 0;   ///< difference in the tendon's material, mm
+  double at_end = 0;  ///< difference in the tension at the end, as a fraction of the span's
 };
 
 Compared with_links(Mechanism mechanism, double force, int links_per_rad) {
@@ -138,10 +139,10 @@ Compared with_links(Mechanism mechanism, double force, int links_per_rad) {
   return compared;
 }
 
-// Links take friction in steps: what they part by halves with them, and to nothing else.
-TEST(DrumFriction, IsThatOfAStringInLinks) {
+// Links discretize friction: their error halves with their length and has no other source.
+TEST(DrumFriction, AgreesWithStringOfLinks) {
   Mechanism ankle = rubbing(testing::ankle(), 0.25, 3000.0);
-  ankle.joint.attachment2 = Attachment{20.0, 45.0};  // off the drum, on which tendon 2 lies up to some angle
+  ankle.joint.attachment2 = Attachment{20.0, 45.0};  // clear of the drum, on which tendon 2 lies up to some angle
   const auto expect_near = [](const Mechanism& mechanism, double force) {
     const Compared coarse = with_links(mechanism, force, 15), fine = with_links(mechanism, force, 30);
     EXPECT_GT(fine.slides, 0.02);
@@ -153,7 +154,7 @@ TEST(DrumFriction, IsThatOfAStringInLinks) {
   expect_near(ankle, 20.0);
 }
 
-TEST(DrumFriction, BindsTheTensionAtTheEndAndTurnsTheJointNoOtherWay) {
+TEST(DrumFriction, BoundsEndTensionOnly) {
   const Mechanism mechanism = rubbing(testing::finger(), 0.3, 3000.0);
   const JointModel model = joint_model(mechanism);
   JointMotion motion(model);
@@ -173,10 +174,10 @@ TEST(DrumFriction, BindsTheTensionAtTheEndAndTurnsTheJointNoOtherWay) {
   };
   for (int i = 0; i <= 100; ++i) look({0.0, 0.3 * i, 0.0});
   for (int i = 0; i <= 300; ++i) look({1.2 * std::sin(0.04 * i), 30.0, 0.0});
-  EXPECT_GT(apart, 0.999);  // sliding all the way to the end, here and there
+  EXPECT_GT(apart, 0.999);  // sliding reaches the end at some angles
 }
 
-TEST(DrumFriction, OfNoneAtAllIsTheLimit) {
+TEST(DrumFriction, ConvergesToFrictionless) {
   for (const Mechanism& joint : {testing::finger(), testing::ankle()}) {
     std::vector<JointStep> steps;
     for (int i = 0; i <= 4000; ++i) steps.push_back({0.5 * std::sin(0.003 * i), 10.0 * std::sin(0.002 * i), 0.0});
@@ -185,7 +186,7 @@ TEST(DrumFriction, OfNoneAtAllIsTheLimit) {
     const auto some = follow(joint_model(rubbing(joint, 0.2, 3000.0)), steps);
     double apart = 0;
     for (std::size_t i = 0; i < none.size(); ++i) {
-      // What is laid in a step is free to slide from the next one on.
+      // Material laid in a step can slide from the next one on.
       EXPECT_NEAR(none[i].theta, hardly[i].theta, 1e-6);
       EXPECT_NEAR(none[i].t2.lower, hardly[i].t2.lower, 1e-3);
       apart = std::max(apart, std::abs(none[i].theta - some[i].theta));
@@ -194,9 +195,8 @@ TEST(DrumFriction, OfNoneAtAllIsTheLimit) {
   }
 }
 
-// A weight comes on: from one step of the joint without a load to the next with it, by the model, and [d3] by the
-// paper's chain.
-TEST(DrumFriction, ThePapersChainKnowsIt) {
+// Adds a weight: the model steps from the unloaded to the loaded joint, compared with [d3] of the paper's formulas.
+TEST(DrumFriction, AgreesWithPaperForces) {
   double spared = 0;
   for (const double friction : {0.0, 0.3}) {
     Mechanism mechanism = rubbing(testing::finger(), friction, 1e6);
@@ -210,8 +210,8 @@ TEST(DrumFriction, ThePapersChainKnowsIt) {
     mechanism.load.tip_force = 20.0;
     const TransmissionPoint at = Transmission(mechanism).at_alpha(0.4);
     const PaperForces forces = paper_forces(mechanism, at);
-    // What is free ends where the pulley is touched, not at the foot of the axis' perpendicular: on a round one the
-    // same.
+    // The free length ends at the contact on the pulley, not at the foot of the axis' perpendicular. On a round pulley
+    // they coincide.
     EXPECT_NEAR(unloaded - loaded.theta, forces.theta_error, 2e-3 * forces.theta_error) << friction;
     const double wrap = upper_span(pin_place(mechanism, Side::right, 1.3), at.theta).on_drum;
     EXPECT_NEAR(loaded.t2.end, forces.T2 * std::exp(-friction * wrap), 1e-3 * forces.T2);
@@ -222,7 +222,7 @@ TEST(DrumFriction, ThePapersChainKnowsIt) {
   }
 }
 
-TEST(DrumFriction, LosesNoEnergy) {
+TEST(DrumFriction, ConservesEnergy) {
   for (const Mechanism& joint : {testing::finger(), testing::ankle()}) {
     const Mechanism mechanism = rubbing(joint, 0.25, 3000.0);
     const Transmission law(mechanism);
@@ -244,7 +244,7 @@ TEST(DrumFriction, LosesNoEnergy) {
         motor += 0.5 * (a.motor_torque + b.motor_torque) * (b.alpha - a.alpha);
         load += 0.5 * (a.load_torque + b.load_torque) * (b.theta - a.theta);
       }
-      // From the first point on: it comes to its load in one step.
+      // From the first point on: the load is applied in one step.
       const EquilibriumPoint &first = points.front(), &end = points.back();
       *lost = end.friction - first.friction;
       return motor - load - (end.stored - first.stored) - *lost - (end.groove_friction - first.groove_friction);

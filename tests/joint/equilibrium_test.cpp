@@ -20,7 +20,7 @@ struct Sweep {
   int cycles = 1;
 };
 
-/// Home, the load coming on, then up to the highest α, down to the lowest, and home again.
+/// Home, gradual loading, up to the highest α, down to the lowest, and home again.
 std::vector<JointStep> cycles(const Mechanism& mechanism, const Sweep& sweep) {
   const Transmission transmission(mechanism);
   std::vector<JointStep> steps;
@@ -44,7 +44,7 @@ Mechanism with(Mechanism mechanism, double pretension, double friction, double m
   return mechanism;
 }
 
-/// What lies on the pulley stays as it was wound.
+/// Keeps the wound tendon as it was wound.
 Mechanism held(Mechanism mechanism) {
   mechanism.pulley.mu = 1e12;
   return mechanism;
@@ -67,16 +67,16 @@ double largest_miss(const Mechanism& mechanism, const Sweep& sweep) {
 
 // ---- limits ---------------------------------------------------------------------------------------------------------
 
-TEST(Equilibrium, WithoutTensionIsTheKinematics) {
+TEST(Equilibrium, FollowsKinematicsWithoutTension) {
   for (const Mechanism& start : {reference(), forearm(), linear_wrist(), unsymmetric()}) {
     EXPECT_LT(largest_miss(with(start, 0.0, 0.0), {}), 1e-12);
   }
 }
 
-TEST(Equilibrium, WithOneSlackTendonAndNoFrictionIsThePapersTension) {
+TEST(Equilibrium, AgreesWithPaperTension) {
   const Mechanism mechanism = with(forearm(), 0.0, 0.0);
   for (const EquilibriumPoint& point : follow(joint_model(mechanism), cycles(mechanism, {10.0}))) {
-    if (point.load_torque < 1000.0) continue;  // still coming on
+    if (point.load_torque < 1000.0) continue;  // still loading
     const double m2 = upper_span(pin_place(mechanism, Side::right, 2.5), point.theta).m;
     EXPECT_EQ(point.t1.upper, 0.0);
     EXPECT_GT(point.t1.slack, 0.0);
@@ -85,7 +85,7 @@ TEST(Equilibrium, WithOneSlackTendonAndNoFrictionIsThePapersTension) {
   }
 }
 
-TEST(Equilibrium, MovingOneWayIsThePapersCapstan) {
+TEST(Equilibrium, AgreesWithPaperCapstan) {
   const Mechanism mechanism = with(forearm(), 0.0, 0.2);
   const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, {10.0}));
   int lifting = 0;
@@ -104,9 +104,9 @@ TEST(Equilibrium, MovingOneWayIsThePapersCapstan) {
   EXPECT_GT(lowering, 170);
 }
 
-TEST(Equilibrium, OfStiffTendonsIsThePapersErrorToFirstOrder) {
-  // Unloaded and loaded at one α: the difference is [9]-[11], the better the stiffer; but what is free of the tendon
-  // ends where it touches the pulley, and not at the foot of the axis' perpendicular.
+TEST(Equilibrium, AgreesWithPaperErrorForStiffTendons) {
+  // Unloaded and loaded at one α: the difference agrees with [9]-[11], better for stiffer tendons. The free length,
+  // however, ends at the contact on the pulley, not at the foot of the axis' perpendicular.
   double previous = 0;
   for (const double modulus : {1e5, 1e6, 1e7}) {
     Mechanism mechanism = held(with(reference(), 0.0, 0.0, modulus));
@@ -131,8 +131,8 @@ TEST(Equilibrium, OfStiffTendonsIsThePapersErrorToFirstOrder) {
   }
 }
 
-TEST(Equilibrium, PretensionAloneMovesASoftJoint) {
-  // As r2/r1 changes the tensions must: T1 m1 = T2 m2. In proportion to 1/EA.
+TEST(Equilibrium, PretensionDeflectsSoftJoint) {
+  // The tensions must follow r2/r1: T1 m1 = T2 m2. The deviation is proportional to 1/EA.
   const double soft = degrees(largest_miss(held(with(reference(), 5.0, 0.0, modulus_of(850.0))), {}));
   const double stiff = degrees(largest_miss(held(with(reference(), 5.0, 0.0, modulus_of(31000.0))), {}));
   EXPECT_NEAR(soft, 0.0603, 0.0005);
@@ -141,7 +141,7 @@ TEST(Equilibrium, PretensionAloneMovesASoftJoint) {
 
 // ---- laws -----------------------------------------------------------------------------------------------------------
 
-TEST(Equilibrium, BalancesTheJointEverywhere) {
+TEST(Equilibrium, BalancesTorques) {
   Mechanism mechanism = with(unsymmetric(), 8.0, 0.15, 3000.0);
   mechanism.load.mass = 0.4;
   mechanism.load.lever = 60.0;
@@ -151,7 +151,7 @@ TEST(Equilibrium, BalancesTheJointEverywhere) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const EquilibriumPoint& point = points[i];
     ASSERT_EQ(point.status, EquilibriumStatus::held);
-    // Level at home: the weight's lever is that of a cosine.
+    // Horizontal at home: the weight's lever follows a cosine.
     EXPECT_NEAR(point.load_torque, 100.0 * steps[i].tip_force + 0.4 * 9.80665 * 60.0 * std::cos(point.theta), 1e-9);
     const double m1 = upper_span(pin_place(mechanism, Side::left, 2.5), -point.theta).m;
     const double m2 = upper_span(pin_place(mechanism, Side::right, 2.5), point.theta).m;
@@ -165,8 +165,8 @@ TEST(Equilibrium, BalancesTheJointEverywhere) {
   }
 }
 
-TEST(Equilibrium, MotorTorqueIsVirtualWorkOfTheTip) {
-  // Stiff, without friction and pretension: motor power is the load's power.
+TEST(Equilibrium, MotorTorqueSatisfiesVirtualWork) {
+  // Stiff, without friction and pretension: motor power equals load power.
   Mechanism mechanism = with(forearm(), 0.0, 0.0, 1e9);
   const Transmission transmission(mechanism);
   for (const double alpha : {-1.8, 0.2, 1.7}) {
@@ -189,7 +189,7 @@ double work_missing(const Mechanism& mechanism, const Sweep& sweep, double* scal
   return motor - load - end.stored - end.friction - end.groove_friction;
 }
 
-TEST(Equilibrium, LosesNoEnergy) {
+TEST(Equilibrium, ConservesEnergy) {
   for (const Mechanism& mechanism :
        {with(forearm(), 30.0, 0.2, 2000.0), with(unsymmetric(), 12.0, 0.1, 3000.0),
         with(reference(), 30.0, 0.3, 1000.0), with(testing::sheathed_wrist(), 20.0, 0.1, 3000.0)}) {
@@ -200,7 +200,7 @@ TEST(Equilibrium, LosesNoEnergy) {
   }
 }
 
-TEST(Equilibrium, MissingEnergyFallsWithTheSquareOfTheStep) {
+TEST(Equilibrium, EnergyErrorIsSecondOrder) {
   const Mechanism mechanism = with(forearm(), 30.0, 0.2, 2000.0);
   double scale = 0;
   const double coarse = work_missing(mechanism, {8.0, 250, 1}, &scale);
@@ -208,8 +208,8 @@ TEST(Equilibrium, MissingEnergyFallsWithTheSquareOfTheStep) {
   EXPECT_NEAR(coarse / fine, 16.0, 8.0);
 }
 
-TEST(Equilibrium, BedsInWithinAFewCycles) {
-  // What was wound before the first cycle lies at another strain; each cycle replaces it.
+TEST(Equilibrium, SettlesWithinFewCycles) {
+  // The tendon wound before the first cycle has another strain; each cycle replaces it.
   const Mechanism mechanism = with(forearm(), 20.0, 0.15, 1500.0);
   constexpr int steps = 90;
   const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, {5.0, steps, 6}));
@@ -228,9 +228,8 @@ TEST(Equilibrium, BedsInWithinAFewCycles) {
 
 // ---- what lies on the pulley ----------------------------------------------------------------------------------------
 
-TEST(Equilibrium, InAGrooveThatHoldsAllTendonKeepsTheStrainOfItsWinding) {
-  // By the program that knew no other law (revision e00f5d6, its spans ended where the pulley is touched): α, θ, both
-  // lower tensions.
+TEST(Equilibrium, KeepsWindingStrainWithInfiniteFriction) {
+  // Reference values from an earlier program with this law only (revision e00f5d6): α, θ, both lower tensions.
   const Mechanism mechanism = held(with(forearm(), 30.0, 0.2, 2000.0));
   constexpr double known[][4] = {{0.69399114539754003, 0.15206748476903986, 18.21244269357458, 43.00670895234289},
                                  {2.0819734361926203, 0.50124138588770351, 16.499896775795161, 42.502544547160888},
@@ -256,8 +255,8 @@ TEST(Equilibrium, InAGrooveThatHoldsAllTendonKeepsTheStrainOfItsWinding) {
   EXPECT_EQ(row, std::size(known));
 }
 
-TEST(Equilibrium, WithoutFrictionATendonIsOneSpringUpToItsKnot) {
-  // From knot to C at one tension, whatever was before.
+TEST(Equilibrium, IsOneSpringWithoutFriction) {
+  // From knot to C at one tension, independent of history.
   Mechanism mechanism = with(unsymmetric(), 20.0, 0.0, 3000.0);
   mechanism.pulley.mu = 0;
   const JointModel model = joint_model(mechanism);
@@ -289,7 +288,7 @@ Mechanism wound_twice() {
   return mechanism;
 }
 
-TEST(SeveralTurns, WithoutFrictionATendonIsOneSpringUpToItsKnotAfterTheSpareTurns) {
+TEST(SeveralTurns, AreOneSpringWithoutFriction) {
   // Round and on a drum: free upper length, wrap of the pin and the lower span stand still, both arcs are r times an
   // angle. From the end on the joint to the knot: straight, round the pin, to the pulley, and all that lies on it.
   Mechanism mechanism = wound_twice();
@@ -315,14 +314,14 @@ TEST(SeveralTurns, WithoutFrictionATendonIsOneSpringUpToItsKnotAfterTheSpareTurn
   }
 }
 
-TEST(SeveralTurns, LoseNoEnergy) {
+TEST(SeveralTurns, ConserveEnergy) {
   double scale = 0;
   const double missing = work_missing(wound_twice(), {2.0, 8000, 2}, &scale);
   EXPECT_GT(scale, 10.0);
   EXPECT_LT(std::abs(missing), 1e-5 * scale);
 }
 
-TEST(SeveralTurns, OfSpareOnesTheFirstHoldsAlmostAll) {
+TEST(SeveralTurns, FirstSpareTurnHoldsMost) {
   // A wrap of 2π leaves e^(−2πμ) of a change of tension to what lies behind it: 4 % at 0.5.
   Mechanism mechanism = wound_twice();
   mechanism.pulley.mu = 0.5;
@@ -335,7 +334,7 @@ TEST(SeveralTurns, OfSpareOnesTheFirstHoldsAlmostAll) {
   EXPECT_LE(std::abs(three - one), std::abs(three - quarter));
 }
 
-TEST(Equilibrium, FrictionInTheGrooveTakesWorkAndGivesNone) {
+TEST(Equilibrium, GrooveFrictionDissipates) {
   for (const double friction : {0.05, 0.2, 1.0}) {
     Mechanism mechanism = with(forearm(), 30.0, 0.15, 2000.0);
     mechanism.pulley.mu = friction;
@@ -351,7 +350,7 @@ TEST(Equilibrium, FrictionInTheGrooveTakesWorkAndGivesNone) {
   EXPECT_NEAR(follow(joint_model(smooth), cycles(smooth, {8.0, 2000, 1})).back().groove_friction, 0.0, 1e-4);
 }
 
-TEST(Equilibrium, OfAGrooveDoesNotDependOnTheStep) {
+TEST(Equilibrium, IsIndependentOfStepSize) {
   // Steps of 1 degree of α and of a quarter of one; under load, three cycles.
   const Mechanism mechanism = with(forearm(), 5.0, 0.12, 9000.0);
   const auto at_ends = [&](int steps) {
@@ -368,7 +367,7 @@ TEST(Equilibrium, OfAGrooveDoesNotDependOnTheStep) {
   EXPECT_LT(degrees(largest), 5e-4);
 }
 
-TEST(Equilibrium, GivesWayAsMuchAsTheReferenceSays) {
+TEST(Equilibrium, DeflectsLikeReferenceRig) {
   // Mean deflection over ±100° of α under 12 N, EA 7070 N. An independent rig, whose pins and pretension are not known,
   // gave 0.362° (groove friction infinite), 0.389° (0.2) and 0.385° (0.05).
   const auto mean = [](double friction) {
@@ -399,7 +398,7 @@ TEST(Equilibrium, GivesWayAsMuchAsTheReferenceSays) {
 
 // ---------------------------------------------------------------------------------------------------------------------
 
-TEST(Equilibrium, StiffnessIsThatOfDifferences) {
+TEST(Equilibrium, StiffnessAgreesWithDifferences) {
   // A torque a little larger at the same α: what sticks stays stuck; without friction everything passes.
   const double step = 1e-3;
   for (const double friction : {0.0, 0.25}) {
@@ -426,7 +425,7 @@ TEST(Equilibrium, StiffnessIsThatOfDifferences) {
   }
 }
 
-TEST(Equilibrium, LoopGrowsWithFriction) {
+TEST(Equilibrium, HysteresisGrowsWithFriction) {
   const auto width = [](double friction) {
     const Mechanism mechanism = held(with(forearm(), 5.0, friction, 3000.0));
     constexpr int steps = 90;
@@ -440,8 +439,8 @@ TEST(Equilibrium, LoopGrowsWithFriction) {
   EXPECT_NEAR(width(0.1) / little, 2.0, 0.1);
 }
 
-TEST(Equilibrium, LawsScaleWithForces) {
-  // All forces and the modulus twice: the same angles, twice the tensions.
+TEST(Equilibrium, ScalesWithForces) {
+  // All forces and the modulus doubled: the same angles, twice the tensions.
   Mechanism once = with(forearm(), 5.0, 0.12, 2000.0);
   Mechanism twice = with(forearm(), 10.0, 0.12, 4000.0);
   const auto points = follow(joint_model(once), cycles(once, {6.0}));
@@ -452,9 +451,9 @@ TEST(Equilibrium, LawsScaleWithForces) {
   }
 }
 
-// By another route than the law's own: tensions of both tendons on their pulleys, stiff and without friction, under a
-// weight, a force and a spring. The springs of the tendons are left with a millionth of the torque.
-TEST(Equilibrium, TheMotorHoldsWhatALawOfTorqueWants) {
+// An independent route: tensions of both tendons on their pulleys, stiff and without friction, under a weight, a force
+// and a spring. The elasticity of the tendons leaves a millionth of the torque.
+TEST(Equilibrium, MotorHoldsLoadOfTorqueLaw) {
   Mechanism arm = with(testing::ankle(), 5.0, 0.0, 1e9);
   arm.pulley.mu = 0;
   arm.pulley.law = Law::torque;
@@ -479,12 +478,12 @@ TEST(Equilibrium, TheMotorHoldsWhatALawOfTorqueWants) {
   }
 }
 
-TEST(Equilibrium, OfTheMirroredJointIsMirrored) {
+TEST(Equilibrium, MirroredJointHasMirroredEquilibrium) {
   Mechanism mechanism = with(unsymmetric(), 5.0, 0.12, 2000.0);
   mechanism.pulley.law = Law::linear;
   mechanism.pulley.ratio = 3.0;
   Mechanism image = testing::mirrored(mechanism);
-  // Tendon 1's pretension is tendon 2's in the image.
+  // Tendon 1's pretension becomes tendon 2's in the image.
   const double arm1 = upper_span(pin_place(mechanism, Side::left, 2.5), 0.0).m;
   const double arm2 = upper_span(pin_place(mechanism, Side::right, 2.5), 0.0).m;
   image.tendon.pretension = 5.0 * arm1 / arm2;
@@ -502,7 +501,7 @@ TEST(Equilibrium, OfTheMirroredJointIsMirrored) {
 
 // ---- where it ends --------------------------------------------------------------------------------------------------
 
-TEST(Equilibrium, SaysWhereALoadIsTooMuch) {
+TEST(Equilibrium, ReportsExcessiveLoad) {
   // Soft tendons let a large load pull the joint past the dead centre.
   const Mechanism mechanism = with(forearm(), 5.0, 0.1, 20.0);
   JointMotion motion(joint_model(mechanism));
@@ -512,12 +511,12 @@ TEST(Equilibrium, SaysWhereALoadIsTooMuch) {
   EXPECT_EQ(refused.alpha, 0.1);
   EXPECT_TRUE(std::isfinite(refused.theta));
   EXPECT_EQ(refused.t2.upper, 0.0);
-  // The joint goes on from where it was.
+  // The joint continues from its last state.
   EXPECT_EQ(motion.to({0.0, 0.01, 0.0}).status, EquilibriumStatus::held);
 }
 
-TEST(Equilibrium, SaysWhenNothingHoldsTheJoint) {
-  // Pulled slack on both sides: more tendon than path, no load.
+TEST(Equilibrium, ReportsLooseJoint) {
+  // Slack on both sides: more tendon than path, no load.
   Mechanism mechanism = with(forearm(), 0.0, 0.0);
   JointModel model = joint_model(mechanism);
   const auto lower = model.lower;
@@ -557,7 +556,7 @@ TEST(Equilibrium, IsNeverNaN) {
 
 // ---- pulleys made for another mechanism -----------------------------------------------------------------------------
 
-TEST(MadePulleys, MountedAsDeclaredFollowTheirLaw) {
+TEST(MadePulleys, FollowLawWhenMountedAsDeclared) {
   const Mechanism mechanism = with(linear_wrist(), 0.0, 0.0);
   const MadePulleys made(mechanism);
   const Transmission transmission(mechanism);
@@ -567,7 +566,8 @@ TEST(MadePulleys, MountedAsDeclaredFollowTheirLaw) {
     EXPECT_NEAR(paths[0].p, at.t1.p, 1e-12);
     EXPECT_NEAR(paths[1].p, at.t2.p, 1e-12);
     for (std::size_t i = 0; i < 2; ++i) {
-      // Touched where lines of the pulley's own frame cross: as far along them as their distance changes per turning.
+      // The contact is the intersection of neighbouring lines in the pulley's frame: along them by the change of their
+      // distance per turn.
       const TendonPoint& tendon = i == 0 ? at.t1 : at.t2;
       const double per_turn =
           tendon.dp / (mirror_sign(i == 0 ? Side::left : Side::right) + tendon.dp / tendon.lower_reach);
@@ -578,8 +578,8 @@ TEST(MadePulleys, MountedAsDeclaredFollowTheirLaw) {
   }
 }
 
-TEST(MadePulleys, WindWhatTheirMomentArmSays) {
-  // Virtual work on pins that the pulleys were not made for: what comes over the pin is p dα.
+TEST(MadePulleys, SatisfyVirtualWork) {
+  // Virtual work on pins that the pulleys were not made for: the material passing the pin is p dα.
   Mechanism mounted = linear_wrist();
   mounted.guides.EB += 1.0;
   mounted.guides.OE -= 0.7;

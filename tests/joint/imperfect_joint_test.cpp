@@ -1,4 +1,4 @@
-// What imperfections of a joint with tendons do to what its sensor shows.
+// Effects of imperfections of a joint with tendons on its sensor readings.
 #include <gtest/gtest.h>
 
 #include "fusee/joint/simulate.h"
@@ -21,7 +21,7 @@ BenchRun swept(const Mechanism& mechanism, double load) {
   return run;
 }
 
-/// The same seen in a mirror.
+/// The mirrored log.
 BenchLog mirrored(BenchLog log) {
   for (BenchRun& run : log) {
     for (BenchRow& row : run.rows) row.alpha = -row.alpha, row.load = -row.load;
@@ -35,7 +35,7 @@ double rms(const std::vector<double>& one, const std::vector<double>& other) {
   return std::sqrt(squares / static_cast<double>(one.size()));
 }
 
-TEST(Pins, OfTheMirroredJointAreMirrored) {
+TEST(Pins, MirroredJointHasMirroredPins) {
   Mechanism mechanism = testing::linear_wrist();
   mechanism.guides.EB = 44;
   mechanism.tendon.pretension = 0;
@@ -49,8 +49,8 @@ TEST(Pins, OfTheMirroredJointAreMirrored) {
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], -seen[i], 1e-7) << i;
 }
 
-TEST(Pins, BothMovedAreThoseOfAnotherFile) {
-  // A pulley of the declared mechanism between pins that another file would declare: unloaded, the taut tendons alone.
+TEST(Pins, MovedPinsEqualOtherDeclaration) {
+  // A pulley of the declared mechanism between pins that another file declares: unloaded, with taut tendons only.
   Mechanism mechanism = testing::linear_wrist();
   const BenchLog log{swept(mechanism, 6)};
   Imperfections both;
@@ -65,7 +65,7 @@ TEST(Pins, BothMovedAreThoseOfAnotherFile) {
   EXPECT_LT(rms(predict(mechanism, both, log)[0], forward({})[0]), 1e-9);
 }
 
-/// Longer by a wander of the joint's centre, or whatever else has no name.
+/// A path error, for example due to a moving joint centre.
 Imperfections wandering() {
   Imperfections at;
   at.joint.path1 = {-0.1, 2.5, -0.8};
@@ -73,7 +73,7 @@ Imperfections wandering() {
   return at;
 }
 
-TEST(Paths, OfTheMirroredJointAreMirrored) {
+TEST(Paths, MirroredJointHasMirroredPaths) {
   const Mechanism mechanism = testing::linear_wrist();
   const BenchLog log{swept(mechanism, 6)};
   const Imperfections at = wandering();
@@ -85,8 +85,8 @@ TEST(Paths, OfTheMirroredJointAreMirrored) {
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], -seen[i], 1e-7) << i;
 }
 
-// By the virtual work of both tensions over a little way, the lengths differenced.
-TEST(Paths, PullOnTheJointByTheLengthThatTheyLose) {
+// Virtual work of both tensions over a small rotation, with lengths by differences.
+TEST(Paths, SatisfyVirtualWork) {
   Mechanism mechanism = testing::linear_wrist();
   mechanism.tendon.pretension = 40;
   const Imperfections at = wandering();
@@ -110,8 +110,8 @@ TEST(Paths, PullOnTheJointByTheLengthThatTheyLose) {
   EXPECT_GT(most, 1.0) << "N: both arms are not alike";
 }
 
-// By the virtual work of both tensions and the load over a little way, the lengths differenced.
-TEST(Rubbing, HoldsByBothPullsOrTheLesserOne) {
+// Virtual work of both tensions and the load over a small rotation, with lengths by differences.
+TEST(Rubbing, FollowsFrictionLaws) {
   Mechanism mechanism = testing::linear_wrist();
   mechanism.tendon.pretension = 40;
   mechanism.tendon.modulus = 2000;
@@ -151,7 +151,7 @@ TEST(Rubbing, HoldsByBothPullsOrTheLesserOne) {
   }
 }
 
-TEST(Sheath, ItsErrorsAreThoseOfAnotherFile) {
+TEST(Sheath, ErrorsEqualOtherDeclaration) {
   const Mechanism mechanism = testing::sheathed_wrist();
   const BenchLog log{swept(mechanism, 6)};
   Imperfections at;
@@ -162,11 +162,11 @@ TEST(Sheath, ItsErrorsAreThoseOfAnotherFile) {
   bent.sheath.bend += 0.1 / mechanism.sheath.mu;
   const std::vector<double> found = predict(mechanism, at, log)[0];
   EXPECT_GT(rms(found, predict(mechanism, {}, log)[0]), radians(0.02));
-  // Of friction and bends the product alone.
+  // Only the product of friction and bends matters.
   for (const Mechanism& other : {rougher, bent}) EXPECT_LT(rms(found, predict(other, {}, log)[0]), 1e-9);
 }
 
-TEST(Sheath, WithoutBendsOrGiveHasWhatWasFound) {
+TEST(Sheath, RigidStraightSheathTakesIdentifiedValues) {
   Mechanism straight = testing::sheathed_wrist();
   straight.sheath.bend = 0;
   straight.sheath.stiffness = 0;
@@ -175,13 +175,13 @@ TEST(Sheath, WithoutBendsOrGiveHasWhatWasFound) {
   at.sheath = {whole.sheath.mu * whole.sheath.bend, 1.0 / whole.sheath.stiffness};
   const BenchLog log{swept(straight, 6)};
   EXPECT_LT(rms(predict(straight, at, log)[0], predict(whole, {}, log)[0]), 1e-9);
-  // Less than none is none.
+  // Values below zero count as zero.
   at.sheath = {-1, -1};
   EXPECT_EQ(predict(straight, at, log), predict(straight, {}, log));
 }
 
-TEST(Creep, OfATendonIsStretchThatGrows) {
-  // Without pretension all that is strained is what the load strains: held for long it is a softer tendon.
+TEST(Creep, ActsAsGrowingStretch) {
+  // Without pretension only the load strains the tendons: a long dwell equals a softer tendon.
   Mechanism mechanism = testing::linear_wrist();
   mechanism.tendon.pretension = 0;
   mechanism.guides.mu = 0;
@@ -196,11 +196,11 @@ TEST(Creep, OfATendonIsStretchThatGrows) {
   const double stiff = predict(mechanism, {}, {held})[0].back();
   const double crept = predict(mechanism, creeping, {held})[0].back() - stiff;
   EXPECT_NEAR(crept, predict(mechanism, softer, {held})[0].back() - stiff,
-              0.04 * std::abs(crept));  // what lies on the pulley slides
+              0.04 * std::abs(crept));  // the wound tendon slides
   EXPECT_LT(crept, -radians(0.01));
 }
 
-TEST(Creep, OfATendonIsRememberedInTheNextRun) {
+TEST(Creep, PersistsBetweenRuns) {
   const Mechanism mechanism = testing::linear_wrist();
   const BenchLog log{swept(mechanism, 20), swept(mechanism, 0)}, alone{swept(mechanism, 0)};
   Imperfections creeping;

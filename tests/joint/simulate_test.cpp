@@ -1,4 +1,4 @@
-// A joint moved through a log: what predict() shows, and all that is known beside it.
+// Simulation along a log: agreement with predict(), and the other results.
 #include "fusee/joint/simulate.h"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 namespace fusee {
 namespace {
 
-/// There and back over most of the range.
+/// A cycle over most of the range.
 BenchLog swept(double load) {
   BenchRun run;
   run.has_load = true;
@@ -32,7 +32,7 @@ Imperfections several() {
   return at;
 }
 
-TEST(Simulate, ShowsWhatIsPredicted) {
+TEST(Simulate, AgreesWithPrediction) {
   const DeclaredMechanism joint = testing::forearm();
   for (const Imperfections& at : {Imperfections{}, several()}) {
     for (const double load : {0.0, 12.0}) {
@@ -44,14 +44,14 @@ TEST(Simulate, ShowsWhatIsPredicted) {
   }
 }
 
-TEST(Simulate, TellsWhereTheJointStandsFromWhatItsSensorShows) {
+TEST(Simulate, DistinguishesAngleAndReading) {
   const Imperfections at = several();
   const auto states = simulate(testing::forearm(), at, swept(5));
   for (const JointState& state : states.front())
     EXPECT_NEAR(state.shown, at.sensor.zero + (1 + at.sensor.gain) * state.theta, 1e-14);
 }
 
-/// Held for `rows` rows at each of some places, the way between them not logged.
+/// Dwells of `rows` rows at several angles, with unlogged motion between them.
 BenchLog held_places(int rows) {
   BenchRun run;
   double time = 0;
@@ -62,8 +62,8 @@ BenchLog held_places(int rows) {
   return {run};
 }
 
-// Who reads from point to point waits until the joint stands: the first row of a place is not on the way to it.
-TEST(Simulate, ALateSensorHasArrivedWhereTheWayIsNotLogged) {
+// A point-to-point log is read after settling: the first row of a dwell is not part of the motion.
+TEST(Simulate, DelayEndsAtDwells) {
   for (const double first_order : {0.0, 1.0}) {
     Imperfections late;
     late.sensor.lag = 0.3;
@@ -71,15 +71,15 @@ TEST(Simulate, ALateSensorHasArrivedWhereTheWayIsNotLogged) {
     const Readings still = predict(testing::forearm(), {}, held_places(4));
     const Readings shown = predict(testing::forearm(), late, held_places(4));
     for (std::size_t i = 0; i < still.front().size(); ++i) EXPECT_NEAR(shown[0][i], still[0][i], 1e-8) << i;
-    // Where the way is logged the same sensor is late on it.
+    // With logged motion the same sensor is delayed.
     const double lost =
         predict(testing::forearm(), late, swept(0))[0][40] - predict(testing::forearm(), {}, swept(0))[0][40];
     EXPECT_LT(lost, -1e-3);
   }
 }
 
-// Virtual work: what the motor turns the pulley with, times dα, is what the load takes, times dθ, but for friction.
-TEST(Simulate, MotorCarriesTheLoad) {
+// Virtual work: motor torque times dα equals load torque times dθ, up to friction.
+TEST(Simulate, MotorWorkEqualsLoadWork) {
   DeclaredMechanism joint = testing::forearm();
   joint.guides.mu = 0;
   joint.pulley.mu = 0;
@@ -95,7 +95,7 @@ TEST(Simulate, MotorCarriesTheLoad) {
   }
 }
 
-TEST(Simulate, SaysWhereNothingHoldsTheJoint) {
+TEST(Simulate, ReportsLooseJoint) {
   Imperfections at;
   at.tendon.slack = 3;
   DeclaredMechanism joint = testing::forearm();
@@ -105,14 +105,14 @@ TEST(Simulate, SaysWhereNothingHoldsTheJoint) {
     if (state.status != EquilibriumStatus::loose) continue;
     loose = true;
     EXPECT_GT(state.loose, 0);
-    EXPECT_LT(state.t1.lower, 1e-6);  // N: less holds nothing
+    EXPECT_LT(state.t1.lower, 1e-6);  // N: less tension holds nothing
   }
   EXPECT_TRUE(loose);
 }
 
-// Slack is what pretension does not take up: who finds some finds tendons without pretension, and no second number does
-// what the first one does.
-TEST(Simulate, WhereTendonsHangLooseThereIsNoPretension) {
+// Slack is the length beyond that taken up by pretension. With slack there is no pretension, so that no second
+// parameter has the effect of the first.
+TEST(Simulate, SlackExcludesPretension) {
   Imperfections at;
   at.tendon.slack = 0.3;
   const DeclaredMechanism joint = testing::forearm();
@@ -125,7 +125,7 @@ TEST(Simulate, WhereTendonsHangLooseThereIsNoPretension) {
   EXPECT_NE(predict(joint, at, swept(10)), predict(joint, {}, swept(10))) << "taut, 7 N more";
 }
 
-TEST(Simulate, OfAGearedJointKnowsAnglesAlone) {
+TEST(Simulate, RatioJointHasAnglesOnly) {
   DeclaredMechanism joint;
   joint.transmission = RatioTransmission{4.0};
   const auto states = simulate(joint, {}, swept(0));
@@ -175,8 +175,8 @@ TEST(Simulate, EveryEffectOfARatioMovesTheJoint) {
   }
 }
 
-// An encoder that was turned shows its error later: the simulated joint is the same one.
-TEST(Simulate, KnowsHowTheEncodersAreMounted) {
+// The error of a rotated encoder is shifted in phase; the simulated joint is the same.
+TEST(Simulate, AccountsForEncoderRotation) {
   Imperfections at;
   at.sensor.eccentricity_sin = 0.02;
   BenchLog log = swept(0);

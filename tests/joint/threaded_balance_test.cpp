@@ -1,5 +1,5 @@
-// A tendon in a sheath with friction at every bend, held against what makes its balance the only one: material is kept,
-// no bend holds more than it can, and what slides does so against friction that is used up.
+// A tendon in a sheath with friction at every bend. Checks the conditions that make the balance unique: material is
+// conserved, no bend exceeds its friction, and sliding bends are at their limit.
 #include "joint/threaded_balance.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ class AnyThread {
   explicit AnyThread(unsigned seed) : random_(seed) {}
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
 
-  /// Strained by `least` to `most` of its length, each span by itself.
+  /// Random strains between `least` and `most`, independent for each span.
   ThreadedSpans spans(double least, double most) {
     ThreadedSpans all;
     all.EA = between(1000, 30000);
@@ -61,7 +61,7 @@ void expect_balanced(const ThreadedSpans& spans, const ThreadedBalance& now) {
   }
 }
 
-TEST(Threaded, BalanceIsTheOnlyOneThereIs) {
+TEST(Threaded, BalanceIsUnique) {
   AnyThread any(7);
   int slid = 0, held = 0, mixed = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -80,7 +80,7 @@ TEST(Threaded, BalanceIsTheOnlyOneThereIs) {
   EXPECT_GT(mixed, 500);
 }
 
-TEST(Threaded, RatesAreThoseOfDifferences) {
+TEST(Threaded, RatesAgreeWithDifferences) {
   AnyThread any(11);
   int through = 0;
   for (int i = 0; i < 500; ++i) {
@@ -95,7 +95,7 @@ TEST(Threaded, RatesAreThoseOfDifferences) {
     };
     const auto [longer, shorter] = differ([](ThreadedSpans& s) -> double& { return s.length[0]; });
     const auto [firmer, looser] = differ([](ThreadedSpans& s) -> double& { return s.holds[0]; });
-    // At a bend that just gives way there is a kink.
+    // There is a kink where a bend just begins to slide.
     if (longer.slides != shorter.slides || firmer.slides != looser.slides) continue;
     const double rate = (longer.tension[0] - shorter.tension[0]) / (2 * step);
     EXPECT_NEAR(now.per_length, rate, 1e-5 * rate);
@@ -107,11 +107,11 @@ TEST(Threaded, RatesAreThoseOfDifferences) {
   EXPECT_GT(through, 10);
 }
 
-TEST(Threaded, AFrontRunsInFromTheEndThatIsPulled) {
+TEST(Threaded, SlidingFrontStartsAtPulledEnd) {
   ThreadedSpans spans;
   spans.EA = 10000;
   spans.length.fill(80);
-  spans.material.fill(80 / 1.001);  // 10 N all along
+  spans.material.fill(80 / 1.001);  // 10 N everywhere
   spans.holds.fill(0.05);
   std::size_t last = 0;
   for (double pulled = 0; pulled < 1.0; pulled += 0.01) {

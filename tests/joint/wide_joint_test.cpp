@@ -1,4 +1,4 @@
-// Drums, attachments and idlers under tension: against joints and formulas of which the answer is known otherwise.
+// Drums, attachments and idlers under tension, compared with joints and formulas with known results.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace fusee {
 namespace {
 
-/// Up, down and home again under a tip force, `rounds` times; the load comes on at home.
+/// Up, down and home again under a tip force, `rounds` times; the load is applied at home.
 std::vector<JointStep> there_and_back(const Mechanism& mechanism, double tip_force, int rounds = 1) {
   const Transmission law(mechanism);
   std::vector<JointStep> steps;
@@ -29,7 +29,7 @@ std::vector<JointStep> there_and_back(const Mechanism& mechanism, double tip_for
   return steps;
 }
 
-TEST(WideJoint, WithoutTensionFollowsItsLaw) {
+TEST(WideJoint, FollowsLawWithoutTension) {
   for (Mechanism mechanism : {testing::finger(), testing::ankle()}) {
     mechanism.tendon.pretension = 0;
     mechanism.guides.mu = 0;
@@ -40,7 +40,7 @@ TEST(WideJoint, WithoutTensionFollowsItsLaw) {
   }
 }
 
-TEST(WideJoint, TheTableOfItsSpansHasTheirKink) {
+TEST(WideJoint, SpanTableHasKink) {
   const Mechanism mechanism = testing::ankle();
   const PinPlace place = pin_place(mechanism, Side::left, mechanism.seen_pitch_radius());
   const double leaves = *lift_off(place);
@@ -49,7 +49,7 @@ TEST(WideJoint, TheTableOfItsSpansHasTheirKink) {
   ASSERT_LT(leaves, 0.5);
   for (double theta = -0.9; theta < 0.9; theta += 0.0071) {
     const UpperSpan span = upper_span(place, theta);
-    const UpperSpanTable::Look look = table.at(theta);
+    const UpperSpanTable::Values look = table.at(theta);
     EXPECT_NEAR(look.length, span.length, 1e-8);
     EXPECT_NEAR(look.m, span.m, 1e-7);
     EXPECT_NEAR(look.dm, span.dm, 1e-4);
@@ -57,7 +57,7 @@ TEST(WideJoint, TheTableOfItsSpansHasTheirKink) {
   }
 }
 
-TEST(WideJoint, AWeightOnOneTendonOfADrumIsItsTorqueOverTheDrum) {
+TEST(WideJoint, DrumTensionIsTorqueOverRadius) {
   Mechanism mechanism = testing::finger();
   mechanism.tendon.pretension = 0;
   mechanism.guides.mu = 0;
@@ -68,10 +68,10 @@ TEST(WideJoint, AWeightOnOneTendonOfADrumIsItsTorqueOverTheDrum) {
   }
 }
 
-/// Second route for what the statics leaves out: a string in a thousand links on the drum, each pressed on it and
-/// rubbing as far as the capstan law lets it, and its knot, all on the link. Together they turn it by the span's
-/// tension times the span's arm, whatever rubs.
-TEST(WideJoint, WhatRubsOnTheDrumTurnsTheJointNoOtherWay) {
+/// Independent model of the drum: a string of a thousand links, each pressed on the drum and rubbing up to the capstan
+/// limit, with its knot, all fixed to the link. Together they apply the span's tension times the span's arm, for any
+/// friction.
+TEST(WideJoint, DrumFrictionKeepsTorque) {
   const Mechanism mechanism = testing::finger();
   const PinPlace place = pin_place(mechanism, Side::right, mechanism.seen_pitch_radius());
   for (const double theta : {-0.3, 0.0, 1.2}) {
@@ -86,7 +86,7 @@ TEST(WideJoint, WhatRubsOnTheDrumTurnsTheJointNoOtherWay) {
         const Vec2 at = place.drum * unit(span.normal + step * (i + 0.5));
         const Vec2 from(-std::sin(span.normal + step * i), std::cos(span.normal + step * i)),
             to(-std::sin(span.normal + step * (i + 1)), std::cos(span.normal + step * (i + 1)));
-        // A link is pulled towards the span and back from the knot: what is left of both, the drum holds.
+        // A link is pulled towards the span and back from the knot; the drum carries the difference.
         turns += cross(at, next * to - here * from);
         here = next;
       }
@@ -98,8 +98,8 @@ TEST(WideJoint, WhatRubsOnTheDrumTurnsTheJointNoOtherWay) {
   }
 }
 
-/// Over a drum the wrap on the guide stays what it is: there an idler takes what a pin of some friction takes.
-TEST(WideJoint, AnIdlerIsAPinOfItsOwnFrictionWhereTheWrapStays) {
+/// With a drum the wrap on the guide is constant, so that an idler equals a pin of some friction.
+TEST(WideJoint, IdlerEqualsPinAtConstantWrap) {
   Mechanism idler = testing::finger();
   idler.guides.kind = GuideKind::idler;
   idler.guides.bearing_radius = 1.0;
@@ -120,8 +120,8 @@ TEST(WideJoint, AnIdlerIsAPinOfItsOwnFrictionWhereTheWrapStays) {
   EXPECT_GT(loop, 0.05);
 }
 
-TEST(WideJoint, AnIdlersLossIsItsMomentBalance) {
-  // The bearing is pressed by both tensions as vectors, found by halving; the formula leaves out the square of their
+TEST(WideJoint, IdlerLossBalancesMoments) {
+  // Both tensions press the bearing as vectors; solved by bisection. The formula neglects the square of their
   // difference.
   for (const double wrap : {0.3, 1.0, 2.2}) {
     for (const double turning : {0.001, 0.02}) {
@@ -140,7 +140,7 @@ TEST(WideJoint, AnIdlersLossIsItsMomentBalance) {
   EXPECT_EQ(GuideFriction({0, 0.02, true}).log_ratio(-0.1), 0.0);
 }
 
-/// A finger on whose drum both tendons stay, so that what a tendon gives is an angle; motor elsewhere.
+/// A finger whose tendons stay on its drum, so that elongation is proportional to the angle; the motor is elsewhere.
 Mechanism finger_with_sheath(const Sheath& sheath) {
   Mechanism mechanism = testing::finger();
   mechanism.tendon.pretension = 0;
@@ -149,7 +149,7 @@ Mechanism finger_with_sheath(const Sheath& sheath) {
   return mechanism;
 }
 
-TEST(WideJoint, OverASheathFollowsItsLaw) {
+TEST(WideJoint, FollowsLawWithSheath) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.tendon.pretension = mechanism.guides.mu = mechanism.sheath.mu = 0;
   const Transmission law(mechanism);
@@ -157,8 +157,8 @@ TEST(WideJoint, OverASheathFollowsItsLaw) {
     EXPECT_NEAR(point.theta, law.theta(point.alpha), 1e-11);
 }
 
-TEST(WideJoint, ASheathTakesWhatAPinOfItsBendsTakes) {
-  // Sliding all the way: a weight that is lifted, and let down again.
+TEST(WideJoint, SheathFrictionEqualsPinFriction) {
+  // Sliding throughout: a weight is lifted and lowered.
   const Sheath sheath{300.0, radians(200.0), 0.1, 0.0, 15.0, 60.0};
   const Mechanism mechanism = finger_with_sheath(sheath);
   const auto points = follow(joint_model(mechanism), there_and_back(mechanism, 20.0));
@@ -178,7 +178,7 @@ TEST(WideJoint, ASheathTakesWhatAPinOfItsBendsTakes) {
   EXPECT_GT(down, 50);
 }
 
-TEST(WideJoint, ASheathGivesAsASpringAndAsSoMuchMoreTendon) {
+TEST(WideJoint, SheathActsAsSpring) {
   const Sheath rigid{300.0, radians(200.0), 0.0, 0.0, 15.0, 60.0};
   Sheath soft = rigid, longer = rigid;
   soft.stiffness = 50.0;
@@ -189,7 +189,7 @@ TEST(WideJoint, ASheathGivesAsASpringAndAsSoMuchMoreTendon) {
   };
   const auto plain = of(rigid), given = of(soft), stretched = of(longer);
   const double T = 20.0 * 8.3 / 8.3, arm = 8.3, EA = section_stiffness(testing::finger().tendon);
-  // A little of it goes onto the pulley at the tension of its winding: at the place where the load came on none has.
+  // A little of it is wound onto the pulley at its tension; at the angle where the load was applied there is none.
   for (std::size_t i = 40; i < 41; ++i) {
     EXPECT_NEAR(plain[i].theta - given[i].theta, T / 50.0 / arm, 1e-10);
     EXPECT_NEAR(plain[i].theta - stretched[i].theta, T * 250.0 / EA / arm, 1e-10);
@@ -197,14 +197,14 @@ TEST(WideJoint, ASheathGivesAsASpringAndAsSoMuchMoreTendon) {
   EXPECT_NEAR(1 / given[40].stiffness - 1 / plain[40].stiffness, 1 / (50.0 * arm * arm), 2e-3 / (50.0 * arm * arm));
 }
 
-TEST(WideJoint, ThePapersChainKnowsSheaths) {
+TEST(WideJoint, PaperForcesIncludeSheaths) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.load.tip_force = 10;
   const TransmissionPoint at = Transmission(mechanism).at_theta(0.2);
   const PaperForces forces = paper_forces(mechanism, at);
   const double off_pin = forces.T2 * std::exp(0.12 * at.t2.wrap), lost = std::exp(0.08 * radians(150.0));
   EXPECT_NEAR(forces.Tb, off_pin * lost, 1e-12 * forces.Tb);
-  // Each stretch of it under its own tension, pin and sheath under the mean of theirs.
+  // Each part under its own tension, pin and sheath under the mean of theirs.
   const double EA = section_stiffness(mechanism.tendon), on_pin = 2.5 * at.t2.wrap, mean = 0.5 * (off_pin + forces.Tb);
   EXPECT_NEAR(at.t2.length, at.t2.free_upper + on_pin + 450.0 + at.t2.lower_reach, 1e-12 * at.t2.length);
   EXPECT_NEAR(forces.elongation,
@@ -216,7 +216,7 @@ TEST(WideJoint, ThePapersChainKnowsSheaths) {
   EXPECT_NEAR(1 / forces.stiffness, (at.t2.length / EA + 1 / 200.0) / (at.t2.m * at.t2.m), 1e-15);
 }
 
-TEST(WideJoint, ThePapersChainKnowsIdlers) {
+TEST(WideJoint, PaperForcesIncludeIdlers) {
   Mechanism mechanism = testing::forearm();
   mechanism.load.tip_force = 10;
   mechanism.guides.kind = GuideKind::idler;

@@ -1,4 +1,4 @@
-// What lies on a round pulley, against closed formulas.
+// The wound tendon on a round pulley, compared with closed formulas.
 #include "joint/wound_profile.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ constexpr double k_home = 4e-3;  // strain
 
 GroovePlace at(double turn) { return {turn, k_radius * turn}; }
 
-/// Tied 5 mm beyond the turning 0, at home at `turn`.
+/// Tied 5 mm beyond turn 0, at home at `turn`.
 WoundProfile wound(double turn, double friction) {
   std::vector<GroovePlace> along;
   for (int i = 0; i <= 30; ++i) along.push_back(at(0.1 * i));
@@ -21,20 +21,20 @@ WoundProfile wound(double turn, double friction) {
   return {groove, friction, at(turn), 1.0 / (1.0 + k_home)};
 }
 
-/// Turns to a place and pulls there by a strain; the material that came off.
+/// Turns to a position and pulls there by a strain; returns the released material.
 double pulled(WoundProfile& profile, double turn, double strain) {
-  const Turned turned = profile.turned_to(at(turn), 1.0);
+  const TurnedPulley turned = profile.turned_to(at(turn), 1.0);
   const Slide slide = profile.slide(turned, strain, 1.0);
   EXPECT_NEAR(-profile.accept(turned, slide, 1.0).material, slide.freed, 1e-13);
   return slide.freed;
 }
 
-/// Material of an arc over which the strain falls from `strain` by e^{fall φ}, over `turn`.
+/// Material of an arc over which the strain decays from `strain` by e^{fall φ}, over `turn`.
 double sliding(double strain, double fall, double turn) {
   return -k_radius / fall * std::log((std::exp(-fall * turn) + strain) / (1.0 + strain));
 }
 
-TEST(WoundProfile, ThatCannotSlideGivesBackWhatWasWoundLastFirst) {
+TEST(WoundProfile, PaysOutLastFirstWithoutSliding) {
   WoundProfile profile = wound(1.0, 1e12);
   const double density[] = {1 / 1.004, 1 / 1.006, 1 / 1.001};
   EXPECT_NEAR(pulled(profile, 1.2, 6e-3), -(density[0] + density[1]), 1e-13);
@@ -44,7 +44,7 @@ TEST(WoundProfile, ThatCannotSlideGivesBackWhatWasWoundLastFirst) {
   EXPECT_NEAR(pulled(profile, 0.4, 2e-3), 6.0 * density[0], 1e-13);
 }
 
-TEST(WoundProfile, WithoutFrictionIsASpringUpToItsKnot) {
+TEST(WoundProfile, IsSpringWithoutFriction) {
   WoundProfile profile = wound(1.0, 0.0);
   EXPECT_NEAR(pulled(profile, 1.0, 6e-3), 15.0 / 1.004 - 15.0 / 1.006, 1e-13);
   EXPECT_NEAR(pulled(profile, 1.7, 2e-3), 15.0 / 1.006 - 22.0 / 1.002, 1e-13);
@@ -53,24 +53,25 @@ TEST(WoundProfile, WithoutFrictionIsASpringUpToItsKnot) {
   EXPECT_NEAR(slide.length, 7.0, 1e-13);
 }
 
-TEST(WoundProfile, SlidesAsFarAsTheCapstanLawLetsIt) {
+TEST(WoundProfile, FollowsCapstanLaw) {
   for (const double friction : {0.05, 0.2, 0.6}) {
     WoundProfile profile = wound(3.0, friction);
     const double pull = k_home * std::exp(friction * 2.0);  // reaches 2 rad deep
     EXPECT_NEAR(pulled(profile, 3.0, pull), 20.0 / (1 + k_home) - sliding(pull, -friction, 2.0), 1e-7 * 20 * pull);
-    // A little less: only what lies by the take-off lets go, up to where both bounds meet.
+    // Slightly less: only the part near the take-off releases, up to the intersection of both bounds.
     const double less = pull * std::exp(-friction);
     EXPECT_NEAR(pulled(profile, 3.0, less), sliding(pull, -friction, 0.5) - sliding(less, friction, 0.5),
                 1e-7 * 20 * pull);
-    // And pulled again as before, all is as it was.
+    // Pulling again as before restores the state.
     EXPECT_NEAR(pulled(profile, 3.0, pull), sliding(less, friction, 0.5) - sliding(pull, -friction, 0.5),
                 1e-7 * 20 * pull);
     EXPECT_NEAR(pulled(profile, 3.0, pull), 0.0, 1e-13);
   }
 }
 
-TEST(WoundProfile, LaysOnWhatFrictionHoldsAndPullsAtTheRest) {
-  // Over 0.1 rad a strain can grow by e^{0.02}: by less, nothing else moves; by more, all of it and what lies behind.
+TEST(WoundProfile, WindingMovesOnlyBeyondFriction) {
+  // Over 0.1 rad a strain can grow by e^{0.02}. A smaller increase moves nothing else; a larger one moves it and the
+  // tendon behind it.
   WoundProfile profile = wound(1.0, 0.2);
   const double held = k_home * std::exp(0.015);
   EXPECT_NEAR(pulled(profile, 1.1, held), -0.5 * (1 / (1 + k_home) + 1 / (1 + held)), 1e-13);
@@ -82,8 +83,8 @@ TEST(WoundProfile, LaysOnWhatFrictionHoldsAndPullsAtTheRest) {
               1e-11);
 }
 
-TEST(WoundProfile, KnowsHowMuchMoreItGivesPerStrain) {
-  // After some going to and fro, against differences.
+TEST(WoundProfile, RatesAgreeWithDifferences) {
+  // After some cycles, compared with differences.
   WoundProfile profile = wound(1.0, 0.2);
   const double way[][2] = {{1.5, 5e-3}, {2.0, 3e-3}, {1.8, 6e-3}, {2.4, 4e-3}, {2.1, 4.5e-3}};
   double from[] = {1.0, k_home};
@@ -94,7 +95,7 @@ TEST(WoundProfile, KnowsHowMuchMoreItGivesPerStrain) {
     from[1] = strain;
   }
   for (const double turn : {1.2, 1.9, 2.1, 2.2, 2.9}) {
-    const Turned turned = profile.turned_to(at(turn), 1.0);
+    const TurnedPulley turned = profile.turned_to(at(turn), 1.0);
     for (const double strain : {1e-4, 2e-3, 4.4e-3, 4.6e-3, 7e-3}) {
       const double step = 1e-4 * strain;
       const double slope =
@@ -106,20 +107,20 @@ TEST(WoundProfile, KnowsHowMuchMoreItGivesPerStrain) {
   }
 }
 
-TEST(WoundProfile, LetsAllGoWhereNothingPulls) {
+TEST(WoundProfile, ReleasesAllWithoutTension) {
   WoundProfile profile = wound(2.0, 0.2);
   EXPECT_NEAR(pulled(profile, 2.0, 0.0), 25.0 / (1 + k_home) - 25.0, 1e-12);
   EXPECT_NEAR(pulled(profile, 2.0, 1e-3), 25.0 - sliding(1e-3, -0.2, 2.5), 1e-9);
 }
 
-TEST(WoundProfile, GoesOnBeyondItsKnotAsAtHome) {
+TEST(WoundProfile, ContinuesBeyondKnot) {
   WoundProfile profile = wound(0.5, 0.2);
   EXPECT_NEAR(pulled(profile, -0.8, k_home), 13.0 / (1 + k_home), 1e-13);
   EXPECT_NEAR(pulled(profile, -0.6, k_home), -2.0 / (1 + k_home), 1e-13);
 }
 
-TEST(WoundProfile, LosesWhatFrictionTakes) {
-  // Pulled out and let back in on a round: the loop's area is the work of friction, and never negative.
+TEST(WoundProfile, DissipatesFrictionWork) {
+  // A pull-release cycle: the area of the hysteresis is the work of friction, and never negative.
   WoundProfile profile = wound(3.0, 0.3);
   pulled(profile, 3.0, 8e-3);
   double work = 0;

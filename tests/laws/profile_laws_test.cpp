@@ -23,7 +23,7 @@ bool is_convex(const Polygon& polygon) {
   return true;
 }
 
-TEST(ProfileLaws, WhatIsAcceptedIsConvexAndRewindsToItsLaw) {
+TEST(ProfileLaws, AcceptedProfilesRewindToLaw) {
   expect_law(400, [](const Mechanism& mechanism) {
     const SynthesisResult result = synthesise(mechanism, {.advice = false});
     if (!result.made()) return false;
@@ -39,7 +39,7 @@ TEST(ProfileLaws, WhatIsAcceptedIsConvexAndRewindsToItsLaw) {
   });
 }
 
-/// Whether it is made; if so, it is convex and rewinds to its law.
+/// True if the mechanism is feasible; then it must be convex and rewind to its law.
 bool rewinds_to_its_law(const Mechanism& mechanism) {
   const SynthesisResult result = synthesise(mechanism, {.advice = false});
   for (const Condition& condition : result.conditions) RC_ASSERT(condition.ok == condition.message.empty());
@@ -48,22 +48,22 @@ bool rewinds_to_its_law(const Mechanism& mechanism) {
   const Polygon floor1 = parallel(result.p1, -half), floor2 = parallel(result.p2, -half);
   RC_ASSERT(is_convex(floor1));
   RC_ASSERT(is_convex(floor2));
-  // Where an arm falls to a fifth, what was lost on the way there is five times as much.
+  // At a fifth of the arm, position errors are five times as large.
   const RewindResult wound = rewind(mechanism, floor1, floor2);
   RC_ASSERT(degrees(wound.max_theta_error) < 0.02);
   RC_ASSERT(wound.max_slack < 0.005 * mechanism.joint.R);
   return true;
 }
 
-TEST(ProfileLaws, DrumsAndAttachmentsRewindToTheirLawAsFar) {
+TEST(ProfileLaws, DrumsAndAttachmentsRewindToLaw) {
   expect_law(300, rewinds_to_its_law, testing::random_wide_mechanism);
 }
 
-TEST(ProfileLaws, ThroughSheathsRewindsToItsLawAsFar) {
+TEST(ProfileLaws, SheathedJointsRewindToLaw) {
   expect_law(300, rewinds_to_its_law, testing::random_sheathed_mechanism);
 }
 
-/// What the load has taken up from home, N·mm.
+/// Work of the load from home, N·mm.
 double work_of_load(const Mechanism& mechanism, double theta) {
   const Load& load = mechanism.load;
   const Spring& spring = mechanism.spring;
@@ -72,8 +72,8 @@ double work_of_load(const Mechanism& mechanism, double theta) {
          spring.preload * theta + 0.5 * spring.stiffness * (past * past - spring.free * spring.free);
 }
 
-// On the rewound tables: with one torque the motor's work from home is the load's, as near as 0.02 deg of the joint.
-TEST(ProfileLaws, WantedTorquesRewindToTheirLaw) {
+// With a constant torque, the motor's work along the rewound law equals the load's, within 0.02 deg of the joint.
+TEST(ProfileLaws, TorqueLawsRewindToLaw) {
   expect_law(
       300,
       [](const Mechanism& mechanism) {
@@ -94,7 +94,7 @@ TEST(ProfileLaws, WantedTorquesRewindToTheirLaw) {
       testing::random_torque_mechanism);
 }
 
-TEST(ProfileLaws, WhatIsRefusedSaysWhy) {
+TEST(ProfileLaws, RejectionsHaveReasons) {
   expect_law(400, [](const Mechanism& mechanism) {
     const SynthesisResult result = synthesise(mechanism, {.advice = false});
     const auto failed =
@@ -109,7 +109,7 @@ TEST(ProfileLaws, WhatIsRefusedSaysWhy) {
   });
 }
 
-TEST(ProfileLaws, NoTendonTouchesTheClosingArc) {
+TEST(ProfileLaws, TendonsClearClosingArc) {
   expect_law(200, [](const Mechanism& mechanism) {
     const SynthesisResult result = synthesise(mechanism, {.advice = false});
     if (!result.made()) return false;
@@ -125,12 +125,12 @@ TEST(ProfileLaws, NoTendonTouchesTheClosingArc) {
   });
 }
 
-/// How far the outline lies inside a much finer sample of the same curve, at most.
+/// Maximum depth of the outline inside a much finer sample of the same curve.
 double deepest_chord(const Outline& outline, const Outline& fine) {
   double deepest = 0;
   std::size_t corner = 0;
   for (const OutlinePoint& point : fine.points) {
-    // Both run the same way round: the corner that supports this normal is never far from the last one's.
+    // Both polygons run in the same direction, so that the supporting corner for this normal is near the previous one.
     const auto reach = [&](std::size_t i) {
       return outline.points[i % outline.points.size()].position.dot(point.normal);
     };
@@ -141,7 +141,7 @@ double deepest_chord(const Outline& outline, const Outline& fine) {
   return deepest;
 }
 
-TEST(ProfileLaws, ChordsStayWithinTheTolerance) {
+TEST(ProfileLaws, ChordsAreWithinTolerance) {
   expect_law(100, [](const Mechanism& mechanism) {
     constexpr double tolerance = 0.01;
     const SynthesisResult result = synthesise(mechanism, {.tolerance = tolerance, .advice = false});

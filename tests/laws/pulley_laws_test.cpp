@@ -11,9 +11,9 @@ namespace {
 
 using testing::expect_law;
 
-// Whatever is accepted gives a valid mesh, and strings wound on sections of that mesh give θ(α); whatever is refused
-// says why.
-TEST(PulleyLaws, WhatIsAcceptedIsAValidSolidThatRewinds) {
+// Every accepted mechanism gives a valid mesh, on whose sections wound strings reproduce θ(α); every rejected one has a
+// reason.
+TEST(PulleyLaws, AcceptedPulleysAreValidAndRewind) {
   expect_law(60, [](const Mechanism& mechanism) {
     const SynthesisResult synthesis = synthesise(mechanism, {.advice = false});
     if (!synthesis.made()) return false;

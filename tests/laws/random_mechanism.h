@@ -1,5 +1,5 @@
 /// \file
-/// Random joints: from finger to arm, of every law, symmetric or not, possible or not.
+/// Random joints: from finger to arm, of every law, symmetric or not, feasible or not.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ inline Mechanism random_mechanism() {
   return mechanism;
 }
 
-/// With a drum, or attachments of their own, or both: fingers, ankles and elbows of any range.
+/// With a drum, separate attachments, or both: fingers, ankles and elbows of any range.
 inline Mechanism random_wide_mechanism() {
   using detail::between;
   Mechanism mechanism = random_mechanism();
@@ -56,7 +56,7 @@ inline Mechanism random_wide_mechanism() {
   const double low = *between(5.0, 100.0), high = *between(5.0, 130.0);
   mechanism.joint.theta_min = radians(-low);
   mechanism.joint.theta_max = radians(high);
-  // Pins below the joint, as far as a drum leaves room.
+  // Pins below the joint, as far as the drum permits.
   mechanism.guides.OE = R * *between(0.3, 3.0);
   mechanism.guides.EB = R * *between(0.4, 1.6);
   mechanism.guides.ED = R * *between(0.4, 1.6);
@@ -80,7 +80,7 @@ inline Mechanism random_wide_mechanism() {
   return mechanism;
 }
 
-/// Plain or wide, with its motor behind sheaths.
+/// Plain or wide, with the motor behind sheaths.
 inline Mechanism random_sheathed_mechanism() {
   using detail::between;
   Mechanism mechanism = *rc::gen::element(true, false) ? random_mechanism() : random_wide_mechanism();
@@ -91,8 +91,8 @@ inline Mechanism random_sheathed_mechanism() {
   return mechanism;
 }
 
-/// A law of torque on a joint of the wide class: a weight, a force and a spring, and one torque of the motor or one
-/// that varies. Now and then the motor pushes the wrong way, or the load turns its sign within the range.
+/// A torque law on a wide joint: a weight, a force and a spring, and a constant or variable torque of the motor.
+/// Sometimes the motor torque has the wrong sign, or the load changes its sign within the range.
 inline Mechanism random_torque_mechanism() {
   using detail::between;
   Mechanism mechanism = random_wide_mechanism();
@@ -105,7 +105,7 @@ inline Mechanism random_torque_mechanism() {
   if (*rc::gen::element(true, false)) mechanism.load.tip_force = size / R * *between(-0.1, 1.0);
   if (*rc::gen::element(true, false))
     mechanism.spring = {size * *between(0.0, 0.5), size * *between(0.0, 0.5), radians(*between(-90.0, 0.0))};
-  // Mostly it ends before the link stands upright.
+  // Usually the range ends before the link is upright.
   if (*rc::gen::element(true, true, true, false))
     mechanism.joint.theta_max = std::min(mechanism.joint.theta_max, mechanism.load.tilt - radians(20.0));
   const double low = mechanism.joint.theta_min, high = mechanism.joint.theta_max;
@@ -124,16 +124,15 @@ inline Mechanism random_torque_mechanism() {
   return mechanism;
 }
 
-/// Checks `property(mechanism)` on random mechanisms, the same ones every time: `usual_cases` of them, or
-/// FUSEE_LAW_CASES. A property asserts with RC_ASSERT and returns whether the mechanism was possible; some of each kind
-/// must have been met.
+/// Checks `property(mechanism)` on reproducible random mechanisms: `usual_cases` of them, or FUSEE_LAW_CASES. A
+/// property asserts with RC_ASSERT and returns whether the mechanism was feasible; both kinds must occur.
 template <typename Property>
 void expect_law(int usual_cases, Property property, Mechanism (*draw)() = random_mechanism) {
   const char* wanted = std::getenv("FUSEE_LAW_CASES");
   rc::detail::TestParams params;
   params.seed = 20251120;
   params.maxSuccess = wanted == nullptr ? usual_cases : std::atoi(wanted);
-  params.disableShrinking = true;  // a smaller mechanism is no clearer one
+  params.disableShrinking = true;  // a smaller mechanism is not easier to understand
   int possible = 0;
   int cases = 0;
   const auto result = rc::detail::checkTestable(

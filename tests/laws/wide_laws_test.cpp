@@ -1,5 +1,5 @@
-// Closed forms of random joints of the wide class against other numerics: strings laid by hand, work on a way through
-// the range and back, and joints of which the answer is a number of the file. FUSEE_LAW_CASES: how many.
+// Closed forms for random wide joints, compared with independent numerics: strings laid by brute force, energy over a
+// cycle, and joints with known results. FUSEE_LAW_CASES: number of cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,10 +21,10 @@ namespace {
 using testing::BruteString;
 using testing::expect_law;
 
-/// Lengths from the range's one end to its other, and arms by their differences, of one tendon.
+/// Lengths over the range, and arms by their differences, of one tendon.
 void expect_string(const Mechanism& mechanism, const Transmission& law, Side side) {
   PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
-  // Without a drum the same string is laid round a hair at the axis: it is never met where there is an arm.
+  // Without a drum the string is laid round a tiny circle at the axis, which it never touches while there is an arm.
   if (place.drum == 0) place.drum = 1e-3 * place.R;
   const double sign = mirror_sign(side), R = place.R;
   const auto leaves = lift_off(place);
@@ -36,8 +36,8 @@ void expect_string(const Mechanism& mechanism, const Transmission& law, Side sid
     const double theta = sign * at.theta;
     const TendonPoint& tendon = side == Side::left ? at.t1 : at.t2;
     const UpperSpan span = upper_span(place, theta);
-    // Which point is the last one is an accident there; between an end and a pin as near as the points are, a string
-    // is laid that much more roughly.
+    // At lift-off the last touching point is arbitrary. The string is coarse where the end is within a few polygon
+    // points of the pin.
     if (std::abs(theta - *leaves) < 0.02 || (span.on_drum == 0 && span.free < 0.5 * R)) {
       before = 0;
       continue;
@@ -57,7 +57,7 @@ void expect_string(const Mechanism& mechanism, const Transmission& law, Side sid
   }
 }
 
-TEST(WideLaws, LengthsAndArmsAreThoseOfAStringLaidByHand) {
+TEST(WideLaws, LengthsAgreeWithBruteForceString) {
   expect_law(
       400,
       [](const Mechanism& mechanism) {
@@ -85,13 +85,13 @@ std::vector<JointStep> round_trip(const Transmission& law, double tip_force, int
   return way;
 }
 
-/// What the motor gave, less what the load took, what is stored, and what rubbed away.
+/// Energy balance: work of the motor minus work of the load, stored energy and friction.
 bool loses_no_energy(Mechanism mechanism) {
   using testing::detail::between;
   const double R = mechanism.joint.R;
   mechanism.load = {};
   mechanism.spring = {};
-  // Of tendons that leave their pins, and of hollow pulleys, the statics knows nothing.
+  // The statics does not cover tendons off their pins and hollow pulleys.
   if (!synthesise(mechanism, {.advice = false}).made()) return false;
   const Transmission law(mechanism);
   mechanism.tendon.pretension = *between(5.0, 40.0);
@@ -108,7 +108,7 @@ bool loses_no_energy(Mechanism mechanism) {
   const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), round_trip(law, force, 1500));
   double motor = 0, load = 0, most = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    // A joint so soft that it snaps over loses energy in no time; one that lies loose has no torque to be summed up.
+    // A very soft joint that snaps through loses energy at once; a loose one has no torque.
     if (points[i].status != EquilibriumStatus::held) return false;
     if (std::abs(points[i].theta - law.theta(points[i].alpha)) > radians(5)) return false;
     motor += 0.5 * (points[i].motor_torque + points[i - 1].motor_torque) * (points[i].alpha - points[i - 1].alpha);
@@ -125,13 +125,13 @@ bool loses_no_energy(Mechanism mechanism) {
   return true;
 }
 
-TEST(WideLaws, NoEnergyIsLostOnARoundTrip) { expect_law(80, loses_no_energy, testing::random_wide_mechanism); }
+TEST(WideLaws, EnergyIsConserved) { expect_law(80, loses_no_energy, testing::random_wide_mechanism); }
 
-TEST(WideLaws, NoEnergyIsLostThroughSheaths) { expect_law(60, loses_no_energy, testing::random_sheathed_mechanism); }
+TEST(WideLaws, EnergyIsConservedThroughSheaths) { expect_law(60, loses_no_energy, testing::random_sheathed_mechanism); }
 
-// Both ends on the drum, and so far round it that neither tendon leaves it: arms of the drum's pitch radius, and with a
-// linear law round pulleys of that radius over the ratio, to the last digit but the rounding of a product or two.
-TEST(WideLaws, OnTheDrumBothPulleysAreRoundToTheLastDigit) {
+// Both ends are on the drum, and so far round that neither tendon leaves it. The arms are the drum's pitch radius, and
+// with a linear law the pulleys are round with that radius over the ratio, up to rounding of a few products.
+TEST(WideLaws, PermanentDrumWrapMakesRoundPulleys) {
   expect_law(
       1000,
       [](Mechanism mechanism) {
@@ -140,7 +140,7 @@ TEST(WideLaws, OnTheDrumBothPulleysAreRoundToTheLastDigit) {
         const double rho = mechanism.drum_pitch_radius();
         mechanism.pulley.law = Law::linear;
         mechanism.pulley.ratio = *between(0.5, 4.0);
-        // Tendon 2's lift-off lies at its end's angle from above the pin's line; so far round it is beyond the range.
+        // Tendon 2 lifts off at the angle of its end above the pin's line; so far round that is beyond the range.
         const double low = mechanism.joint.theta_min, high = mechanism.joint.theta_max;
         const double end1 = radians(90.0) + low - radians(20.0), end2 = -(radians(90.0) - high - radians(20.0));
         mechanism.joint.attachment1 = Attachment{rho * std::sin(-end1), rho * std::cos(end1)};

@@ -14,7 +14,7 @@ namespace {
 using testing::Contains;
 using testing::IsEmpty;
 
-TEST(Catalogue, HornsAreWhatAFileCouldSay) {
+TEST(Catalogue, HornsAreValid) {
   ASSERT_FALSE(horns().empty());
   for (const HornType& type : horns()) {
     EXPECT_THAT(faults_of(type.horn), IsEmpty()) << type.name;
@@ -30,8 +30,8 @@ TEST(Catalogue, HornsAreWhatAFileCouldSay) {
   EXPECT_EQ(find_horn(k_own_horn), nullptr);
 }
 
-// A misspelt key of an optional number would be 0 without a word.
-TEST(Catalogue, EveryKeyOfAHornOrShaftIsKnown) {
+// A misspelt key of an optional number would silently be 0.
+TEST(Catalogue, KeysOfHornsAndShaftsAreKnown) {
   const auto lines = [](const char* file) {
     std::istringstream text(read_file(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/catalogue" / file, 1 << 20));
     std::vector<std::string> keys;
@@ -48,7 +48,7 @@ TEST(Catalogue, EveryKeyOfAHornOrShaftIsKnown) {
     EXPECT_TRUE(key == "diameter_mm" || key == "flat_mm" || testing::Value(words, Contains(key))) << key;
 }
 
-TEST(Catalogue, ShaftsAreRoundOrFlattened) {
+TEST(Catalogue, ShaftsAreRoundOrFlat) {
   ASSERT_FALSE(shafts().empty());
   for (const ShaftType& type : shafts()) {
     EXPECT_EQ(find_shaft(type.name), &type);
@@ -58,8 +58,9 @@ TEST(Catalogue, ShaftsAreRoundOrFlattened) {
   EXPECT_EQ(find_shaft("none"), nullptr);
 }
 
-// A test model's parts go together: a bearing on its screw, a board's holes on it, screws beside what they hold.
-TEST(Catalogue, BearingsBoardsAndMotorsAreWhatTheyCouldBe) {
+// Parts of a test rig fit together: a bearing on its screw, a board's holes on the board, screws clear of the parts
+// they hold.
+TEST(Catalogue, BearingsBoardsAndMotorsAreConsistent) {
   double outer = 1e9;
   for (const BearingType& type : bearing_types()) {
     EXPECT_LT(type.bore, type.spacer) << type.name;

@@ -1,4 +1,4 @@
-// Replays the fuzzer's corpus: whatever the bytes, reading ends with a mechanism or with an InputError.
+// Replays the fuzzing corpus: for any bytes, reading returns a mechanism or throws InputError.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 namespace fusee {
 namespace {
 
-TEST(Corpus, EveryFileIsReadOrRefused) {
+TEST(Corpus, EveryFileIsReadOrRejected) {
   const std::filesystem::path corpus = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/fuzz/corpus/mechanism";
   int read = 0, refused = 0;
   for (const auto& entry : std::filesystem::directory_iterator(corpus)) {

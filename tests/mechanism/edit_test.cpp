@@ -26,7 +26,7 @@ TEST(Edit, KeepsCommentsOrderAndLayout) {
             "16\n[tendon]\ndiameter_mm = 1\n");
 }
 
-TEST(Edit, WritesKeysThatWereLeftToTheirDefault) {
+TEST(Edit, WritesOmittedKeys) {
   const std::string edited =
       edit_values(k_good_file, {{"guides.friction", 0.2}, {"body.min_wall_mm", 1.5}, {"body.mark_depth_mm", 0.5}});
   EXPECT_EQ(edited, replaced(k_good_file, "[guides]\n", "[guides]\nfriction = 0.2\n") +
@@ -36,8 +36,8 @@ TEST(Edit, WritesKeysThatWereLeftToTheirDefault) {
   EXPECT_EQ(mechanism.body.min_wall, 1.5);
 }
 
-// A pair that the file goes without is written whole: its other number is what the joint has without it.
-TEST(Edit, WritesAPairThatWasLeftOutWithBothItsNumbers) {
+// A pair that the file omits is written completely, with the default as the other number.
+TEST(Edit, WritesOmittedPairCompletely) {
   const std::string text = k_good_file;
   const DeclaredMechanism plain = parse_mechanism(text, "plain");
   const DeclaredMechanism edited = parse_mechanism(
@@ -65,7 +65,7 @@ TEST(Edit, ReachesInlineTables) {
   EXPECT_EQ(mechanism.tendon.diameter, 2.0);
 }
 
-TEST(Edit, PutsTheKeysOfNowInTheFormerOnesPlace) {
+TEST(Edit, ReplacesFormerKeys) {
   const std::string text = std::string(k_good_file) + "[identified]\nguide_outward_mm = 0.25 # both\n";
   EXPECT_EQ(parse_mechanism(text, "f.toml").identified.pins.left.outward, 0.25);
   EXPECT_EQ(parse_mechanism(text, "f.toml").identified.pins.right.outward, 0.25);
@@ -78,8 +78,8 @@ TEST(Edit, PutsTheKeysOfNowInTheFormerOnesPlace) {
   EXPECT_THROW(parse_mechanism(both, "f.toml"), InputError);
 }
 
-// A new key went to the top of the file, and no key of its table was known there.
-TEST(Edit, ReachesTablesOfDottedKeys) {
+// A new key must not go to the top of the file, where its table is unknown.
+TEST(Edit, ReachesDottedKeys) {
   const std::string text =
       "schema = 1\njoint.range_deg = [\n  -30,\n  30]\njoint.length_mm = 100\n"
       "guides = { EB_mm = 50, ED_mm = 50, OE_mm = -40 }\npulley = {EF_mm = 80, r1_mm = 16}\n  tendon.diameter_mm = 1\n";
@@ -91,7 +91,7 @@ TEST(Edit, ReachesTablesOfDottedKeys) {
   EXPECT_THAT(edited, ::testing::HasSubstr("  tendon.bend_ratio = 9\ntendon.diameter_mm = 1\n"));
 }
 
-TEST(Edit, SurvivesWindowsLineEnds) {
+TEST(Edit, AcceptsWindowsLineEnds) {
   std::string text;
   for (const char c : k_good_file) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
   const std::string edited = edit_values("\xEF\xBB\xBF" + text, {{"pulley.r1_mm", 17.5}, {"guides.friction", 0.25}});

@@ -1,4 +1,4 @@
-// An effect is one file: its keys, its order, and what stays of two findings.
+// Effects: keys, order, and merging of two calibrations.
 #include <gmock/gmock.h>
 
 #include <set>
@@ -11,7 +11,7 @@ namespace {
 
 class EveryKind : public ::testing::TestWithParam<JointKind> {};
 
-TEST_P(EveryKind, StandsInTheOrderOfTheChain) {
+TEST_P(EveryKind, FollowsOrderOfChain) {
   std::pair<ChainPlace, int> before{ChainPlace::motor_sensor, 0};
   for (const Effect& effect : effects(GetParam())) {
     const std::pair<ChainPlace, int> here{effect.place, effect.rank};
@@ -20,7 +20,7 @@ TEST_P(EveryKind, StandsInTheOrderOfTheChain) {
   }
 }
 
-TEST_P(EveryKind, HasNumbersThatAreApart) {
+TEST_P(EveryKind, HasDistinctParameters) {
   for (const Effect& effect : effects(GetParam())) {
     EXPECT_FALSE(effect.parameters.empty()) << effect.name;
     for (const EffectParameter& parameter : effect.parameters) {
@@ -42,7 +42,7 @@ TEST_P(EveryKind, HasNumbersThatAreApart) {
   }
 }
 
-TEST_P(EveryKind, IsWrittenInTheFile) {
+TEST_P(EveryKind, HasKeyInFile) {
   for (const Effect& effect : effects(GetParam())) {
     for (const EffectParameter& parameter : effect.parameters) {
       const Field* field = find_field("identified." + std::string(parameter.key.name));
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Of, EveryKind, ::testing::Values(JointKind::tendons, Jo
   return std::string(one.param == JointKind::tendons ? "tendons" : "ratio");
 });
 
-TEST(Identified, HasNoKeyBesideThoseOfEffects) {
+TEST(Identified, HasOnlyKeysOfEffects) {
   std::set<std::string> keys{"mean_load_N"};
   for (const JointKind kind : {JointKind::tendons, JointKind::ratio}) {
     for (const Effect& effect : effects(kind)) {
@@ -75,7 +75,7 @@ TEST(Identified, HasNoKeyBesideThoseOfEffects) {
   EXPECT_EQ(rows, keys);
 }
 
-TEST(FoundAgain, AddsCompoundsOrTakesTheNewFinding) {
+TEST(FoundAgain, AddsCompoundsOrReplaces) {
   Imperfections before, found;
   before.pins.radius = 1;
   found.pins.radius = 0.5;
@@ -83,7 +83,7 @@ TEST(FoundAgain, AddsCompoundsOrTakesTheNewFinding) {
   found.tendon.stretch = 0.5;
   before.shaft.backlash = 0.1;
   found.shaft.backlash = 0.02;
-  const Imperfections total = found_again(before, found, JointKind::tendons);
+  const Imperfections total = merge_findings(before, found, JointKind::tendons);
   EXPECT_EQ(total.pins.radius, 1.5);
   EXPECT_EQ(total.tendon.stretch, 2);
   EXPECT_EQ(total.shaft.backlash, 0.02);
@@ -93,13 +93,13 @@ TEST(FoundAgain, AddsCompoundsOrTakesTheNewFinding) {
   EXPECT_EQ(rest.shaft.backlash, 0.02);
 }
 
-TEST(FoundAgain, KeepsTheLargerOfTwoWavesAndAddsThoseOfOneOrder) {
+TEST(FoundAgain, KeepsLargerOfTwoHarmonics) {
   Imperfections before, found;
   before.pulley.outline.wave_sin = 0.2;
   found.pulley.outline.wave_sin = 0.1;
-  EXPECT_NEAR(found_again(before, found, JointKind::tendons).pulley.outline.wave_sin, 0.3, 1e-15);
+  EXPECT_NEAR(merge_findings(before, found, JointKind::tendons).pulley.outline.wave_sin, 0.3, 1e-15);
   found.pulley.outline.wave_order = 3;
-  const OutlineError larger = found_again(before, found, JointKind::tendons).pulley.outline;
+  const OutlineError larger = merge_findings(before, found, JointKind::tendons).pulley.outline;
   EXPECT_EQ(larger.wave_sin, 0.2);
   EXPECT_EQ(larger.wave_order, 2);
 }

@@ -19,7 +19,7 @@ using testing::Not;
 
 const std::filesystem::path k_profiles = std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles";
 
-TEST(Explain, OneKeyTellsAll) {
+TEST(Explain, DescribesOneKey) {
   const std::string text = explain("r1_mm");
   EXPECT_EQ(text, explain("pulley.r1_mm"));
   for (const char* part :
@@ -29,21 +29,21 @@ TEST(Explain, OneKeyTellsAll) {
   EXPECT_THAT(explain("friction"), HasSubstr("default 0.12"));
 }
 
-TEST(Explain, AKeyOfTwoTablesTellsBoth) {
+TEST(Explain, DescribesKeyOfTwoTables) {
   EXPECT_THAT(explain("ratio"), HasSubstr("pulley.ratio"));
   EXPECT_THAT(explain("ratio"), HasSubstr("transmission.ratio"));
 }
 
-TEST(Explain, ATableListsItsKeysOnly) {
+TEST(Explain, ListsKeysOfOneTable) {
   EXPECT_THAT(explain("pulley"), HasSubstr("EF_mm"));
   EXPECT_THAT(explain("pulley"), Not(HasSubstr("length_mm")));
 }
 
-TEST(Explain, NothingListsEverything) {
+TEST(Explain, ListsAllKeys) {
   for (const Field& field : fields()) EXPECT_THAT(explain(""), HasSubstr("  " + std::string(field.key) + " "));
 }
 
-TEST(Explain, FitsATerminal) {
+TEST(Explain, FitsTerminalWidth) {
   std::vector<std::string> words{""};
   for (const Field& field : fields()) words.push_back(field.name());
   for (const std::string& word : words) {
@@ -52,10 +52,10 @@ TEST(Explain, FitsATerminal) {
   }
 }
 
-// The lines that a list's entries are broken into, put together.
+// Joins the wrapped lines of list entries.
 std::string with_whole_entries(const std::string& text) { return std::regex_replace(text, std::regex("\n {6}"), " "); }
 
-TEST(Explain, TheCatalogueIsShownWhereItHelps) {
+TEST(Explain, ShowsCatalogueEntries) {
   const std::string horn_words = with_whole_entries(explain("body.horn"));
   for (const HornType& type : horns()) {
     EXPECT_THAT(horn_words, HasSubstr("    " + type.name + ": " + type.description + "; "));
@@ -73,7 +73,7 @@ TEST(Explain, TheCatalogueIsShownWhereItHelps) {
   EXPECT_THAT(explain("material.name"), HasSubstr("PETG"));
 }
 
-TEST(Explain, AMisspeltKeyNamesTheNearest) {
+TEST(Explain, SuggestsNearestKey) {
   try {
     explain("r1_m");
     FAIL() << "accepted";
@@ -82,7 +82,7 @@ TEST(Explain, AMisspeltKeyNamesTheNearest) {
   }
 }
 
-TEST(Explain, JsonHoldsEveryField) {
+TEST(Explain, JsonContainsEveryField) {
   const nlohmann::json json = nlohmann::json::parse(explain_json(""));
   EXPECT_EQ(json["fields"].size(), fields().size());
   EXPECT_EQ(json["catalogue"]["horns"].size(), horns().size());
@@ -91,7 +91,7 @@ TEST(Explain, JsonHoldsEveryField) {
   EXPECT_EQ(nlohmann::json::parse(explain_json("EF_mm"))["fields"][0]["unit"], "mm");
 }
 
-TEST(Schema, HasEveryKeyWithItsBounds) {
+TEST(Schema, ContainsEveryKeyWithBounds) {
   const nlohmann::json schema = nlohmann::json::parse(mechanism_schema());
   EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
   for (const Field& field : fields()) {
@@ -109,7 +109,7 @@ TEST(Schema, HasEveryKeyWithItsBounds) {
   }
 }
 
-TEST(Templates, AreTheProfilesAndCanBeRead) {
+TEST(Templates, AreReadableProfiles) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(k_profiles)) {
     if (entry.path().extension() != ".toml") continue;
@@ -123,7 +123,7 @@ TEST(Templates, AreTheProfilesAndCanBeRead) {
   EXPECT_EQ(templates().size(), count);
 }
 
-TEST(Templates, AMisspeltNameNamesTheNearest) {
+TEST(Templates, SuggestNearestName) {
   try {
     find_template("forarm");
     FAIL() << "accepted";

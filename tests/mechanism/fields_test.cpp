@@ -21,7 +21,7 @@ TEST(Fields, NamesAreUniqueAndFound) {
   EXPECT_EQ(find_field(""), nullptr);
 }
 
-TEST(Fields, TheUnitStandsInTheName) {
+TEST(Fields, NamesIncludeUnits) {
   for (const Field& field : fields()) {
     const std::string unit = field.unit == "%"      ? "percent"
                              : field.unit == "N/mm" ? "N_per_mm"
@@ -30,7 +30,7 @@ TEST(Fields, TheUnitStandsInTheName) {
   }
 }
 
-TEST(Fields, EachRowReachesAMemberOfItsOwn) {
+TEST(Fields, RowsAccessDistinctMembers) {
   const DeclaredMechanism start = parse_mechanism(k_good_file, "f.toml");
   std::vector<DeclaredMechanism> changed;
   for (const Field& field : fields()) {
@@ -63,7 +63,7 @@ TEST(Fields, EachRowReachesAMemberOfItsOwn) {
   }
 }
 
-TEST(Fields, DefaultsLieWithinTheirBounds) {
+TEST(Fields, DefaultsAreWithinBounds) {
   const DeclaredMechanism defaults = default_mechanism();
   for (const Field& field : fields()) {
     if (field.kind != FieldKind::number || field.fallback.empty()) continue;

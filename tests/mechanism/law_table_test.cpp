@@ -21,7 +21,7 @@ std::string errors_of(const std::string& csv) {
   return text;
 }
 
-TEST(LawTable, ReadsWhatSpreadsheetsWrite) {
+TEST(LawTable, ReadsSpreadsheetFormats) {
   std::vector<Diagnostic> problems;
   const std::string csv =
       "\xEF\xBB\xBF# a law\r\nalpha_deg, theta_deg\r\n\r\n-90, -30\r\n-45,\t-15 # low\r\n0,0\r\n45,15\r\n90,30";
@@ -32,7 +32,7 @@ TEST(LawTable, ReadsWhatSpreadsheetsWrite) {
   EXPECT_EQ(rows[1].theta, radians(-15));
 }
 
-TEST(LawTable, NamesTheLineOfEachError) {
+TEST(LawTable, ReportsLineOfEachError) {
   EXPECT_THAT(errors_of(""), HasSubstr("0 the table is empty"));
   EXPECT_THAT(errors_of("theta_deg,alpha_deg\n1,2\n"), HasSubstr("1 the columns are \"theta_deg,alpha_deg\""));
   EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n0,0\n90,30\n"),
@@ -54,7 +54,7 @@ TEST(LawTable, NamesTheLineOfEachError) {
   EXPECT_THAT(errors_of("alpha_deg,theta_deg\n1e9,0\n"), HasSubstr("2 an angle is too large"));
 }
 
-TEST(LawTable, HomeIsKept) {
+TEST(LawTable, RequiresHome) {
   EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0.02\n45,15\n90,30\n"),
               HasSubstr("the law does not pass through home: theta is 0.02 deg"));
   EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0.009\n45,15\n90,30\n"), IsEmpty());
@@ -62,8 +62,8 @@ TEST(LawTable, HomeIsKept) {
               HasSubstr("alpha = 0 (home) is not within the table"));
 }
 
-TEST(LawTable, HomeBetweenRowsOfACurvedLaw) {
-  // θ = α/3 + α³/10⁵ is a cubic: the interpolation between rows that straddle home is exact.
+TEST(LawTable, InterpolatesHomeBetweenRows) {
+  // θ = α/3 + α³/10⁵ is a cubic: the interpolation between rows around home is exact.
   std::string csv = "alpha_deg,theta_deg\n";
   for (const double alpha : {-90.0, -50.0, -10.0, 30.0, 60.0, 90.0}) {
     csv += std::to_string(alpha) + "," + std::to_string(alpha / 3 + alpha * alpha * alpha / 1e5) + "\n";
@@ -91,7 +91,7 @@ TEST(TorqueTable, ReadsAnglesAndTorques) {
   EXPECT_EQ(rows[3].torque, 1000);
 }
 
-TEST(TorqueTable, NamesTheLineOfEachError) {
+TEST(TorqueTable, ReportsLineOfEachError) {
   const std::string header = "theta_deg,motor_torque_Nmm\n";
   EXPECT_THAT(torque_errors_of(""), HasSubstr("0 the table is empty"));
   EXPECT_THAT(torque_errors_of("theta_deg,torque_Nmm\n1,2\n"),
@@ -108,7 +108,7 @@ TEST(TorqueTable, NamesTheLineOfEachError) {
   EXPECT_THAT(torque_errors_of(many), HasSubstr("2002 the table has more than 2000 rows"));
 }
 
-TEST(LawTable, ManyErrorsEnd) {
+TEST(LawTable, LimitsErrors) {
   std::string csv = "alpha_deg,theta_deg\n";
   for (int i = 0; i < 1000; ++i) csv += "x,y\n";
   std::vector<Diagnostic> problems;

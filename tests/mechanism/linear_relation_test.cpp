@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// left − right of a relation in the good file: R 100, EB 50, ED 50, OE −40, EF 80, r1 16.
+/// left − right of a relation in the valid file: R 100, EB 50, ED 50, OE −40, EF 80, r1 16.
 double difference(const std::string& text) {
   const ParsedRelation parsed = parse_relation(text);
   EXPECT_FALSE(parsed.fault) << text << ": " << parsed.fault->message;
@@ -18,15 +18,15 @@ double difference(const std::string& text) {
   return parsed.relation.left.value(mechanism) - parsed.relation.right.value(mechanism);
 }
 
-TEST(LinearRelation, IsEvaluatedAsItIsWritten) {
+TEST(LinearRelation, EvaluatesExpressions) {
   EXPECT_EQ(difference("guides.EB_mm <= 0.5 * joint.length_mm"), 0.0);
   EXPECT_EQ(difference("guides.EB_mm - 2*(joint.length_mm - 10) = -guides.OE_mm / 4 + 1e1"), 50 - 180 - (10 + 10));
-  EXPECT_EQ(difference("joint.length_mm*2/4 >= 3"), 3 - 50);  // turned around
+  EXPECT_EQ(difference("joint.length_mm*2/4 >= 3"), 3 - 50);  // sides exchanged
   EXPECT_NEAR(difference("-(-(guides.EB_mm)) = joint.range_deg[1]"), 50 - 30, 1e-12);
   EXPECT_EQ(difference("joint.length_mm + guides.OE_mm - joint.length_mm <= 0"), -40.0);
 }
 
-TEST(LinearRelation, TermsOfOneKeyAreAdded) {
+TEST(LinearRelation, AddsTermsOfOneKey) {
   const LinearRelation relation =
       parse_relation("2*guides.EB_mm + guides.EB_mm - 3*guides.EB_mm + guides.ED_mm = 0").relation;
   ASSERT_EQ(relation.left.terms.size(), 1u);
@@ -39,7 +39,7 @@ struct Faulty {
   const char* says;
 };
 
-TEST(LinearRelation, FaultsNameTheirPlace) {
+TEST(LinearRelation, ReportsPlaceOfFaults) {
   for (const Faulty& faulty :
        {Faulty{"", 0, "ends where a number or a key"}, Faulty{"guides.EB_mm", 12, "ends before its ="},
         Faulty{"guides.EB_mm < 3", 13, "expected =, <= or >="}, Faulty{"guides.EB_mm == 3", 13, "expected ="},
@@ -58,7 +58,7 @@ TEST(LinearRelation, FaultsNameTheirPlace) {
   }
 }
 
-TEST(LinearRelation, NestsOnlySoDeep) {
+TEST(LinearRelation, RejectsDeepNesting) {
   EXPECT_TRUE(parse_relation(std::string(100000, '(')).fault);
   EXPECT_TRUE(parse_relation(std::string(100000, '-') + "guides.EB_mm = 0").fault);
 }

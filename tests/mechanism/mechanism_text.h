@@ -1,12 +1,12 @@
 /// \file
-/// A mechanism file to break on purpose.
+/// A valid mechanism file for tests to break.
 #pragma once
 
 #include <string>
 
 namespace fusee {
 
-/// A good file, one key a line, so that a test knows each key's line.
+/// A valid file with one key per line, so that a test knows each key's line.
 inline const std::string k_good_file =
     "schema = 1\n"                 // 1
     "name = \"test\"\n"            // 2

@@ -32,15 +32,15 @@ std::string errors_of(const std::string& from, const std::string& to) {
   return text;
 }
 
-TEST(OptimizeTable, IsAccepted) { EXPECT_EQ(errors_of("", ""), ""); }
+TEST(OptimizeTable, AcceptsValidTable) { EXPECT_EQ(errors_of("", ""), ""); }
 
-TEST(OptimizeTable, ErrorsNameLineAndColumnAndWhatWasMeant) {
+TEST(OptimizeTable, ReportsPlaceAndSuggestion) {
   EXPECT_THAT(errors_of("\"max_tension\"", "\"max_tensoin\""),
               HasSubstr("16:13: optimize.objective = \"max_tensoin\" is not known"));
   EXPECT_THAT(errors_of("\"max_tension\"", "\"max_tensoin\""), HasSubstr("did you mean \"max_tension\"?"));
   EXPECT_THAT(errors_of("guides.ED_mm\"]", "guides.ED\"]"),
               HasSubstr("17:33: \"guides.ED\" is not a key / did you mean guides.E"));
-  EXPECT_THAT(errors_of("\"guides.ED_mm\"]", "\"joint.length_mm\"]"), HasSubstr("17:33: joint.length_mm stands twice"));
+  EXPECT_THAT(errors_of("\"guides.ED_mm\"]", "\"joint.length_mm\"]"), HasSubstr("17:33: joint.length_mm occurs twice"));
   EXPECT_THAT(errors_of("[100, 30]", "[100, 200]"),
               HasSubstr("18:15: the bounds of guides.ED_mm are crossed: lower 200 mm is above upper 150 mm"));
   EXPECT_THAT(errors_of("[100, 30]", "[100]"), HasSubstr("optimize.lower holds 1 numbers for 2 variables"));
@@ -52,16 +52,16 @@ TEST(OptimizeTable, ErrorsNameLineAndColumnAndWhatWasMeant) {
               HasSubstr("unknown key optimize.objectiv / did you mean objective?"));
 }
 
-TEST(OptimizeTable, AConstraintIsFaultedAtItsColumn) {
+TEST(OptimizeTable, ReportsColumnInConstraint) {
   // constraints = ["guides.EB_mm <= 0.5 * joint.lenght_mm"]: the text begins at column 17.
   EXPECT_THAT(errors_of("0.5 * joint.length_mm", "0.5 * joint.lenght_mm"), HasSubstr("21:39: optimize.constraints"));
   EXPECT_THAT(errors_of("0.5 * joint.length_mm", "0.5 * joint.lenght_mm"), HasSubstr("did you mean joint.length_mm?"));
   EXPECT_THAT(errors_of("<= 0.5", "< 0.5"), HasSubstr("21:30: "));
 }
 
-TEST(OptimizeTable, TiesSayWhatOneKeyIs) {
+TEST(OptimizeTable, RejectsInvalidTies) {
   EXPECT_THAT(errors_of("guides.EB_mm = guides.ED_mm", "2 * guides.EB_mm = guides.ED_mm"),
-              HasSubstr("does not say what one key is"));
+              HasSubstr("does not define a key"));
   EXPECT_THAT(errors_of("guides.EB_mm = guides.ED_mm", "guides.EB_mm = guides.EB_mm + 1"),
               HasSubstr("is tied to itself"));
   EXPECT_THAT(errors_of("guides.EB_mm = guides.ED_mm", "guides.ED_mm = guides.EB_mm"),
@@ -71,7 +71,7 @@ TEST(OptimizeTable, TiesSayWhatOneKeyIs) {
               HasSubstr("used before it is tied"));
 }
 
-TEST(OptimizeTable, AllErrorsComeAtOnce) {
+TEST(OptimizeTable, ReportsAllErrors) {
   const std::string text = k_good_file + replaced(replaced(k_table, "max_tension", "x"), "[100, 30]", "[500, 30]");
   try {
     parse_mechanism(text, "f.toml");

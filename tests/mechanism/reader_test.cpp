@@ -37,7 +37,7 @@ std::string only_error(const std::string& text, const std::vector<Setting>& sett
 
 std::string with(const std::string& from, const std::string& to) { return replaced(k_good_file, from, to); }
 
-TEST(Reader, ReadsEveryNumberInItsUnit) {
+TEST(Reader, ReadsUnits) {
   const DeclaredMechanism m =
       parse_mechanism(k_good_file + "[material]\nshrinkage_percent = 0.5\n[body]\ngroove_angle_deg = 60\n", "f.toml");
   EXPECT_EQ(m.name, "test");
@@ -63,7 +63,7 @@ TEST(Reader, FillsInDefaults) {
   EXPECT_FALSE(m.transmission.has_value());
 }
 
-TEST(Reader, NamesLineAndColumnOfEachKindOfError) {
+TEST(Reader, ReportsPlaceOfEachKindOfError) {
   EXPECT_EQ(only_error(with("length_mm = 100", "length_mm = \"abc\"")),
             "4:13 joint.length_mm must be a number in mm, not the string \"abc\" | allowed: 1 to 10000 mm");
   EXPECT_EQ(only_error(with("length_mm = 100", "length_mm = -5")),
@@ -84,12 +84,12 @@ TEST(Reader, NamesLineAndColumnOfEachKindOfError) {
   EXPECT_THAT(only_error(with("name = \"test\"", "name = 2020-01-01")),
               HasSubstr("2:8 name must be a text in quotes, not a date or time"));
   EXPECT_THAT(only_error(with("name = \"test\"", "name = \"a\\nb\"")),
-              HasSubstr("2:8 name = \"a\\nb\" holds a character"));
+              HasSubstr("2:8 name = \"a\\nb\" contains a character"));
   EXPECT_THAT(only_error(with("[tendon]\n", "law = \"linea\"\nratio = 2\n[tendon]\n")),
               HasSubstr("13:7 pulley.law = \"linea\" is not known"));
 }
 
-TEST(Reader, AttachmentsAndDrum) {
+TEST(Reader, ReadsAttachmentsAndDrum) {
   const DeclaredMechanism plain = parse_mechanism(k_good_file, "f.toml");
   EXPECT_TRUE(plain.joint.is_plain());
   const std::string wide =
@@ -105,10 +105,10 @@ TEST(Reader, AttachmentsAndDrum) {
   EXPECT_THAT(
       only_error(wide,
                  {{"pulley.method", "paper"}, {"joint.attachment2_mm", "[0, 100]"}, {"joint.drum_radius_mm", "0"}}),
-      HasSubstr("joint.attachment2_mm does not go with pulley.method = \"paper\""));
+      HasSubstr("joint.attachment2_mm cannot be combined with pulley.method = \"paper\""));
   const std::string rubbing = with("length_mm = 100\n", "length_mm = 100\ndrum_radius_mm = 20\ndrum_friction = 0.2\n");
   EXPECT_EQ(parse_mechanism(rubbing, "f.toml").joint.drum_mu, 0.2);
-  // One of two by --set, on top of the file or of C.
+  // --set of one number of a pair, over the file's value or the default C.
   EXPECT_EQ(parse_mechanism(wide, "f.toml", ".", {{"joint.attachment2_mm[0]", "7"}}).joint.attachment2,
             (Attachment{7, 40.5}));
   EXPECT_EQ(parse_mechanism(wide, "f.toml", ".", {{"joint.attachment1_mm[0]", "-7"}}).joint.attachment1,
@@ -116,19 +116,19 @@ TEST(Reader, AttachmentsAndDrum) {
   EXPECT_THAT(only_error(wide, {{"joint.attachment2_mm[1]", "x"}}), HasSubstr("joint.attachment2_mm must be"));
 }
 
-/// One end of a range by --set, as advice names it.
-TEST(Reader, EndsOfTheRange) {
+/// --set of one end of a range, as advice names it.
+TEST(Reader, SetsEndsOfRange) {
   const Joint joint = parse_mechanism(k_good_file, "f.toml", ".", {{"joint.range_deg[1]", "12.5"}}).joint;
   EXPECT_NEAR(degrees(joint.theta_max), 12.5, 1e-12);
   EXPECT_EQ(joint.theta_min, parse_mechanism(k_good_file, "f.toml").joint.theta_min);
-  EXPECT_THAT(only_error(k_good_file, {{"joint.range_deg[0]", "3"}}), HasSubstr("does not hold home"));
+  EXPECT_THAT(only_error(k_good_file, {{"joint.range_deg[0]", "3"}}), HasSubstr("does not include home"));
   EXPECT_THAT(only_error(k_good_file, {{"joint.range_deg[1]", "x"}}), HasSubstr("joint.range_deg must be"));
   EXPECT_THAT(only_error(k_good_file, {{"joint.range_deg[2]", "3"}}), HasSubstr("unknown key"));
   EXPECT_THAT(only_error(with("range_deg = [-30.0, 30.0]\n", ""), {{"joint.range_deg[1]", "20"}}),
               HasSubstr("missing key"));
 }
 
-TEST(Reader, Sheaths) {
+TEST(Reader, ReadsSheaths) {
   EXPECT_FALSE(parse_mechanism(k_good_file, "f.toml").sheath.is_there());
   const std::string sheathed = with(
       "[pulley]\n", "[sheath]\nlength_mm = 400\nbend_deg = 180\nexit_across_mm = 20\nexit_above_mm = 60\n[pulley]\n");
@@ -136,29 +136,29 @@ TEST(Reader, Sheaths) {
   EXPECT_EQ(m.sheath, (Sheath{400, radians(180), 0.08, 0, 20, 60}));
   EXPECT_FALSE(m.is_papers());
   EXPECT_THAT(only_error(with("[pulley]\n", "[sheath]\nlength_mm = 400\nbend_deg = 9\nexit_above_mm = 60\n[pulley]\n")),
-              HasSubstr("missing key sheath.exit_across_mm (a sheath needs it)"));
+              HasSubstr("missing key sheath.exit_across_mm (required with [sheath])"));
   EXPECT_THAT(only_error(sheathed, {{"pulley.method", "paper"}}),
-              HasSubstr("[sheath] does not go with pulley.method = \"paper\""));
+              HasSubstr("[sheath] cannot be combined with pulley.method = \"paper\""));
   EXPECT_THAT(only_error(sheathed, {{"sheath.exit_above_mm", "0"}}), HasSubstr("out of range"));
   EXPECT_THAT(only_error(sheathed, {{"sheath.friction", "nan"}}), HasSubstr("finite"));
 }
 
-TEST(Reader, Idlers) {
+TEST(Reader, ReadsIdlers) {
   const std::string idlers = with("OE_mm = -40\n", "OE_mm = -40\nradius_mm = 6.0\nkind = \"idler\"\n");
   std::vector<Diagnostic> warnings;
   const DeclaredMechanism m = parse_mechanism(idlers, "f.toml", ".", {}, &warnings);
   EXPECT_EQ(m.guides.kind, GuideKind::idler);
   EXPECT_EQ(m.guides.bearing_radius, 1.5);
   EXPECT_THAT(only_error(idlers, {{"guides.bearing_radius_mm", "6.1"}}),
-              HasSubstr("does not go into an idler of 6 mm"));
+              HasSubstr("does not fit into an idler of 6 mm"));
   EXPECT_THAT(only_error(idlers, {{"guides.kind", "roller"}}), HasSubstr("guides.kind = \"roller\" is not known"));
 }
 
-TEST(Reader, RangeHoldsHome) {
+TEST(Reader, RejectsRangeWithoutHome) {
   EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[10, 20]")),
-              HasSubstr("5:13 joint.range_deg = [10, 20] deg does not hold home"));
-  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[0, 0]")), HasSubstr("does not hold home"));
-  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[30, -30]")), HasSubstr("does not hold home"));
+              HasSubstr("5:13 joint.range_deg = [10, 20] deg does not include home"));
+  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[0, 0]")), HasSubstr("does not include home"));
+  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[30, -30]")), HasSubstr("does not include home"));
   EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[-30]")),
               HasSubstr("5:13 joint.range_deg must be two numbers [lowest, highest] in deg, not a list of 1"));
   EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[-30.0, nan]")),
@@ -168,7 +168,7 @@ TEST(Reader, RangeHoldsHome) {
   EXPECT_THAT(errors_of(with("[-30.0, 30.0]", "[0, 30]")), IsEmpty());
 }
 
-TEST(Reader, KnowsWhatWasMeant) {
+TEST(Reader, SuggestsNearestKey) {
   EXPECT_THAT(only_error(k_good_file + "diametr_mm = 2\n"),
               HasSubstr("15:1 unknown key tendon.diametr_mm | did you mean diameter_mm?"));
   EXPECT_THAT(only_error(with("[guides]", "EF_mm = 80\n[guides]")),
@@ -185,7 +185,7 @@ TEST(Reader, KnowsWhatWasMeant) {
               HasSubstr("2:1 unknown key joint.length_mm"));
 }
 
-TEST(Reader, SaysAllErrorsAtOnceInTheOrderOfTheFile) {
+TEST(Reader, ReportsAllErrorsInFileOrder) {
   std::string text = with("length_mm = 100", "length_mm = 0");
   text = replaced(text, "ED_mm = 50", "ED_m = 50");
   text = replaced(text, "r1_mm = 16", "r1_mm = true");
@@ -194,7 +194,7 @@ TEST(Reader, SaysAllErrorsAtOnceInTheOrderOfTheFile) {
   EXPECT_THAT(lines, ElementsAre(4, 6, 8, 12, 0));  // 6: ED_mm is missing from [guides]
 }
 
-TEST(Reader, ManyErrorsAreCounted) {
+TEST(Reader, CountsExcessErrors) {
   std::string text = k_good_file + "[body]\n";
   for (int i = 0; i < 500; ++i) text += "zzzzzzzzzzzzzzzz" + std::to_string(i) + " = 1\n";
   const std::vector<Diagnostic> errors = errors_of(text);
@@ -202,28 +202,28 @@ TEST(Reader, ManyErrorsAreCounted) {
   EXPECT_EQ(errors.back().message, "and 400 more errors");
 }
 
-TEST(Reader, LawsNeedTheirOwnKey) {
+TEST(Reader, RequiresKeyOfLaw) {
   EXPECT_THAT(only_error(with("r1_mm = 16\n", "")),
-              HasSubstr("missing key pulley.r1_mm (needed with law = \"compensate\")"));
+              HasSubstr("missing key pulley.r1_mm (required with law = \"compensate\")"));
   EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"linear\"\n")),
-              HasSubstr("missing key pulley.ratio (needed with law = \"linear\")"));
+              HasSubstr("missing key pulley.ratio (required with law = \"linear\")"));
   EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"table\"\n")),
-              HasSubstr("missing key pulley.table (needed with law = \"table\")"));
+              HasSubstr("missing key pulley.table (required with law = \"table\")"));
   EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"linear\"\nratio = -2\n")),
               HasSubstr("13:9 pulley.ratio = -2 is out of range"));
-  // A wrong law asks for no key of another.
+  // An unknown law requires no key of another law.
   EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"quadratic\"\n")),
               HasSubstr("12:7 pulley.law = \"quadratic\" is not known"));
 }
 
-TEST(Reader, ALawOfTorqueSaysWhichTorqueOnce) {
+TEST(Reader, RequiresOneWantedTorque) {
   const std::string law = "law = \"torque\"\n";
   EXPECT_THAT(only_error(with("r1_mm = 16\n", law)),
-              HasSubstr("12:7 pulley.law = \"torque\" does not say which torque is wanted"));
+              HasSubstr("12:7 pulley.law = \"torque\" requires a wanted torque"));
   EXPECT_THAT(only_error(with("r1_mm = 16\n", law + "torque_table = \"none.csv\"\n")),
               HasSubstr("13:16 pulley.torque_table: ./none.csv: cannot be read"));
   EXPECT_THAT(only_error(with("r1_mm = 16\n", law + "motor_torque_Nmm = 900\nmethod = \"paper\"\n")),
-              HasSubstr("14:10 pulley.law = \"torque\" does not go with pulley.method"));
+              HasSubstr("14:10 pulley.law = \"torque\" cannot be combined with pulley.method"));
   const DeclaredMechanism m = parse_mechanism(
       with("r1_mm = 16\n", law + "motor_torque_Nmm = -900\n[spring]\nstiffness_Nmm_per_rad = 400\nfree_deg = 90\n"),
       "f.toml", ".");
@@ -233,7 +233,7 @@ TEST(Reader, ALawOfTorqueSaysWhichTorqueOnce) {
   EXPECT_EQ(parse_mechanism(write_mechanism(m), "g.toml", "."), m);
 }
 
-TEST(Reader, ATableOfTorqueLiesBesideTheFile) {
+TEST(Reader, LoadsTorqueTable) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "fusee_reader_torque";
   std::filesystem::create_directories(folder);
   const std::string text = with("r1_mm = 16\n", "law = \"torque\"\ntorque_table = \"torque.csv\"\n");
@@ -247,12 +247,12 @@ TEST(Reader, ATableOfTorqueLiesBesideTheFile) {
     read_mechanism(folder / "joint.toml", {{"pulley.motor_torque_Nmm", "900"}});
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("both say which torque is wanted"));
+    EXPECT_THAT(error.what(), HasSubstr("both define the wanted torque"));
   }
   std::filesystem::remove_all(folder);
 }
 
-TEST(Reader, WarnsOfKeysWithoutUse) {
+TEST(Reader, WarnsOfUnusedKeys) {
   std::vector<Diagnostic> warnings;
   parse_mechanism(with("r1_mm = 16\n", "r1_mm = 16\nlaw = \"linear\"\nratio = 2\n"), "f.toml", ".", {}, &warnings);
   ASSERT_THAT(warnings, SizeIs(1));
@@ -265,15 +265,15 @@ TEST(Reader, WarnsOfKeysWithoutUse) {
   EXPECT_THAT(warnings, IsEmpty());
 }
 
-TEST(Reader, BoreAndHorn) {
+TEST(Reader, ReadsBoreAndHorn) {
   EXPECT_THAT(only_error(k_good_file + "[body]\nbore = \"horn\"\n"),
-              HasSubstr("16:8 body.bore = \"horn\" does not say which horn"));
+              HasSubstr("16:8 body.bore = \"horn\" requires a horn"));
   EXPECT_THAT(only_error(k_good_file + "[body]\nbore = \"horn\"\nhorn = \"lynxmotion\"\n"),
               HasSubstr("17:8 body.horn = \"lynxmotion\" is not known | did you mean \"lynxmotion-ses\"?"));
   EXPECT_THAT(errors_of(k_good_file + "[body]\nbore = \"horn\"\nhorn = \"lynxmotion-ses\"\n"), IsEmpty());
 }
 
-TEST(Reader, RatioStandsInPlaceOfTheMechanism) {
+TEST(Reader, AcceptsRatioInPlaceOfMechanism) {
   const DeclaredMechanism m =
       parse_mechanism("schema = 1\n[transmission]\nkind = \"ratio\"\nratio = -1.093\n", "f.toml");
   ASSERT_TRUE(m.transmission.has_value());
@@ -283,11 +283,11 @@ TEST(Reader, RatioStandsInPlaceOfTheMechanism) {
   EXPECT_EQ(both[0].place.line, 3);
   EXPECT_EQ(both[0].message, "[joint] and [transmission] cannot both be declared");
   EXPECT_THAT(only_error("schema = 1\n[transmission]\nkind = \"ratio\"\nratio = 0\n"),
-              HasSubstr("4:9 transmission.ratio = 0 turns nothing"));
+              HasSubstr("4:9 transmission.ratio must not be 0"));
   EXPECT_THAT(only_error("schema = 1\n[transmission]\nratio = 2\n"), HasSubstr("2:2 missing key transmission.kind"));
 }
 
-TEST(Reader, SettingsSupplyAndReplace) {
+TEST(Reader, SettingsAddAndReplace) {
   EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"guides.EB_mm", "60"}}).guides.EB, 60);
   EXPECT_EQ(parse_mechanism(with("EB_mm = 50\n", ""), "f.toml", ".", {{"guides.EB_mm", "60"}}).guides.EB, 60);
   EXPECT_EQ(
@@ -300,12 +300,12 @@ TEST(Reader, SettingsSupplyAndReplace) {
   EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"body.nut_trap", "false"}}).body.nut_trap, false);
   const DeclaredMechanism ranged = parse_mechanism(k_good_file, "f.toml", ".", {{"joint.range_deg", "[-20, 10]"}});
   EXPECT_DOUBLE_EQ(ranged.joint.theta_max, std::acos(-1.0) / 18);
-  // The last one holds.
+  // The last setting counts.
   EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"guides.EB_mm", "60"}, {"guides.EB_mm", "70"}}).guides.EB,
             70);
 }
 
-TEST(Reader, SettingsNameThemselvesInErrors) {
+TEST(Reader, ErrorsNameSettings) {
   const auto text_of = [](const Setting& setting) {
     const std::vector<Diagnostic> errors = errors_of(k_good_file, {setting});
     return errors.size() == 1 ? to_text(errors.front()) : "not one error";
@@ -321,22 +321,22 @@ TEST(Reader, SettingsNameThemselvesInErrors) {
   EXPECT_THAT(text_of({"guides.EB_mm", "1e999"}), HasSubstr("guides.EB_mm must be a"));
 }
 
-TEST(Reader, WantsAnUncertaintyOfWhatWasMeasuredByHand) {
+TEST(Reader, RequiresUncertaintyOfPrior) {
   EXPECT_TRUE(errors_of(k_good_file + "[prior]\nguide_radius_mm = [2.4, 0.02]\nEB_mm = []\n").empty());
   for (const char* wrong : {"[2.4]", "[2.4, 0]", "[2.4, -0.1]", "[2.4, 0.1, 0.2]"}) {
     const std::string error = only_error(k_good_file + "[prior]\nguide_radius_mm = " + wrong + "\n");
-    EXPECT_THAT(error, HasSubstr("prior.guide_radius_mm takes two numbers")) << wrong;
+    EXPECT_THAT(error, HasSubstr("prior.guide_radius_mm must be two numbers")) << wrong;
   }
 }
 
-TEST(Reader, SyntaxErrorsHaveAPlace) {
+TEST(Reader, ReportsPlaceOfSyntaxErrors) {
   EXPECT_THAT(only_error("schema = 1\nname = \n"), HasSubstr("2:8 not TOML: "));
   EXPECT_THAT(only_error("schema = 1\nschema = 1\n"), HasSubstr("2:"));
   EXPECT_THAT(only_error("[\x01"), HasSubstr("1:2 not TOML: "));
   EXPECT_THAT(only_error("name = \"\xff\xfe\"\n"), HasSubstr("1:"));
 }
 
-TEST(Reader, RefusesWhatIsNoMechanismFile) {
+TEST(Reader, RejectsOtherFiles) {
   EXPECT_THAT(only_error(""), HasSubstr("0:0 is empty"));
   EXPECT_THAT(only_error(" \n\r\n\t"), HasSubstr("0:0 is empty"));
   EXPECT_THAT(only_error(std::string("\x7f"
@@ -346,12 +346,12 @@ TEST(Reader, RefusesWhatIsNoMechanismFile) {
   EXPECT_THAT(only_error(std::string((1 << 20) + 1, '#')), HasSubstr("larger than 1 MB"));
 }
 
-TEST(Reader, RefusesTextsThatATerminalWouldObey) {
+TEST(Reader, RejectsControlCharacters) {
   for (const char* odd :
        {"\\u001B[2J", "\\u009B31m", "\\u202Ex", "\\u2066x", "\\u200F", "\\uFFFE", "\\n", "\\t", "\\u007F"}) {
     const std::string error = only_error(with("\"test\"", "\"x" + std::string(odd) + "\""));
     EXPECT_THAT(error, HasSubstr("2:8 name = \"x\\")) << odd;
-    EXPECT_THAT(error, HasSubstr("holds a character that is none of a text of one line")) << odd;
+    EXPECT_THAT(error, HasSubstr("contains a character that a one-line text must not have")) << odd;
     EXPECT_THAT(only_error(k_good_file + "[material]\nname = \"" + odd + "\"\n"), HasSubstr("material.name = ")) << odd;
     EXPECT_THAT(only_error(k_good_file + "[optimize]\nvariables = [\"" + odd + "\"]\n"),
                 HasSubstr("optimize.variables = "))
@@ -360,7 +360,7 @@ TEST(Reader, RefusesTextsThatATerminalWouldObey) {
   EXPECT_THAT(errors_of(with("\"test\"", "\"größe \\\\ é 日本 \\uFFFD\"")), IsEmpty());
 }
 
-TEST(Reader, RefusesLengthsBelowAMicrometre) {
+TEST(Reader, RejectsLengthsBelowMicrometre) {
   int keys = 0;
   for (const Field& field : fields()) {
     if (field.unit != "mm" || field.least != 0 || field.table == "identified") continue;
@@ -377,7 +377,7 @@ TEST(Reader, RefusesLengthsBelowAMicrometre) {
   EXPECT_GT(keys, 20);
 }
 
-TEST(Reader, RefusesDeepNesting) {
+TEST(Reader, RejectsDeepNesting) {
   std::string dots = "a";
   for (int i = 0; i < 100000; ++i) dots += ".a";
   EXPECT_THAT(only_error(dots + " = 1\n"), HasSubstr("nest too deep"));
@@ -399,7 +399,7 @@ TEST(Reader, ReadsFilesAndHashesThem) {
   EXPECT_EQ(file.path, (folder / "joint.toml").string());
   EXPECT_THROW(read_mechanism(folder), InputError);
   EXPECT_THROW(read_mechanism(folder / "missing.toml"), InputError);
-  // 100 MB (a hole, no blocks): refused before it is read.
+  // A sparse file of 100 MB is rejected before it is read.
   std::ofstream(folder / "large.toml").close();
   std::filesystem::resize_file(folder / "large.toml", 100u << 20);
   try {
@@ -411,7 +411,7 @@ TEST(Reader, ReadsFilesAndHashesThem) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(Reader, LoadsTheTableBesideTheFile) {
+TEST(Reader, LoadsLawTable) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "fusee_reader_table";
   std::filesystem::create_directories(folder);
   const std::string text = with("r1_mm = 16\n", "law = \"table\"\ntable = \"law.csv\"\n");

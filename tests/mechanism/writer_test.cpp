@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A number within the field's bounds, often at one of them, of many or few digits.
+/// A random number within the field's bounds, often at a bound, with many or few digits.
 double random_number(const Field& field) {
   const int digits = *rc::gen::inRange(0, 1 << 30);
   const double fraction = *rc::gen::element(0.0, 1.0, 0.5, digits / double(1 << 30), (digits % 1000) / 1000.0);
@@ -44,17 +44,17 @@ void set_random(const Field& field, DeclaredMechanism& mechanism) {
       break;
     }
     case FieldKind::point:
-      if (*rc::gen::element(true, false)) break;  // mostly left out
+      if (*rc::gen::element(true, false)) break;  // usually omitted
       field.set(mechanism, 0, random_number(field));
       field.set(mechanism, 1, random_number(field));
       break;
     case FieldKind::numbers:
     case FieldKind::texts:
-      break;  // lists depend on one another: see TheOptimizeTableReadsBack
+      break;  // lists depend on one another: see RoundTripsOptimizeTable
   }
 }
 
-/// Every field at random, then made to agree with itself.
+/// Random values for every field, made consistent.
 DeclaredMechanism random_mechanism() {
   DeclaredMechanism mechanism;
   const bool other_joint = *rc::gen::inRange(0, 5) == 0;
@@ -65,7 +65,7 @@ DeclaredMechanism random_mechanism() {
     set_random(field, mechanism);
   }
   if (other_joint) {
-    // What is not declared has its defaults.
+    // Undeclared parts have their defaults.
     const DeclaredMechanism defaults = default_mechanism();
     mechanism.joint = defaults.joint;
     mechanism.guides = defaults.guides;
@@ -89,7 +89,7 @@ DeclaredMechanism random_mechanism() {
   return mechanism;
 }
 
-TEST(Writer, WhatIsWrittenReadsBackExactly) {
+TEST(Writer, RoundTripsExactly) {
   ::setenv("RC_PARAMS", "seed=1 max_success=300", /*replace=*/0);
   const bool holds = rc::check("parse(write(m)) == m", [] {
     const DeclaredMechanism mechanism = random_mechanism();
@@ -98,7 +98,7 @@ TEST(Writer, WhatIsWrittenReadsBackExactly) {
   EXPECT_TRUE(holds);
 }
 
-TEST(Writer, AHornOfOnesOwnAndAShaftReadBack) {
+TEST(Writer, RoundTripsHornAndShaft) {
   for (const char* body : {"bore = \"horn\"\n[horn]\nbolt_circle_mm = 16\nbolt_count = 8\nbolt_hole_mm = 2.2\n"
                            "first_bolt_deg = 22.5\ncentre_hole_mm = 5\nboss_diameter_mm = 8\nboss_height_mm = 1.9\n",
                            "bore = \"horn\"\n[horn]\nspline_teeth = 25\nspline_diameter_mm = 5.92\n"
@@ -109,7 +109,7 @@ TEST(Writer, AHornOfOnesOwnAndAShaftReadBack) {
   }
 }
 
-TEST(Writer, ATableIsWrittenByItsName) {
+TEST(Writer, WritesTableByName) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "fusee_writer";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "law.csv") << "alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0\n45,15\n90,30\n";
@@ -120,7 +120,7 @@ TEST(Writer, ATableIsWrittenByItsName) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(Writer, NumbersAreWrittenAsAPersonWould) {
+TEST(Writer, WritesShortNumbers) {
   const std::string text =
       write_mechanism(parse_mechanism(k_good_file + "[material]\nshrinkage_percent = 0.3\n", "f.toml"));
   EXPECT_THAT(text, HasSubstr("\nrange_deg = [-30, 30]\n"));
@@ -129,13 +129,13 @@ TEST(Writer, NumbersAreWrittenAsAPersonWould) {
   EXPECT_THAT(text, HasSubstr("\n# ratio =\n"));
 }
 
-/// From a table's head to the next one's.
+/// The text from a table's header to the next one.
 std::string table_of(const std::string& text, std::string_view name) {
   const std::size_t from = text.find("\n[" + std::string(name) + "]\n");
   return from == std::string::npos ? "" : text.substr(from, text.find("\n[", from + 2) - from);
 }
 
-TEST(Writer, EveryKeyStandsThereWithItsMeaning) {
+TEST(Writer, WritesEveryKeyWithMeaning) {
   const std::string text = write_mechanism(parse_mechanism(k_good_file, "f.toml"));
   for (const Field& field : fields()) {
     if (field.table == "transmission") continue;
@@ -150,14 +150,14 @@ TEST(Writer, EveryKeyStandsThereWithItsMeaning) {
   }
 }
 
-TEST(Writer, AnglesThatNoFileGivesAreKeptToTheLastBits) {
+TEST(Writer, KeepsArbitraryAnglesToLastBits) {
   DeclaredMechanism mechanism = parse_mechanism(k_good_file, "f.toml");
   mechanism.joint.theta_min = -1.0 / 3;
   const DeclaredMechanism again = parse_mechanism(write_mechanism(mechanism), "written");
   EXPECT_DOUBLE_EQ(again.joint.theta_min, -1.0 / 3);
 }
 
-TEST(Writer, TheOptimizeTableReadsBack) {
+TEST(Writer, RoundTripsOptimizeTable) {
   const std::string text = k_good_file +
                            "[optimize]\nobjective = [\"max_tension\", \"footprint\"]\nvariables = "
                            "[\"joint.length_mm\", \"joint.range_deg[1]\"]\n"

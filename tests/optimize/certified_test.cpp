@@ -15,7 +15,7 @@ namespace {
 
 using fusee::testing::paper_problem;
 
-TEST(Certified, ThePapersOptimumIsTable4) {
+TEST(Certified, PaperOptimumIsTable4) {
   const Problem problem = paper_problem();
   const CertifiedResult result = certified_optimum(problem, Objective::max_tension);
   ASSERT_TRUE(result.found);
@@ -32,11 +32,11 @@ struct Twin {
   const char* mu;
   const char* r1;
   const char* EF;
-  double value;  ///< found by scipy's differential evolution on equations written anew in Python
+  double value;  ///< by scipy's differential evolution with an independent Python implementation of the equations
 };
 
-/// Another search, in another language, found nothing better.
-TEST(Certified, IsAsGoodAsAnotherGlobalSearch) {
+/// An independent search in another language found nothing better.
+TEST(Certified, AgreesWithIndependentSearch) {
   for (const Twin& twin :
        {Twin{"0.1", "20", "60", 2.0946211056}, Twin{"0.3", "20", "60", 2.7183719990},
         Twin{"0.2", "10", "60", 2.4398285638}, Twin{"0.2", "20", "120", 2.2840168692}, Twin{"0.0", "20", "60", 2.0}}) {
@@ -50,7 +50,7 @@ TEST(Certified, IsAsGoodAsAnotherGlobalSearch) {
 }
 
 /// max T_b/F_c = 2 for every ED = R/2 with OE low enough.
-TEST(Certified, WithoutFrictionASurfaceOfDesignsTies) {
+TEST(Certified, FindsTiesWithoutFriction) {
   const CertifiedResult result = certified_optimum(paper_problem({{"guides.friction", "0"}}), Objective::max_tension);
   EXPECT_TRUE(result.proven);
   EXPECT_NEAR(result.value, 2.0, 1e-9);
@@ -62,7 +62,7 @@ TEST(Certified, WithoutFrictionASurfaceOfDesignsTies) {
   }
 }
 
-TEST(Certified, ASecondObjectiveBreaksTies) {
+TEST(Certified, SecondObjectiveBreaksTies) {
   Problem problem = paper_problem({{"guides.friction", "0"}});
   const CertifiedResult first = certified_optimum(problem, Objective::max_tension);
   problem.cap = ObjectiveCap{Objective::max_tension, first.value * 1.001};
@@ -73,7 +73,7 @@ TEST(Certified, ASecondObjectiveBreaksTies) {
   ASSERT_TRUE(second.found);
   EXPECT_LE(evaluate_design(problem, Objective::max_tension, second.best).value, first.value * 1.001);
   EXPECT_TRUE(second.proven);
-  // The smallest of the family is that of the least R.
+  // The smallest member of the family has the smallest R.
   const Design larger_tie{110.0, 55.0, -35.0};
   ASSERT_TRUE(evaluate_design(problem, Objective::footprint, larger_tie).possible);
   EXPECT_LT(second.value, 0.95 * evaluate_design(problem, Objective::footprint, larger_tie).value);
@@ -81,7 +81,7 @@ TEST(Certified, ASecondObjectiveBreaksTies) {
   EXPECT_NEAR(second.best[0], 100.0, 0.5);
 }
 
-/// A finger's joint whose tendons run over a drum from ends of their own, of which tendon 1 leaves it within the range.
+/// A finger joint with separate attachments and a drum, which tendon 1 leaves within the range.
 const std::string k_finger = R"(schema = 1
 name = "finger"
 [joint]
@@ -110,7 +110,7 @@ upper = [9, -4, 11, 16]
 
 std::vector<Problem> wide_problems() {
   const std::vector<Setting> idlers = {{"guides.kind", "\"idler\""}, {"guides.radius_mm", "4"}};
-  // An ankle's: forefoot and heel.
+  // Ankle: forefoot and heel.
   const std::vector<Setting> apart = {
       {"pulley.method", "exact"},
       {"joint.length_mm", "100"},
@@ -162,7 +162,7 @@ std::vector<Problem> wide_problems() {
           paper_problem(apart),        paper_problem(sheathed, k_finger), paper_problem(lever)};
 }
 
-/// The paper's problem with these settings, of the six lengths.
+/// The paper's problem with these settings and six variable lengths.
 Problem six_numbers(const std::vector<Setting>& settings = {}) {
   std::vector<Setting> all = {
       {"pulley.method", "exact"},
@@ -192,7 +192,7 @@ Box random_box(const Problem& problem, Random& random) {
   return box;
 }
 
-/// Within the box; every third number at an end.
+/// A design within the box; every third number at an end.
 Design design_in(const Box& box, std::size_t count, Random& random) {
   Design design;
   for (std::size_t i = 0; i < count; ++i) {
@@ -211,12 +211,12 @@ bool holds(const Box& box, const Design& design) {
   return true;
 }
 
-/// Over every box and for every certifiable objective, law and kind of pin: no design that is as good as was asked for
-/// is below the bound, nor cut off. Returns how many were compared.
+/// Checks, over random boxes and for every certifiable objective, law and kind of pin, that no design within the limit
+/// is below the bound or cut off. Returns the number of compared designs.
 long expect_no_design_is_lost(const Problem& problem, Objective objective, int boxes, Random& random) {
   constexpr int k_designs = 20;
   const std::string_view name = info(objective).name;
-  const Bounder bounder(problem, objective);
+  const BoundCalculator bounder(problem, objective);
   long compared = 0;
   for (int trial = 0; trial < boxes; ++trial) {
     const Box whole = random_box(problem, random);
@@ -244,7 +244,7 @@ long expect_no_design_is_lost(const Problem& problem, Objective objective, int b
   return compared;
 }
 
-TEST(Bound, IsBelowEveryDesignOfTheBoxAndCutsNoneOff) {
+TEST(Bound, IsBelowAllDesigns) {
   std::vector<Problem> problems;
   for (const auto& settings : std::vector<std::vector<Setting>>{
            {},
@@ -276,7 +276,7 @@ TEST(Bound, IsBelowEveryDesignOfTheBoxAndCutsNoneOff) {
   EXPECT_GT(compared, 4000);
 }
 
-TEST(Bound, OfWideJointsIsBelowEveryDesignAndCutsNoneOff) {
+TEST(Bound, IsBelowAllDesignsOfWideJoints) {
   Random random(17);
   for (const Problem& problem : wide_problems()) {
     for (const Objective objective : {Objective::max_tension, Objective::motor_torque, Objective::max_error})
@@ -284,11 +284,11 @@ TEST(Bound, OfWideJointsIsBelowEveryDesignAndCutsNoneOff) {
   }
 }
 
-/// Halving the box brings the bound nearer by a factor of four: it is of second order, or the search could not end.
-/// Around ED 45.17 the tension at μ = 0.3 has its least value inside the box.
+/// Halving the box reduces the error of the bound by a factor of four: second order, which the search requires. Around
+/// ED 45.17 the tension at μ = 0.3 has its minimum inside the box.
 TEST(Bound, IsOfSecondOrder) {
   const Problem problem = paper_problem({{"optimize.constraints", "[]"}, {"guides.friction", "0.3"}});
-  const Bounder bounder(problem, Objective::max_tension);
+  const BoundCalculator bounder(problem, Objective::max_tension);
   std::vector<double> gaps;
   for (const double half : {2.0, 1.0, 0.5}) {
     Box box;
@@ -308,12 +308,12 @@ TEST(Bound, IsOfSecondOrder) {
   }
 }
 
-TEST(Bound, TheValueOfADesignIsRoundedUp) {
+TEST(Bound, RoundsUpValueOfDesign) {
   const Problem problem = paper_problem();
   Random random(3);
   for (const ObjectiveInfo& info : objectives()) {
     if (!info.certifiable) continue;
-    const Bounder bounder(problem, info.objective);
+    const BoundCalculator bounder(problem, info.objective);
     for (int i = 0; i < 20; ++i) {
       const Design design = random_design(problem, random);
       const Evaluation evaluation = evaluate(info.objective, mechanism_at(problem, design));
@@ -325,12 +325,12 @@ TEST(Bound, TheValueOfADesignIsRoundedUp) {
   }
 }
 
-TEST(Bound, TheValueOfAWideDesignIsRoundedUp) {
+TEST(Bound, RoundsUpValueOfWideDesign) {
   Random random(3);
   for (const Problem& problem : wide_problems()) {
     int compared = 0;
     for (const Objective objective : {Objective::max_tension, Objective::motor_torque, Objective::max_error}) {
-      const Bounder bounder(problem, objective);
+      const BoundCalculator bounder(problem, objective);
       for (int i = 0; i < 40; ++i) {
         const Design design = random_design(problem, random);
         const Evaluation evaluation = evaluate(objective, mechanism_at(problem, design));
@@ -360,19 +360,19 @@ void expect_proven(const Problem& problem, Objective objective) {
   }
 }
 
-TEST(Certified, OptimaOfWideJointsAreProven) {
+TEST(Certified, ProvesOptimaOfWideJoints) {
   for (const Problem& problem : wide_problems()) {
     expect_proven(problem, Objective::max_tension);
-    // With a round P1, P2 has a corner where tendon 1 leaves its drum: a proof takes some 100 000 boxes. Where mouths
-    // move too, the error alone answers to them.
+    // With a round P1, P2 has a corner where tendon 1 leaves its drum, and a proof takes some 100 000 boxes. If the
+    // sheath exits are variable too, only the error depends on them.
     const bool moves_mouths = problem.base.sheath.is_there() && problem.base.joint.drum_radius > 0;
     if (problem.base.pulley.law == Law::linear)
       expect_proven(problem, moves_mouths ? Objective::max_error : Objective::motor_torque);
   }
 }
 
-/// The genetic search comes to the same.
-TEST(Certified, OfAWideJointIsWhatTheGeneticSearchFinds) {
+/// The genetic search gives the same result.
+TEST(Certified, AgreesWithGeneticSearch) {
   const Problem problem = wide_problems().front();
   CertifiedOptions options;
   options.gap = 1e-3;
@@ -383,13 +383,13 @@ TEST(Certified, OfAWideJointIsWhatTheGeneticSearchFinds) {
   EXPECT_NEAR(found.value, result.value, 2e-3 * result.value);
 }
 
-TEST(Certified, ADrumMayNotBeginAtNothing) {
+TEST(Certified, RejectsDrumFromZero) {
   Problem problem = wide_problems().front();
   problem.variables[0].lower = 0;
   EXPECT_THAT(cannot_certify(problem, Objective::max_tension), ::testing::HasSubstr("drum"));
 }
 
-TEST(Certified, ASheathMayNotBeginAtNoStiffness) {
+TEST(Certified, RejectsSheathStiffnessFromZero) {
   Problem problem = wide_problems().back();
   EXPECT_EQ(cannot_certify(problem, Objective::max_error), "");
   problem.moving[0].key = "sheath.stiffness_N_per_mm";
@@ -397,22 +397,22 @@ TEST(Certified, ASheathMayNotBeginAtNoStiffness) {
   EXPECT_THAT(cannot_certify(problem, Objective::max_error), ::testing::HasSubstr("rigid"));
 }
 
-TEST(Certified, AnErrorBesideFrictionOnADrumIsNotProven) {
+TEST(Certified, RejectsErrorWithDrumFriction) {
   Problem problem = wide_problems().front();
   problem.base.joint.drum_mu = 0.1;
   EXPECT_EQ(cannot_certify(problem, Objective::max_tension), "");
   EXPECT_THAT(cannot_certify(problem, Objective::max_error), ::testing::HasSubstr("drum_friction"));
 }
 
-TEST(Certified, ABoxWithoutAPossibleDesignIsProvenEmpty) {
+TEST(Certified, ProvesInfeasibility) {
   const Problem problem = paper_problem({{"optimize.constraints", R"(["guides.ED_mm >= 2 * joint.length_mm"])"}});
   const CertifiedResult result = certified_optimum(problem, Objective::max_tension);
   EXPECT_FALSE(result.found);
   EXPECT_TRUE(result.proven);
-  EXPECT_EQ(result.reason, "a constraint is not kept");
+  EXPECT_EQ(result.reason, "a constraint is violated");
 }
 
-TEST(Certified, DeadCentreEverywhereIsSaid) {
+TEST(Certified, ReportsDeadCentre) {
   const Problem problem = paper_problem(
       {{"optimize.lower", "[100, 30, 45]"}, {"optimize.upper", "[300, 31, 50]"}, {"joint.range_deg", "[-60, 60]"}});
   const CertifiedResult result = certified_optimum(problem, Objective::max_tension);
@@ -420,7 +420,7 @@ TEST(Certified, DeadCentreEverywhereIsSaid) {
   EXPECT_THAT(result.reason, ::testing::HasSubstr("moment arm"));
 }
 
-TEST(Certified, SaysWhatItCannotProve) {
+TEST(Certified, ReportsUncertifiableObjectives) {
   const auto hint_of = [](const std::vector<Setting>& settings, Objective objective) {
     try {
       certified_optimum(paper_problem(settings), objective);
@@ -438,14 +438,14 @@ TEST(Certified, SaysWhatItCannotProve) {
       "accepted");
 }
 
-/// Was 17 % after a million boxes.
-TEST(Certified, SaysThatALawOfTorqueHasNoIntervalForm) {
+/// The gap was 17 % after a million boxes.
+TEST(Certified, RejectsTorqueLaw) {
   Problem problem;
   problem.base.pulley.law = Law::torque;
   EXPECT_NE(cannot_certify(problem, Objective::max_tension).find("law = \"torque\""), std::string::npos);
 }
 
-TEST(Certified, SixLengthsAreProvenInFewBoxes) {
+TEST(Certified, ProvesSixLengthsQuickly) {
   const Problem problem = six_numbers();
   CertifiedOptions options;
   options.gap = 1e-3;
@@ -454,7 +454,7 @@ TEST(Certified, SixLengthsAreProvenInFewBoxes) {
   const CertifiedResult result = certified_optimum(problem, Objective::max_tension, options);
   EXPECT_TRUE(result.proven) << result.relative_gap << " after " << result.boxes;
   EXPECT_LE(result.value, 1.5031);
-  // Neither random designs nor steps from the best one come below what is proven.
+  // Neither random designs nor steps from the best one are below the proven bound.
   Random random(11);
   Design best = result.best;
   double least = result.value;
@@ -472,7 +472,7 @@ TEST(Certified, SixLengthsAreProvenInFewBoxes) {
   EXPECT_GE(least, result.lower_bound);
 }
 
-TEST(Certified, IsTheSameOnAnyNumberOfThreads) {
+TEST(Certified, IsIndependentOfThreads) {
   const Problem problem = six_numbers({{"optimize.objective", "footprint"}});
   CertifiedOptions options;
   options.gap = 1e-3;
@@ -490,8 +490,8 @@ TEST(Certified, IsTheSameOnAnyNumberOfThreads) {
   }
 }
 
-/// No design that can be made is below the bound, and the best one can be made.
-TEST(Certified, AFeasibleOptimumCanBeMade) {
+/// No feasible design is below the bound, and the best design is feasible.
+TEST(Certified, FeasibleOptimumIsDrawable) {
   const Problem problem = six_numbers({{"optimize.feasible", "true"},
                                        {"optimize.lower", "[60, 30, 24, -40, 100, 16]"},
                                        {"optimize.upper", "[70, 55, 34, -30, 120, 20]"}});
@@ -510,7 +510,7 @@ TEST(Certified, AFeasibleOptimumCanBeMade) {
   }
 }
 
-TEST(Certified, StopsWhenItIsToldToAndAnswersWithTheBestSoFar) {
+TEST(Certified, StopsWithBestDesign) {
   CertifiedOptions options;
   options.keep_going = [](const SearchProgress&) { return false; };
   const CertifiedResult result = certified_optimum(paper_problem(), Objective::max_tension, options);
@@ -519,7 +519,7 @@ TEST(Certified, StopsWhenItIsToldToAndAnswersWithTheBestSoFar) {
   EXPECT_LE(result.lower_bound, 2.36735);
 }
 
-TEST(Genetic, FindsThePapersOptimumAndTheSameEveryTime) {
+TEST(Genetic, FindsPaperOptimumReproducibly) {
   const Problem problem = paper_problem();
   const GeneticResult first = genetic_optimum(problem, Objective::max_tension);
   const GeneticResult again = genetic_optimum(problem, Objective::max_tension);
@@ -537,7 +537,7 @@ TEST(Genetic, FindsThePapersOptimumAndTheSameEveryTime) {
   EXPECT_NE(genetic_optimum(problem, Objective::max_tension, other).generations[0].mean, first.generations[0].mean);
 }
 
-/// The search asks whether to go on every few designs, also within a generation, and says how far it came.
+/// The search checks for a stop every few designs, also within a generation, and reports its progress.
 TEST(Genetic, StopsWithinAGeneration) {
   int asked = 0;
   GeneticOptions options;
@@ -550,7 +550,7 @@ TEST(Genetic, StopsWithinAGeneration) {
   EXPECT_LT(result.evaluations, 200);
 }
 
-TEST(Genetic, IsTheSameOnAnyNumberOfThreads) {
+TEST(Genetic, IsIndependentOfThreads) {
   const Problem problem = six_numbers({{"optimize.feasible", "true"}});
   GeneticOptions options;
   options.population = 24;
@@ -568,8 +568,8 @@ TEST(Genetic, IsTheSameOnAnyNumberOfThreads) {
   }
 }
 
-/// Cheapest first, and no other verdict than that of the whole making.
-TEST(Feasible, WhatStopsADesignIsSeenWithoutDrawingIt) {
+/// The fast test has the same result as the whole synthesis.
+TEST(Feasible, FastTestAgreesWithSynthesis) {
   const Problem problem = six_numbers();
   Random random(5);
   int made = 0, refused = 0;
@@ -584,7 +584,7 @@ TEST(Feasible, WhatStopsADesignIsSeenWithoutDrawingIt) {
   EXPECT_GT(refused, 30);
 }
 
-TEST(Genetic, AFeasibleDesignCanBeMade) {
+TEST(Genetic, FeasibleDesignIsDrawable) {
   const Problem problem = paper_problem({{"optimize.feasible", "true"},
                                          {"guides.radius_mm", "2"},
                                          {"optimize.variables", R"(["pulley.EF_mm", "pulley.r1_mm"])"},
@@ -599,7 +599,7 @@ TEST(Genetic, AFeasibleDesignCanBeMade) {
   EXPECT_TRUE(synthesise(mechanism_at(problem, result.best)).made());
 }
 
-TEST(Pareto, NoPointOfTheFrontIsBetterInEverything) {
+TEST(Pareto, FrontIsNonDominated) {
   const Problem problem = paper_problem({{"optimize.objective", R"(["max_tension", "footprint"])"}});
   GeneticOptions options;
   options.generations = 40;

@@ -15,7 +15,7 @@ namespace {
 
 using testing::paper_problem;
 
-/// Largest of a value of the paper's chain over a fine stroke, by Transmission: another way to the same numbers.
+/// Maximum of a value of the paper's formulas over a fine stroke, by Transmission: an independent route.
 template <typename Value>
 double largest(const Mechanism& mechanism, Value value) {
   const Transmission transmission(mechanism);
@@ -30,7 +30,7 @@ double largest(const Mechanism& mechanism, Value value) {
   return most;
 }
 
-TEST(Objectives, AreThePapersChainOfForces) {
+TEST(Objectives, AgreeWithPaperForces) {
   for (Mechanism mechanism : {testing::forearm(), testing::linear_wrist(), testing::unsymmetric()}) {
     for (const Method method : {Method::exact, Method::paper}) {
       mechanism.pulley.method = method;
@@ -46,7 +46,7 @@ TEST(Objectives, AreThePapersChainOfForces) {
   }
 }
 
-TEST(Objectives, ScaleAsTheirUnitsSay) {
+TEST(Objectives, ScaleWithTheirUnits) {
   const Mechanism small = testing::forearm(), large = testing::scaled(small, 3.0);
   const auto ratio = [&](Objective objective) {
     return evaluate(objective, large).value / evaluate(objective, small).value;
@@ -57,8 +57,8 @@ TEST(Objectives, ScaleAsTheirUnitsSay) {
   EXPECT_NEAR(ratio(Objective::min_bend), 3.0, 1e-8);
 }
 
-/// Every derivative that the proof leans on, against differences.
-TEST(Formulas, DerivativesAreThoseOfDifferences) {
+/// All derivatives used by the proof, compared with finite differences.
+TEST(Formulas, DerivativesAgreeWithDifferences) {
   const FileNumbers<double> at = file_numbers(testing::forearm());
   using Member = std::pair<double FileNumbers<double>::*, Jet FileNumbers<Jet>::*>;
   const std::vector<Member> members = {{&FileNumbers<double>::R, &FileNumbers<Jet>::R},
@@ -97,7 +97,7 @@ TEST(Formulas, DerivativesAreThoseOfDifferences) {
   }
 }
 
-TEST(Objectives, HaveTheNamesOfTheFile) {
+TEST(Objectives, HaveNamesOfFile) {
   const Field* field = find_field("optimize.objective");
   ASSERT_NE(field, nullptr);
   ASSERT_EQ(field->choices.size(), objectives().size());
@@ -107,7 +107,7 @@ TEST(Objectives, HaveTheNamesOfTheFile) {
   }
 }
 
-TEST(Objectives, SayWhyThereIsNoValue) {
+TEST(Objectives, ReportMissingValues) {
   Mechanism dead = testing::reference();
   dead.joint.theta_max = radians(60.0);
   EXPECT_FALSE(evaluate(Objective::max_tension, dead).possible);
@@ -115,12 +115,12 @@ TEST(Objectives, SayWhyThereIsNoValue) {
   EXPECT_FALSE(evaluate(Objective::min_bend, dead).possible);
   Mechanism large = testing::reference();
   large.pulley.r1 = 200.0;
-  EXPECT_THAT(evaluate(Objective::max_tension, large).reason, ::testing::HasSubstr("stands in pulley"));
+  EXPECT_THAT(evaluate(Objective::max_tension, large).reason, ::testing::HasSubstr("lies inside pulley"));
   EXPECT_EQ(evaluate(Objective::max_tension, large).cost(Objective::max_tension), 1e300);
 }
 
-// The pulley of a law of torque keeps its law where it is asked for a newton of tip force: [6] and virtual work.
-TEST(Objectives, ALawOfTorqueIsThatOfItsOwnLoad) {
+// The pulley of a torque law keeps its law when evaluated with a newton of tip force: [6] and virtual work.
+TEST(Objectives, TorqueLawKeepsItsLoad) {
   Mechanism arm = testing::ankle();
   arm.guides.mu = 0;
   arm.pulley.law = Law::torque;
@@ -129,13 +129,13 @@ TEST(Objectives, ALawOfTorqueIsThatOfItsOwnLoad) {
   arm.spring = {400.0, 700.0, radians(-40.0)};
   const Evaluation evaluation = evaluate(Objective::motor_torque, arm);
   ASSERT_TRUE(evaluation.possible) << evaluation.reason;
-  // Largest where the load is least, at the lower end: M/τ of a newton at the length R.
+  // Largest where the load is smallest, at the lower end: M/τ of a newton at the length R.
   EXPECT_NEAR(evaluation.value, 900.0 / (1200.0 + 400.0 * radians(10.0)) * arm.joint.R, 1e-9);
   arm.pulley.motor_torque = -900.0;
   EXPECT_NE(evaluate(Objective::motor_torque, arm).reason.find("does not hold the load"), std::string::npos);
 }
 
-TEST(Problem, TiesAndConstraintsAreFollowed) {
+TEST(Problem, AppliesTiesAndConstraints) {
   const Problem problem = paper_problem();
   EXPECT_EQ(mechanism_at(problem, {200, 80, 10}).guides.EB, 80.0);
   EXPECT_EQ(constraint_violation(problem, {200, 100, 10}), 0.0);
@@ -143,7 +143,7 @@ TEST(Problem, TiesAndConstraintsAreFollowed) {
   EXPECT_FALSE(evaluate_design(problem, Objective::max_tension, {200, 110, 10}).possible);
 }
 
-TEST(Problem, AVariableWithoutEffectIsAnError) {
+TEST(Problem, RejectsVariableWithoutEffect) {
   const auto message = [](const std::vector<Setting>& settings) {
     try {
       paper_problem(settings);

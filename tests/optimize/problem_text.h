@@ -1,5 +1,5 @@
 /// \file
-/// The paper's problem as a mechanism file, to start from and to break on purpose.
+/// The paper's problem as a mechanism file, for tests to use and to break.
 #pragma once
 
 #include <string>

@@ -10,8 +10,9 @@
 namespace fusee {
 namespace {
 
-/// min max over two lines and one condition, by hand: t = max(x, 1 − x) with x + y <= 0.4 ends at x = 0.4, t = 0.6.
-TEST(LinearProgram, ASmallOneByHand) {
+/// min max over two lines and one condition, solved by hand: t = max(x, 1 − x) with x + y <= 0.4 gives x = 0.4, t =
+/// 0.6.
+TEST(LinearProgram, SolvesSmallExample) {
   LinearProgram program;
   program.variables = 2;
   program.least_t = -5;
@@ -22,9 +23,9 @@ TEST(LinearProgram, ASmallOneByHand) {
   EXPECT_NEAR(answer.y[0], 0.4, 1e-7);
 }
 
-/// Random programs: no random point that keeps the conditions is below what the weights prove, and where the program
-/// says that there is none, there is none.
-TEST(LinesBelow, ProveNothingThatIsNotTrue) {
+/// Random programs: no random point that satisfies the conditions is below the proven bound, and none exists if the
+/// program is infeasible.
+TEST(LinesBelow, ProveOnlyValidBounds) {
   Random random(1);
   int empty = 0, bounded = 0;
   for (int trial = 0; trial < 400; ++trial) {
@@ -66,26 +67,26 @@ TEST(LinesBelow, ProveNothingThatIsNotTrue) {
   EXPECT_GT(empty, 10);
 }
 
-/// The formulas of a proof, where a box is a design, are those by which a pulley is drawn: another way to each.
-TEST(Conditions, AreThoseOfTheDrawing) {
+/// The formulas of a proof, for a box that is a design, agree with those that draw a pulley.
+TEST(Conditions, AgreeWithDrawing) {
   for (const Mechanism& mechanism : {testing::forearm(), testing::linear_wrist(), testing::unsymmetric()}) {
     const Transmission transmission(mechanism);
     const auto d = design_numbers(file_numbers(mechanism), mechanism.pulley.law, mechanism.has_point_pins());
     const double range = mechanism.joint.theta_max - mechanism.joint.theta_min;
     for (const double place : {0.0, 0.3, 0.8, 1.0}) {
-      NeededValues<double> values;
-      ASSERT_TRUE(needed_at(d, place, k_needed_most, values));
-      const auto value = [&](Needed which) { return values[static_cast<std::size_t>(which)].value; };
+      ConditionValues<double> values;
+      ASSERT_TRUE(conditions_at(d, place, k_max_conditions, values));
+      const auto value = [&](DesignCondition which) { return values[static_cast<std::size_t>(which)].value; };
       const double theta = mechanism.joint.theta_min + place * range;
       const TakeOff left = TakeOffs(transmission, Side::left).at(-theta),
                     right = TakeOffs(transmission, Side::right).at(theta);
-      EXPECT_NEAR(value(Needed::wrap_B), left.stroke.t1.wrap, 1e-9);
-      EXPECT_NEAR(value(Needed::wrap_D), right.stroke.t2.wrap, 1e-9);
-      EXPECT_NEAR(value(Needed::advance_1), left.dpsi, 1e-9);
-      EXPECT_NEAR(value(Needed::advance_2), right.dpsi, 1e-9);
+      EXPECT_NEAR(value(DesignCondition::wrap_B), left.stroke.t1.wrap, 1e-9);
+      EXPECT_NEAR(value(DesignCondition::wrap_D), right.stroke.t2.wrap, 1e-9);
+      EXPECT_NEAR(value(DesignCondition::advance_1), left.dpsi, 1e-9);
+      EXPECT_NEAR(value(DesignCondition::advance_2), right.dpsi, 1e-9);
       const double least = d.half + k_least_floor_radius;
-      EXPECT_NEAR(value(Needed::floor_1), (left.curve.radius - least) * std::pow(left.dpsi, 3), 1e-7);
-      EXPECT_NEAR(value(Needed::floor_2), (right.curve.radius - least) * std::pow(right.dpsi, 3), 1e-7);
+      EXPECT_NEAR(value(DesignCondition::floor_1), (left.curve.radius - least) * std::pow(left.dpsi, 3), 1e-7);
+      EXPECT_NEAR(value(DesignCondition::floor_2), (right.curve.radius - least) * std::pow(right.dpsi, 3), 1e-7);
     }
   }
 }

@@ -18,7 +18,7 @@ Pose random_pose(Random& random) {
           between(8, 20),   between(0, 3),    between(-1.5, 1.5)};
 }
 
-/// upper_span()'s own words for it.
+/// The path by upper_span().
 UpperSpan span_of(const Pose& pose) {
   PinPlace place{pose.e, pose.oe, 50, pose.rho, std::hypot(pose.across, pose.along)};
   place.twist = std::atan2(pose.across, pose.along);
@@ -28,7 +28,7 @@ UpperSpan span_of(const Pose& pose) {
   return upper_span(place, pose.theta);
 }
 
-TEST(WidePath, IsThatOfTheTransmission) {
+TEST(WidePath, AgreesWithTransmission) {
   Random random(5);
   int on_drum = 0, free = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -50,8 +50,9 @@ TEST(WidePath, IsThatOfTheTransmission) {
   EXPECT_GT(free, 300);
 }
 
-/// Values, and slopes by the mean value theorem, over boxes of every size: on the drum, free of it, and about lift-off.
-TEST(WidePath, OverABoxHoldsEveryPathInIt) {
+/// Values, and slopes by the mean value theorem, over boxes of every size: on the drum, clear of it, and around
+/// lift-off.
+TEST(WidePath, EnclosesPathsInBox) {
   Random random(6);
   long compared = 0, about_lift_off = 0;
   for (int i = 0; i < 2000; ++i) {

@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(Windows, AreFoundToAFractionOfTheStep) {
+TEST(Windows, BordersAreAccurate) {
   const auto windows = windows_where([](double x) { return x > 0.131 && x < 0.2537; }, 0.0, 1.0, 40);
   ASSERT_EQ(windows.size(), 1u);
   EXPECT_NEAR(windows[0].low, 0.131, 1e-5);
@@ -18,7 +18,7 @@ TEST(Windows, AreFoundToAFractionOfTheStep) {
   EXPECT_FALSE(windows[0].open_low || windows[0].open_high);
 }
 
-TEST(Windows, MayBeSeveralAndOpen) {
+TEST(Windows, SupportSeveralAndOpenWindows) {
   const auto windows = windows_where([](double x) { return x < 0.2 || x > 0.7; }, 0.0, 1.0, 10);
   ASSERT_EQ(windows.size(), 2u);
   EXPECT_TRUE(windows[0].open_low);
@@ -47,7 +47,7 @@ TEST_F(Paper, Table4IsTheCertifiedOptimum) {
   for (const OptimumRow& row : all().table_4) EXPECT_NEAR(row.computed, row.paper, 1e-6) << row.symbol;
 }
 
-TEST_F(Paper, VerdictsAreThoseOfTheEquations) {
+TEST_F(Paper, VerdictsFollowEquations) {
   EXPECT_EQ(claim("optimum_of_table_4").verdict, Verdict::holds_only_if);
   EXPECT_EQ(claim("all_three_at_their_bounds").verdict, Verdict::holds_only_if);
   EXPECT_EQ(claim("largest_tension_at_negative_limit").verdict, Verdict::holds_only_if);
@@ -58,9 +58,9 @@ TEST_F(Paper, VerdictsAreThoseOfTheEquations) {
   EXPECT_THAT(claim("the_pulley_linearizes").equations_give, HasSubstr("±0.52°"));
 }
 
-/// A border of the window is where it says: the optimum inside is Table 4, outside it is another design.
-TEST_F(Paper, TheWindowOfMuIsTrue) {
-  const WindowsOf& mu = claim("optimum_of_table_4").windows.front();
+/// The border of the window is correct: inside, the optimum is Table 4; outside, it is another design.
+TEST_F(Paper, WindowOfMuIsCorrect) {
+  const ParameterWindows& mu = claim("optimum_of_table_4").windows.front();
   ASSERT_EQ(mu.windows.size(), 1u);
   const Window window = mu.windows.front();
   for (const auto& [value, inside] : {std::pair{window.low - 0.002, false},
@@ -77,7 +77,7 @@ TEST_F(Paper, TheWindowOfMuIsTrue) {
   }
 }
 
-TEST_F(Paper, FiguresAreThoseOfTheIssueAndFinite) {
+TEST_F(Paper, FiguresAreCompleteAndFinite) {
   std::vector<int> numbers;
   for (const PaperFigure& figure : all().figures) {
     numbers.push_back(figure.number);
@@ -90,7 +90,7 @@ TEST_F(Paper, FiguresAreThoseOfTheIssueAndFinite) {
   EXPECT_EQ(numbers, (std::vector<int>{4, 5, 7, 8, 9, 10, 11, 13}));
 }
 
-TEST_F(Paper, LinearIsStraightAndCompensateIsNot) {
+TEST_F(Paper, OnlyLinearLawIsStraight) {
   ASSERT_EQ(all().laws.size(), 2u);
   EXPECT_GT(all().laws[0].nonlinearity, 0.5);
   EXPECT_LT(all().laws[1].nonlinearity, 1e-9);

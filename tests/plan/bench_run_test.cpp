@@ -114,7 +114,7 @@ TEST(UnreadNumbers, AreReadFromTheirKeys) {
     DeclaredMechanism joint = testing::forearm();
     const Field* field = find_field(number->by_hand.key);
     ASSERT_NE(field, nullptr) << number->by_hand.key;
-    EXPECT_THAT(std::string(number->by_hand.words), HasSubstr("[prior] " + std::string(field->key)));
+    EXPECT_THAT(std::string(number->by_hand.words), HasSubstr("prior." + std::string(field->key)));
     const auto value = [&](double written) {
       field->numbers(joint) = {written, 0.5};
       const std::vector<CaliperReading> readings = number->by_hand.readings(joint);

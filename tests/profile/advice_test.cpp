@@ -19,7 +19,7 @@ const Change* find(const std::vector<Change>& changes, const std::string& key) {
   return found == changes.end() ? nullptr : &*found;
 }
 
-TEST(NearestChanges, FindBordersOnBothSides) {
+TEST(NearestChanges, FindBothBorders) {
   const auto changes = nearest_changes(testing::forearm(), [](const Mechanism& m) { return m.pulley.r1 <= 12.3456; });
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_EQ(changes[0].key, "pulley.r1_mm");
@@ -37,7 +37,7 @@ TEST(NearestChanges, PutTheNearestFirst) {
   EXPECT_EQ(advice_sentence(changes), "make EF ≥ 84 mm, or r1 ≤ 8 mm");
 }
 
-TEST(NearestChanges, TurnASymmetricRangeAsOneAndAnUnsymmetricOneByItsEnds) {
+TEST(NearestChanges, KeepSymmetricRangeSymmetric) {
   const auto smaller = [](const Mechanism& m) { return m.joint.theta_max <= radians(25.05); };
   const Change* both = nullptr;
   const auto symmetric = nearest_changes(testing::forearm(), smaller);
@@ -48,12 +48,12 @@ TEST(NearestChanges, TurnASymmetricRangeAsOneAndAnUnsymmetricOneByItsEnds) {
   EXPECT_EQ(find(unsymmetric, "joint.range_deg[0]"), nullptr);
 }
 
-TEST(NearestChanges, AreNoneWhereNothingHelps) {
+TEST(NearestChanges, AreEmptyWithoutSolution) {
   EXPECT_TRUE(nearest_changes(testing::forearm(), [](const Mechanism&) { return false; }).empty());
   EXPECT_EQ(advice_sentence({}), "");
 }
 
-TEST(NearestChanges, LookAtMoreKeysOnRequest) {
+TEST(NearestChanges, SearchRequestedKeys) {
   Mechanism mechanism = testing::forearm();
   mechanism.body.bore_diameter = 30.0;
   const auto changes = nearest_changes(mechanism, [](const Mechanism& m) { return m.body.bore_diameter <= 22.22; },
@@ -70,78 +70,81 @@ std::vector<Condition> fails_by(double gap) {
   return {condition};
 }
 
-TEST(Advice, HowMuchIsTriedIsLimited) {
+TEST(Advice, LimitsEffort) {
   std::atomic<int> looks = 0;
-  std::atomic<int> makings = 0;
-  const Judge hopeless{[&](const Mechanism&) { return ++looks, fails_by(1.0); },
-                       [&](const Mechanism&) { return ++makings, true; }};
+  std::atomic<int> builds_left = 0;
+  const FeasibilityOracle hopeless{[&](const Mechanism&) { return ++looks, fails_by(1.0); },
+                                   [&](const Mechanism&) { return ++builds_left, true; }};
   EXPECT_TRUE(find_advice(testing::forearm(), hopeless).empty());
   EXPECT_LT(looks, 420);
-  EXPECT_EQ(makings, 0);
-  const Judge unmakeable{[](const Mechanism& m) { return fails_by(m.pulley.r1 - 12 + m.pulley.EF - 80); },
-                         [&](const Mechanism&) { return ++makings, false; }};
+  EXPECT_EQ(builds_left, 0);
+  const FeasibilityOracle unmakeable{[](const Mechanism& m) { return fails_by(m.pulley.r1 - 12 + m.pulley.EF - 80); },
+                                     [&](const Mechanism&) { return ++builds_left, false; }};
   EXPECT_TRUE(find_advice(testing::forearm(), unmakeable).empty());
-  EXPECT_GT(makings, 0);
-  EXPECT_LE(makings, 4);
+  EXPECT_GT(builds_left, 0);
+  EXPECT_LE(builds_left, 4);
 }
 
-// Makings run beside each other: however long each takes, the same ones are given.
-TEST(Advice, DoesNotDependOnWhichMakingIsSooner) {
+// Builds run concurrently, and the result must not depend on their durations.
+TEST(Advice, IsIndependentOfBuildDurations) {
   const auto texts = [](bool first_is_slow) {
-    const Judge judge{[](const Mechanism& m) { return fails_by(std::min(m.pulley.r1 - 12, 93 - m.pulley.EF)); },
-                      [first_is_slow](const Mechanism& m) {
-                        const bool is_first = m.pulley.r1 == 16;
-                        std::this_thread::sleep_for(std::chrono::milliseconds(is_first == first_is_slow ? 30 : 0));
-                        return true;
-                      }};
+    const FeasibilityOracle judge{
+        [](const Mechanism& m) { return fails_by(std::min(m.pulley.r1 - 12, 93 - m.pulley.EF)); },
+        [first_is_slow](const Mechanism& m) {
+          const bool is_first = m.pulley.r1 == 16;
+          std::this_thread::sleep_for(std::chrono::milliseconds(is_first == first_is_slow ? 30 : 0));
+          return true;
+        }};
     return advice_sentence(find_advice(testing::forearm(), judge).alone);
   };
   EXPECT_EQ(texts(true), "make r1 ≤ 12 mm, or EF ≥ 93 mm");
   EXPECT_EQ(texts(true), texts(false));
 }
 
-TEST(Advice, WhatIsNotMadeAtItsBorderIsTriedFurtherOn) {
-  const Judge judge{[](const Mechanism& m) { return fails_by(m.pulley.r1 - 12); },
-                    [](const Mechanism& m) { return m.pulley.r1 <= 11.9; }};
+TEST(Advice, TriesFurtherStepAfterFailedBuild) {
+  const FeasibilityOracle judge{[](const Mechanism& m) { return fails_by(m.pulley.r1 - 12); },
+                                [](const Mechanism& m) { return m.pulley.r1 <= 11.9; }};
   const Advice advice = find_advice(testing::forearm(), judge);
   ASSERT_FALSE(advice.alone.empty());
   EXPECT_EQ(advice.alone.front().key, "pulley.r1_mm");
   EXPECT_LE(advice.alone.front().to, 11.9);
 }
 
-TEST(Advice, WhereALookIsDearHopelessTurnsAreAskedLess) {
-  const auto looks_of = [](bool is_dear, double wanted_r1, std::string& text) {
+TEST(Advice, SkipsHopelessChangesWhenExpensive) {
+  const auto looks_of = [](bool is_expensive, double wanted_r1, std::string& text) {
     std::atomic<int> looks = 0;
-    const Judge judge{.obstacles = [&](const Mechanism& m) { return ++looks, fails_by(m.pulley.r1 - wanted_r1); },
-                      .made = [](const Mechanism&) { return true; },
-                      .is_dear = is_dear};
+    const FeasibilityOracle judge{
+        .obstacles = [&](const Mechanism& m) { return ++looks, fails_by(m.pulley.r1 - wanted_r1); },
+        .made = [](const Mechanism&) { return true; },
+        .is_expensive = is_expensive};
     text = advice_sentence(find_advice(testing::forearm(), judge).alone);
     return looks.load();
   };
   std::string text, of_dear;
   EXPECT_LT(3 * looks_of(true, -1, of_dear), 2 * looks_of(false, -1, text));
   EXPECT_EQ(of_dear, "");
-  // One that helps is asked at each step, so that its border is found all the same.
+  // A change that helps is evaluated at each step, so that its border is still found.
   looks_of(true, 8, of_dear);
   looks_of(false, 8, text);
   EXPECT_EQ(text, "make r1 ≤ 8 mm");
   EXPECT_EQ(of_dear, text);
 }
 
-TEST(Advice, NoMoreIsMadeThanIsLeftToBeMade) {
+TEST(Advice, RespectsBuildsLeft) {
   std::atomic<int> made = 0;
-  Judge judge{.obstacles = [](const Mechanism& m) { return fails_by(std::min(m.pulley.r1 - 12, 93 - m.pulley.EF)); },
-              .made = [&](const Mechanism&) { return ++made, true; }};
+  FeasibilityOracle judge{
+      .obstacles = [](const Mechanism& m) { return fails_by(std::min(m.pulley.r1 - 12, 93 - m.pulley.EF)); },
+      .made = [&](const Mechanism&) { return ++made, true; }};
   EXPECT_EQ(find_advice(testing::forearm(), judge).alone.size(), 2U);
   EXPECT_EQ(find_advice(testing::forearm(), judge, {}, 1).alone.size(), 1U);
   EXPECT_TRUE(find_advice(testing::forearm(), judge, {}, 2).empty());
-  judge.makings = [&made] { return 1 - made; };
+  judge.builds_left = [&made] { return 1 - made; };
   made = 0;
   EXPECT_EQ(find_advice(testing::forearm(), judge).alone.size(), 1U);
   EXPECT_EQ(made, 1);
 }
 
-TEST(Advice, ARangeStaysWithinItsTable) {
+TEST(Advice, KeepsRangeWithinTable) {
   Mechanism mechanism = testing::forearm();
   mechanism.pulley.law = Law::table;
   for (int row = -4; row <= 4; ++row) mechanism.pulley.rows.push_back({radians(20.0 * row), radians(8.0 * row)});

@@ -5,7 +5,7 @@
 namespace fusee {
 namespace {
 
-TEST(ClosingArc, OfACircleIsTheCircle) {
+TEST(ClosingArc, ReproducesCircle) {
   const auto arc = ClosingArc::between({0.4, 10.0, 0.0, 10.0}, {2.9, 10.0, 0.0, 10.0}, 1.0);
   ASSERT_TRUE(arc.has_value());
   for (double psi = 0.4; psi <= 2.9; psi += 0.1) {
@@ -15,7 +15,7 @@ TEST(ClosingArc, OfACircleIsTheCircle) {
   EXPECT_NEAR(arc->length(), 25.0, 1e-12);
 }
 
-TEST(ClosingArc, MeetsBothEndsInPlaceDirectionAndCurvature) {
+TEST(ClosingArc, JoinsEndsWithContinuousCurvature) {
   const CurvePoint begin{1.0, 14.0, -6.0, 5.0};
   const CurvePoint end{3.5, 18.0, -8.0, 30.0};
   const auto arc = ClosingArc::between(begin, end, 2.0);
@@ -27,7 +27,7 @@ TEST(ClosingArc, MeetsBothEndsInPlaceDirectionAndCurvature) {
   }
 }
 
-TEST(ClosingArc, IsConvexAndItsSupportIsConsistent) {
+TEST(ClosingArc, IsConvex) {
   const auto arc = ClosingArc::between({1.0, 14.0, -6.0, 5.0}, {3.5, 18.0, -8.0, 30.0}, 2.0);
   ASSERT_TRUE(arc.has_value());
   constexpr double step = 1e-4;
@@ -40,8 +40,8 @@ TEST(ClosingArc, IsConvexAndItsSupportIsConsistent) {
   }
 }
 
-TEST(ClosingArc, ThatWouldHaveToRunBackwardsDoesNotExist) {
-  // The end lies behind the beginning: no convex arc of a sixth of a turn gets there.
+TEST(ClosingArc, IsNullWithoutConvexArc) {
+  // The end lies behind the beginning: no convex arc of a sixth of a turn joins them.
   EXPECT_FALSE(ClosingArc::between({0.0, 10.0, 8.0, 5.0}, {1.0, 10.0, 8.0 - 25.0, 5.0}, 0.1).has_value());
   EXPECT_FALSE(ClosingArc::between({1.0, 10.0, 0.0, 5.0}, {1.0, 10.0, 0.0, 5.0}, 0.1).has_value());
 }

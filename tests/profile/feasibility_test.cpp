@@ -19,7 +19,7 @@ const Condition& failed(const SynthesisResult& result) {
   return *found;
 }
 
-/// The mechanism with a change of advice taken.
+/// The mechanism with one change of the advice applied.
 Mechanism with(Mechanism mechanism, const Change& change) {
   if (change.key == "joint.range_deg") {
     mechanism.joint.theta_min = -radians(change.to);
@@ -35,7 +35,7 @@ Mechanism with(Mechanism mechanism, const Change& change) {
   return mechanism;
 }
 
-/// Refused for this reason, and every advice given makes it possible.
+/// Expects a failure of `condition`, and that every single advice makes the mechanism feasible.
 void expect_refused(const Mechanism& mechanism, const std::string& condition, const std::string& words) {
   const SynthesisResult result = synthesise(mechanism);
   ASSERT_FALSE(result.made());
@@ -51,38 +51,37 @@ void expect_refused(const Mechanism& mechanism, const std::string& condition, co
 TEST(Feasibility, ReferenceTurnsInward) {
   Mechanism mechanism = testing::reference();
   mechanism.tendon.diameter = 0.01;
-  expect_refused(mechanism, "convex_floor_P2", "r2 turns inward at α = 92");
+  expect_refused(mechanism, "convex_floor_P2", "P2 would be concave at α = 92");
 }
 
-TEST(Feasibility, AHollowHasASizeAndNoSign) {
+TEST(Feasibility, ReportsHollowWithoutSign) {
   Mechanism mechanism = testing::reference();
   mechanism.tendon.diameter = 0.01;
   const SynthesisResult result = synthesise(mechanism, {.advice = false});
   const double radius = failed(result).value;
-  EXPECT_THAT(failed(result).message,
-              HasSubstr(radius > 0 ? "bends there with a radius of only " : "is hollow there, with a radius of "));
+  EXPECT_THAT(failed(result).message, HasSubstr(radius > 0 ? "would be too sharp" : "would be concave"));
   EXPECT_THAT(failed(result).message, ::testing::Not(HasSubstr("-")));
 }
 
-TEST(Feasibility, DeadCentre) {
+TEST(Feasibility, ReportsDeadCentre) {
   Mechanism mechanism = testing::forearm();
   mechanism.joint.theta_max = radians(60);
   expect_refused(mechanism, "moment_arms", "dead centre");
 }
 
-TEST(Feasibility, AnAttachmentInsideTheDrum) {
+TEST(Feasibility, ReportsAttachmentInsideDrum) {
   Mechanism mechanism = testing::finger();
   mechanism.joint.attachment2 = Attachment{-5.0, 5.0};
   expect_refused(mechanism, "attachment_outside_drum_2", "tendon 2 ends 0.929 mm inside the drum");
 }
 
-TEST(Feasibility, APinInTheDrum) {
+TEST(Feasibility, ReportsPinInDrum) {
   Mechanism mechanism = testing::finger();
   mechanism.guides.radius = 9.5;
   expect_refused(mechanism, "drum_clear_of_pin_B", "pin B stands 0.529 mm in the drum");
 }
 
-TEST(Feasibility, ATendonThatCutsTheOthersPin) {
+TEST(Feasibility, ReportsTendonThroughOtherPin) {
   Mechanism mechanism = testing::finger();
   mechanism.joint.drum_radius = 0;
   mechanism.joint.theta_min = radians(-1.0);
@@ -95,33 +94,33 @@ TEST(Feasibility, ATendonThatCutsTheOthersPin) {
   EXPECT_EQ(failed(result).name, "tendon_2_clear_of_pin_B");
 }
 
-TEST(Feasibility, AMouthInThePulley) {
+TEST(Feasibility, ReportsSheathExitInPulley) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.sheath.exit_across = 5.0;
   mechanism.sheath.exit_above = 12.0;
-  expect_refused(mechanism, "line_reaches_mouth_1", "the mouth of sheath 1 stands");
-  // Near enough that the turning line makes the curve hollow, or has no way to it.
+  expect_refused(mechanism, "line_reaches_mouth_1", "the exit of sheath 1 lies");
+  // So close that the curve would be hollow, or that no line reaches the exit.
   mechanism.sheath.exit_above = 18.0;
   const SynthesisResult near = synthesise(mechanism);
   ASSERT_FALSE(near.made());
   EXPECT_FALSE(near.advice.empty());
 }
 
-TEST(Feasibility, ATendonOffItsPinGoesPastItsSheath) {
+TEST(Feasibility, ReportsTendonOffPinAtSheath) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.joint.theta_max = radians(36.0);
   mechanism.guides.EB = 35.0;
   expect_refused(mechanism, "tendon_on_pin_B", "down into its sheath, is");
 }
 
-TEST(Feasibility, NoAdviceMovesAPulleyThatStandsAnywhere) {
+TEST(Feasibility, AdviceKeepsArbitraryPulleyPosition) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.sheath.exit_above = 12.0;
   for (const Change& change : synthesise(mechanism).advice) EXPECT_NE(change.key, "pulley.EF_mm");
 }
 
-/// P2 is drawn with the inverse of tendon 1's arm, which bends upwards where that tendon leaves the drum.
-TEST(Feasibility, BesideARoundP1ALiftOffOfTendon1IsHollow) {
+/// P2 is drawn with the inverse of tendon 1's arm, which has a kink upwards where that tendon leaves the drum.
+TEST(Feasibility, ReportsHollowAtLiftOffOfTendon1) {
   Mechanism mechanism = testing::finger();
   mechanism.joint.attachment1 = Attachment{-8.3, 8.3};
   expect_refused(mechanism, "convex_at_lift_off_P2", "tendon 1 leaves the drum at α = 21");
@@ -130,9 +129,9 @@ TEST(Feasibility, BesideARoundP1ALiftOffOfTendon1IsHollow) {
   EXPECT_TRUE(synthesise(mechanism).made());
 }
 
-TEST(Feasibility, ALiftOffOfTendon2IsAStraightPieceOfP2) {
+TEST(Feasibility, LiftOffOfTendon2MakesStraightPart) {
   Mechanism mechanism = testing::finger();
-  // In the mirror image it is tendon 2 that leaves.
+  // In the mirror image, tendon 2 leaves.
   mechanism.joint.attachment1 = Attachment{-8.3, 8.3};
   mechanism = testing::mirrored(mechanism);
   const SynthesisResult result = synthesise(mechanism);
@@ -144,14 +143,14 @@ TEST(Feasibility, ALiftOffOfTendon2IsAStraightPieceOfP2) {
   EXPECT_GT(longest, 4.0);
 }
 
-TEST(Feasibility, PulleyAsLargeAsThePinsDistance) {
+TEST(Feasibility, ReportsPulleyBeyondPin) {
   Mechanism mechanism = testing::forearm();
   mechanism.pulley.EF = 30.0;
   mechanism.pulley.r1 = 62.0;
   expect_refused(mechanism, "line_reaches_pin_B", "inside the pulley's pitch curve");
 }
 
-TEST(Feasibility, TendonLeavesItsPin) {
+TEST(Feasibility, ReportsTendonOffPin) {
   Mechanism mechanism = testing::forearm();
   mechanism.pulley.EF = 400.0;
   mechanism.guides.OE = 10.0;
@@ -160,7 +159,7 @@ TEST(Feasibility, TendonLeavesItsPin) {
   expect_refused(mechanism, "tendon_on_pin_B", "leaves pin B");
 }
 
-TEST(Feasibility, MoreThanOneTurn) {
+TEST(Feasibility, ReportsMoreThanOneTurn) {
   Mechanism mechanism = testing::forearm();
   mechanism.pulley.r1 = 9.0;
   const SynthesisResult result = synthesise(mechanism);
@@ -169,17 +168,17 @@ TEST(Feasibility, MoreThanOneTurn) {
                           [](const Change& c) { return c.key == "pulley.r1_mm" && c.to > 9.0; }));
 }
 
-TEST(Feasibility, ThinnerThanItsTendon) {
+TEST(Feasibility, ReportsTooSmallRadius) {
   Mechanism mechanism = testing::forearm();
   mechanism.tendon.diameter = 40.0;
   mechanism.guides.radius = 0.0;
   EXPECT_EQ(failed(synthesise(mechanism, {.advice = false})).name, "radius_P1");
 }
 
-TEST(Feasibility, TableThatFallsIsRefused) {
+TEST(Feasibility, RejectsDecreasingTable) {
   Mechanism mechanism = testing::forearm();
   mechanism.pulley.law = Law::table;
-  // The rows rise; the smooth curve through a steep pair and a wide gap overshoots.
+  // The rows increase, but the smooth curve through a steep pair and a wide gap overshoots.
   for (const auto& [alpha, theta] : {std::pair{-1.0, -0.30},
                                      {-0.95, -0.20},
                                      {-0.90, -0.19},
@@ -195,7 +194,7 @@ TEST(Feasibility, TableThatFallsIsRefused) {
   EXPECT_EQ(failed(synthesise(mechanism, {.advice = false})).name, "law_grows");
 }
 
-TEST(Feasibility, TightBendIsAWarningOnly) {
+TEST(Feasibility, WarnsOfTightBend) {
   Mechanism mechanism = testing::forearm();
   mechanism.tendon.bend_ratio = 25.0;
   const SynthesisResult result = synthesise(mechanism);
@@ -204,7 +203,7 @@ TEST(Feasibility, TightBendIsAWarningOnly) {
   EXPECT_THAT(result.warnings.back(), HasSubstr("D/d = 25"));
 }
 
-TEST(Feasibility, EveryConditionIsNamedWhenAllHold) {
+TEST(Feasibility, ListsAllConditions) {
   const SynthesisResult result = synthesise(testing::forearm());
   ASSERT_TRUE(result.made());
   EXPECT_EQ(result.conditions.size(), 17U);

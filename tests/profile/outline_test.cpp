@@ -24,16 +24,15 @@ TEST(Outline, ActiveArcMayWrapPastTheEnd) {
   EXPECT_EQ(outline.anchor_end(), 2U);
 }
 
-TEST(Outline, ParallelCurvesAddATurnOfTheirDistance) {
+TEST(Outline, ParallelCurvesAddTheirDistance) {
   const SynthesisResult result = synthesise(testing::forearm());
   ASSERT_TRUE(result.made()) << result.brief();
-  // The polygon's parallel polygon: each edge grows by distance · 2 tan(turn/2) in the limit; the sum is near 2π ·
-  // distance.
+  // Each edge of the parallel polygon grows by distance · 2 tan(turn/2), so that the sum is near 2π · distance.
   const double grown = perimeter(parallel(result.p2, 3.0)) - perimeter(parallel(result.p2, 0.0));
   EXPECT_NEAR(grown, k_two_pi * 3.0, 0.003);
 }
 
-TEST(Outline, BothPulleysShareTheirNormals) {
+TEST(Outline, PulleysShareNormals) {
   const SynthesisResult result = synthesise(testing::unsymmetric());
   ASSERT_TRUE(result.made()) << result.brief();
   ASSERT_EQ(result.p1.points.size(), result.p2.points.size());
@@ -45,14 +44,14 @@ TEST(Outline, BothPulleysShareTheirNormals) {
   }
 }
 
-TEST(Outline, SagittaIsAnArcsAndOfABendAtOneEndNextToNothing) {
+TEST(Outline, SagittaIsSmallForBendAtOneEnd) {
   const double radius = 40.0, turn = 0.02;
   const auto on_circle = [&](double psi) -> Vec2 { return radius * unit(psi); };
   EXPECT_NEAR(sagitta(on_circle(1.0), 1.0, on_circle(1.0 + turn), 1.0 + turn), radius * (1.0 - std::cos(0.5 * turn)),
               1e-7);
 
-  // 95 mm of a bridge, then its end's bend (campaign of seed 310001, design 136): how far the bend's corner is from the
-  // chord, by plane geometry.
+  // A bridge of 95 mm followed by the bend at its end. Reference: distance of the bend's corner from the chord, by
+  // plane geometry.
   const double length = 94.67, bend = 0.36, little = 2.18e-4;
   const Vec2 from(0, 0), corner(length, 0), to = corner + bend * little * unit(0.5 * little);
   const Vec2 along = (to - from).normalized();

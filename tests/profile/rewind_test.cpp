@@ -18,9 +18,9 @@ RewindResult wound(const Mechanism& mechanism, const SynthesisResult& made) {
   return rewind(mechanism, parallel(made.p1, -half), parallel(made.p2, -half));
 }
 
-// Two routes, one answer: the analytic envelope and a string wound on its polygon agree the better the finer the
+// Independent verification: the analytic envelope agrees with a string wound on its polygon, and better with a finer
 // polygon.
-TEST(Rewind, StringOnTheEnvelopeGivesTheDeclaredLaw) {
+TEST(Rewind, ReproducesDeclaredLaw) {
   for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
     const SynthesisResult fine = synthesise(mechanism, {.tolerance = 1e-6});
     ASSERT_TRUE(fine.made()) << fine.brief();
@@ -30,15 +30,15 @@ TEST(Rewind, StringOnTheEnvelopeGivesTheDeclaredLaw) {
   }
 }
 
-TEST(Rewind, ErrorIsThatOfTheChords) {
+TEST(Rewind, ErrorFollowsChordLength) {
   const SynthesisResult coarse = synthesise(forearm(), {.tolerance = 0.01});
   const RewindResult result = wound(forearm(), coarse);
   EXPECT_GT(degrees(result.max_theta_error), 1e-4);
   EXPECT_LT(degrees(result.max_theta_error), 0.01);
 }
 
-TEST(Rewind, SeesAWrongTurningSense) {
-  // The trap: a profile drawn with the wrong turning sense looks better and is wrong.
+TEST(Rewind, DetectsWrongTurningSense) {
+  // A profile drawn with the wrong turning sense looks plausible but is wrong.
   const SynthesisResult made = synthesise(forearm());
   Polygon wrong;
   for (const Vec2& point : parallel(made.p2, -0.5)) wrong.insert(wrong.begin(), Vec2(-point.x(), point.y()));
@@ -46,7 +46,7 @@ TEST(Rewind, SeesAWrongTurningSense) {
   EXPECT_GT(result.max_slack, 1.0);
 }
 
-TEST(Rewind, SeesAScaledAndATurnedPulley) {
+TEST(Rewind, DetectsScaledAndTurnedPulley) {
   const SynthesisResult made = synthesise(forearm());
   Polygon larger = parallel(made.p1, -0.5);
   for (Vec2& point : larger) point *= 1.02;
@@ -58,7 +58,7 @@ TEST(Rewind, SeesAScaledAndATurnedPulley) {
   EXPECT_GT(rewind(forearm(), parallel(made.p1, -0.5), turned).max_slack, 0.05);
 }
 
-TEST(Rewind, SeesAMouthThatStandsElsewhere) {
+TEST(Rewind, DetectsMovedSheathExit) {
   Mechanism mechanism = testing::sheathed_wrist();
   const SynthesisResult made = synthesise(mechanism);
   ASSERT_TRUE(made.made()) << made.brief();
@@ -67,11 +67,11 @@ TEST(Rewind, SeesAMouthThatStandsElsewhere) {
   mechanism.pulley.EF = 1000.0;
   EXPECT_LT(degrees(rewind(mechanism, floor1, floor2).max_theta_error), 0.005);
   mechanism.sheath.exit_across += 5.0;
-  EXPECT_GT(degrees(rewind(mechanism, floor1, floor2).max_theta_error), 0.05);  // what build's check lets through
+  EXPECT_GT(degrees(rewind(mechanism, floor1, floor2).max_theta_error), 0.05);  // more than the limit of build's check
 }
 
-TEST(Rewind, PassesFullTurns) {
-  // A round pulley of 4 mm on both sides needs more than a turn each way; θ comes back as the compensating law says.
+TEST(Rewind, CountsFullTurns) {
+  // A round pulley of 4 mm on both sides needs more than a turn each way; θ must follow the compensating law.
   Mechanism mechanism = forearm();
   mechanism.pulley.r1 = 4.0;
   Polygon circle;
@@ -79,14 +79,14 @@ TEST(Rewind, PassesFullTurns) {
   EXPECT_LT(degrees(rewind(mechanism, circle, circle, 400).max_theta_error), 1e-4);
 }
 
-TEST(Rewind, BridgesWhatIsHollow) {
+TEST(Rewind, BridgesHollows) {
   const SynthesisResult made = synthesise(forearm());
   Polygon notched = parallel(made.p1, -0.5);
   notched[notched.size() / 2] *= 0.8;
   EXPECT_LT(degrees(rewind(forearm(), notched, parallel(made.p2, -0.5)).max_theta_error), 0.1);
 }
 
-TEST(Rewind, RefusesWhatIsNoPulley) {
+TEST(Rewind, RejectsInvalidFloors) {
   const SynthesisResult made = synthesise(forearm());
   const Polygon floor = parallel(made.p1, -0.5);
   Polygon aside = floor;

@@ -15,7 +15,7 @@ using testing::reference;
 using testing::scaled;
 using testing::unsymmetric;
 
-/// World direction of the tendon's normal, seen in the pulley turned by α.
+/// Direction of the tendon's normal in the frame of the pulley turned by α.
 double body_normal(const TransmissionPoint& at, const TendonPoint& tendon) { return tendon.lower_normal + at.alpha; }
 
 double distance_from(const Outline& outline, double psi) {
@@ -33,8 +33,8 @@ TEST(Synthesis, CompensatingP1IsRound) {
   }
 }
 
-// The outline is the envelope: at every place of the stroke the tendon's line touches it and leaves all of it inside.
-TEST(Synthesis, EveryTendonLineTouchesItsOutline) {
+// Envelope property: at every point of the stroke the tendon's line touches the outline and has all of it inside.
+TEST(Synthesis, TendonLinesTouchOutline) {
   for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
     const SynthesisResult result = synthesise(mechanism, {.tolerance = 1e-4});
     ASSERT_TRUE(result.made()) << result.brief();
@@ -49,7 +49,7 @@ TEST(Synthesis, EveryTendonLineTouchesItsOutline) {
   }
 }
 
-TEST(Synthesis, ChordsStayWithinTheTolerance) {
+TEST(Synthesis, ChordsAreWithinTolerance) {
   const Mechanism mechanism = forearm();
   const SynthesisResult fine = synthesise(mechanism, {.tolerance = 1e-6});
   for (const double tolerance : {0.02, 0.002}) {
@@ -61,7 +61,7 @@ TEST(Synthesis, ChordsStayWithinTheTolerance) {
   }
 }
 
-TEST(Synthesis, RadiusOfCurvatureIsThatOfThePoints) {
+TEST(Synthesis, CurvatureAgreesWithPoints) {
   const SynthesisResult result = synthesise(unsymmetric(), {.tolerance = 1e-5});
   ASSERT_TRUE(result.made());
   const auto& points = result.p2.points;
@@ -72,7 +72,7 @@ TEST(Synthesis, RadiusOfCurvatureIsThatOfThePoints) {
   }
 }
 
-TEST(Synthesis, ActiveArcsEndWhereTheStrokeEnds) {
+TEST(Synthesis, ActiveArcsEndWithStroke) {
   const SynthesisResult result = synthesise(forearm());
   ASSERT_TRUE(result.made());
   const TransmissionPoint& first = result.stroke.front();
@@ -86,7 +86,7 @@ TEST(Synthesis, ActiveArcsEndWhereTheStrokeEnds) {
   EXPECT_TRUE(at_normal(result.p1, result.p1.active_last, body_normal(last, last.t1)));
 }
 
-TEST(Synthesis, StrokeHoldsHomeAndBothEnds) {
+TEST(Synthesis, StrokeIncludesHomeAndEnds) {
   const SynthesisResult result = synthesise(unsymmetric());
   EXPECT_DOUBLE_EQ(result.stroke.front().theta, radians(-20));
   EXPECT_NEAR(result.stroke.back().theta, radians(32), 1e-12);
@@ -95,7 +95,7 @@ TEST(Synthesis, StrokeHoldsHomeAndBothEnds) {
   EXPECT_EQ(home, 1);
 }
 
-TEST(Synthesis, OfTheMirroredJointIsTheMirroredPulley) {
+TEST(Synthesis, MirroredJointHasMirroredPulley) {
   Mechanism mechanism = linear_wrist();
   mechanism.guides.EB = 44.0;
   mechanism.guides.ED = 52.0;
@@ -111,7 +111,7 @@ TEST(Synthesis, OfTheMirroredJointIsTheMirroredPulley) {
   }
 }
 
-TEST(Synthesis, ScalesWithItsLengths) {
+TEST(Synthesis, ScalesWithLengths) {
   const SynthesisResult result = synthesise(unsymmetric());
   const SynthesisResult half = synthesise(scaled(unsymmetric(), 0.5), {.tolerance = 0.005});
   ASSERT_TRUE(half.made());
@@ -121,7 +121,7 @@ TEST(Synthesis, ScalesWithItsLengths) {
   }
 }
 
-TEST(Synthesis, PolarDrawingOfThePaperIsMadeAndHasItsKnownSlack) {
+TEST(Synthesis, ReproducesSlackOfPolarDrawing) {
   Mechanism mechanism = reference();
   mechanism.tendon.diameter = 0.01;
   mechanism.pulley.method = Method::paper;
@@ -129,10 +129,10 @@ TEST(Synthesis, PolarDrawingOfThePaperIsMadeAndHasItsKnownSlack) {
   ASSERT_TRUE(result.made()) << result.brief();
   EXPECT_TRUE(result.warnings.empty());
   const RewindResult wound = rewind(mechanism, parallel(result.p1, -0.005), parallel(result.p2, -0.005));
-  EXPECT_NEAR(wound.max_slack, 0.30, 0.01);  // research: −0.30 … +0.20 mm
+  EXPECT_NEAR(wound.max_slack, 0.30, 0.01);  // known value: −0.30 … +0.20 mm
 }
 
-TEST(Synthesis, HollowPolarDrawingIsBridgedAndSaid) {
+TEST(Synthesis, BridgesAndReportsHollowPolarDrawing) {
   Mechanism mechanism = reference();
   mechanism.tendon.diameter = 0.01;
   mechanism.pulley.method = Method::paper;
@@ -144,10 +144,10 @@ TEST(Synthesis, HollowPolarDrawingIsBridgedAndSaid) {
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_NE(result.warnings.front().find("hollow"), std::string::npos);
   const RewindResult wound = rewind(mechanism, parallel(result.p1, -0.005), parallel(result.p2, -0.005));
-  EXPECT_GT(wound.max_slack, 5.0);  // research: −6 … +17 mm at ±35°, where a tendon would leave its pin
+  EXPECT_GT(wound.max_slack, 5.0);  // known value: −6 … +17 mm at ±35°, where a tendon would leave its pin
 }
 
-TEST(Synthesis, BriefNamesTheStrokeAndTheRadii) {
+TEST(Synthesis, BriefReportsStrokeAndRadii) {
   Mechanism mechanism = reference();
   mechanism.pulley.method = Method::paper;
   EXPECT_EQ(synthesise(mechanism).brief(), "α -90.24° … 92.31°, r2 17.429 … 22.951 mm");

@@ -14,7 +14,7 @@ constexpr double k_bristle = 2e-4;
 constexpr double k_furthest = radians(85.0);  // of a joint that is not declared to go further
 constexpr double k_beyond_range = radians(25.0);
 /// The knot lies this much further along the groove than the tendon leaves it anywhere in the range. mm
-constexpr double k_knot_beyond = 5.0;
+constexpr double k_arc_to_knot = 5.0;
 /// Of the quickest part of creep: the middle of the first decade. s
 constexpr double k_first_decade = 3.16;
 
@@ -299,7 +299,7 @@ double Bench::knot_of(const BenchTendon& tendon, const Circle& seen, const Lower
   const int steps = 1 + static_cast<int>(std::abs(unwound));
   for (int i = 1; i <= steps; ++i)
     at_end = lower_string(tendon.hull, {turned(seen.centre, unwound * i / steps), seen.radius}, at_end.corner);
-  return at_end.arc - k_knot_beyond;
+  return at_end.arc - k_arc_to_knot;
 }
 
 /// Cut to length so that it carries `tension` at home; no friction is in use. The knot is met at the image's angle

@@ -282,9 +282,9 @@ TEST(BodyAdvice, WordsAndNumbersShareBuildBudget) {
   mechanism.print.parts = Parts::two;
   for (const int most : {0, 1, 2}) {
     int made = 0;
-    const Judge judge{.obstacles = obstacles,
-                      .made = [&made](const Mechanism&) { return ++made, false; },
-                      .makings = [&made, most] { return most - made; }};
+    const FeasibilityOracle judge{.obstacles = obstacles,
+                                  .made = [&made](const Mechanism&) { return ++made, false; },
+                                  .builds_left = [&made, most] { return most - made; }};
     EXPECT_TRUE(body_advice(mechanism, judge).empty());
     EXPECT_EQ(made, most);
   }

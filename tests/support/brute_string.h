@@ -1,7 +1,7 @@
 /// \file
-/// A tendon over drum and pin as a string that is laid round them by brute force: both circles are a few thousand
-/// points each, the string is the chain of points that leaves all others on its inner side, found by looking, and turns
-/// are counted by following the joint. No formula of tendon_path.cpp is in it.
+/// A tendon over drum and pin as a string laid by brute force. Both circles are polygons of a few thousand points, and
+/// the string is the chain of points with all others on its inner side. Turns are counted by following the joint. No
+/// formula of tendon_path.cpp is used.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace fusee::testing {
 constexpr int k_string_points = 4096;
 constexpr double k_string_step = k_two_pi / k_string_points;
 
-/// Counter-clockwise round the inner side of a tendon of the right-hand image, which goes up on their right.
+/// Counter-clockwise round the inner side of a tendon of the right-hand image, which runs upwards on their right.
 inline std::vector<Vec2> circle(const Vec2& centre, double radius) {
   std::vector<Vec2> points;
   for (int i = 0; i < k_string_points; ++i)
@@ -26,9 +26,9 @@ inline std::vector<Vec2> circle(const Vec2& centre, double radius) {
 
 inline double right_of(const Vec2& from, const Vec2& to, const Vec2& point) { return cross(point - from, to - from); }
 
-/// The point of a circle at which a string to (or from) `far` leaves it: it has no other on its right.
+/// The tangent point of a circle for a string to (or from) `far`: no other point is on its right.
 inline int tangent_point(const std::vector<Vec2>& points, const Vec2& far, bool towards, int start) {
-  // The rightmost point turns once round with the string: walked to from where it was last.
+  // The rightmost point moves round once with the string, so the search continues from the last one.
   const auto worse = [&](int i, int than) {
     const Vec2 &a = points[static_cast<std::size_t>(i)], &b = points[static_cast<std::size_t>(than)];
     return towards ? right_of(a, far, b) > 0 : right_of(far, a, b) > 0;
@@ -47,12 +47,12 @@ inline int tangent_point(const std::vector<Vec2>& points, const Vec2& far, bool 
   return at;
 }
 
-/// A string from the pin's rightmost point over what is in its way to the end.
+/// A string from the pin's rightmost point over any obstacles to the end.
 class BruteString {
  public:
   explicit BruteString(const PinPlace& place)
       : place_(place), pin_(circle(place.pin(), place.rho)), drum_(circle({0, 0}, place.drum)) {
-    // The line that has all of both circles on its left: ends move until none is on its right.
+    // The line with all of both circles on its left: its ends move until no point is on its right.
     int i = 0, j = 0;
     for (int round = 0; round < 50; ++round) {
       const int i_before = i, j_before = j;
@@ -62,8 +62,8 @@ class BruteString {
     }
     pin_leaves_ = i;
     drum_meets_ = j;
-    // From an end above the point where the string meets the drum, where nothing is wound, the joint is turned to where
-    // it is asked. Directions are counted from straight below O.
+    // Starts with the end above the contact of string and drum, where the wrap is zero, and turns the joint to the
+    // requested angle. Directions are counted from straight below O.
     const double meets = k_string_step * drum_meets_;
     turned_ = 0.5 * k_pi - (meets < 1.5 * k_pi ? meets : meets - k_two_pi);
     drum_leaves_ = tangent_point(drum_, end(), true, 0);
@@ -71,7 +71,7 @@ class BruteString {
     wound_ -= k_string_points * static_cast<int>(std::lround(wound_ / double(k_string_points)));
   }
 
-  /// From the pin's point at (1, 0) of it; `theta` of the image.
+  /// Length from the pin's point at direction (1, 0); `theta` of the image.
   double length(double theta) {
     const double wanted = theta + place_.twist;
     const int steps = 1 + static_cast<int>(std::ceil(std::abs(wanted - turned_) / 0.2));
@@ -96,7 +96,7 @@ class BruteString {
  private:
   Vec2 end() const { return place_.R * Vec2(std::sin(turned_), std::cos(turned_)); }
   double distance(int i, const Vec2& to) const { return (to - pin_[static_cast<std::size_t>(i)]).norm(); }
-  /// Along the pin from where the string to the drum leaves it, less than half a turn either way.
+  /// Length along the pin from the tangent point of the line to the drum, less than half a turn either way.
   double round_pin(int i) const {
     const int by = i - pin_leaves_;
     return place_.rho * k_string_step *
@@ -106,7 +106,7 @@ class BruteString {
   PinPlace place_;
   std::vector<Vec2> pin_, drum_;
   int pin_leaves_ = 0, drum_meets_ = 0, drum_leaves_ = 0;
-  int wound_ = 0;  ///< points between them, turns counted; negative: the string is free of the drum
+  int wound_ = 0;  ///< points in contact, turns counted; negative: the string is clear of the drum
   double turned_ = 0;
 };
 

@@ -1,12 +1,12 @@
 /// \file
-/// Mechanisms that many tests start from.
+/// Mechanisms that many tests use.
 #pragma once
 
 #include "fusee/mechanism/mechanism.h"
 
 namespace fusee::testing {
 
-/// The paper's mechanism at 100 mm over point pins, r1 20, EF 60: the reference case of the project.
+/// The paper's mechanism at 100 mm with point pins, r1 20, EF 60: the reference case.
 inline DeclaredMechanism reference() {
   DeclaredMechanism mechanism;
   mechanism.name = "reference";
@@ -19,7 +19,7 @@ inline DeclaredMechanism reference() {
   return mechanism;
 }
 
-/// A joint that can be made: pins and tendon of real size, a smaller pulley further from the pins.
+/// A feasible joint: pins and tendon of real size, a smaller pulley further from the pins.
 inline DeclaredMechanism forearm() {
   DeclaredMechanism mechanism = reference();
   mechanism.name = "forearm";
@@ -39,7 +39,7 @@ inline DeclaredMechanism linear_wrist() {
   return mechanism;
 }
 
-/// Nothing alike on both sides.
+/// An asymmetric joint.
 inline DeclaredMechanism unsymmetric() {
   DeclaredMechanism mechanism = forearm();
   mechanism.guides.EB = 42.0;
@@ -50,8 +50,8 @@ inline DeclaredMechanism unsymmetric() {
   return mechanism;
 }
 
-/// A drum on the joint, both tendons tied at its upper left: they stay on it, tendon 2 over its top. No joint of one
-/// lever point reaches as far.
+/// A drum on the joint with both tendons tied at its upper left: they stay on it, tendon 2 over its top. A joint with
+/// one lever point has a smaller range.
 inline DeclaredMechanism finger() {
   DeclaredMechanism mechanism = reference();
   mechanism.name = "finger";
@@ -65,7 +65,7 @@ inline DeclaredMechanism finger() {
   return mechanism;
 }
 
-/// Attachments in front of and behind the link, each by its own lever; tendon 1 lies on a drum for a part of the range.
+/// Attachments in front of and behind the link with different levers; tendon 1 lies on a drum in part of the range.
 inline DeclaredMechanism ankle() {
   DeclaredMechanism mechanism = reference();
   mechanism.name = "ankle";
@@ -80,7 +80,7 @@ inline DeclaredMechanism ankle() {
   return mechanism;
 }
 
-/// A wrist whose motor sits elsewhere: sheaths with friction that give way.
+/// A wrist with a remote motor: compliant sheaths with friction.
 inline DeclaredMechanism sheathed_wrist() {
   DeclaredMechanism mechanism = linear_wrist();
   mechanism.name = "sheathed wrist";
@@ -88,7 +88,7 @@ inline DeclaredMechanism sheathed_wrist() {
   return mechanism;
 }
 
-/// The mirror image of a joint: what was left is right.
+/// The mirror image of a joint.
 inline Mechanism mirrored(Mechanism mechanism) {
   std::swap(mechanism.guides.EB, mechanism.guides.ED);
   std::swap(mechanism.joint.theta_min, mechanism.joint.theta_max);
@@ -101,7 +101,7 @@ inline Mechanism mirrored(Mechanism mechanism) {
   return mechanism;
 }
 
-/// Every length times `factor`.
+/// All lengths times `factor`.
 inline Mechanism scaled(Mechanism mechanism, double factor) {
   for (double* length :
        {&mechanism.joint.R, &mechanism.guides.EB, &mechanism.guides.ED, &mechanism.guides.OE, &mechanism.guides.radius,

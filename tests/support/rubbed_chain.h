@@ -1,6 +1,6 @@
 /// \file
-/// A cable as a chain of springs with a dry contact at every node, relaxed node by node: it knows neither play
-/// operators nor mean angles.
+/// A cable as a chain of springs with dry friction at every node, relaxed node by node, without play operators or mean
+/// angles.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace fusee::testing {
 
-/// Springs in series from the motor to the joint, of one unit of compliance together; every node rubs on its guide.
+/// Springs in series from the motor to the joint with a total compliance of 1; every node rubs on its guide.
 class RubbedChain {
  public:
-  /// `share`: ln of the ratio of tensions that the whole way holds, as a capstan; `unloaded`: friction of the whole way
-  /// beside it.
+  /// `share`: ln of the tension ratio that the whole cable sustains, as a capstan; `unloaded`: additional friction of
+  /// the whole cable.
   RubbedChain(double share, double unloaded) : share_(share / k_nodes), unloaded_(unloaded / k_nodes) {}
 
-  /// Angle of the joint, with the motor at `driven` and the pull `load`.
+  /// Joint angle for the motor at `driven` and the pull `load`.
   double to(double driven, double load) {
     constexpr double overrelaxed = 1.9, settled = 1e-10;
     for (double moved = 1; moved > settled;) {

@@ -1,6 +1,5 @@
 /// \file
-/// Pulleys of known shape for tests of what comes after the synthesis: convex outlines given by their support
-/// functions.
+/// Pulleys of known shape for tests of later stages: convex outlines given by their support functions.
 #pragma once
 
 #include <cmath>
@@ -58,7 +57,7 @@ inline Outline sampled(const SupportShape& shape, Side side, int count, double a
   return outline;
 }
 
-/// Both outlines at the same `count` normals; P1's active arc is 200° long, P2's as well.
+/// Both outlines at the same `count` normals; both active arcs are 200° long.
 inline SynthesisResult pulley_of(const SupportShape& p1, const SupportShape& p2, int count = 240) {
   SynthesisResult result;
   result.status = SynthesisStatus::made;
@@ -72,7 +71,7 @@ inline SynthesisResult pulley_of(const SupportShape& p1, const SupportShape& p2,
   return result;
 }
 
-/// A mechanism with the file's default body, whose pins are far away.
+/// A mechanism with the file's default body and distant pins.
 inline DeclaredMechanism plain_mechanism() {
   DeclaredMechanism mechanism;
   mechanism.name = "test";

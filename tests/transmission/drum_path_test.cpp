@@ -1,6 +1,6 @@
-// The upper path over a drum, and to ends of their own, against a string that is laid round them by brute force: both
-// circles are a few thousand points each, the string is the chain of points that leaves all others on its inner side,
-// found by looking, and turns are counted by following the joint. No formula of tendon_path.cpp is in it.
+// Tendon paths over drums and to separate attachments, compared with a string laid by brute force. Both circles are
+// polygons of a few thousand points, and the string is the chain of points with all others on its inner side. Turns are
+// counted by following the joint. The test uses no formula of tendon_path.cpp.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ PinPlace random_place(std::mt19937& random) {
   return place;
 }
 
-TEST(DrumPath, IsThatOfAStringLaidByHand) {
+TEST(DrumPath, AgreesWithBruteForceString) {
   std::mt19937 random(20261122);
   const int joints = std::getenv("FUSEE_LONG_TESTS") != nullptr ? 4000 : 150;
   int wound = 0, free = 0;
@@ -47,13 +47,13 @@ TEST(DrumPath, IsThatOfAStringLaidByHand) {
     double before = 0, before_formula = 0;
     for (double theta = radians(-170.0); theta < radians(170.0); theta += radians(17.0)) {
       const UpperSpan span = upper_span(place, theta);
-      // Past a dead centre no tendon pulls; a hand's breadth before it the end may run into the pin.
+      // Past a dead centre no tendon pulls, and shortly before it the end may run into the pin.
       if (!(span.m > 0.05 * place.drum)) break;
-      // Between an end and a pin as near as the points are coarse a string is laid that much more roughly.
+      // The string is coarse where the end is within a few polygon points of the pin.
       if (span.on_drum == 0 && span.free < 0.5 * place.drum) break;
       const auto leaves = lift_off(place);
       ASSERT_TRUE(leaves);
-      // Which of the points is the last one there is an accident.
+      // At lift-off the last touching point is arbitrary.
       if (std::abs(theta - *leaves) < 2 * k_string_step + 0.01) continue;
       const double length = string.length(theta);
       if (before != 0) {
@@ -65,7 +65,7 @@ TEST(DrumPath, IsThatOfAStringLaidByHand) {
       EXPECT_EQ(string.is_wound(), theta < *leaves) << i;
       EXPECT_EQ(span.on_drum > 0, theta < *leaves) << i;
       (span.on_drum > 0 ? wound : free) += 1;
-      // The points are a coarse circle for a derivative: to their own step.
+      // Differences of the polygonal string are accurate to its point spacing.
       const double arm = -(string.length(theta + 0.01) - string.length(theta - 0.01)) / 0.02;
       const UpperSpan after = upper_span(place, theta + 0.01), behind = upper_span(place, theta - 0.01);
       EXPECT_NEAR(arm, -(after.length - behind.length) / 0.02, 1e-5 * place.drum) << i;
@@ -75,7 +75,7 @@ TEST(DrumPath, IsThatOfAStringLaidByHand) {
   EXPECT_GT(free, joints);
 }
 
-TEST(DrumPath, DerivativesAreThoseOfDifferencesOnEitherSideOfLiftOff) {
+TEST(DrumPath, DerivativesAgreeWithDifferencesAroundLiftOff) {
   std::mt19937 random(3);
   for (int i = 0; i < 300; ++i) {
     PinPlace place = random_place(random);
@@ -85,7 +85,7 @@ TEST(DrumPath, DerivativesAreThoseOfDifferencesOnEitherSideOfLiftOff) {
       const double theta = leaves + off;
       const UpperSpan before = upper_span(place, theta - step), at = upper_span(place, theta),
                       after = upper_span(place, theta + step);
-      // Where the span is short everything changes fast.
+      // Curvatures are large where the span is short.
       if (!(at.m > 0.1 * place.drum) || at.free < 0.5 * place.drum) continue;
       const double size = place.R;
       EXPECT_NEAR((after.length - before.length) / (2 * step), -at.m, 1e-6 * size);
@@ -97,7 +97,7 @@ TEST(DrumPath, DerivativesAreThoseOfDifferencesOnEitherSideOfLiftOff) {
   }
 }
 
-TEST(DrumPath, LeavesTheDrumWithItsArmAndBendsItUpwards) {
+TEST(DrumPath, ArmIsContinuousAtLiftOff) {
   std::mt19937 random(5);
   for (int i = 0; i < 300; ++i) {
     const PinPlace place = random_place(random);
@@ -111,7 +111,7 @@ TEST(DrumPath, LeavesTheDrumWithItsArmAndBendsItUpwards) {
   }
 }
 
-TEST(DrumPath, AnEndBetweenTheDrumAndItsPitchCircleIsOnThatCircle) {
+TEST(DrumPath, MovesEndOntoPitchCircle) {
   Mechanism mechanism = testing::finger();
   mechanism.joint.attachment2 = Attachment{0.0, 8.1};
   const PinPlace place = pin_place(mechanism, Side::right, mechanism.seen_pitch_radius());
@@ -119,7 +119,7 @@ TEST(DrumPath, AnEndBetweenTheDrumAndItsPitchCircleIsOnThatCircle) {
   EXPECT_EQ(place.drum, 8.3);
 }
 
-TEST(DrumPath, ADrumOnWhichBothTendonsStayIsAPlainPulley) {
+TEST(DrumPath, PermanentDrumWrapIsPlainPulley) {
   Mechanism mechanism = testing::finger();
   const Transmission round(mechanism);
   ASSERT_FALSE(round.dead_centre());
@@ -138,10 +138,10 @@ TEST(DrumPath, ADrumOnWhichBothTendonsStayIsAPlainPulley) {
   }
 }
 
-/// A tendon through its sheath: from its end over drum and pin by the brute string, straight down into the sheath, and
-/// from its mouth round the pulley. Of the transmission it takes θ(α) and the radii; the pulley is the envelope of the
-/// lines that pass its axis at these radii on their way to the mouth, drawn as crossings of neighbours, and the string
-/// is laid round its corners by looking.
+/// A tendon through its sheath. The brute-force string runs from the tendon's end over drum and pin straight down into
+/// the sheath, and from the sheath exit round the pulley. Only θ(α) and the radii come from the transmission. The
+/// pulley is the envelope of the lines that pass its axis at these radii on their way to the exit: intersections of
+/// neighbouring lines, round which the string is laid.
 class StringThroughSheath {
  public:
   StringThroughSheath(const Mechanism& mechanism, const Transmission& law, Side side)
@@ -159,7 +159,7 @@ class StringThroughSheath {
       const double alpha = from + (to - from) * i / lines;
       const TransmissionPoint at = law.at_alpha(alpha);
       const double p = side == Side::right ? at.t2.p : at.t1.p;
-      // The foot of the axis' perpendicular on the line, right of the way from the axis to the mouth.
+      // Foot of the axis' perpendicular on the line, to the right of the way from the axis to the sheath exit.
       const double c = mouth_.norm(), ahead = p * p / c, aside = p * std::sqrt(1.0 - p * p / (c * c));
       const Vec2 towards = mouth_ / c, right(towards.y(), -towards.x());
       const Vec2 normal = turned(Vec2((ahead * towards + aside * right) / p), sign_ * alpha);
@@ -192,12 +192,12 @@ class StringThroughSheath {
   const Transmission& law_;
   double sign_;
   BruteString upper_;
-  Vec2 mouth_;  ///< from the pulley's axis
+  Vec2 mouth_;  ///< relative to the pulley's axis
   std::vector<Vec2> corners_;
   std::vector<double> along_;
 };
 
-TEST(SheathPath, IsAsLongAtEveryAngle) {
+TEST(SheathPath, LengthIsConstant) {
   Mechanism finger = testing::finger(), ankle = testing::ankle();
   finger.sheath = {300.0, 2.0, 0.1, 0.0, 15.0, 40.0};
   ankle.sheath = {600.0, 3.0, 0.1, 0.0, 60.0, 130.0};
@@ -216,7 +216,7 @@ TEST(SheathPath, IsAsLongAtEveryAngle) {
   }
 }
 
-TEST(SheathPath, ThePulleyMayStandAnywhere) {
+TEST(SheathPath, IsIndependentOfPulleyPosition) {
   const Mechanism mechanism = testing::sheathed_wrist();
   Mechanism elsewhere = mechanism;
   elsewhere.pulley.EF = 1234.0;
@@ -229,9 +229,8 @@ TEST(SheathPath, ThePulleyMayStandAnywhere) {
   }
 }
 
-/// Mouths where the pins were, straight below which nothing else would be: a line from pin to pulley that does not
-/// wrap.
-TEST(SheathPath, AMouthInThePlaceOfAPointPinIsThatPinsLine) {
+/// Sheath exits in place of point pins leave the line from pin to pulley unchanged.
+TEST(SheathPath, ExitInPlaceOfPointPinKeepsLine) {
   Mechanism pins = testing::reference(), sheaths = pins;
   pins.tendon.diameter = sheaths.tendon.diameter = 0.0;
   sheaths.sheath = {400.0, 1.0, 0.1, 0.0, pins.guides.ED, pins.pulley.EF};
@@ -245,7 +244,7 @@ TEST(SheathPath, AMouthInThePlaceOfAPointPinIsThatPinsLine) {
   }
 }
 
-TEST(DrumPath, TheEndCMayBeWrittenAsAnAttachment) {
+TEST(DrumPath, AcceptsEndCAsAttachment) {
   const Mechanism plain = testing::unsymmetric();
   Mechanism same = plain;
   same.joint.attachment1 = same.joint.attachment2 = Attachment{0.0, plain.joint.R};
@@ -256,7 +255,7 @@ TEST(DrumPath, TheEndCMayBeWrittenAsAnAttachment) {
   }
 }
 
-TEST(DrumPath, TheMirroredJointHasTheMirroredArms) {
+TEST(DrumPath, MirroredJointHasMirroredArms) {
   const Mechanism mechanism = testing::ankle();
   const Transmission one(mechanism), other(testing::mirrored(mechanism));
   ASSERT_FALSE(one.dead_centre());
@@ -266,17 +265,17 @@ TEST(DrumPath, TheMirroredJointHasTheMirroredArms) {
   }
 }
 
-/// A drum whose centre goes round the joint's axis. Second routes: the string laid by hand of a drum about O, on which
-/// it turns, seen from the drum's own centre, and differences.
+/// A drum whose centre moves round the joint's axis. References: the brute-force string of a drum about O, seen from
+/// the drum's own centre, and finite differences.
 PinPlace random_place_off_axis(std::mt19937& random) {
   PinPlace place = random_place(random);
-  place.drum_off = place.drum * 0.04 * (1 + static_cast<double>(random() % 3));
+  place.drum_offset = place.drum * 0.04 * (1 + static_cast<double>(random() % 3));
   place.drum_twist = radians(static_cast<double>(random() % 360) - 180.0);
-  place.R = std::max(place.R, place.drum + place.drum_off);
+  place.R = std::max(place.R, place.drum + place.drum_offset);
   return place;
 }
 
-TEST(DrumOffTheAxis, IsAtEveryAngleTheStringOfADrumAboutItsOwnCentre) {
+TEST(DrumOffTheAxis, AgreesWithBruteForceString) {
   std::mt19937 random(11);
   int wound = 0, free = 0;
   for (int i = 0; i < 200; ++i) {
@@ -284,14 +283,14 @@ TEST(DrumOffTheAxis, IsAtEveryAngleTheStringOfADrumAboutItsOwnCentre) {
     for (double theta = -1.2; theta < 1.2; theta += 0.17) {
       const UpperSpan span = upper_span(place, theta);
       if (!(span.m > 0.1 * place.drum) || span.free < 0.3 * place.drum) break;
-      // The same pin and end from the drum's centre: a joint of another lever, at another angle.
+      // Pin and end relative to the drum's centre: a joint with another link length, at another angle.
       const Vec2 centre = drum_centre(place, theta);
       const double turned = theta + place.twist;
       const Vec2 end = place.R * Vec2(std::sin(turned), std::cos(turned)) - centre;
       PinPlace seen = place;
       seen.e -= centre.x();
       seen.oe += centre.y();
-      seen.drum_off = seen.drum_twist = 0;
+      seen.drum_offset = seen.drum_twist = 0;
       seen.R = end.norm();
       seen.twist = place.twist;
       double angle = std::atan2(end.x(), end.y()) - place.twist;
@@ -306,7 +305,7 @@ TEST(DrumOffTheAxis, IsAtEveryAngleTheStringOfADrumAboutItsOwnCentre) {
   EXPECT_GT(free, 100);
 }
 
-TEST(DrumOffTheAxis, DerivativesAreThoseOfDifferencesAndTheArmIsVirtualWork) {
+TEST(DrumOffTheAxis, DerivativesAgreeWithDifferences) {
   std::mt19937 random(12);
   int seen = 0;
   for (int i = 0; i < 300; ++i) {

@@ -1,4 +1,4 @@
-// The equations as intervals: what they must hold is what the plain path gives.
+// Interval versions of the equations must enclose the values for numbers.
 #include "transmission/equations.h"
 
 #include <gtest/gtest.h>
@@ -11,12 +11,12 @@
 namespace fusee {
 namespace {
 
-TEST(Interval, HoldsTheTrueValue) {
+TEST(Interval, EnclosesTrueValue) {
   const RoundingUp rounding;
   const Interval third = Interval(1.0) / 3.0;
   EXPECT_LT(third.lower(), third.upper());
   EXPECT_LE(std::nextafter(third.lower(), 1.0), third.upper() + 1e-300);
-  // sin over its top, where neither end is the largest.
+  // The maximum of sin lies inside the interval.
   EXPECT_EQ(sin(Interval(1.0, 2.0)).upper() >= 1.0, true);
   EXPECT_LE(sin(Interval(1.0, 2.0)).lower(), 0.8414709848078965);
   EXPECT_LE(cos(Interval(-0.5, 0.25)).lower(), 0.8775825618903728);
@@ -25,8 +25,8 @@ TEST(Interval, HoldsTheTrueValue) {
 
 bool holds(const Jet& jet, double value) { return jet.value.lower() <= value && value <= jet.value.upper(); }
 
-/// Around the whole circle, but for straight below.
-TEST(Interval, DirectionsHoldTheTrueValue) {
+/// Directions round the whole circle, except straight down.
+TEST(Interval, EnclosesDirections) {
   const RoundingUp rounding;
   for (double angle = -0.49 * k_pi; angle < 1.49 * k_pi; angle += 0.01) {
     Domain domain;
@@ -41,7 +41,7 @@ TEST(Interval, DirectionsHoldTheTrueValue) {
   EXPECT_FALSE(domain.whole);
 }
 
-TEST(Interval, SinesHoldTheTrueValueWhereverLinesPoint) {
+TEST(Interval, EnclosesSinesOfLineDirections) {
   const RoundingUp rounding;
   for (double x = -2.4 * k_pi; x < 2.4 * k_pi; x += 0.05) {
     const Interval over = sin(Interval(x, x + 0.3));
@@ -52,8 +52,8 @@ TEST(Interval, SinesHoldTheTrueValueWhereverLinesPoint) {
   }
 }
 
-/// One formula: the interval of a number holds what the plain path makes of it, and hardly more.
-TEST(Equations, AsIntervalsHoldThePlainPath) {
+/// One formula per case: the interval encloses the value for numbers and is hardly wider.
+TEST(Equations, IntervalsEncloseNumbers) {
   for (Mechanism mechanism : {testing::forearm(), testing::reference(), testing::unsymmetric()}) {
     mechanism.load.tip_force = 3.0;
     const Transmission law(mechanism);
@@ -69,11 +69,11 @@ TEST(Equations, AsIntervalsHoldThePlainPath) {
         EXPECT_LT(jet.value.upper() - jet.value.lower(), 1e-9 * (1 + std::abs(value))) << what;
       };
       Domain domain;
-      const TurnedBy<Jet> turned = turned_by(Jet(theta));
+      const RotationAngle<Jet> turned = rotation_angle(Jet(theta));
       const UpperLine<Jet> upper =
-          upper_line(from_pin(Jet(pin.R), Jet(pin.e), Jet(pin.oe), turned), Jet(pin.rho), domain);
+          upper_line(offset_from_pin(Jet(pin.R), Jet(pin.e), Jet(pin.oe), turned), Jet(pin.rho), domain);
       const UpperLine<Jet> in_link =
-          upper_line(from_pin_in_link(Jet(pin.R), Jet(pin.e), Jet(pin.oe), turned), Jet(pin.rho), domain);
+          upper_line(offset_from_pin_in_link(Jet(pin.R), Jet(pin.e), Jet(pin.oe), turned), Jet(pin.rho), domain);
       const LowerLine<Jet> lower = lower_line(Jet(at.t2.p), Jet(pin.rho), Jet(c), Jet(phi), domain);
       const Jet wrap = upper.normal - lower.normal, arm = Jet(pin.R) * sin(in_link.normal);
       expect(arm, at.t2.m, "moment arm");

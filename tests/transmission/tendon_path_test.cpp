@@ -9,7 +9,7 @@ namespace {
 
 constexpr PinPlace k_place{47.0, -33.0, 70.0, 3.5, 95.0};
 
-TEST(UpperSpan, OverAPointPinIsThePapersFormula) {
+TEST(UpperSpan, OverPointPinAgreesWithPaper) {
   const PinPlace place = pin_place(testing::reference(), Side::right, 0.0);
   for (const double theta : {-0.5, -0.1, 0.0, 0.3, 0.52}) {
     const UpperSpan span = upper_span(place, theta);
@@ -20,7 +20,7 @@ TEST(UpperSpan, OverAPointPinIsThePapersFormula) {
   }
 }
 
-TEST(UpperSpan, TouchesThePinOnItsOuterSide) {
+TEST(UpperSpan, TouchesOuterSideOfPin) {
   for (const double theta : {-0.6, 0.0, 0.6}) {
     const UpperSpan span = upper_span(k_place, theta);
     const Vec2 normal = unit(span.normal);
@@ -31,7 +31,7 @@ TEST(UpperSpan, TouchesThePinOnItsOuterSide) {
   }
 }
 
-TEST(UpperSpan, DerivativesAreThoseOfDifferences) {
+TEST(UpperSpan, DerivativesAgreeWithDifferences) {
   constexpr double step = 1e-4;
   for (const double theta : {-0.5, -0.2, 0.0, 0.25, 0.5}) {
     const UpperSpan before = upper_span(k_place, theta - step);
@@ -43,7 +43,7 @@ TEST(UpperSpan, DerivativesAreThoseOfDifferences) {
   }
 }
 
-TEST(UpperSpan, HasNoValueInsideThePin) {
+TEST(UpperSpan, IsUndefinedInsidePin) {
   PinPlace place = k_place;
   place.R = 60.0;
   place.oe = -60.0;
@@ -51,7 +51,7 @@ TEST(UpperSpan, HasNoValueInsideThePin) {
   EXPECT_TRUE(std::isnan(upper_span(place, 0.0).m));
 }
 
-TEST(UpperSpan, StaysContinuousWhenTheAttachmentFallsBelowThePin) {
+TEST(UpperSpan, IsContinuousBelowPin) {
   const PinPlace place{40.0, -120.0, 150.0, 2.0, 100.0};
   double previous = upper_span(place, -0.5).normal;
   for (double theta = -0.49; theta < 0.3; theta += 0.01) {

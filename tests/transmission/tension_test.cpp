@@ -7,7 +7,7 @@
 namespace fusee {
 namespace {
 
-TEST(PaperForces, TendonHangingStraightDownPullsTwiceTheTipForce) {
+TEST(PaperForces, VerticalTendonPullsTwiceTheTipForce) {
   // ED = R/2 and θ = 30°: tendon 2 is vertical, sin γ2 = 1/2 [6].
   Mechanism mechanism = testing::reference();
   mechanism.pulley.method = Method::paper;
@@ -33,8 +33,8 @@ TEST(PaperForces, CapstanAndElongation) {
   EXPECT_GT(rough.elongation, smooth.elongation);
 }
 
-TEST(PaperForces, OverPointPinsTheErrorIsThatOfTheTriangle) {
-  // [10],[11] by a second route: the joint angle at which C–D is longer by Δ.
+TEST(PaperForces, PointPinErrorIsThatOfTriangle) {
+  // [10],[11] by an independent route: the joint angle at which C–D is longer by Δ.
   Mechanism mechanism = testing::reference();
   mechanism.pulley.method = Method::paper;
   mechanism.tendon.modulus = 500.0;
@@ -50,7 +50,7 @@ TEST(PaperForces, OverPointPinsTheErrorIsThatOfTheTriangle) {
   }
 }
 
-TEST(PaperForces, ALoadTowardsThetaIsCarriedByTendon1) {
+TEST(PaperForces, Tendon1CarriesLoadTowardsTheta) {
   Mechanism mechanism = testing::forearm();
   mechanism.load.tip_force = 10.0;
   const PaperForces against = paper_forces(mechanism, Transmission(mechanism).at_theta(0.2));
@@ -72,13 +72,13 @@ TEST(PaperForces, TorqueAndWeightActLikeATipForce) {
   Mechanism weight = testing::forearm();
   weight.load.mass = 1.0;
   weight.load.lever = 1000.0 / 9.80665;
-  weight.load.tilt = radians(90.0) + 0.2;  // level at θ = 0.2
+  weight.load.tilt = radians(90.0) + 0.2;  // horizontal at θ = 0.2
   const TransmissionPoint at = Transmission(tip).at_theta(0.2);
   EXPECT_NEAR(paper_forces(torque, at).T2, paper_forces(tip, at).T2, 1e-12);
   EXPECT_NEAR(paper_forces(weight, at).T2, paper_forces(tip, at).T2, 1e-12);
 }
 
-TEST(PaperForces, AnglesAtTheTipGoOnBeyondARightAngle) {
+TEST(PaperForces, TipAnglesExceedRightAngle) {
   const Mechanism mechanism = testing::reference();
   const TransmissionPoint at = Transmission(mechanism, 0.0).at_theta(-0.5);
   const PaperForces forces = paper_forces(mechanism, at);

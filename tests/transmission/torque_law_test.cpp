@@ -11,7 +11,7 @@
 namespace fusee {
 namespace {
 
-/// A weight on a lever, level at home, on a joint with drum: the motor holds it with one torque.
+/// A weight on a lever, horizontal at home, on a joint with drum: a constant motor torque holds it.
 Mechanism balanced_arm() {
   Mechanism mechanism = testing::ankle();
   mechanism.pulley.law = Law::torque;
@@ -20,7 +20,7 @@ Mechanism balanced_arm() {
   return mechanism;
 }
 
-/// A torque that varies over the angle, against a weight, a force and a spring.
+/// A wanted torque that varies over the angle, against a weight, a force and a spring.
 Mechanism wanted_of_a_table() {
   Mechanism mechanism = balanced_arm();
   mechanism.load.tip_force = 4.0;
@@ -32,12 +32,12 @@ Mechanism wanted_of_a_table() {
   return mechanism;
 }
 
-/// Of that table, off its rows too: a spline of degree five misses a sine by this much.
+/// The wanted torque of that table between its rows. A quintic spline approximates the sine with a small error.
 double wanted(double theta) { return 1000.0 + 200.0 * std::sin(0.05 * degrees(theta)); }
 constexpr double k_spline = 1e-3;
 
-// The closed form of a pulley that balances a weight: the motor's work is what the weight gains in height.
-TEST(TorqueLaw, OfOneTorqueBalancesAWeight) {
+// Closed form of a pulley that balances a weight: the motor's work equals the gain in potential energy.
+TEST(TorqueLaw, ConstantTorqueBalancesWeight) {
   const Mechanism arm = balanced_arm();
   const Transmission law(arm);
   ASSERT_FALSE(law.dead_centre());
@@ -54,7 +54,7 @@ TEST(TorqueLaw, OfOneTorqueBalancesAWeight) {
 }
 
 // A spring alone: α = (preload θ + k ((θ − free)² − free²)/2) / M.
-TEST(TorqueLaw, OfOneTorqueHoldsASpring) {
+TEST(TorqueLaw, ConstantTorqueHoldsSpring) {
   Mechanism arm = balanced_arm();
   arm.load = {};
   arm.spring = {800.0, 100.0, radians(-50.0)};
@@ -66,8 +66,8 @@ TEST(TorqueLaw, OfOneTorqueHoldsASpring) {
   }
 }
 
-// Work by Simpson's rule over α, of a torque that the law does not know as a spline.
-TEST(TorqueLaw, TheMotorsWorkIsTheLoads) {
+// Work by Simpson's rule over α, with a torque that is not given to the law as a spline.
+TEST(TorqueLaw, MotorWorkEqualsLoadWork) {
   const Mechanism arm = wanted_of_a_table();
   const Transmission law(arm);
   ASSERT_FALSE(law.dead_centre());
@@ -86,7 +86,7 @@ TEST(TorqueLaw, TheMotorsWorkIsTheLoads) {
   }
 }
 
-TEST(TorqueLaw, DerivativesAreThoseOfTheLaw) {
+TEST(TorqueLaw, DerivativesAgreeWithDifferences) {
   constexpr double step = 1e-5;
   for (const Mechanism& arm : {balanced_arm(), wanted_of_a_table()}) {
     const Transmission law(arm);
@@ -103,20 +103,20 @@ TEST(TorqueLaw, DerivativesAreThoseOfTheLaw) {
   }
 }
 
-// Where another motor torque is wanted, the same joint turns by as much more.
-TEST(TorqueLaw, AnglesGoWithTheTorqueInverted) {
+// The motor angle is inversely proportional to the wanted torque.
+TEST(TorqueLaw, AnglesAreInverseToTorque) {
   Mechanism twice = balanced_arm();
   twice.pulley.motor_torque *= 2;
   const Transmission once_law(balanced_arm()), twice_law(twice);
   for (const double theta : {-0.5, 0.2, 0.4}) EXPECT_NEAR(once_law.alpha(theta), 2 * twice_law.alpha(theta), 1e-14);
 }
 
-TEST(TorqueLaw, SaysWhereItEnds) {
+TEST(TorqueLaw, ReportsWhereItFails) {
   Mechanism arm = balanced_arm();
   arm.pulley.motor_torque *= -1;
   EXPECT_EQ(Transmission(arm).dead_centre(), 0.0);
   EXPECT_LT(tightest_torque(arm).slope(), 0);
-  // Straight up at 20 deg, within the range: nothing is to hold there.
+  // The weight is straight above the axis at 20 deg, within the range, where there is no load to hold.
   arm = balanced_arm();
   arm.load.tilt = radians(20.0);
   const auto end = Transmission(arm).dead_centre();
@@ -126,22 +126,22 @@ TEST(TorqueLaw, SaysWhereItEnds) {
   EXPECT_NEAR(worst.theta, arm.joint.theta_max, 1e-12);
   EXPECT_LT(worst.load, 0);
   EXPECT_EQ(worst.motor, 900.0);
-  // No load at all.
+  // Without any load.
   arm.load = {};
   EXPECT_FALSE(tightest_torque(arm).slope() > 0);
   EXPECT_TRUE(Transmission(arm).dead_centre());
 }
 
-TEST(TorqueLaw, GoesOnALittleBeyondTheRange) {
+TEST(TorqueLaw, ExtrapolatesBeyondRange) {
   const Mechanism arm = balanced_arm();
   const Transmission law(arm);
   const double W = weight_moment(arm.load), tilt = arm.load.tilt, theta = arm.joint.theta_max + radians(2.0);
   EXPECT_NEAR(law.alpha(theta), W / 900.0 * (std::cos(tilt - theta) - std::cos(tilt)), 1e-14);
-  // Up to where the weight's lever is gone it could not: there it keeps its slope.
+  // The law cannot continue to where the lever of the weight vanishes: it keeps its slope there.
   EXPECT_GT(law.alpha(arm.joint.theta_max + 1.5), law.alpha(arm.joint.theta_max + 1.0));
 }
 
-TEST(TorqueLaw, StaysWhereAnotherLoadIsCarried) {
+TEST(TorqueLaw, IgnoresOtherCarriedLoads) {
   Mechanism arm = balanced_arm();
   const double alpha = Transmission(arm).alpha(0.3);
   keep_law(arm);
@@ -151,7 +151,7 @@ TEST(TorqueLaw, StaysWhereAnotherLoadIsCarried) {
   EXPECT_EQ(load_torque(arm, 0.3), 0.0);
 }
 
-TEST(TorqueLaw, ASpringTurnsTheJointBesideTheLoad) {
+TEST(TorqueLaw, AddsSpringToLoad) {
   Mechanism arm = balanced_arm();
   const double without = load_torque(arm, 0.2);
   arm.spring = {400.0, 300.0, radians(-40.0)};

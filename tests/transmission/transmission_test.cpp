@@ -25,7 +25,7 @@ std::vector<Mechanism> every_law() {
   return {reference(), forearm(), linear_wrist(), unsymmetric(), table};
 }
 
-TEST(Transmission, OfThePaperHasItsFigures) {
+TEST(Transmission, ReproducesPaper) {
   const Transmission transmission(reference(), 0.0);
   EXPECT_NEAR(degrees(transmission.alpha_min()), -90.24, 0.005);
   EXPECT_NEAR(degrees(transmission.alpha_max()), 92.31, 0.005);
@@ -34,15 +34,15 @@ TEST(Transmission, OfThePaperHasItsFigures) {
   EXPECT_DOUBLE_EQ(transmission.at_theta(0).t2.p, 20.0);
 }
 
-TEST(Transmission, PaperMethodSeesPointPins) {
+TEST(Transmission, PaperMethodUsesPointPins) {
   Mechanism mechanism = forearm();
   mechanism.pulley.method = Method::paper;
   EXPECT_EQ(Transmission(mechanism).alpha_max(), Transmission(mechanism, 0.0).alpha_max());
   EXPECT_NE(Transmission(mechanism).alpha_max(), Transmission(forearm()).alpha_max());
 }
 
-// Physics by a second route: what a pulley winds in or pays out is what the path above it loses or gains.
-TEST(Transmission, MomentArmsAreVirtualWork) {
+// Independent physics: the pulley winds in what the path above it loses.
+TEST(Transmission, MomentArmsSatisfyVirtualWork) {
   constexpr double step = 1e-5;
   for (const Mechanism& mechanism : every_law()) {
     const Transmission transmission(mechanism);
@@ -60,7 +60,7 @@ TEST(Transmission, MomentArmsAreVirtualWork) {
   }
 }
 
-TEST(Transmission, DerivativesAreThoseOfDifferences) {
+TEST(Transmission, DerivativesAgreeWithDifferences) {
   constexpr double step = 2e-4;
   for (const Mechanism& mechanism : every_law()) {
     const Transmission transmission(mechanism);
@@ -100,7 +100,7 @@ TEST(Transmission, LinearLawIsLinear) {
   EXPECT_DOUBLE_EQ(at.t2.p, at.t2.m / 3.2);
 }
 
-TEST(Transmission, TableOfALawIsThatLaw) {
+TEST(Transmission, TableReproducesLaw) {
   const Mechanism table = every_law().back();
   const Transmission from_table(table);
   const Transmission exact(forearm());
@@ -111,7 +111,7 @@ TEST(Transmission, TableOfALawIsThatLaw) {
   }
 }
 
-TEST(Transmission, EndsAtTheDeadCentre) {
+TEST(Transmission, StopsAtDeadCentre) {
   Mechanism mechanism = reference();
   mechanism.joint.theta_max = radians(60);
   const auto dead = Transmission(mechanism, 0.0).dead_centre();
@@ -120,7 +120,7 @@ TEST(Transmission, EndsAtTheDeadCentre) {
   EXPECT_FALSE(Transmission(reference()).dead_centre().has_value());
 }
 
-TEST(Transmission, OfTheMirroredJointIsMirrored) {
+TEST(Transmission, MirroredJointHasMirroredLaw) {
   Mechanism mechanism = unsymmetric();
   mechanism.pulley.law = Law::linear;
   mechanism.pulley.ratio = 3.0;
@@ -136,7 +136,7 @@ TEST(Transmission, OfTheMirroredJointIsMirrored) {
   }
 }
 
-TEST(Transmission, ScalesWithItsLengths) {
+TEST(Transmission, ScalesWithLengths) {
   const Transmission transmission(unsymmetric());
   const Transmission twice(scaled(unsymmetric(), 2.0));
   for (const double theta : {-0.3, 0.0, 0.5}) {

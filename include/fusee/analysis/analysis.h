@@ -1,6 +1,6 @@
 /// \file
-/// The transmission and its forces over the whole range: the paper's chain beside the full model, and what makes the
-/// joint miss its angle.
+/// Analysis of the transmission and its forces over the range: the paper's formulas, the full model, and the sources of
+/// joint angle errors.
 #pragma once
 
 #include <cstdint>
@@ -17,23 +17,23 @@
 namespace fusee {
 
 struct AnalysisOptions {
-  int steps = 60;          ///< of the table; home is a row of its own
-  double tolerance = 0.1;  ///< of every dimension in the error budget: 95 % lie within ± this, mm
-  int samples = 1000;      ///< of the Monte Carlo
+  int steps = 60;          ///< steps of the table; home is an additional row
+  double tolerance = 0.1;  ///< tolerance of every dimension in the error budget (95 % within ±), mm
+  int samples = 1000;      ///< samples of the Monte Carlo simulation
   std::uint64_t seed = 1;
   std::function<void()> between_samples =
       {};  ///< called for each joint of the Monte Carlo; what it throws stops the work
 };
 
-/// One place of the stroke. The full model has been through a cycle before, so that where it started is forgotten.
+/// One point of the stroke. The full model has completed a cycle before, so that its start has no influence.
 struct AnalysisRow {
   TransmissionPoint declared;
   PaperForces paper;
-  EquilibriumPoint rising;   ///< full model, α growing
-  EquilibriumPoint falling;  ///< α falling
+  EquilibriumPoint rising;   ///< full model, α increasing
+  EquilibriumPoint falling;  ///< full model, α decreasing
 };
 
-/// A largest value and where it is.
+/// A maximum and its position.
 struct Extreme {
   double value = 0;
   double alpha = 0;  ///< rad
@@ -44,44 +44,45 @@ struct TensionExtreme {
   double alpha = 0;    ///< rad
   Side tendon = Side::right;
   bool below_pin = false;
-  bool rising = false;  ///< α growing
+  bool rising = false;  ///< α increasing
 };
 
-/// One tendon that rubs on the joint's drum: its end is at what the span has, but for a factor within 1/ratio … ratio.
+/// A tendon that rubs on the joint's drum. The tension at its end is that of the span times a factor between 1/ratio
+/// and ratio.
 struct DrumHold {
   Side tendon = Side::right;
-  double wrap = 0;   ///< the largest angle that it lies on the drum with, rad
-  double ratio = 1;  ///< there: e^{μφ}
-  Extreme at_end;    ///< the largest tension at its end, N
+  double wrap = 0;   ///< maximum wrap angle on the drum, rad
+  double ratio = 1;  ///< e^{μφ} at that wrap
+  Extreme at_end;    ///< maximum tension at its end, N
 };
 
-/// A part of the range, by the table's rows. rad.
+/// A part of the range, delimited by rows of the table. rad.
 struct AlphaRange {
   double from = 0;
   double to = 0;
 };
 
-/// By how much one cause moves the joint from the declared law, over the range. rad.
+/// Deviation of the joint from the declared law over the range due to one cause. rad.
 struct ErrorSource {
   std::string name;     ///< "pin_radius_ignored"
-  std::string meaning;  ///< for a person
+  std::string meaning;  ///< description for a person
   double least = 0;     ///< most negative deviation of θ
   double most = 0;
-  double worst_at = 0;  ///< α of the larger of both
+  double worst_at = 0;  ///< α of the larger magnitude
 };
 
-/// What a dimension's tolerance does. Half widths of the range that holds 95 %, at the α where they are largest.
+/// Effect of a dimension's tolerance: half widths of the 95 % interval, at the α where they are largest.
 struct ToleranceEffect {
-  std::string key;                 ///< "guides.EB_mm"; "print_offset" (both pulleys larger all round); "all"
-  double theta_by_derivative = 0;  ///< of the joint angle, tendon 1 taut, rad
+  std::string key;                 ///< "guides.EB_mm"; "print_offset" (offset of both pulleys); "all"
+  double theta_by_derivative = 0;  ///< error of the joint angle with tendon 1 taut, rad
   double theta_by_monte_carlo = 0;
   double theta_at = 0;             ///< α, rad
-  double slack_by_derivative = 0;  ///< of tendon 2, mm
+  double slack_by_derivative = 0;  ///< slack of tendon 2, mm
   double slack_by_monte_carlo = 0;
   double slack_at = 0;
 };
 
-/// What a tendon bears, where it is known.
+/// Known strength of a tendon.
 struct Strength {
   double tension = 0;  ///< without a knot, N
   double at_knot = 0;  ///< N
@@ -89,56 +90,57 @@ struct Strength {
 };
 
 struct AnalysisResult {
-  /// The law and both tendon paths exist over the range. Else everything but `obstacles` and `advice` is empty.
+  /// True if the law and both tendon paths exist over the range. Otherwise only `obstacles` and `advice` are set.
   bool exists = false;
   std::vector<Condition>
       obstacles;  ///< failed conditions of a pulley; with `exists`, forces are known though no pulley can be made
-  std::vector<Change> advice;  ///< searched only when it does not exist
+  std::vector<Change> advice;  ///< searched only if the law does not exist
 
   std::vector<AnalysisRow> rows;
-  SynthesisResult synthesis;       ///< the curves, where they can be drawn; its stroke has the rows' places
+  SynthesisResult synthesis;       ///< the curves, if they can be drawn; its stroke has the same points as the rows
   TensionExtreme largest_tension;  ///< full model
-  Extreme largest_at_joint;        ///< of both tendons at their ends, full model: what a knot at C bears, N
-  std::vector<DrumHold> on_drum;   ///< of the tendons that rub on a drum; empty where nothing does
+  /// Maximum tension at the ends of both tendons, full model: the load of a knot at C, N.
+  Extreme largest_at_joint;
+  std::vector<DrumHold> on_drum;   ///< tendons that rub on a drum
   Extreme largest_paper_tension;   ///< T_b
-  Extreme largest_torque;          ///< of the motor, |.|, full model, N·mm
+  Extreme largest_torque;          ///< magnitude of the motor torque, full model, N·mm
   Extreme hysteresis;              ///< largest |θ rising − θ falling| at one α, rad
-  std::vector<AlphaRange> slack1;  ///< where tendon 1 is slack (rising)
+  std::vector<AlphaRange> slack1;  ///< where tendon 1 is slack (α increasing)
   std::vector<AlphaRange> slack2;
-  std::vector<AlphaRange> untensioned;  ///< where both are: nothing holds the joint
-  /// The least pretension of tendon 1 that keeps both tendons taut all over the range, N; when one is slack and there
-  /// is such a pretension.
+  std::vector<AlphaRange> untensioned;  ///< where both are slack, and nothing holds the joint
+  /// The minimum pretension of tendon 1 that keeps both tendons taut over the range, N. Set if a tendon is slack and
+  /// such a pretension exists.
   std::optional<double> taut_pretension;
   std::optional<double> lost_at;  ///< α of the first row without equilibrium
   std::optional<Strength> strength;
-  /// α of the row at which the largest tension passes the strength, that above the pins the strength at a knot.
+  /// α of the row where the largest tension exceeds the strength, or the tension at the joint the strength at a knot.
   std::optional<double> breaks_at;
   std::vector<ErrorSource> sources;
   std::vector<ToleranceEffect> tolerances;  ///< by key; "all" last
-  std::vector<Diagnostic> warnings;         ///< by the verb: what plausibility.h doubts in the file
+  std::vector<Diagnostic> warnings;         ///< set by the caller: plausibility warnings of the file
 };
 
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options = {});
 
-/// Deviations of θ from the declared law, each cause alone: stretch, friction, and what is ignored when a pulley is
-/// drawn.
+/// Deviations of θ from the declared law by single causes: stretch, friction, and simplifications in drawing a pulley.
 std::vector<ErrorSource> error_sources(const Mechanism& mechanism);
-/// Both roads for every dimension of the mechanism.
+/// Tolerance effects of every dimension by both methods.
 std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options);
-/// "tendon 2 below pin D"; behind a sheath there is no pin: "tendon 2 between sheath and pulley".
+/// "tendon 2 below pin D"; with a sheath there is no pin below: "tendon 2 between sheath and pulley".
 std::string place_words(const TensionExtreme& extreme, const Mechanism& mechanism);
-/// What the tendons bear at most.
+/// Maximum tensions of the tendons.
 struct LargestTensions {
   TensionExtreme anywhere;
-  Extreme at_joint;  ///< of both tendons: at the knots at C, N
+  Extreme at_joint;  ///< at the ends of both tendons: the knots at C, N
 };
-/// Of the full model on the way up and down through `alphas` (increasing, both ends of the range among them).
+/// Maximum tensions of the full model in a cycle through `alphas` (increasing, with both ends of the range).
 LargestTensions largest_tensions(const Mechanism& mechanism, const std::vector<double>& alphas);
 /// The declared strength, or that of the catalogue's tendon with this diameter and modulus.
 std::optional<Strength> tendon_strength(const Tendon& tendon);
-/// The same, or else an estimate that says so: the nearest tendon of the catalogue, by its section.
+/// As tendon_strength(), or an estimate, described as such, from the nearest tendon of the catalogue by its
+/// cross-section.
 std::optional<Strength> likely_strength(const Tendon& tendon);
-/// What to say of a tendon that breaks, at its knot at C or elsewhere: an error, of no place. Nothing where it holds.
+/// An error, without a place, for a tendon that breaks at its knot at C or elsewhere. Null if it holds.
 std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const Strength& strength);
 
 }  // namespace fusee

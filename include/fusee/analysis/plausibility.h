@@ -1,6 +1,5 @@
-/// \file
-/// A word in time: numbers of a mechanism file that are likelier a slip than a wish. Nothing is refused; a warning
-/// names the key, what is odd about it and what may have been meant.
+/// Plausibility checks: numbers of a mechanism file that are likely input errors. Nothing is rejected; a warning names
+/// the key, the oddity and the likely intention.
 #pragma once
 
 #include <optional>
@@ -11,18 +10,19 @@
 
 namespace fusee {
 
-/// Degrees in radians, lengths in cm or m, moduli in GPa, the sign of OE. In the order of the file's tables.
-std::vector<Diagnostic> likely_slips(const MechanismFile& file);
+/// Likely input errors: degrees for radians, lengths in cm or m, moduli in GPa, the sign of OE. In the order of the
+/// file's tables.
+std::vector<Diagnostic> likely_input_errors(const MechanismFile& file);
 
-/// Where the declared load pulls the joint's tendons, as they are, beyond what they bear or are likely to.
+/// Warning where the declared load stresses the identified joint's tendons beyond their known or estimated strength.
 std::optional<Diagnostic> overloaded_tendon(const MechanismFile& file);
 
-/// Where a pulley of the joint, as it is, bends the tendon tighter than tendon.bend_ratio wants.
+/// Warnings where a pulley of the identified joint bends the tendon more tightly than tendon.bend_ratio.
 std::vector<Diagnostic> tight_bends(const MechanismFile& file);
 
-/// All of these but the bends, which a build says with what else it finds of its curves.
-std::vector<Diagnostic> doubts(const MechanismFile& file);
-/// The file with them among its warnings.
-MechanismFile with_doubts(MechanismFile file);
+/// All warnings except those about bends, which a build reports with its curves.
+std::vector<Diagnostic> plausibility_warnings(const MechanismFile& file);
+/// The file with these warnings added.
+MechanismFile with_plausibility_warnings(MechanismFile file);
 
 }  // namespace fusee

@@ -1,5 +1,4 @@
-/// \file
-/// The full model over the declared load's cycle, once it has bedded in.
+/// The full model over a cycle of the declared load, after settling.
 #pragma once
 
 #include <vector>
@@ -9,11 +8,11 @@
 namespace fusee {
 
 struct StrokePoint {
-  EquilibriumPoint rising;   ///< α growing
-  EquilibriumPoint falling;  ///< α falling
+  EquilibriumPoint rising;   ///< α increasing
+  EquilibriumPoint falling;  ///< α decreasing
 };
 
-/// At each of `alphas` (increasing, both ends of the range among them), in the third cycle from home.
+/// The third cycle from home at each of `alphas` (increasing, with both ends of the range).
 std::vector<StrokePoint> settled_stroke(const Mechanism& mechanism, const std::vector<double>& alphas);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// A check: a measured value beside its limit. A failed check is a value, not an exception.
+/// A measured value and its limit. A failed check is a value, not an exception.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@ namespace fusee {
 
 struct Check {
   std::string name;  ///< snake_case, stable: stands in manifest.json
-  double value = 0;  ///< what was measured
-  double limit = 0;  ///< what it is held against
+  double value = 0;  ///< the measured value
+  double limit = 0;  ///< the limit that the value is compared with
   std::string unit;  ///< "mm", "deg", "1" (a count or a plain number) …
   bool ok = false;
-  std::string where;  ///< where the fault is, for a person ("facet 812 at (3.1, 4.2, 0.0) mm"); empty when ok
+  std::string where;  ///< location of the fault, for a person ("facet 812 at (3.1, 4.2, 0.0) mm"); empty when ok
 };
 
 /// A check that holds when value <= limit (false for NaN).

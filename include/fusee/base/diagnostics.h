@@ -1,5 +1,5 @@
 /// \file
-/// What can go wrong with what a person gave us, said so that they can mend it.
+/// Errors and diagnostics: what is wrong, where, and what to change.
 ///
 /// There are three kinds of failure and no fourth:
 ///   bad input           InputError, with *all* its diagnostics
@@ -14,7 +14,7 @@
 
 namespace fusee {
 
-/// Where in the user's files something stands. line and column count from 1; 0 means "the whole file".
+/// Position in an input file. Lines and columns count from 1; 0 means "the whole file".
 struct Place {
   std::string file;
   int line = 0;
@@ -23,7 +23,7 @@ struct Place {
 
 enum class Severity { error, warning, note };
 
-/// One thing to say about the input: what is wrong, and what to change.
+/// One error, warning or note about the input.
 struct Diagnostic {
   Severity severity = Severity::error;
   Place place;
@@ -34,12 +34,12 @@ struct Diagnostic {
 /// "joint.toml:3:5: error: …" and, on a second line, "  hint: …".
 std::string to_text(const Diagnostic& diagnostic);
 
-/// What the user gave cannot be used. Exit code 3.
+/// Unusable input. Exit code 3.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Diagnostic> diagnostics);
   explicit InputError(Diagnostic diagnostic);
-  /// An error of a whole file (line 0).
+  /// An error about a whole file (line 0).
   InputError(std::string file, std::string message, std::string hint = {});
 
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
@@ -48,7 +48,7 @@ class InputError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// A place outputs should go to exists, is not ours, or cannot be written. Exit code 6.
+/// An output place exists and was not written by fusee, or cannot be written. Exit code 6.
 class OutputError : public std::runtime_error {
  public:
   explicit OutputError(std::string message, std::string hint = {});
@@ -58,7 +58,7 @@ class OutputError : public std::runtime_error {
   std::string hint_;
 };
 
-/// fusee itself is wrong. Exit code 1.
+/// An error in fusee itself. Exit code 1.
 class Bug : public std::logic_error {
   using std::logic_error::logic_error;
 };
@@ -66,7 +66,7 @@ class Bug : public std::logic_error {
 /// Throws Bug(what) unless `holds`. `what` should name the values: demand(n > 2, "ring of " + std::to_string(n)).
 void demand(bool holds, const std::string& what);
 
-/// The candidate nearest to `word` (edit distance), or "" when none is near enough to be what was meant.
+/// The candidate nearest to `word` by edit distance, or "" when none is near enough.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace fusee

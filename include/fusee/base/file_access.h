@@ -1,6 +1,6 @@
 /// \file
-/// The one way by which a run reads what it was given and leaves what it makes, so that both can be watched, or taken
-/// from and kept to another place than the disk: a bundle of a run is recorded and replayed so.
+/// Hook through which a run reads its inputs and announces its outputs. Bundles of a run are recorded and replayed with
+/// it.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,15 @@ namespace fusee {
 
 using TakeBlock = std::function<void(std::string_view block)>;
 
-/// The bytes of a file in blocks, to its end. InputError when it is missing, a directory, no regular file (a pipe is as
-/// good, with `pipes`), unreadable, or larger than `limit` bytes.
+/// Request for the bytes of one file, in blocks. Throws InputError when the file is missing, a directory, unreadable,
+/// larger than `limit` bytes, or not a regular file. Pipes are accepted with `pipes`.
 struct ReadRequest {
   std::filesystem::path path;
   std::size_t limit = 0;
   bool pipes = false;
 };
 
-/// While one lives all inputs of this process are read through it, and it sees what is written. They nest.
+/// While an object lives, this process reads all inputs through it and reports all outputs to it. Objects nest.
 class FileAccess {
  public:
   FileAccess();
@@ -28,23 +28,23 @@ class FileAccess {
   FileAccess(const FileAccess&) = delete;
   FileAccess& operator=(const FileAccess&) = delete;
 
-  /// Throws InputError; what `take` throws goes through.
+  /// Throws InputError. Exceptions of `take` pass through.
   virtual void read(const ReadRequest& request, const TakeBlock& take) = 0;
-  /// Before anything is written at `place`, a file or a folder. What it throws stops that.
+  /// Called before anything is written at `place`, a file or a folder. An exception prevents the writing.
   virtual void will_write(const std::filesystem::path& place) = 0;
-  /// What stands where something should be written, and is not ours to replace: the run ends with OutputError.
+  /// Called for an existing entry that must not be replaced. The run then ends with OutputError.
   virtual void in_the_way(const std::filesystem::path&) {}
-  /// A file that is left there, once all of its set are whole.
+  /// Called for each published file, once its whole set is in place.
   virtual void wrote(const std::filesystem::path& name, std::string_view bytes) = 0;
 
-  /// The one that was made last; null when there is none, and the disk is all there is.
+  /// The object made last; null when there is none, and files are then read from the disk.
   static FileAccess* current();
 
  private:
   FileAccess* outer_;
 };
 
-/// From the disk, without the FileAccess that there is.
+/// Reads from the disk and bypasses the current FileAccess.
 void read_from_disk(const ReadRequest& request, const TakeBlock& take);
 
 }  // namespace fusee

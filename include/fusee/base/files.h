@@ -1,5 +1,5 @@
 /// \file
-/// Reading files of any size and kind without harm, and leaving outputs whole or not at all.
+/// Reading of arbitrary files, and atomic publishing of outputs.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,12 @@
 
 namespace fusee {
 
-/// An input of the run, in blocks: as ReadRequest says, through the FileAccess that there is.
+/// Reads an input in blocks through the current FileAccess, as `request` specifies.
 void read_blocks(const ReadRequest& request, const TakeBlock& take);
-/// The bytes of a regular file that is an input. InputError when it is missing, a directory, unreadable, or larger than
+/// The bytes of an input, a regular file. Throws InputError when it is missing, a directory, unreadable, or larger than
 /// `limit` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t limit);
-/// The same of what fusee itself wrote, now or earlier: no input.
+/// The bytes of a file that fusee wrote, now or earlier. It is not an input: the current FileAccess is bypassed.
 std::string read_output(const std::filesystem::path& path, std::size_t limit);
 
 /// The system's folder for temporary files. OutputError where TMPDIR names none.
@@ -32,7 +32,7 @@ std::string sha256(std::string_view bytes);
 
 class Staging;
 
-/// One file to be left behind: its name inside the output folder, or "folder/name" within that, and its bytes.
+/// One output: its name inside the output folder, or "folder/name", and its bytes.
 struct OutputFile {
   std::string name;
   std::string bytes;
@@ -40,16 +40,17 @@ struct OutputFile {
 
 /// A set of files that appears in `folder` whole or not at all.
 ///
-/// stage() writes the files into a private folder beside the place, publish() flushes them to disk and makes that
-/// folder take the place of the earlier one, with whatever else the earlier one held. The destructor removes what was
-/// staged and not published, and the folders made for it. A kill at any moment leaves the old set or the new one; what
-/// it left aside is put back or removed by the next publish() into that folder. In a folder that cannot be renamed (the
-/// process stands in it, it is a mount point, of another owner) files are replaced one by one, between the removal of
-/// manifest.json and its return: a folder without it, after a kill, holds no set.
+/// stage() writes the files into a private folder next to the output folder. publish() flushes them to disk and
+/// replaces the earlier folder by the private one, which also receives the unrelated entries of the earlier folder. The
+/// destructor removes staged files that were not published, and the folders made for them. A kill at any moment leaves
+/// the old set or the new one; the next publish() into that folder restores or removes what the killed run set aside.
+/// Some folders cannot be renamed: the current folder of the process, a mount point, a folder of another owner. There,
+/// files are replaced one by one. manifest.json is removed first and written last, so a folder without it after a kill
+/// holds no complete set.
 ///
-/// Which files are ours? A folder that fusee wrote holds a manifest.json naming its outputs with their SHA-256. claim()
-/// and publish() throw OutputError when publishing would overwrite a file that is not named there, or whose bytes were
-/// changed since, unless `force`. A manifest that cannot be read is somebody else's file.
+/// Ownership: a folder that fusee wrote holds a manifest.json that lists its outputs with their SHA-256. claim() and
+/// publish() throw OutputError when they would overwrite an unlisted file, or a listed file whose bytes were changed,
+/// unless `force`. An unreadable manifest counts as foreign.
 class OutputFolder {
  public:
   /// Changes nothing on the disk.
@@ -59,25 +60,25 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   /// True when the folder already holds a manifest of an earlier run of fusee.
-  bool has_earlier_run() const { return !ours_.empty(); }
+  bool has_earlier_run() const { return !own_files_.empty(); }
   /// Throws OutputError, naming all of them, when some of `names` may not be overwritten (see above) or the folder
   /// cannot be written. Writes nothing.
   void claim(const std::vector<std::string>& names);
   void stage(const OutputFile& file);
-  /// Where a staged file lies before it is published.
+  /// Path of a staged file before it is published.
   std::filesystem::path staged_path(const std::string& name) const;
-  /// Publishing will remove those of `names` that an earlier run wrote, that nobody changed since, and that this run
-  /// did not write: they would be taken for this run's.
+  /// Marks outputs of an earlier run for removal on publish(). Files that were changed since, or that this run writes,
+  /// are kept. Stale outputs would be mistaken for outputs of this run.
   void withdraw(const std::vector<std::string>& names);
-  /// Where a rename fails, what was renamed before it is put back. `notes` receives what was put back or ignored of
-  /// killed runs.
+  /// Publishes the staged files. If a rename fails, earlier renames are undone. `notes` receives what was restored or
+  /// ignored of killed runs.
   void publish(std::vector<Diagnostic>& notes);
-  /// Removes what is staged and the folders made for it from the disk, and nothing else: an interrupted program leaves
-  /// while other threads still ask where their files are.
+  /// Removes staged files and the folders made for them from the disk. Paths stay valid: an interrupted program exits
+  /// while other threads still call staged_path().
   void discard() const;
 
  private:
-  void learn_ours();
+  void find_own_files();
   void open_staging();
   bool is_obsolete(const std::filesystem::path& folder, const std::string& name) const;
   std::set<std::string> subfolders() const;
@@ -86,18 +87,18 @@ class OutputFolder {
   bool publish_as_folder(std::vector<Diagnostic>& notes);
   void publish_one_by_one();
 
-  std::filesystem::path folder_;  ///< as it was named
-  std::filesystem::path place_;   ///< the same from the root, without links and dots
+  std::filesystem::path folder_;  ///< as given by the caller
+  std::filesystem::path place_;   ///< absolute, without links and dots
   bool force_;
-  /// What earlier runs of fusee wrote here, their manifests too: name and SHA-256.
-  std::set<std::pair<std::string, std::string>> ours_;
+  /// Name and SHA-256 of all files that earlier runs of fusee wrote here, manifests included.
+  std::set<std::pair<std::string, std::string>> own_files_;
   std::vector<std::string> staged_;
   std::vector<std::string> withdrawn_;
   std::unique_ptr<Staging> staging_;
 };
 
-/// Writes one file beside its place and renames it there. OutputError when it exists (unless `force`) or cannot be
-/// written. A symbolic link is followed; what is no regular file is never replaced.
+/// Writes one file atomically, by a rename. Throws OutputError when the file exists (unless `force`) or cannot be
+/// written. A symbolic link is followed. Only regular files are replaced.
 void write_file(const std::filesystem::path& path, std::string_view bytes, bool force);
 
 }  // namespace fusee

@@ -16,21 +16,21 @@ using Polygon = std::vector<Vec2>;
 
 /// Unit vector at `angle` (rad, counter-clockwise from +x).
 inline Vec2 unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
-/// `v` turned counter-clockwise.
+/// `v` rotated counter-clockwise by `angle` (rad).
 Vec2 turned(const Vec2& v, double angle);
-/// `v` turned by +90°.
+/// `v` rotated by +90°.
 inline Vec2 turned_left(const Vec2& v) { return {-v.y(), v.x()}; }
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Signed area: positive when counter-clockwise. mm².
 double signed_area(const Polygon& polygon);
-/// Length once around. mm.
+/// Length of the closed boundary. mm.
 double perimeter(const Polygon& polygon);
-/// Of the circle about the origin that goes through the furthest corner. mm.
+/// Radius of the smallest circle about the origin that contains the polygon. mm.
 double circumradius(const Polygon& polygon);
-/// mm.
+/// Distance from `point` to the segment ab. mm.
 double distance_to_segment(const Vec2& point, const Vec2& a, const Vec2& b);
-/// To the nearest edge of a closed polygon; infinite when it has no points. mm.
+/// Distance from `point` to the nearest edge of a closed polygon; infinite when the polygon is empty. mm.
 double distance_to_edges(const Polygon& polygon, const Vec2& point);
 /// The convex hull, counter-clockwise, without collinear points.
 Polygon convex_hull(Polygon points);

@@ -1,5 +1,5 @@
 /// \file
-/// Angles are radians inside and degrees in files and flags; lengths are mm everywhere.
+/// Angles are radians in code and degrees in files and flags. Lengths are mm.
 #pragma once
 
 #include <numbers>

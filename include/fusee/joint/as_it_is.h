@@ -1,9 +1,9 @@
 /// \file
-/// What to make so that the joint as it is follows the law that its file declares: the one gate between what was
-/// declared and what is mounted and made.
+/// Application of identified deviations: computes the mounted joint and the pulley to make for it, so that the joint
+/// follows the declared law.
 ///
-/// Every command that asks what a joint really does goes through as_it_is(); nothing behind it knows of [identified],
-/// and what was declared is never overwritten.
+/// Every command that needs the real joint calls as_it_is(). No later stage reads [identified], and the declaration is
+/// never overwritten.
 #pragma once
 
 #include <vector>
@@ -15,53 +15,53 @@
 
 namespace fusee {
 
-/// What `imperfections` say of pins, length, friction and tendon, in place of what is declared.
+/// The declared mechanism with the pins, length, friction and tendon of `imperfections`.
 MountedMechanism mounted(const Mechanism& declared, const Imperfections& imperfections);
 
-/// The joint as it is, and what is made for it.
+/// The identified joint, and the pulley to make for it.
 struct JointAsItIs {
-  /// As mounted, with identified weight. [pulley], range and shrinkage are of the pulley to make: given way under the
-  /// mean load the joint then follows the declared θ(α), and a pulley scaled in making comes out right.
+  /// The mounted mechanism with its identified weight. [pulley], range and shrinkage describe the pulley to make:
+  /// deflected by the mean load, the joint follows the declared θ(α), and scale errors of making are compensated.
   Mechanism mechanism;
-  /// What making does to the curves beyond that: draw_for_making() draws them the other way.
+  /// Further errors of making; draw_for_making() draws the opposite.
   OutlineError outline;
 };
-/// How closely the law of a joint that gives way is looked for: as it is made, or, some twenty times as fast and to a
-/// tenth of a degree, for a look at hundreds of mechanisms of which one is made.
+/// Accuracy of the compensating law of a compliant joint: that of the part to make, or about twenty times as fast with
+/// 0.1° accuracy, for searches over hundreds of mechanisms.
 enum class LawSearch { whole, brief };
-/// The declared mechanism itself where nothing of this was identified.
+/// Returns the declared mechanism when nothing relevant was identified.
 JointAsItIs as_it_is(const DeclaredMechanism& declared, LawSearch search = LawSearch::whole);
 
-/// The joint that a measurement is held against: as it is, with the pulley that was made for it. Nothing is left in
-/// `identified`.
+/// The joint that a measurement is compared with: identified, with the pulley made for it, and with empty `identified`.
 DeclaredMechanism expected_joint(const DeclaredMechanism& declared);
 
-/// A point of a curve further in and off the axis, so that it comes out where it belongs …
+/// A curve point displaced so that it comes out of making in its place.
 OutlinePoint drawn_for_making(OutlinePoint point, const OutlineError& outline);
-/// … and all of both curves.
+/// Displaces all points of both curves.
 void draw_for_making(SynthesisResult& synthesis, const OutlineError& outline);
-/// What curves drawn so fail by: a wave may turn a sharp bend inward, one for each pulley of which it does.
+/// The conditions that displaced curves violate: the correction of a wave may turn a sharp bend inward. One per
+/// affected pulley.
 std::vector<Condition> turns_inward_as_drawn(const SynthesisResult& drawn, const OutlineError& outline);
-/// Seen the other way: a floor drawn off the axis, on it …
+/// Inverse of draw_for_making(): a closed floor as it comes out of making.
 Polygon as_made(Polygon drawn, const OutlineError& outline);
-/// … of which an open line is known in many points on each side, so that normals are those of so many on either hand …
+/// Inverse of draw_for_making() for an open line. Normals are averaged over `beside` points on either side.
 Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside);
-/// … and the joint in which the tendon lies on a floor drawn further in as the real one lies on the made floor:
-/// thicker, over thinner pins.
+/// The joint with a thicker tendon and thinner pins, in which the tendon lies on a displaced floor as the real one lies
+/// on the made floor.
 Mechanism with_inset(const JointAsItIs& joint);
 
-/// Where the motor must stand when the tendons are tied, the unloaded joint at home, for the loaded joint to follow the
-/// declared law, rad. No pulley can give this: tied at 0, the joint is off by as much at every α, and compensation.csv
-/// says so.
+/// Assembly angle: position of the motor at which the tendons are tied, with the unloaded joint at home, so that the
+/// loaded joint follows the declared law. rad. No pulley can correct it: tied at 0, the joint has this offset at every
+/// α, and compensation.csv contains it.
 double tied_at(const DeclaredMechanism& declared);
 
-/// P1 may stay round when the best r1 on the joint as it is misses the law it needs by little.
+/// Choice of a round P1: allowed when the best r1 for the identified joint follows its compensating law closely enough.
 struct RoundChoice {
   double r1 = 0;         ///< mm
-  double max_error = 0;  ///< of θ, rad
+  double max_error = 0;  ///< maximum error of θ, rad
   bool suffices = false;
 };
-/// For law = "compensate" alone.
+/// For law = "compensate" only.
 RoundChoice round_choice(const DeclaredMechanism& declared);
 
 }  // namespace fusee

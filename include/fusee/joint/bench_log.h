@@ -1,5 +1,4 @@
-/// \file
-/// What drives a joint on its bench: logged motor angles, loads, temperatures, run by run.
+/// Inputs to a joint on its bench: logged motor angles, loads and temperatures of each run.
 #pragma once
 
 #include <vector>
@@ -7,14 +6,14 @@
 namespace fusee {
 
 struct BenchRow {
-  double time = 0;         ///< s; 0 where it was not logged
-  double alpha = 0;        ///< as the motor's sensor showed it, rad
-  double load = 0;         ///< tip force, positive against +θ, N; of a joint declared by a ratio in the log's own unit
+  double time = 0;   ///< s; 0 if not logged
+  double alpha = 0;  ///< reading of the motor's sensor, rad
+  double load = 0;   ///< tip force, positive against +θ, N; for a joint declared by a ratio in the log's own unit
   double temperature = 0;  ///< °C
 };
 
-/// How far an encoder was turned on what it measures since home was set, and its zero set again, rad: what it errs by
-/// once a turn changes its phase.
+/// Rotation of the encoders on their shafts since home was set, with the zero set again, rad. It shifts the phase of an
+/// encoder's periodic errors.
 struct Mounting {
   double motor_sensor_turned = 0;
   double joint_sensor_turned = 0;
@@ -23,16 +22,16 @@ struct Mounting {
 };
 
 struct BenchRun {
-  std::vector<BenchRow> rows;  ///< by time
-  bool has_load = false;       ///< else the declared load acts
+  std::vector<BenchRow> rows;  ///< sorted by time
+  bool has_load = false;       ///< false: the declared load acts
   bool has_temperature = false;
   Mounting mounting = {};
 };
 
-/// Runs in the order in which they were made.
+/// Runs in chronological order.
 using BenchLog = std::vector<BenchRun>;
 
-/// What is added to each run's time so that runs whose clocks begin anew follow one another. s
+/// Offsets for the times of each run, so that runs with restarted clocks follow one another. s
 std::vector<double> bench_clock(const BenchLog& log);
 
 }  // namespace fusee

@@ -1,5 +1,4 @@
-/// \file
-/// Which effects a joint can have: those of parts that it has, and that its tendons touch.
+/// Selection of the effects that a joint can have: its parts must exist and touch a tendon.
 #pragma once
 
 #include <vector>
@@ -8,11 +7,11 @@
 
 namespace fusee {
 
-/// Whether a joint has the part that an effect is of. An attachment whose tendon lies on the drum over the whole range
-/// is none: where it is tied there changes the tendon's length by a constant, and that is cut to fit.
+/// True when the joint has the part that the effect requires. An attachment whose tendon lies on the drum over the
+/// whole range does not count: moving it changes the tendon length by a constant, which is adjusted at assembly.
 bool has_part(const Mechanism& mechanism, const Needs& needs);
 
-/// Of effects() of its kind, in their order.
+/// The applicable effects of effects(), in their order.
 std::vector<const Effect*> effects_of(const Mechanism& mechanism);
 
 }  // namespace fusee

@@ -1,4 +1,4 @@
-/// \file
+/// Edits of values in a user's file that keep its comments, order and layout.
 /// New values in a person's own file: its comments, its order and its layout stay.
 #pragma once
 
@@ -8,15 +8,14 @@
 
 namespace fusee {
 
-/// A key that gets a new number, in the file's unit.
+/// A new number for a key, in the file's unit.
 struct ValueEdit {
   std::string key;  ///< known to find_number_key()
   double value = 0;
 };
 
-/// `text` with the values of these keys replaced where they stand; a key that is not written yet is put below its
-/// table's header (or with the table at the end), a pair with both its numbers. `text` must be a mechanism file that
-/// parses.
+/// Replaces the values of these keys in `text`. A missing key is added below its table's header, or with its table at
+/// the end; a pair gets both numbers. `text` must be a valid mechanism file.
 std::string edit_values(std::string_view text, const std::vector<ValueEdit>& edits);
 
 }  // namespace fusee

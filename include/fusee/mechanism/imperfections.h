@@ -1,9 +1,8 @@
-/// \file
-/// By how much a joint is not as declared, part by part in the order of the chain: motor sensor → shaft → pulley →
-/// tendon → sheath → pins → joint → joint sensor. All zero: as declared. rad, mm, N, s.
+/// Deviations of a joint from its declaration, in the order of the chain: motor sensor → shaft → pulley → tendon →
+/// sheath → pins → joint → joint sensor. All zero: as declared. rad, mm, N, s.
 ///
-/// What acts together stands together: sums, caches and corrections take parts, never lists of numbers. Which of these
-/// numbers belong to which cause says effect.h.
+/// Deviations that act together are grouped, so that sums, caches and corrections take parts rather than lists of
+/// numbers. effect.h assigns the numbers to effects.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +10,8 @@
 
 namespace fusee {
 
-/// The shaft stands at α + offset + sin · sin α + cos · (cos α − 1), and a wave of the same kind in nα, where the
-/// sensor shows α. rad
+/// When the sensor reads α, the shaft is at α + offset + sin · sin α + cos · (cos α − 1), plus a harmonic of the same
+/// form in nα. rad
 struct MotorSensorError {
   double offset = 0;
   double eccentricity_sin = 0;
@@ -24,21 +23,20 @@ struct MotorSensorError {
   bool operator==(const MotorSensorError&) const = default;
 };
 
-/// Between shaft and pulley.
+/// Play between shaft and pulley.
 struct ShaftError {
   double backlash = 0;  ///< full width, rad of α
 
   bool operator==(const ShaftError&) const = default;
 };
 
-/// How the pitch curves of both pulleys lie in the part beside where they were drawn. Drawing them the other way undoes
-/// it.
+/// Deviation of both pulleys' pitch curves from the drawing. Drawing the opposite deviation corrects it.
 struct OutlineError {
-  double offset = 0;    ///< further out all round, mm
-  double runout_x = 0;  ///< their centre off the axis, at home, mm
+  double offset = 0;    ///< outward offset of the whole curve, mm
+  double runout_x = 0;  ///< eccentricity of the centre, at home, mm
   double runout_y = 0;
-  double wave_sin = 0;    ///< a wave all round: further out by sin nψ along the normal ψ of the part, mm
-  double wave_cos = 0;    ///< and by cos nψ, mm
+  double wave_sin = 0;    ///< harmonic: outward offset sin nψ along the part's normal ψ, mm
+  double wave_cos = 0;    ///< coefficient of cos nψ, mm
   double wave_order = 2;  ///< n
 
   bool operator==(const OutlineError&) const = default;
@@ -46,30 +44,30 @@ struct OutlineError {
 
 struct PulleyError {
   OutlineError outline;
-  double scale = 0;  ///< pitch curves larger by this fraction
+  double scale = 0;  ///< relative enlargement of the pitch curves
 
   bool operator==(const PulleyError&) const = default;
 };
 
-/// A cable that does not lie straight is longer by the way that its waves take. A pull straightens them: it gains
-/// most · x/(1 + x) with x = rate · pull. Radians and units of load of a joint declared by a ratio; mm and N of a
-/// tendon.
+/// Compliance of a wavy cable. A cable that is not straight is longer by the length of its waves. Tension straightens
+/// it and gains most · x/(1 + x) with x = rate · pull. Units: rad and units of load for a joint declared by a ratio, mm
+/// and N for a tendon.
 struct CableStiffening {
-  double most = 0;  ///< gained under any pull, the waves gone
-  double rate = 0;  ///< of straightening: half of it is gained at a pull of 1/rate
+  double most = 0;  ///< limit of the gained length, with all waves straightened
+  double rate = 0;  ///< half of `most` is gained at a pull of 1/rate
 
-  /// Gained under `pull`; odd, since the cable of the other side takes a pull the other way.
+  /// Length gained under `pull`; odd, since the cable of the other side takes a negative pull.
   double gained(double pull) const {
     const double x = rate * pull;
     return most * x / (1.0 + std::abs(x));
   }
 
-  /// Gained per pull, more of it. rad or mm per unit of pull
+  /// Derivative of gained(). rad or mm per unit of pull
   double slope(double pull) const {
     const double straight = 1.0 + std::abs(rate * pull);
     return most * rate / (straight * straight);
   }
-  /// Work that a pull from zero up to `pull` ≥ 0 stores in it.
+  /// Work stored by a pull from zero to `pull` ≥ 0.
   double energy(double pull) const {
     if (!(rate > 0)) return 0;
     const double x = rate * pull;
@@ -80,34 +78,36 @@ struct CableStiffening {
 };
 
 struct TendonError {
-  double stretch = 0;          ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
-  double pretension = 0;       ///< added to that of tendon 1 at home, N; nothing where tendons hang loose
-  double slack = 0;            ///< of both tendons together, beyond what pretension takes up, mm
-  double creep = 0;            ///< compliance added in every decade of time that a tension acts, as a fraction
-  double slip = 0;             ///< let go by the anchor of tendon 1 (of tendon 2 where negative) at `slip_time`, mm
-  double slip_time = 0;        ///< s, on the bench's clock: runs one after another
-  double thermal1 = 0;         ///< unloaded length of tendon 1 added per kelvin, as a fraction
-  double thermal2 = 0;         ///< of tendon 2: one may lie nearer to what is warm
+  double stretch = 0;  ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
+  /// Added to the pretension of tendon 1 at home, N; without effect where tendons hang loose.
+  double pretension = 0;
+  double slack = 0;            ///< of both tendons together, beyond the length that pretension takes up, mm
+  double creep = 0;            ///< relative compliance added per decade of time under tension
+  double slip = 0;             ///< length released by the anchor of tendon 1 (tendon 2 if negative) at `slip_time`, mm
+  double slip_time = 0;        ///< s, on the bench clock: runs in sequence
+  double thermal1 = 0;         ///< relative elongation of unloaded tendon 1 per kelvin
+  double thermal2 = 0;         ///< for tendon 2: one may be nearer to a heat source
   double groove_friction = 0;  ///< added to the coefficient between tendon and groove
-  CableStiffening waves = {};  ///< of each tendon between pin and joint, mm and N
+  CableStiffening waves = {};  ///< waves of each tendon between pin and joint, mm and N
 
-  /// What slack leaves of the pretension: nothing, but for the last micrometre, over which a fit finds no jump.
+  /// Fraction of the pretension that remains with slack: zero, except for a ramp over the first micrometre, so that a
+  /// fit meets no jump.
   double pretension_share() const { return std::clamp(1.0 - slack / 1e-3, 0.0, 1.0); }
 
   bool operator==(const TendonError&) const = default;
 };
 
-/// Of both sheaths alike.
+/// Deviation of both sheaths.
 struct SheathError {
-  double friction = 0;  ///< added to the friction coefficient times the bends, ln of a ratio of tensions
-  double give = 0;      ///< added to what a sheath gets shorter by, mm/N
+  double friction = 0;  ///< added to friction coefficient × total bend: ln of a tension ratio
+  double give = 0;      ///< added to the axial compliance of a sheath, mm/N
 
   bool operator==(const SheathError&) const = default;
 };
 
 struct PinPlaceError {
   double outward = 0;  ///< further from the middle, mm
-  double down = 0;     ///< further from the joint, mm; the pulley's axis stays
+  double down = 0;     ///< further from the joint, mm; the pulley axis does not move
 
   bool operator==(const PinPlaceError&) const = default;
 };
@@ -115,15 +115,15 @@ struct PinPlaceError {
 struct PinError {
   PinPlaceError left;
   PinPlaceError right;
-  double radius = 0;            ///< added to both pins' radius, mm
-  double friction = 0;          ///< added to the capstan coefficient, of idlers to that of their bearings
+  double radius = 0;            ///< added to the radius of both pins, mm
+  double friction = 0;          ///< added to the capstan coefficient; for idlers, to that of their bearings
   double bearing_friction = 0;  ///< added to the coefficient of idlers' bearings
-  double give = 0;              ///< each pin moves along the tendon's force on it, mm/N
+  double give = 0;              ///< displacement of each pin along the tendon's force on it, mm/N
 
   bool operator==(const PinError&) const = default;
 };
 
-/// A torque against +θ beside what is declared: cos · cos θ + sin · sin θ, N·mm.
+/// Additional torque against +θ: cos · cos θ + sin · sin θ, N·mm.
 struct WeightError {
   double cos = 0;
   double sin = 0;
@@ -131,16 +131,16 @@ struct WeightError {
   bool operator==(const WeightError&) const = default;
 };
 
-/// Of the joint's drum, fixed to the link.
+/// Deviation of the joint's drum, which is fixed to the link.
 struct DrumError {
-  double radius = 0;  ///< added to it, mm
-  double across = 0;  ///< its centre off the joint's axis, in the link at home, to the right, mm
-  double along = 0;   ///< and along OC
+  double radius = 0;  ///< added to the radius, mm
+  double across = 0;  ///< centre of the drum off the joint's axis, in the link at home, to the right, mm
+  double along = 0;   ///< the same along OC
 
   bool operator==(const DrumError&) const = default;
 };
 
-/// Where a tendon ends beside where its own attachment is declared, in the link at home. mm
+/// Offset of a tendon's end from its declared attachment, in the link at home. mm
 struct AttachmentError {
   double across = 0;  ///< to the right
   double along = 0;   ///< along OC
@@ -148,8 +148,8 @@ struct AttachmentError {
   bool operator==(const AttachmentError&) const = default;
 };
 
-/// A tendon's path beside all that is declared: longer by slope · θ + square · θ² + cube · θ³, θ to its own side.
-/// Geometry that no effect has a name for, as a flexure whose centre wanders, or a cord that leaves its drum aslant.
+/// Additional length of a tendon's path: slope · θ + square · θ² + cube · θ³, with θ towards its own side. Represents
+/// unmodelled geometry, such as a flexure whose centre moves, or a cord that leaves its drum obliquely.
 struct PathError {
   double slope = 0;   ///< mm/rad
   double square = 0;  ///< mm/rad²
@@ -158,13 +158,14 @@ struct PathError {
   bool operator==(const PathError&) const = default;
 };
 
-/// Of both tendons, where RubbingError is what it says, N.
+/// Tension of both tendons at which RubbingError is defined, N.
 constexpr double k_usual_pull = 10.0;
 
-/// Dry friction by laws that no effect has, N·mm on the joint where both tendons pull with k_usual_pull.
+/// Dry friction by laws outside the effect catalogue, as torque on the joint at k_usual_pull, N·mm.
 struct RubbingError {
-  double by_area = 0;    ///< with the power 2/3 of each tendon's pull, as soft fibres on polished pins (Howell)
-  double by_lesser = 0;  ///< with the pull of the tendon that pulls less, as of two that rub on each other
+  /// Proportional to the power 2/3 of each tension, as for soft fibres on polished pins (Howell)
+  double by_area = 0;
+  double by_lesser = 0;  ///< proportional to the smaller tension, as for two tendons that rub on each other
 
   bool operator==(const RubbingError&) const = default;
 };
@@ -179,15 +180,15 @@ struct JointError {
   PathError path1;
   PathError path2;
   WeightError weight;
-  double mean_load = 0;  ///< tip force beside the declared one, under which the joint is to follow its law, N
+  double mean_load = 0;  ///< tip force beyond the declared one at which the joint must follow its target motion, N
 
   bool operator==(const JointError&) const = default;
 };
 
-/// Friction that a pull has to overcome before the joint turns, on the mean over the cable's way.
+/// Friction that a pull must overcome before the joint turns, averaged along the cable.
 struct CableFriction {
-  double share = 0;     ///< of the load
-  double unloaded = 0;  ///< and beside it, by what pulls the cables without load; units of load
+  double share = 0;     ///< fraction of the load
+  double unloaded = 0;  ///< additional friction due to the unloaded cable tension, in units of load
 
   double at(double load) const { return unloaded + share * std::abs(load); }
 
@@ -210,22 +211,23 @@ struct RatioCurve {
   bool operator==(const RatioCurve&) const = default;
 };
 
-/// Of a joint declared by a ratio, whose tendons are not known. rad.
+/// Deviations of a joint declared by a ratio, whose tendons are unknown. rad.
 struct RatioJointError {
   RatioCurve curve;
-  double compliance = 0;      ///< turned by a unit of load
-  CableStiffening waves;      ///< what a cable that lies wavy gives beside that
-  CableFriction friction;     ///< of the cable along its way
-  double drift = 0;           ///< turned by a unit of load in every decade of time that it acts
-  double slack = 0;           ///< play of α, full width, without load; it shrinks by 1 + slack_taken_up · |load|
+  double compliance = 0;      ///< rotation per unit of load
+  CableStiffening waves;      ///< rotation as a wavy cable straightens
+  CableFriction friction;     ///< friction of the cable along its path
+  double drift = 0;           ///< rotation per unit of load per decade of time
+  double slack = 0;           ///< play of α, full width, without load; divided by 1 + slack_taken_up · |load|
   double slack_taken_up = 0;  ///< per unit of load
-  double step = 0;            ///< turned at TendonError::slip_time
-  double warmth = 0;          ///< turned by a kelvin
+  double step = 0;            ///< rotation at TendonError::slip_time
+  double warmth = 0;          ///< rotation per kelvin
 
   bool operator==(const RatioJointError&) const = default;
 };
 
-/// It shows zero + (1 + gain) θ + sin · sin θ + cos · (cos θ − 1) and a wave of the same kind in nθ, late by `lag`.
+/// Reading: zero + (1 + gain) θ + sin · sin θ + cos · (cos θ − 1), plus a harmonic of the same form in nθ, delayed by
+/// `lag`.
 struct JointSensorError {
   double zero = 0;  ///< rad
   double gain = 0;
@@ -235,7 +237,7 @@ struct JointSensorError {
   double wave_cos = 0;          ///< rad
   double wave_order = 2;        ///< n
   double lag = 0;               ///< s
-  double first_order = 0;       ///< 0: all of it is late by that much; 1: a filter of that time constant
+  double first_order = 0;       ///< 0: pure delay; 1: first-order filter with that time constant
 
   bool operator==(const JointSensorError&) const = default;
 };

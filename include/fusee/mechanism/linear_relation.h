@@ -1,5 +1,5 @@
 /// \file
-/// Linear relations between keys of the mechanism file, from text: "guides.EB_mm <= 0.5 * joint.length_mm".
+/// Linear relations between keys of the mechanism file, parsed from text: "guides.EB_mm <= 0.5 * joint.length_mm".
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct LinearTerm {
   double factor = 0;
 };
 
-/// constant + Σ factor · key, in the file's units. No key stands twice and no factor is 0.
+/// constant + Σ factor · key, in the file's units. Keys are distinct and factors are not 0.
 struct LinearExpression {
   std::vector<LinearTerm> terms;
   double constant = 0;
@@ -27,14 +27,14 @@ struct LinearExpression {
 
 enum class Relation { equal, at_most };
 
-/// left = right, or left <= right ("a >= b" is read as b <= a).
+/// left = right, or left <= right ("a >= b" is stored as b <= a).
 struct LinearRelation {
   Relation relation = Relation::equal;
   LinearExpression left;
   LinearExpression right;
 };
 
-/// Why a text is no linear relation, and where: bytes from its beginning.
+/// Reason why a text is not a linear relation, with its byte offset.
 struct RelationFault {
   std::size_t at = 0;
   std::string message;
@@ -43,10 +43,11 @@ struct RelationFault {
 
 struct ParsedRelation {
   LinearRelation relation;
-  std::optional<RelationFault> fault;  ///< set: the relation is worth nothing
+  std::optional<RelationFault> fault;  ///< if set, the relation is invalid
 };
 
-/// Numbers, keys, + − * / and parentheses on both sides of one of = <= >=. What is not linear in the keys is a fault.
+/// Parses numbers, keys, + − * / and parentheses on both sides of one of = <= >=. Terms that are not linear in the keys
+/// are faults.
 ParsedRelation parse_relation(std::string_view text);
 
 }  // namespace fusee

@@ -1,6 +1,5 @@
-/// \file
-/// Optima by evolution (pagmo): the paper's genetic algorithm, and NSGA-II for two or three objectives. Seeded: the
-/// same bytes every run.
+/// Evolutionary search (pagmo): the paper's genetic algorithm, and NSGA-II for two or three objectives. Seeded: every
+/// run gives the same bytes.
 #pragma once
 
 #include "fusee/optimize/problem.h"
@@ -12,43 +11,43 @@ struct GeneticOptions {
   unsigned generations = 100;
   unsigned seed = 1;
   KeepGoing keep_going;
-  unsigned threads = 0;  ///< 0: as many as there are; the result is the same on any number
+  unsigned threads = 0;  ///< 0: as many as available; the result does not depend on the number
 };
 
-/// One generation of the single-objective algorithm: its Fig. 7.
+/// One generation of the single-objective algorithm, as in the paper's Fig. 7.
 struct Generation {
   unsigned number = 0;
-  double best = 0;  ///< so far
-  double mean = 0;  ///< of the designs of this generation that are possible
+  double best = 0;  ///< best value so far
+  double mean = 0;  ///< mean over the possible designs of this generation
 };
 
 struct GeneticResult {
   bool found = false;
-  bool stopped = false;  ///< by keep_going
+  bool stopped = false;  ///< stopped by keep_going
   Design best;
   double value = 0;
   double theta = 0;
   std::vector<Generation> generations;
   long evaluations = 0;
-  std::string reason;  ///< when nothing was found
+  std::string reason;  ///< cause if nothing was found
 };
 
 GeneticResult genetic_optimum(const Problem& problem, Objective objective, const GeneticOptions& options = {});
 
 struct FrontPoint {
   Design design;
-  std::vector<double> values;  ///< of the problem's objectives, in their units
+  std::vector<double> values;  ///< values of the problem's objectives, in their units
 };
 
 struct ParetoResult {
   bool stopped = false;
-  unsigned generations = 0;       ///< that were finished
-  std::vector<FrontPoint> front;  ///< none is better than another in everything; by the first objective
+  unsigned generations = 0;       ///< completed generations
+  std::vector<FrontPoint> front;  ///< non-dominated designs, sorted by the first objective
   long evaluations = 0;
-  std::string reason;  ///< when the front is empty
+  std::string reason;  ///< cause if the front is empty
 };
 
-/// Needs two or three objectives: else InputError.
+/// Requires two or three objectives; otherwise throws InputError.
 ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options = {});
 
 }  // namespace fusee

@@ -1,6 +1,6 @@
 /// \file
-/// What can be made small (or large): plain functions of a mechanism. Forces and errors are per newton of tip force, by
-/// the paper's chain [1]-[11].
+/// Objectives: functions of a mechanism to minimize or maximize. Forces and errors are per newton of tip force, by the
+/// paper's formulas [1]-[11].
 #pragma once
 
 #include <span>
@@ -18,26 +18,26 @@ struct ObjectiveInfo {
   std::string_view name;  ///< in the mechanism file
   std::string_view unit;
   std::string_view meaning;
-  bool largest = false;     ///< is made large, not small
-  bool certifiable = true;  ///< its equations have an interval form
+  bool largest = false;     ///< maximized instead of minimized
+  bool certifiable = true;  ///< an interval form of its equations exists
 };
 
 std::span<const ObjectiveInfo> objectives();
 const ObjectiveInfo& info(Objective objective);
-Objective find_objective(std::string_view name);  ///< a name that the mechanism file accepts
+Objective find_objective(std::string_view name);  ///< a name valid in the mechanism file
 
-/// The value of an objective, or why there is none. Never NaN, never infinite where possible.
+/// Value of an objective, or the reason why there is none. Finite if possible.
 struct Evaluation {
   bool possible = false;
   double value = 0;
-  double theta = 0;    ///< where in the range it is taken, rad
-  std::string reason;  ///< when not possible
+  double theta = 0;    ///< joint angle of that value, rad
+  std::string reason;  ///< set if not possible
 
-  /// Smaller is better, for every objective; 1e300 when not possible.
+  /// Cost to minimize, for every objective; 1e300 if not possible.
   double cost(Objective objective) const;
 };
 
-/// law = "table" is evaluated like any other. Pins are points where the mechanism says so (has_point_pins).
+/// Supports all laws. Pins are points if has_point_pins().
 Evaluation evaluate(Objective objective, const Mechanism& mechanism);
 
 }  // namespace fusee

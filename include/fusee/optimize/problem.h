@@ -1,5 +1,5 @@
-/// \file
-/// [optimize] as numbers: a box of variables, what is tied to them, linear constraints, and what is wanted.
+/// The optimization problem of [optimize] as numbers: variables with bounds, tied keys, linear constraints and
+/// objectives.
 #pragma once
 
 #include <array>
@@ -21,20 +21,20 @@ using Design = std::vector<double>;
 
 struct Variable {
   std::string key;
-  std::string symbol;  ///< "R", or the key where there is none
+  std::string symbol;  ///< "R", or the key if there is no symbol
   std::string unit;
   double lower = 0;
   double upper = 0;
 };
 
-/// a · x <= b over the variables, the ties put in.
+/// a · x <= b over the variables, with ties substituted.
 struct LinearConstraint {
   std::vector<double> a;
   double b = 0;
   std::string text;
 };
 
-/// A key that a design changes: a variable, or what is tied to some. Its value is constant + a · x.
+/// A key that a design changes: a variable, or a key tied to variables. Its value is constant + a · x.
 struct MovingKey {
   std::string key;
   NumberKey number;
@@ -44,54 +44,54 @@ struct MovingKey {
   double value(const Design& design) const;
 };
 
-/// One objective already has its say: designs above `limit` do not count.
+/// Upper limit on an objective that was optimized before.
 struct ObjectiveCap {
   Objective objective = Objective::max_tension;
   double limit = 0;
 };
 
-/// From a mechanism as declared to the joint that is judged.
-using JointGate = std::function<Mechanism(const DeclaredMechanism& declared)>;
+/// Converts a declared mechanism into the joint that is evaluated.
+using JointConverter = std::function<Mechanism(const DeclaredMechanism& declared)>;
 
-/// What keeps a judged joint, whose only fault is that its pulleys turn further than once, from helical grooves; null
-/// where nothing does.
-using TurnsGate = std::function<std::optional<std::string>(const Mechanism& judged)>;
+/// Tests helical grooves for an evaluated joint whose only failed condition is that of one turn. Returns the obstacle,
+/// or null if there is none.
+using HelicalCheck = std::function<std::optional<std::string>(const Mechanism& judged)>;
 
 struct Problem {
   DeclaredMechanism base;
-  JointGate as_it_is;  ///< empty: the joint is as declared
+  JointConverter as_it_is;  ///< empty: the joint is as declared
   std::vector<Objective> objectives;
   std::vector<Variable> variables;
-  std::vector<MovingKey> moving;  ///< variables in their order, then what is tied
+  std::vector<MovingKey> moving;  ///< variables in their order, then tied keys
   std::vector<LinearConstraint> constraints;
   bool feasible = false;
-  TurnsGate several_turns;  ///< empty: pulleys are of one turn
+  HelicalCheck several_turns;  ///< empty: pulleys have one turn
   std::optional<ObjectiveCap> cap;
 };
 
-/// Variables, ties and constraints are of declared numbers; objectives are of the joint that comes of them through
-/// `as_it_is`. InputError: nothing to optimise, a variable that no objective depends on.
-Problem make_problem(const MechanismFile& file, JointGate as_it_is = {}, TurnsGate several_turns = {});
+/// Variables, ties and constraints refer to declared numbers; objectives refer to the joint after `as_it_is`. Throws
+/// InputError if there is nothing to optimize, or if a variable has no effect.
+Problem make_problem(const MechanismFile& file, JointConverter as_it_is = {}, HelicalCheck several_turns = {});
 
-/// Whether the footprint of its designs is known: of the paper's joint, at its pulley.
+/// True if the footprint of its designs is defined: the paper's joint, directly at its pulley.
 bool has_footprint(const Problem& problem);
 
-/// The mechanism of a design as declared, ties followed; without its [optimize].
+/// The declared mechanism of a design, with ties resolved and without [optimize].
 DeclaredMechanism mechanism_at(const Problem& problem, const Design& design);
-/// The joint that a declared one is judged as.
+/// The joint that is evaluated for a declared mechanism.
 Mechanism judged(const Problem& problem, const DeclaredMechanism& declared);
-/// What a design changes in the person's file.
+/// The edits of the user's file for a design.
 std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design);
-/// How far beyond its constraints a design lies, each in units of its own size; 0 when it keeps them all.
+/// Total violation of the constraints, each relative to its own size; 0 if all are satisfied.
 double constraint_violation(const Problem& problem, const Design& design);
-/// Objective, constraints, ties within their bounds, cap, and (when demanded) whether a pulley can be made.
+/// Evaluates the objective, constraints, bounds of ties, the cap, and (if required) whether a pulley can be made.
 Evaluation evaluate_design(const Problem& problem, Objective objective, const Design& design);
 
-/// How far a search has come; returning false stops it, and it answers with what it has.
+/// Progress of a search. If the callback returns false, the search stops and returns its best result.
 struct SearchProgress {
-  double done = 0;             ///< 0 … 1, a guess
-  std::optional<double> best;  ///< value of the best design so far, in the objective's unit; none of a front
-  double lower_bound = 0;      ///< certified only
+  double done = 0;             ///< 0 … 1, an estimate
+  std::optional<double> best;  ///< value of the best design so far, in the objective's unit; null for a front
+  double lower_bound = 0;      ///< certified search only
   long evaluations = 0;
 };
 using KeepGoing = std::function<bool(const SearchProgress&)>;

@@ -1,9 +1,9 @@
 /// \file
-/// The paper's tables, figures and claims, computed: what it says, what its own equations [1]-[12] give, and under
-/// which assumed numbers.
+/// Reproduction of the paper's tables, figures and claims: its statements, the results of its equations [1]-[12], and
+/// the assumed numbers.
 ///
-/// The paper prints no r1, EF, BG, F_c, μ and no unit of length: they stand in PaperAssumptions. The windows of these
-/// numbers in which a claim holds are searched for, not typed in.
+/// The paper states no r1, EF, BG, F_c, μ and no unit of length; PaperAssumptions supplies them. The windows of these
+/// numbers in which a claim holds are computed.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@
 namespace fusee {
 
 struct PaperAssumptions {
-  double unit = 100;  ///< what the paper's length 1 is, mm
+  double unit = 100;  ///< length of the paper's unit, mm
   double r1 = 20;     ///< mm
   double EF = 60;     ///< mm
   double mu = 0.2;
@@ -25,18 +25,18 @@ struct PaperAssumptions {
   double modulus = 3000;  ///< the paper's tendon, MPa
 };
 
-/// The mechanism of the paper over point pins with these lengths, in mm, and its optimisation problem.
+/// The paper's mechanism with point pins and these lengths, in mm, and its optimization problem.
 Mechanism paper_mechanism(const PaperAssumptions& assumptions, double R, double ED, double OE);
 MechanismFile paper_problem_file(const PaperAssumptions& assumptions);
 
-/// A stretch of one assumed number, the others kept, over which a claim holds.
+/// An interval of one assumed number, the others fixed, in which a claim holds.
 struct Window {
   double low = 0;
   double high = 0;
-  bool open_low = false;  ///< it holds at the end of what was searched
+  bool open_low = false;  ///< the claim holds at the end of the searched range
   bool open_high = false;
 };
-struct WindowsOf {
+struct ParameterWindows {
   std::string parameter;  ///< "mu", "r1", "EF"
   std::string unit;
   double searched_low = 0;
@@ -52,7 +52,7 @@ struct Claim {
   std::string paper_says;
   std::string equations_give;
   Verdict verdict = Verdict::does_not_hold;
-  std::vector<WindowsOf> windows;  ///< of mu, r1, EF; empty where no assumed number decides
+  std::vector<ParameterWindows> windows;  ///< for mu, r1, EF; empty where no assumed number matters
 };
 
 /// One row of Table 4.
@@ -60,7 +60,7 @@ struct OptimumRow {
   std::string symbol;
   double lower = 0;
   double upper = 0;
-  double paper = 0;     ///< mm at the assumed unit
+  double paper = 0;     ///< mm, in the assumed unit
   double computed = 0;  ///< the certified optimum
 };
 
@@ -71,23 +71,24 @@ struct Curve {
 struct PaperFigure {
   int number = 0;
   std::string title;
-  std::string reading;  ///< what the figure is taken to show
+  std::string reading;  ///< assumed content of the figure
   std::string x_name, x_unit, y_name, y_unit;
   std::vector<Curve> curves;
 };
 
-/// Both laws on the paper's optimum.
+/// Comparison of both laws on the paper's optimum.
 struct LawCost {
   std::string law;
-  double nonlinearity = 0;                                      ///< largest distance of θ(α) from its best line, deg
+  /// Largest distance of θ(α) from its best straight line, deg.
+  double nonlinearity = 0;
   double r1_least = 0, r1_most = 0, r2_least = 0, r2_most = 0;  ///< mm
-  double bend_radius = 0;                                       ///< smallest on P1 or P2; negative: hollow, mm
+  double bend_radius = 0;                                       ///< minimum on P1 or P2; negative: hollow, mm
   double tension = 0;                                           ///< largest T_b/F_c
   double torque = 0;                                            ///< largest T_b r2/F_c, mm
-  double torque_ripple = 0;                                     ///< largest over smallest torque
+  double torque_ripple = 0;                                     ///< maximum / minimum torque
 };
 
-/// Where Table 4 is the optimum, for other r1 and EF.
+/// Windows of μ in which Table 4 is the optimum, for one r1 and EF.
 struct MuWindow {
   double r1 = 0;
   double EF = 0;
@@ -105,7 +106,7 @@ struct Reproduction {
   std::vector<MuWindow> mu_windows;
 };
 
-/// `before_step` is called with what comes next; what it throws stops the work.
+/// `before_step` is called with a description of each step; its exceptions stop the work.
 Reproduction reproduce_paper(const PaperAssumptions& assumptions = {},
                              const std::function<void(std::string_view step)>& before_step = {});
 

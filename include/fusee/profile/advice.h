@@ -1,5 +1,5 @@
 /// \file
-/// The nearest change of each single number that makes the impossible possible, found by searching.
+/// Search for the smallest change of a number that makes an infeasible mechanism feasible.
 #pragma once
 
 #include <functional>
@@ -12,33 +12,33 @@ namespace fusee {
 
 struct Condition;
 
-/// The nearest value of one number of the file, or another word, with which every condition would hold.
+/// The nearest value of one key, a number or a word, with which every condition holds.
 struct Change {
   std::string key;  ///< "pulley.r1_mm"
   double from = 0;  ///< in the file's unit
   double to = 0;
   std::string unit;
   std::string text;            ///< "r1 ≤ 18.9 mm"
-  std::string from_word = {};  ///< of a key that is no number: "M3"
+  std::string from_word = {};  ///< for a key that is not a number: "M3"
   std::string to_word = {};
 };
 
-/// How a changed mechanism is judged while advice is searched for.
-struct Judge {
-  /// The conditions that do not hold; none: it can be made as far as a quick look tells. Asked hundreds of times, and
-  /// where there is something to make, from two threads.
+/// Feasibility test of changed mechanisms during the search for advice.
+struct FeasibilityOracle {
+  /// Fast test: returns the failed conditions; none if the mechanism is feasible as far as a fast test tells. Called
+  /// hundreds of times, and from two threads if `made` is set.
   std::function<std::vector<Condition>(const Mechanism&)> obstacles;
-  /// The whole making, asked for what is about to be given, with the very numbers that will be read. Empty: obstacles
-  /// are all there is.
+  /// Full build of a change before it is reported, with the very numbers that the user will read. Empty: the fast test
+  /// suffices.
   std::function<bool(const Mechanism&)> made = {};
-  /// A look takes long: numbers that do not help are asked less often the further they are turned.
-  bool is_dear = false;
-  /// How many more makings what was looked at so far is worth; fewer than usual where each is large. Empty: as many
-  /// as usual.
-  std::function<int()> makings = {};
+  /// The fast test is slow: numbers that do not help are tested less often the further they are changed.
+  bool is_expensive = false;
+  /// Number of full builds that the evaluations so far still justify; fewer than usual for large parts. Empty: the
+  /// usual number.
+  std::function<int()> builds_left = {};
 };
 
-/// What would make a mechanism possible: changes each of which does alone, the nearest first; or two that do together.
+/// Changes that make a mechanism feasible: single changes, nearest first, or two combined changes.
 struct Advice {
   std::vector<Change> alone;
   std::vector<Change> together;
@@ -46,15 +46,15 @@ struct Advice {
   bool empty() const { return alone.empty() && together.empty(); }
 };
 
-/// For each number of the joint, guides, pulley and tendon that the law uses, and for `more_keys` (to which 0 is no
-/// number): steps outwards from its value, all of them a little further each time, within the bounds of the field
-/// table, until a few hold; then halves its way back to the border and rounds to three digits on the safe side. Where
-/// no number does alone, those that help most are turned in pairs. Numbers of `more_keys` are the easier ones to
-/// change: they are turned three times as far. So many changes as are `known` already are not looked for.
-Advice find_advice(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys = {},
-                   std::size_t known = 0);
+/// Searches each number of joint, guides, pulley and tendon that the law uses, and `more_keys` (for which 0 is not a
+/// number). All numbers move outwards together in growing steps within the bounds of the field table, until a few are
+/// feasible. Bisection then finds the border, rounded to three digits on the safe side. If no single number suffices,
+/// the most helpful ones are changed in pairs. `more_keys` are easier to change and move three times as far. `known`:
+/// number of changes that are known already and need not be found.
+Advice find_advice(const Mechanism& mechanism, const FeasibilityOracle& judge,
+                   const std::vector<std::string>& more_keys = {}, std::size_t known = 0);
 
-/// Of find_advice() what does alone, where all that is known of a mechanism is whether it is possible.
+/// The single changes of find_advice() for a yes/no feasibility test.
 std::vector<Change> nearest_changes(const Mechanism& mechanism, const std::function<bool(const Mechanism&)>& possible,
                                     const std::vector<std::string>& more_keys = {});
 

@@ -1,6 +1,6 @@
-/// \file
-/// Winds two inextensible strings on any pair of groove floors, by polygon geometry alone, and finds the joint angle
-/// they give. Shares no equation with the synthesis: arc lengths on the polygon, tangents to discs, a root finder.
+/// Independent verification: winds two inextensible strings on a pair of groove floors and finds the resulting joint
+/// angle. Polygon geometry only (arc lengths, tangents to discs, root finding); no equation is shared with the
+/// synthesis.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,9 @@ namespace fusee {
 
 struct RewindPoint {
   double alpha = 0;           ///< rad
-  double theta_declared = 0;  ///< by the declared law, rad
-  double theta = 0;           ///< with tendon 1 taut (of one string alone: with that), rad
-  double slack = 0;           ///< of tendon 2 at that θ: > 0 hangs loose, < 0 would have to stretch, mm
+  double theta_declared = 0;  ///< by the target motion, rad
+  double theta = 0;           ///< with tendon 1 taut (or with the only string), rad
+  double slack = 0;           ///< slack of tendon 2 at that θ: > 0 hangs loose, < 0 would have to stretch, mm
 };
 
 struct RewindResult {
@@ -26,10 +26,10 @@ struct RewindResult {
   double max_slack_at = 0;        ///< α, rad
 };
 
-/// `floor1`, `floor2`: the groove floors in the pulley's frame at home, axis at the origin, mm; what is not convex is
-/// bridged by the string. Throws InputError when a floor does not surround the axis or swallows a pin.
+/// `floor1`, `floor2`: the groove floors in the pulley's frame at home, axis at the origin, mm. The string bridges
+/// hollows. Throws InputError when a floor does not surround the axis or contains a pin.
 RewindResult rewind(const Mechanism& mechanism, const Polygon& floor1, const Polygon& floor2, int steps = 180);
-/// One string alone holds the joint, that of `side`; nothing is known of the other's slack, which is given as 0.
+/// Winds only the string of `side`, which then determines the joint angle; the slack is reported as 0.
 RewindResult rewind_one(const Mechanism& mechanism, Side side, const Polygon& floor, int steps = 180);
 
 }  // namespace fusee

@@ -1,4 +1,4 @@
-/// \file
+/// Synthesis of both pitch curves from a mechanism, or the failed conditions and advice.
 /// Mechanism → both pitch curves, or the reasons why there are none and the nearest numbers with which there would be.
 #pragma once
 
@@ -13,39 +13,39 @@
 namespace fusee {
 
 struct SynthesisOptions {
-  /// Largest sagitta between the polygon and the curve, on the pitch curve and on every curve parallel to it up to the
+  /// Largest sagitta between the polygon and the curve, on the pitch curve and on every parallel curve up to the
   /// flange. mm
   double tolerance = 0.01;
-  /// By how much the curves will be drawn further out before they are made (draw_for_making): the tolerance holds there
+  /// Outward offset that will be added to the curves before they are made (draw_for_making). The tolerance holds there
   /// too. mm
   double drawn_out = 0;
-  /// Search for changes of single numbers that would make an infeasible mechanism feasible.
+  /// Search for single changes that make an infeasible mechanism feasible.
   bool advice = true;
   /// Number of steps of the stroke table.
   int stroke_steps = 180;
 };
 
-/// A condition of feasibility that was looked at, whether it holds, and where it is tightest.
+/// A feasibility condition: its result, and its tightest place along the stroke.
 struct Condition {
   std::string name;  ///< "convex_floor", "tendon_on_pin_D", "one_turn" …
   bool ok = true;
-  double alpha = 0;  ///< where it is tightest, rad
-  double value = 0;  ///< there
-  double limit = 0;  ///< value must stay above (below) this
+  double alpha = 0;  ///< tightest place, rad
+  double value = 0;  ///< value at the tightest place
+  double limit = 0;  ///< bound that value must stay above (below)
   std::string unit;
-  std::string message;  ///< for a person: what happens, where, by how much
+  std::string message;  ///< for a person: what fails, where, by how much
 };
 
-/// Those that do not hold.
+/// The conditions that fail.
 std::vector<Condition> failed_of(const std::vector<Condition>& conditions);
 
-/// It asks that a pulley turns no further than once.
+/// True for a condition that limits a pulley to one turn.
 bool is_of_one_turn(const Condition& condition);
 
-/// Why synthesise() would not make it, the condition that is cheapest to see; null when it would. Draws nothing: for
-/// searches that ask of thousands.
+/// The first failed condition of synthesise(), tested in order of cost; null when there is none. Draws no curves, for
+/// searches over thousands of mechanisms.
 std::optional<Condition> obstacle_to(const Mechanism& mechanism);
-/// The same, but for conditions of one turn: null where those alone do not hold.
+/// As obstacle_to(), but ignores the conditions of one turn.
 std::optional<Condition> obstacle_but_one_turn(const Mechanism& mechanism);
 
 enum class SynthesisStatus { made, infeasible };
@@ -55,22 +55,23 @@ struct SynthesisResult {
   Outline p1;
   Outline p2;
   std::vector<TransmissionPoint> stroke;  ///< evenly spaced in α over the range, home included
-  std::vector<Condition> conditions;      ///< all of them, those that hold too
-  std::vector<Change> advice;             ///< empty when made, or when no change of one number helps
-  std::vector<std::string> warnings;      ///< made all the same: tight bends, slack of method = "paper" …
+  std::vector<Condition> conditions;      ///< all of them, passed ones included
+  std::vector<Change> advice;             ///< empty when made, or when no change of one number suffices
+  /// Issues that do not prevent making: tight bends, slack of method = "paper" …
+  std::vector<std::string> warnings;
 
   bool made() const { return status == SynthesisStatus::made; }
-  /// The place of the stroke where α is nearest to 0; null without a stroke.
+  /// The point of the stroke where α is nearest to 0; null without a stroke.
   const TransmissionPoint* home() const;
-  /// One paragraph: what was made, or why not and what to change.
+  /// Summary in one paragraph: the result, or the failure and the advice.
   std::string brief() const;
 };
 
 SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& options = {});
 
-/// The one thing that keeps these curves from being made is that they are longer than a turn.
+/// True when the only failed conditions are those of one turn.
 bool need_several_turns(const SynthesisResult& synthesis);
-/// Why a pulley is not wound several times; null where it is when one turn does not suffice.
+/// Reason why a pulley is limited to one turn; null when it may have several.
 std::optional<std::string> kept_to_one_turn(const Mechanism& mechanism);
 
 }  // namespace fusee

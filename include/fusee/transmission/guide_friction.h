@@ -1,35 +1,35 @@
 /// \file
-/// What a tendon loses at a guide: on a pin that it slides over, or on an idler that turns with it; and in its sheath.
+/// Friction of a tendon at its guide (a fixed pin or a turning idler) and in its sheath.
 #pragma once
 
 #include "fusee/mechanism/mechanism.h"
 
 namespace fusee {
 
-/// The tension on one side of a guide may be so many times that on the other before the tendon moves, and is while it
-/// does.
+/// Friction of one guide. It bounds the ratio of the tensions on both sides; while the tendon slides, the ratio is at
+/// its bound.
 struct GuideFriction {
-  double mu = 0;  ///< of a pin, capstan
-  double turning =
-      0;  ///< of an idler: friction of its bearing times the bearing's radius per the idler's to the centre line
+  double mu = 0;  ///< friction coefficient of a pin (capstan)
+  /// Idlers: bearing friction coefficient × bearing radius / idler radius to the tendon's centre line.
+  double turning = 0;
   bool is_idler = false;
 
-  /// ln of that ratio at this wrap, rad; 0 where the tendon has left the guide.
+  /// Ln of the bound on the tension ratio at a wrap angle (rad); 0 where the tendon has left the guide.
   double log_ratio(double wrap) const;
-  /// Its derivative with respect to a wrap above 0.
+  /// Derivative of log_ratio() by a wrap above 0.
   double slope(double wrap) const;
 };
 
 GuideFriction guide_friction(const Mechanism& mechanism);
-/// What a tendon loses in its sheath, and what the sheath adds to its length under tension. All zero without one.
+/// Friction and compliance of a tendon's sheath. All zero without a sheath.
 struct SheathLoad {
-  double length = 0;     ///< of tendon in it, mm
-  double give = 0;       ///< by how much it gets shorter, and its tendon longer beside it, mm/N
-  double log_ratio = 0;  ///< ln of the tensions' ratio that friction holds: μ times its bends
+  double length = 0;      ///< length of the tendon in the sheath, mm
+  double compliance = 0;  ///< axial compliance of the sheath: it shortens and the tendon gains length, mm/N
+  double log_ratio = 0;   ///< ln of the bound on the tension ratio: μ × total bend
 };
 
 SheathLoad sheath_load(const Mechanism& mechanism);
-/// The same mechanism without friction at guides and in sheaths.
+/// A copy of the mechanism without friction at guides and in sheaths.
 Mechanism without_friction(Mechanism mechanism);
 
 }  // namespace fusee

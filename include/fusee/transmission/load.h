@@ -1,28 +1,28 @@
 /// \file
-/// What [load] and [spring] turn the joint with.
+/// Torques of [load] and [spring] on the joint.
 #pragma once
 
 #include "fusee/mechanism/mechanism.h"
 
 namespace fusee {
 
-constexpr double k_gravity = 9.80665;  ///< standard, m/s²
+constexpr double k_gravity = 9.80665;  ///< standard gravity, m/s²
 
-/// What the declared mass turns the joint with where its arm lies level, N·mm.
+/// Torque of the declared mass where its lever is horizontal, N·mm.
 double weight_moment(const Load& load);
-/// Torque against +θ of everything [load] and [spring] declare, N·mm.
+/// Total torque of [load] and [spring] against +θ, N·mm.
 double load_torque(const Mechanism& mechanism, double theta);
 
-/// A torque over the joint's angle, and its derivatives by it: N·mm, N·mm/rad, N·mm/rad².
+/// A torque as a function of the joint angle, with derivatives: N·mm, N·mm/rad, N·mm/rad².
 struct TorqueOverTheta {
   double value = 0;
   double d1 = 0;
   double d2 = 0;
 };
-/// Against +θ, of what law = torque is to hold.
+/// The load torque against +θ that law = torque is designed to hold.
 TorqueOverTheta law_load_torque(const Mechanism& mechanism, double theta);
 
-/// From here on the joint may carry something else, or have another lever: its law stays what it was declared to be.
+/// Freezes the load and lever that define law = torque, so that later changes of [load] or R do not change θ(α).
 void keep_law(Mechanism& mechanism);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
-/// \file
-/// What the third dimension does to the length of a tendon that is wound several times: a smooth function of α for each
+/// Length change of tendons wound over several turns, whose paths slope in the third dimension. It is a smooth function
+/// of α per tendon, and the planar formulas treat it as a change of tendon length.
 /// tendon, which planar formulas take in as if their tendon grew by it.
 #pragma once
 
@@ -8,31 +8,30 @@
 
 namespace fusee {
 
-/// Value and derivatives of a Chebyshev series over an interval.
-class SmoothSeries {
+/// Chebyshev series over an interval, with derivatives.
+class ChebyshevSeries {
  public:
   struct Value {
     double d0 = 0, d1 = 0, d2 = 0, d3 = 0;
   };
 
-  /// The polynomial through values at nodes(low, high, count), in their order; coefficients below `least` at its end
-  /// are left out.
-  SmoothSeries(double low, double high, const std::vector<double>& values, double least);
+  /// Interpolates `values` at nodes(low, high, count), in their order. Trailing coefficients below `least` are dropped.
+  ChebyshevSeries(double low, double high, const std::vector<double>& values, double least);
 
   static std::vector<double> nodes(double low, double high, int count);
-  /// A little beyond the interval too.
+  /// Value and derivatives at `x`, which may lie slightly outside the interval.
   Value at(double x) const;
 
  private:
   double low_, high_;
-  std::array<std::vector<double>, 4> coefficients_;  ///< of the function and of its derivatives
+  std::array<std::vector<double>, 4> coefficients_;  ///< coefficients of the function and of its derivatives
 };
 
-/// q(α) of both tendons, mm: L + σ = q + const, with L the planar length of the free path and σ that of what is wound.
-/// Zero for planar tendons.
+/// q(α) of both tendons, mm: L + σ = q + const, where L is the planar length of the free path and σ the length wound on
+/// the pulley. Zero for planar tendons.
 struct SlopedPaths {
-  SmoothSeries q1;
-  SmoothSeries q2;
+  ChebyshevSeries q1;
+  ChebyshevSeries q2;
 };
 
 }  // namespace fusee

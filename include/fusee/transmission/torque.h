@@ -1,22 +1,22 @@
 /// \file
-/// What law = torque wants of the motor, beside what it has to hold.
+/// Requirements of law = torque: the wanted motor torque and the load that it has to hold.
 #pragma once
 
 #include "fusee/mechanism/mechanism.h"
 
 namespace fusee {
 
-/// At one joint angle. Without friction the motor turns by load/motor for every angle of the joint.
+/// One joint angle. Without friction the motor turns by load/motor per joint angle.
 struct TorqueMatch {
   double theta = 0;  ///< rad
-  double load = 0;   ///< against +θ, of [load] and [spring], N·mm
-  double motor = 0;  ///< wanted, towards +α, N·mm
+  double load = 0;   ///< torque of [load] and [spring] against +θ, N·mm
+  double motor = 0;  ///< wanted motor torque towards +α, N·mm
 
   double slope() const { return load / motor; }  ///< dα/dθ
 };
 
-/// Of law = torque, the place of the range where dα/dθ is smallest, as the law itself looks for it: where that is not
-/// positive there is no law. A place where it has no value comes first.
+/// The joint angle of the range where dα/dθ of law = torque is smallest. The law does not exist where it is not
+/// positive. An angle without a value comes first.
 TorqueMatch tightest_torque(const Mechanism& mechanism);
 
 }  // namespace fusee

@@ -1,4 +1,4 @@
-/// \file
+/// θ(α) of the target motion, both moment arms and both pulleys' support functions, with derivatives in closed form.
 /// θ(α) of the declared law, both moment arms and both pulleys' support functions, with derivatives in closed form.
 #pragma once
 
@@ -11,19 +11,20 @@
 
 namespace fusee {
 
-/// One tendon at one place of the stroke. Derivatives are with respect to α.
+/// One tendon at one point of the stroke. Derivatives are by α.
 struct TendonPoint {
   double m = 0;  ///< moment arm about O, mm
-  double p = 0;  ///< moment arm about G = support of the pitch curve: r1 or r2, mm
+  double p = 0;  ///< moment arm about G, r1 or r2: support function of the pitch curve, mm
   double dp = 0;
   double d2p = 0;
   double upper_normal = 0;  ///< world direction of the outward normal of C–pin, rad
   double lower_normal = 0;  ///< world direction of the outward normal of pin–pulley, rad
-  double wrap = 0;          ///< turning over the pin [8], rad; negative: the tendon has left the pin
-  double free_upper = 0;    ///< C to pin, mm
-  double lower_reach = 0;   ///< from the foot of G's perpendicular to the pin's tangent point or the mouth, mm
-  double in_sheath = 0;     ///< what lies in a sheath, mm
-  double length = 0;        ///< free_upper + ρp·wrap + in_sheath + lower_reach: to the foot of the perpendicular, mm
+  double wrap = 0;          ///< wrap on the pin [8], rad; negative: the tendon has left the pin
+  double free_upper = 0;    ///< end to pin, mm
+  double lower_reach = 0;   ///< from the foot of G's perpendicular to the pin's tangent point or the sheath exit, mm
+  double in_sheath = 0;     ///< length inside the sheath, mm
+  /// free_upper + ρp·wrap + in_sheath + lower_reach: down to the foot of the perpendicular, mm
+  double length = 0;
 };
 
 struct TorqueMatch;  // torque.h
@@ -38,20 +39,22 @@ struct TransmissionPoint {
   TendonPoint t2;  ///< right
 };
 
-/// The declared law over its stroke. Cheap to copy; immutable.
+/// The target motion over its stroke. Cheap to copy; immutable.
 ///
-/// compensate: dθ/dα = r1/m1 [4]; α(θ) = (L1(θ) − L1(0))/r1 in closed form.  linear: θ = α/ratio.
-/// table: a quintic spline through the rows.
-/// torque: dθ/dα = M/τ, the wanted torque of the motor per that of the load; α(θ) is its integral.  In every law p_i =
-/// m_i dθ/dα: virtual work.
+/// Laws:
+/// - compensate: dθ/dα = r1/m1 [4]; α(θ) = (L1(θ) − L1(0))/r1 in closed form.
+/// - linear: θ = α/ratio.
+/// - table: a quintic spline through the rows.
+/// - torque: dθ/dα = M/τ, wanted motor torque per load torque; α(θ) is the integral of τ/M.
+/// Every law satisfies virtual work: p_i = m_i dθ/dα.
 class Transmission {
  public:
-  /// `rho`: the pin radius to the centre line that the equations see.
+  /// `rho`: pin radius to the tendon's centre line, as the equations see it.
   Transmission(const Mechanism& mechanism, double rho);
-  /// With the pins as the mechanism's method sees them (seen_pitch_radius).
+  /// Uses the pin radius of the mechanism's method (seen_pitch_radius).
   explicit Transmission(const Mechanism& mechanism);
-  /// With tendons wound several times, whose paths slope: p_i = m_i dθ/dα + dq_i/dα in the tendon's image, and a round
-  /// P1 turns the joint as if α were α + q1/r1. `paths` null: planar tendons.
+  /// Includes tendons wound over several turns, whose paths slope: p_i = m_i dθ/dα + dq_i/dα in the tendon's image. A
+  /// round P1 turns the joint as if α were α + q1/r1. `paths` null: planar tendons.
   Transmission(const Mechanism& mechanism, std::shared_ptr<const SlopedPaths> paths);
   Transmission(const Transmission&);
   Transmission(Transmission&&) noexcept;
@@ -59,15 +62,14 @@ class Transmission {
   Transmission& operator=(Transmission&&) noexcept;
   ~Transmission();
 
-  /// θ where a moment arm of the range vanishes (dead centre), C touches a pin, a wanted torque does not hold its load,
-  /// or a formula has no value; null when
-  /// the law exists over the whole range. The other members, but alpha() and place(), may be called only when it is
-  /// null.
+  /// The first θ from home at which the law fails: a moment arm vanishes (dead centre), C touches a pin, a wanted
+  /// torque does not hold its load, or a formula has no value. Null when the law exists over the whole range. Other
+  /// members than alpha() and place() require null.
   std::optional<double> dead_centre() const { return dead_centre_; }
 
   double alpha_min() const { return alpha_min_; }
   double alpha_max() const { return alpha_max_; }
-  /// α of a joint angle within the range (a little beyond it is extrapolated by the same law).
+  /// α of a joint angle within the range. The same law extrapolates slightly beyond it.
   double alpha(double theta) const;
   double theta(double alpha) const;
   TransmissionPoint at_alpha(double alpha) const;

@@ -1,4 +1,4 @@
-/// \file
+/// Internal: common parts of effects whose parameters are measured by caliper.
 /// Internal: what effects whose numbers a caliper reads have in common.
 #pragma once
 
@@ -8,17 +8,16 @@
 
 namespace fusee {
 
-inline constexpr double k_caliper = 0.03;  ///< of three readings of 0.05 mm, as the plan's page asks for, mm
+inline constexpr double k_caliper = 0.03;  ///< mean of three readings of 0.05 mm each, as the plan's page requests, mm
 inline constexpr double k_half_diameter = 0.5 * k_caliper;
 
-/// A line of [prior], [value, standard uncertainty] of something that is `declared`, as a reading of by how much the
-/// joint differs from its file. None where the line is empty.
+/// The deviation from `declared` of an entry of [prior], [value, standard uncertainty]. Empty for an empty entry.
 inline std::vector<CaliperReading> hand_reading(const std::vector<double>& prior, double declared) {
   if (prior.size() != 2) return {};
   return {{prior[0] - declared, prior[1]}};
 }
 
-/// A line of [prior] whose unit is another than that of the joint's number: `unit` in rad, mm or N.
+/// An entry of [prior] in another unit than the parameter: `unit` in rad, mm or N.
 inline std::vector<CaliperReading> hand_reading_in(const std::vector<double>& prior, double unit) {
   if (prior.size() != 2) return {};
   return {{unit * prior[0], unit * prior[1]}};

@@ -4,9 +4,9 @@
 namespace fusee {
 namespace {
 
-constexpr double k_dial = 1e-4;  // a dial gauge's 0.005 mm under 50 N, mm/N
+constexpr double k_dial = 1e-4;  // resolution of a dial gauge, 0.005 mm, under 50 N; mm/N
 
-std::vector<CaliperReading> give_by_dial(const DeclaredMechanism& declared) {
+std::vector<CaliperReading> compliance_by_dial(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.guide_give, 1.0);
 }
 
@@ -17,7 +17,8 @@ Effect frame_compliance(JointKind) {
   effect.name = "frame_compliance";
   effect.place = ChainPlace::pins;
   effect.rank = 4;
-  effect.signature = "in proportion to the tension, where the tendons turn most over their pins; the same both ways";
+  effect.signature =
+      "proportional to the tension, strongest where the tendons wrap most on their pins; independent of direction";
   effect.separating_run = "hold a dial gauge against a guide pin and hang the load on the joint";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true};
@@ -29,11 +30,11 @@ Effect frame_compliance(JointKind) {
                         .prior = 0.005,  // a printed bracket of some centimetres: 50 to 1000 N/mm
                         .shown = shown::as_is,
                         .key = key::plain("guide_give_mm_per_N", "mm_per_N", 0, 10,
-                                          "each pin moves by this along the tendon's force on it"),
-                        .by_hand = {"hold a dial gauge against a guide pin, hang the load on the joint, and write how "
-                                    "far the pin moves per newton of the tendon's force on it as [prior] "
+                                          "displacement of each pin per newton of the tendon's force on it"),
+                        .by_hand = {"hold a dial gauge against a guide pin, hang the load on the joint, and enter the "
+                                    "displacement of the pin per newton of the tendon's force on it as prior."
                                     "guide_give_mm_per_N",
-                                    k_dial, give_by_dial, "prior.guide_give_mm_per_N", HandTool::dial_gauge}}};
+                                    k_dial, compliance_by_dial, "prior.guide_give_mm_per_N", HandTool::dial_gauge}}};
   effect.starts = {{0.002}, {0.02}};
   return effect;
 }

@@ -7,7 +7,7 @@ Effect gravity(JointKind) {
   effect.name = "gravity";
   effect.place = ChainPlace::joint;
   effect.rank = 2;
-  effect.signature = "a load that turns with the joint: it acts through the tendons' stretch";
+  effect.signature = "a load that varies with the joint angle and acts through the tendons' stretch";
   effect.separating_run = "repeat one run with the joint lying on its side";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true};
@@ -19,7 +19,7 @@ Effect gravity(JointKind) {
                         .prior = 500,  // half a kilogram at 100 mm
                         .shown = shown::as_is,
                         .key = key::plain("gravity_cos_Nmm", "Nmm", -1e+07, 1e+07, "torque against +theta: cos theta"),
-                        .again = WhenFoundAgain::added},
+                        .merge_rule = MergeRule::add},
                        {.name = "sin_Nmm",
                         .number = [](Imperfections& at) -> double& { return at.joint.weight.sin; },
                         .least = -1e6,
@@ -28,7 +28,7 @@ Effect gravity(JointKind) {
                         .prior = 500,  // half a kilogram at 100 mm
                         .shown = shown::as_is,
                         .key = key::plain("gravity_sin_Nmm", "Nmm", -1e+07, 1e+07, "torque against +theta: sin theta"),
-                        .again = WhenFoundAgain::added}};
+                        .merge_rule = MergeRule::add}};
   return effect;
 }
 

@@ -14,10 +14,12 @@ Effect groove_friction(JointKind) {
   effect.name = "groove_friction";
   effect.place = ChainPlace::pulley;
   effect.rank = 5;
-  effect.signature = "a loop under load that goes with what is wound; the first stroke is unlike all later ones";
+  effect.signature =
+      "hysteresis under load that depends on the wound length; the first stroke differs from all later ones";
   effect.separating_run =
-      "put the load on and take it off three times where tendon 2 is wound furthest, and again where tendon 1 is: "
-      "friction in the groove gives way most the first time, and most where more is wound";
+      "apply and remove the load three times where tendon 2 is wound furthest, and again where tendon 1 is: friction "
+      "in "
+      "the groove yields most the first time, and most where more is wound";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true};
   effect.parameters = {{.name = "mu",
@@ -25,10 +27,10 @@ Effect groove_friction(JointKind) {
                         .least = -2,
                         .most = 2,
                         .step = 0.02,
-                        .prior = 0.15,  // HMPE 0.05 to 0.15, steel to 0.3, more in a V: declared 0.2
+                        .prior = 0.15,  // HMPE 0.05 to 0.15, steel up to 0.3, more in a V groove: declared 0.2
                         .shown = whole_groove_friction,
                         .key = key::plain("groove_friction", "", -2, 2, "added to pulley.friction"),
-                        .again = WhenFoundAgain::added}};
+                        .merge_rule = MergeRule::add}};
   effect.starts = {{-0.1}, {0.2}};
   return effect;
 }

@@ -19,7 +19,7 @@ Effect guide_radius(JointKind) {
   effect.name = "guide_radius";
   effect.place = ChainPlace::pins;
   effect.rank = 2;
-  effect.signature = "smooth in theta, no direction; grows towards both ends of the range";
+  effect.signature = "smooth in theta, independent of direction; grows towards both ends of the range";
   effect.separating_run = "measure the guide pins with a caliper";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true};
@@ -32,8 +32,8 @@ Effect guide_radius(JointKind) {
        .prior = 0.5,  // a bushing, a pin of the next size
        .shown = whole_radius,
        .key = key::plain("guide_radius_mm", "mm", -500, 500, "added to guides.radius_mm"),
-       .again = WhenFoundAgain::added,
-       .by_hand = {"measure the guide pins' diameter with a caliper and write half of it as [prior] guide_radius_mm",
+       .merge_rule = MergeRule::add,
+       .by_hand = {"measure the guide pins' diameter with a caliper and enter half of it as prior.guide_radius_mm",
                    k_half_diameter, radius_by_caliper, "prior.guide_radius_mm"},
        .sign = {"pins thinner than declared", "pins thicker than declared"}}};
   return effect;

@@ -10,16 +10,16 @@ double idler_total(double added, const Mechanism& declared) {
 
 }  // namespace
 
-// What capstan_friction is on pins. A ball bearing's coefficient is some thousandths; dry, dirty, or pressed askew it
-// is twenty times that, and a bush's anyway.
+// The counterpart of capstan_friction for idlers. The coefficient of a ball bearing is a few thousandths; dry, dirty or
+// misaligned, twenty times that, like that of a bush.
 Effect idler_friction(JointKind) {
   Effect effect;
   effect.name = "idler_friction";
   effect.place = ChainPlace::pins;
   effect.rank = 5;
-  effect.signature = "a loop that grows with load and hardly with wrap, with a transition after each reversal";
+  effect.signature = "hysteresis that grows with load and hardly with wrap, with a transition after each reversal";
   effect.separating_run =
-      "take a tendon off and turn each idler by hand; or run at two loads, with which its loop grows";
+      "remove a tendon and turn each idler by hand; or run at two loads: the hysteresis grows with the load";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true, .idlers = true};
   effect.parameters = {{.name = "mu",
@@ -30,7 +30,7 @@ Effect idler_friction(JointKind) {
                         .prior = 0.05,
                         .shown = idler_total,
                         .key = key::plain("bearing_friction", "", -2, 2, "added to guides.bearing_friction of idlers"),
-                        .again = WhenFoundAgain::added}};
+                        .merge_rule = MergeRule::add}};
   effect.starts = {{0.05}, {0.3}};
   return effect;
 }

@@ -17,7 +17,7 @@ Effect joint_length(JointKind) {
   effect.name = "joint_length";
   effect.place = ChainPlace::joint;
   effect.rank = 1;
-  effect.signature = "smooth in theta, no direction; a load turns the joint further in proportion";
+  effect.signature = "smooth in theta, independent of direction; a load turns the joint further in proportion";
   effect.separating_run = "measure from the joint's axis to the tendons' attachment with a caliper";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true};
@@ -27,12 +27,12 @@ Effect joint_length(JointKind) {
        .least = -50,
        .most = 50,
        .step = 1e-2,
-       .prior = 1,  // where a tendon is tied and bends
+       .prior = 1,  // uncertainty of a tied and bent tendon
        .shown = whole_length,
        .key = key::plain("length_mm", "mm", -10000, 10000, "added to joint.length_mm"),
-       .again = WhenFoundAgain::added,
-       .by_hand = {"measure from the joint's axis to the tendons' attachment and write [prior] length_mm", k_caliper,
-                   length_by_caliper, "prior.length_mm"},
+       .merge_rule = MergeRule::add,
+       .by_hand = {"measure from the joint's axis to the tendons' attachment and enter it as prior.length_mm",
+                   k_caliper, length_by_caliper, "prior.length_mm"},
        .sign = {"shorter than declared", "longer than declared"}}};
   return effect;
 }

@@ -6,13 +6,14 @@
 namespace fusee {
 namespace {
 
-constexpr double k_protractor = 0.002;  // of the gain, by three readings of 0.1 degrees at both ends of 45 degrees
+// uncertainty of the gain from three readings of 0.1 degrees at both ends of 45 degrees
+constexpr double k_protractor = 0.002;
 
 std::vector<CaliperReading> gain_by_protractor(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.gain, 0.01);
 }
 
-/// Between both ends of the range the sensor's waves are in what it shows too.
+/// Excess of the reading over the range. It includes the sensor's harmonics.
 double shown_too_much(const Imperfections& joint, const Mechanism& declared) {
   const JointSensorError& error = joint.sensor;
   const double low = declared.joint.theta_min, high = declared.joint.theta_max;
@@ -34,7 +35,7 @@ Effect joint_sensor_gain(JointKind) {
   effect.name = "joint_sensor_gain";
   effect.place = ChainPlace::joint_sensor;
   effect.rank = 2;
-  effect.signature = "in proportion to theta, whichever way and load";
+  effect.signature = "proportional to theta, independent of direction and load";
   effect.separating_run = "hold the joint at both ends of its range against a protractor";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {};
@@ -44,14 +45,14 @@ Effect joint_sensor_gain(JointKind) {
        .least = -0.3,
        .most = 0.3,
        .step = 1e-3,
-       .prior = 0.02,  // potentiometers and linear Hall sensors; an encoder has none
+       .prior = 0.02,  // potentiometers and linear Hall sensors; encoders have none
        .shown = shown::in_percent,
-       .key = key::in_percent("gain_percent", -99, 1000, "by how much the joint sensor shows too much"),
-       .by_hand =
-           {"hold the joint at both ends of its range against a protractor and write what its sensor shows too much "
-            "between them, in percent, as [prior] gain_percent",
-            k_protractor, gain_by_protractor, "prior.gain_percent", HandTool::protractor, shown_too_much},
-       .sign = {"it shows too little", "it shows too much"}}};
+       .key = key::in_percent("gain_percent", -99, 1000, "relative excess of the joint sensor's reading"),
+       .by_hand = {"hold the joint at both ends of its range against a protractor and enter the excess of the sensor's "
+                   "reading "
+                   "between them, in percent, as prior.gain_percent",
+                   k_protractor, gain_by_protractor, "prior.gain_percent", HandTool::protractor, shown_too_much},
+       .sign = {"the sensor reads too little", "the sensor reads too much"}}};
   return effect;
 }
 

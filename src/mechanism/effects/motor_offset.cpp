@@ -4,7 +4,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_pulley_mark = radians(0.2);  // how well a person sets a pulley to a mark, three times
+constexpr double k_pulley_mark = radians(0.2);  // precision of setting a pulley to a mark, three times
 
 std::vector<CaliperReading> motor_offset_by_mark(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.motor_offset, radians(1.0));
@@ -17,22 +17,23 @@ Effect motor_offset(JointKind) {
   effect.name = "motor_offset";
   effect.place = ChainPlace::motor_sensor;
   effect.rank = 1;
-  effect.signature = "like a zero offset of the joint, in proportion to the transmission's slope";
+  effect.signature = "like a zero offset of the joint, proportional to the slope of the transmission";
   effect.separating_run = "drive the joint to a mechanical stop or mark at home and read both sensors there";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true};
-  effect.parameters = {{.name = "offset_deg",
-                        .number = [](Imperfections& at) -> double& { return at.motor.offset; },
-                        .least = -0.35,
-                        .most = 0.35,
-                        .step = 1e-3,
-                        .prior = radians(2.0),  // a spline tooth is 14 degrees, a mark by eye 1 to 2
-                        .shown = shown::in_degrees,
-                        .key = key::in_degrees("motor_offset_deg", -360, 360,
-                                               "the shaft stands this much further than the motor sensor shows"),
-                        .by_hand = {"turn the motor until the pulley's mark stands at home and write what the motor's "
-                                    "sensor shows too little there as [prior] motor_offset_deg",
-                                    k_pulley_mark, motor_offset_by_mark, "prior.motor_offset_deg", HandTool::mark}}};
+  effect.parameters = {
+      {.name = "offset_deg",
+       .number = [](Imperfections& at) -> double& { return at.motor.offset; },
+       .least = -0.35,
+       .most = 0.35,
+       .step = 1e-3,
+       .prior = radians(2.0),  // a spline tooth is 14 degrees, a mark by eye 1 to 2
+       .shown = shown::in_degrees,
+       .key =
+           key::in_degrees("motor_offset_deg", -360, 360, "angle of the shaft minus the reading of the motor sensor"),
+       .by_hand = {"turn the motor until the pulley's mark is at home and enter how much too little the "
+                   "motor's sensor reads there as prior.motor_offset_deg",
+                   k_pulley_mark, motor_offset_by_mark, "prior.motor_offset_deg", HandTool::mark}}};
   return effect;
 }
 

@@ -9,7 +9,7 @@ double as_written(double order) { return order; }
 
 double size(const OutlineError& outline) { return std::hypot(outline.wave_sin, outline.wave_cos); }
 
-/// Waves of one order add up. Of two orders one is kept, the larger.
+/// Adds harmonics of equal order. Of different orders it keeps the larger one.
 void larger_wave(const Imperfections& before, Imperfections& joint) {
   const OutlineError& first = before.pulley.outline;
   OutlineError& total = joint.pulley.outline;
@@ -30,39 +30,40 @@ Effect profile_error(JointKind) {
   effect.name = "profile_error";
   effect.place = ChainPlace::pulley;
   effect.rank = 4;
-  effect.signature = "twice or three times per turn of the pulley, whichever way and load";
+  effect.signature = "twice or three times per turn of the pulley, independent of direction and load";
   effect.separating_run = "turn the pulley on its shaft by an eighth of a turn and repeat the slow unloaded run";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true, .full_turn = true};
-  effect.found_again = larger_wave;
-  effect.parameters = {{.name = "sin_mm",
-                        .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_sin; },
-                        .least = -2,
-                        .most = 2,
-                        .step = 2e-3,
-                        .prior = 0.2,  // layers, seams and three-jaw chucks: 0.05 to 0.3 mm
-                        .shown = shown::as_is,
-                        .key = key::plain("profile_sin_mm", "mm", -100, 100,
-                                          "a wave of the made curves, further out along the normal psi by sin n psi"),
-                        .again = WhenFoundAgain::added},
-                       {.name = "cos_mm",
-                        .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_cos; },
-                        .least = -2,
-                        .most = 2,
-                        .step = 2e-3,
-                        .prior = 0.2,  // layers, seams and three-jaw chucks: 0.05 to 0.3 mm
-                        .shown = shown::as_is,
-                        .key = key::plain("profile_cos_mm", "mm", -100, 100, "the same: cos n psi"),
-                        .again = WhenFoundAgain::added},
-                       {.name = "harmonic",
-                        .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_order; },
-                        .least = 2,
-                        .most = 3,
-                        .step = 1,
-                        .shown = shown::as_is,
-                        .key = {"profile_harmonic", "", "that n", 1, 100, as_written, as_written, "2"},
-                        .again = WhenFoundAgain::added,
-                        .searched = true}};
+  effect.merge = larger_wave;
+  effect.parameters = {
+      {.name = "sin_mm",
+       .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_sin; },
+       .least = -2,
+       .most = 2,
+       .step = 2e-3,
+       .prior = 0.2,  // layers, seams and three-jaw chucks: 0.05 to 0.3 mm
+       .shown = shown::as_is,
+       .key = key::plain("profile_sin_mm", "mm", -100, 100,
+                         "harmonic of the made curves, outwards along the normal psi: coefficient of sin n psi"),
+       .merge_rule = MergeRule::add},
+      {.name = "cos_mm",
+       .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_cos; },
+       .least = -2,
+       .most = 2,
+       .step = 2e-3,
+       .prior = 0.2,  // layers, seams and three-jaw chucks: 0.05 to 0.3 mm
+       .shown = shown::as_is,
+       .key = key::plain("profile_cos_mm", "mm", -100, 100, "harmonic of the made curves: coefficient of cos n psi"),
+       .merge_rule = MergeRule::add},
+      {.name = "harmonic",
+       .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_order; },
+       .least = 2,
+       .most = 3,
+       .step = 1,
+       .shown = shown::as_is,
+       .key = {"profile_harmonic", "", "order n of the harmonic", 1, 100, as_written, as_written, "2"},
+       .merge_rule = MergeRule::add,
+       .searched = true}};
   effect.starts = {{0, 0, 2}, {0, 0, 3}};
   return effect;
 }

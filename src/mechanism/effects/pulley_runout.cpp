@@ -4,7 +4,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_hub = 0.03;  // a dial gauge on a printed hub, mm
+constexpr double k_hub = 0.03;  // precision of a dial gauge on a printed hub, mm
 
 std::vector<CaliperReading> runout_x_by_dial(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.runout_x, 1.0);
@@ -20,7 +20,7 @@ Effect pulley_runout(JointKind) {
   effect.name = "pulley_runout";
   effect.place = ChainPlace::pulley;
   effect.rank = 3;
-  effect.signature = "once per turn of the pulley, whichever way and load";
+  effect.signature = "once per turn of the pulley, independent of direction and load";
   effect.separating_run = "turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true};
@@ -30,14 +30,14 @@ Effect pulley_runout(JointKind) {
        .least = -2,
        .most = 2,
        .step = 2e-3,
-       .prior = 0.3,  // a printed bore over a shaft with its play and set screw
+       .prior = 0.3,  // a printed bore on a shaft with play and a set screw
        .shown = shown::as_is,
-       .key = key::plain("runout_x_mm", "mm", -100, 100, "centre of the made curves off the axis, at home"),
-       .again = WhenFoundAgain::added,
-       .by_hand =
-           {"hold a dial gauge against the hub, turn the pulley once, and write how far the hub's centre stands to "
-            "the right of its axis at home as [prior] runout_x_mm",
-            k_hub, runout_x_by_dial, "prior.runout_x_mm", HandTool::dial_gauge}},
+       .key = key::plain("runout_x_mm", "mm", -100, 100, "eccentricity of the made curves at home, to the right"),
+       .merge_rule = MergeRule::add,
+       .by_hand = {"hold a dial gauge against the hub, turn the pulley once, and enter how far the hub's centre is to "
+                   "the right "
+                   "of its axis at home as prior.runout_x_mm",
+                   k_hub, runout_x_by_dial, "prior.runout_x_mm", HandTool::dial_gauge}},
       {.name = "y_mm",
        .number = [](Imperfections& at) -> double& { return at.pulley.outline.runout_y; },
        .least = -2,
@@ -45,11 +45,12 @@ Effect pulley_runout(JointKind) {
        .step = 2e-3,
        .prior = 0.3,  // a printed bore over a shaft with its play and set screw
        .shown = shown::as_is,
-       .key = key::plain("runout_y_mm", "mm", -100, 100, "the same across"),
-       .again = WhenFoundAgain::added,
-       .by_hand = {"hold a dial gauge against the hub, turn the pulley once, and write how far the hub's centre stands "
-                   "above its axis at home as [prior] runout_y_mm",
-                   k_hub, runout_y_by_dial, "prior.runout_y_mm", HandTool::dial_gauge}}};
+       .key = key::plain("runout_y_mm", "mm", -100, 100, "eccentricity of the made curves at home, upwards"),
+       .merge_rule = MergeRule::add,
+       .by_hand = {
+           "hold a dial gauge against the hub, turn the pulley once, and enter how far the hub's centre is above "
+           "its axis at home as prior.runout_y_mm",
+           k_hub, runout_y_by_dial, "prior.runout_y_mm", HandTool::dial_gauge}}};
   return effect;
 }
 

@@ -4,7 +4,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_of_a_diameter = 0.0015;  // of a print's size, by three readings of 0.1 mm in 40 mm
+constexpr double k_of_a_diameter = 0.0015;  // uncertainty of a print's scale from three readings of 0.1 mm in 40 mm
 
 std::vector<CaliperReading> by_diameters(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.pulley_scale, 1);
@@ -17,7 +17,8 @@ Effect pulley_scale(JointKind) {
   effect.name = "pulley_scale";
   effect.place = ChainPlace::pulley;
   effect.rank = 2;
-  effect.signature = "smooth in alpha, no direction, no load: both pulleys too large, or too small, in proportion";
+  effect.signature =
+      "smooth in alpha, independent of direction and load: both pulleys too large, or too small, in proportion";
   effect.separating_run = "measure two diameters of the printed part with a caliper";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true};
@@ -29,11 +30,10 @@ Effect pulley_scale(JointKind) {
        .step = 2e-4,
        .prior = 0.01,  // shrinkage of printed plastics: 0.2 to 2 percent
        .shown = shown::in_percent,
-       .key = key::in_percent("pulley_scale_percent", -50, 100, "the made pulley is larger than drawn by this"),
-       .again = WhenFoundAgain::compounded,
-       .by_hand =
-           {"measure two diameters of the print with a caliper and write measured per drawn as [prior] pulley_scale",
-            k_of_a_diameter, by_diameters, "prior.pulley_scale"},
+       .key = key::in_percent("pulley_scale_percent", -50, 100, "relative enlargement of the made pulley"),
+       .merge_rule = MergeRule::compound,
+       .by_hand = {"measure two diameters of the print with a caliper and enter measured/nominal as prior.pulley_scale",
+                   k_of_a_diameter, by_diameters, "prior.pulley_scale"},
        .sign = {"both pulleys too small", "both pulleys too large"}}};
   return effect;
 }

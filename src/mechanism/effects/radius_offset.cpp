@@ -4,7 +4,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_two_diameters = 0.02;  // of half the sum of both, mm
+constexpr double k_two_diameters = 0.02;  // uncertainty of half the sum of both diameters, mm
 
 std::vector<CaliperReading> offset_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.radius_offset, 0);
@@ -17,7 +17,8 @@ Effect radius_offset(JointKind) {
   effect.name = "radius_offset";
   effect.place = ChainPlace::pulley;
   effect.rank = 1;
-  effect.signature = "smooth in alpha, no direction, no load: both pulleys too large, or too small, by a constant";
+  effect.signature =
+      "smooth in alpha, independent of direction and load: both pulleys too large, or too small, by a constant";
   effect.separating_run = "measure the diameter of the pulley's groove floor and of the tendon with a caliper";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true};
@@ -27,15 +28,14 @@ Effect radius_offset(JointKind) {
        .least = -2,
        .most = 2,
        .step = 2e-3,
-       .prior = 0.2,  // a line width too much, a tendon that lies flat
+       .prior = 0.2,  // an excess line width, a tendon that lies flat
        .shown = shown::as_is,
-       .key = key::plain("radius_offset_mm", "mm", -100, 100,
-                         "tendons run this much further out on the made pulley than drawn"),
-       .again = WhenFoundAgain::added,
-       .by_hand =
-           {"measure the diameter of the pulley's groove floor and of the tendon with a caliper and write half of "
-            "what both are too large together (too small: negative) as [prior] radius_offset_mm",
-            k_two_diameters, offset_by_caliper, "prior.radius_offset_mm"},
+       .key = key::plain("radius_offset_mm", "mm", -100, 100, "outward offset of the tendons on the made pulley"),
+       .merge_rule = MergeRule::add,
+       .by_hand = {"measure the diameter of the pulley's groove floor and of the tendon with a caliper and enter half "
+                   "of their "
+                   "total excess (negative: too small) as prior.radius_offset_mm",
+                   k_two_diameters, offset_by_caliper, "prior.radius_offset_mm"},
        .sign = {"both pulleys too small", "both pulleys too large"}}};
   return effect;
 }

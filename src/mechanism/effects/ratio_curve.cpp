@@ -13,7 +13,7 @@ EffectParameter number_of(std::string_view name, double& (*number)(Imperfections
   parameter.prior = 0.05;  // a linkage over 60°: three degrees
   parameter.prior_unit = unit;
   parameter.shown = shown::as_is;
-  parameter.again = WhenFoundAgain::anew;
+  parameter.merge_rule = MergeRule::replace;
   parameter.name = name;
   parameter.key = key::plain(name, "", -1e6, 1e6, meaning);
   return parameter;

@@ -7,8 +7,9 @@ Effect sensor_lag(JointKind) {
   effect.name = "sensor_lag";
   effect.place = ChainPlace::joint_sensor;
   effect.rank = 5;
-  effect.signature = "a loop that grows with speed; it decays in time after a stop";
-  effect.separating_run = "repeat one run at a tenth of its speed, and dwell at a few places: a delay vanishes";
+  effect.signature = "hysteresis that grows with speed; it decays in time after a stop";
+  effect.separating_run =
+      "repeat one run at a tenth of its speed, and dwell at several angles: hysteresis by a delay vanishes";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.time = true};
   effect.parameters = {
@@ -17,9 +18,9 @@ Effect sensor_lag(JointKind) {
        .least = 0,
        .most = 2,
        .step = 2e-3,
-       .prior = 0.05,  // a control period to a filtered sensor on a bus: 1 to 100 ms
+       .prior = 0.05,  // from a control period to a filtered sensor on a bus: 1 to 100 ms
        .shown = shown::in_ms,
-       .key = key::plain("lag_s", "s", 0, 1000, "by which the joint sensor is late")},
+       .key = key::plain("lag_s", "s", 0, 1000, "delay of the joint sensor")},
       {.name = "first_order",
        .number = [](Imperfections& at) -> double& { return at.sensor.first_order; },
        .least = 0,
@@ -28,7 +29,8 @@ Effect sensor_lag(JointKind) {
        .shown = shown::as_is,
        .key = key::plain("lag_first_order", "", 0, 1, "1: lag_s is a filter's time constant; 0: a transport delay"),
        .searched = true}};
-  // A transport delay and a filter of the same 50 ms differ by 0.1 to 0.2 degrees in a fast run: the data choose.
+  // A delay and a filter of the same 50 ms differ by 0.1 to 0.2 degrees in a fast run, so that data can select between
+  // them.
   effect.starts = {{0.02, 0}, {0.1, 0}, {0.5, 0}, {0.02, 1}, {0.1, 1}, {0.5, 1}};
   return effect;
 }

@@ -1,8 +1,7 @@
-/// \file
+/// Internal: common parts of the harmonics of both sensors, sin · sin nφ + cos · (cos nφ − 1) of the angle φ.
 /// Internal: what the harmonics of both sensors have in common, sin · sin nφ + cos · (cos nφ − 1) of the angle φ.
-///
-/// A magnet askew or two channels that differ in gain come back twice a turn, an ellipse of a ring twice, a motor's
-/// poles beside the magnet four times. n is searched, not fitted.
+/// A tilted magnet or unequal gains of two channels repeat twice a turn, an elliptic ring twice, motor poles near the
+/// magnet four times. n is searched, not fitted.
 #pragma once
 
 #include <vector>
@@ -30,7 +29,7 @@ inline EffectParameter wave_order(double& (*number)(Imperfections&), std::string
           .most = 4,
           .step = 1,
           .shown = shown::as_is,
-          .key = {key, "", "that n", 1, 100, as_written, as_written, "2"},
+          .key = {key, "", "order n of the harmonic", 1, 100, as_written, as_written, "2"},
           .searched = true};
 }
 

@@ -10,17 +10,18 @@ double sheath_total(double added, const Mechanism& declared) {
 
 }  // namespace
 
-// Of μ and the bends a run shows the product alone: T2/T1 = e^{μβ} [7]. A liner that wore, dirt, a sheath that lies
-// in another curve than was thought. On a pin it is μφ; where the wrap φ hardly changes over the stroke the two are
-// one.
+// A run determines only the product of μ and the total bend: T2/T1 = e^{μβ} [7]. Causes are a worn liner, dirt, or a
+// sheath laid in another curve. On a pin the exponent is μφ; where the wrap φ is nearly constant over the stroke the
+// two are equivalent.
 Effect sheath_friction(JointKind) {
   Effect effect;
   effect.name = "sheath_friction";
   effect.place = ChainPlace::sheath;
   effect.rank = 1;
-  effect.signature = "a loop that grows with load and as much at every angle, with a transition after each reversal";
+  effect.signature = "hysteresis that grows with load, equal at every angle, with a transition after each reversal";
   effect.separating_run =
-      "lay the sheaths straighter, or in one bend more, and repeat the loaded run: friction on the pins stays";
+      "lay the sheaths straighter, or in one more bend, and repeat the loaded run: friction on the pins does not "
+      "change";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true, .sheath = true};
   effect.parameters = {
@@ -29,10 +30,10 @@ Effect sheath_friction(JointKind) {
        .least = -2,
        .most = 2,
        .step = 5e-3,
-       .prior = 0.15,  // half a turn of bends at 0.05 more; a quarter turn more at 0.1
+       .prior = 0.15,  // half a turn of bends with μ larger by 0.05; an additional quarter turn at 0.1
        .shown = sheath_total,
-       .key = key::plain("sheath_mu_bend", "", -20, 20, "added to sheath.friction times the bends in radians"),
-       .again = WhenFoundAgain::added}};
+       .key = key::plain("sheath_mu_bend", "", -20, 20, "added to sheath.friction times the total bend in radians"),
+       .merge_rule = MergeRule::add}};
   effect.starts = {{0.1}, {0.4}};
   return effect;
 }

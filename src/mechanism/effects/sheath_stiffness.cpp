@@ -11,16 +11,16 @@ double sheath_give(double added, const Mechanism& declared) {
 
 }  // namespace
 
-// A spring behind each tendon that is as soft at every angle, as which the tendon's own stretch is all but the part
-// that is wound and unwound. Said as a compliance: a sheath as stiff as anyone could tell has none.
+// Constant series compliance behind each tendon. Collinear with tendon stretch, except for the part that winds on and
+// off the pulley. Parametrized as a compliance, which is zero for an ideally stiff sheath.
 Effect sheath_stiffness(JointKind) {
   Effect effect;
   effect.name = "sheath_stiffness";
   effect.place = ChainPlace::sheath;
   effect.rank = 2;
-  effect.signature = "in proportion to the tension, as much at every angle; the same both ways";
+  effect.signature = "proportional to the tension, equal at every angle; independent of direction";
   effect.separating_run =
-      "hold a caliper over a sheath from end to end and hang the load on the joint: a tendon's stretch does not show";
+      "hold a caliper over a sheath from end to end and hang the load on the joint: tendon stretch does not show there";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true, .sheath = true};
   effect.parameters = {
@@ -29,10 +29,10 @@ Effect sheath_stiffness(JointKind) {
        .least = -1,
        .most = 1,
        .step = 2e-4,
-       .prior = 0.005,  // a spiral of wire under compression, and what holds its ends: 50 N/mm and up
+       .prior = 0.005,  // a wire spiral under compression, and its end supports: 50 N/mm and more
        .shown = sheath_give,
-       .key = key::plain("sheath_give_mm_per_N", "mm_per_N", -10, 10, "added to one over sheath.stiffness_N_per_mm"),
-       .again = WhenFoundAgain::added}};
+       .key = key::plain("sheath_give_mm_per_N", "mm_per_N", -10, 10, "added to 1 / sheath.stiffness_N_per_mm"),
+       .merge_rule = MergeRule::add}};
   effect.starts = {{0.003}, {0.02}};
   return effect;
 }

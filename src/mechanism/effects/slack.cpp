@@ -9,28 +9,29 @@ double whole_pretension(double added, const Mechanism& declared) {
 
 bool has_no_pretension(const Imperfections& joint) { return joint.tendon.pretension_share() == 0; }
 
-/// Of a joint whose tendons are not known: a cable that lies wavy between its guides lacks w of its length; tension
-/// pulls the waves straight, their amplitude falls by 1/(1 + T/T0) as that of a bent beam under tension does, and with
-/// it the play that they make. The larger the load, the smaller the loop: play and stretch know no such thing.
+/// Parameters for a joint declared by a ratio. A wavy cable is short by w. Tension straightens it: the amplitude falls
+/// by 1/(1 + T/T0), as for a bent beam under tension, and the resulting play with it. The hysteresis therefore shrinks
+/// with load, unlike that of play and stretch.
 std::vector<EffectParameter> of_ratio() {
-  return {{.name = "width_deg",
-           .number = [](Imperfections& at) -> double& { return at.ratio_joint.slack; },
-           .least = 0,
-           .most = 0.5,
-           .step = 2e-3,
-           .prior = radians(2.0),  // as backlash
-           .shown = shown::in_degrees,
-           .key = key::in_degrees("slack_deg", 0, 360,
-                                  "of a joint declared by a ratio: play of alpha without load, full width")},
-          {.name = "taken_up_per_load",
-           .number = [](Imperfections& at) -> double& { return at.ratio_joint.slack_taken_up; },
-           .least = 0,
-           .most = 1e6,
-           .step = 1e-2,
-           .prior = 1,  // at the largest load: half of it
-           .prior_unit = PriorUnit::at_largest_load,
-           .shown = shown::as_is,
-           .key = key::plain("slack_taken_up", "", 0, 1e6, "it shrinks by 1 + this for every unit of load")}};
+  return {
+      {.name = "width_deg",
+       .number = [](Imperfections& at) -> double& { return at.ratio_joint.slack; },
+       .least = 0,
+       .most = 0.5,
+       .step = 2e-3,
+       .prior = radians(2.0),  // as for backlash
+       .shown = shown::in_degrees,
+       .key =
+           key::in_degrees("slack_deg", 0, 360, "joint declared by a ratio: play of alpha without load, full width")},
+      {.name = "taken_up_per_load",
+       .number = [](Imperfections& at) -> double& { return at.ratio_joint.slack_taken_up; },
+       .least = 0,
+       .most = 1e6,
+       .step = 1e-2,
+       .prior = 1,  // at the largest load: half of the play
+       .prior_unit = PriorUnit::at_largest_load,
+       .shown = shown::as_is,
+       .key = key::plain("slack_taken_up", "", 0, 1e6, "the play is divided by 1 + slack_taken_up times the load")}};
 }
 
 }  // namespace
@@ -40,12 +41,12 @@ Effect slack(JointKind kind) {
   effect.name = "slack";
   effect.place = ChainPlace::tendon;
   effect.rank = 2;
-  effect.signature = "lost motion that grows as the moment arm shrinks, taken up by load and gone with pretension";
-  effect.separating_run = "repeat one run with twice the pretension: slack goes, backlash stays";
+  effect.signature = "lost motion that grows as the moment arm shrinks, reduced by load and absent with pretension";
+  effect.separating_run = "repeat one run with twice the pretension: slack vanishes, backlash does not";
   effect.correctable_by = CorrectableBy::table;
   if (kind == JointKind::ratio) {
-    effect.signature = "a loop that shrinks as the load grows";
-    effect.separating_run = "repeat one run at twice the load: slack goes, backlash stays";
+    effect.signature = "hysteresis that shrinks as the load grows";
+    effect.separating_run = "repeat one run at twice the load: slack vanishes, backlash does not";
     effect.needs = {.load = true};
     effect.parameters = of_ratio();
     for (const double width : {1.5, 5.0}) {
@@ -61,7 +62,8 @@ Effect slack(JointKind kind) {
        .step = 5e-3,
        .prior = 1,  // a knot that draws tight, a tendon tied by hand
        .shown = shown::as_is,
-       .key = key::plain("slack_mm", "mm", 0, 1000, "of both tendons together, beyond what pretension takes up")},
+       .key = key::plain("slack_mm", "mm", 0, 1000,
+                         "slack of both tendons together, beyond the length that pretension takes up")},
       {.name = "pretension_N",
        .number = [](Imperfections& at) -> double& { return at.tendon.pretension; },
        .least = -1000,
@@ -70,8 +72,8 @@ Effect slack(JointKind kind) {
        .prior = 5,  // set by feel
        .shown = whole_pretension,
        .key = key::plain("pretension_N", "N", -100000, 100000,
-                         "added to tendon.pretension_N; tendons with slack have none"),
-       .again = WhenFoundAgain::added,
+                         "added to tendon.pretension_N; without effect on tendons with slack"),
+       .merge_rule = MergeRule::add,
        .idle = has_no_pretension}};
   effect.loosens = true;
   effect.starts = {{0.1, 0}, {0.5, 0}, {2.0, 0}};

@@ -10,24 +10,24 @@ EffectParameter when() {
           .most = 1e12,
           .step = 1,
           .shown = shown::as_is,
-          .key = key::plain("slip_time_s", "s", -1e+12, 1e+12, "when it slipped, the runs one after another"),
+          .key = key::plain("slip_time_s", "s", -1e+12, 1e+12, "time of the slip, counted over the runs in sequence"),
           .searched = true};
 }
 
-/// Released tendon 1 lets the joint go up, released tendon 2 down.
+/// A release of tendon 1 moves the joint up, of tendon 2 down.
 EffectParameter released() {
-  return {
-      .name = "released_mm",
-      .number = [](Imperfections& at) -> double& { return at.tendon.slip; },
-      .least = -20,
-      .most = 20,
-      .step = 1e-2,
-      .prior = 1,  // a knot that draws tight
-      .shown = shown::as_is,
-      .key = key::plain("slip_mm", "mm", -1000, 1000, "let go by the anchor of tendon 1, of tendon 2 where negative")};
+  return {.name = "released_mm",
+          .number = [](Imperfections& at) -> double& { return at.tendon.slip; },
+          .least = -20,
+          .most = 20,
+          .step = 1e-2,
+          .prior = 1,  // a knot that draws tight
+          .shown = shown::as_is,
+          .key = key::plain("slip_mm", "mm", -1000, 1000,
+                            "length released by the anchor of tendon 1 (tendon 2 if negative)")};
 }
 
-/// Of a joint whose tendons are not known.
+/// Parameter for a joint declared by a ratio.
 EffectParameter turned() {
   return {.name = "step_deg",
           .number = [](Imperfections& at) -> double& { return at.ratio_joint.step; },
@@ -36,7 +36,7 @@ EffectParameter turned() {
           .step = 1e-3,
           .prior = radians(1.0),  // a knot that draws tight, on a pulley of some centimetres
           .shown = shown::in_degrees,
-          .key = key::in_degrees("step_deg", -360, 360, "of a joint declared by a ratio: turned at slip_time_s")};
+          .key = key::in_degrees("step_deg", -360, 360, "joint declared by a ratio: rotation at slip_time_s")};
 }
 
 }  // namespace
@@ -46,8 +46,8 @@ Effect tendon_slip(JointKind kind) {
   effect.name = "tendon_slip";
   effect.place = ChainPlace::tendon;
   effect.rank = 4;
-  effect.signature = "one step in time, at high tension, that stays";
-  effect.separating_run = "mark the tendon where it enters the pulley and look again after a loaded run";
+  effect.signature = "one permanent step in time, at high tension";
+  effect.separating_run = "mark the tendon where it enters the pulley and check the mark after a loaded run";
   effect.correctable_by = CorrectableBy::nothing;
   effect.needs = {.time = true};
   effect.starts_in_time = true;

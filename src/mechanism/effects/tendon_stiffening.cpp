@@ -3,27 +3,27 @@
 namespace fusee {
 namespace {
 
-/// For a joint declared by a ratio. Both signs, since the log's load has one of its own.
+/// Parameters for a joint declared by a ratio. Both signs are allowed, since the log's load has a sign.
 std::vector<EffectParameter> straightening_of_ratio() {
   return {{.name = "straightened_deg",
            .number = [](Imperfections& at) -> double& { return at.ratio_joint.waves.most; },
            .least = -0.5,
            .most = 0.5,
            .step = 2e-3,
-           .prior = radians(3.0),  // a cable of 0.5 m over a lever of 5 mm that is 0.05 % longer than straight
+           .prior = radians(3.0),  // a cable of 0.5 m on a lever of 5 mm, 0.05 % longer than straight
            .shown = shown::in_degrees,
            .key = key::in_degrees("straightened_deg", -360, 360,
-                                  "of a joint declared by a ratio: turned until the cable is pulled straight")},
+                                  "joint declared by a ratio: rotation until the cable is straight")},
           {.name = "straightened_per_load",
            .number = [](Imperfections& at) -> double& { return at.ratio_joint.waves.rate; },
            .least = 0,
            .most = 1e6,
            .step = 1e-2,
-           .prior = 4,  // at the largest load: four fifths of it
+           .prior = 4,  // at the largest load: four fifths of the rotation
            .prior_unit = PriorUnit::at_largest_load,
            .shown = shown::as_is,
            .key = key::plain("straightened_per_load", "", 0, 1e6,
-                             "rate of straightening: half of it is reached at a load of 1 over this")}};
+                             "rate of straightening: half of it is reached at a load of 1/straightened_per_load")}};
 }
 
 std::vector<EffectParameter> straightening_of_tendons() {
@@ -35,7 +35,7 @@ std::vector<EffectParameter> straightening_of_tendons() {
            .prior = 0.3,  // 0.1 % of 300 mm; a knot that draws tight
            .shown = shown::as_is,
            .key = key::plain("straightened_mm", "mm", 0, 1000,
-                             "each tendon lengthens by this until its waves are pulled straight")},
+                             "elongation of each tendon until its waves are straightened")},
           {.name = "straightened_per_N",
            .number = [](Imperfections& at) -> double& { return at.tendon.waves.rate; },
            .least = 0,
@@ -44,7 +44,7 @@ std::vector<EffectParameter> straightening_of_tendons() {
            .prior = 0.2,  // half of it at 5 N, a usual pretension
            .shown = shown::as_is,
            .key = key::plain("straightened_per_N", "per_N", 0, 1000,
-                             "rate of straightening: half of it is reached at a pull of 1 over this")}};
+                             "rate of straightening: half of it is reached at a tension of 1/straightened_per_N")}};
 }
 
 }  // namespace
@@ -54,13 +54,13 @@ Effect tendon_stiffening(JointKind kind) {
   effect.name = "tendon_stiffening";
   effect.place = ChainPlace::tendon;
   effect.rank = 6;
-  effect.signature = "soft under a small load and stiffer under a large one; the same both ways";
-  effect.separating_run = "run the same strokes at a tenth, a quarter, half and all of the load";
+  effect.signature = "compliant under a small load and stiffer under a large one; independent of direction";
+  effect.separating_run = "run the same strokes at a tenth, a quarter, half and the full load";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.load = true};
   if (kind == JointKind::tendons) {
-    // Beside pretensioned tendons it reads as tendon_stretch, and no measured joint asked for it.
-    effect.is_looked_for = false;
+    // With pretensioned tendons it is equivalent to tendon_stretch, and no measured joint has required it.
+    effect.is_tested = false;
     effect.parameters = straightening_of_tendons();
     return effect;
   }

@@ -7,7 +7,7 @@ double section(double stretch, const Mechanism& declared) {
   return section_stiffness(declared.tendon) / (1.0 + stretch);
 }
 
-constexpr double k_metre = 0.1;  // of a compliance of once or twice the declared one, by a ruler
+constexpr double k_metre = 0.1;  // uncertainty, by a ruler, of a compliance of one or two times the declared one
 
 std::vector<CaliperReading> by_modulus(const DeclaredMechanism& declared) {
   const std::vector<double>& modulus = declared.prior.modulus;
@@ -23,22 +23,22 @@ Effect tendon_stretch(JointKind kind) {
   effect.name = "tendon_stretch";
   effect.place = ChainPlace::tendon;
   effect.rank = 1;
-  effect.signature = "in proportion to the load, zero without; the same both ways";
+  effect.signature = "proportional to the load, zero without load; independent of direction";
   effect.separating_run = "run the same strokes at no load, at half and at full load, and at the reversed load";
   effect.correctable_by = CorrectableBy::pulley;
   if (kind == JointKind::ratio) {
     effect.correctable_by = CorrectableBy::table;
-    effect.needs = {.load = true};  // with tendons their pretension does
-    effect.parameters = {{.name = "compliance_deg_per_load",
-                          .number = [](Imperfections& at) -> double& { return at.ratio_joint.compliance; },
-                          .least = -1e6,
-                          .most = 1e6,
-                          .step = 1e-3,
-                          .prior = radians(5.0),  // at the largest load: what cable-driven fingers give
-                          .prior_unit = PriorUnit::at_largest_load,
-                          .shown = shown::in_degrees,
-                          .key = key::in_degrees("compliance_deg", -360, 360,
-                                                 "of a joint declared by a ratio: turned by a unit of load")}};
+    effect.needs = {.load = true};  // with tendons, pretension is such a load
+    effect.parameters = {
+        {.name = "compliance_deg_per_load",
+         .number = [](Imperfections& at) -> double& { return at.ratio_joint.compliance; },
+         .least = -1e6,
+         .most = 1e6,
+         .step = 1e-3,
+         .prior = radians(5.0),  // at the largest load, as for cable-driven fingers
+         .prior_unit = PriorUnit::at_largest_load,
+         .shown = shown::in_degrees,
+         .key = key::in_degrees("compliance_deg", -360, 360, "joint declared by a ratio: rotation per unit of load")}};
     return effect;
   }
   effect.parameters = {
@@ -49,11 +49,11 @@ Effect tendon_stretch(JointKind kind) {
        .step = 0.01,
        .prior = 1,  // catalogue moduli of braids are known to a factor of two
        .shown = section,
-       .key = key::plain("stretch", "", -0.999, 1e+06,
-                         "the tendon's compliance beyond the declared one, per the declared one"),
-       .again = WhenFoundAgain::compounded,
-       .by_hand = {"pull a metre of the tendon with the largest load, measure how much longer it gets, and "
-                   "write the modulus as [prior] modulus_MPa",
+       .key =
+           key::plain("stretch", "", -0.999, 1e+06, "compliance of the tendon beyond the declared one, relative to it"),
+       .merge_rule = MergeRule::compound,
+       .by_hand = {"load a metre of the tendon with the largest load, measure its elongation, and enter the modulus as "
+                   "prior.modulus_MPa",
                    k_metre, by_modulus, "prior.modulus_MPa", HandTool::ruler}}};
   effect.starts = {{0.5}, {2.0}, {10.0}};
   return effect;

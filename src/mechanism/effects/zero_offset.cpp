@@ -4,7 +4,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_mark = radians(0.1);  // how well a person sets a joint to a mark, three times
+constexpr double k_mark = radians(0.1);  // precision of setting a joint to a mark, three times
 
 std::vector<CaliperReading> zero_by_mark(const DeclaredMechanism& declared) {
   return hand_reading_in(declared.prior.zero, radians(1.0));
@@ -29,9 +29,9 @@ Effect zero_offset(JointKind) {
        .step = 1e-3,
        .prior = radians(2.0),  // a magnet glued on, a mark by eye
        .shown = shown::in_degrees,
-       .key = key::in_degrees("zero_deg", -360, 360, "what the joint sensor shows at theta = 0"),
-       .by_hand = {"drive the joint to a mark at home and write what its sensor shows there as [prior] zero_deg",
-                   k_mark, zero_by_mark, "prior.zero_deg", HandTool::mark}}};
+       .key = key::in_degrees("zero_deg", -360, 360, "reading of the joint sensor at theta = 0"),
+       .by_hand = {"drive the joint to a mark at home and enter its sensor's reading there as prior.zero_deg", k_mark,
+                   zero_by_mark, "prior.zero_deg", HandTool::mark}}};
   return effect;
 }
 

@@ -1,11 +1,11 @@
-// Slips of units: what they leave is a joint of odd proportions.
+// Unit errors, detected by implausible proportions of the joint.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
-#include "analysis/likely_slip.h"
+#include "analysis/input_warning.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/mechanism/fields.h"
@@ -15,16 +15,15 @@ namespace {
 
 // ---- angles ---------------------------------------------------------------------------------------------------------
 
-/// A range within this, in degrees, is no joint's; in radians it is ±92°, wider than most.
+/// No joint has a smaller range in degrees; in radians it is ±92°, wider than most.
 constexpr double k_narrow_range = 1.6;
-/// A groove whose walls stand within this, in degrees, holds a tendon as well as parallel walls do; in radians 120°,
-/// the widest that there is.
+/// A smaller groove angle in degrees is practically parallel walls; in radians it is 120°, the maximum.
 constexpr double k_narrow_groove = 2.1;
 
 double in_degrees(double written) { return degrees(written); }
 
-/// Whether a number of degrees is that of a round angle in radians, to three digits: 1.57, 0.7854. A number of whole or
-/// half degrees is nobody's radians.
+/// True if a number in degrees equals a round angle in radians to three digits: 1.57, 0.7854. Whole and half degrees
+/// are not taken for radians.
 bool is_round_in_radians(double written) {
   const double fifteenths = std::abs(in_degrees(written)) / 15.0;
   const double nearest = std::round(fifteenths);
@@ -32,7 +31,7 @@ bool is_round_in_radians(double written) {
   return near && std::abs(2.0 * written - std::round(2.0 * written)) > 1e-9;
 }
 
-std::vector<LikelySlip> slipped_range(const DeclaredMechanism& mechanism) {
+std::vector<InputWarning> range_warnings(const DeclaredMechanism& mechanism) {
   const double low = degrees(mechanism.joint.theta_min), high = degrees(mechanism.joint.theta_max);
   if (mechanism.transmission || std::max(-low, high) >= k_narrow_range) return {};
   return {{"joint.range_deg",
@@ -41,16 +40,16 @@ std::vector<LikelySlip> slipped_range(const DeclaredMechanism& mechanism) {
            "in degrees it would be [" + rounded(in_degrees(low), 3) + ", " + rounded(in_degrees(high), 3) + "]"}};
 }
 
-LikelySlip radians_for_degrees(const std::string& key, double written) {
+InputWarning radians_for_degrees(const std::string& key, double written) {
   return {key, setting_text(key, written) + " deg looks like radians",
           "in degrees it would be " + setting_text(key, std::round(in_degrees(written)))};
 }
 
 // ---- lengths --------------------------------------------------------------------------------------------------------
 
-/// A length of the mechanism and how large it may be beside OC before it is odd. The profiles and 300 random joints
-/// from finger to arm (tests/laws) lie within half of these all the way, and a tenth or tenfold of theirs beyond: EB
-/// and ED 0.3 … 0.75, |OE| up to 0.5, EF 0.5 … 1.6, r1 0.11 … 0.2. A pulley may stand far off from its joint.
+/// Plausible range of a length relative to OC. Profiles and 300 random joints from finger to arm (tests/laws) lie
+/// within half of these bounds; a factor of ten exceeds them. Typical: EB and ED 0.3 … 0.75, |OE| up to 0.5, EF 0.5 …
+/// 1.6, r1 0.11 … 0.2. A pulley may be far from its joint.
 struct Proportion {
   const char* key;
   double least;
@@ -64,7 +63,7 @@ constexpr const char* k_length = "joint.length_mm";
 
 bool has_length(const DeclaredMechanism& mechanism, const char* key) { return is_used(*find_field(key), mechanism); }
 
-/// Per joint.length_mm.
+/// The length relative to joint.length_mm.
 double proportion(const DeclaredMechanism& mechanism, const char* key) {
   return std::abs(declared_number(mechanism, key)) / mechanism.joint.R;
 }
@@ -85,15 +84,15 @@ DeclaredMechanism with_number(DeclaredMechanism mechanism, const char* key, doub
   return mechanism;
 }
 
-/// What a length that is right when taken `factor` times was written in.
+/// The unit of a length that is correct after multiplication by `factor`.
 const char* written_in(double factor) {
   return factor == 10.0 ? "in cm" : factor == 1000.0 ? "in m" : "ten times too large";
 }
 
-LikelySlip odd_length(const DeclaredMechanism& mechanism, const char* key, const std::string& how, double factor) {
+InputWarning odd_length(const DeclaredMechanism& mechanism, const char* key, const std::string& how, double factor) {
   const double value = declared_number(mechanism, key);
   return {key, setting_text(key, value) + " mm " + how,
-          std::string("is it written ") + written_in(factor) + "? " + setting_text(key, factor * value) +
+          std::string("is it ") + written_in(factor) + "? " + setting_text(key, factor * value) +
               " mm would be in proportion"};
 }
 
@@ -101,9 +100,9 @@ std::string beside_the_joint(const DeclaredMechanism& mechanism, const char* key
   return "is " + rounded(proportion(mechanism, key), 2) + " times " + k_length;
 }
 
-/// The one length that, in another unit, brings all into proportion. That of the joint comes last: the others are held
-/// against it.
-std::vector<LikelySlip> one_slipped_length(const DeclaredMechanism& mechanism) {
+/// The one length that, in another unit, makes all proportions plausible. That of the joint is tried last, because it
+/// is the reference of the others.
+std::vector<InputWarning> single_length_warning(const DeclaredMechanism& mechanism) {
   const auto mends = [&](const char* key, double factor) {
     return !has_odd_proportions(with_number(mechanism, key, factor * declared_number(mechanism, key)));
   };
@@ -117,15 +116,15 @@ std::vector<LikelySlip> one_slipped_length(const DeclaredMechanism& mechanism) {
   return {};
 }
 
-/// Where more than one number is odd, each by itself.
-std::vector<LikelySlip> odd_lengths(const DeclaredMechanism& mechanism) {
-  std::vector<LikelySlip> slips;
+/// Reports each odd length separately.
+std::vector<InputWarning> odd_lengths(const DeclaredMechanism& mechanism) {
+  std::vector<InputWarning> slips;
   for (const Proportion& allowed : k_proportions) {
     if (!is_odd(mechanism, allowed)) continue;
     slips.push_back({allowed.key,
                      setting_text(allowed.key, declared_number(mechanism, allowed.key)) + " mm " +
                          beside_the_joint(mechanism, allowed.key),
-                     std::string("are both in mm? It is ordinarily ") + rounded(allowed.least, 2) + " to " +
+                     std::string("are both in mm? The usual range is ") + rounded(allowed.least, 2) + " to " +
                          rounded(allowed.most, 2) + " times that"});
   }
   return slips;
@@ -133,8 +132,8 @@ std::vector<LikelySlip> odd_lengths(const DeclaredMechanism& mechanism) {
 
 // ---- all lengths ----------------------------------------------------------------------------------------------------
 
-/// A bought part, which has its size whatever the joint is, and the length that it must be small beside. Profiles and
-/// random joints stay below half of these ratios, and a tenth of most of them lies beyond at least one.
+/// A purchased part of fixed size, and the length that must be large compared with it. Profiles and random joints stay
+/// below half of these ratios; in cm, most exceed at least one.
 struct BoughtPart {
   const char* key;
   const char* beside;
@@ -164,7 +163,7 @@ DeclaredMechanism all_lengths_times(DeclaredMechanism mechanism, double factor) 
   return mechanism;
 }
 
-std::vector<LikelySlip> all_lengths_slipped(const DeclaredMechanism& mechanism) {
+std::vector<InputWarning> all_lengths_warning(const DeclaredMechanism& mechanism) {
   const BoughtPart* part = too_large_part(mechanism);
   if (part == nullptr) return {};
   const double size = declared_number(mechanism, part->key), length = declared_number(mechanism, part->beside);
@@ -182,7 +181,7 @@ std::vector<LikelySlip> all_lengths_slipped(const DeclaredMechanism& mechanism) 
 
 // ---- modulus --------------------------------------------------------------------------------------------------------
 
-/// The softest tendon of the catalogue, nylon, has 2000 MPa; rubber has a hundred at most. In GPa the stiffest fibres
+/// The softest tendon of the catalogue, nylon, has 2000 MPa, and rubber at most a hundred. In GPa the stiffest fibres
 /// have some hundred.
 constexpr double k_softest_tendon = 100.0;  // MPa
 
@@ -194,8 +193,8 @@ double declared_number(const DeclaredMechanism& mechanism, const char* key) {
 
 std::string setting_text(const std::string& key, double value) { return key + " = " + rounded(value); }
 
-std::vector<LikelySlip> slipped_angles(const DeclaredMechanism& mechanism) {
-  std::vector<LikelySlip> slips = slipped_range(mechanism);
+std::vector<InputWarning> angle_warnings(const DeclaredMechanism& mechanism) {
+  std::vector<InputWarning> slips = range_warnings(mechanism);
   const double tilt = degrees(mechanism.load.tilt), groove = degrees(mechanism.body.groove_angle);
   if (mechanism.load.mass > 0 && is_round_in_radians(tilt)) slips.push_back(radians_for_degrees("load.tilt_deg", tilt));
   const bool is_whole = std::abs(groove - std::round(groove)) < 1e-9;
@@ -204,15 +203,15 @@ std::vector<LikelySlip> slipped_angles(const DeclaredMechanism& mechanism) {
   return slips;
 }
 
-std::vector<LikelySlip> slipped_lengths(const DeclaredMechanism& mechanism) {
-  // With drum and attachments OC is no measure of the joint, nor of a pulley that stands elsewhere.
+std::vector<InputWarning> length_warnings(const DeclaredMechanism& mechanism) {
+  // With a drum or attachments OC is no reference length, and neither is it for a pulley at the end of a sheath.
   if (mechanism.transmission || !mechanism.joint.is_plain() || mechanism.sheath.is_there()) return {};
-  if (!has_odd_proportions(mechanism)) return all_lengths_slipped(mechanism);
-  std::vector<LikelySlip> slips = one_slipped_length(mechanism);
+  if (!has_odd_proportions(mechanism)) return all_lengths_warning(mechanism);
+  std::vector<InputWarning> slips = single_length_warning(mechanism);
   return slips.empty() ? odd_lengths(mechanism) : slips;
 }
 
-std::vector<LikelySlip> slipped_modulus(const DeclaredMechanism& mechanism) {
+std::vector<InputWarning> modulus_warnings(const DeclaredMechanism& mechanism) {
   const double modulus = mechanism.tendon.modulus;
   if (mechanism.transmission || modulus >= k_softest_tendon) return {};
   const char* key = "tendon.modulus_MPa";

@@ -1,6 +1,6 @@
 /// \file
-/// Internal: the same work on as many threads as there are. Every job writes to its own place only, so that the outcome
-/// does not depend on how many.
+/// Internal: a thread pool. Every job writes only to its own place, so that the result does not depend on the number of
+/// threads.
 #pragma once
 
 #include <condition_variable>
@@ -13,15 +13,15 @@
 
 namespace fusee {
 
-class Hands {
+class ThreadPool {
  public:
-  /// 0: as many as the machine has.
-  explicit Hands(unsigned threads);
-  ~Hands();
-  Hands(const Hands&) = delete;
-  Hands& operator=(const Hands&) = delete;
+  /// 0: as many threads as the machine has.
+  explicit ThreadPool(unsigned threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
 
-  /// Calls `job` for 0 … count − 1 and returns when all are done. The first exception is passed on.
+  /// Calls `job` for 0 … count − 1 and returns when all are done. Rethrows the first exception.
   void each(std::size_t count, const std::function<void(std::size_t)>& job);
 
  private:
@@ -37,7 +37,7 @@ class Hands {
   unsigned long round_ = 0;
   bool closed_ = false;
   std::exception_ptr failure_;
-  std::vector<std::thread> others_;
+  std::vector<std::thread> threads_;
 };
 
 }  // namespace fusee

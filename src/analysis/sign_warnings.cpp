@@ -2,16 +2,16 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/likely_slip.h"
+#include "analysis/input_warning.h"
 #include "fusee/base/text.h"
 #include "fusee/profile/synthesis.h"
 
 namespace fusee {
 namespace {
 
-/// The radii of the less even pulley over the stroke.
+/// Radii of the less even pulley over the stroke.
 struct Unevenness {
-  bool made = false;  ///< there are such pitch curves
+  bool made = false;  ///< the pitch curves exist
   double least = 1;   ///< mm
   double most = 1;
   const char* pulley = "P2";
@@ -37,13 +37,13 @@ Unevenness unevenness(const Mechanism& mechanism) {
   return worst;
 }
 
-/// With the pins below the joint, moment arms fall faster towards the ends of the range, so that a radius varies by
-/// this many times; what is meant to be so does less. Signs turned on the profiles: 2.8 to 10.5 times, for 1.1 to 2.3
-/// times as they are. Random joints (tests/laws) as they are: 5.2 times at most, one in fifty above 3.5.
+/// Ratio of radii above which the sign is suspect. With the pins below the joint, moment arms fall faster towards the
+/// ends of the range, so that radii vary more. Profiles with the sign reversed: 2.8 to 10.5 times, as they are 1.1 to
+/// 2.3 times. Random joints (tests/laws) as they are: at most 5.2 times, one in fifty above 3.5.
 constexpr double k_uneven = 4.0;
-/// … and with the other sign it would be evener by this much,
+/// Improvement by the opposite sign that is required for a warning.
 constexpr double k_evener = 3.0;
-/// or by this much where with the declared sign no pulley can be made at all.
+/// Required improvement when no pulley exists with the declared sign.
 constexpr double k_evener_and_made = 2.0;
 
 bool is_likelier(const Unevenness& other, const Unevenness& declared) {
@@ -56,9 +56,9 @@ std::string fold_text(const Unevenness& uneven) { return rounded(uneven.times(),
 
 }  // namespace
 
-// Only a positive OE is doubted: a person who measures how far off the pins are writes a positive number, and nobody
-// writes a minus sign by mistake.
-std::vector<LikelySlip> slipped_sign(const DeclaredMechanism& mechanism) {
+// Only a positive OE is suspect: distances are usually entered as positive numbers, while a minus sign is not entered
+// by mistake.
+std::vector<InputWarning> sign_warnings(const DeclaredMechanism& mechanism) {
   const double OE = mechanism.guides.OE;
   if (mechanism.transmission || OE <= 0) return {};
   Mechanism turned = mechanism;

@@ -1,4 +1,4 @@
-// What yields or sticks beside the tendons: pins that give way, the joint's bearing, a joint that nothing holds.
+// Compliance and friction other than the tendons': pins, the joint's bearing, a loose joint.
 #include <gtest/gtest.h>
 
 #include "fusee/joint/equilibrium.h"
@@ -14,7 +14,8 @@ using testing::unsymmetric;
 
 // ---- pins -----------------------------------------------------------------------------------------------------------
 
-/// The joint at α = 0 without friction, its pins moved to where they really go: no first order, no springs in a row.
+/// The joint at α = 0 without friction, with pins moved to their exact positions: no linearization, no equivalent
+/// springs.
 struct ExactFrame {
   MadePulleys made;
   std::array<PinPlace, 2> pins;
@@ -48,10 +49,10 @@ struct ExactFrame {
   double arm(std::size_t i, double theta) const { return upper(i, theta).m; }
   double length(std::size_t i, double theta) const {
     const LowerPath below = lower(i);
-    // All that is above the knot, but for a constant: what is wound counts as path.
+    // All lengths above the knot, up to a constant; the wound part counts as path.
     return upper(i, theta).length - pins[i].rho * below.normal + below.reach + below.wound - made_constant(i);
   }
-  /// Of the undisturbed pulley: so that only spans are strained.
+  /// Length for the undisturbed pulley, so that only the spans are strained.
   double made_constant(std::size_t i) const { return made.paths(pins, 0)[i].wound; }
   double tension(std::size_t i, double theta) const { return std::max(0.0, EA * (length(i, theta) / material[i] - 1)); }
   Vec2 push(std::size_t i, double theta, double tension) const {
@@ -76,21 +77,21 @@ struct ExactFrame {
 
 double theta_under(const Mechanism& mechanism, double give, double tip_force) {
   JointModel model = joint_model(mechanism);
-  model.pin_give = give;
+  model.pin_compliance = give;
   JointMotion motion(model);
   EquilibriumPoint point;
   for (int i = 1; i <= 20; ++i) point = motion.to({0, tip_force * i / 20, 0});
   return point.theta;
 }
 
-/// Nothing slides but over the pins, and there freely.
+/// Only the pins permit sliding, without friction.
 Mechanism frictionless(Mechanism mechanism) {
   mechanism.guides.mu = 0;
   mechanism.pulley.mu = 1e12;
   return mechanism;
 }
 
-TEST(PinGive, IsThatOfPinsThatMove) {
+TEST(PinCompliance, AgreesWithMovedPins) {
   const Mechanism mechanism = frictionless(unsymmetric());
   for (const double force : {-10.0, 10.0}) {
     const double stiff = ExactFrame(mechanism, 0).theta_under(force);
@@ -108,11 +109,11 @@ TEST(PinGive, IsThatOfPinsThatMove) {
   }
 }
 
-TEST(PinGive, IsNothingAtHome) {
+TEST(PinCompliance, IsZeroAtHome) {
   for (const double give : {1e-3, 0.1}) EXPECT_NEAR(theta_under(unsymmetric(), give, 0), 0, 1e-12);
 }
 
-/// Up and down once under a force, after it came on.
+/// Up and down once under a force, after loading.
 std::vector<EquilibriumPoint> stroke(const JointModel& model, double tip_force, int steps, double reach = 1.0) {
   std::vector<JointStep> path;
   for (int i = 0; i <= steps; ++i) path.push_back({0, tip_force * i / steps, 0});
@@ -132,20 +133,20 @@ double work_missing(const std::vector<EquilibriumPoint>& points) {
   return motor - load - points.back().stored - points.back().friction - points.back().groove_friction;
 }
 
-TEST(PinGive, IsASpring) {
-  // Lengths by first order and moment arms of pins that stand still: work is missing, but little of what the frame
-  // holds.
+TEST(PinCompliance, ConservesEnergy) {
+  // First-order lengths and moment arms of fixed pins cause an energy error, which is small compared with the stored
+  // energy.
   JointModel model = joint_model(frictionless(forearm()));
   const double without = work_missing(stroke(model, 8, 1000));
-  model.pin_give = 2e-3;
+  model.pin_compliance = 2e-3;
   const std::vector<EquilibriumPoint> points = stroke(model, 8, 1000);
-  const double held = 0.5 * model.pin_give * std::pow(points.back().t2.upper, 2);
+  const double held = 0.5 * model.pin_compliance * std::pow(points.back().t2.upper, 2);
   EXPECT_LT(std::abs(work_missing(points) - without), 0.1 * held);
 }
 
 // ---- bearing --------------------------------------------------------------------------------------------------------
 
-TEST(Bearing, HoldsTheJointUntilItIsPulledByMore) {
+TEST(Bearing, HoldsJointUpToLimit) {
   constexpr double friction = 40;
   JointModel model = joint_model(unsymmetric());
   model.bearing_friction = friction;
@@ -169,10 +170,10 @@ TEST(Bearing, HoldsTheJointUntilItIsPulledByMore) {
   EXPECT_EQ(motion.to({0.4, 0.5, 0}).theta, moved.theta);
 }
 
-TEST(Bearing, MakesALoopOfTwiceItsTorqueOverTheStiffness) {
+TEST(Bearing, HysteresisIsTwiceTorqueOverStiffness) {
   JointModel model = joint_model(frictionless(forearm()));
   model.bearing_friction = 25;
-  // So short that what is wound does not matter.
+  // Short enough that the wound tendon does not matter.
   const std::vector<EquilibriumPoint> points = stroke(model, 5, 200, 0.01);
   const EquilibriumPoint& up = points[200 + 100];
   const EquilibriumPoint& down = points[400 + 50];
@@ -181,7 +182,7 @@ TEST(Bearing, MakesALoopOfTwiceItsTorqueOverTheStiffness) {
   EXPECT_NEAR((down.theta - up.theta) * 0.5 * (up.stiffness + down.stiffness), 2 * model.bearing_friction, 0.5);
 }
 
-TEST(Bearing, LosesNoEnergy) {
+TEST(Bearing, ConservesEnergy) {
   JointModel model = joint_model(frictionless(forearm()));
   model.bearing_friction = 25;
   const std::vector<EquilibriumPoint> points = stroke(model, 5, 2000);
@@ -191,7 +192,7 @@ TEST(Bearing, LosesNoEnergy) {
 
 // ---- nothing holds it -----------------------------------------------------------------------------------------------
 
-TEST(Loose, RestsWhereItWasLastPushed) {
+TEST(Loose, RestsWhereLastPushed) {
   Mechanism mechanism = forearm();
   mechanism.tendon.pretension = 0;
   JointModel model = joint_model(mechanism);
@@ -217,7 +218,7 @@ TEST(Loose, RestsWhereItWasLastPushed) {
 
 // ---- creep ----------------------------------------------------------------------------------------------------------
 
-TEST(CreepMemory, GoesWithTheLogarithmOfTime) {
+TEST(CreepMemory, IsLogarithmicInTime) {
   for (const double time : {0.1, 1.0, 3.0, 10.0, 60.0, 600.0, 3600.0}) {
     CreepMemory memory;
     for (int i = 0; i < 7; ++i) memory.hold(2.5, time / 7);
@@ -225,8 +226,8 @@ TEST(CreepMemory, GoesWithTheLogarithmOfTime) {
   }
 }
 
-TEST(CreepMemory, AddsUpWhatItWasHeldUnder) {
-  // Boltzmann: a load that comes and goes is one that stays, and its opposite from when it goes.
+TEST(CreepMemory, SuperposesLoads) {
+  // Superposition (Boltzmann): a removed load equals a constant load plus its opposite from the removal on.
   const auto under = [](double first, double second) {
     CreepMemory memory;
     memory.hold(first, 100);

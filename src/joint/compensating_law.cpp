@@ -1,4 +1,4 @@
-#include "joint/needed_law.h"
+#include "joint/compensating_law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,27 +16,30 @@
 namespace fusee {
 namespace {
 
-/// P1 stays round below this miss of the needed law: what tendons on a drawn outline miss anyway, and little beside any
-/// error worth a pulley.
+/// Error of the compensating law up to which P1 stays round. It is comparable with that of a drawn outline and small
+/// against any error worth a pulley.
 constexpr double k_round_suffices = radians(0.005);
-/// A joint that gives way by less is not worth another law.
+/// Deflection below which the law is not changed.
 constexpr double k_least_shift = radians(0.002);
-constexpr int k_rows_beyond = 4;  ///< the same distance apart as the others, at each end
+constexpr int k_rows_beyond = 4;  ///< rows beyond each end of the range, at the same spacing
 
-struct LawCare {
+struct LawAccuracy {
   int rows = 152;
-  /// What the loaded joint may still miss its law by when the search for the pulley's law ends.
+  /// Residual error of the loaded joint at which the iteration ends.
   double reached = radians(1e-5);
 };
-LawCare care_of(LawSearch search) { return search == LawSearch::whole ? LawCare{} : LawCare{48, radians(0.01)}; }
+LawAccuracy accuracy_of(LawSearch search) {
+  return search == LawSearch::whole ? LawAccuracy{} : LawAccuracy{48, radians(0.01)};
+}
 
-/// What makes the declared law worth keeping under load. Friction and pretension alone hardly move the mean of both
+/// True when the declared law must be adapted to the load. Friction and pretension alone hardly change the mean of both
 /// directions.
-bool gives_way(const Imperfections& at) {
+bool is_deflected(const Imperfections& at) {
   return at.tendon.stretch != 0 || at.sheath.give != 0 || at.joint.weight != WeightError{} || at.joint.mean_load != 0;
 }
-/// The declared law as rows, both ends of the range among them, a little beyond them where it goes on: past the end of
-/// a table all θ have one α, but for rounding. Empty where it does not exist.
+/// The declared law as rows that include both ends of the range, and slightly beyond them where the law continues.
+/// Beyond the end of a table all θ have one α, up to rounding; such rows are skipped. Empty where the law does not
+/// exist.
 std::vector<LawRow> declared_rows(const Mechanism& declared, int count) {
   const Transmission law(declared);
   if (law.dead_centre()) return {};
@@ -52,7 +55,7 @@ std::vector<LawRow> declared_rows(const Mechanism& declared, int count) {
   return rows;
 }
 
-/// The same weight as a mass on its arm.
+/// Expresses a torque error as a mass on the lever.
 Load with_weight(Load load, const WeightError& error, double R) {
   if (error == WeightError{}) return load;
   const Weight weight = with_error({weight_moment(load), load.tilt}, error);
@@ -62,7 +65,7 @@ Load with_weight(Load load, const WeightError& error, double R) {
   return load;
 }
 
-/// `rows` seen from the pulley, whose own home is where its tendons are tied at θ = 0.
+/// `rows` relative to the pulley's home, at which its tendons are tied with θ = 0.
 std::vector<LawRow> from_home(std::vector<LawRow> rows, double home) {
   for (LawRow& row : rows) row.alpha -= home;
   return rows;
@@ -76,7 +79,7 @@ Mechanism identified_joint(const DeclaredMechanism& declared) {
   return joint;
 }
 
-Mechanism with_law(Mechanism joint, const NeededLaw& needed) {
+Mechanism with_law(Mechanism joint, const CompensatingLaw& needed) {
   joint.pulley.law = Law::table;
   joint.pulley.rows = from_home(needed.rows, needed.home);
   joint.joint.theta_min = needed.theta_min;
@@ -86,8 +89,8 @@ Mechanism with_law(Mechanism joint, const NeededLaw& needed) {
 
 namespace {
 
-/// One run up and down through these angles under a constant tip force, twice: in the first round what lies on the
-/// pulleys slides as it will not again.
+/// A run up and down through these angles under a constant tip force, twice: only in the first cycle does the wound
+/// tendon settle.
 BenchLog sweep(const std::vector<LawRow>& rows, double tip_force) {
   BenchRun run;
   run.has_load = true;
@@ -99,7 +102,7 @@ BenchLog sweep(const std::vector<LawRow>& rows, double tip_force) {
   return {run};
 }
 
-/// θ of the loaded joint at each row's α, mean of both directions.
+/// θ of the loaded joint at each row's α, averaged over both directions.
 std::vector<double> mean_motion(const Mechanism& joint, const std::vector<LawRow>& at, double tip_force) {
   const std::vector<double> theta = predict(joint, {}, sweep(at, tip_force)).front();
   std::vector<double> mean;
@@ -108,11 +111,12 @@ std::vector<double> mean_motion(const Mechanism& joint, const std::vector<LawRow
   return mean;
 }
 
-/// Least squares by Chebyshev polynomials of α: a pulley's curvature holds the law's second derivative, so that a kink
-/// (a tendon that falls slack) would be a dent. What moderate loads do is smooth and comes through to 1e-5 of itself.
-class Smoothed {
+/// Least squares fit by Chebyshev polynomials of α. A pulley's curvature contains the second derivative of the law, so
+/// that a kink (a tendon becoming slack) would be a dent. Deflections under moderate loads are smooth and reproduced to
+/// 1e-5.
+class ChebyshevSmoother {
  public:
-  explicit Smoothed(const std::vector<LawRow>& rows) : basis_(chebyshev_of(rows)), solver_(basis_) {}
+  explicit ChebyshevSmoother(const std::vector<LawRow>& rows) : basis_(chebyshev_of(rows)), solver_(basis_) {}
   Eigen::VectorXd of(const Eigen::VectorXd& values) const { return basis_ * solver_.nearest(values); }
 
  private:
@@ -133,9 +137,9 @@ class Smoothed {
   LeastSquares solver_;
 };
 
-/// The rows drawn further by `miss`; null where θ would not grow with α or home is out of reach.
-std::optional<NeededLaw> drawn_further(NeededLaw needed, const std::vector<LawRow>& wanted, const Joint& joint,
-                                       const Eigen::VectorXd& miss) {
+/// The law minus the residual error `miss`; null where θ would not increase with α.
+std::optional<CompensatingLaw> corrected_law(CompensatingLaw needed, const std::vector<LawRow>& wanted,
+                                             const Joint& joint, const Eigen::VectorXd& miss) {
   constexpr double rounding = 1e-12;
   double low = 0, high = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -150,15 +154,15 @@ std::optional<NeededLaw> drawn_further(NeededLaw needed, const std::vector<LawRo
   return needed;
 }
 
-/// The law by which `joint`, giving way under its load, stands where `wanted` says. Null where there is none.
-///
-/// Without the pins' friction: that is a loop about this mean, and its turns at both ends of the range are none of the
-/// pulley's.
-std::optional<NeededLaw> given_way(Mechanism joint, const NeededLaw& declared, double tip_force, double reached) {
+/// The law with which `joint`, deflected by its load, follows `wanted`. Null if there is none. Friction at the pins is
+/// ignored: it causes hysteresis about the mean, and its reversals at the ends of the range cannot be corrected by a
+/// pulley.
+std::optional<CompensatingLaw> law_under_load(Mechanism joint, const CompensatingLaw& declared, double tip_force,
+                                              double reached) {
   joint = without_friction(std::move(joint));
   const std::vector<LawRow>& wanted = declared.rows;
-  const Smoothed smoothed(wanted);
-  NeededLaw needed = declared;
+  const ChebyshevSmoother smoothed(wanted);
+  CompensatingLaw needed = declared;
   for (int i = 0; i < 20; ++i) {
     const Mechanism made = with_law(joint, needed);
     if (Transmission(made).dead_centre()) return std::nullopt;
@@ -167,7 +171,7 @@ std::optional<NeededLaw> given_way(Mechanism joint, const NeededLaw& declared, d
     for (std::size_t k = 0; k < wanted.size(); ++k) miss(static_cast<Eigen::Index>(k)) = theta[k] - wanted[k].theta;
     if (!miss.allFinite()) return std::nullopt;
     miss = smoothed.of(miss);
-    const auto next = drawn_further(needed, wanted, joint.joint, miss);
+    const auto next = corrected_law(needed, wanted, joint.joint, miss);
     if (!next) return std::nullopt;
     needed = *next;
     needed.home = 0;
@@ -181,20 +185,20 @@ std::optional<NeededLaw> given_way(Mechanism joint, const NeededLaw& declared, d
 
 }  // namespace
 
-NeededLaw needed_law(const DeclaredMechanism& declared, LawSearch search) {
-  const LawCare care = care_of(search);
-  const NeededLaw as_declared{declared_rows(declared, care.rows), 0, declared.joint.theta_min, declared.joint.theta_max,
-                              false};
-  if (as_declared.rows.empty() || !gives_way(declared.identified)) return as_declared;
-  const auto needed = given_way(identified_joint(declared), as_declared,
-                                declared.load.tip_force + declared.identified.joint.mean_load, care.reached);
+CompensatingLaw compensating_law(const DeclaredMechanism& declared, LawSearch search) {
+  const LawAccuracy accuracy = accuracy_of(search);
+  const CompensatingLaw as_declared{declared_rows(declared, accuracy.rows), 0, declared.joint.theta_min,
+                                    declared.joint.theta_max, false};
+  if (as_declared.rows.empty() || !is_deflected(declared.identified)) return as_declared;
+  const auto needed = law_under_load(identified_joint(declared), as_declared,
+                                     declared.load.tip_force + declared.identified.joint.mean_load, accuracy.reached);
   return needed && needed->shifted ? *needed : as_declared;
 }
 
 namespace {
 
-/// The worst miss of the rows by a joint whose law is `joint`'s; where home may shift, at its best place.
-double worst_miss(const Mechanism& joint, const NeededLaw& needed) {
+/// Maximum error of a joint with the law of `joint` against the rows; if home may shift, at the best assembly angle.
+double worst_miss(const Mechanism& joint, const CompensatingLaw& needed) {
   const Transmission law(joint);
   constexpr double none = std::numeric_limits<double>::infinity();
   if (law.dead_centre()) return none;
@@ -210,7 +214,7 @@ double worst_miss(const Mechanism& joint, const NeededLaw& needed) {
 
 }  // namespace
 
-RoundChoice round_choice(const DeclaredMechanism& declared, const NeededLaw& needed) {
+RoundChoice round_choice(const DeclaredMechanism& declared, const CompensatingLaw& needed) {
   Mechanism joint = identified_joint(declared);
   RoundChoice choice;
   choice.r1 = joint.pulley.r1;
@@ -219,7 +223,7 @@ RoundChoice round_choice(const DeclaredMechanism& declared, const NeededLaw& nee
     joint.pulley.r1 = r1;
     return worst_miss(joint, needed);
   };
-  // The worst miss has one minimum over r1.
+  // The maximum error has one minimum over r1.
   choice.r1 = golden_section({0.8 * choice.r1, 1.25 * choice.r1}, 40, miss).middle();
   choice.max_error = miss(choice.r1);
   choice.suffices = choice.max_error <= k_round_suffices;

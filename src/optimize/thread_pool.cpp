@@ -1,30 +1,30 @@
-#include "optimize/hands.h"
+#include "optimize/thread_pool.h"
 
 #include <algorithm>
 
 namespace fusee {
 namespace {
 
-constexpr unsigned k_most_threads = 8;
+constexpr unsigned k_max_threads = 8;
 
 }  // namespace
 
-Hands::Hands(unsigned threads) {
+ThreadPool::ThreadPool(unsigned threads) {
   const unsigned wanted = threads > 0 ? threads : std::thread::hardware_concurrency();
-  for (unsigned i = 1; i < std::clamp(wanted, 1u, k_most_threads); ++i)
-    others_.emplace_back([this] { wait_for_work(); });
+  for (unsigned i = 1; i < std::clamp(wanted, 1u, k_max_threads); ++i)
+    threads_.emplace_back([this] { wait_for_work(); });
 }
 
-Hands::~Hands() {
+ThreadPool::~ThreadPool() {
   {
     const std::lock_guard<std::mutex> lock(guard_);
     closed_ = true;
   }
   begun_.notify_all();
-  for (std::thread& other : others_) other.join();
+  for (std::thread& other : threads_) other.join();
 }
 
-void Hands::each(std::size_t count, const std::function<void(std::size_t)>& job) {
+void ThreadPool::each(std::size_t count, const std::function<void(std::size_t)>& job) {
   {
     const std::lock_guard<std::mutex> lock(guard_);
     job_ = &job;
@@ -40,7 +40,7 @@ void Hands::each(std::size_t count, const std::function<void(std::size_t)>& job)
   if (failure_) std::rethrow_exception(failure_);
 }
 
-void Hands::wait_for_work() {
+void ThreadPool::wait_for_work() {
   unsigned long seen = 0;
   for (;;) {
     {
@@ -53,7 +53,7 @@ void Hands::wait_for_work() {
   }
 }
 
-void Hands::take_jobs() {
+void ThreadPool::take_jobs() {
   std::unique_lock<std::mutex> lock(guard_);
   ++busy_;
   while (next_ < count_) {

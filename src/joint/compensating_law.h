@@ -1,0 +1,32 @@
+/// \file
+/// The compensating law: the law of a pulley with which the identified joint follows the declared law.
+#pragma once
+
+#include <vector>
+
+#include "fusee/joint/as_it_is.h"
+
+namespace fusee {
+
+/// The joint with identified geometry and statics, and the declared law's keys.
+Mechanism identified_joint(const DeclaredMechanism& declared);
+
+/// The law of the pulley in the identified joint.
+struct CompensatingLaw {
+  std::vector<LawRow> rows;  ///< without load, by the motor's α
+  double home = 0;           ///< α at which these rows have θ = 0
+  double theta_min = 0;      ///< range without load; home lies within
+  double theta_max = 0;
+  bool shifted = false;  ///< true if the rows differ from the declared ones
+};
+
+/// Returns the declared law when the joint's compliance does not justify another one.
+CompensatingLaw compensating_law(const DeclaredMechanism& declared, LawSearch search = LawSearch::whole);
+
+/// `joint` with a pulley for that law.
+Mechanism with_law(Mechanism joint, const CompensatingLaw& needed);
+
+/// See as_it_is.h.
+RoundChoice round_choice(const DeclaredMechanism& declared, const CompensatingLaw& needed);
+
+}  // namespace fusee
