@@ -32,7 +32,7 @@ Effect ratio_curve(JointKind) {
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.ratio = true};
   // A sensor off centre, or a profile, makes the same curve: it stands for an unmodelled cause, and is no name.
-  effect.is_looked_for = false;
+  effect.is_tested = false;
   effect.parameters = {
       number_of(
           "ratio_square_per_rad", [](Imperfections& at) -> double& { return at.ratio_joint.curve.square; },
