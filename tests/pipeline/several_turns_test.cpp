@@ -243,7 +243,7 @@ TEST(SeveralTurnsFiles, AreAProgramThatKnowsBothGrooves) {
   const BuildResult built = made(read_profile("fusee_proper"));
   const std::string program = text_of(built, "pulley.scad");
   for (const char* has :
-       {"\nlips1 = [", "\nP1 = [", "\nP2 = [", "module run_out", "module bore_hole", "module screw_hole"})
+       {"\nedge_bulges1 = [", "\nP1 = [", "\nP2 = [", "module run_out", "module bore_hole", "module screw_hole"})
     EXPECT_THAT(program, HasSubstr(has));
   for (const char* none : {"module channel", "//= ", "face_holes"}) EXPECT_THAT(program, Not(HasSubstr(none)));
 }
