@@ -78,7 +78,7 @@ TEST(Feasibility, ReportsAttachmentInsideDrum) {
 TEST(Feasibility, ReportsPinInDrum) {
   Mechanism mechanism = testing::finger();
   mechanism.guides.radius = 9.5;
-  expect_refused(mechanism, "drum_clear_of_pin_B", "pin B stands 0.529 mm in the drum");
+  expect_refused(mechanism, "drum_clear_of_pin_B", "pin B lies 0.529 mm inside the drum");
 }
 
 TEST(Feasibility, ReportsTendonThroughOtherPin) {
