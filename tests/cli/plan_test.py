@@ -147,7 +147,7 @@ class Simulate(harness.Scratch):
         self.assertFalse((self.folder / "other.csv").exists())
 
     def test_bad_logs(self):
-        for text, words in [("", "holds no header"), ("alpha_deg\n", "no row holds alpha"), ("alpha_deg\nnan\n", "no row holds alpha"),
+        for text, words in [("", "has no header"), ("alpha_deg\n", "no row has alpha"), ("alpha_deg\nnan\n", "no row has alpha"),
                             ("theta_deg\n1\n", "no column alpha_deg"), ("alpha_deg,load_N\n1,x\n", 'log.csv:2:3: error: load_N: "x"'),
                             ("alpha_deg\n1e300\n", "log.csv:2:1: error"), ("\0\1\2", "binary"),
                             ("alpha_deg,joint_sensor_turned_deg\n1,0\n2,90\n", "changes within the run")]:
