@@ -49,12 +49,13 @@ START, SCALE = np.array([0.0, np.radians(0.5), 0.0]), np.array([1e-3, 1e-2, 1e-3
 
 
 def path_length(theta):
-    """Free tendon of side 1 from C over pin B, up to where it leaves the pin towards the pulley, whose side does not move with θ: mm."""
+    """Length of the free tendon on side 1 from C over pin B to the point where it leaves the pin for the pulley, mm.
+    The rest is constant."""
     rho = PIN + TENDON / 2
     cx, cy = R * np.sin(theta), R * np.cos(theta)
     dx, dy = cx + EB, cy + OE
     distance = np.hypot(dx, dy)
-    # The tendon passes the outer side of the pin: a straight part, and an arc that ends where the lower part begins.
+    # The tendon passes the outer side of the pin: a straight part, and an arc up to the lower part.
     return np.sqrt(distance**2 - rho**2) + rho * (np.arcsin(rho / distance) + np.arctan2(dx, dy))
 
 
@@ -63,12 +64,13 @@ LENGTH = path_length(GRID) - path_length(0.0)
 
 
 def joint_angle(alpha):
-    """θ where a round P1 of radius r1 has let out as much tendon 1 as the path has grown. α > 0 lets tendon 1 out."""
+    """θ at which a round P1 of radius r1 has paid out as much of tendon 1 as its path has grown. α > 0 pays out tendon
+    1."""
     return np.interp(R1 * alpha, LENGTH, GRID)
 
 
 def behind_play(alpha, width):
-    # The motor came down to where the log begins, and turns there.
+    # The motor came down to the beginning of the log, and reverses there.
     half, state = 0.5 * width, alpha[0] + 0.5 * width
     follower = np.empty_like(alpha)
     for i, value in enumerate(alpha):
@@ -112,12 +114,12 @@ def fitted(runs, measured):
 
 
 def fit_against_fit(bench, folder, kinematic):
-    """Prints one fit by BENCH_FIT, and one by scipy over the same joint."""
+    """Prints one fit by BENCH_FIT, and one by scipy for the same joint."""
     process = subprocess.Popen([bench, *inputs(folder)], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     ours = json.loads(process.stdout.readline())
     count = 0
 
-    # Slopes from steps that are large against the simulation's own 1e-9 rad: near 1, of a part of each number's scale.
+    # Steps large against the simulation's accuracy of 1e-9 rad: near 1, as shares of each parameter's scale.
     def residual(scaled):
         nonlocal count
         parameters = SCALE * (scaled - 1)

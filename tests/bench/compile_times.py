@@ -8,7 +8,7 @@ import sys
 
 
 def seconds_of(log: pathlib.Path) -> dict[str, float]:
-    """Output → seconds on the wall of its latest making; times in the log are milliseconds."""
+    """Output → duration of its latest build, s; the log has milliseconds."""
     rows = (line.split("\t") for line in log.read_text().splitlines() if not line.startswith("#"))
     return {output: (int(end) - int(start)) / 1000 for start, end, _, output, _ in rows}
 

@@ -27,7 +27,7 @@ def packages_of(build, folder):
 
 
 def what_lintian_says(packages):
-    # As root it warns of that alone.
+    # As root it warns only of that.
     code, said = run("lintian", "--allow-root", "--fail-on", "error,warning", *packages.values())
     if code:
         yield f"lintian:\n{said}"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""PrusaSlicer judges whether the parts that fusee made print without supports.
+"""PrusaSlicer judges if the parts of fusee print without supports.
 
     judge_print.py build/forearm …          folders of `fusee build`: each file of the manifest's "print", else pulley.stl
     judge_print.py part.stl …               or files, lying as they print
@@ -39,7 +39,7 @@ class NotSliced(Exception):
 
 
 def supports(stl):
-    """Blocks of support by kind, and the height of the highest. NotSliced where no G-code came."""
+    """Number of support blocks by kind, and the height of the highest one. NotSliced without G-code."""
     with tempfile.TemporaryDirectory() as folder:
         gcode = pathlib.Path(folder, "part.gcode")
         text = printed_by("prusa-slicer", *SETTINGS, "--export-gcode", "-o", gcode, stl)
@@ -57,7 +57,7 @@ def supports(stl):
 
 
 def report(name, stl):
-    """Prints what was found; is there anything?"""
+    """Prints the supports; true if there are any."""
     try:
         blocks, highest = supports(stl)
     except NotSliced as error:
@@ -70,7 +70,7 @@ def report(name, stl):
 
 
 def parts_of(path):
-    """What goes to the printer."""
+    """The part files for the printer."""
     if not path.is_dir():
         return [path]
     manifest = json.loads((path / "manifest.json").read_text(encoding="utf-8"))
@@ -124,13 +124,13 @@ def toml_of(name, values):
 
 
 def is_refused(run):
-    """The curves or the body cannot be (exit 4), or a check failed (exit 5) that has nothing to do with printing: another judge's business."""
+    """Infeasible (exit 4), or a failed check (exit 5) unrelated to printing."""
     prints_wrongly = re.search(r"check '\w*(overhang|unsupported_step|bridge|island)\w*' failed", run.stderr)
     return run.returncode == 4 or run.returncode == 5 and not prints_wrongly
 
 
 def needing_supports_of_designs(wanted, seed, fusee):
-    """Of `wanted` designs that fusee can make."""
+    """`wanted` feasible designs."""
     made = number = faults = 0
     with tempfile.TemporaryDirectory() as folder:
         while made < wanted:
@@ -160,7 +160,7 @@ def needing_supports_of_designs(wanted, seed, fusee):
 # Self-test: a judge that never says no is none -----------------------------------------------------------------------
 
 def turned(profile, around=96):
-    """A part of rings (radius, z) from the bottom up."""
+    """A part from rings (radius, z), bottom to top."""
     vertices = [(r * math.cos(2 * math.pi * i / around), r * math.sin(2 * math.pi * i / around), z)
                 for r, z in profile for i in range(around)]
     faces = [(0, i + 1, i) for i in range(1, around - 1)]

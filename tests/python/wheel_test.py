@@ -1,4 +1,4 @@
-"""pip packs an existing build as a wheel for a fresh environment; cmake --install puts the package where Python looks.
+"""pip packs an existing build as a wheel for a fresh environment; cmake --install puts the package where Python looks."""
 
 import re
 import subprocess

@@ -1,5 +1,5 @@
 """The build backend for pip (PEP 517): CMake compiles the module, and the package is packed as a wheel. It needs only
-the standard library."""
+the standard library.
 
 `pip install --no-build-isolation --config-settings build-dir=build/release .` uses an existing build.
 """
