@@ -76,7 +76,7 @@ void BundleNames::add(const std::string& from, const std::string& to) {
   if (from != to) renamed_[from] = to;
 }
 
-/// Names a folder, and its parents if they have no name yet: messages name them, too.
+/// Names a folder, and its parents unless they are named: messages name them, too.
 void BundleNames::add_folder(fs::path folder, std::string name) {
   add(folder.string(), name);
   for (folder = folder.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {

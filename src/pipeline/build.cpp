@@ -445,7 +445,7 @@ class FeasibilityCheck {
   const BuildOptions& options_;
   Curves own_;
   double own_points_;  ///< of an outline as it would be made, 0 where there is none
-  /// Of all that had room for a body: from the axis to an outline's furthest point, mm.
+  /// Largest distance of an outline from the axis among the trials with room for a body, mm.
   mutable std::atomic<double> largest_ = 0;
 };
 

@@ -175,7 +175,7 @@ void page(benchmark::State& state) {
 }
 BENCHMARK(page)->Unit(benchmark::kMillisecond);
 
-// The same part with ever smaller facets.
+// One part with ever smaller facets.
 void build_by_tolerance(benchmark::State& state) {
   BuildOptions options;
   options.tolerance = 0.01 / static_cast<double>(state.range(0));

@@ -3,14 +3,16 @@
 
     calibrate_peers.py FUSEE [BENCH_FIT]
 
-BENCH_FIT is the program of fit_bench.cpp; unless told, the one in FUSEE's build. Needs numpy and scipy. What is compared: the runs are of a joint whose sensor shows too much and whose motor has play. scipy is told which effects to fit (gain, play,
-and the joint sensor's zero) and fits them once, to all rows, over a forward model written anew here in numpy: exact kinematics over pins of their radius and a play operator,
-no elasticity, no history but the play's. fusee is told nothing: it reads the files, finds the noise floor, tries every effect of its catalogue and pairs of them through an elastic
-model with friction, each with runs left out, looks for rivals, and writes the correction and a report. So the ratio is that of a whole calibration to one fit of three numbers of a known
-model; divided by the number of candidates it says what one of them costs. Both must end at the same rest, or the script fails.
+BENCH_FIT is the program of fit_bench.cpp, by default the one in FUSEE's build. Requires numpy and scipy.
 
-Fit against fit: BENCH_FIT is told the same three numbers and fits them with what calibrate fits with, elastic model, friction, discrepancy and all. scipy then fits them over the
-same forward model as a function (predict() through a pipe, the same rows), so the difference is the method's; and over its own, which knows kinematics alone.
+The runs are of a joint whose sensor has a gain error and whose motor has play. scipy is told the effects (gain, play and zero) and fits them once
+to all rows, over an independent forward model in numpy: exact kinematics over pins with radius, and a play operator. fusee reads the files,
+estimates the noise floor, tests all effects and pairs with an elastic model with friction and held-out runs, searches rivals, and writes the
+correction and a report. So the first ratio compares a whole calibration with one fit of three known parameters; divided by the number of
+candidates it is the cost of one of them. Both must reach the same residual, or the script fails.
+
+The second comparison is of fits: BENCH_FIT fits the same three parameters with elastic model, friction and discrepancy. scipy then fits them over
+the same forward model (predict() through a pipe, the same rows), and over its own kinematic one.
 """
 
 import json

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What takes long to compile: compile_times.py [BUILD [HOW_MANY]], from the log that ninja keeps of the latest making of each file.
+"""Files with the longest compile times: compile_times.py [BUILD [HOW_MANY]], from ninja's log of the latest builds.
 
-Measure from nothing, with nothing else running and without a cache of objects: CCACHE_DISABLE=1 cmake --workflow --preset release
+Measure a full build without other load and without a compiler cache: CCACHE_DISABLE=1 cmake --workflow --preset release
 """
 import pathlib
 import sys

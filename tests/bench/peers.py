@@ -1,5 +1,5 @@
-"""Times `fusee build` against OpenSCAD in the same run: on the pulley.scad of the same part, and on the plain union of two
-drums that a person would write from the same numbers: floors, flanges, hub and bore, no groove's section, no tie-offs.
+"""Compares the times of `fusee build` and OpenSCAD, for the pulley.scad of the same part and for a simple union of two
+drums with floors, flanges, hub and bore, but without groove sections and tie-offs.
 
 usage: peers.py FUSEE SPEC.toml
 """

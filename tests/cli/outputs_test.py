@@ -239,7 +239,7 @@ class LargestFile(harness.Scratch):
 
 
 class DotNames(harness.Scratch):
-    def test_of_the_mechanism(self):
+    def test_mechanism_file(self):
         for name, folder in {"..toml": "..toml", "...toml": "...toml", "....toml": "...", "arm..toml": "arm.", ".toml": ".toml"}.items():
             (self.folder / name).write_bytes((self.folder / "arm.toml").read_bytes())
             self.expect(["build", name, "-q"], 0)
@@ -247,7 +247,7 @@ class DotNames(harness.Scratch):
         self.assertFalse((self.folder / "manifest.json").exists())
         self.assertFalse((self.folder / "out/manifest.json").exists())
 
-    def test_of_the_outputs(self):
+    def test_output_folder(self):
         for name in ("...", "..x", "x..", ".hidden"):
             self.assertEqual(set(self.build(name)), OUTPUTS | PARTS)
         for name in (".", "..", "x/.."):

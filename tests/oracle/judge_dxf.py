@@ -1,9 +1,11 @@
-"""ezdxf as a judge: each DXF must load and audit with no error and nothing to mend, in mm, and hold nothing but closed contours where something
-is cut. What is round must be round: bores, dowel holes, knot pockets and a horn's screws circles, the shaft's part of D and keyway bores one
-arc about the axis; centres and diameters are held against pulley.scad and the manifest, which know nothing of drawings. Pitch curves are circles or
-arcs, held against profile.csv.
-Usage: judge_dxf.py FILE.dxf   any drawing; judge_dxf.py FOLDER   with profile.dxf, plates.dxf, pulley.scad, manifest.json; or judge_dxf.py FOLDER --self-test: that this judge sees
-a polygon in a circle's place, a wrong diameter and a shifted centre.   Prints what is wrong; exit 1 when anything is, 77 without ezdxf."""
+"""ezdxf as a judge: each DXF must load and pass its audit without errors or repairs, in mm, with closed contours only on cut layers.
+
+Round features must be exact: bores, dowel holes, knot pockets and screw holes are circles, and the round part of D and keyway bores is one arc
+about the axis. Centres and diameters are compared with pulley.scad and the manifest. Pitch curves are circles or arcs, compared with profile.csv.
+
+Usage: judge_dxf.py FILE.dxf   any drawing; judge_dxf.py FOLDER   with profile.dxf, plates.dxf, pulley.scad, manifest.json; or
+judge_dxf.py FOLDER --self-test: the judge must detect a polygon in place of a circle, a wrong diameter and a shifted centre.
+Prints the faults; exit 1 if there are any, 77 without ezdxf."""
 import argparse
 import csv
 import json
@@ -46,7 +48,7 @@ def drawing_faults(document):
             yield f"has an open contour on {entity.dxf.layer}"
 
 
-# What is round -------------------------------------------------------------------------------------------------------
+# Round features ------------------------------------------------------------------------------------------------------
 
 def vertices(entity):
     """Converts a vertex of a polyline to (point, bulge)."""

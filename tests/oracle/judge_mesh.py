@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Other people's programs judge a mesh that fusee wrote.
+"""Independent programs judge a mesh of fusee.
 
     judge_mesh.py admesh pulley.stl
     judge_mesh.py prusa-slicer pulley.3mf --like .
     judge_mesh.py openscad pulley.stl
     judge_mesh.py draco pulley.drc --like pulley.stl
     judge_mesh.py assimp pulley.obj --like pulley.stl
-    judge_mesh.py admesh --self-test       that this judge rejects what is broken
+    judge_mesh.py admesh --self-test       the judge must reject broken meshes
 
-Exit 0: content; 1: not, with the faults on stdout; 77: the program is not installed.
+Exit 0: no faults; 1: faults, on stdout; 77: the program is not installed.
 
-None of these programs says by its exit code what it thinks of a mesh, and all of them mend in silence: what they print is read. Each
-runs under a time limit, since admesh can loop for ever.
+The exit codes of these programs do not depend on the mesh, and they repair meshes silently, so their output is read. Each has a time
+limit, since admesh can loop for ever.
 """
 
 import argparse
@@ -136,7 +136,7 @@ JUDGES = {"admesh": judge_by_admesh, "prusa-slicer": judge_by_prusa_slicer, "ope
           "draco": judge_by_draco, "assimp": judge_by_assimp}
 
 
-# Self-test: a judge that never says no is none ----------------------------------------------------------------------
+# Self-test: the judge must be able to fail ----------------------------------------------------------------------
 
 def torus(around=16, across=8):
     vertices = []

@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
-"""Chromium judges pages on which a joint moves: what their scripts do, and what they show.
+"""Chromium judges pages with a moving joint: their scripts and their drawings.
 
     judge_page.py build/forearm [page.html …]   a folder of `fusee build`, and other pages of the same joint
-    judge_page.py build/forearm --self-test     that this judge sees a broken page (of several turns as well)
-    judge_page.py --still page.html …           pages without scripts: nothing asked for, nothing too wide, pictures that show
+    judge_page.py build/forearm --self-test     the judge must detect broken pages (also of several turns)
+    judge_page.py --still page.html …           pages without scripts: no requests, no overflow, visible pictures
 
-Exit 0: all is well; 1: something is not, a line each on stdout; 77: Chromium is not installed.
+Exit 0: no faults; 1: faults, one line each on stdout; 77: Chromium is not installed.
 
-The page is opened as it is, with a script before its own that notes errors and one after them that moves the slider and
-looks at the outcome. What must hold: the drawn lever stands where transmission.csv says; each drawn tendon keeps its
-length over the stroke; the 3-D view is neither blank nor inside out and turns with the pulley; without WebGL there is a
-still picture; nothing is asked of a network; nothing is wider than a phone; a frame takes at most
-10 ms (sixty a second, on a machine that has other things to do). Where a pulley has
-several turns the tendons' take-offs are drawn instead of a lever: they must stand on the spirals of profile.csv, turned,
-at the place whose normal looks across the line to the guide pin.
+The page is opened with a script before its own that records errors, and one after them that moves the slider and reads
+the result. The requirements:
+
+- The drawn lever has the angle of transmission.csv, and each drawn tendon keeps its length over the stroke.
+- The 3-D view is neither blank nor inside out, and turns with the pulley. Without WebGL there is a still picture.
+- There are no network requests, and nothing is wider than a phone.
+- A frame takes at most 10 ms (sixty a second, on a machine with other load).
+- For several turns the take-offs of the tendons lie on the turned spirals of profile.csv, where the normal is
+  perpendicular to the line to the guide pin.
 """
 
 import csv
@@ -41,7 +43,7 @@ document.addEventListener("securitypolicyviolation", e => noted.push("asks for "
 for (const name of ["error", "warn"]) console[name] = (...words) => noted.push("console: " + words.join(" "));
 """
 
-# The drawing at one α, for a joint seen along its axis …
+# The drawing at one α, for a joint seen along its axis.
 LEVER = """
   const scene = document.querySelector(".moving .scene"), [scale, x, y] = scene.dataset.view.split(" ").map(Number);
   const long = points => points.reduce((sum, p, k) => k ? sum + Math.hypot(p[0] - points[k - 1][0], p[1] - points[k - 1][1]) : 0, 0) / scale;
@@ -55,7 +57,7 @@ LEVER = """
     };
   };
 """
-# … and for a pulley of several turns seen from the side, x right and y up, in mm, scaled by the lines at its lower and
+# For a pulley of several turns seen from the side, x right and y up, in mm, scaled by the lines at its lower and
 # upper face.
 CLIMB = """
   const scene = document.querySelector(".climbing-scene");
@@ -292,7 +294,7 @@ def faults(page, rows, lever, ways=WAYS):
         if found["wide"] > found["room"]:
             looks.append(f"{found['wide']} px wide in a window of {found['room']}")
         if not found["label"]:
-            looks.append("the slider has no name for those who cannot see it")
+            looks.append("the slider has no label for screen readers")
         quick = sorted(found["times"])[len(found["times"]) // 4]  # other repaints wait for other load on the machine
         if quick > MOST_FRAME_MS:
             looks.append(f"a frame takes {quick:.1f} ms")

@@ -2,16 +2,16 @@
 """PrusaSlicer judges if the parts of fusee print without supports.
 
     judge_print.py build/forearm …          folders of `fusee build`: each file of the manifest's "print", else pulley.stl
-    judge_print.py part.stl …               or files, lying as they print
+    judge_print.py part.stl …               or files in print orientation
     judge_print.py --designs 100 --seed 1 --fusee path/to/fusee
-                                            so many random designs that can be made, else FUSEE_PRINT_DESIGNS of them; design n of a
-                                            seed is always the same
-    judge_print.py --self-test              that this judge sees what needs a support
+                                            this number of feasible random designs, by default FUSEE_PRINT_DESIGNS; they depend only on
+                                            the seed
+    judge_print.py --self-test              the judge must detect unsupported parts
 
-Exit 0: nothing to support; 1: something, one line a file on stdout; 77: not installed, or no designs asked for.
+Exit 0: no supports; 1: supports, one line a file on stdout; 77: not installed, or no designs requested.
 
-Supports are on, automatic, below 45° (PrusaSlicer takes that as "below 46°"), layers of 0.2 mm, its own default of 0.3 mm being milder. What it calls a bridge
-it does not support. It is judged by the G-code it writes: each stretch of support is one block.
+Supports are on, automatic, below 45° (PrusaSlicer takes that as "below 46°"), layers of 0.2 mm, since its default of 0.3 mm is milder. It does not support
+bridges. Supports are found in its G-code: each connected piece is one block.
 """
 
 import argparse
@@ -81,7 +81,7 @@ def needing_supports(paths):
     return sum([report(part, part) for path in paths for part in parts_of(path)])
 
 
-# Random designs: what a workshop would write, finger to arm ----------------------------------------------------------
+# Random designs: plausible values, finger to arm ----------------------------------------------------------
 
 def design(rng):
     def log_uniform(low, high):
@@ -157,7 +157,7 @@ def needing_supports_of_designs(wanted, seed, fusee):
     return faults
 
 
-# Self-test: a judge that never says no is none -----------------------------------------------------------------------
+# Self-test: the judge must be able to fail -----------------------------------------------------------------------
 
 def turned(profile, around=96):
     """A part from rings (radius, z), bottom to top."""

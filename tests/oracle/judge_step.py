@@ -1,9 +1,9 @@
-"""FreeCAD as a judge of pulley.step: it must open as one valid solid, in mm, with the box and the volume of pulley.stl, and be cut at
-both grooves' planes as that is; a face of P1 and one of P2 carry their names and colours in the file.
+"""FreeCAD as a judge of pulley.step: it must open as one valid solid, in mm, with the box, the volume and the
+groove sections of pulley.stl. A face of P1 and one of P2 have their names and colours.
 
-    judge_step.py FOLDER [--self-test]   what `fusee build --step` wrote; --self-test: that this judge sees a file that is broken on purpose
+    judge_step.py FOLDER [--self-test]   what `fusee build --step` wrote; --self-test: the judge must detect a broken file
 
-Exit 0: content; 1: not, with the faults on stdout; 77: FreeCAD is not installed, or the file is not there, as this fusee cannot write it."""
+Exit 0: no faults; 1: faults, on stdout; 77: FreeCAD is not installed, or this fusee cannot write the file."""
 import json
 import math
 import pathlib

@@ -49,8 +49,8 @@ BenchRun driven(const PlannedRun& run, int rows_a_stroke);
 
 /// A measurement that distinguishes causes that the runs so far do not.
 struct NextMeasurement {
-  std::optional<PlannedRun> run;  ///< a run to drive, or …
-  /// … parameters of one effect to read by hand. Without either, see `words`
+  std::optional<PlannedRun> run;  ///< a run to drive
+  /// Parameters of one effect to read by hand, if there is no run. Without both, see `words`.
   std::vector<const EffectParameter*> readings;
   std::string words;                   ///< the instruction
   std::string gain;                    ///< "backlash from creep (4 × the uncertainty)"; "" if unknown
