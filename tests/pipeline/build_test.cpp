@@ -217,7 +217,7 @@ TEST_F(Build, InfeasibleDesignIsValue) {
   EXPECT_THAT(names_in(scratch_), IsEmpty());
 }
 
-TEST_F(Build, ThatFailsACheckIsPublishedOnlyWhereNothingIsLost) {
+TEST_F(Build, FailedBuildKeepsEarlierRun) {
   options_.limits.theta_error = 0;
   const BuildResult first = build(file_, options_);
   EXPECT_EQ(first.status, BuildStatus::check_failed);

@@ -201,7 +201,7 @@ OptimizeResult least_torque(const std::string& winding, const char* bend_ratio =
   return optimize(file, options);
 }
 
-TEST(OptimizeTurns, TakesPulleysOfSeveralTurnsThatBuildMakes) {
+TEST(OptimizeTurns, FindsBuildablePulleys) {
   const OptimizeResult one = least_torque("\"one_turn\""), several = least_torque("\"auto\"");
   ASSERT_TRUE(one.found) << one.reason;
   ASSERT_TRUE(several.found) << several.reason;

@@ -149,7 +149,7 @@ std::map<std::string, std::vector<Place>> curves_in(const std::string& table) {
 // A string runs from a barrel of pitch radius 50.3 mm over a pin of 8 mm onto the curves in the file. The wound length
 // gives the barrel's angle, and that the spring's torque. By the clockmaker's rule the chain's pull times the fusee's
 // radius is constant. (For level strings; the slope adds 0.02 %.)
-TEST(TheFuseeOfAClock, PullTimesRadiusIsTheSameAllTheWay) {
+TEST(TheFuseeOfAClock, PullTimesRadiusIsConstant) {
   constexpr double k_barrel = 50.3, k_pin = 8.3, k_torque = 66.6667;
   const double to_pin = std::hypot(70.0, 180.0);
   const BuildResult built = made(read_profile("fusee_proper"));
@@ -183,7 +183,7 @@ TEST(TheFuseeOfAClock, PullTimesRadiusIsTheSameAllTheWay) {
 }
 
 // The work that turns the wound mesh equals the energy in the spring: 66.67 alpha = 400 theta + 50.93 theta²/2.
-TEST(TheFuseeOfAClock, StoresInTheSpringWhatTurnsIt) {
+TEST(TheFuseeOfAClock, SpringStoresWork) {
   const BuildResult built = made(read_profile("fusee_proper"));
   ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
   ASSERT_GT(built.product.as_built.points.size(), 50U);
@@ -248,7 +248,7 @@ TEST(SeveralTurnsFiles, ScadHasBothGrooves) {
 
 // The channels' roofs slope by 57.5° at least: flatter ones would be impossible on printers with steeper overhang
 // limits.
-TEST(SeveralTurnsPrint, AreMadeForEveryPrinter) {
+TEST(SeveralTurnsPrint, FitEveryPrinter) {
   for (const char* profile : {"wrist_turns", "elbow_capstan"}) {
     for (const char* overhang : {"20", "35", "60", "70"})
       EXPECT_EQ(made(read_profile(profile, {{"print.overhang_deg", overhang}})).status, BuildStatus::done)
@@ -340,7 +340,7 @@ std::vector<Setting> with_collars(double ef, double lead) {
 }
 
 /// Without collars there is no fleet angle; with them the pulley's distance and the lead determine it.
-TEST(FleetAngles, AreSilentThenNotedThenWarnedOf) {
+TEST(FleetAngles, GrowingAnglesAreReported) {
   const BuildResult none = made(read_profile("wrist_turns"));
   EXPECT_THAT(words_of(none), Not(HasSubstr("fleet angle of")));
   const BuildResult small = made(read_profile("wrist_turns", with_collars(300, 0)));
@@ -359,7 +359,7 @@ TEST(FleetAngles, AreSilentThenNotedThenWarnedOf) {
 
 /// The default lower wall leans by 25°, at a largest radius of 10.2 mm and 1 mm deep: tan 25° √(1/20.4) is 5.9°. The
 /// seat is slightly wider than the tendon, which gives the rest.
-TEST(FleetAngles, AtWhichTheTendonLiesOnTheLipAreRefusedWithNumbersThatBuild) {
+TEST(FleetAngles, LargeAnglesAreRefusedWithAdvice) {
   const BuildResult built = made(read_profile("wrist_turns", with_collars(60, 8)));
   ASSERT_EQ(built.status, BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built), HasSubstr("tendon 1 leaves its groove at 6.29° to it at α = "));
@@ -538,7 +538,7 @@ TEST_P(SeveralTurnsKit, CutLengthMatchesWoundLength) {
 }
 
 /// A tendon rises evenly over drum and pins, and reaches each of the given heights once.
-TEST_P(SeveralTurnsKit, SaysHowHighTheTendonsRun) {
+TEST_P(SeveralTurnsKit, ReportsTendonHeights) {
   const KitResult made = made_kit();
   ASSERT_TRUE(made.product.plan.heights);
   const TendonHeights& heights = *made.product.plan.heights;
