@@ -125,7 +125,7 @@ void for_each_column(const AnalysisRow& row, OnNumber number, OnWord word) {
   }
 }
 
-// ---- tables for a person --------------------------------------------------------------------------------------------
+// ---- tables for terminals -------------------------------------------------------------------------------------------
 
 std::string cell(double value) {
   // Smaller values are rounding errors in all of these quantities.

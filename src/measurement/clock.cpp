@@ -46,7 +46,7 @@ bool fill_time(std::vector<Sample>& samples, const NoteSink& add_note) {
   return true;
 }
 
-/// Makes one growing clock of what a log shows.
+/// Joins the pieces of a clock that overflows, restarts or is delivered late.
 class ClockJoiner {
  public:
   explicit ClockJoiner(std::vector<Sample>& samples) : samples_(samples) {

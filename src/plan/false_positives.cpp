@@ -121,11 +121,11 @@ constexpr std::size_t k_none = static_cast<std::size_t>(-1);
 
 /// `acceptable`: causes that count as correct although they are not the truth.
 void count(const std::vector<std::size_t>& group, std::size_t truth, const std::set<std::size_t>& acceptable,
-           FalseBlame& into) {
-  ++into.worlds;
+           FalsePositives& into) {
+  ++into.samples;
   const bool holds = std::find(group.begin(), group.end(), truth) != group.end();
   const bool near = std::any_of(group.begin(), group.end(), [&](std::size_t i) { return acceptable.count(i) > 0; });
-  if (!group.empty() && !holds && !near) ++into.blamed;
+  if (!group.empty() && !holds && !near) ++into.wrong;
   if (holds) ++(group.size() == 1 ? into.alone : into.group);
 }
 
@@ -137,13 +137,13 @@ FalsePositiveRates false_positive_rates(const Signatures& signatures, const Info
   FalsePositiveRates rates;
   const CauseSelector selector(signatures, known, causes);
   NormalNumbers numbers(seed);
-  for (int sample = 0; sample < k_plan.worlds; ++sample) {
+  for (int sample = 0; sample < k_plan.samples; ++sample) {
     count(selector.named(selector.measured(nullptr, numbers), nullptr), k_none, {}, rates.nothing);
     if (causes.empty()) continue;
     const std::size_t truth = static_cast<std::size_t>(sample) % causes.size();
     const Eigen::VectorXd z = selector.measured(&causes[truth], numbers);
     count(selector.named(z, nullptr), truth, {}, rates.one);
-    count(selector.named(z, &causes[truth]), k_none, rivals[truth], rates.unknown);
+    count(selector.named(z, &causes[truth]), k_none, rivals[truth], rates.unmodelled);
   }
   return rates;
 }

@@ -9,11 +9,11 @@
 namespace fusee {
 
 struct FalsePositiveRates {
-  FalseBlame nothing;  ///< without cause, as declared
-  FalseBlame one;      ///< with one of `causes`, of a size drawn from its prior
+  FalsePositives nothing;  ///< without cause, as declared
+  FalsePositives one;      ///< with one of `causes`, of a size drawn from its prior
   /// With one of `causes`, while that cause is missing from the catalogue. Naming a cause that the runs do not resolve
   /// from it does not count as wrong.
-  FalseBlame unknown;
+  FalsePositives unmodelled;
 };
 /// `rivals`: for each cause the indices of the causes that it is not resolved from.
 FalsePositiveRates false_positive_rates(const Signatures& signatures, const Information& known,

@@ -292,10 +292,10 @@ class Planner {
     for (const Cause& cause : causes_) plan.causes.push_back(described(known, cause));
     plan.groups = groups_of(plan.causes);
     report("estimating the false-positive rate");
-    const FalsePositiveRates tried = false_positive_rates(signatures_, known, causes_, rivals_in(known), options_.seed);
-    plan.nothing = tried.nothing;
-    plan.one = tried.one;
-    plan.unknown = tried.unknown;
+    const FalsePositiveRates rates = false_positive_rates(signatures_, known, causes_, rivals_in(known), options_.seed);
+    plan.nothing = rates.nothing;
+    plan.one = rates.one;
+    plan.unmodelled = rates.unmodelled;
   }
 
   const PlanOptions& options_;

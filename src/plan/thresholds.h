@@ -19,7 +19,7 @@ struct PlanThresholds {
   /// Smallest gain in separation (scale 0 … 1) that makes a step worth its minutes.
   double least_gain = 0.004;
   /// Synthetic data sets for each of the three false-positive rates: 2 % is 5 of 250.
-  int worlds = 250;
+  int samples = 250;
 };
 inline constexpr PlanThresholds k_plan;
 

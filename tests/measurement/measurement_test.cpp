@@ -432,7 +432,7 @@ TEST(Strokes, LoadStepsDoNotCutStrokes) {
   EXPECT_THAT(p.measurement.notes, IsEmpty());
 }
 
-// ---- what cannot be used --------------------------------------------------------------------------------------------
+// ---- unusable runs --------------------------------------------------------------------------------------------------
 
 TEST(Measurement, DropsOutliersAndKeepsMotion) {
   std::string text = csv(triangle(40, 50, 4), quarter);
@@ -581,7 +581,7 @@ TEST(Measurement, ThinsLongLog) {
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("of 1200000 rows one in 2 is used"));
 }
 
-// ---- against what was declared --------------------------------------------------------------------------------------
+// ---- comparison with the file ---------------------------------------------------------------------------------------
 
 Measurement of_joint(double alpha_factor, double theta_factor, bool exchanged = false) {
   const Transmission law(testing::forearm());
@@ -652,7 +652,7 @@ TEST(MeasurementAgainstDeclared, ReportsUnsetZero) {
     compare_with_declared(testing::forearm(), measurement);
     return reasons_of(measurement);
   };
-  EXPECT_EQ(beside(10), "");  // within what zero_offset finds
+  EXPECT_EQ(beside(10), "");  // within the range of zero_offset
   EXPECT_THAT(beside(100), HasSubstr("theta is 100 deg away from the declared angle"));
 }
 
@@ -667,7 +667,7 @@ TEST(MeasurementAgainstDeclared, NoisyMotionSuspectsNoColumn) {
   EXPECT_THAT(reasons_of(measurement), HasSubstr("use a larger range"));
 }
 
-// ---- what drives a joint --------------------------------------------------------------------------------------------
+// ---- input of simulations --------------------------------------------------------------------------------------------
 
 std::filesystem::path written(const std::string& text) {
   const std::filesystem::path path =

@@ -104,9 +104,9 @@ TEST(Plan, WithoutLoadOmitsLoadEffects) {
 
 TEST(Plan, FalsePositivesAreRare) {
   const Plan plan = plan_runs(testing::forearm());
-  EXPECT_LE(plan.nothing.blamed, 5);
-  EXPECT_LE(plan.one.blamed, 5);
-  EXPECT_GT(plan.one.alone, plan.one.worlds / 2);
+  EXPECT_LE(plan.nothing.wrong, 5);
+  EXPECT_LE(plan.one.wrong, 5);
+  EXPECT_GT(plan.one.alone, plan.one.samples / 2);
 }
 
 TEST(Plan, OmitsKnownReadings) {

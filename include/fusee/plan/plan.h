@@ -57,24 +57,23 @@ struct PlannedCause {
 };
 
 /// Outcomes over synthetic data sets whose cause is known.
-struct FalseBlame {
-  int worlds = 0;
-  int blamed = 0;  ///< the true cause named alone
-  int alone = 0;   ///< the true cause named in a group
-  int group = 0;   ///< the cause was named, with others
+struct FalsePositives {
+  int samples = 0;
+  int wrong = 0;  ///< only causes that are not present were named
+  int alone = 0;  ///< the true cause was named alone
+  int group = 0;  ///< the true cause was named in a group
 };
 
 struct Plan {
-  std::vector<PlanStep>
-      steps;  ///< in the order of what they buy for their minutes; empty where there is no time for any
+  std::vector<PlanStep> steps;                                ///< by gain per minute; empty if no run fits
   std::vector<PlanStep> beyond;                               ///< steps that more minutes would add
   double minutes = 0;                                         ///< of all steps
-  std::vector<PlannedCause> causes;                           ///< in the order of the drive chain, motor first
+  std::vector<PlannedCause> causes;                           ///< in the order of the drive chain
   std::vector<std::pair<std::string, std::string>> left_out;  ///< effects without a plan, and the reason
   std::vector<std::vector<std::string>> groups;               ///< causes that the runs do not resolve
-  FalseBlame nothing, one, unknown;  ///< without cause; with one cause; with one that is not in the catalogue
-  double slow = 0;                   ///< rad/s
-  double from = 0, to = 0;           ///< motor range, rad
+  FalsePositives nothing, one, unmodelled;  ///< without cause; with one cause; with one that is not in the catalogue
+  double slow = 0;                          ///< rad/s
+  double from = 0, to = 0;                  ///< motor range, rad
   std::string load_unit = "N";
   int first_run = 1;  ///< number of the first run's file
 };
