@@ -125,12 +125,12 @@ class Simulate(harness.Scratch):
 
     def test_marks_loose_rows(self):
         self.sweep(load="0")
-        done = self.expect("simulate arm.toml log.csv --set identified.slack_mm=4", 0, ",loose\n", "warning: nothing holds the joint in")
+        done = self.expect("simulate arm.toml log.csv --set identified.slack_mm=4", 0, ",loose\n", "warning: the joint is loose in")
         self.assertTrue(any(float(row["loose_deg"]) > 0 for row in rows_of(done.stdout.decode()) if row["status"] == "loose"))
 
     def test_marks_rows_beyond_range(self):
         self.log("alpha_deg\n0\n100\n5000\n")
-        self.expect("simulate arm.toml log.csv", 5, ",no_equilibrium\n", "error: no joint angle balances")
+        self.expect("simulate arm.toml log.csv", 5, ",no_equilibrium\n", "error: there is no equilibrium in")
 
     def test_simulates_planned_runs(self):
         self.expect("plan arm.toml -o bench", 0)

@@ -27,7 +27,7 @@ class Questions(harness.Scratch):
         self.assertRegex(text, r"(?m)^length_mm = 60$")
         self.assertRegex(text, r"(?m)^range_deg = \[-30, 30\]")
         self.assertEqual([f"{n}/6 " in asked for n in range(1, 7)], [True] * 6)
-        self.assertIn("a pulley can be made of this", asked)
+        self.assertIn("a pulley is feasible", asked)
         self.assertEqual(text, self.ask(b"")[0])  # the end of the input acts like Enter
         self.builds(text)
 
@@ -37,12 +37,12 @@ class Questions(harness.Scratch):
                      "tip_force_N = 12.5", 'shaft = "n20-d3"'):
             self.assertIn("\n" + line + "\n", text)
         # A number without a question had to change, which is reported.
-        self.assertRegex(asked, r"so that a pulley can be made: \S+ [≥≤] ")
+        self.assertRegex(asked, r"changed to make a pulley feasible: \S+ [≥≤] ")
         self.builds(text)
 
     def test_invalid_answers_are_repeated(self):
         text, asked = self.ask(b"arm\nsixty\n-3\n60 70\n60\n30 -30\n10 30\n-20 20\n\n\n\n")
-        for words in ("'sixty' is no number", "-3 mm is not within", "one number is asked for", "the lower end comes first", "home, at 0"):
+        for words in ("'sixty' is not a number", "-3 mm is not within", "give one number", "the lower end comes first", "home, at 0"):
             self.assertIn(words, asked)
         self.assertIn("range_deg = [-20, 20]", text)
 
