@@ -69,8 +69,8 @@ class Compare(harness.Scratch):
         self.assertEqual(self.expect_json(line, 3)["verdict"], "not_comparable")
 
     def test_rejects_wrong_usage_and_files(self):
-        self.expect("compare joint.toml", 2, err="compare needs --before")
-        self.expect("compare joint.toml --before monday/run_1.csv", 2, err="compare needs --after")
+        self.expect("compare joint.toml", 2, err="compare requires --before")
+        self.expect("compare joint.toml --before monday/run_1.csv", 2, err="compare requires --after")
         self.expect("compare --before monday/run_1.csv --after friday/run_1.csv", 2, err="needs SPEC")
         self.expect("compare joint.toml --before none.csv --after friday/run_1.csv", 3, err="none.csv")
         self.expect("compare joint.toml --before monday/run_1.csv --after monday/run_1.csv", 3, err="monday/run_1.csv")

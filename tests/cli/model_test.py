@@ -113,7 +113,7 @@ class Model(harness.Scratch):
 
     def test_compensation_has_both_directions(self):
         (self.folder / "c.csv").write_text(COMPENSATION)
-        self.expect("model arm.toml -o m --compensation c.csv --set pulley.law=linear --set pulley.ratio=4", 0, "from below and from above")
+        self.expect("model arm.toml -o m --compensation c.csv --set pulley.law=linear --set pulley.ratio=4", 0, "in both directions")
         rows = self.compiled("".join(f'  printf("%.9g %.9g %.9g %.9g\\n", (double)arm_alpha_up_deg({t}.0f), (double)arm_alpha_down_deg({t}.0f), (double)arm_alpha_deg({t}.0f), (double)arm_theta_up_deg({4 * t}.0f));\n'
                                      for t in range(-24, 25, 3)))
         for t, (up, down, middle, theta) in zip(range(-24, 25, 3), rows):
@@ -122,7 +122,7 @@ class Model(harness.Scratch):
 
     def test_reports_lines_of_bad_compensation(self):
         for text, said in (("", "fewer than two rows"), ("a,b,c\n1,2,3\n", "c.csv:1:1.*theta_deg"), (COMPENSATION + "26,x,3\n", "c.csv:13:1.*'x'"),
-                           (COMPENSATION + "20,90,90\n", "must grow"), (COMPENSATION + "27\n", "is not an angle"), ("\0" * 50, "c.csv:1"), (COMPENSATION + "nan,1,2\n", "c.csv:13")):
+                           (COMPENSATION + "20,90,90\n", "must grow"), (COMPENSATION + "27\n", "is no angle"), ("\0" * 50, "c.csv:1"), (COMPENSATION + "nan,1,2\n", "c.csv:13")):
             (self.folder / "c.csv").write_text(text)
             self.expect("model arm.toml -o m --compensation c.csv", 3, "^$", said)
         self.expect("model arm.toml -o m --compensation nowhere.csv", 3, "^$", "nowhere.csv")
@@ -157,7 +157,7 @@ class Model(harness.Scratch):
         for advice in document["advice"]:
             option = f"--max-error-deg 0.001 --set '{advice['key']}={advice['value']}'" if "key" in advice else (advice["text"] if "max" in advice["text"] else "--max-error-deg 0.001 " + advice["text"])
             self.expect(f"model arm.toml -o m --force {option}", 0)
-        self.expect("model arm.toml -o m --max-error-deg 0.001", 4, "^$", "would miss theta")
+        self.expect("model arm.toml -o m --max-error-deg 0.001", 4, "^$", "theta error of joint.xml would be")
         self.expect("model arm.toml -o m --force --no-polynomial", 0)
         self.assertEqual(set(self.files("m")), FILES - {"joint.xml"})
 
@@ -172,7 +172,7 @@ class Model(harness.Scratch):
         self.expect("model ratio.toml", 3, "^$", r"\[transmission\]")
 
     def test_reports_infeasible_pulley(self):
-        self.expect("model arm.toml -o m --set pulley.r1_mm=25", 0, "", "no pulley can be made")
+        self.expect("model arm.toml -o m --set pulley.r1_mm=25", 0, "", "no pulley can have this law")
 
     def test_names_are_valid_identifiers(self):
         for name in ('"*/ \\"--> <&\\\\ ??/"', '"42"', '""', '"größe"', '"int"'):

@@ -108,7 +108,7 @@ class Build(harness.Scratch):
         right = self.expect_json(f"rewind arm.toml {stl}", 0)
         self.assertEqual(right["placements"], [])
         self.move(stl, "moved.stl", turn=90, by=(125, 105, -3))
-        done = self.expect("rewind arm.toml moved.stl", 0, r"^moved.stl: theta within .*\n  found from its grooves: its axis at\s+\(125, 105\)\s+mm,\s+turned\s+by\s+90°\s+about\s+it;\s+grooves\s+P1\s+at\s+z\s+= ", "note: the grooves are not where they were made.*--as-is")
+        done = self.expect("rewind arm.toml moved.stl", 0, r"^moved.stl: theta within .*\n  found from its grooves: its axis at\s+\(125, 105\)\s+mm,\s+turned\s+by\s+90°\s+about\s+it;\s+grooves\s+P1\s+at\s+z\s+= ", "note: the part was moved after the build.*--as-is")
         moved = self.expect_json("rewind arm.toml moved.stl", 0)
         self.assertAlmostEqual(moved["placements"][0]["turned_deg"], 90, 4)
         self.assertAlmostEqual(moved["as_built"]["max_theta_error_deg"], right["as_built"]["max_theta_error_deg"], 4)
