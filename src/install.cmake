@@ -5,7 +5,7 @@ set(FUSEE_ROOMS base mechanism transmission profile helix joint analysis optimiz
 
 set(program COMPONENT program)
 install(TARGETS fusee_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} ${program})
-# Loaded from there, and not linked: without them all is as before but `build --step` and the searches by evolution.
+# Loaded from there instead of linked: without them only `build --step` and the genetic searches are missing.
 foreach(module IN ITEMS fusee_step fusee_evolution_module)
   if(TARGET ${module})
     install(TARGETS ${module} LIBRARY DESTINATION ${FUSEE_MODULES}
@@ -22,9 +22,9 @@ set(development COMPONENT development)
 foreach(room IN LISTS FUSEE_ROOMS)
   set_target_properties(fusee_${room} PROPERTIES EXPORT_NAME ${room})
   install(TARGETS fusee_${room} EXPORT fuseeTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${development})
-  string(PREPEND FUSEE_PC_ROOMS "-lfusee_${room} ")  # a room uses those to its left
+  string(PREPEND FUSEE_PC_ROOMS "-lfusee_${room} ")  # a module uses those to its left
 endforeach()
-# Who links the library has evolution linked, and no module to find.
+# Users of the library link the genetic search, so there is no module to find.
 set_target_properties(fusee_evolution PROPERTIES EXPORT_NAME evolution)
 install(TARGETS fusee_evolution EXPORT fuseeTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${development})
 install(TARGETS fusee EXPORT fuseeTargets)
@@ -37,7 +37,7 @@ file(RELATIVE_PATH FUSEE_PC_UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_IN
 configure_file(src/fusee.pc.in ${PROJECT_BINARY_DIR}/fusee.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/fusee.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig ${development})
 
-# Debian's own, in its packages alone: the licence by name, what changed, and why lintian's advice is not followed.
+# Debian's files, only in packages: the licence by name, the changelog, and the reasons for lintian overrides.
 file(WRITE ${PROJECT_BINARY_DIR}/debian/copyright "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: fusee
 

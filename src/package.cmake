@@ -1,4 +1,4 @@
-# cpack: Debian packages, the program and what is for those who build on the library. Made from what cmake --install would copy.
+# cpack: Debian packages of the program and of the library's development files, from what cmake --install copies.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME fusee)
 set(CPACK_PACKAGE_CONTACT "the authors of fusee <fusee@packages.debian.org>")
@@ -29,7 +29,7 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "pulleys for tendon-driven joints: l
 Headers and static libraries of fusee, for find_package(fusee) of CMake and
 for pkg-config.")
 
-# Where the module is built: of one Python alone, the system's.
+# If the Python module is built: for the system's Python only.
 if(TARGET fusee_python)
   math(EXPR next_minor "${FUSEE_PYTHON_MINOR} + 1")
   list(APPEND CPACK_COMPONENTS_ALL python)

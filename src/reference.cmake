@@ -1,5 +1,5 @@
-# The pages of the public headers, for those who build on the library: cmake --build build/release --target reference. A reference
-# to what is not there fails it.
+# Reference pages of the public headers: cmake --build build/release --target reference. A reference to a missing name
+# fails it.
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)
   return()

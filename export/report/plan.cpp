@@ -78,9 +78,9 @@ Json cause_json(const PlannedCause& cause) {
           {"confounded_with", cause.rivals}};
 }
 
-Json blame_json(const FalseBlame& blame) {
-  return {{"worlds", blame.worlds},
-          {"falsely_blamed", blame.blamed},
+Json blame_json(const FalsePositives& blame) {
+  return {{"worlds", blame.samples},
+          {"falsely_blamed", blame.wrong},
           {"named_alone", blame.alone},
           {"named_in_group", blame.group}};
 }
@@ -148,7 +148,7 @@ std::string plan_json(const PlanProduct& product) {
   for (const auto& [name, why] : plan.left_out) json["left_out"].push_back({{"name", name}, {"why", why}});
   json["false_blame"] = {{"nothing_wrong", blame_json(plan.nothing)},
                          {"one_cause", blame_json(plan.one)},
-                         {"cause_not_in_catalogue", blame_json(plan.unknown)}};
+                         {"cause_not_in_catalogue", blame_json(plan.unmodelled)}};
   return json_text(json, 1);
 }
 

@@ -16,16 +16,16 @@ std::string list_of(const std::vector<std::string>& words, const std::string& be
 }  // namespace
 
 std::vector<std::string> false_positive_words(const Plan& plan) {
-  if (plan.one.worlds == 0) return {};
-  return {"in " + joints(plan.nothing.worlds) + "as declared, these runs would have reported a false cause in " +
-              std::to_string(plan.nothing.blamed),
-          "in " + joints(plan.one.worlds) +
+  if (plan.one.samples == 0) return {};
+  return {"in " + joints(plan.nothing.samples) + "as declared, these runs would have reported a false cause in " +
+              std::to_string(plan.nothing.wrong),
+          "in " + joints(plan.one.samples) +
               "with one of these causes, of its usual sizes, they would have named it alone in " +
               std::to_string(plan.one.alone) + ", in a group in " + std::to_string(plan.one.group) +
-              ", and reported a false cause in " + std::to_string(plan.one.blamed),
-          "in " + joints(plan.unknown.worlds) +
+              ", and reported a false cause in " + std::to_string(plan.one.wrong),
+          "in " + joints(plan.unmodelled.samples) +
               "with a cause outside the catalogue, they would have reported a false cause in " +
-              std::to_string(plan.unknown.blamed)};
+              std::to_string(plan.unmodelled.wrong)};
 }
 
 std::string gain_words(const PlanStep& step) {

@@ -1,5 +1,5 @@
 /// \file
-/// fusee as verbs, files in and values out: the first thing to read.
+/// The verbs of fusee, with files as input and values as result. Read this header first.
 ///
 ///     BuildResult      build(file, options)              the pulley, in every format, checked
 ///     AnalysisResult   analyze(file, options)            the transmission and the forces over the range
@@ -11,7 +11,7 @@
 ///     ModelResult      model(file, options)              the joint for simulators and firmware (pipeline/model.h)
 ///     SimulateResult   simulate(file, log, options)      logged motor angles and loads: joint angle, tensions, torque
 ///
-/// and in the steps that build() takes:
+/// The steps of build() are public, too:
 ///
 ///     MechanismFile    file = read_mechanism("forearm.toml")            the declared joint (mechanism/file.h)
 ///     SynthesisResult  synthesis = synthesise(file.mechanism)           θ(α) → both pitch curves (profile/synthesis.h)
@@ -42,29 +42,30 @@
 
 namespace fusee {
 
-/// What the pulley as built may miss before a check fails.
+/// Largest deviations of the pulley as built that pass the checks.
 struct AsBuiltLimits {
   double theta_error = 0.05;  ///< deg
   double slack = 0.05;        ///< mm
 };
 
 struct BuildOptions {
-  double tolerance = 0.01;  ///< sagitta of curves, mm
+  double tolerance = 0.01;  ///< sagitta of curves (chord error), mm
   AsBuiltLimits limits;
   DxfVersion dxf = DxfVersion::ac1015;
-  bool step = false;             ///< pulley.step too: InputError where it is too large for one, or step_missing()
-  std::filesystem::path folder;  ///< where the files go
+  /// Writes pulley.step, too. build() throws InputError if the part is too large for it, or if step_missing().
+  bool step = false;
+  std::filesystem::path folder;  ///< folder of the output files
   bool force = false;
-  /// Everything but publishing; what has to be read back is staged in the system's temporary folder.
+  /// Does everything except publishing. Files that are read back are staged in the system's temporary folder.
   bool dry_run = false;
-  /// Called before each step with what it does. What it throws stops the build, and nothing is left behind.
+  /// Called before each step with its name. An exception from it stops the build and leaves no files.
   std::function<void(std::string_view step)> before_step;
-  /// Called some hundred times a second while advice is searched for, to the same end.
+  /// Called some hundred times a second while advice is searched for. An exception from it stops the search.
   std::function<void()> between_tries;
-  /// Called once, before anything stands on the disk.
+  /// Called once, before the first file is written.
   std::function<void()> before_writing;
-  /// From then on called some fifty times a second while files are made and checked on other threads. For a program
-  /// that has to end at once: `clean_up` removes what stands on the disk.
+  /// Called some fifty times a second while other threads make and check files. A program that must exit at once calls
+  /// `clean_up`, which removes all staged files.
   std::function<void(const std::function<void()>& clean_up)> while_waiting;
 };
 
@@ -73,74 +74,76 @@ enum class BuildStatus { done, infeasible, check_failed };
 struct BuildResult {
   BuildStatus status = BuildStatus::done;
   Product product;
-  Advice advice;                    ///< of an infeasible one; what it says builds, with every check
-  std::vector<OutputFile> outputs;  ///< manifest.json last; empty when infeasible
+  Advice advice;                    ///< for an infeasible design: changes with which the build passes every check
+  std::vector<OutputFile> outputs;  ///< manifest.json last; empty if infeasible
   bool published = false;
 };
 
-/// Mechanism → checked pulley in every format. Infeasible designs and failed checks are values; InputError and
-/// OutputError as their names say. A build whose check failed is published only where there is no earlier run to lose,
-/// or with `force`. What is checked is what was written: every mesh and drawing is read back from the disk.
+/// Builds the checked pulley in every format. Every mesh and drawing is read back from the disk and checked. Infeasible
+/// designs and failed checks are values; throws InputError and OutputError. A build with failed checks is published
+/// only if it replaces no earlier run, or with `force`.
 BuildResult build(const MechanismFile& file, const BuildOptions& options);
 
-/// The files that build() leaves, in the order in which they are written.
+/// The files of build(), in the order in which they are written.
 const std::vector<std::string>& output_names();
 
-/// Forces over the range of the joint as it is. InputError: a joint with [transmission] has none.
+/// Forces over the range of the identified joint. Throws InputError for a joint with [transmission], which has no
+/// tendons.
 AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options = {});
 
-/// The search that [optimize] asks for, of the joint as it is and in the numbers that the file declares. A box without
-/// a possible design and a search that was stopped are values; InputError and OutputError as their names say.
+/// Runs the search of [optimize] on the identified joint, in terms of the declared numbers. A box without a feasible
+/// design and a stopped search are values; throws InputError and OutputError.
 OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options = {});
 
-// ---- Parts from anywhere --------------------------------------------------------------------------------------------
+// ---- Parts from files -----------------------------------------------------------------------------------------------
 
-/// A made part as a file holds it.
+/// Content of a part's file.
 using Part = std::variant<TriangleMesh, Drawing>;
-/// A mesh (stl obj 3mf off ply drc) or a drawing (dxf), told apart by content, then by the name's ending. InputError.
+/// Reads a mesh (stl obj 3mf off ply drc) or a drawing (dxf), distinguished by content, then by file name. Throws
+/// InputError.
 Part read_part(const std::filesystem::path& path);
-/// The same of what this run wrote: no input.
+/// Reads a file that this run wrote, so that faults in it are bugs and not bad input.
 Part read_made_part(const std::filesystem::path& path);
-/// check_mesh or check_drawing.
+/// check_mesh() or check_drawing().
 std::vector<Check> check_part(const Part& part);
 
 struct PartSize {
-  std::optional<Vec3> extent;           ///< along x, y, z, mm; none where there is nothing
-  std::optional<double> volume;         ///< of a mesh that passed `checks`, mm³
+  std::optional<Vec3> extent;           ///< along x, y, z, mm; empty for an empty part
+  std::optional<double> volume;         ///< of a mesh that passes `checks`, mm³
   std::optional<std::size_t> contours;  ///< closed paths of a drawing
 };
-/// `checks`: what check_part() says of it.
+/// `checks`: the result of check_part().
 PartSize size_of(const Part& part, const std::vector<Check>& checks);
 
-/// Winds tendons on the grooves found in a mesh at the heights the mechanism gives them, or on a drawing's P1_FLOOR and
-/// P2_FLOOR (without them on the P*_PITCH curves). InputError when there is no such groove.
+/// Winds tendons on the grooves of a mesh at the mechanism's groove heights, or on the contours P1_FLOOR and P2_FLOOR
+/// of a drawing (P1_PITCH and P2_PITCH without them). Throws InputError if there is no such groove.
 RewindResult rewind_part(const JointAsItIs& joint, const Part& part);
-/// The same on a mesh of which it is known to what sizes it was made: where tie-offs had to be planned anew, its
-/// grooves lie elsewhere than the mechanism alone says.
+/// Winds tendons on a mesh with the known `layout`: after a second plan of the tie-offs its grooves may be at other
+/// heights than the mechanism alone gives.
 RewindResult rewind_made(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh);
-/// The same on floors that were found elsewhere, as printed.
+/// Winds tendons on floors that were measured elsewhere, as printed.
 RewindResult rewind_floors(const JointAsItIs& joint, const BodyLayout& layout, const Polygon& floor1,
                            const Polygon& floor2);
 
 enum class PartPlace {
-  as_made,         ///< it fits where it lies, or nowhere clearly better
-  found,           ///< it was moved, and is wound where it was found
-  not_recognised,  ///< it fits nowhere: wound where it lies
+  as_made,         ///< it fits in its present position, or nowhere clearly better
+  found,           ///< it was moved, and is wound at the position that was found
+  not_recognised,  ///< it fits nowhere: wound in its present position
 };
 struct RewoundPart {
   RewindResult as_built;
   PartPlace place = PartPlace::as_made;
-  /// Where it was found: once, or once for each of P1 and P2 in a file of both side by side.
+  /// Position of the part, or one each for P1 and P2 if the file has both side by side.
   std::vector<Placement> placements;
-  /// The only pulley that the file holds: its tendon alone was wound, and no slack is known.
+  /// Set if the file has only this pulley: only its tendon is wound, and slack is unknown.
   std::optional<Side> alone = std::nullopt;
 };
-/// As rewind_part(), but a mesh that was moved, turned about its axis or turned over since it was made is brought back
-/// first. InputError, too, for one that is mirrored or of another size.
+/// As rewind_part(), but a mesh that was moved, turned about its axis or turned over is moved back first. Throws
+/// InputError also for a mirrored mesh or one of another size.
 RewoundPart rewind_moved_part(const JointAsItIs& joint, const Part& part);
 
-/// "theta_error" and "slack" against their limits. The slack of method = "paper" is known: it is reported as
-/// "theta_error_reported" and "slack_reported", held only against 180 deg and the joint's length.
+/// Checks "theta_error" and "slack" against their limits. The slack of method = "paper" is expected: it is reported as
+/// "theta_error_reported" and "slack_reported", with the limits 180 deg and the joint's length.
 std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built,
                                    const AsBuiltLimits& limits);
 

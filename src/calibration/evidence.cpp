@@ -64,12 +64,12 @@ Taken every_nth(const Run& run, std::size_t most) {
 /// As many rows of each stand, however long it is; a few of it tell what all of it tells.
 Taken of_each_stand(const Run& run, std::size_t most) {
   const auto stands = static_cast<std::size_t>(
-      std::count_if(run.stretches.begin(), run.stretches.end(), [](const Stretch& s) { return s.held; }));
+      std::count_if(run.segments.begin(), run.segments.end(), [](const Segment& s) { return s.held; }));
   const std::size_t most_pairs = std::max<std::size_t>(1, most * ((run.strokes.size() + 1) / 2) / stands);
   const std::vector<bool> chosen = looked_at(run, most_pairs);
   const std::size_t rows = std::max(most / stands, k_rows_a_stand);
   Taken taken{std::vector<bool>(run.samples.size(), false), {}};
-  for (const Stretch& stretch : run.stretches) {
+  for (const Segment& stretch : run.segments) {
     if (!chosen[stretch.stroke]) continue;
     const std::size_t count = stretch.last - stretch.first + 1, used = std::min(count, rows);
     for (std::size_t i = 0; i < used; ++i) taken.counted[stretch.first + (2 * i + 1) * count / (2 * used)] = true;
@@ -80,7 +80,7 @@ Taken of_each_stand(const Run& run, std::size_t most) {
 
 /// Strokes without which play and friction would begin anew: all, or of very many those looked at and two before each.
 std::vector<bool> strokes_kept(const Run& run, const Taken& taken, std::size_t most) {
-  std::vector<bool> kept(run.strokes.size(), 2 * run.stretches.size() <= 10 * most);
+  std::vector<bool> kept(run.strokes.size(), 2 * run.segments.size() <= 10 * most);
   for (std::size_t s = 0; s < run.strokes.size(); ++s) {
     const auto first = taken.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].first),
                end = taken.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].last) + 1;
@@ -99,14 +99,14 @@ Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
   }
   Taken taken = is_from_point_to_point(run) ? of_each_stand(run, most) : every_nth(run, most);
   const std::vector<bool> strokes = strokes_kept(run, taken, most);
-  const std::vector<Stretch> stretches = stretches_of(run);
-  for (const Stretch& stretch : stretches) {
+  const std::vector<Segment> stretches = segments_of(run);
+  for (const Segment& stretch : stretches) {
     if (strokes[stretch.stroke]) taken.kept[stretch.first] = taken.kept[stretch.last] = true;
   }
   Run thin = run;
   thin.samples.clear();
   thin.strokes.clear();
-  thin.stretches.clear();
+  thin.segments.clear();
   std::vector<std::size_t> place(run.samples.size());
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     place[i] = thin.samples.size();
@@ -123,12 +123,12 @@ Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
     stroke.last = place[stroke.last];
     thin.strokes.push_back(stroke);
   }
-  for (Stretch stretch : stretches) {
+  for (Segment stretch : stretches) {
     if (!strokes[stretch.stroke]) continue;
     stretch.first = place[stretch.first];
     stretch.last = place[stretch.last];
     stretch.stroke = stroke_place[stretch.stroke];
-    thin.stretches.push_back(stretch);
+    thin.segments.push_back(stretch);
   }
   return thin;
 }
@@ -395,7 +395,7 @@ class BlockMaker {
     const Run& run = evidence_.measurement.runs[i];
     kinds_.clear();
     waiting_.clear();
-    for (const Stretch& stretch : stretches_of(run)) {
+    for (const Segment& stretch : segments_of(run)) {
       if (is_settling(run, stretch)) continue;
       const std::size_t first = offset_ + stretch.first, last = offset_ + stretch.last;
       Block block{i, stretch.stroke, without_outliers(residual_, first, last, evidence_.floor)};
@@ -422,9 +422,9 @@ class BlockMaker {
   }
 
   /// Where the play stood when the log began is not known: the first stroke finds out, or the way to the second hold.
-  static bool is_settling(const Run& run, const Stretch& stretch) {
+  static bool is_settling(const Run& run, const Segment& stretch) {
     if (run.strokes[stretch.stroke].partial) return true;
-    if (is_from_point_to_point(run)) return stretch.first == run.stretches.front().first && run.stretches.size() > 2;
+    if (is_from_point_to_point(run)) return stretch.first == run.segments.front().first && run.segments.size() > 2;
     return stretch.stroke == 0 && run.strokes.size() > 2;
   }
 

@@ -272,8 +272,8 @@ std::vector<Sides> held_points(const Measurement& measurement) {
   std::vector<Sides> points;
   for (const Run& run : measurement.runs) {
     if (!is_from_point_to_point(run)) continue;
-    for (const Stretch& stretch : run.stretches) {
-      const bool is_first = &stretch == &run.stretches.front();  // where it came from was not logged
+    for (const Segment& stretch : run.segments) {
+      const bool is_first = &stretch == &run.segments.front();  // where it came from was not logged
       if (!stretch.held || is_first) continue;
       const double alpha = run.samples[stretch.first].alpha;
       auto point = std::find_if(points.begin(), points.end(), [&](const Sides& known) {

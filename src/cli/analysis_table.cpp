@@ -14,13 +14,13 @@ constexpr std::size_t k_short_table = 13;
 
 // ---- columns of the files -------------------------------------------------------------------------------------------
 
-/// A number of a row under its name.
+/// A named number of a row.
 struct Number {
   std::string_view name;
   double (*value)(const AnalysisRow&);
 };
 
-/// A number of the full model, for either direction.
+/// A named number of the full model in either direction.
 struct FullNumber {
   std::string_view name;
   double (*value)(const EquilibriumPoint&, const AnalysisRow&);
@@ -125,10 +125,10 @@ void for_each_column(const AnalysisRow& row, OnNumber number, OnWord word) {
   }
 }
 
-// ---- tables for a person --------------------------------------------------------------------------------------------
+// ---- tables for terminals -------------------------------------------------------------------------------------------
 
 std::string cell(double value) {
-  // What is smaller than any of these quantities is measured to is noise of the last digits.
+  // Smaller values are rounding errors in all of these quantities.
   return std::abs(value) < 1e-9 ? "0" : rounded(value, 4);
 }
 
@@ -199,7 +199,7 @@ std::string stroke_tables(const std::vector<AnalysisRow>& rows, bool all) {
   text += columns_of({"alpha", "theta", "r1", "r2", "gamma1", "gamma2", "phi1", "phi2"}, shown, geometry_cells);
   text += "\nForces (N, Nmm): the paper's [6]-[8] beside the full model, alpha growing\n";
   text += columns_of({"alpha", "T1", "full", "T2", "full", "T_b", "full", "torque", "full"}, shown, force_cells);
-  text += "\nWhat gives way (mm, deg, Nmm/deg): the paper's [9]-[11] beside the full model\n";
+  text += "\nCompliance (mm, deg, Nmm/deg): the paper's [9]-[11] beside the full model\n";
   text += columns_of({"alpha", "Delta", "full", "dtheta", "full", "loop", "stiffness", "full"}, shown, elastic_cells);
   return text;
 }

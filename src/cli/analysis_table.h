@@ -1,5 +1,5 @@
 /// \file
-/// The stroke of `analyze` as columns: for a terminal, for CSV and for JSON.
+/// The stroke of `analyze` as columns for a terminal, CSV and JSON.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace fusee::cli {
 
-/// Three tables within 80 columns: geometry, forces, what gives way. Every row, or 13 of them.
+/// Tables of geometry, forces and compliance within 80 columns, with all rows or 13 of them.
 std::string stroke_tables(const std::vector<AnalysisRow>& rows, bool all);
-/// One line a row; an empty cell where there is no equilibrium. Columns: alpha_deg, theta_deg, r1_mm, r2_mm,
-/// gamma1_deg, gamma2_deg (angles at C), phi1_deg, phi2_deg (wraps on the pins) of the declared law; paper_… by
-/// [6]-[11]; then the full model while alpha grows (rising_…) and falls (falling_…): status (held, loose,
-/// no_equilibrium), theta_deg, T1_N and T2_N above the pins and T1_below_N, T2_below_N, slack and elongation of each
-/// tendon, theta_error_deg (declared − theta), motor_torque_Nmm (towards +alpha), stiffness_Nmm_per_deg with pins that
-/// slide and stiffness_stuck_… with pins that hold, pin1 and pin2 (stick, slip_up towards the joint, slip_down, slack).
+/// CSV, one line a row; a cell is empty without equilibrium. Columns: alpha_deg, theta_deg, r1_mm, r2_mm, gamma1_deg,
+/// gamma2_deg (angles at C), phi1_deg, phi2_deg (wraps on the pins) of the declared law; paper_… by [6]-[11]; then the
+/// full model while alpha grows (rising_…) and falls (falling_…): status (held, loose, no_equilibrium), theta_deg, T1_N
+/// and T2_N above the pins and T1_below_N, T2_below_N, slack and elongation of each tendon, theta_error_deg (declared −
+/// theta), motor_torque_Nmm (towards +alpha), stiffness_Nmm_per_deg with sliding pins and stiffness_stuck_… with
+/// sticking pins, pin1 and pin2 (stick, slip_up towards the joint, slip_down, slack).
 std::string stroke_csv(const std::vector<AnalysisRow>& rows);
-/// The same as a list of objects; null where there is no equilibrium.
+/// The columns of stroke_csv() as a list of objects; null without equilibrium.
 Json stroke_json(const std::vector<AnalysisRow>& rows);
 
 }  // namespace fusee::cli

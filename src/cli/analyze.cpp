@@ -28,7 +28,7 @@ std::string ranges_text(const std::vector<AlphaRange>& ranges) {
   return text;
 }
 
-// ---- what a person can act on ---------------------------------------------------------------------------------------
+// ---- summary --------------------------------------------------------------------------------------------------------
 
 std::string line(const std::string& title, const std::string& text) { return titled(title, text, 18); }
 
@@ -41,7 +41,7 @@ std::string tension_line(const AnalysisResult& result, const Mechanism& mechanis
 }
 
 std::string strength_line(const AnalysisResult& result, const Mechanism& mechanism) {
-  if (!result.strength) return line("tendon bears", "not known: set tendon.strength_N");
+  if (!result.strength) return line("tendon bears", "unknown: set tendon.strength_N");
   const std::string source = result.strength->source == "tendon.strength_N"
                                  ? result.strength->source
                                  : result.strength->source + " of the catalogue";
@@ -58,7 +58,7 @@ std::string drum_lines(const AnalysisResult& result) {
   std::string text;
   for (const DrumHold& hold : result.on_drum)
     text += line(
-        text.empty() ? "rubs on the drum" : "",
+        text.empty() ? "drum friction" : "",
         "tendon " + std::string(hold.tendon == Side::left ? "1" : "2") + " over up to " + rounded(degrees(hold.wrap)) +
             " deg: at its end within a factor of " + rounded(hold.ratio) + " of its span" +
             (hold.at_end.value > 0 ? ", up to " + rounded(hold.at_end.value) + " N, " + alpha_text(hold.at_end.alpha)
@@ -82,7 +82,7 @@ std::string sources_table(const std::vector<ErrorSource>& sources) {
     cells.push_back({source.meaning, fixed(degrees(source.least), 4), fixed(degrees(source.most), 4),
                      fixed(degrees(source.worst_at), 1)});
   }
-  return table({{"theta off the declared law by", Align::left},
+  return table({{"theta error from", Align::left},
                 {"from_deg", Align::right},
                 {"to_deg", Align::right},
                 {"at alpha", Align::right}},
@@ -110,15 +110,15 @@ std::string summary(const AnalysisResult& result, const AnalysisOptions& options
                      drum_lines(result) + slack_lines(result);
   text += line("motor torque",
                "up to " + rounded(result.largest_torque.value) + " Nmm, " + alpha_text(result.largest_torque.alpha));
-  text += line("loop", "up to " + rounded(degrees(result.hysteresis.value), 3) + " deg between directions, " +
-                           alpha_text(result.hysteresis.alpha));
+  text += line("hysteresis", "up to " + rounded(degrees(result.hysteresis.value), 3) + " deg between directions, " +
+                                 alpha_text(result.hysteresis.alpha));
   text += "\nError budget\n" + sources_table(result.sources);
   text += "\nTolerances: each dimension within " + shortest(options.tolerance) +
           " mm (95 %), theta and slack within these\n" + tolerances_table(result.tolerances);
   return text;
 }
 
-// ---- the same for a machine -----------------------------------------------------------------------------------------
+// ---- JSON -----------------------------------------------------------------------------------------------------------
 
 Json ranges_json(const std::vector<AlphaRange>& ranges) {
   Json list = Json::array();
@@ -187,7 +187,7 @@ Json tolerances_json(const std::vector<ToleranceEffect>& effects) {
   return list;
 }
 
-// ---- what is wrong with it ------------------------------------------------------------------------------------------
+// ---- findings -------------------------------------------------------------------------------------------------------
 
 void add_findings(const AnalysisResult& result, const std::string& file, Reply& reply) {
   const auto say = [&](Severity severity, const std::string& message, const std::string& hint) {
@@ -198,9 +198,8 @@ void add_findings(const AnalysisResult& result, const std::string& file, Reply& 
   };
   if (result.lost_at) {
     say(Severity::error,
-        "the load pulls the joint past its dead centre at " + alpha_text(*result.lost_at) +
-            ": nothing balances it there",
-        "a smaller [load], or stiffer tendons (tendon.diameter_mm, tendon.modulus_MPa)");
+        "the load pulls the joint past its dead centre at " + alpha_text(*result.lost_at) + ": there is no equilibrium",
+        "reduce [load], or use stiffer tendons (tendon.diameter_mm, tendon.modulus_MPa)");
   }
   if (result.breaks_at) {
     const auto breaks = tendon_breaks({result.largest_tension, result.largest_at_joint}, *result.strength);
@@ -209,13 +208,13 @@ void add_findings(const AnalysisResult& result, const std::string& file, Reply& 
   const bool declared_loose = result.largest_tension.tension < 1e-6;
   if (!result.untensioned.empty()) {
     say(declared_loose ? Severity::warning : Severity::error,
-        "both tendons are without tension, " + ranges_text(result.untensioned) + ": nothing holds the joint",
+        "both tendons are slack, " + ranges_text(result.untensioned) + ": nothing holds the joint",
         result.taut_pretension ? "tendon.pretension_N >= " + rounded(*result.taut_pretension, 3) + " keeps both taut"
                                : "raise tendon.pretension_N");
   }
   for (const Condition& condition : result.obstacles) {
-    say(Severity::warning, "forces are known, but no such pulley can be made: " + condition.message,
-        "'fusee build' says what would help");
+    say(Severity::warning, "forces are known, but the pulley is infeasible: " + condition.message,
+        "'fusee build' lists helpful changes");
   }
 }
 
@@ -237,11 +236,11 @@ std::string ending_of(const std::string& file) {
   return ending;
 }
 
-/// Before any work is done.
+/// Called before the analysis.
 void refuse_unknown_ending(const Arguments& arguments) {
   const std::optional<std::string> file = arguments.text("--out");
   if (!file || std::find(k_endings.begin(), k_endings.end(), ending_of(*file)) != k_endings.end()) return;
-  throw UsageError("analyze writes no file with the ending of '" + *file + "'",
+  throw UsageError("analyze cannot write a file with the ending of '" + *file + "'",
                    "use .csv or .json for the table, .html for a page, .svg, .png or .pdf for the plots");
 }
 

@@ -31,7 +31,7 @@ UsageError value_missing(const Option& option) {
   return UsageError(name + " needs a value: " + name + " " + std::string(option.value), meaning);
 }
 
-/// CLI11's own words name its types and counts; they all come down to an option whose value is missing or not wanted.
+/// CLI11's messages name its types and counts. Each of its errors is an option whose value is missing or unexpected.
 UsageError in_our_words(const CLI::ParseError& error, const CLI::App& app, const Command& command,
                         const std::vector<Option>& options) {
   const std::string what = error.what();
@@ -44,7 +44,7 @@ UsageError in_our_words(const CLI::ParseError& error, const CLI::App& app, const
   return UsageError(what);
 }
 
-/// CLI11 would take --json=3 for --json.
+/// CLI11 would accept --json=3 as --json.
 void refuse_switch_values(const std::vector<Option>& options, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     if (word == "--") return;
@@ -81,7 +81,7 @@ void check_values(const Option& option, const std::vector<std::string>& values) 
   }
 }
 
-/// Switches of one letter each, "-qv", and values in the same word, "--set=a.b=1" or "-oDIR", take no further word.
+/// Switches of one letter ("-qv") and values in the same word ("--set=a.b=1", "-oDIR") take no further word.
 bool takes_next_word(const std::string& word) {
   for (const Command& command : commands()) {
     for (const Option& option : options_of(command)) {
@@ -116,18 +116,17 @@ UsageError::UsageError(std::string message, std::string hint)
 
 const std::vector<Option>& common_options() {
   static const std::vector<Option> options = {
-      {"--json", "", "stdout holds one JSON document and nothing else"},
-      {"--set", "KEY=VALUE",
-       "use VALUE for a key of the mechanism file, such as\npulley.r1_mm=18; may be given several times", true},
+      {"--json", "", "print one JSON document on stdout, and nothing else"},
+      {"--set", "KEY=VALUE", "use VALUE for a key of the mechanism file, such as\npulley.r1_mm=18; repeatable", true},
       {"--force", "", "overwrite files that fusee did not write"},
-      {"--dry-run", "", "do everything, but leave no file behind"},
+      {"--dry-run", "", "do everything except writing files"},
       {"--bundle", "FILE",
-       "pack options, version and all that is read into FILE,\na zip, also when it fails: 'fusee replay' reruns it"},
-      {"-q,--quiet", "", "no warnings and no progress; errors are still shown"},
-      {"-v,--verbose", "", "say more: each step, and every check"},
-      {"--no-color", "", "no colours (nor with NO_COLOR set in the environment)"},
-      {"-h,--help", "", "this help"},
-      {"--version", "", "the version of fusee"},
+       "pack options, version and all input files into FILE,\na zip, also if the run fails; 'fusee replay' reruns it"},
+      {"-q,--quiet", "", "print errors only: no warnings, no progress"},
+      {"-v,--verbose", "", "print each step and every check"},
+      {"--no-color", "", "no colours; the variable NO_COLOR does the same"},
+      {"-h,--help", "", "print this help"},
+      {"--version", "", "print the version"},
   };
   return options;
 }

@@ -1,5 +1,5 @@
 /// \file
-/// The command line taken apart: CLI11 does the splitting; what is wrong is said in our own words (UsageError, exit 2).
+/// Parses the command line with CLI11; errors have fusee's own words (UsageError, exit 2).
 #pragma once
 
 #include <map>
@@ -26,35 +26,35 @@ class UsageError : public std::runtime_error {
 };
 
 struct Option {
-  std::string_view flags;  ///< "-o,--out"; the last one names it
-  std::string_view value;  ///< "DIR"; "FILE...": all words up to the next option; "" for a switch
+  std::string_view flags;  ///< "-o,--out"; the last flag is the option's name
+  std::string_view value;  ///< "DIR"; "FILE..." takes all words up to the next option; "" for a switch
   std::string_view meaning;
   bool repeatable = false;
-  std::string_view choices = {};  ///< "ac1015 r12": the words that it takes, where they are few
+  std::string_view choices = {};  ///< "ac1015 r12": accepted words, if there are few
 
   std::string_view name() const { return flags.substr(flags.rfind(',') + 1); }
 };
 
-/// The options that every command takes, before or after its name.
+/// The options of every command, accepted before or after its name.
 const std::vector<Option>& common_options();
-/// All that a command takes: its own, and those.
+/// The command's own options and common_options().
 std::vector<Option> options_of(const Command& command);
-/// The parts between separators that are not empty.
+/// The non-empty parts between separators.
 std::vector<std::string> split(std::string_view text, char separator);
 
 class Arguments {
  public:
-  /// What follows the program's name, without the command. Throws UsageError.
+  /// `words`: the arguments after the command's name. Throws UsageError.
   Arguments(const Command& command, const std::vector<std::string>& words);
 
   const std::vector<std::string>& positionals() const { return positionals_; }
   bool has(std::string_view option) const { return values_.count(std::string(option)) > 0; }
   std::optional<std::string> text(std::string_view option) const;
-  /// Of a repeatable option, in order; empty when it is not given.
+  /// The values of a repeatable option, in order; empty if it is not given.
   std::vector<std::string> texts(std::string_view option) const;
-  /// A finite number within [least, most], or `fallback` when the option is not given. `unit` stands in the message.
+  /// A finite number within [least, most]; `fallback` if the option is not given. `unit` is for the message.
   double number(std::string_view option, double fallback, double least, double most, std::string_view unit) const;
-  /// All --set, in order.
+  /// The values of --set, in order.
   std::vector<Setting> settings() const;
 
  private:
@@ -62,9 +62,9 @@ class Arguments {
   std::map<std::string, std::vector<std::string>> values_;
 };
 
-/// The place of the command's name among `words`: the first that is neither an option nor an option's value.
+/// Index of the command's name: the first word that is neither an option nor an option's value.
 std::optional<std::size_t> find_command(const std::vector<std::string>& words);
-/// Whether a switch such as "--json" stands anywhere, for the time before (or without) a proper parse.
+/// True if a switch such as "--json" occurs anywhere, for use before or without parsing.
 bool has_switch(const std::vector<std::string>& words, std::string_view option);
 
 }  // namespace fusee::cli

@@ -6,7 +6,7 @@
 namespace fusee::cli {
 namespace {
 
-/// Counts and plain numbers have the unit "1", which nobody wants to read.
+/// Counts and ratios have the unit "1", which is not printed.
 std::string with_unit(double value, const std::string& unit) {
   return rounded(value) + (unit == "1" ? "" : " " + unit);
 }

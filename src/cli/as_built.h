@@ -1,5 +1,5 @@
 /// \file
-/// What `build`, `check` and `rewind` have in common: limits of the pulley as built, and how checks are shown.
+/// Limits of the pulley as built, and the presentation of checks, for `build`, `check` and `rewind`.
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ namespace fusee::cli {
 const std::vector<Option>& limit_options();
 AsBuiltLimits limits_from(const Arguments& arguments);
 
-/// "theta within 0.0012 deg, slack within 0.003 mm"
+/// Summary, such as "theta within 0.0012 deg, slack within 0.003 mm".
 std::string as_built_text(const RewindResult& as_built);
-/// As in the manifest.
+/// The JSON object of manifest.json.
 Json to_json(const RewindResult& as_built);
 std::string checks_table(const std::vector<Check>& checks);
-/// An error for each failed check.
+/// Adds an error for each failed check.
 void add_failures(const std::vector<Check>& checks, Reply& reply);
 
 }  // namespace fusee::cli

@@ -120,7 +120,7 @@ Json product_json(const BuildResult& built, const BuildOptions& options) {
   return json;
 }
 
-/// Why no such pulley can be made, where, and what would help.
+/// Adds the reasons why the pulley is infeasible, with places and advice.
 void explain_infeasible(const BuildResult& built, Reply& reply) {
   const Product& product = built.product;
   const bool has_curves = product.synthesis.made();
@@ -130,7 +130,7 @@ void explain_infeasible(const BuildResult& built, Reply& reply) {
   add_advice_together(built.advice.together, reply);
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
-  // Numbers and words apart: who reads "to" as a number finds one.
+  // Numbers and words in separate lists, so that "to" is always a number in the first.
   std::vector<Change> numbers = built.advice.alone, words;
   const auto first_word = std::stable_partition(numbers.begin(), numbers.end(),
                                                 [](const Change& change) { return change.to_word.empty(); });
@@ -147,7 +147,7 @@ void add_failed_checks(const BuildResult& built, const BuildOptions& options, Re
   if (!built.published && !options.dry_run) {
     reply.diagnostics.push_back(note(Severity::note,
                                      "the files of the earlier run in " + options.folder.string() + " were kept",
-                                     "--force replaces them with the faulty ones"));
+                                     "use --force to replace them with the faulty ones"));
   }
 }
 
@@ -168,7 +168,7 @@ DxfVersion dxf_version(const Arguments& arguments) {
   throw UsageError("--dxf must be ac1015 or r12; '" + name + "' is not");
 }
 
-/// The stem of "..toml" and "...toml" is no name of a folder, but this one and the one above.
+/// The stems of "..toml" and "...toml" are not folder names but "." and "..".
 std::filesystem::path default_folder(const std::filesystem::path& spec) {
   const std::filesystem::path stem = spec.stem();
   return "out" / (stem == "." || stem == ".." ? spec.filename() : stem);
@@ -217,23 +217,23 @@ Reply run_build(const Arguments& arguments, Console& console) {
 Command build_command() {
   std::vector<Option> options = {
       {"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>)"},
-      {"--tolerance-mm", "MM", "how far facets may stray from the curve (default 0.01)"},
+      {"--tolerance-mm", "MM", "largest distance of facets from the curve\n(default 0.01)"},
       {"--dxf", "VERSION", "drawings as ac1015 (default) or r12", false, "ac1015 r12"},
-      {"--step", "", "the part for CAD too: pulley.step (takes some seconds)"},
+      {"--step", "", "also write pulley.step for CAD (takes some seconds)"},
   };
   for (const Option& option : limit_options()) options.push_back(option);
   return {"build",
           "SPEC",
           "the pulley in every format, checked",
-          "Makes the pulley of the mechanism file SPEC: meshes to print, drawings to cut,\n"
-          "tables and a report. Everything that was written is read back and checked, and\n"
-          "tendons are wound on the mesh to find the joint angle that it really gives.\n"
-          "When no such pulley can be made, it says where, why, and which change of which\n"
-          "number would make it possible.",
+          "Builds the pulley of the mechanism file SPEC: meshes to print, drawings to cut,\n"
+          "tables and a report. Every file is read back and checked, and tendons are wound\n"
+          "on the mesh to determine the joint angle of the part as built. For an infeasible\n"
+          "pulley it reports where and why, and which change of which number makes it\n"
+          "feasible.",
           options,
           {{"fusee build arm.toml", "everything in out/arm; open out/arm/report.html"},
            {"fusee build arm.toml -o parts --dxf r12", "into parts, with drawings for an old laser cutter"},
-           {"fusee build arm.toml --set pulley.r1_mm=15 --dry-run", "would another r1 do? writes nothing"}},
+           {"fusee build arm.toml --set pulley.r1_mm=15 --dry-run", "test another r1 without writing files"}},
           run_build};
 }
 

@@ -10,13 +10,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// From the root, without dots and a slash at its end.
+/// The absolute path, normalised and without a trailing slash.
 fs::path whole_of(const fs::path& here, const fs::path& path) {
   fs::path whole = (here / path).lexically_normal();
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
-/// Where in a word of the command line a path begins: after "--out=", "-o" and "pulley.table=".
+/// Index at which a path begins in a word: after "--out=", "-o" and "pulley.table=".
 std::size_t path_begin(const std::string& word, bool is_setting) {
   std::size_t begin = 0;
   if (word.rfind("--", 0) == 0) {
@@ -76,7 +76,7 @@ void BundleNames::add(const std::string& from, const std::string& to) {
   if (from != to) renamed_[from] = to;
 }
 
-/// A folder, and those above it where they have no name yet: messages name them too.
+/// Names a folder, and its parents unless they are named: messages name them, too.
 void BundleNames::add_folder(fs::path folder, std::string name) {
   add(folder.string(), name);
   for (folder = folder.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
@@ -130,7 +130,7 @@ std::vector<std::string> BundleNames::inner_words(const std::vector<std::string>
     const std::string flag = i == 0 || only_paths ? "" : words[i - 1];
     const std::size_t begin = only_paths ? 0 : path_begin(word, flag == "--set");
     const std::string value = word.substr(begin);
-    // What --set gives is seen from the mechanism file's folder, where the replayed run asks for it by its name.
+    // A value of --set is relative to the mechanism file's folder, where the replayed run looks for its name.
     if (!value.empty() && (fs::path(value).is_absolute() || leads_out(seen_from(here_, value)) || !is_utf8(value)))
       renamed[i] = word.substr(0, begin) + inner(value);
     only_paths = only_paths || word == "--";

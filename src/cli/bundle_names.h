@@ -1,7 +1,7 @@
 /// \file
-/// The names that a bundle has for files of this machine. A path within the folder of the run keeps its name; any other
-/// is outside/NAME, those of another folder outside_2/NAME …: no absolute path, and so no person, stands in the bundle
-/// that was not in a file that it packs.
+/// Names of files inside a bundle. A path within the run's folder keeps its name. Others become outside/NAME, or
+/// outside_2/NAME … for further folders. So a bundle contains no absolute path, and no user name, except in the files
+/// that it packs.
 #pragma once
 
 #include <filesystem>
@@ -16,18 +16,18 @@ namespace fusee::cli {
 
 class BundleNames {
  public:
-  /// Of a run that stands in `here`; empty where that folder is gone.
+  /// `here`: the run's working folder; empty if it no longer exists.
   explicit BundleNames(const std::filesystem::path& here);
 
-  /// The name of a path, an inner path of a bundle, or "." of the folder itself. No two files have one name.
+  /// The name of a path inside the bundle; "." for the working folder. Names are unique.
   std::string inner(const std::filesystem::path& path);
   /// A command line with its paths renamed.
   std::vector<std::string> inner_words(const std::vector<std::string>& words);
-  /// `from` is another name of `to` in what the run reports.
+  /// Replaces `from` by `to` in the run's messages.
   void add(const std::string& from, const std::string& to);
-  /// What a run reported, with the names of the bundle in place of all that were added or that inner() was asked for.
+  /// Replaces all names from add() and inner() in a message by their names in the bundle.
   std::string text(std::string words) const;
-  /// The same for each text of a document.
+  /// Replaces the names in every text of a document.
   Json document(Json json) const;
 
  private:
@@ -42,18 +42,18 @@ class BundleNames {
   void add_folder(std::filesystem::path folder, std::string name);
 
   std::filesystem::path here_;
-  std::map<std::filesystem::path, std::string> named_;  ///< files and folders, from the root
+  std::map<std::filesystem::path, std::string> named_;  ///< files and folders, with absolute path
   std::set<std::string> used_;
   std::map<std::string, std::string, LongestFirst> renamed_;
 };
 
-/// From `here`, without dots: what is read or written under one name has one. Leads upwards ("../x") or is empty where
-/// it is outside.
+/// The normalised path relative to `here`, so that equal files have equal names. Empty, or beginning with "..", for a
+/// path outside.
 std::filesystem::path seen_from(const std::filesystem::path& here, const std::filesystem::path& path);
 bool leads_out(const std::filesystem::path& seen);
-/// Any name as one that a bundle may hold, and itself where it may.
+/// A valid bundle name for any name; unchanged if it is valid.
 std::string tame(std::string_view name);
-/// The folder that the process stands in; empty where it is gone.
+/// The working folder of the process; empty if it no longer exists.
 std::filesystem::path working_folder();
 
 }  // namespace fusee::cli

@@ -15,7 +15,7 @@
 namespace fusee::cli {
 namespace {
 
-// ---- what is asked --------------------------------------------------------------------------------------------------
+// ---- options --------------------------------------------------------------------------------------------------------
 
 std::vector<std::filesystem::path> paths(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
 
@@ -25,11 +25,11 @@ std::vector<std::filesystem::path> runs_from(const Arguments& arguments) {
   std::set<std::filesystem::path> held;
   for (const auto& name : paths(arguments.texts("--hold-out"))) held.insert(name.lexically_normal());
   if (std::all_of(runs.begin(), runs.end(), [&](const auto& run) { return held.count(run.lexically_normal()) > 0; }))
-    throw UsageError("every run is held out: none is left to fit", "leave --hold-out away for one of them");
+    throw UsageError("every run is held out: no run remains for the fit", "remove --hold-out for one of them");
   return runs;
 }
 
-// ---- the whole ------------------------------------------------------------------------------------------------------
+// ---- command --------------------------------------------------------------------------------------------------------
 
 std::string files_text(const std::vector<OutputFile>& outputs, const std::string& folder, bool published) {
   std::vector<std::vector<std::string>> rows;
@@ -46,7 +46,7 @@ void add_notes(const CalibrateResult& result, bool verbose, Reply& reply) {
   if (result.rewritten)
     reply.diagnostics.push_back(
         note(Severity::note,
-             "corrected.toml holds what --set gave, and so every key; the comments of the file are left out"));
+             "corrected.toml includes the values of --set and has every key; comments of the file are omitted"));
 }
 
 CalibrateOptions options_from(const Arguments& arguments, const std::filesystem::path& spec, Console& console) {
@@ -89,25 +89,24 @@ Reply run_calibrate(const Arguments& arguments, Console& console) {
 Command calibrate_command() {
   return {"calibrate",
           "SPEC RUN.csv...",
-          "measured data: what is off, why, a better pulley",
-          "Holds measured runs of a joint (CSV with alpha_deg,theta_deg and, if logged,\n"
+          "measured data: errors, causes, a better pulley",
+          "Compares measured runs of a joint (CSV with alpha_deg,theta_deg and, if logged,\n"
           "time_s,load_N,temperature_C; other units by name, as theta_rad, time_ms,\n"
-          "load [kg], or by --unit) against the mechanism file SPEC: finds the\n"
-          "residual, names the effects behind it that hold on data they were not fitted\n"
-          "to, with those that would do as well, and leaves corrected.toml (fusee build\n"
-          "makes its pulley), compensation.csv (where the motor must stand, from below and\n"
-          "from above), calibration.json, report.html and next/ (what to measure next: a\n"
-          "page for the bench, run files to fill in). Whatever the verdict, also\n"
-          "not_testable, the exit code is 0 when the data could be read and 3 when they\n"
-          "could not.",
-          with_reading_options(
-              {{"-o,--out", "DIR", "where the files go\n(default: out/<name of SPEC>_calibration)"},
-               {"--hold-out", "FILE", "a run to validate with only; may be given several\ntimes", true},
-               {"--no-audit", "", "do not count how often these runs would have\nnamed what is not there"}}),
+          "load [kg], or by --unit) with the mechanism file SPEC. Determines the\n"
+          "residual, and identifies the effects that also explain held-out data, with\n"
+          "equally likely alternatives. Writes corrected.toml (fusee build makes its\n"
+          "pulley), compensation.csv (motor angles in both directions),\n"
+          "calibration.json, report.html and next/ (the next measurements: a page for\n"
+          "the bench and run files to fill in). The exit code is 0 if the data are\n"
+          "readable, whatever the verdict, also for not_testable; unreadable data\n"
+          "exit with 3.",
+          with_reading_options({{"-o,--out", "DIR", "where the files go\n(default: out/<name of SPEC>_calibration)"},
+                                {"--hold-out", "FILE", "a run for validation only; repeatable", true},
+                                {"--no-audit", "", "skip the false-positive estimate"}}),
           {{"fusee calibrate arm.toml run_1.csv run_2.csv", "files in out/arm_calibration; open its report.html"},
-           {"fusee calibrate arm.toml run_1.csv --hold-out run_2.csv", "judge by run_2.csv alone"},
+           {"fusee calibrate arm.toml run_1.csv --hold-out run_2.csv", "validate with run_2.csv alone"},
            {"fusee calibrate jaw.toml jaw.csv --column load=tau_out_Nm", "the load has another name"},
-           {"fusee calibrate arm.toml log.csv --ticks-per-turn alpha=4096", "alpha_deg holds counts of an encoder"}},
+           {"fusee calibrate arm.toml log.csv --ticks-per-turn alpha=4096", "alpha_deg has encoder counts"}},
           run_calibrate};
 }
 

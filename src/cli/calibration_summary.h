@@ -1,5 +1,5 @@
 /// \file
-/// What `fusee calibrate` says on a terminal.
+/// Terminal output of `fusee calibrate`.
 #pragma once
 
 #include <string>
@@ -8,8 +8,7 @@
 
 namespace fusee::cli {
 
-/// Verdict, figures, effects, correction, and what to measure next. `verbose`: what would have been seen and what was
-/// tried, too.
+/// Verdict, figures, effects, corrections and next measurements. `verbose` adds detectable sizes and rejected effects.
 std::string calibration_summary(const CalibrationProduct& product, bool verbose);
 
 }  // namespace fusee::cli

@@ -8,7 +8,7 @@
 namespace fusee::cli {
 namespace {
 
-/// Words as a shell takes a line apart, quotes and backslashes undone; the last is the one that is being typed.
+/// Splits a line like a shell, with quotes and backslashes removed; the last word is being typed.
 std::vector<std::string> words_of(std::string_view line) {
   std::vector<std::string> words = {""};
   char quote = 0;
@@ -43,7 +43,7 @@ const Option* option_named(const std::vector<Option>& options, const std::string
 
 Json fields_of_a_mechanism() { return parse_json(explain_json(""))["fields"]; }
 
-/// "pulley.law=compensate" where a key takes one of a few words, else "pulley.r1_mm=".
+/// "pulley.law=compensate" for a key with a few words, else "pulley.r1_mm=".
 Candidates settings(const std::string& typed) {
   Candidates found;
   const std::string key = typed.substr(0, typed.find('='));
@@ -101,7 +101,7 @@ Candidates names_of_options(const std::vector<Option>& options) {
   return found;
 }
 
-/// The n-th word of "SPEC RUN.csv..." is of a kind that its name tells.
+/// The n-th word of "SPEC RUN.csv...", whose name determines the kind of candidates.
 Candidates arguments(const Command& command, std::size_t n) {
   const std::vector<std::string> expected = split(command.positionals, ' ');
   if (expected.empty() || (n >= expected.size() && !command.positionals.ends_with("..."))) return {};
@@ -116,7 +116,7 @@ Candidates arguments(const Command& command, std::size_t n) {
   return files();
 }
 
-/// All that may stand there, whatever has been typed of it.
+/// All possible words at this place, whatever is typed of it.
 Candidates all_at(const std::vector<std::string>& words, const std::string& typed) {
   const std::vector<std::string> before(words.begin(), words.end() - 1);
   const auto at = find_command(before);
@@ -129,7 +129,7 @@ Candidates all_at(const std::vector<std::string>& words, const std::string& type
   if (typed.rfind('-', 0) == 0) return names_of_options(options);
   if (!at) return names_of_commands();
   std::size_t n = 0;
-  const Option* takes_more = nullptr;  // the last option, where it takes all words up to the next
+  const Option* takes_more = nullptr;  // the last option, if it takes all words up to the next one
   for (std::size_t i = *at + 1; i < before.size(); ++i) {
     const Option* option = option_named(options, before[i]);
     if (option != nullptr) takes_more = option->value.ends_with("...") ? option : nullptr;
@@ -143,7 +143,7 @@ Candidates all_at(const std::vector<std::string>& words, const std::string& type
 
 Candidates candidates(std::string_view line) {
   std::vector<std::string> words = words_of(line);
-  if (words.size() < 2) return {};  // the program's own name
+  if (words.size() < 2) return {};  // only the program's name
   words.erase(words.begin());
   Candidates found = all_at(words, words.back());
   found.words.erase(std::remove_if(found.words.begin(), found.words.end(),

@@ -1,5 +1,5 @@
 /// \file
-/// What may stand at the end of a command line that is being typed, for the shells that ask with the Tab key.
+/// Completion of a command line, for shells that ask with the Tab key.
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ struct Candidate {
 
 struct Candidates {
   std::vector<Candidate> words;
-  bool files = false;    ///< names of files may stand there too …
-  std::string ending;    ///< … that end so (".toml"); "": of any
-  bool goes_on = false;  ///< no blank behind the word: "pulley.r1_mm="
+  bool files = false;    ///< file names are possible, too …
+  std::string ending;    ///< … with this ending (".toml"); "": any
+  bool goes_on = false;  ///< no blank after the word: "pulley.r1_mm="
 };
 
-/// `line` as it is typed up to the cursor, with the program's name: "fusee build arm.toml --se".
+/// Candidates for the last word of `line`, which is typed up to the cursor and begins with the program's name.
 Candidates candidates(std::string_view line);
 
 }  // namespace fusee::cli

@@ -15,7 +15,7 @@ std::string what_it_is(const Part& part) {
   return "a drawing (" + drawing.version + ") of " + std::to_string(drawing.paths.size()) + " paths";
 }
 
-/// A print smaller or larger than this is nearly always a print in another unit.
+/// Sizes outside of this range nearly always mean another unit.
 constexpr double k_smallest = 3.0, k_largest = 1000.0;  // mm
 
 std::string by_three(const Vec3& extent, bool is_flat, double factor) {
@@ -25,16 +25,16 @@ std::string by_three(const Vec3& extent, bool is_flat, double factor) {
 }
 
 std::string size_text(const PartSize& size) {
-  if (!size.extent) return "size: none, it holds nothing that can be measured";
+  if (!size.extent) return "size: none, the part is empty";
   if (size.contours)
     return "size " + by_three(*size.extent, true, 1) + ", " + std::to_string(*size.contours) + " closed " +
            (*size.contours == 1 ? "contour" : "contours");
   const std::string extent = "size " + by_three(*size.extent, false, 1);
   return extent +
-         (size.volume ? ", volume " + rounded(*size.volume / 1000.0) + " cm³" : ", no volume: it is not sound");
+         (size.volume ? ", volume " + rounded(*size.volume / 1000.0) + " cm³" : ", no volume: the mesh is not closed");
 }
 
-/// Files carry no unit, or a wrong one; their size tells.
+/// Files have no unit, or a wrong one; the size shows it.
 void add_unit_warning(const std::string& file, const PartSize& size, Reply& reply) {
   if (!size.extent) return;
   const bool is_flat = size.contours.has_value();
@@ -44,15 +44,15 @@ void add_unit_warning(const std::string& file, const PartSize& size, Reply& repl
   if (largest > 0 && largest < k_smallest)
     guess = "it looks like inches (× 25.4 = " + would_be(25.4) + ") or metres (× 1000 = " + would_be(1000) + ")";
   if (largest > k_largest)
-    guess = "it looks like millimetres taken for inches (÷ 25.4 = " + would_be(1 / 25.4) +
-            ") or for metres (÷ 1000 = " + would_be(0.001) + ")";
+    guess = "it looks like millimetres read as inches (÷ 25.4 = " + would_be(1 / 25.4) +
+            ") or as metres (÷ 1000 = " + would_be(0.001) + ")";
   if (guess.empty()) return;
-  Diagnostic warning = about_file(Severity::warning, file, "read in mm it measures " + would_be(1) + ": " + guess);
-  warning.hint = "export it again in millimetres, or scale it where it is sliced or cut";
+  Diagnostic warning = about_file(Severity::warning, file, "in mm it measures " + would_be(1) + ": " + guess);
+  warning.hint = "export it in millimetres, or scale it in the slicer or cutter";
   reply.diagnostics.push_back(warning);
 }
 
-/// Odd entities that did no harm here, and may elsewhere.
+/// Unusual entities that are harmless here but may not be in other programs.
 void add_remarks(const std::string& file, const Part& part, Reply& reply) {
   const auto* drawing = std::get_if<Drawing>(&part);
   if (drawing == nullptr) return;
@@ -100,16 +100,16 @@ Reply run_check(const Arguments& arguments, Console& console) {
 Command check_command() {
   return {"check",
           "FILE",
-          "a mesh or drawing: valid, or what is wrong and where",
+          "validity of a mesh or drawing",
           "Checks a mesh (stl, obj, 3mf, off, ply, drc) or a drawing (dxf) from anywhere:\n"
-          "is it a closed, sound solid, or closed, clean contours? Each check is shown with\n"
-          "its value and its limit, and a failed one with the place of the fault. A faulty\n"
-          "facet or a line drawn twice fails once: the rest is checked without it. Size and\n"
-          "volume are shown too, and a size that only inches or metres explain is said.",
+          "a closed, valid solid, or closed contours without crossings. Each check has a\n"
+          "value and a limit, and a failed one the place of the fault. A faulty facet or a\n"
+          "duplicate line fails one check and is omitted from the others. Reports size and\n"
+          "volume, and warns if the size suggests inches or metres.",
           {},
           {{"fusee check out/arm/pulley.stl", "is the mesh a solid that can be printed?"},
            {"fusee check out/arm/plates.dxf", "are all contours closed and free of crossings?"},
-           {"fusee check out/arm/pulley.3mf --json", "the same for a script"}},
+           {"fusee check out/arm/pulley.3mf --json", "for a script"}},
           run_check};
 }
 

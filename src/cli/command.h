@@ -1,6 +1,6 @@
 /// \file
-/// What a command of the program is: a name, its help as data, and a function from arguments to a reply.
-/// Help, parsing, the nearest option of a misspelt one and the tests of the examples all read the same table.
+/// A command of the program: name, help texts as data, and a function from arguments to a reply. Help, parsing,
+/// suggestions for misspelt options and the tests of the examples use this one table.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace fusee::cli {
 
-/// A command line that a person can copy, and what it does.
+/// A command line to copy, and its purpose.
 struct Example {
   std::string_view line;
   std::string_view effect;
@@ -21,10 +21,10 @@ struct Example {
 
 struct Command {
   std::string_view name;
-  std::string_view positionals;  ///< "SPEC FILE", "[KEY]": brackets mark what may be left out
+  std::string_view positionals;  ///< "SPEC FILE", "[KEY]": brackets mark optional arguments
   std::string_view summary;      ///< one line in the list of commands
-  std::string_view description;  ///< one paragraph for someone who has never used it
-  std::vector<Option> options;   ///< beside those that every command takes
+  std::string_view description;  ///< one paragraph for a first-time user
+  std::vector<Option> options;   ///< in addition to common_options()
   std::vector<Example> examples;
   std::function<Reply(const Arguments&, Console&)> run;
 };
@@ -48,7 +48,7 @@ Command replay_command();
 Command completion_command();
 Command manual_command();
 
-/// All of them, in the order in which a person meets them.
+/// All commands, in the order of the help.
 const std::vector<Command>& commands();
 /// Throws UsageError with the nearest name.
 const Command& find_known_command(const std::string& name);

@@ -17,8 +17,8 @@ namespace {
 std::vector<std::filesystem::path> runs_of(const Arguments& arguments, const std::string& option) {
   const std::vector<std::string> names = arguments.texts(option);
   if (names.empty())
-    throw UsageError("compare needs " + option + " with one run or more",
-                     "put SPEC first: fusee compare arm.toml --before a_1.csv a_2.csv --after b_1.csv");
+    throw UsageError("compare requires " + option + " with at least one run",
+                     "give SPEC first: fusee compare arm.toml --before a_1.csv a_2.csv --after b_1.csv");
   return {names.begin(), names.end()};
 }
 
@@ -34,7 +34,7 @@ std::string difference_text(const Comparison& comparison) {
   const auto deg = [](double value) { return fixed(degrees(value), 4); };
   return "\n" + table({{"deg at the joint, rms"}, {"", Align::right}},
                       {{"  difference between the states", deg(comparison.difference.before)},
-                       {"  the same beside the changes", deg(comparison.difference.after)},
+                       {"  the same with the changes", deg(comparison.difference.after)},
                        {"  noise floor", deg(comparison.changes.noise.rms)}});
 }
 
@@ -43,7 +43,7 @@ std::string detectable_text(const Comparison& comparison) {
   for (const Detectable& one : comparison.changes.detectable)
     rows.push_back({"  " + one.name, fixed(degrees(one.smallest), 4)});
   if (rows.empty()) return "";
-  return "\n" + table({{"Would have been seen, deg rms"}, {"", Align::right}}, rows);
+  return "\n" + table({{"Detectable size, deg rms"}, {"", Align::right}}, rows);
 }
 
 std::string summary(const ComparisonProduct& product, bool verbose) {
@@ -106,22 +106,21 @@ Reply run_compare(const Arguments& arguments, Console& console) {
 }  // namespace
 
 Command compare_command() {
-  return {
-      "compare",
-      "SPEC",
-      "what changed between two measured states of one joint",
-      "Holds runs of one joint in two states against each other: before and after it\n"
-      "was retensioned, reprinted, warmed or worn. Identifies the joint before, and\n"
-      "names the changes from there that the runs after show, by the effects that\n"
-      "'fusee calibrate' knows. What both states share cancels, and what repeated\n"
-      "runs of one state scatter by is no change. Runs are read as by calibrate. The\n"
-      "exit code is 3 where the files are no two states of one joint.",
-      with_reading_options({{"--before", "FILE...", "runs of the earlier state, one or more", true},
-                            {"--after", "FILE...", "runs of the later state, one or more", true},
-                            {"-o,--out", "DIR", "leave comparison.json and report.html there\n(default: no files)"}}),
-      {{"fusee compare arm.toml --before run_1.csv --after run_2.csv", "what changed in between"},
-       {"fusee compare arm.toml --before run_1.csv --after run_2.csv -o compared", "and a page of it"}},
-      run_compare};
+  return {"compare",
+          "SPEC",
+          "what changed between two measured states of one joint",
+          "Compares runs of one joint in two states, such as before and after it was\n"
+          "retensioned, reprinted, warmed or worn. Identifies the joint before, and then\n"
+          "the changes that the later runs show, in terms of the effects of\n"
+          "'fusee calibrate'. Errors common to both states cancel, and the scatter of\n"
+          "repeated runs is not a change. Runs are read as by calibrate. The exit code\n"
+          "is 3 if the files are not two states of one joint.",
+          with_reading_options({{"--before", "FILE...", "runs of the earlier state, one or more", true},
+                                {"--after", "FILE...", "runs of the later state, one or more", true},
+                                {"-o,--out", "DIR", "folder of comparison.json and report.html\n(default: no files)"}}),
+          {{"fusee compare arm.toml --before run_1.csv --after run_2.csv", "what changed in between"},
+           {"fusee compare arm.toml --before run_1.csv --after run_2.csv -o compared", "with a page"}},
+          run_compare};
 }
 
 }  // namespace fusee::cli

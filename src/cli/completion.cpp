@@ -4,8 +4,8 @@
 namespace fusee::cli {
 namespace {
 
-// Each asks the program itself, so what a shell offers is what the program takes. Of its answer a line is a word and,
-// behind a tab, its meaning; ":files .toml" stands for names of such files, ":open" for no blank behind the word.
+// Each script asks the program, so that a shell offers what the program accepts. An answer has a word a line and, after
+// a tab, its meaning. ":files .toml" stands for file names, ":open" for no blank after the word.
 
 constexpr std::string_view k_bash = R"sh(# In ~/.bashrc: source <(fusee completion bash)
 _fusee() {
@@ -100,14 +100,14 @@ Reply run_completion(const Arguments& arguments, Console&) {
 Command completion_command() {
   return {"completion",
           "SHELL [LINE]",
-          "what a shell needs to complete fusee's words",
-          "Prints a script for SHELL (bash, zsh or fish) with which the Tab key offers\n"
-          "commands, options, templates, keys of the mechanism file and their words.\n"
-          "Scripts ask 'fusee completion candidates LINE', a word and its meaning a line.",
+          "shell completion",
+          "Prints a script for SHELL (bash, zsh or fish) that lets the Tab key offer\n"
+          "commands, options, templates, keys of the mechanism file and their values.\n"
+          "Scripts call 'fusee completion candidates LINE': one word and meaning a line.",
           {},
           {{"source <(fusee completion bash)", "in this shell; in ~/.bashrc for all"},
            {"fusee completion fish > fusee.fish", "for ~/.config/fish/completions"},
-           {"fusee completion candidates 'fusee build --d'", "what may stand there"}},
+           {"fusee completion candidates 'fusee build --d'", "the possible words"}},
           run_completion};
 }
 

@@ -17,17 +17,17 @@ namespace {
 bool write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR && !is_interrupted()) continue;  // nobody reads, and somebody has had enough
+    if (written < 0 && errno == EINTR && !is_interrupted()) continue;  // a Ctrl-C while the reader is blocked
     if (written <= 0) return false;
     text.remove_prefix(static_cast<std::size_t>(written));
   }
   return true;
 }
 
-/// To stderr: names of files, and words of a bundle, may hold what a terminal would obey.
+/// Writes to stderr; file names and bundle texts may contain terminal control codes.
 void show(std::string_view text) { write_all(STDERR_FILENO, cleaned(text)); }
 
-/// "error:" in red, "warning:" in yellow, "hint:" in cyan: the first of each.
+/// Colours the first "error:" red, "warning:" yellow and "hint:" cyan.
 std::string colored(std::string text, Severity severity) {
   const auto paint = [&text](std::string_view word, std::string_view code) {
     const std::size_t at = text.find(word);
@@ -80,7 +80,8 @@ std::optional<std::string> Console::ask(std::string_view question) {
   std::string line;
   char c = 0;
   while (line.size() < k_longest_answer) {
-    const ssize_t got = ::read(STDIN_FILENO, &c, 1);  // no further than this line: the rest may be somebody else's
+    // one byte at a time: the rest of the input may belong to another program
+    const ssize_t got = ::read(STDIN_FILENO, &c, 1);
     if (got < 0 && errno == EINTR && !is_interrupted()) continue;
     if (got <= 0) {
       write_all(STDERR_FILENO, "\n");
@@ -89,7 +90,7 @@ std::optional<std::string> Console::ask(std::string_view question) {
     if (c == '\n') break;
     line += c;
   }
-  if (::isatty(STDIN_FILENO) != 1) write_all(STDERR_FILENO, "\n");  // a terminal shows the one that was typed
+  if (::isatty(STDIN_FILENO) != 1) write_all(STDERR_FILENO, "\n");  // a terminal echoes the line break
   return line;
 }
 
@@ -109,10 +110,10 @@ bool write_result(std::string_view text) { return write_all(STDOUT_FILENO, clean
 
 void make_streams_safe() {
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f` fails like any other
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f` fails like any other write
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-    // open() takes the lowest free number, which is this one.
+    // open() takes the lowest free number, which is this descriptor.
     ::open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY);
   }
 }

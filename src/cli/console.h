@@ -1,5 +1,5 @@
 /// \file
-/// The two streams: results on stdout, messages and progress on stderr. Neither can crash the program.
+/// Output streams: results on stdout, messages and progress on stderr. A failing stream never crashes the program.
 #pragma once
 
 #include <optional>
@@ -25,13 +25,13 @@ class Console {
 
   void set_options(ConsoleOptions options) { options_ = options; }
   bool verbose() const { return options_.verbose; }
-  /// A diagnostic on stderr. With --quiet only errors.
+  /// Writes a diagnostic to stderr; with --quiet only errors.
   void say(const Diagnostic& diagnostic);
-  /// What is being done now: a line that is overwritten on a terminal, a plain line with --verbose elsewhere, nothing
-  /// otherwise.
+  /// Shows the present step: a line that is overwritten on a terminal, elsewhere a plain line with --verbose, else
+  /// nothing.
   void progress(std::string_view step);
-  /// Puts a question on stderr, --quiet or not, and waits for a line of stdin; none at its end. A line that has none is
-  /// cut where it is longer than any answer.
+  /// Writes a question to stderr, also with --quiet, and reads a line from stdin; empty at the end of the input. Lines
+  /// longer than any answer are cut.
   std::optional<std::string> ask(std::string_view question);
   /// Removes the progress line.
   void end_progress();
@@ -39,20 +39,19 @@ class Console {
  private:
   ConsoleOptions options_;
   bool terminal_;
-  bool color_;  ///< as far as terminal and environment go
+  bool color_;  ///< as terminal and environment allow
   bool progress_shown_ = false;
 };
 
-/// "[########............] 40 %" of a share 0 … 1.
+/// A bar such as "[########............] 40 %" for a share 0 … 1.
 std::string progress_bar(double share);
 
-/// All of `text` to stdout, cleaned(). False when it could not be delivered (a full disk, a closed or broken pipe);
-/// errno says why.
+/// Writes text to stdout after cleaned(). False if it could not be delivered (full disk, closed or broken pipe); errno
+/// has the reason.
 bool write_result(std::string_view text);
 
-/// Standard descriptors that are closed are filled, so that no output file is opened in their place and receives
-/// messages. A write to a filled one fails for stdout and is swallowed for stderr. A broken pipe becomes an error
-/// instead of a signal.
+/// Opens closed standard descriptors, so that no output file takes their place and receives messages. Writes to such a
+/// stdout fail; to such a stderr they are ignored. A broken pipe gives an error instead of a signal.
 void make_streams_safe();
 
 }  // namespace fusee::cli

@@ -23,12 +23,12 @@ Reply run_explain(const Arguments& arguments, Console&) {
 Command explain_command() {
   return {"explain",
           "[KEY]",
-          "what a key of the mechanism file means",
-          "Says what a key of the mechanism file means, its unit, its range and its\n"
+          "meaning of a key of the mechanism file",
+          "Explains a key of the mechanism file: meaning, unit, range and\n"
           "default. KEY is a key (r1_mm), a key with its table (pulley.r1_mm) or a table\n"
           "(pulley). Without KEY it lists them all.",
           {{"--schema", "", "the JSON schema of the mechanism file, for editors"}},
-          {{"fusee explain", "list every key"},
+          {{"fusee explain", "list all keys"},
            {"fusee explain pulley.r1_mm", "one key"},
            {"fusee explain --schema > mechanism.schema.json", "completion and checking in an editor"}},
           run_explain};

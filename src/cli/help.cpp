@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t k_meaning_column = 26;
 
-/// "  -o, --out DIR           where the files go"; further lines of a meaning stand below its first.
+/// "  -o, --out DIR           where the files go"; further lines are aligned with the first.
 std::string option_line(const Option& option) {
   std::string flags(option.flags);
   if (const std::size_t comma = flags.find(','); comma != std::string::npos) flags.insert(comma + 1, " ");
@@ -33,9 +33,9 @@ const std::vector<ExitWords>& exit_words() {
       {Exit::bug, "a bug in fusee"},
       {Exit::usage, "wrong usage"},
       {Exit::bad_input, "bad input"},
-      {Exit::infeasible, "no such pulley can be made"},
-      {Exit::check_failed, "made but a check failed"},
-      {Exit::cannot_write, "an output exists or cannot be written; or memory lacks"},
+      {Exit::infeasible, "the pulley is infeasible"},
+      {Exit::check_failed, "built, but a check failed"},
+      {Exit::cannot_write, "an output exists or cannot be written; out of memory"},
       {Exit::interrupted, "interrupted"}};
   return all;
 }
@@ -59,7 +59,7 @@ std::string main_help() {
       "examples:\n"
       "  fusee new paper_optimum > arm.toml   a mechanism file to start from\n"
       "  fusee build arm.toml                 the pulley and its report, in out/arm\n"
-      "  fusee explain pulley.r1_mm           what a key of that file means\n"
+      "  fusee explain pulley.r1_mm           the meaning of a key of that file\n"
       "\n"
       "exit codes:\n";
   for (const ExitWords& one : exit_words()) {

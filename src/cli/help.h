@@ -1,5 +1,5 @@
 /// \file
-/// The texts of --help, made from the table of commands.
+/// The texts of --help, from the table of commands.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace fusee::cli {
 
-/// What an exit code means.
+/// Meaning of an exit code.
 struct ExitWords {
   Exit exit;
   std::string_view words;

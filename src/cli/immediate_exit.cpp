@@ -9,11 +9,11 @@
 namespace fusee::cli {
 namespace {
 
-// A signal handler can speak to the program through nothing but globals of this type.
+// The only globals that a signal handler may access.
 volatile std::sig_atomic_t json_wanted = 0;
 
 void write_signal_safe(int descriptor, std::string_view text) {
-  // The program ends here; a failed write has nobody left to tell.
+  // The program exits here, so a failed write cannot be reported.
   [[maybe_unused]] const ssize_t written = ::write(descriptor, text.data(), text.size());
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// The end of the program where nothing can be thrown: in a signal handler, or without memory.
+/// Exit without exceptions, from a signal handler or without memory.
 #pragma once
 
 #include <string_view>
@@ -8,11 +8,11 @@
 
 namespace fusee::cli {
 
-/// Whether exit_at_once() also writes a JSON document to stdout.
+/// Selects if exit_at_once() also writes a JSON document to stdout.
 void write_json_at_exit(bool json);
 
-/// Writes the error to stderr and ends the program. It allocates nothing and runs no destructor, and may be called in a
-/// signal handler. `message` stands in the JSON document as it is: no quotes, no control characters.
+/// Writes the error to stderr and exits. Allocates nothing, runs no destructors, and is safe in a signal handler.
+/// `message` is copied into the JSON document, so it must have no quotes and no control characters.
 [[noreturn]] void exit_at_once(Exit exit, std::string_view message);
 
 }  // namespace fusee::cli

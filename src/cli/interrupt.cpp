@@ -8,7 +8,7 @@
 namespace fusee::cli {
 namespace {
 
-// A signal handler can speak to the program through nothing but globals of this type.
+// The only globals that a signal handler may access.
 volatile std::sig_atomic_t interrupted = 0;
 volatile std::sig_atomic_t is_deferred = 0;
 
@@ -25,7 +25,7 @@ void catch_interrupts() {
   ::sigemptyset(&action.sa_mask);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
-  // nohup asks for hang-ups to be ignored.
+  // Under nohup, hang-ups stay ignored.
   struct sigaction before = {};
   ::sigaction(SIGHUP, nullptr, &before);
   if (before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);

@@ -1,5 +1,5 @@
 /// \file
-/// Ctrl-C, SIGTERM and SIGHUP: exit 130, nothing half done.
+/// Ctrl-C, SIGTERM and SIGHUP: exit 130 without partial output.
 #pragma once
 
 #include <stdexcept>
@@ -11,12 +11,11 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// From here on a signal ends the program at once with exit 130, but for the places below.
+/// From now on a signal exits with 130 at once, except while InterruptsDeferred exists.
 void catch_interrupts();
 
-/// While one of these lives something stands on the disk that has to be removed: a signal is only noted, and
-/// stop_if_interrupted() throws Interrupted at the next step. What it ends with otherwise stands: a signal that comes
-/// when the files are in place would only say that they are not.
+/// While an instance exists, files on the disk need cleaning up: a signal is only recorded, and stop_if_interrupted()
+/// throws Interrupted at the next step. A signal after the last step has no effect, because all files are in place.
 class InterruptsDeferred {
  public:
   InterruptsDeferred();
@@ -25,9 +24,9 @@ class InterruptsDeferred {
   InterruptsDeferred& operator=(const InterruptsDeferred&) = delete;
 };
 void stop_if_interrupted();
-/// Exit 130 at once, whatever other threads do.
+/// Exits with 130 at once, independent of other threads.
 [[noreturn]] void leave_interrupted();
-/// For a search that has an answer whenever it is stopped.
+/// True after a signal, for searches that have a result whenever they stop.
 bool is_interrupted();
 
 }  // namespace fusee::cli

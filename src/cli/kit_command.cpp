@@ -27,7 +27,7 @@ KitOptions kit_options_from(const Arguments& arguments) {
   return options;
 }
 
-/// The pulley itself cannot be made: what build says of it.
+/// Explains why the pulley is infeasible, as build does.
 void explain_no_pulley(const MechanismFile& file, const KitOptions& options, Reply& reply) {
   BuildOptions build_options;
   build_options.tolerance = options.tolerance;
@@ -58,11 +58,11 @@ std::string kit_summary(const KitResult& made, const KitOptions& options) {
       tightest = &condition;
   }
   std::string text = product.pulley.joint.mechanism.name +
-                     (product.plan.drilled ? ": plates to drill its joint by\n" : ": the rest of the test model\n");
+                     (product.plan.drilled ? ": plates to drill its joint by\n" : ": the test rig\n");
   text += "  parts       " + std::to_string(printed) + " to print, of " + std::to_string(product.plan.parts.size()) +
           " kinds; plates to cut in kit.dxf\n";
   if (!product.plan.drilled) {
-    text += "  motor       " + (sizes.motor ? sizes.motor->name : "your own: none of the catalogue fits") + "\n";
+    text += "  motor       " + (sizes.motor ? sizes.motor->name : "your own: no motor of the catalogue fits") + "\n";
     text += "  joint       two bearings " + sizes.bearing->name + ", " + sizes.board->name + " over the axis\n";
   }
   for (const KitCut& cut : kit_cuts(product))
@@ -119,19 +119,19 @@ Reply run_kit(const Arguments& arguments, Console& console) {
 Command kit_command() {
   return {"kit",
           "SPEC",
-          "the rest of the test model, and how to build it",
-          "Makes what stands round the pulley of SPEC so that its joint can be built and\n"
-          "measured: base plate with pins and the motor's pattern, link with tensioner and\n"
-          "scale, spacers, encoder mount, a fit coupon: meshes that print without supports,\n"
-          "plates to cut, a list of what to buy, run files, and a page that says step by\n"
-          "step how it goes together. Where parts would meet over the range it says which,\n"
-          "and which change of which number makes room.",
+          "the test rig, and how to build it",
+          "Designs a test rig for the pulley of SPEC, to build and measure its\n"
+          "joint: base plate with pins and the motor's pattern, link with tensioner and\n"
+          "scale, spacers, encoder mount, fit coupon. Writes meshes that print without\n"
+          "supports, plates to cut, a shopping list, run files, and a page with assembly\n"
+          "steps. If parts would collide over the range, it reports which, and which\n"
+          "change of which number makes room.",
           {{"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>_kit)"},
            {"--tolerance-mm", "MM", "of the pulley's curves (default 0.01)"},
            {"--dxf", "VERSION", "drawings as ac1015 (default) or r12", false, "ac1015 r12"}},
           {{"fusee kit arm.toml", "everything in out/arm_kit; open its kit.html"},
            {"fusee kit arm.toml --dxf r12 -o model", "drawings for an old cutter"},
-           {"fusee kit arm.toml --dry-run", "does it fit? writes nothing"}},
+           {"fusee kit arm.toml --dry-run", "test the fit without writing files"}},
           run_kit};
 }
 

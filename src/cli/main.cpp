@@ -8,9 +8,9 @@
 
 namespace {
 
-/// A page that is touched for the first time takes the system longer than filling it takes us. What is freed is kept
-/// for what comes next: large blocks too, which would be mapped anew each time, and by as many threads as run at once.
-/// A build begins some fifty, one after another, each of which would have pages of its own.
+/// Keeps freed memory, large blocks included, for later allocations and for as many threads as run at once. Touching a
+/// new page costs the system more time than filling it. A build starts some fifty threads one after another, each of
+/// which would get new pages.
 void keep_what_is_freed() {
   constexpr int k_largest_kept = 32 << 20, k_most_kept = 128 << 20;
   ::mallopt(M_ARENA_MAX, std::max(2, static_cast<int>(std::thread::hardware_concurrency())));

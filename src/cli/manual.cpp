@@ -6,7 +6,7 @@
 namespace fusee::cli {
 namespace {
 
-/// A line of text that troff must not take for a request, and in which "-" is the sign that one types.
+/// Escapes a line so that troff takes it for text, and "-" for the character to type.
 std::string plain(std::string_view line) {
   std::string text = line.rfind('.', 0) == 0 || line.rfind('\'', 0) == 0 ? "\\&" : "";
   for (const char c : line) text += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
@@ -78,9 +78,9 @@ Reply run_manual(const Arguments& arguments, Console&) {
 Command manual_command() {
   return {"manual",
           "[COMMAND]",
-          "a page for man(1), from the same words as --help",
-          "Prints the manual page of COMMAND, or of fusee, in the language of man(1).\n"
-          "'cmake --install' puts all of them where man finds them.",
+          "a manual page for man(1), with the texts of --help",
+          "Prints the manual page of COMMAND, or of fusee, as troff source.\n"
+          "'cmake --install' installs all of them for man.",
           {},
           {{"fusee manual build > fusee-build.1", "for 'man ./fusee-build.1'"},
            {"fusee manual > fusee.1", "the page of the program itself"}},

@@ -15,7 +15,7 @@ struct RoleValue {
   std::string role, value;
 };
 
-/// "load=tau_out_Nm", all of one option.
+/// The values "load=tau_out_Nm" … of one option.
 std::vector<RoleValue> role_values(const Arguments& arguments, const std::string& option, const std::string& example,
                                    const std::vector<std::string>& roles) {
   std::vector<RoleValue> found;
@@ -54,18 +54,17 @@ double counts(const std::string& option, const RoleValue& given, double most) {
 }  // namespace
 
 std::vector<Option> with_reading_options(std::vector<Option> options) {
-  options.push_back({"--column", "ROLE=NAME",
-                     "the column of a role: alpha, theta, time, load,\ntemperature …; may be given several times",
-                     true});
+  options.push_back(
+      {"--column", "ROLE=NAME", "the column of a role: alpha, theta, time, load,\ntemperature …; repeatable", true});
   options.push_back({"--unit", "ROLE=UNIT",
-                     "the unit of a role's column, where its name does not\n"
-                     "say it: time=ms, alpha=rad, load=kg",
+                     "the unit of a role's column, if its name does not\n"
+                     "state it: time=ms, alpha=rad, load=kg",
                      true});
   options.push_back({"--ticks-per-turn", "ROLE=N",
-                     "alpha or theta is in counts of an encoder, N a turn;\n"
-                     "negative where they fall as the angle grows",
+                     "alpha or theta is in encoder counts, N a turn;\n"
+                     "negative if they fall as the angle grows",
                      true});
-  options.push_back({"--zero-ticks", "ROLE=N", "what that encoder shows at home (default 0)", true});
+  options.push_back({"--zero-ticks", "ROLE=N", "counts of that encoder at home (default 0)", true});
   return options;
 }
 
@@ -84,12 +83,12 @@ MeasurementOptions columns_from(const Arguments& arguments) {
   for (const RoleValue& given : role_values(arguments, "--ticks-per-turn", "alpha=4096", angles)) {
     const double ticks = counts("--ticks-per-turn", given, k_most_counts_a_turn);
     if (std::abs(ticks) < 2)
-      throw UsageError("--ticks-per-turn must be 2 or more, or -2 or less where counts fall as the angle grows");
+      throw UsageError("--ticks-per-turn must be 2 or more, or -2 or less if counts fall as the angle grows");
     options.ticks_per_turn[given.role] = ticks;
   }
   for (const RoleValue& given : role_values(arguments, "--zero-ticks", "theta=2048", angles)) {
     if (options.ticks_per_turn.count(given.role) == 0)
-      throw UsageError("--zero-ticks " + given.role + " says what the encoder shows at home, in counts",
+      throw UsageError("--zero-ticks " + given.role + " is the encoder's counts at home",
                        "give --ticks-per-turn " + given.role + "=N too");
     options.zero_ticks[given.role] = counts("--zero-ticks", given, k_most_counts);
   }

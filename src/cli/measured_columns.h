@@ -1,5 +1,5 @@
 /// \file
-/// How a log is read, of all commands that read one: --column, --unit, --ticks-per-turn, --zero-ticks.
+/// Options for reading logs, common to all commands that read one: --column, --unit, --ticks-per-turn, --zero-ticks.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace fusee::cli {
 
-/// `options` and those.
+/// `options` with the reading options appended.
 std::vector<Option> with_reading_options(std::vector<Option> options);
-/// Throws UsageError for what is no role, no unit of it or no number of counts.
+/// Throws UsageError for an invalid role, unit or number of counts.
 MeasurementOptions columns_from(const Arguments& arguments);
 
 }  // namespace fusee::cli

@@ -22,7 +22,7 @@ double whole_number(const Arguments& arguments, std::string_view option, double 
   return value;
 }
 
-/// What stands before every name of the header.
+/// The prefix of all names in the header.
 std::string prefix_from(const Arguments& arguments) {
   const std::string prefix = arguments.text("--prefix").value_or("");
   constexpr std::size_t k_longest = 40;
@@ -43,17 +43,17 @@ ModelOptions model_options_from(const Arguments& arguments) {
     options.unit = {whole_number(arguments, "--ticks-per-turn", 0, k_most_ticks), true,
                     whole_number(arguments, "--zero-ticks", 0, 1e9)};
     if (std::abs(options.unit.per_turn) < 2)
-      throw UsageError("--ticks-per-turn must be 2 or more, or -2 or less where counts fall as alpha grows");
+      throw UsageError("--ticks-per-turn must be 2 or more, or -2 or less if counts fall as alpha grows");
   } else if (arguments.has("--zero-ticks")) {
-    throw UsageError("--zero-ticks says what the encoder shows at home, in counts", "give --ticks-per-turn too");
+    throw UsageError("--zero-ticks is the encoder's counts at home", "give --ticks-per-turn too");
   }
   options.declared = arguments.has("--declared");
   options.with_polynomial = !arguments.has("--no-polynomial");
   if (const auto given = arguments.text("--compensation")) {
-    if (given->empty()) throw UsageError("--compensation takes a file, or none");
+    if (given->empty()) throw UsageError("--compensation takes a file, or the word none");
     options.compensation = *given == "none" ? std::filesystem::path() : std::filesystem::path(*given);
   } else if (options.declared) {
-    options.compensation = std::filesystem::path();  // what was found is left out
+    options.compensation = std::filesystem::path();  // --declared ignores identified effects
   }
   options.prefix = prefix_from(arguments);
   options.force = arguments.has("--force");
@@ -64,17 +64,17 @@ ModelOptions model_options_from(const Arguments& arguments) {
   return options;
 }
 
-/// Nothing is nearer than a millionth: below that is what the last digits do.
+/// Angles below a millionth of a degree are rounding errors.
 std::string deg_text(double angle) {
   return angle < radians(1e-6) ? "0.000001 deg" : rounded(degrees(angle), 2) + " deg";
 }
 
-// ---- what is said ---------------------------------------------------------------------------------------------------
+// ---- reply ----------------------------------------------------------------------------------------------------------
 
 void add_changes(const std::vector<ModelChange>& changes, Reply& reply) {
   Json list = Json::array();
   for (const ModelChange& change : changes) {
-    Diagnostic diagnostic = note(Severity::note, "it would be possible with " + change.words);
+    Diagnostic diagnostic = note(Severity::note, "try " + change.words);
     reply.diagnostics.push_back(diagnostic);
     Json entry = {{"text", change.words}};
     if (!change.key.empty()) {
@@ -86,7 +86,7 @@ void add_changes(const std::vector<ModelChange>& changes, Reply& reply) {
   reply.fields["advice"] = list;
 }
 
-/// Why there is no model. False where there is one.
+/// Explains why there is no model; false if there is one.
 bool explain_refusal(const ModelResult& result, const ModelOptions& options, Reply& reply) {
   const ModelProduct& product = result.product;
   const auto refuse = [&](const std::string& words) {
@@ -100,16 +100,16 @@ bool explain_refusal(const ModelResult& result, const ModelOptions& options, Rep
       return true;
     case ModelEnding::no_equilibrium:
       refuse(
-          "the joint as identified has no equilibrium to move through under its declared load: 'fusee analyze' says "
-          "where; --declared leaves out what was identified");
+          "the identified joint has no equilibrium under its declared load. 'fusee analyze' shows "
+          "where; --declared ignores the identified effects");
       return true;
     case ModelEnding::polynomial_off:
       reply.fields["polynomial_error_deg"] = degrees(product.equality.error);
-      refuse("joint.xml would miss theta(alpha) by " + deg_text(product.equality.error) +
+      refuse("the theta error of joint.xml would be " + deg_text(product.equality.error) +
              ": MuJoCo's polynomials end at degree 4, and --max-error-deg is " + rounded(degrees(options.most_error)));
       return true;
     case ModelEnding::table_off:
-      refuse("a table of " + std::to_string(k_most_pieces) + " pieces misses more than " +
+      refuse("a table of " + std::to_string(k_most_pieces) + " pieces has an error above " +
              rounded(degrees(options.most_table_error)) + " deg (--max-table-error-deg)");
       return true;
     case ModelEnding::done:
@@ -126,10 +126,10 @@ std::string model_summary(const ModelResult& made, const ModelOptions& options) 
   text += std::string("  table             ") +
           (product.curves.sensed.source == CurveSource::law ? "of the declared law"
            : product.curves.sensed.source == CurveSource::identified
-               ? "of the joint as identified, from below and from above"
-               : "of " + product.compensation + ", from below and from above") +
+               ? "of the identified joint, in both directions"
+               : "of " + product.compensation + ", in both directions") +
           "\n";
-  text += "  theta is off by at most\n";
+  text += "  largest error of theta\n";
   if (product.with_polynomial)
     text += "    joint.xml       " + deg_text(product.equality.error) + " (polynomial of degree 4)\n";
   if (product.tendons)
@@ -142,8 +142,8 @@ std::string model_summary(const ModelResult& made, const ModelOptions& options) 
   text += "    joint_table.h   " + deg_text(std::max(table.errors.theta, table.errors.returned)) + " (" +
           std::to_string(table.pieces + 1) + " entries; joint_table.json too)\n";
   if (product.curves.physical.half_hysteresis > 0)
-    text += "  simulators follow the middle of both ways: " + deg_text(product.curves.physical.half_hysteresis) +
-            " beside each at most\n";
+    text += "  simulators follow the mean of both directions, " + deg_text(product.curves.physical.half_hysteresis) +
+            " from each at most\n";
   if (options.dry_run) return text + "  files             none written (--dry-run)\n";
   if (!made.published)
     return text + "  files             none written: " + options.folder.string() + " keeps its earlier run\n";
@@ -192,30 +192,30 @@ Reply run_model(const Arguments& arguments, Console& console) {
 }  // namespace
 
 Command model_command() {
-  return {"model",
-          "SPEC",
-          "the joint for simulators and firmware",
-          "Makes files by which other programs know the joint of SPEC: joint.xml and\n"
-          "joint_tendons.xml for MuJoCo, joint.urdf, joint_ros2_control.urdf, and tables\n"
-          "theta(alpha), alpha(theta), slope and holding torque as joint_table.h (C, 32-bit\n"
-          "floats) and joint_table.json. Each says what it misses of theta(alpha), and is\n"
-          "held to that after it was written. A joint with [identified] is simulated there\n"
-          "and back: its tables know from which side the motor came. The compensation.csv\n"
-          "that 'fusee calibrate' left beside SPEC is taken where it is.",
-          {{"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>_model)"},
-           {"--max-error-deg", "DEG", "that joint.xml may miss (default 0.1)"},
-           {"--max-table-error-deg", "DEG", "that tables may miss (default 0.001)"},
-           {"--ticks-per-turn", "N",
-            "the motor's angle in counts of its encoder;\nnegative where they fall as alpha grows"},
-           {"--zero-ticks", "N", "what the encoder shows at home (default 0)"},
-           {"--compensation", "FILE", "tables of this compensation.csv; none: of no such\nfile"},
-           {"--declared", "", "leave out what was identified"},
-           {"--no-polynomial", "", "no joint.xml"},
-           {"--prefix", "NAME", "of the names in joint_table.h (default: the joint's\nname)"}},
-          {{"fusee model arm.toml", "files in out/arm_model"},
-           {"fusee model arm.toml --ticks-per-turn 4096 --zero-ticks 2048", "tables in counts"},
-           {"fusee model arm.toml --max-error-deg 0.02 --dry-run", "is a polynomial that near? writes nothing"}},
-          run_model};
+  return {
+      "model",
+      "SPEC",
+      "the joint for simulators and firmware",
+      "Writes the joint of SPEC for other programs: joint.xml and\n"
+      "joint_tendons.xml for MuJoCo, joint.urdf, joint_ros2_control.urdf, and tables\n"
+      "theta(alpha), alpha(theta), slope and holding torque as joint_table.h (C, 32-bit\n"
+      "floats) and joint_table.json. Each states its error of theta(alpha), which is\n"
+      "checked on the written file. A joint with [identified] is simulated in both\n"
+      "directions, and its tables depend on the direction. A compensation.csv that\n"
+      "'fusee calibrate' wrote next to SPEC is used if it exists.",
+      {{"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>_model)"},
+       {"--max-error-deg", "DEG", "largest error of joint.xml (default 0.1)"},
+       {"--max-table-error-deg", "DEG", "largest error of the tables (default 0.001)"},
+       {"--ticks-per-turn", "N", "the motor angle in encoder counts, N a turn;\nnegative if they fall as alpha grows"},
+       {"--zero-ticks", "N", "counts of the encoder at home (default 0)"},
+       {"--compensation", "FILE", "make tables of this compensation.csv; none: ignore\nany such file"},
+       {"--declared", "", "ignore identified effects"},
+       {"--no-polynomial", "", "do not write joint.xml"},
+       {"--prefix", "NAME", "of the names in joint_table.h (default: the joint's\nname)"}},
+      {{"fusee model arm.toml", "files in out/arm_model"},
+       {"fusee model arm.toml --ticks-per-turn 4096 --zero-ticks 2048", "tables in counts"},
+       {"fusee model arm.toml --max-error-deg 0.02 --dry-run", "test a tighter limit without writing files"}},
+      run_model};
 }
 
 }  // namespace fusee::cli

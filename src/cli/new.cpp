@@ -19,24 +19,26 @@ Reply list_templates() {
   return reply;
 }
 
-/// The file of the answers; that a pulley can be made of them, or what stands in the way.
+/// Writes the file of the answers, and reports if a pulley is feasible or which obstacles remain.
 Reply ask_questions(const Arguments& arguments, Console& console) {
   if (!arguments.positionals().empty()) throw UsageError("--ask takes no template: it asks for the joint");
   if (FileAccess::current() != nullptr)
-    throw UsageError("--ask reads what is typed, and no bundle holds that", "bundle the file that it writes");
+    throw UsageError("--ask reads typed answers, which a bundle cannot record",
+                     "use --bundle with the file that it writes");
   const AskedMechanism asked = ask_for_mechanism(console);
   Reply reply;
   reply.text = asked.text;
   if (const auto settings = arguments.settings(); !settings.empty())
     reply.text = write_mechanism(parse_mechanism(reply.text, "your answers", ".", settings, &reply.diagnostics));
   for (const std::string& change : asked.changed)
-    reply.diagnostics.push_back(note(Severity::note, "so that a pulley can be made: " + change));
+    reply.diagnostics.push_back(note(Severity::note, "changed to make a pulley feasible: " + change));
   for (const Condition& condition : asked.obstacles)
     reply.diagnostics.push_back(note(Severity::warning, "no pulley yet: " + condition.message));
   if (!asked.obstacles.empty())
     add_advice(asked.advice, reply);
   else
-    reply.diagnostics.push_back(note(Severity::note, "a pulley can be made of this: save it, then 'fusee build' it"));
+    reply.diagnostics.push_back(
+        note(Severity::note, "a pulley is feasible: save this file, then run 'fusee build' on it"));
   reply.fields["text"] = reply.text;
   return reply;
 }
@@ -61,13 +63,13 @@ Command new_command() {
   return {"new",
           "[TEMPLATE]",
           "a commented mechanism file to start from",
-          "Prints a mechanism file with every number explained, to be saved and edited.\n"
+          "Prints a mechanism file with an explanation of every number.\n"
           "Without TEMPLATE it lists the templates. With --ask it asks six questions and\n"
-          "makes a file of the answers that a pulley can be made of.",
+          "writes a file for which a pulley is feasible.",
           {{"--ask", "", "ask for the joint's numbers, each with a default"}},
           {{"fusee new", "list the templates"},
            {"fusee new paper_optimum > arm.toml", "save one as arm.toml"},
-           {"fusee new --ask > arm.toml", "answer six questions; Enter takes what is proposed"},
+           {"fusee new --ask > arm.toml", "answer six questions; Enter takes the proposal"},
            {"fusee new paper_optimum --set pulley.r1_mm=15 > arm.toml", "the same with another r1"}},
           run_new};
 }

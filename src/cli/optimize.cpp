@@ -9,7 +9,7 @@
 namespace fusee::cli {
 namespace {
 
-/// In the order of SearchMethod.
+/// Names in the order of SearchMethod.
 constexpr std::string_view k_methods[] = {"certified", "ga", "pareto"};
 
 std::optional<SearchMethod> asked_method(const Arguments& arguments) {
@@ -30,11 +30,11 @@ std::optional<Objective> second_objective(const Arguments& arguments) {
     names.emplace_back(candidate.name);
   }
   const std::string nearest = nearest_word(*name, names);
-  throw UsageError("--then names an objective; '" + *name + "' is none",
+  throw UsageError("--then takes an objective; '" + *name + "' is not one",
                    nearest.empty() ? "fusee explain optimize.objective lists them" : "did you mean " + nearest + "?");
 }
 
-/// A bar on the progress line, and an ear for Ctrl-C.
+/// Shows a progress bar and stops at Ctrl-C.
 KeepGoing shown_progress(Console& console) {
   return [&console, shown = std::string()](const SearchProgress& progress) mutable {
     const std::string bar = progress_bar(progress.done);
@@ -61,13 +61,13 @@ OptimizeOptions options_from(const Arguments& arguments, Console& console) {
   return options;
 }
 
-/// Options that belong to one method, before the search: after it, it would cost a wait.
+/// Checks options that belong to one method before the search, so that a refusal costs no time.
 void demand_agreement(const MechanismFile& file, const OptimizeOptions& options) {
   if (!options.then && options.front_folder.empty()) return;
   const SearchMethod method = options.method ? *options.method : strongest_method(file);
-  if (options.then && method != SearchMethod::certified) throw UsageError("--then goes with --method certified only");
+  if (options.then && method != SearchMethod::certified) throw UsageError("--then requires --method certified");
   if (!options.front_folder.empty() && method != SearchMethod::pareto)
-    throw UsageError("--front goes with --method pareto only");
+    throw UsageError("--front requires --method pareto");
 }
 
 Reply run_optimize(const Arguments& arguments, Console& console) {
@@ -90,17 +90,18 @@ Command optimize_command() {
   return {"optimize",
           "SPEC",
           "better numbers for the mechanism",
-          "Changes the variables that [optimize] in SPEC names, within their bounds and\n"
-          "constraints, until the objective is as good as it can be. Where the equations\n"
-          "allow it the optimum is proven; the answer says how far from it any design can\n"
-          "be, and which other designs are as good. NEW.toml is your file with new numbers.",
+          "Varies the variables of [optimize] in SPEC within their bounds and\n"
+          "constraints to find the best value of the objective. If the equations\n"
+          "allow it, the optimum is proven. The result includes the proven bound\n"
+          "and other designs that are as good. NEW.toml is your file with new numbers.",
           {{"-o,--out", "NEW.toml", "write the mechanism with its new numbers"},
-           {"--method", "NAME", "certified, ga or pareto (default: what can prove most)", false, "certified ga pareto"},
-           {"--then", "OBJECTIVE", "choose by this among designs that tie (certified)"},
+           {"--method", "NAME", "certified, ga or pareto (default: certified where\npossible)", false,
+            "certified ga pareto"},
+           {"--then", "OBJECTIVE", "second objective, among designs that tie (certified)"},
            {"--seed", "N", "of ga and pareto (default 1)"},
            {"--population", "N", "designs in a generation (default 48)"},
            {"--generations", "N", "of ga and pareto (default 100)"},
-           {"--front", "DIR", "each point of the front as a mechanism file (pareto)"}},
+           {"--front", "DIR", "write each point of the front as a mechanism file\n(pareto)"}},
           {{"fusee new paper_optimum > paper.toml", "a mechanism with [optimize] in it"},
            {"fusee optimize paper.toml -o better.toml", "the best numbers, proven"},
            {"fusee optimize paper.toml --method ga --seed 7", "the paper's way"}},

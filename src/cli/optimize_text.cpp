@@ -46,7 +46,7 @@ std::string design_text(const Problem& problem, const Design& design) {
   return table({{"  key"}, {"value", Align::right}, {"unit"}, {"in the file"}, {""}}, rows);
 }
 
-/// How the joint of a design is seen.
+/// States how pins and identified effects are treated.
 void add_joint(const OptimizeResult& result, Reply& reply) {
   const Problem& problem = result.problem;
   const Mechanism joint = judged(problem, mechanism_at(problem, result.design));
@@ -54,7 +54,7 @@ void add_joint(const OptimizeResult& result, Reply& reply) {
   reply.text += titled("pins", pins_text(joint));
   if (!problem.as_it_is) return;
   reply.fields["joint"] = "as_it_is";
-  reply.text += titled("joint", "as it is: [identified] is added to these numbers");
+  reply.text += titled("joint", "identified: [identified] is added to these numbers");
 }
 
 void add_value(const OptimizeResult& result, Reply& reply) {
@@ -79,23 +79,23 @@ void say_none(const std::string& path, const OptimizeResult& result, bool proven
   reply.exit = Exit::infeasible;
   Diagnostic error = about_file(
       Severity::error, path,
-      std::string(proven ? "no design of the box is possible (proven)" : "no possible design was found in the box") +
-          "; most often: " + result.reason);
+      std::string(proven ? "no design of the box is feasible (proven)" : "no feasible design was found in the box") +
+          "; the most frequent reason: " + result.reason);
   error.hint = "widen lower and upper, or drop a constraint";
-  if (result.problem.feasible) error.hint += ", or leave out feasible";
+  if (result.problem.feasible) error.hint += ", or remove optimize.feasible";
   reply.diagnostics.push_back(error);
   reply.fields["found"] = false;
   reply.fields["reason"] = result.reason;
 }
 
-/// "24 of 100 generations of 48".
+/// Text such as "24 of 100 generations of 48".
 std::string generations_text(const GeneticOptions& options, std::size_t finished) {
   const std::string all = std::to_string(options.generations);
   return (finished < options.generations ? std::to_string(finished) + " of " + all : all) + " generations of " +
          std::to_string(options.population);
 }
 
-/// Generations after the first, which is drawn; of a search that proves it is the boxes that say how far it came.
+/// Generations after the random first one, or the boxes of a certified search.
 std::string progress_text(const OptimizeOptions& options, const OptimizeResult& result) {
   if (const auto* genetic = std::get_if<GeneticResult>(&result.search)) {
     const std::size_t finished = genetic->generations.size();
@@ -109,9 +109,9 @@ std::string progress_text(const OptimizeOptions& options, const OptimizeResult& 
 
 void say_stopped(const OptimizeOptions& options, const OptimizeResult& result, Reply& reply) {
   reply.exit = Exit::interrupted;
-  reply.diagnostics.push_back(
-      note(Severity::warning, "interrupted after " + progress_text(options, result) +
-                                  (result.found ? ": this is the best so far" : ": nothing was found so far")));
+  reply.diagnostics.push_back(note(
+      Severity::warning, "interrupted after " + progress_text(options, result) +
+                             (result.found ? ": this is the best design so far" : ": no design was found so far")));
   reply.fields["stopped"] = true;
 }
 
@@ -146,7 +146,7 @@ void add_ties(const Problem& problem, const TieSet& ties, bool broken, Reply& re
                                                                                   : Objective::max_error;
   reply.diagnostics.push_back(
       note(Severity::note, "many designs tie within 0.1 %: " + box_text(problem, ties),
-           "--then " + std::string(info(other).name) + " takes the one of them that is best by a second measure"));
+           "--then " + std::string(info(other).name) + " selects the best of them by a second objective"));
 }
 
 std::string then_line(Objective objective, const CertifiedResult& second) {
@@ -161,7 +161,7 @@ void add_then(Objective objective, const CertifiedResult& second, Reply& reply) 
                           {"relative_gap", second.relative_gap}};
 }
 
-/// `then` is unknown to the search that was stopped before it.
+/// Adds the certified result. `then` is missing if the search stopped before it.
 void add_certified(const OptimizeOptions& options, const OptimizeResult& result, const CertifiedResult& search,
                    Reply& reply) {
   const Objective objective = result.problem.objectives.front();
@@ -169,7 +169,7 @@ void add_certified(const OptimizeOptions& options, const OptimizeResult& result,
   reply.fields["boxes"] = search.boxes;
   reply.fields["evaluations"] = search.evaluations;
   reply.text = std::string(info(objective).name) + " of " + result.problem.base.name +
-               (search.proven ? ", proven by branch and bound\n" : ", by branch and bound, not to its end\n");
+               (search.proven ? ", proven by branch and bound\n" : ", by branch and bound, not finished\n");
   add_value(result, reply);
   reply.fields["found"] = true;
   reply.fields["lower_bound"] = search.lower_bound;
@@ -181,19 +181,19 @@ void add_certified(const OptimizeOptions& options, const OptimizeResult& result,
                        std::to_string(search.boxes) + " boxes, " + std::to_string(search.evaluations) + " evaluations");
   if (result.problem.feasible)
     reply.text += titled("feasible",
-                         "the proof asks of every design that its curves are convex and its tendons on their pins; the "
-                         "best one can be made");
+                         "the proof requires convex curves and contact with the pins for every design; the "
+                         "best one is feasible");
   if (result.then) reply.text += then_line(*options.then, *result.then);
   add_ties(result.problem, search.ties, options.then.has_value(), reply);
   if (search.proven || options.then || result.stopped) return;
-  // Nobody makes a joint to a thousandth: a proof that comes so far is one, and says how far it came.
+  // A relative gap of 0.1 % is below manufacturing accuracy; such a proof counts as finished, with its gap.
   constexpr double k_enough = 1e-3;
   const bool is_enough = search.relative_gap <= k_enough;
   if (!is_enough) reply.exit = Exit::check_failed;
   reply.diagnostics.push_back(
       note(is_enough ? Severity::warning : Severity::error,
-           "the proof is not finished: relative gap " + rounded(search.relative_gap, 2) + ", wanted 1e-6",
-           "narrow the bounds, or take fewer variables"));
+           "the proof is not finished: relative gap " + rounded(search.relative_gap, 2) + ", required 1e-6",
+           "narrow the bounds, or use fewer variables"));
 }
 
 void add_genetic(const OptimizeOptions& options, const OptimizeResult& result, const GeneticResult& search,

@@ -1,5 +1,5 @@
 /// \file
-/// The answer of `optimize` in words and as JSON.
+/// The result of `optimize` as text and JSON.
 #pragma once
 
 #include "cli/reply.h"
@@ -7,9 +7,9 @@
 
 namespace fusee::cli {
 
-/// What was found, or why nothing was. `path` of the mechanism file.
+/// Adds the design, or the reason why there is none. `path`: the mechanism file.
 void add_answer(const std::string& path, const OptimizeOptions& options, const OptimizeResult& result, Reply& reply);
-/// The files that were written.
+/// Adds the written files.
 void add_files(const OptimizeOptions& options, const OptimizeResult& result, Reply& reply);
 
 }  // namespace fusee::cli

@@ -16,7 +16,7 @@ void add_pins_note(const MechanismFile& file, Reply& reply) {
   const Mechanism& mechanism = file.mechanism;
   if (!mechanism.has_point_pins() && mechanism.guides.radius > 0) return;
   reply.diagnostics.push_back(about_file(Severity::note, file.path,
-                                         std::string("pins are seen ") + (mechanism.has_point_pins() ? "as " : "") +
+                                         std::string("pins are modelled ") + (mechanism.has_point_pins() ? "as " : "") +
                                              pins_text(mechanism) + ": the tendon's centre line runs " +
                                              rounded(mechanism.seen_pitch_radius()) + " mm from a pin's centre"));
 }

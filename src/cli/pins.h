@@ -1,5 +1,5 @@
 /// \file
-/// How a mechanism's guide pins are seen, the same words for every command.
+/// Description of the guide pins in a mechanism, common to all commands.
 #pragma once
 
 #include "cli/reply.h"
@@ -9,7 +9,7 @@ namespace fusee::cli {
 
 std::string pins_text(const Mechanism& mechanism);
 Json pins_json(const Mechanism& mechanism);
-/// A note where a person may think otherwise: pins that are points, and pins of radius 0 that are none.
+/// Adds a note in cases that users may misread: point pins, and pins of radius 0 that are not points.
 void add_pins_note(const MechanismFile& file, Reply& reply);
 
 }  // namespace fusee::cli

@@ -18,7 +18,7 @@ constexpr double k_most_speed = 1e5;  // deg/s
 constexpr double k_most_angle = 1e5;  // deg
 constexpr std::size_t k_most_levels = 12;
 
-// ---- what is asked --------------------------------------------------------------------------------------------------
+// ---- options --------------------------------------------------------------------------------------------------------
 
 /// "0,5,10": finite numbers within [least, most], each once. Throws UsageError.
 std::vector<double> list_from(const Arguments& arguments, std::string_view option, double least, double most) {
@@ -37,12 +37,12 @@ std::vector<double> list_from(const Arguments& arguments, std::string_view optio
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value) || value < least ||
         value > most)
-      refuse("'" + std::string(word) + "' is none");
+      refuse("'" + std::string(word) + "' is not a number in that range");
     if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
     if (word.size() == rest.size()) break;
     rest.remove_prefix(word.size() + 1);
   }
-  if (values.size() > k_most_levels) refuse("these are more than " + std::to_string(k_most_levels));
+  if (values.size() > k_most_levels) refuse("there are more than " + std::to_string(k_most_levels));
   return values;
 }
 
@@ -68,7 +68,7 @@ PlanFilesOptions plan_options_from(const Arguments& arguments, const std::filesy
   return options;
 }
 
-// ---- what is said ---------------------------------------------------------------------------------------------------
+// ---- reply ----------------------------------------------------------------------------------------------------------
 
 std::string steps_text(const Plan& plan) {
   std::string text;
@@ -87,9 +87,11 @@ std::string causes_text(const Plan& plan) {
     rows.push_back({"  " + cause.name, rounded(degrees(cause.usual), 2), rounded(degrees(cause.smallest), 2),
                     cause.smallest_alone ? rounded(degrees(*cause.smallest_alone), 2) : "–"});
   }
-  return table(
-      {{"deg rms at the joint"}, {"usual", Align::right}, {"seen from", Align::right}, {"alone from", Align::right}},
-      rows);
+  return table({{"deg rms at the joint"},
+                {"usual", Align::right},
+                {"detected from", Align::right},
+                {"identified from", Align::right}},
+               rows);
 }
 
 std::string listed(const std::string& title, const std::vector<std::string>& lines) {
@@ -115,8 +117,8 @@ std::string summary(const PlanProduct& product) {
   for (const PlannedCause& cause : plan.causes) alone += cause.smallest_alone.has_value();
   std::string text = product.file.mechanism.name + ": " + fixed(plan.minutes, 1) + " of " + rounded(product.minutes) +
                      " minutes, " + std::to_string(alone) + " of " + std::to_string(plan.causes.size()) +
-                     " causes could be named alone\n" + steps_text(plan) + "\n" + causes_text(plan);
-  text += listed("Not told apart", group_words(plan));
+                     " causes can be identified alone\n" + steps_text(plan) + "\n" + causes_text(plan);
+  text += listed("Not resolved", group_words(plan));
   text += listed("More minutes", minute_words(plan.beyond));
   return text + listed("False-positive rate", false_positive_words(plan));
 }
@@ -127,13 +129,13 @@ void refuse_short_time(const PlanResult& result, const std::string& path, Reply&
   const std::string given = rounded(result.product.minutes) + (result.product.minutes == 1 ? " minute" : " minutes");
   if (first.empty()) {
     reply.diagnostics.push_back(
-        about_file(Severity::error, path, "no run can be made: the joint has no equilibrium in any"));
+        about_file(Severity::error, path, "no run is possible: the joint has no equilibrium in any of them"));
     return;
   }
   Diagnostic error = note(
       Severity::error,
       "nothing can be measured in " + given + ": the first run takes " + rounded(first.front().minutes, 3) + " minutes",
-      "--minutes " + rounded(std::ceil(first.front().minutes)) + " or more; or a higher --speeds");
+      "--minutes " + rounded(std::ceil(first.front().minutes)) + " or more, or a higher --speeds");
   reply.diagnostics.push_back(error);
   for (const std::string& words : minute_words(first)) reply.diagnostics.push_back(note(Severity::note, words));
 }
@@ -157,7 +159,7 @@ Reply run_plan(const Arguments& arguments, Console& console) {
     return reply;
   }
   reply.text = summary(result.product) + "\n" + (result.published ? "In " : "Would be written (--dry-run): ") +
-               options.folder.string() + ": plan.html to follow at the bench, and empty run files\n";
+               options.folder.string() + ": plan.html for the bench, and empty run files\n";
   return reply;
 }
 
@@ -166,24 +168,24 @@ Reply run_plan(const Arguments& arguments, Console& console) {
 Command plan_command() {
   return {"plan",
           "SPEC",
-          "which runs to measure, what they can show",
-          "Finds the shortest set of runs with which the causes that matter for the joint\n"
-          "of SPEC can be told apart: every run that could be made is simulated with every\n"
-          "cause of the catalogue at its usual size, and the runs that tell most for their\n"
-          "minutes are chosen. Says the smallest size of each cause that would be seen,\n"
-          "what stays together, how often a name would be false, and what more minutes\n"
-          "would buy. Leaves plan.html (to follow at the bench), plan.json and empty run\n"
-          "files for 'fusee calibrate', which 'fusee simulate' can rehearse.",
+          "which runs to measure, and what they can show",
+          "Finds the shortest set of runs that distinguishes the causes which matter for\n"
+          "the joint of SPEC. Every candidate run is simulated with every cause of the\n"
+          "catalogue at its usual size, and runs are chosen by their gain per minute.\n"
+          "Reports the smallest detectable size of each cause, causes that are not\n"
+          "resolved, the expected false-positive rate, and the gain of more minutes.\n"
+          "Writes plan.html (for the bench), plan.json and empty run files for\n"
+          "'fusee calibrate', which 'fusee simulate' can fill.",
           {{"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>_plan)"},
-           {"--noise-deg", "DEG", "of the joint's sensor, standard deviation\n(default 0.02)"},
-           {"--minutes", "MIN", "at the bench (default 15)"},
-           {"--loads", "N,N,…", "tip forces that you can hang on (default: chosen)"},
-           {"--speeds", "DEG/S,…", "of the motor, the slowest first\n(default: a cycle in 30 s and in 6 s)"},
-           {"--range-deg", "FROM,TO", "of the motor (default: the joint's range)"},
-           {"--seed", "N", "of the joints in which blame is tried (default 1)"}},
+           {"--noise-deg", "DEG", "standard deviation of the joint's sensor\n(default 0.02)"},
+           {"--minutes", "MIN", "time at the bench (default 15)"},
+           {"--loads", "N,N,…", "available tip forces (default: chosen)"},
+           {"--speeds", "DEG/S,…", "motor speeds (default: a cycle in 30 s and in 6 s)"},
+           {"--range-deg", "FROM,TO", "motor range (default: the joint's range)"},
+           {"--seed", "N", "of the simulated joints (default 1)"}},
           {{"fusee plan arm.toml", "files in out/arm_plan; open its plan.html"},
            {"fusee plan arm.toml --minutes 5 --loads 0,5", "five minutes, and one weight"},
-           {"fusee plan arm.toml --set prior.pulley_scale=[1,0.001] --dry-run", "a caliper said that already"}},
+           {"fusee plan arm.toml --set prior.pulley_scale=[1,0.001] --dry-run", "a caliper reading is known"}},
           run_plan};
 }
 

@@ -50,7 +50,7 @@ constexpr std::string_view k_load_picture = R"(
             O
 )";
 
-/// Without blanks at either end.
+/// Removes blanks at both ends.
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
   return first == std::string_view::npos ? std::string_view()
@@ -79,7 +79,7 @@ struct Question {
   std::string_view picture;
   std::string words;
   std::string proposed;
-  /// Takes an answer, or says what is wrong with it.
+  /// Stores an answer, or returns what is wrong with it.
   std::function<std::string(std::string_view)> take;
 };
 
@@ -97,29 +97,29 @@ void put(Console& console, const Question& question, int number) {
       Severity::error, {}, fmt::format("question {} was not answered in {} tries", number, k_most_tries), {}});
 }
 
-/// So many numbers, each within the bounds of the key that they are for.
+/// Accepts `count` numbers within the bounds of `key`.
 std::function<std::string(std::string_view)> numbers(const char* key, int count,
                                                      std::function<void(const std::vector<double>&)> set) {
   return [field = find_field(key), count, set = std::move(set)](std::string_view answer) -> std::string {
     std::vector<double> values;
     for (const std::string& word : words_in(answer)) {
       const auto value = number_in(word);
-      if (!value) return fmt::format("'{}' is no number", word);
+      if (!value) return fmt::format("'{}' is not a number", word);
       if (*value < field->least || *value > field->most)
         return fmt::format("{} {} is not within {} to {}", rounded(*value), field->unit, rounded(field->least),
                            rounded(field->most));
       values.push_back(*value);
     }
     if (static_cast<int>(values.size()) != count)
-      return count == 1 ? "one number is asked for" : "two numbers are asked for, the lower one first";
-    if (count == 2 && !(values[0] < values[1])) return "the lower end comes first, and below the upper one";
+      return count == 1 ? "give one number" : "give two numbers, the lower one first";
+    if (count == 2 && !(values[0] < values[1])) return "the lower end comes first, and must be below the upper end";
     if (count == 2 && (values[0] > 0 || values[1] < 0)) return "home, at 0, must lie within the range";
     set(values);
     return {};
   };
 }
 
-/// What the answers are. Of a shaft of the catalogue its name, of any other its diameter.
+/// Values of the answers. A shaft has a catalogue name, or a diameter if it is another.
 struct Answers {
   std::string name = "my joint";
   double R = 60, low = -30, high = 30, d = 1, force = 10;
@@ -135,7 +135,7 @@ std::string take_shaft(Answers& answers, std::string_view answer) {
   const auto diameter = number_in(answer);
   const Field& field = *find_field("body.bore_diameter_mm");
   if (!diameter || !(*diameter > 0) || *diameter > field.most)
-    return fmt::format("'{}' is neither a name of that list nor a diameter in mm", answer);
+    return fmt::format("'{}' is neither a name in the list nor a diameter in mm", answer);
   answers.shaft.clear();
   answers.bore = *diameter;
   return {};
@@ -175,14 +175,14 @@ Answers asked(Console& console) {
   put(console, {k_load_picture, "Which force at C, N?", "10", numbers("load.tip_force_N", 1, first(answers.force))}, 5);
   const std::string listed = list_of_shafts();
   put(console,
-      {listed, "The motor's shaft: a name of these, or the diameter of a round one, mm?", "5",
+      {listed, "The motor's shaft: one of these names, or the diameter of a round shaft, mm?", "5",
        [&answers](std::string_view answer) { return take_shaft(answers, answer); }},
       6);
   return answers;
 }
 
-/// The paper's optimum for R, and a pulley that turns less than once. The tendon is the catalogue's of that thickness,
-/// where it has one.
+/// The paper's optimum scaled by R, with a pulley that turns less than once. The tendon is of the catalogue if it has
+/// that diameter.
 DeclaredMechanism mechanism_of(const Answers& answers) {
   const double R = answers.R, span = answers.high - answers.low;
   // α is about θ times the tendon's arm, some 0.6 R, over r1; 280° leave room for the knots.
@@ -204,7 +204,7 @@ DeclaredMechanism mechanism_of(const Answers& answers) {
   return parse_mechanism(text, "your answers");
 }
 
-/// As it stands in a file: angles went through radians.
+/// The value as text; rounded, because angles are converted to radians and back.
 std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
   constexpr int k_digits = 12;
   if (field.kind == FieldKind::number) return rounded(field.get(mechanism, 0), k_digits);
@@ -220,7 +220,7 @@ constexpr std::string_view k_keys =
     "pulley.r1_mm "
     "pulley.law tendon.diameter_mm tendon.modulus_MPa tendon.bend_ratio load.tip_force_N";
 
-/// The keys that were answered, that follow, or that had to be changed, in the order of a file; the rest has defaults.
+/// The keys of answers, of their consequences and of changes, in the order of a file; all others have their defaults.
 std::string file_of(const DeclaredMechanism& mechanism, const std::vector<std::string>& changed) {
   std::vector<std::string> keys = split(k_keys, ' ');
   keys.emplace_back(mechanism.body.shaft.empty() || mechanism.body.shaft == "none" ? "body.bore_diameter_mm"
@@ -258,7 +258,7 @@ void turn(DeclaredMechanism& mechanism, const Change& change) {
 AskedMechanism ask_for_mechanism(Console& console) {
   AskedMechanism asked_for{mechanism_of(asked(console)), {}, {}, {}, {}};
   std::vector<std::string> changed_keys;
-  // Numbers that nobody was asked for are ours to change.
+  // Numbers without a question may be changed freely.
   constexpr int k_most_changes = 4;
   for (int changes = 0;; ++changes) {
     asked_for.obstacles = obstacles(asked_for.mechanism);

@@ -13,15 +13,15 @@
 namespace fusee::cli {
 
 struct AskedMechanism {
-  DeclaredMechanism mechanism;       ///< answers, and for all else proportions of the paper's optimum
-  std::vector<std::string> changed;  ///< numbers that nobody was asked for and that had to be others: "r1 ≤ 9.3 mm"
-  std::vector<Condition> obstacles;  ///< what stands in the way of a pulley all the same
-  std::vector<Change> advice;        ///< which of the answers would have to be another
-  std::string text;                  ///< the file: what was answered and what follows from it, each with its meaning
+  DeclaredMechanism mechanism;       ///< answers, and proportions of the paper's optimum for all other numbers
+  std::vector<std::string> changed;  ///< numbers without a question that had to change: "r1 ≤ 9.3 mm"
+  std::vector<Condition> obstacles;  ///< remaining obstacles to a pulley
+  std::vector<Change> advice;        ///< changes of the answers that would remove them
+  std::string text;                  ///< the file: answers and consequences, each with its meaning
 };
 
-/// Asks on stderr, reads lines of stdin; an empty line, and the end of the input, take what is proposed. InputError
-/// when an answer is not to be understood again and again.
+/// Asks on stderr and reads lines from stdin. An empty line or the end of the input takes the proposal. Throws
+/// InputError after several invalid answers.
 AskedMechanism ask_for_mechanism(Console& console);
 
 }  // namespace fusee::cli

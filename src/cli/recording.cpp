@@ -71,7 +71,7 @@ BundledOutput output_of(const fs::path& path, std::string_view bytes) {
 Recording::Recording(fs::path file, const std::vector<std::string>& words, bool force)
     : file_(std::move(file)), force_(force), names_(working_folder()) {
   if (!force_ && stands_as_other(file_))
-    throw OutputError(file_.string() + " exists and is no bundle of fusee",
+    throw OutputError(file_.string() + " exists and is not a bundle of fusee",
                       "choose another name, or overwrite it with --force");
   sign(bundle_);
   bundle_.words = names_.inner_words(words);
@@ -81,7 +81,7 @@ void Recording::read(const ReadRequest& request, const TakeBlock& take) {
   const std::string name = names_.inner(request.path);
   const bool known = std::any_of(bundle_.files.begin(), bundle_.files.end(),
                                  [&name](const BundledFile& file) { return file.path == name; });
-  if (known) return read_from_disk(request, take);  // what is read twice stands once
+  if (known) return read_from_disk(request, take);  // a file that is read twice is packed once
   BundledFile& entry = bundle_.files.emplace_back(BundledFile{name, {}, {}});
   bool taking = false;
   try {
@@ -101,28 +101,28 @@ void Recording::read(const ReadRequest& request, const TakeBlock& take) {
 
 void Recording::in_the_way(const fs::path& path) {
   const std::string name = names_.inner(path);
-  // What cannot stand again in a folder of its own is only in the message.
+  // A path that cannot exist inside a folder occurs only in the message.
   if (is_inner_path(name)) bundle_.in_the_way.push_back(name + (fs::is_directory(path) ? "/" : ""));
 }
 
 Diagnostic Recording::pack(const Ending& ending) {
   if (kept_ > k_largest_bundle || bundle_.files.size() > k_most_bundled_files)
-    throw OutputError("no bundle was written: what was read is more than one may hold");
+    throw OutputError("no bundle was written: the input files are too large for one");
   const std::string own = names_.inner(file_);
   for (const BundledFile& file : bundle_.files) {
     if (file.path == own && !file.failure)
-      throw OutputError("no bundle was written: " + file_.string() + " is one of the files that were read",
+      throw OutputError("no bundle was written: " + file_.string() + " is one of the input files",
                         "choose another name");
   }
   bundle_.outcome = outcome_of(ending, bundle_.outcome.outputs, names_);
-  // What stands there was looked at before the run.
+  // The constructor checked the existing file before the run.
   write_file(file_, bundle_bytes(bundle_), /*force=*/!stands_as_other(file_) || force_);
   std::string list;
   for (const BundledFile& file : bundle_.files)
     if (!file.failure) list += (list.empty() ? "" : ", ") + file.path;
   return note(Severity::note,
-              file_.string() + " holds the options of this run, what it said" + (list.empty() ? "" : ", and " + list),
-              "'fusee replay " + file_.string() + "' runs it again");
+              file_.string() + " contains the options of this run, its output" + (list.empty() ? "" : ", and " + list),
+              "'fusee replay " + file_.string() + "' reruns it");
 }
 
 }  // namespace fusee::cli

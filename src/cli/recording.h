@@ -1,5 +1,5 @@
 /// \file
-/// --bundle: what a run reads and leaves is watched, and packed when it has ended, however it did.
+/// --bundle: records the files that a run reads and writes, and packs them at the end of the run, whatever its result.
 #pragma once
 
 #include <filesystem>
@@ -13,20 +13,20 @@
 
 namespace fusee::cli {
 
-/// The value of --bundle, "" without one; `words` without it. Also of a command line that cannot be understood.
+/// Removes --bundle from `words` and returns its value, "" without one. Also for command lines that cannot be parsed.
 std::string take_bundle_option(std::vector<std::string>& words);
 
-/// What a run reported, with the names that a bundle has for files.
+/// The run's report, with names of the bundle for files.
 BundledOutcome outcome_of(Ending ending, std::vector<BundledOutput> outputs, const BundleNames& names);
-/// Its folder is named by the command line, if at all.
+/// The file is named without its folder; the command line has that, if given.
 BundledOutput output_of(const std::filesystem::path& path, std::string_view bytes);
-/// This program, as a bundle names it.
+/// Adds version and build of this program.
 void sign(Bundle& bundle);
 
-/// Watches what the run does with files while it lives.
+/// Records all file access of the run during its lifetime.
 class Recording : public FileAccess {
  public:
-  /// Throws OutputError when `file` stands there and is no bundle, unless `force`.
+  /// Throws OutputError if `file` exists and is not a bundle, unless `force`.
   Recording(std::filesystem::path file, const std::vector<std::string>& words, bool force);
 
   void read(const ReadRequest& request, const TakeBlock& take) override;
@@ -36,7 +36,7 @@ class Recording : public FileAccess {
     bundle_.outcome.outputs.push_back(output_of(name, bytes));
   }
 
-  /// Writes the bundle; what it says is for the person. Throws OutputError.
+  /// Writes the bundle and returns a message for the user. Throws OutputError.
   Diagnostic pack(const Ending& ending);
 
  private:

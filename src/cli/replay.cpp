@@ -17,9 +17,8 @@
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
 
-// A bundle runs again in a folder of its own and in this process. What it reads comes from the bundle and from nowhere
-// else, whatever its command line says; what it writes stays in that folder. A hostile bundle can do no more than fusee
-// can do to its own files.
+// A bundle runs again in this process, in its own folder. It reads only files of the bundle, whatever its command line
+// names, and writes only into that folder. So a hostile bundle can do no more than fusee can do to its own files.
 
 namespace fusee::cli {
 namespace {
@@ -28,9 +27,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t k_most_differences = 8;
 
-// ---- running it -----------------------------------------------------------------------------------------------------
+// ---- run ------------------------------------------------------------------------------------------------------------
 
-/// The files of a bundle in place of the disk.
+/// File access that reads from a bundle instead of the disk.
 class Replaying : public FileAccess {
  public:
   explicit Replaying(const Bundle& bundle) : bundle_(bundle), here_(working_folder()), names_(here_) {}
@@ -42,19 +41,20 @@ class Replaying : public FileAccess {
     names_.add(name, file->path);
     if (file->failure) throw InputError(name, file->failure->message, file->failure->hint);
     if (file->bytes.size() > request.limit)
-      throw InputError(name, "is larger than " + std::to_string(request.limit) + " bytes", "is it the right file?");
+      throw InputError(name, "is larger than " + std::to_string(request.limit) + " bytes",
+                       "check that it is the right file");
     if (!file->bytes.empty()) take(file->bytes);
   }
   void will_write(const fs::path& place) override {
     if (leads_out(seen_from(here_, place)))
-      throw OutputError(place.string() + " lies outside of the folder in which a bundle is replayed");
+      throw OutputError(place.string() + " is outside of the folder in which the bundle is replayed");
   }
   void wrote(const fs::path& name, std::string_view bytes) override { outputs_.push_back(output_of(name, bytes)); }
   BundledOutcome outcome(const Ending& ending) const { return outcome_of(ending, outputs_, names_); }
 
  private:
-  /// By its path; else by its name alone, for a file that a packed file names beside itself or by a path of the machine
-  /// on which it was packed. It was read before the files that the command line names after it.
+  /// Finds a file by its path, or by its name alone if a packed file refers to it relative to itself or by a path of
+  /// the original machine. Such a file was read before later files of the command line.
   const BundledFile* find(const fs::path& path) const {
     const fs::path seen = seen_from(here_, path);
     const std::string near = seen == "." ? "." : tame(seen.string()), name = tame(path.filename().string());
@@ -72,7 +72,7 @@ class Replaying : public FileAccess {
   std::vector<BundledOutput> outputs_;
 };
 
-/// The process stands in `folder` from here on, and has its temporary files there.
+/// Makes `folder` the working folder and the place of temporary files.
 BundledOutcome replayed_in(const fs::path& folder, const Bundle& bundle) {
   if (::chdir(folder.c_str()) != 0) fail_output("cannot work in", folder, errno);
   ::setenv("TMPDIR", folder.c_str(), 1);
@@ -83,9 +83,9 @@ BundledOutcome replayed_in(const fs::path& folder, const Bundle& bundle) {
   return access.outcome(ending);
 }
 
-// ---- where it goes --------------------------------------------------------------------------------------------------
+// ---- folders --------------------------------------------------------------------------------------------------------
 
-/// What was refused then because something stood there is refused again.
+/// Recreates existing files that the recorded run refused to overwrite.
 void put_in_the_way(const Bundle& bundle, const fs::path& folder) {
   std::error_code ignored;
   for (const std::string& path : bundle.in_the_way) {
@@ -101,7 +101,8 @@ void demand_free(const fs::path& folder) {
   throw OutputError(folder.string() + " exists and is not an empty folder", "choose another one with -o");
 }
 
-/// In a folder beside `kept`, which gets its name; without one in the system's temporary folder.
+/// Replays in a new folder next to `kept`, which is then renamed to it; without `kept` in the system's temporary
+/// folder.
 BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<fs::path>& kept) {
   const fs::path place = place_of(kept ? *kept : temporary_folder() / "fusee-replay");
   remove_staged_leftovers(place);
@@ -117,9 +118,9 @@ BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<
   return outcome;
 }
 
-// ---- what is the same -----------------------------------------------------------------------------------------------
+// ---- comparison -----------------------------------------------------------------------------------------------------
 
-/// Columns and lines are as wide as the names in them.
+/// Splits by white space: widths of columns and lines depend on the names in them.
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream stream(text);
   return {std::istream_iterator<std::string>(stream), {}};
@@ -136,7 +137,7 @@ Json difference(const std::string& of, const std::string& then, const std::strin
   return {{"of", of}, {"then", then}, {"now", now}};
 }
 
-/// Texts one by one, and those that only one of them has.
+/// Compares texts in order, and reports those that only one list has.
 void compare(const std::string& of, const std::vector<std::string>& then, const std::vector<std::string>& now,
              Json& differences) {
   const std::string none = "(none)";
@@ -172,9 +173,9 @@ Json differences_of(const BundledOutcome& then, const BundledOutcome& now) {
   return all;
 }
 
-// ---- words ----------------------------------------------------------------------------------------------------------
+// ---- reply ----------------------------------------------------------------------------------------------------------
 
-/// As a shell takes it.
+/// The command line, quoted for a shell.
 std::string command_line(const Bundle& bundle) {
   std::string line = "fusee";
   for (const std::string& word : bundle.words) {
@@ -199,7 +200,7 @@ void say_version(const Bundle& bundle, Reply& reply) {
   sign(own);
   const auto say = [&](Severity severity, const std::string& what, std::string Bundle::*of) {
     if (bundle.*of == own.*of) return;
-    const std::string words = "the bundle is of " + what + bundle.*of + ", and this is " + what + own.*of;
+    const std::string words = "the bundle was made by " + what + bundle.*of + ", but this is " + what + own.*of;
     reply.diagnostics.push_back(note(severity, cleaned_line(words)));
   };
   say(Severity::warning, "fusee ", &Bundle::version);
@@ -229,10 +230,10 @@ void add_findings(const Bundle& bundle, const Json& differences, Reply& reply) {
   reply.exit = Exit::check_failed;
   std::string hint;
   if (bundle.outcome.exit == static_cast<int>(Exit::cannot_write))
-    hint = "what stood where its outputs go is not in a bundle";
+    hint = "files that existed in its output folder are not in a bundle";
   if (bundle.outcome.exit == static_cast<int>(Exit::interrupted)) hint = "that run was interrupted";
   const std::string first = differences.front()["of"];
-  reply.diagnostics.push_back(note(Severity::error, "the run is not as it was: " + first + " differs", hint));
+  reply.diagnostics.push_back(note(Severity::error, "the result differs from the recorded run: " + first, hint));
 }
 
 Reply run_replay(const Arguments& arguments, Console& console) {
@@ -240,9 +241,9 @@ Reply run_replay(const Arguments& arguments, Console& console) {
   std::optional<fs::path> kept;
   if (const auto folder = arguments.text("--out"); folder && !arguments.has("--dry-run")) kept = *folder;
   const Bundle bundle = read_bundle(read_file(file, k_largest_bundle), file);
-  // One in another would have no end where a bundle is made to hold itself.
+  // A bundle of a replay could contain itself.
   if (const auto at = find_command(bundle.words); at && bundle.words[*at] == "replay")
-    throw InputError(file, "holds a run of 'fusee replay'", "replay the bundle that it was given: it is in this zip");
+    throw InputError(file, "contains a run of 'fusee replay'", "replay the bundle inside this zip instead");
   if (kept) demand_free(*kept);
   console.progress("running " + command_line(bundle));
   Reply reply;
@@ -262,20 +263,20 @@ Reply run_replay(const Arguments& arguments, Console& console) {
 }  // namespace
 
 Command replay_command() {
-  return {"replay",
-          "FILE",
-          "a run that --bundle packed, once more",
-          "Runs the command again that --bundle packed into FILE, on the files and with the\n"
-          "options that are in it, and says whether exit code, messages, outputs and what\n"
-          "it printed are as they were then, and where they differ (exit code 5). It reads\n"
-          "nothing but the bundle, and writes nothing but in a folder of its own, which is\n"
-          "removed afterwards unless -o gives it a place.",
-          {{"-o,--out", "DIR",
-            "leave the files of the bundle and what comes of them\nin DIR, which must not exist or be empty"}},
-          {{"fusee build arm.toml --set pulley.r1_mm=15 --bundle bug.zip", "pack a run: attach bug.zip to a report"},
-           {"fusee replay bug.zip", "does it end as it did there?"},
-           {"fusee replay bug.zip -o bug", "and with everything left in bug, to look at"}},
-          run_replay};
+  return {
+      "replay",
+      "FILE",
+      "rerun a bundle",
+      "Reruns the command that --bundle packed into FILE, with its files and options,\n"
+      "and compares exit code, messages, output files and printed text with the\n"
+      "recorded ones; differences give exit code 5. It reads only the bundle, and\n"
+      "writes only into its own folder, which is removed afterwards unless -o names\n"
+      "it.",
+      {{"-o,--out", "DIR", "keep the files of the bundle and its outputs in DIR,\nwhich must be empty or not exist"}},
+      {{"fusee build arm.toml --set pulley.r1_mm=15 --bundle bug.zip", "pack a run: attach bug.zip to a report"},
+       {"fusee replay bug.zip", "compare with the recorded run"},
+       {"fusee replay bug.zip -o bug", "keep all files in the folder bug"}},
+      run_replay};
 }
 
 }  // namespace fusee::cli

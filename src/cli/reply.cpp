@@ -81,27 +81,31 @@ void add_obstacles(const std::string& file, const std::vector<Condition>& condit
 
 namespace {
 
-/// "r1 ≤ 18.9 mm (pulley.r1_mm is 20)".
-std::string change_and_key(const Change& change) {
-  const std::string from = change.to_word.empty() ? rounded(change.from) : "\"" + change.from_word + "\"";
-  return change.text + " (" + change.key + " is " + from + ")";
+/// "pulley.r1_mm = 18.9 or less (now 20)".
+std::string setting_of(const Change& change) {
+  if (!change.to_word.empty()) return change.text + " (now \"" + change.from_word + "\")";
+  if (change.key == "joint.range_deg") {
+    const auto around_home = [](double end) { return "[" + rounded(-end) + ", " + rounded(end) + "]"; };
+    return change.key + " = " + around_home(change.to) + " (now " + around_home(change.from) + ")";
+  }
+  return change.key + " = " + rounded(change.to) + (change.to > change.from ? " or more" : " or less") + " (now " +
+         rounded(change.from) + ")";
 }
 
 }  // namespace
 
 void add_advice(const std::vector<Change>& advice, Reply& reply) {
-  for (const Change& change : advice)
-    reply.diagnostics.push_back(note(Severity::note, "it would be possible with " + change_and_key(change)));
+  for (const Change& change : advice) reply.diagnostics.push_back(note(Severity::note, "try " + setting_of(change)));
   const auto is_number = [](const Change& change) { return change.to_word.empty(); };
   if (std::none_of(advice.begin(), advice.end(), is_number))
-    reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it possible"));
+    reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it feasible"));
 }
 
 void add_advice_together(const std::vector<Change>& advice, Reply& reply) {
   if (advice.empty()) return;
   std::string both;
-  for (const Change& change : advice) both += (both.empty() ? "" : " together with ") + change_and_key(change);
-  reply.diagnostics.push_back(note(Severity::note, "it would be possible with " + both));
+  for (const Change& change : advice) both += (both.empty() ? "" : " together with ") + setting_of(change);
+  reply.diagnostics.push_back(note(Severity::note, "try " + both));
 }
 
 void explain_without_law(const std::string& file, const SynthesisResult& without_law, Reply& reply) {

@@ -1,5 +1,5 @@
 /// \file
-/// What a command answers: an exit code, text for a person and the same as JSON for a machine.
+/// The reply of a command: exit code, text for a person, and JSON.
 #pragma once
 
 #include <string>
@@ -27,10 +27,10 @@ struct Reply {
   Exit exit = Exit::done;
   std::string text;                     ///< results, for stdout
   std::vector<Diagnostic> diagnostics;  ///< for stderr, and "errors" and "warnings" of the document
-  Json fields = Json::object();         ///< what the document holds beside schema, ok, exit, errors and warnings
+  Json fields = Json::object();         ///< JSON fields in addition to schema, ok, exit, errors and warnings
 };
 
-/// The one document of --json.
+/// The JSON document of --json.
 std::string document(const Reply& reply, const std::string& command);
 
 Json to_json(const Check& check);
@@ -38,16 +38,16 @@ Json to_json(const std::vector<Check>& checks);
 Json to_json(const std::vector<Condition>& conditions);
 Json to_json(const std::vector<Change>& advice);
 
-/// An error for each condition that failed, and a note for each change of a number that would help.
+/// Adds an error for each failed condition, and a note for each change that would help.
 void add_obstacles(const std::string& file, const std::vector<Condition>& conditions, Reply& reply);
 void add_advice(const std::vector<Change>& advice, Reply& reply);
-/// The same for changes that help together and not alone; nothing where there are none.
+/// Adds a note for changes that only help together; nothing if there are none.
 void add_advice_together(const std::vector<Change>& advice, Reply& reply);
 
-/// Of a joint without a law θ(α): Exit::infeasible, why, and what would help.
+/// Explains that a joint has no law θ(α): Exit::infeasible, conditions and advice.
 void explain_without_law(const std::string& file, const SynthesisResult& without_law, Reply& reply);
 
-/// A diagnostic without a place in a file, and one about a whole file.
+/// A diagnostic without file position. about_file() makes one for a whole file.
 Diagnostic note(Severity severity, std::string message, std::string hint = {});
 Diagnostic about_file(Severity severity, std::string file, std::string message);
 

@@ -18,7 +18,7 @@ std::string table_4_text(const Reproduction& all) {
   return text;
 }
 
-// What stands beside a heading, below which nothing else stands.
+// A heading with a text next to it.
 std::string beside(std::string_view heading, std::string_view words) {
   constexpr std::string_view k_indent = "             ";
   std::string first = "  " + std::string(heading);
@@ -128,10 +128,10 @@ Command reproduce_command() {
   return {"reproduce",
           "",
           "the paper, claim by claim",
-          "Computes the table and the figures of the paper that this program began with,\n"
-          "from its own equations, and holds each of its claims against them: holds, holds\n"
-          "only if ..., does not hold. Numbers that the paper does not give are assumed and\n"
-          "named; the windows in which a claim holds are searched for.",
+          "Computes the table and the figures of the paper on which fusee is based from\n"
+          "the paper's equations, and tests each of its claims: holds, holds only if ...,\n"
+          "does not hold. Numbers that the paper omits are assumed and listed, and the\n"
+          "windows in which a claim holds are determined.",
           {{"-o,--out", "DIR", "figures as SVG, numbers as CSV, and the page paper.md"}},
           {{"fusee reproduce", "the claims, one by one"},
            {"fusee reproduce -o paper", "with figures and numbers; read paper/paper.md"}},

@@ -10,7 +10,7 @@
 namespace fusee::cli {
 namespace {
 
-/// Rows of the table for a person; --json and --verbose give every point.
+/// Rows of the terminal table; --json and --verbose have all points.
 constexpr std::size_t k_points_in_table = 13;
 
 std::string points_table(const std::vector<RewindPoint>& points, bool all) {
@@ -41,7 +41,7 @@ Json points_json(const std::vector<RewindPoint>& points) {
   return list;
 }
 
-// ---- where the part lies -------------------------------------------------------------------------
+// ---- placement ---------------------------------------------------------------------------------
 
 std::string_view word(Side side) { return side == Side::left ? "P1" : "P2"; }
 
@@ -54,20 +54,20 @@ std::string grooves_text(const Placement& placement) {
 
 std::string turn_text(const Placement& placement) {
   std::string text = placement.turned_over ? ", upside down" : "";
-  // What is round may have been turned by anything.
+  // The angle of a round part is undetermined.
   if (placement.tells_turn) text += ", turned by " + trimmed_fixed(degrees(placement.turn), 3) + "° about it";
   return text;
 }
 
-/// "its axis at (12.3, -4) mm, turned by 90° about it; grooves P1 at z = …"
+/// Text such as "its axis at (12.3, -4) mm, turned by 90° about it; grooves P1 at z = …".
 std::string placement_text(const Placement& placement) {
   std::string text = "its axis at (" + trimmed_fixed(placement.axis.x(), 3) + ", " +
                      trimmed_fixed(placement.axis.y(), 3) + ") mm" + turn_text(placement) + "; " +
                      (placement.grooves.size() == 1 ? "groove " : "grooves ") + grooves_text(placement) +
                      "; floors within " + rounded(placement.deviation, 2) + " mm of the declared ones";
   if (placement.bore_off_axis > 0)
-    text += "; the bore stands " + rounded(placement.bore_off_axis, 2) +
-            " mm off the grooves' axis, and it is the bore that turns";
+    text += "; the bore is " + rounded(placement.bore_off_axis, 2) +
+            " mm off the grooves' axis, and the part turns about the bore";
   return text;
 }
 
@@ -76,8 +76,8 @@ std::string place_text(const RewoundPart& part) {
   for (const Placement& placement : part.placements)
     text += wrapped("found from its grooves: " + placement_text(placement), "  ", "  ");
   if (part.alone)
-    text += wrapped("the file holds " + std::string(word(*part.alone)) + " alone: tendon " +
-                        (*part.alone == Side::left ? "1" : "2") + " alone was wound, the other's slack is not known",
+    text += wrapped("the file has only " + std::string(word(*part.alone)) + ": only tendon " +
+                        (*part.alone == Side::left ? "1" : "2") + " was wound, and the slack is unknown",
                     "  ", "  ");
   return text;
 }
@@ -89,17 +89,19 @@ void add_place_notes(const std::string& file, const RewoundPart& part, Reply& re
     reply.diagnostics.push_back(diagnostic);
   };
   if (part.place == PartPlace::found)
-    add(Severity::note, "the grooves are not where they were made: the part was looked for and found",
-        "--as-is winds it where it lies");
+    add(Severity::note, "the part was moved after the build: its grooves were found elsewhere",
+        "--as-is winds it in its present position");
   const auto may_be_mirrored = [](const Placement& placement) {
     return placement.grooves.size() == 1 && placement.turned_over && placement.tells_turn;
   };
   if (std::any_of(part.placements.begin(), part.placements.end(), may_be_mirrored))
-    add(Severity::warning, "one groove alone looks the same upside down and mirrored: taken for upside down",
-        "look at the file: was it mirrored?");
+    add(Severity::warning,
+        "a single groove upside down cannot be distinguished from a mirrored one: upside down is assumed",
+        "check that the file is not mirrored");
   if (part.place == PartPlace::not_recognised)
-    add(Severity::warning, "the grooves of this part fit those of the mechanism nowhere: it is wound where it lies",
-        "is it the pulley of this mechanism file, its axis along z?");
+    add(Severity::warning,
+        "the grooves of this part do not fit those of the mechanism anywhere: it is wound in its present position",
+        "check that it is the pulley of this mechanism file, with its axis along z");
 }
 
 Json placements_json(const RewoundPart& part) {
@@ -119,9 +121,9 @@ Json placements_json(const RewoundPart& part) {
   return list;
 }
 
-// ---- the whole -----------------------------------------------------------------------------------
+// ---- command -----------------------------------------------------------------------------------
 
-/// What is wrong with the part is said of its file.
+/// Reads and rewinds a part; faults are reported with its file name.
 RewoundPart rewind_file(const JointAsItIs& joint, const std::string& file, bool as_is, Console& console) {
   console.progress("reading the part");
   const Part part = read_part(file);
@@ -135,7 +137,7 @@ RewoundPart rewind_file(const JointAsItIs& joint, const std::string& file, bool 
   }
 }
 
-/// One tendon alone has no slack that could be known.
+/// With only one tendon the slack is unknown.
 std::vector<Check> checks_of(const Mechanism& mechanism, const RewoundPart& part, const AsBuiltLimits& limits) {
   std::vector<Check> checks = as_built_checks(mechanism, part.as_built, limits);
   if (part.alone) checks.erase(checks.begin() + 1, checks.end());
@@ -176,22 +178,22 @@ Reply run_rewind(const Arguments& arguments, Console& console) {
 
 Command rewind_command() {
   std::vector<Option> options = limit_options();
-  options.push_back({"--as-is", "", "wind it where it lies: axis at (0, 0), as it was made"});
+  options.push_back({"--as-is", "", "wind it in its present position, with the axis at\n(0, 0)"});
   return {"rewind",
           "SPEC FILE",
-          "the joint angle that a made part gives",
-          "Winds two tendons on the grooves of a made part (any mesh that 'fusee check'\n"
+          "the joint angle of a finished part",
+          "Winds two tendons on the grooves of a part (any mesh that 'fusee check'\n"
           "reads, or a dxf with the layers P1_FLOOR and P2_FLOOR), also one that was edited\n"
-          "by hand, and compares the joint angle that they give with that of the mechanism\n"
-          "file SPEC. A mesh that a slicer moved, dropped onto the bed, turned about its\n"
-          "axis or turned over is found from its grooves and brought back, and what was\n"
-          "assumed is said; one that is mirrored or of another size is refused. Of a\n"
-          "pulley of several turns a mesh is wound where it lies.",
+          "by hand, and compares the resulting joint angle with that of the mechanism\n"
+          "file SPEC. A mesh that was moved, turned about its axis or turned over, for\n"
+          "example by a slicer, is found by its grooves and moved back, with a note.\n"
+          "A mirrored mesh, or one of another size, is refused. A pulley of several\n"
+          "turns is wound in its present position.",
           options,
-          {{"fusee rewind arm.toml out/arm/pulley.stl", "is the printed part right?"},
-           {"fusee rewind arm.toml out/arm/profile.dxf", "is the drawing right?"},
+          {{"fusee rewind arm.toml out/arm/pulley.stl", "check the mesh"},
+           {"fusee rewind arm.toml out/arm/profile.dxf", "check the drawing"},
            {"fusee rewind arm.toml out/arm/pulley.stl --max-theta-error-deg 0.01", "with a tighter limit"},
-           {"fusee rewind arm.toml out/arm/pulley.stl --as-is", "and only where it lies"}},
+           {"fusee rewind arm.toml out/arm/pulley.stl --as-is", "in its present position only"}},
           run_rewind};
 }
 

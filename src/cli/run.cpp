@@ -22,8 +22,8 @@ namespace {
 
 constexpr const char* k_version = FUSEE_VERSION;
 
-/// The first mechanism file of this folder by name; "" where there is none. A bundle holds no folder: a run that is
-/// packed or replayed has none.
+/// The first mechanism file of this folder by name; "" if there is none, or if the run is recorded or replayed, since a
+/// bundle has no folder listing.
 std::string mechanism_here() {
   std::vector<std::string> names;
   if (FileAccess::current() != nullptr) return "";
@@ -59,7 +59,7 @@ Reply version_reply() {
   return reply;
 }
 
-/// The overview, and what to type next in this folder.
+/// The overview, and the next command for this folder.
 Reply overview_reply() {
   const std::string spec = mechanism_here();
   const std::string next = spec.empty() ? "Begin with 'fusee new forearm > arm.toml', then 'fusee build arm.toml'."
@@ -72,7 +72,7 @@ Reply without_command(const std::vector<std::string>& words) {
   return has_switch(words, "--help") || has_switch(words, "-h") ? help_reply(main_help()) : overview_reply();
 }
 
-/// "help build" as "build --help".
+/// Replaces "help build" by "build --help".
 std::vector<std::string> without_help_command(std::vector<std::string> words) {
   const auto at = find_command(words);
   if (!at || words[*at] != "help") return words;
@@ -104,15 +104,15 @@ Reply failed(Exit exit, Diagnostic diagnostic) {
 
 Reply bug(const std::string& what) {
   return failed(Exit::bug, note(Severity::error, what + ": this is a bug in fusee",
-                                "please report it with what the same command writes with --bundle bug.zip"));
+                                "please report it, with the file bug.zip of the same command with --bundle bug.zip"));
 }
 
 Reply out_of_memory() {
   return failed(Exit::cannot_write, note(Severity::error, k_no_memory,
-                                         "end other programs, raise the limit (ulimit -v), or give it a smaller file"));
+                                         "end other programs, raise the limit (ulimit -v), or use a smaller file"));
 }
 
-/// The one place where exceptions become exit codes.
+/// Converts exceptions into exit codes; the only such place.
 Reply guarded_answer(const std::vector<std::string>& words, std::string& command_name, Console& console) {
   try {
     return answer(words, command_name, console);
@@ -129,7 +129,7 @@ Reply guarded_answer(const std::vector<std::string>& words, std::string& command
     return failed(Exit::interrupted, note(Severity::error, error.what()));
   } catch (const std::bad_alloc&) {
     return out_of_memory();
-  } catch (const std::system_error& error) {  // a thread whose stack found no room
+  } catch (const std::system_error& error) {  // no memory for a thread's stack
     return error.code() == std::errc::resource_unavailable_try_again ? out_of_memory() : bug(error.what());
   } catch (const std::exception& error) {
     return bug(error.what());
@@ -169,7 +169,7 @@ Ending ending_of(const std::vector<std::string>& words, Console& console) {
 
 namespace {
 
-/// What cannot be packed is said, and is a failure where the run itself is none.
+/// A failed --bundle is reported, and is an error if the run has none.
 void add_not_packed(const OutputError& error, Reply& reply) {
   reply.diagnostics.push_back(note(Severity::error, error.what(), error.hint()));
   if (reply.exit == Exit::done) reply.exit = Exit::cannot_write;

@@ -1,5 +1,5 @@
 /// \file
-/// The program from its arguments to its exit code.
+/// The program, from its arguments to its exit code.
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@
 
 namespace fusee::cli {
 
-/// A command that came to its end, good or bad.
+/// Result of a command that ended, successful or not.
 struct Ending {
-  std::string command;  ///< "" where none was understood
+  std::string command;  ///< "" if no command was recognised
   Reply reply;
   bool json = false;
-  /// For stdout.
+  /// Text for stdout.
   std::string result() const { return json ? document(reply, command) : reply.text; }
 };
 
-/// `words`: the arguments without the program's name. Never throws; nothing is printed but progress.
+/// Runs a command. `words`: the arguments without the program's name. Never throws; prints only progress.
 Ending ending_of(const std::vector<std::string>& words, Console& console);
 
-/// The same with everything printed, and the exit code. --bundle is seen to here.
+/// Runs a command with --bundle, prints everything and returns the exit code.
 int run(const std::vector<std::string>& words);
 
 }  // namespace fusee::cli

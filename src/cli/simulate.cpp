@@ -11,7 +11,7 @@
 namespace fusee::cli {
 namespace {
 
-constexpr double k_most_noise = 45.0;  // deg: beyond that no sensor shows an angle
+constexpr double k_most_noise = 45.0;  // deg; larger noise is no angle sensor's
 
 SimulateOptions simulate_options_from(const Arguments& arguments) {
   SimulateOptions options;
@@ -24,7 +24,7 @@ SimulateOptions simulate_options_from(const Arguments& arguments) {
 
 std::string rows_words(std::size_t count) { return std::to_string(count) + (count == 1 ? " row" : " rows"); }
 
-/// The first row of that kind, by what a person looks it up by.
+/// Place of the first row with that status, for lookup in the log.
 std::string first_place(const Simulation& simulation, EquilibriumStatus status) {
   const auto row = std::find_if(simulation.states.begin(), simulation.states.end(),
                                 [&](const JointState& state) { return state.status == status; });
@@ -42,16 +42,16 @@ void add_findings(const Simulation& simulation, Reply& reply) {
   for (const std::string& words : simulation.log.notes) reply.diagnostics.push_back(note(Severity::note, words));
   if (const std::size_t rows = count_of(simulation, EquilibriumStatus::loose); rows > 0) {
     reply.diagnostics.push_back(note(Severity::warning,
-                                     "nothing holds the joint in " + rows_words(rows) + ", first at " +
+                                     "the joint is loose in " + rows_words(rows) + ", first at " +
                                          first_place(simulation, EquilibriumStatus::loose) + ": both tendons are slack",
-                                     "status says loose there, and loose_deg by how much it may stand elsewhere"));
+                                     "their status is loose, and loose_deg is the range of possible angles"));
   }
   if (const std::size_t rows = count_of(simulation, EquilibriumStatus::no_equilibrium); rows > 0) {
     reply.exit = Exit::check_failed;
     reply.diagnostics.push_back(note(Severity::error,
-                                     "no joint angle balances " + rows_words(rows) + ", first at " +
+                                     "there is no equilibrium in " + rows_words(rows) + ", first at " +
                                          first_place(simulation, EquilibriumStatus::no_equilibrium),
-                                     "the motor goes beyond the pulley's range there, or the load is too large"));
+                                     "the motor exceeds the pulley's range, or the load is too large"));
   }
 }
 
@@ -85,7 +85,7 @@ std::string summary(const Simulation& simulation, const std::string& file) {
   return text + "  in        " + file + "\n";
 }
 
-/// JSON has no NaN: null.
+/// NaN becomes null, as JSON has no NaN.
 Json columns_json(const Simulation& simulation) {
   Json columns = Json::object();
   for (const SimulationColumn& column : simulation_columns(simulation)) {
@@ -130,23 +130,22 @@ Command simulate_command() {
   return {"simulate",
           "SPEC LOG.csv",
           "the joint's angle, tensions and torque for a log",
-          "Moves the joint of the mechanism file SPEC, with what is [identified] in it,\n"
-          "through the motor angles of LOG.csv (alpha_deg and, if known, time_s, load_N,\n"
+          "Simulates the joint of the mechanism file SPEC, including [identified],\n"
+          "for the motor angles of LOG.csv (alpha_deg and, if known, time_s, load_N,\n"
           "temperature_C; theta_deg may be missing), row by row and with its history: play,\n"
           "friction, slack, sensors. Prints a table that 'fusee calibrate' reads: theta_deg\n"
-          "is what the joint's sensor would show, joint_deg where the joint stands;\n"
-          "tension1_N and tension2_N lie between pulley and pin, motor_torque_Nmm is what\n"
-          "turns the pulley. status says where nothing holds the joint. The pulley is the\n"
-          "one made as declared, on which [identified] was found, unless --corrected is\n"
-          "given.",
-          with_reading_options(
-              {{"-o,--out", "FILE", "write the table to FILE, and show a summary"},
-               {"--corrected", "", "with the pulley that 'fusee build SPEC' makes, which\nundoes what a pulley can"},
-               {"--noise-deg", "DEG", "of the joint's sensor, standard deviation\n(default 0)"},
-               {"--seed", "N", "of that noise (default 1)"}}),
+          "is the reading of the joint's sensor, joint_deg the true joint angle,\n"
+          "tension1_N and tension2_N the tensions between pulley and pin,\n"
+          "motor_torque_Nmm the torque on the pulley. status marks rows without\n"
+          "equilibrium. The pulley is that of the declared mechanism, on which\n"
+          "[identified] was measured, unless --corrected is given.",
+          with_reading_options({{"-o,--out", "FILE", "write the table to FILE, and show a summary"},
+                                {"--corrected", "", "with the corrected pulley that 'fusee build SPEC'\nmakes"},
+                                {"--noise-deg", "DEG", "standard deviation of the joint's sensor (default 0)"},
+                                {"--seed", "N", "of that noise (default 1)"}}),
           {{"fusee simulate arm.toml out/arm_plan/run_1.csv > shown.csv", "every row"},
-           {"fusee simulate arm.toml shown.csv --set identified.backlash_deg=1", "what would play do?"},
-           {"fusee simulate arm.toml shown.csv -o rehearsed.csv --noise-deg 0.02", "as a bench would log it"}},
+           {"fusee simulate arm.toml shown.csv --set identified.backlash_deg=1", "the influence of play"},
+           {"fusee simulate arm.toml shown.csv -o rehearsed.csv --noise-deg 0.02", "as a log of a bench"}},
           run_simulate};
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// What a command says, and how it hears a signal, while the pipeline works for it.
+/// Progress and signals while a command runs the pipeline.
 #pragma once
 
 #include <functional>
@@ -15,21 +15,21 @@ class Steps {
  public:
   explicit Steps(Console& console) : console_(console) {}
 
-  /// Shows each step, and goes no further where a signal came.
+  /// Shows each step, and throws Interrupted after a signal.
   std::function<void(std::string_view step)> shown() {
     return [this](std::string_view step) {
       stop_if_interrupted();
       console_.progress(step);
     };
   }
-  /// Until something stands on the disk a signal ends the program where it is; from then on it is noted.
+  /// Before the first file is written a signal exits at once; from then on it is recorded.
   std::function<void()> before_writing() {
     return [this] {
       if (!writing_) writing_.emplace();
       stop_if_interrupted();
     };
   }
-  /// The files are in place.
+  /// To be called when all files are in place.
   void end_writing() { writing_.reset(); }
 
  private:

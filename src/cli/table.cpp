@@ -7,7 +7,7 @@
 namespace fusee::cli {
 namespace {
 
-/// Characters of UTF-8 text: every byte that does not continue one.
+/// Number of characters of UTF-8 text: bytes that are no continuation bytes.
 std::size_t width(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }

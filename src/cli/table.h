@@ -1,5 +1,5 @@
 /// \file
-/// Columns of text for a person.
+/// Text tables.
 #pragma once
 
 #include <string>
@@ -15,12 +15,11 @@ struct Column {
   Align align = Align::left;
 };
 
-/// A title line and one line a row, columns two spaces apart, without trailing blanks. Widths count characters, not
-/// bytes. In a table wider than 80 columns the cells of the widest columns are
-/// wrapped.
+/// A title line and one line a row, columns two spaces apart, without trailing blanks. Widths are in characters, not
+/// bytes. In a table wider than 80 columns the cells of the widest columns are wrapped.
 std::string table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
 
-/// What a number or a finding is called, and behind it, from `column` on or after a blank, what it is.
+/// A title, and a text that begins at `column`, or after a blank if the title is longer.
 std::string titled(std::string title, const std::string& text, std::size_t column = 12);
 
 }  // namespace fusee::cli

@@ -11,18 +11,18 @@
 #include "measurement/seen_span.h"
 #include "transmission/declared_law.h"
 
-// Everything here is re-simulated with predict(): the joint as it was found with the pulley it has, and the same joint
-// with the pulley that corrected.toml makes. What either misses of the declared θ(α) is its error; what the second
-// still misses goes into the table.
+// All errors are simulated with predict(), for the identified joint with its present pulley and with the pulley of
+// corrected.toml. The error is the deviation from the declared θ(α). The error that the corrected pulley leaves goes
+// into the table.
 
 namespace fusee {
 namespace {
 
 using Angles = std::vector<std::vector<double>>;
 
-// ---- what is known now ----------------------------------------------------------------------------------------------
+// ---- identified joint -----------------------------------------------------------------------------------------------
 
-/// Mean of the logged tip force; the declared one where none was logged.
+/// Mean logged tip force; the declared one if no load was logged.
 double mean_load(const Measurement& measurement, const Mechanism& declared) {
   double sum = 0, count = 0;
   for (const Run& run : measurement.runs) {
@@ -34,8 +34,8 @@ double mean_load(const Measurement& measurement, const Mechanism& declared) {
   return count > 0 ? sum / count : declared.load.tip_force;
 }
 
-/// Upper bound of the motor's way after a reversal until the joint follows in full, rad of α. A cable's last contact
-/// holds twice the mean friction.
+/// Upper bound of the motor's lost motion after a reversal, rad of α. A cable's last contact holds twice the mean
+/// friction.
 double lost_motion(const Imperfections& found, const Mechanism& declared, double load) {
   const RatioJointError& joint = found.ratio_joint;
   const double play = 2 * (found.shaft.backlash + joint.slack);
@@ -45,27 +45,29 @@ double lost_motion(const Imperfections& found, const Mechanism& declared, double
   return play + std::abs(declared.transmission->ratio * turned);
 }
 
-/// What earlier calibrations found was part of the declared model this time, so far as a mechanism can have it; the
-/// rest was found anew.
+/// Combines earlier and new imperfections. Earlier ones are part of the declared model as far as a mechanism has them;
+/// the rest is identified anew.
 Imperfections composed(const DeclaredMechanism& declared, const Imperfections& found) {
   Imperfections total = merge_findings(declared.identified, found, kind_of(declared));
   total.joint.mean_load = declared.identified.joint.mean_load;
   return total;
 }
 
-/// What a sheath takes and gives is in the law that the pulley is drawn for.
-bool same_mouths(const Sheath& one, const Sheath& other) {
+/// True if both sheaths end at the same places. Their other properties act through the law for which the pulley is
+/// drawn.
+bool has_same_exits(const Sheath& one, const Sheath& other) {
   return one.is_there() == other.is_there() && one.exit_across == other.exit_across &&
          one.exit_above == other.exit_above;
 }
 
-/// Friction moves the joint, not the curves.
-bool same_drawing(const DeclaredMechanism& a, const DeclaredMechanism& b) {
+/// True if both mechanisms have the same pulley. Friction moves the joint, not the curves.
+bool has_same_pulley(const DeclaredMechanism& a, const DeclaredMechanism& b) {
   JointAsItIs one = as_it_is(a), other = as_it_is(b);
   one.mechanism = without_friction(std::move(one.mechanism));
   other.mechanism = without_friction(std::move(other.mechanism));
   return one.outline == other.outline && one.mechanism.joint == other.mechanism.joint &&
-         one.mechanism.guides == other.mechanism.guides && same_mouths(one.mechanism.sheath, other.mechanism.sheath) &&
+         one.mechanism.guides == other.mechanism.guides &&
+         has_same_exits(one.mechanism.sheath, other.mechanism.sheath) &&
          one.mechanism.pulley == other.mechanism.pulley && one.mechanism.material == other.mechanism.material;
 }
 
@@ -74,14 +76,14 @@ std::string why_infeasible(const DeclaredMechanism& corrected) {
   options.advice = false;
   const Mechanism mechanism = as_it_is(corrected).mechanism;
   const SynthesisResult made = synthesise(mechanism, options);
-  // Whether a body can be wound several times is left to the build.
-  const bool is_wound_on = need_several_turns(made) && !kept_to_one_turn(mechanism);
-  return made.made() || is_wound_on ? "" : made.brief();
+  // The build decides whether a pulley of several turns is feasible.
+  const bool may_be_multi_turn = need_several_turns(made) && !kept_to_one_turn(mechanism);
+  return made.made() || may_be_multi_turn ? "" : made.brief();
 }
 
 // ---- errors ---------------------------------------------------------------------------------------------------------
 
-/// By how much simulated angles miss the declared law.
+/// Deviation of simulated angles from the declared law.
 Angles errors(const Measurement& measurement, const DeclaredLaw& law, Angles theta) {
   for (std::size_t r = 0; r < theta.size(); ++r) {
     for (std::size_t i = 0; i < theta[r].size(); ++i) theta[r][i] -= law.theta(measurement.runs[r].samples[i].alpha);
@@ -89,7 +91,7 @@ Angles errors(const Measurement& measurement, const DeclaredLaw& law, Angles the
   return theta;
 }
 
-/// Calls visit(run index, sample index, stroke) for every sample whose play is known.
+/// Calls visit(run index, sample index, stroke) for every sample with known play state.
 template <typename Visit>
 void for_each_known(const Measurement& measurement, Visit visit) {
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
@@ -100,7 +102,7 @@ void for_each_known(const Measurement& measurement, Visit visit) {
   }
 }
 
-/// About `zero`.
+/// Rms about `zero`.
 double rms(const Measurement& measurement, const Angles& error, double zero) {
   double squares = 0, count = 0;
   for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke&) {
@@ -112,12 +114,12 @@ double rms(const Measurement& measurement, const Angles& error, double zero) {
   return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
-/// The part of `all` that goes when `rest` stays: both rms.
-double gone(double all, double rest) { return std::sqrt(std::max(0.0, all * all - rest * rest)); }
+/// Rms of the removed part if `rest` remains of `all`; both are rms values.
+double removed_rms(double all, double rest) { return std::sqrt(std::max(0.0, all * all - rest * rest)); }
 
 // ---- the table ------------------------------------------------------------------------------------------------------
 
-/// A function of α by straight pieces between evenly spaced places; flat beyond them.
+/// Piecewise linear function of α at even distances, constant beyond its ends.
 struct Curve {
   SeenSpan seen;
   std::vector<double> values;
@@ -130,13 +132,13 @@ struct Curve {
   }
 };
 
-/// Mean over places of α, empty places filled from their neighbours.
+/// Mean in bins of α; empty bins take their nearest neighbour's value.
 class BinnedMean {
  public:
   explicit BinnedMean(const SeenSpan& seen)
       : bins_{seen, k_places}, sums_(k_places + 1, 0), weights_(k_places + 1, 0) {}
 
-  /// Shared between the two places around `alpha`.
+  /// Distributes the value over the two bins next to `alpha`.
   void add(double alpha, double value) {
     const auto i = static_cast<std::size_t>(bins_.bin(alpha));
     const double share = bins_.place(alpha) - static_cast<double>(i);
@@ -167,13 +169,13 @@ class BinnedMean {
   std::vector<double> sums_, weights_;
 };
 
-/// What the joint is off on its way up and on its way down, play taken up: just after a reversal it still stands where
-/// it stood.
-struct BothWays {
+/// Error on the way up and down, with play taken up. Samples just after a reversal, before the joint moves, are
+/// omitted.
+struct DirectionalCurves {
   Curve up, down;
 };
 
-BothWays both_ways(const Measurement& measurement, const Angles& error, double play) {
+DirectionalCurves directional_curves(const Measurement& measurement, const Angles& error, double play) {
   const SeenSpan seen = seen_span(measurement, &Sample::alpha);
   BinnedMean up(seen), down(seen);
   for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
@@ -184,15 +186,15 @@ BothWays both_ways(const Measurement& measurement, const Angles& error, double p
   return {up.curve(), down.curve()};
 }
 
-/// What stays when the motor goes where the table says.
-Angles tabled(const Measurement& measurement, Angles error, const BothWays& table) {
+/// Error that remains if the motor follows the table.
+Angles with_table(const Measurement& measurement, Angles error, const DirectionalCurves& table) {
   for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
     error[r][i] -= (stroke.direction > 0 ? table.up : table.down).at(measurement.runs[r].samples[i].alpha);
   });
   return error;
 }
 
-/// α at which a curve of (θ, α), sorted by θ, has `theta`.
+/// Interpolates α at `theta` in a curve of (θ, α) that is sorted by θ.
 double alpha_at(const std::vector<LawRow>& rows, double theta) {
   const auto above = std::lower_bound(rows.begin() + 1, rows.end() - 1, theta,
                                       [](const LawRow& row, double value) { return row.theta < value; });
@@ -201,11 +203,11 @@ double alpha_at(const std::vector<LawRow>& rows, double theta) {
   return span > 0 ? low.alpha + (above->alpha - low.alpha) * (theta - low.theta) / span : low.alpha;
 }
 
-/// What the joint is off by: what effects make of it, and the curve of what has no name.
-struct Off {
-  const BothWays& effects;
-  const EmpiricalCurve* curve;  ///< null: none
-  SeenSpan seen;                ///< where all of it is known
+/// Error of the joint: from effects, and from the empirical curve of the unmodelled error.
+struct JointDeviation {
+  const DirectionalCurves& effects;
+  const EmpiricalCurve* curve;  ///< null if there is none
+  SeenSpan seen;                ///< range in which both are known
 
   double at(double alpha, bool rising) const {
     const double known = (rising ? effects.up : effects.down).at(alpha);
@@ -213,7 +215,7 @@ struct Off {
   }
 };
 
-SeenSpan seen_in(const BothWays& effects, const EmpiricalCurve* curve) {
+SeenSpan common_span(const DirectionalCurves& effects, const EmpiricalCurve* curve) {
   SeenSpan seen = effects.up.seen;
   if (curve == nullptr) return seen;
   seen.least = std::max(seen.least, curve->alpha.front());
@@ -221,13 +223,13 @@ SeenSpan seen_in(const BothWays& effects, const EmpiricalCurve* curve) {
   return seen;
 }
 
-/// Where the joint is, moving one way, by growing θ.
-std::vector<LawRow> motion_rows(const DeclaredLaw& law, const Off& off, bool rising) {
+/// Motion of the joint in one direction, by growing θ.
+std::vector<LawRow> motion_rows(const DeclaredLaw& law, const JointDeviation& deviation, bool rising) {
   constexpr int places = 800;
   std::vector<LawRow> rows;
   for (int i = 0; i <= places; ++i) {
-    const double alpha = off.seen.least + off.seen.size() * i / places;
-    rows.push_back({alpha, law.theta(alpha) + off.at(alpha, rising)});
+    const double alpha = deviation.seen.least + deviation.seen.size() * i / places;
+    rows.push_back({alpha, law.theta(alpha) + deviation.at(alpha, rising)});
   }
   if (rows.back().theta < rows.front().theta) std::reverse(rows.begin(), rows.end());
   std::vector<LawRow> growing{rows.front()};
@@ -237,8 +239,8 @@ std::vector<LawRow> motion_rows(const DeclaredLaw& law, const Off& off, bool ris
   return growing;
 }
 
-/// Where the motor must stand with all that is known, and what of it is the curve's.
-struct Motion {
+/// Motor angles for one direction, complete and without the empirical curve.
+struct MotorPath {
   std::vector<LawRow> all, effects;
 
   bool any() const { return all.size() > 1 && effects.size() > 1; }
@@ -246,12 +248,13 @@ struct Motion {
   double of_curve(double theta) const { return alpha_at(all, theta) - alpha_at(effects, theta); }
 };
 
-Motion motion_of(const DeclaredLaw& law, const Off& off, bool rising) {
-  return {motion_rows(law, off, rising), motion_rows(law, {off.effects, nullptr, off.effects.up.seen}, rising)};
+MotorPath motion_of(const DeclaredLaw& law, const JointDeviation& deviation, bool rising) {
+  return {motion_rows(law, deviation, rising),
+          motion_rows(law, {deviation.effects, nullptr, deviation.effects.up.seen}, rising)};
 }
 
-std::vector<CompensationRow> compensation_rows(const DeclaredLaw& law, const Off& off) {
-  const Motion rising = motion_of(law, off, true), falling = motion_of(law, off, false);
+std::vector<CompensationRow> compensation_rows(const DeclaredLaw& law, const JointDeviation& deviation) {
+  const MotorPath rising = motion_of(law, deviation, true), falling = motion_of(law, deviation, false);
   if (!rising.any() || !falling.any()) return {};
   const double low = std::max(rising.all.front().theta, falling.all.front().theta),
                high = std::min(rising.all.back().theta, falling.all.back().theta);
@@ -265,19 +268,19 @@ std::vector<CompensationRow> compensation_rows(const DeclaredLaw& law, const Off
   return table;
 }
 
-// ---- measured -------------------------------------------------------------------------------------------------------
+// ---- held-out rows --------------------------------------------------------------------------------------------------
 
-constexpr const char* k_no_better = "rows that were not fitted do not get better by it";
+constexpr const char* k_no_better = "it does not improve rows that were not fitted";
 
-/// Rows of a run by which a correction is measured.
+/// Rows of a run on which a correction is evaluated.
 constexpr std::size_t k_rows_a_run = 300;
 
-/// The joint with what was identified, before and behind the pulley that would correct it.
-struct Corrected {
+/// The identified joint with its present pulley and with the corrected one.
+struct CorrectedJoint {
   const DeclaredMechanism& declared;
   const DeclaredMechanism& corrected;
   bool has_pulley = false;
-  double tie = 0;  ///< where the motor stands when the pulley's tendons are tied, rad
+  double tie = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
 
   Angles now(const Imperfections& at, const BenchLog& log) const { return predict(expected_joint(declared), at, log); }
   Angles then(const Imperfections& at, const BenchLog& log) const {
@@ -288,17 +291,18 @@ struct Corrected {
   }
 };
 
-BothWays table_of(const Corrected& joint, const Measurement& measurement, const DeclaredLaw& law,
-                  const Imperfections& at) {
-  return both_ways(measurement, errors(measurement, law, joint.then(at, bench_log(measurement))),
-                   lost_motion(at, joint.declared, mean_load(measurement, joint.declared)));
+DirectionalCurves table_of(const CorrectedJoint& joint, const Measurement& measurement, const DeclaredLaw& law,
+                           const Imperfections& at) {
+  return directional_curves(measurement, errors(measurement, law, joint.then(at, bench_log(measurement))),
+                            lost_motion(at, joint.declared, mean_load(measurement, joint.declared)));
 }
 
-/// Squares of rows that were left out: as measured, by what the pulley changes of them, and with the table.
-struct Measured {
+/// Sums of squared errors on held-out rows: as measured, with the corrected pulley, and with the table.
+struct HeldOutSquares {
   double now = 0, with_pulley = 0, with_table = 0, rows = 0;
 
-  void add(const Measurement& held, const Angles& error, const Angles& change, const BothWays& table, double zero) {
+  void add(const Measurement& held, const Angles& error, const Angles& change, const DirectionalCurves& table,
+           double zero) {
     for_each_known(held, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
       const double off = error[r][i] - zero, with = off + change[r][i];
       if (!std::isfinite(with)) return;
@@ -309,9 +313,11 @@ struct Measured {
       rows += 1;
     });
   }
-  double gone_by_pulley() const { return rows > 0 ? gone(std::sqrt(now / rows), std::sqrt(with_pulley / rows)) : 0; }
-  double gone_by_table() const {
-    return rows > 0 ? gone(std::sqrt(with_pulley / rows), std::sqrt(with_table / rows)) : 0;
+  double removed_by_pulley() const {
+    return rows > 0 ? removed_rms(std::sqrt(now / rows), std::sqrt(with_pulley / rows)) : 0;
+  }
+  double removed_by_table() const {
+    return rows > 0 ? removed_rms(std::sqrt(with_pulley / rows), std::sqrt(with_table / rows)) : 0;
   }
 };
 
@@ -322,15 +328,14 @@ Measurement some_runs(Measurement measurement, const std::vector<std::string>& n
   return measurement;
 }
 
-/// Run by run, with the numbers and the table that the other runs give. A table is made from all where there is no
-/// other.
-Measured measured(const Corrected& joint, const Measurement& measurement, const DeclaredLaw& law,
-                  const std::vector<LeftOut>& left_out) {
+/// Evaluates each run with the parameters and table from the other runs. With a single run the table is made from it.
+HeldOutSquares measured(const CorrectedJoint& joint, const Measurement& measurement, const DeclaredLaw& law,
+                        const std::vector<LeftOut>& left_out) {
   const Measurement thin = with_fewer_rows(measurement, k_rows_a_run);
-  Measured all;
+  HeldOutSquares all;
   for (const LeftOut& left : left_out) {
     const Measurement held = some_runs(thin, left.runs, true), others = some_runs(thin, left.runs, false);
-    const BothWays table = table_of(joint, others.runs.empty() ? held : others, law, left.identified);
+    const DirectionalCurves table = table_of(joint, others.runs.empty() ? held : others, law, left.identified);
     const BenchLog log = bench_log(held);
     Angles theta, change = joint.then(left.identified, log);
     const Angles now = joint.now(left.identified, log);
@@ -347,15 +352,15 @@ Measured measured(const Corrected& joint, const Measurement& measurement, const 
   return all;
 }
 
-/// Why a file is not handed over.
-void judge(const Calibration& calibration, Correction& correction) {
+/// Fills the reasons for which a file is not written.
+void fill_reasons(const Calibration& calibration, Correction& correction) {
   if (calibration.effects.empty()) {
     correction.why_no_pulley_file = "no effect was found that the declared file lacks";
   } else if (!(calibration.after.held_out_rms < calibration.before.held_out_rms)) {
     correction.why_no_pulley_file = k_no_better;
   }
   if (correction.table.empty()) {
-    correction.why_no_table = "there is no range of the joint that was measured both ways";
+    correction.why_no_table = "no range of the joint was measured in both directions";
   } else if (!(correction.by_table > 0)) {
     correction.why_no_table = k_no_better;
   }
@@ -373,42 +378,43 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
     correction.identified.joint.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
   const DeclaredLaw law(declared);
   if (!seen_span(measurement, &Sample::alpha).any() || !law.exists()) {
-    judge(calibration, correction);
+    fill_reasons(calibration, correction);
     return correction;
   }
 
   DeclaredMechanism corrected = declared;
   corrected.identified = correction.identified;
-  correction.has_pulley = !declared.transmission && !same_drawing(declared, corrected);
+  correction.has_pulley = !declared.transmission && !has_same_pulley(declared, corrected);
   if (correction.has_pulley) correction.infeasible = why_infeasible(corrected);
   if (!correction.infeasible.empty()) correction.has_pulley = false;
-  const auto rows_left_out = [&](double tie) {
+  const auto held_out_rows = [&](double tie) {
     return measured({declared, corrected, correction.has_pulley, tie}, measurement, law, calibration.left_out);
   };
   if (correction.has_pulley) {
-    correction.by_pulley = rows_left_out(tied_at(corrected)).gone_by_pulley();
+    correction.by_pulley = held_out_rows(tied_at(corrected)).removed_by_pulley();
     correction.has_pulley = correction.by_pulley > 0;
     if (!correction.has_pulley) correction.why_no_pulley_file = k_no_better;
   }
-  correction.by_table = rows_left_out(0).gone_by_table();
+  correction.by_table = held_out_rows(0).removed_by_table();
   if (correction.has_pulley && declared.pulley.law == Law::compensate) correction.round = round_choice(corrected);
   if (correction.has_pulley) correction.tied_at = tied_at(corrected);
 
-  const Corrected joint{declared, corrected, correction.has_pulley};
+  const CorrectedJoint joint{declared, corrected, correction.has_pulley};
   const BenchLog log = bench_log(measurement);
   const Angles now = errors(measurement, law, joint.now(found, log)),
                then = errors(measurement, law, joint.then(found, log));
-  const BothWays table = both_ways(measurement, then, lost_motion(found, declared, mean_load(measurement, declared)));
-  // A ratio says nothing of where the joint's zero is: to stand there is no error.
+  const DirectionalCurves table =
+      directional_curves(measurement, then, lost_motion(found, declared, mean_load(measurement, declared)));
+  // The zero of a joint declared by a ratio is arbitrary, so its offset is not an error.
   const double zero = declared.transmission ? found.sensor.zero : 0.0;
   correction.error_now = rms(measurement, now, zero);
   correction.error_with_pulley = rms(measurement, then, zero);
-  correction.error_with_table = rms(measurement, tabled(measurement, then, table), 0.0);
+  correction.error_with_table = rms(measurement, with_table(measurement, then, table), 0.0);
   const EmpiricalCurve* curve = calibration.curve.used ? &calibration.curve : nullptr;
   if (curve != nullptr) correction.by_curve = curve->gain;
   correction.by_table = std::hypot(correction.by_table, correction.by_curve);
-  correction.table = compensation_rows(law, {table, curve, seen_in(table, curve)});
-  judge(calibration, correction);
+  correction.table = compensation_rows(law, {table, curve, common_span(table, curve)});
+  fill_reasons(calibration, correction);
   return correction;
 }
 

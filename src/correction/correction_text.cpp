@@ -30,15 +30,15 @@ std::string found_text(const FoundEffect& effect) {
   for (const std::string& rival : effect.group) {
     if (rival != effect.name) text += " " + rival;
   }
-  text += ": these data cannot tell";
+  text += ": these data do not distinguish them";
   for (const MemberBeside& member : effect.beside) {
-    text += "; perhaps " + member.name + " beside it";
+    text += "; perhaps with " + member.name + "";
     for (const FittedParameter& parameter : member.parameters) text += number_text(parameter);
   }
   return text;
 }
 
-/// Six digits are more than any bench gives, and shorter than all of a double.
+/// Six digits exceed the accuracy of any bench and are shorter than a full double.
 double tidy(double value) {
   if (value == 0 || !std::isfinite(value)) return 0;
   const double scale = std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
@@ -48,7 +48,7 @@ double tidy(double value) {
 constexpr const char* k_title =
     "# ---- found by fusee calibrate: without this table this is the declared joint again ----\n";
 
-/// Without the words of an earlier calibration.
+/// Removes the comment of an earlier calibration.
 std::string without_earlier_words(std::string text) {
   const std::size_t title = text.find(k_title);
   if (title == std::string::npos) return text;
@@ -62,15 +62,14 @@ std::string words_of(const Calibration& calibration, const Correction& correctio
   for (const FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
   if (calibration.effects.empty()) words += "# no effect was found that the declared file lacks\n";
   if (correction.by_curve > 0) {
-    words +=
-        "# compensation.csv covers by an empirical curve what has no name and depends on place and direction alone: " +
-        rounded(degrees(correction.by_curve), 2) + " deg rms\n";
+    words += "# compensation.csv corrects the unmodelled error by an empirical curve of place and direction: " +
+             rounded(degrees(correction.by_curve), 2) + " deg rms\n";
   }
   if (correction.tied_at != 0) {
-    words += "# tendons tied with the unloaded joint at home and the motor at " +
+    words += "# Tie the tendons with the unloaded joint at home and the motor at " +
              rounded(degrees(correction.tied_at), 4) +
-             " deg: under its mean load the joint follows the law.\n# Tied at 0 deg, compensation.csv says where the "
-             "motor must stand.\n";
+             " deg: the joint then follows the law under its mean load.\n# If tied at 0 deg, use compensation.csv "
+             "for the motor angles.\n";
   }
   return words;
 }
@@ -89,7 +88,7 @@ std::vector<ValueEdit> identified_edits(const DeclaredMechanism& declared, const
   return edits;
 }
 
-/// Where the line below the header [identified] begins; npos without that header.
+/// Index of the line below the header [identified]; npos without that header.
 std::size_t below_header(const std::string& text) {
   for (std::size_t line = 0; line < text.size();) {
     const std::size_t end = std::min(text.find('\n', line), text.size());
@@ -104,8 +103,7 @@ std::size_t below_header(const std::string& text) {
 
 }  // namespace
 
-// What is added stands in the table, words and numbers, so that deleting the table gives the declared file back byte
-// for byte.
+// Comment and numbers stand inside the table: deleting the table restores the declared file byte for byte.
 std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared,
                            const Calibration& calibration, const Correction& correction) {
   std::string text = without_earlier_words(std::string(declared_text));
@@ -115,7 +113,7 @@ std::string corrected_toml(std::string_view declared_text, const DeclaredMechani
   text = edit_values(text, edits);
   const std::string words = words_of(calibration, correction);
   const std::size_t place = below_header(text);
-  if (place == std::string::npos) return text + words;  // written as an inline table
+  if (place == std::string::npos) return text + words;  // the file has an inline table
   return text.insert(place, words);
 }
 

@@ -12,10 +12,10 @@ namespace fusee {
 namespace {
 
 constexpr int k_places = 60;            ///< intervals of the stroke
-constexpr double k_pace = radians(20);  ///< of the motor, 1/s: slow, as at a bench
+constexpr double k_pace = radians(20);  ///< motor speed, 1/s: slow, as on a bench
 constexpr double k_seen = radians(1e-3);
 
-/// None, the largest logged against +θ, and with it; of a log without loads the declared one.
+/// No load, and the largest logged loads in both directions; without logged loads the declared one.
 std::vector<double> loads_of(const Measurement& measurement, const Mechanism& expected) {
   double low = 0, high = 0;
   bool logged = false;
@@ -33,12 +33,12 @@ std::vector<double> loads_of(const Measurement& measurement, const Mechanism& ex
   return loads;
 }
 
-std::vector<double> less(std::vector<double> one, const std::vector<double>& other) {
+std::vector<double> difference_of(std::vector<double> one, const std::vector<double>& other) {
   for (std::size_t i = 0; i < one.size(); ++i) one[i] -= other[i];
   return one;
 }
 
-/// A stroke there and back, and once more; the second is looked at.
+/// A stroke there and back, driven twice; the second is evaluated.
 class Drive {
  public:
   Drive(const Mechanism& expected, const std::vector<double>& alphas, double load)
@@ -67,21 +67,21 @@ class Drive {
     without_ = shown({});
   }
 
-  struct Ways {
+  struct DirectionalResponse {
     std::vector<double> rising, falling;  ///< rad
   };
-  /// By how much the sensor shows another angle.
-  Ways moved_by(const Imperfections& imperfections) const {
-    const Ways with = shown(imperfections);
-    return {less(with.rising, without_.rising), less(with.falling, without_.falling)};
+  /// Change of the sensed angle by the given imperfections.
+  DirectionalResponse response_to(const Imperfections& imperfections) const {
+    const DirectionalResponse with = shown(imperfections);
+    return {difference_of(with.rising, without_.rising), difference_of(with.falling, without_.falling)};
   }
 
  private:
-  Ways shown(const Imperfections& imperfections) const {
+  DirectionalResponse shown(const Imperfections& imperfections) const {
     const std::vector<double> theta = predict(expected_, imperfections, log_).front();
     const auto from = theta.begin() + static_cast<std::ptrdiff_t>(first_ + 2 * count_);
     const auto turn = from + static_cast<std::ptrdiff_t>(count_);
-    Ways ways{{from, turn}, {turn, turn + static_cast<std::ptrdiff_t>(count_)}};
+    DirectionalResponse ways{{from, turn}, {turn, turn + static_cast<std::ptrdiff_t>(count_)}};
     std::reverse(ways.falling.begin(), ways.falling.end());
     return ways;
   }
@@ -90,10 +90,10 @@ class Drive {
   std::size_t count_;
   std::size_t first_ = 0;
   BenchLog log_;
-  Ways without_;
+  DirectionalResponse without_;
 };
 
-/// Nothing but so much of `effect` as was found.
+/// Imperfections with `effect` alone, at a share of its identified size.
 Imperfections share_of(const Effect& effect, const Imperfections& found, double share) {
   Imperfections joint;
   for (const EffectParameter& parameter : effect.parameters) {
@@ -132,7 +132,7 @@ RehearsedEffect rehearsed(const Effect& effect, const DeclaredMechanism& expecte
     const Imperfections joint = share_of(effect, found, share);
     RehearsedShare shown{numbers_of(effect, joint, expected), {}, {}};
     for (const Drive& drive : drives) {
-      Drive::Ways ways = drive.moved_by(joint);
+      Drive::DirectionalResponse ways = drive.response_to(joint);
       shown.rising.push_back(std::move(ways.rising));
       shown.falling.push_back(std::move(ways.falling));
     }

@@ -31,7 +31,7 @@ bool is_grouped(std::string_view text, char mark) {
   return groups > 0 && digits == 3 && text.front() != '0';
 }
 
-/// With the decimal point for `mark`, without the groups of the other.
+/// Removes the other mark's groups and writes the decimal point for `mark`.
 std::string with_point(std::string_view text, char mark) {
   std::string plain;
   for (const char c : text) {
@@ -44,7 +44,7 @@ std::string with_point(std::string_view text, char mark) {
   return plain;
 }
 
-/// The mark that a cell can only have as its decimal mark; 0 for one that does not tell.
+/// The decimal mark that a cell proves; 0 if it is ambiguous.
 char decimal_mark_of(std::string_view text) {
   double value = 0;
   const std::size_t comma = text.rfind(','), point = text.rfind('.');
@@ -81,7 +81,7 @@ void NumberReader::settle_mark(const std::vector<std::string_view>& row) {
     if (mark_ != 0) return;
     doubtful = doubtful || is_grouped(cell, ',');
   }
-  if (doubtful) mark_ = ',';  // nothing but commas: three decimals
+  if (doubtful) mark_ = ',';  // only commas: three decimals
 }
 
 Cell NumberReader::read(std::string_view text, double& value) const {
@@ -99,7 +99,7 @@ Cell NumberReader::read(std::string_view text, double& value) const {
 
 namespace {
 
-/// Reads digits of a time stamp from its beginning on.
+/// Reads the digits of a time stamp from left to right.
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : rest_(text) {}
@@ -159,7 +159,7 @@ std::optional<double> time_of_day(Scanner& scanner) {
   return seconds;
 }
 
-/// "Z", "+01:00", "+0100", "-05": what it is ahead of UTC, s.
+/// Offset from UTC, s: "Z", "+01:00", "+0100", "-05".
 std::optional<double> zone(Scanner& scanner) {
   if (scanner.rest().empty() || scanner.take("zZ")) return 0;
   const bool west = scanner.rest().front() == '-';

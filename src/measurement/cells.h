@@ -1,5 +1,5 @@
 /// \file
-/// Internal: cells of a log to numbers.
+/// Internal: parses the cells of a log as numbers and time stamps.
 #pragma once
 
 #include <optional>
@@ -10,24 +10,24 @@ namespace fusee {
 
 enum class Cell { number, missing, text };
 
-/// "1.5". "", "nan", "inf", "n/a" and the like are missing: what loggers write when there is nothing to write.
+/// Reads "1.5". Text such as "", "nan", "inf" and "n/a" counts as missing: loggers write it for absent values.
 Cell read_number(std::string_view text, double& value);
 
-/// Numbers of one file, which has one decimal mark, point or comma. A comma beside decimal points, or a point beside
-/// decimal commas, groups thousands: "1,020.5", "1.020,5".
+/// Number parser of one file. A file has one decimal mark, point or comma; the other mark groups thousands: "1,020.5",
+/// "1.020,5".
 class NumberReader {
  public:
-  /// Of a file whose separator is the comma, only quoted cells can hold one.
+  /// If the separator is the comma, only quoted cells can hold a comma.
   void settle_mark(const std::vector<std::string_view>& row);
   Cell read(std::string_view text, double& value) const;
   bool has_decimal_comma() const { return mark_ == ','; }
 
  private:
-  char mark_ = 0;  ///< 0 until a cell decides
+  char mark_ = 0;  ///< 0 until a cell determines it
 };
 
-/// ISO 8601 ("2025-03-01T10:00:00.020Z", a blank for the T, a comma in the seconds, an offset) or a time of day
-/// ("10:00:00.020"): s since 1970, or since midnight. Nothing for other text.
+/// ISO 8601 ("2025-03-01T10:00:00.020Z", a blank for the T, a comma in the seconds, an offset) as s since 1970, or a
+/// time of day ("10:00:00.020") as s since midnight. Empty for other text.
 std::optional<double> read_time_stamp(std::string_view text);
 
 }  // namespace fusee

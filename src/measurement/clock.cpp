@@ -13,9 +13,10 @@ namespace fusee {
 namespace {
 
 constexpr double k_no_time = std::numeric_limits<double>::quiet_NaN();
-/// Counters that run over, s: micros() and millis() of 32 bits, nanoseconds of 32 bits, millis() of 16 bits, a day.
+/// Periods of overflowing counters, s: micros() and millis() of 32 bits, nanoseconds of 32 bits, millis() of 16 bits,
+/// one day.
 constexpr std::array k_periods = {4294.967296, 4294967.296, 4.294967296, 65.536, 86400.0};
-/// A row that comes later than this many others was not delivered late: the clock was set back.
+/// A row that follows more than this many later rows is a clock set back, not a late row.
 constexpr std::size_t k_latest = 3;
 
 void drop_time(Run& run) {
@@ -25,13 +26,13 @@ void drop_time(Run& run) {
 
 std::string times_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " time" : " times"); }
 
-/// Between the rows that have one; false when more than one in ten has none, or an end.
-bool fill_time(std::vector<Sample>& samples, const Say& say) {
+/// Interpolates missing times; false if more than one in ten rows, or an end, has none.
+bool fill_time(std::vector<Sample>& samples, const NoteSink& add_note) {
   const auto is_lost = [](const Sample& sample) { return std::isnan(sample.time); };
   const auto lost = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), is_lost));
   if (lost == 0) return true;
   if (10 * lost > samples.size() || is_lost(samples.front()) || is_lost(samples.back())) {
-    say(rows_text(lost) + " without a time: time is not used");
+    add_note(rows_text(lost) + " without a time: time is not used");
     return false;
   }
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -41,11 +42,11 @@ bool fill_time(std::vector<Sample>& samples, const Say& say) {
     samples[i].time =
         samples[i - 1].time + (samples[next].time - samples[i - 1].time) / static_cast<double>(next - i + 1);
   }
-  say(rows_text(lost) + " without a time: it was taken from the rows beside");
+  add_note(rows_text(lost) + " without a time: interpolated");
   return true;
 }
 
-/// Makes one growing clock of what a log shows.
+/// Joins the pieces of a clock that overflows, restarts or is delivered late.
 class ClockJoiner {
  public:
   explicit ClockJoiner(std::vector<Sample>& samples) : samples_(samples) {
@@ -59,8 +60,8 @@ class ClockJoiner {
     usual_ = median_of(std::move(steps));
   }
 
-  /// False where the clock goes back so often that it is none.
-  bool join(const Say& say) {
+  /// False if the clock goes back so often that it is no clock.
+  bool join(const NoteSink& add_note) {
     if (rows_.empty()) return true;
     std::vector<double> joined(rows_.size(), time(0));
     double shift = 0, high = time(0), first = high;
@@ -85,18 +86,18 @@ class ClockJoiner {
       joined[k] = high + shift;
     }
     if (20 * restarts_.size() > rows_.size() && restarts_.size() > 1) {
-      say("the clock goes back " + times_text(restarts_.size()) + " in " + rows_text(rows_.size()) +
-          ": time is not used");
+      add_note("the clock goes back " + times_text(restarts_.size()) + " in " + rows_text(rows_.size()) +
+               ": time is not used");
       return false;
     }
-    apply(joined, say);
+    apply(joined, add_note);
     return true;
   }
 
  private:
   double time(std::size_t k) const { return samples_[rows_[k]].time; }
 
-  /// Of the counter that ran over between two rows; 0 for none.
+  /// Period of the counter that overflowed between two times; 0 for none.
   double period_over(double before, double here) const {
     for (const double period : k_periods) {
       const double step = here - before + period;
@@ -110,8 +111,8 @@ class ClockJoiner {
     return one.alpha == two.alpha && one.theta == two.theta;
   }
 
-  /// How many rows from `k` on were delivered late: the clock then goes on beyond `high`, and each of them has a place
-  /// of its own between the rows before.
+  /// Number of late rows from `k` on: the clock then continues beyond `high`, and each late row fits between earlier
+  /// rows.
   std::size_t late_rows(std::size_t k, double first, double high) const {
     std::size_t end = k;
     while (end < rows_.size() && end < k + k_latest + 1 && !(time(end) > high)) ++end;
@@ -127,17 +128,17 @@ class ClockJoiner {
     return end - k;
   }
 
-  void apply(const std::vector<double>& joined, const Say& say) {
-    if (overruns_ > 0) say("the clock's counter ran over " + times_text(overruns_) + ": it goes on");
+  void apply(const std::vector<double>& joined, const NoteSink& add_note) {
+    if (overruns_ > 0) add_note("the clock's counter ran over " + times_text(overruns_) + ": the time is continued");
     if (!restarts_.empty()) {
       const std::size_t k = restarts_.front();
-      say("the clock goes back " + times_text(restarts_.size()) + ", first from " + rounded(time(k - 1)) + " to " +
-          rounded(time(k)) + " s: the log begins again there, and rows stay in their order");
+      add_note("the clock goes back " + times_text(restarts_.size()) + ", first from " + rounded(time(k - 1)) + " to " +
+               rounded(time(k)) + " s: the log restarts there, and rows keep their order");
     }
     for (const std::size_t k : restarts_) samples_[rows_[k]].after_break = true;
     for (std::size_t k = 0; k < rows_.size(); ++k) samples_[rows_[k]].time = joined[k];
     if (late_ == 0) return;
-    say(rows_text(late_) + " delivered late, after rows of a later time: put back between them");
+    add_note(rows_text(late_) + " delivered late, after rows of a later time: moved back between them");
     std::vector<Sample> in_order;
     for (const std::size_t row : rows_) in_order.push_back(samples_[row]);
     const auto by_time = [](const Sample& a, const Sample& b) { return a.time < b.time; };
@@ -163,8 +164,8 @@ Sample mean_of(const std::vector<Sample>& samples, std::size_t first, std::size_
   return mean;
 }
 
-/// Rows of one time: one row logged more than once, or a clock that ticks more slowly than the log is written.
-void part_ticks(Run& run, const Say& say) {
+/// Handles rows of equal time: a row that was logged repeatedly, or a clock coarser than the log.
+void part_ticks(Run& run, const NoteSink& add_note) {
   std::vector<Sample>& samples = run.samples;
   std::vector<std::size_t> ticks;  // the first row of each
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -173,7 +174,7 @@ void part_ticks(Run& run, const Say& say) {
   const std::size_t same = samples.size() - ticks.size();
   if (same == 0) return;
   if (ticks.size() == 1) {
-    say("the clock stands still: time is not used");
+    add_note("the clock stands still: time is not used");
     return drop_time(run);
   }
   const bool coarse = samples.size() >= 3 * ticks.size();
@@ -192,15 +193,15 @@ void part_ticks(Run& run, const Say& say) {
       samples.back().time += tick * static_cast<double>(i - first) / static_cast<double>(end - first);
     }
   }
-  say(rows_text(same) + " with the time of the row before: " +
-      (coarse ? "the clock is coarser than the log, they were spread over its ticks" : "taken together, their mean"));
+  add_note(rows_text(same) + " with the time of the preceding row: " +
+           (coarse ? "the clock is coarser than the log, they are spread over its ticks" : "averaged"));
 }
 
 }  // namespace
 
-void order_time(Run& run, const Say& say) {
-  if (!ClockJoiner(run.samples).join(say) || !fill_time(run.samples, say)) return drop_time(run);
-  part_ticks(run, say);
+void order_time(Run& run, const NoteSink& add_note) {
+  if (!ClockJoiner(run.samples).join(add_note) || !fill_time(run.samples, add_note)) return drop_time(run);
+  part_ticks(run, add_note);
 }
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: the clock of a log.
+/// Internal: repairs the clock of a log.
 #pragma once
 
 #include "fusee/measurement/measurement.h"
@@ -7,10 +7,10 @@
 
 namespace fusee {
 
-/// Afterwards time grows from row to row, or the run has none. Rows stay in the order of the file: a counter that runs
-/// over goes on, and where the clock goes back otherwise the log began again (Sample::after_break). Only a row that was
-/// delivered late, into a gap between the rows before it, is put back there. Rows of one time become one, their mean,
-/// or are spread over the tick of a clock coarser than the log.
-void order_time(Run& run, const Say& say);
+/// Makes the time of a run increase from row to row, or drops it. Rows keep their order: an overflowing counter is
+/// continued, and a clock that is set back marks a restart (Sample::after_break). Only late rows that fit into a gap
+/// before are moved there. Rows with equal times are averaged, or spread over the tick if the clock is coarser than the
+/// log.
+void order_time(Run& run, const NoteSink& add_note);
 
 }  // namespace fusee

@@ -10,7 +10,7 @@
 namespace fusee {
 namespace {
 
-/// Names by which a role is known without --column, beside its usual one and in any unit.
+/// Names that are recognised for a role without --column, in any unit, besides the default name.
 const std::vector<std::string>& words_of(const std::string& role) {
   static const std::map<std::string, std::vector<std::string>> words = {
       {"alpha", {"alpha"}},       {"theta", {"theta"}},
@@ -30,7 +30,7 @@ std::string list_of(const std::vector<std::string>& names) {
   return list;
 }
 
-/// As --column takes it in a shell.
+/// Quotes a name for --column in a shell.
 std::string argument(const std::string& name) {
   const bool plain = name.find_first_of(" '\"$\\`;&()[]{}<>|*?#!~%") == std::string::npos;
   return plain ? name : "\"" + name + "\"";
@@ -82,7 +82,7 @@ class ColumnFinder {
       const ColumnName name = parse_column_name(names_[i], quantity_of(role));
       if (std::find(words.begin(), words.end(), name.base) == words.end()) continue;
       if (name.unknown_unit.empty() || name.states_unit) return i;
-      if (quantity_of(role) != Quantity::load) continue;  // theta_ref is another column, not θ in "ref"
+      if (quantity_of(role) != Quantity::load) continue;  // "theta_ref" is another column, not θ in the unit "ref"
       header_.notes.push_back("column " + shown(names_[i]) + " is not used: " + shown(name.unknown_unit) +
                               " is no unit of a load; --column load=" + argument(names_[i]) +
                               " --unit load=N says what it is in");
@@ -123,7 +123,7 @@ class ColumnFinder {
     const bool is_load = column.role == "load";
     const bool is_unknown = name.states_unit || (is_load && by_option && !name.unknown_unit.empty());
     if (is_unknown) {
-      problem("the unit of " + shown(column.name) + " is not known: " + shown(name.unknown_unit),
+      problem("the unit of " + shown(column.name) + " is unknown: " + shown(name.unknown_unit),
               "units: " + unit_names(column.quantity) + "; --unit " + column.role + "=" +
                   std::string(usual_unit(column.quantity)->name) + " says which one it is");
       return;
@@ -132,10 +132,10 @@ class ColumnFinder {
     column.unit = usual_unit(column.quantity);
     if (is_load)
       header_.notes.push_back("load: taken as N, as the name " + shown(column.name) +
-                              " states no unit (--unit load=kg says otherwise)");
+                              " states no unit (--unit load=kg overrides this)");
   }
 
-  /// One column is not two things.
+  /// Refuses a column that is taken for two roles.
   void refuse_shared_columns() {
     for (std::size_t i = 0; i < header_.columns.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
@@ -197,7 +197,7 @@ double Sample::*member_of(const std::string& role) {
   if (role == "temperature") return &Sample::temperature;
   if (role == "tension1") return &Sample::tension1;
   if (role == "tension2") return &Sample::tension2;
-  return nullptr;  // cycle: found from α itself
+  return nullptr;  // cycle: determined from α
 }
 
 Header find_columns(const std::vector<std::string>& names, const MeasurementOptions& options) {

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: which column of a log has which role, and the unit that its values are in.
+/// Internal: the role of each column of a log, and the unit of its values.
 #pragma once
 
 #include <limits>
@@ -13,10 +13,10 @@
 namespace fusee {
 
 constexpr double k_largest_deg = 1e7;
-/// s between rows beyond which nobody logs a moving joint.
+/// Largest plausible time between rows of a moving joint, s.
 constexpr double k_longest_step = 2.0;
 
-/// What the values of a role measure.
+/// The quantity that a role measures.
 Quantity quantity_of(const std::string& role);
 
 struct Column {
@@ -24,35 +24,35 @@ struct Column {
   std::string role;
   std::string name;
   Quantity quantity = Quantity::none;
-  const Unit* unit = nullptr;  ///< nullptr: to be found from the values, see settle_units()
+  const Unit* unit = nullptr;  ///< nullptr: determined from the values, see settle_units()
   bool is_given = false;       ///< by an option
-  double ticks_per_turn = 0;   ///< of counts; 0: to be found
+  double ticks_per_turn = 0;   ///< for counts; 0: determined from the values
   double zero_ticks = 0;
   bool is_date = false;  ///< time stamps, in s
 
-  // Of the values that were read, in the column's own unit.
+  // Statistics of the values, in the column's own unit.
   bool whole = true;
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
 };
 
-/// What the names of a header are, under the options.
+/// Columns of a header line, by names and options.
 struct Header {
   std::vector<Column> columns;
   std::vector<std::string> notes;
-  std::vector<Diagnostic> problems;  ///< without place
-  bool has_angles = false;           ///< every angle that is needed: this line is the header
+  std::vector<Diagnostic> problems;  ///< without file and line
+  bool has_angles = false;           ///< true: every required angle is named, so this line is the header
 };
 
 Header find_columns(const std::vector<std::string>& names, const MeasurementOptions& options);
 
-/// Finds the units that no option and no name states, converts `samples` from the units of their columns to s, rad, N,
-/// Nm or Nmm and °C, and unwraps counters of 16 and 32 bits. One line of words on what is not the usual unit, "" for
-/// none; an InputError (`name`) says which units stay unknown.
+/// Determines the units that neither option nor name states, converts `samples` to s, rad, N, Nm or Nmm and °C, and
+/// unwraps counters of 16 and 32 bits. Returns one line about unusual units, or "". Throws InputError (`name`) for
+/// units that stay undetermined.
 std::string settle_units(std::vector<Column>& columns, std::vector<Sample>& samples, const MeasurementOptions& options,
                          const std::string& name);
 
-/// The number that a role has in a sample; nullptr for what is no number of it.
+/// The member of Sample for a role; nullptr for roles without one.
 double Sample::*member_of(const std::string& role);
 
 }  // namespace fusee

@@ -11,8 +11,8 @@ namespace {
 
 bool is_comment(std::string_view line) { return !line.empty() && trimmed(line).substr(0, 1) == "#"; }
 
-/// Whether a quoted cell is open at the end of `text`; `quoted`: one is at its beginning. Only a mark at a cell's
-/// beginning opens one.
+/// True if a quoted cell is open at the end of `text`; `quoted`: one is open at its beginning. Only a quotation mark at
+/// the beginning of a cell opens one.
 bool ends_in_quotes(std::string_view text, bool quoted) {
   bool cell_begins = true;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -41,7 +41,7 @@ std::string_view unquoted(std::string_view text) {
   return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
 }
 
-/// Where the cell ends that `text` begins with: at its separator, outside of quotation marks, or npos.
+/// Index of the separator outside quotation marks that ends the first cell of `text`; npos if none.
 std::size_t cell_end(std::string_view text, std::string_view separators) {
   const std::size_t start = text.find_first_not_of(' ');
   if (start == std::string_view::npos || text[start] != '"') return text.find_first_of(separators);

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: bytes of a file, in blocks, to the records of a CSV text (RFC 4180) as UTF-8.
+/// Internal: decodes a file in blocks into the records of a CSV text (RFC 4180) in UTF-8.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@ namespace fusee {
 constexpr std::size_t k_longest_record = std::size_t{1} << 16;
 constexpr std::size_t k_most_columns = 1000;
 
-/// One line, or several where a quoted cell holds line ends.
+/// A record: one line, or several if a quoted cell holds line ends.
 struct Record {
-  std::string_view text;    ///< UTF-8, line ends within it as LF
-  long long line = 1;       ///< of its beginning
+  std::string_view text;    ///< UTF-8, with LF for line ends inside
+  long long line = 1;       ///< number of its first line
   bool open_quote = false;  ///< the file ends within a quoted cell
 };
 
@@ -24,8 +24,8 @@ struct Record {
 /// dropped.
 class RecordSplitter {
  public:
-  /// `take` is called for each record; `refuse` for a line that is longer than k_longest_record, or a quotation mark
-  /// that has not closed until then, and must throw.
+  /// Calls `take` for each record. Calls `refuse`, which must throw, for a record longer than k_longest_record;
+  /// `open_quote` says that an unclosed quotation mark is the cause.
   RecordSplitter(std::function<void(const Record&)> take, std::function<void(long long line, bool open_quote)> refuse);
 
   void add(std::string_view bytes);
@@ -45,18 +45,18 @@ class RecordSplitter {
   std::function<void(const Record&)> take_;
   std::function<void(long long, bool)> refuse_;
   Encoding encoding_ = Encoding::unknown;
-  std::string start_;       ///< bytes until the encoding is known; then what is left of a character of UTF-16
-  std::string decoded_;     ///< of UTF-16
-  std::string record_;      ///< lines that are complete, within an open quote
-  std::string line_;        ///< what there is of the line
+  std::string start_;       ///< bytes until the encoding is known; then an incomplete UTF-16 character
+  std::string decoded_;     ///< UTF-16 text as UTF-8
+  std::string record_;      ///< complete lines within an open quote
+  std::string line_;        ///< the current line so far
   unsigned long high_ = 0;  ///< first half of a surrogate pair
   bool after_return_ = false;
   bool in_record_ = false;
   long long lines_ = 0, first_line_ = 1;
 };
 
-/// The cells of a record, without the blanks and the quotation marks around them; a quotation mark within a quoted cell
-/// stays doubled. `separator` ' ': any number of blanks. Stops after more than k_most_columns.
+/// Splits a record into cells, without surrounding blanks and quotation marks; a quotation mark inside a quoted cell
+/// stays doubled. `separator` ' ' means any number of blanks. Stops after more than k_most_columns.
 void split_cells(std::string_view record, char separator, std::vector<std::string_view>& cells);
 
 }  // namespace fusee

@@ -39,7 +39,7 @@ struct Extent {
   double range() const { return most >= least ? most - least : 0; }
 };
 
-/// The residual where the stroke passes `alpha`; NaN where it does not.
+/// Residual where the stroke passes `alpha`; NaN if it does not.
 double residual_at(const Run& run, const Stroke& stroke, const std::vector<double>& residuals, double alpha) {
   for (std::size_t i = stroke.first; i < stroke.last; ++i) {
     const double before = run.samples[i].alpha, after = run.samples[i + 1].alpha;
@@ -51,20 +51,20 @@ double residual_at(const Run& run, const Stroke& stroke, const std::vector<doubl
 
 constexpr int k_positions = 21;
 
-/// Where a position lies in what was seen of α.
+/// Location of a position as a share of the range of α.
 double share_of(int position) { return 0.05 + 0.9 * position / (k_positions - 1); }
 
 using Deviations = std::vector<std::array<std::vector<double>, 2>>;
 
-/// Of a motor that was held the mean of each stand, at the position nearest to it.
-void add_stands(const Run& run, const std::vector<double>& residuals, const Extent& seen, Deviations& deviations) {
-  for (const Stretch& stretch : run.stretches) {
-    const Stroke& stroke = run.strokes[stretch.stroke];
-    if (!stretch.held || stroke.partial) continue;
-    const std::vector<double> rows(residuals.begin() + static_cast<std::ptrdiff_t>(stretch.first),
-                                   residuals.begin() + static_cast<std::ptrdiff_t>(stretch.last) + 1);
+/// Adds the mean of each dwell to the position nearest to it.
+void add_dwells(const Run& run, const std::vector<double>& residuals, const Extent& seen, Deviations& deviations) {
+  for (const Segment& segment : run.segments) {
+    const Stroke& stroke = run.strokes[segment.stroke];
+    if (!segment.held || stroke.partial) continue;
+    const std::vector<double> rows(residuals.begin() + static_cast<std::ptrdiff_t>(segment.first),
+                                   residuals.begin() + static_cast<std::ptrdiff_t>(segment.last) + 1);
     const double mean = spread_of(rows).mean;
-    const double share = (run.samples[stretch.first].alpha - seen.least) / seen.range();
+    const double share = (run.samples[segment.first].alpha - seen.least) / seen.range();
     const auto nearest = static_cast<std::size_t>(
         std::clamp(std::lround((share - share_of(0)) / (share_of(1) - share_of(0))), 0L, k_positions - 1L));
     if (std::isfinite(mean)) deviations[nearest][stroke.direction > 0 ? 0 : 1].push_back(mean);
@@ -97,8 +97,7 @@ Iso230 iso230(const std::vector<std::array<std::vector<double>, 2>>& deviations)
 }
 
 Iso230 iso230(const Measurement& measurement, const std::vector<std::vector<double>>& residuals) {
-  // The range that every whole stroke passes would be empty for one short stroke: positions spread over all that was
-  // seen.
+  // Positions cover all of the observed range: the range common to all strokes would be empty with one short stroke.
   Extent seen;
   for (const Run& run : measurement.runs) {
     for (const Stroke& stroke : run.strokes) {
@@ -112,7 +111,7 @@ Iso230 iso230(const Measurement& measurement, const std::vector<std::vector<doub
   for (std::size_t r = 0; r < measurement.runs.size() && r < residuals.size(); ++r) {
     const Run& run = measurement.runs[r];
     if (residuals[r].size() != run.samples.size()) continue;
-    if (is_from_point_to_point(run)) add_stands(run, residuals[r], seen, deviations);
+    if (is_from_point_to_point(run)) add_dwells(run, residuals[r], seen, deviations);
     for (const Stroke& stroke : run.strokes) {
       if (stroke.partial || is_from_point_to_point(run)) continue;
       for (int i = 0; i < k_positions; ++i) {

@@ -9,49 +9,49 @@
 #include "measurement/repair.h"
 #include "measurement/row_reader.h"
 #include "measurement/run_checks.h"
-#include "measurement/stretches.h"
+#include "measurement/segments.h"
 #include "measurement/strokes.h"
 
 // From bytes to runs in three steps:
 //   1. Rows (row_reader): the file is read in bounded memory; a run too long to keep is thinned as it comes. Bytes to
 //      records (csv_text), header to columns and their units (columns, units), cells to numbers (cells).
-//   2. Repair (repair): order in time, wrap-around, outliers; each said in a note.
-//   3. Strokes (strokes), and whether anything can be concluded from them at all (run_checks).
+// 2. Repair (repair): order in time, wrap-around, outliers; each with a note.
+// 3. Strokes (strokes), and the checks whether the runs can be evaluated at all (run_checks).
 
 namespace fusee {
 namespace {
 
-/// A run of `fusee plan` before anything was measured.
+/// A run file of `fusee plan` that is not filled in yet.
 bool is_unfilled(const LoggedRows& rows) { return rows.rows > 0 && rows.without_theta == rows.rows; }
 
 std::string all_of(std::size_t rows) { return rows == 1 ? "its only row" : "all " + rows_text(rows); }
 
-void say_what_was_read(const LoggedRows& rows, const std::string& name, const Say& say, Measurement& into) {
-  for (const std::string& words : rows.notes) say(words);
+void note_rows_read(const LoggedRows& rows, const std::string& name, const NoteSink& add_note, Measurement& into) {
+  for (const std::string& words : rows.notes) add_note(words);
   if (rows.stride > 1) {
-    say("of " + std::to_string(rows.rows) + " rows one in " + std::to_string(rows.stride) + " is used: no more than " +
-        std::to_string(k_most_samples) + " rows of all files are kept");
+    add_note("of " + std::to_string(rows.rows) + " rows one in " + std::to_string(rows.stride) +
+             " is used: no more than " + std::to_string(k_most_samples) + " rows of all files are kept");
   }
   if (rows.without_angle == 0) return;
   if (is_unfilled(rows)) {
     into.not_testable.push_back(name + ": no measured rows: theta is empty in " + all_of(rows.rows) +
-                                "; a run of 'fusee plan' waits for what the joint's sensor shows");
+                                "; fill in the angles of the joint's sensor in this run of 'fusee plan'");
     return;
   }
-  say(rows_text(rows.without_angle) + " without alpha or theta, the first in line " +
-      std::to_string(rows.first_without_angle) + ": left out");
+  add_note(rows_text(rows.without_angle) + " without alpha or theta, the first in line " +
+           std::to_string(rows.first_without_angle) + ": omitted");
   if (2 * rows.without_angle > rows.rows)
-    into.not_testable.push_back(name + ": more than half of the rows hold no angle");
+    into.not_testable.push_back(name + ": more than half of the rows have no angle");
 }
 
-void repair(Run& run, const Say& say) {
-  if (run.has_time) order_time(run, say);
-  // θ first: a turn of α at which θ goes far is a motion.
-  unwrap(run.samples, &Sample::theta, "theta", say);
-  unwrap(run.samples, &Sample::alpha, "alpha", say);
-  drop_outliers(run, say);
-  run.has_load = run.has_load && fill_gaps(run.samples, &Sample::load, "load", say);
-  run.has_temperature = run.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", say);
+void repair(Run& run, const NoteSink& add_note) {
+  if (run.has_time) order_time(run, add_note);
+  // θ first: where θ moves far, a jump of α by a turn is a motion.
+  unwrap(run.samples, &Sample::theta, "theta", add_note);
+  unwrap(run.samples, &Sample::alpha, "alpha", add_note);
+  drop_outliers(run, add_note);
+  run.has_load = run.has_load && fill_gaps(run.samples, &Sample::load, "load", add_note);
+  run.has_temperature = run.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", add_note);
 }
 
 void describe(Run& run) {
@@ -67,29 +67,29 @@ void describe(Run& run) {
   for (const Sample& sample : run.samples) run.mean_load += sample.load / static_cast<double>(run.samples.size());
 }
 
-/// A sweep whose rows lie minutes apart was logged in another unit.
-void say_implausible_steps(const Run& run, std::size_t stride, const Say& say) {
+/// A sweep with rows minutes apart was logged in another unit.
+void note_implausible_steps(const Run& run, std::size_t stride, const NoteSink& add_note) {
   if (!run.has_time || run.samples.size() < 2 || is_from_point_to_point(run)) return;
   const double span = run.samples.back().time - run.samples.front().time;
   const double step = span / static_cast<double>((run.samples.size() - 1) * stride);
   if (step > k_longest_step)
-    say("the rows lie " + rounded(step, 3) +
-        " s apart: if the times are in ms, let their column's name end in _ms, or give --unit time=ms");
+    add_note("the rows are " + rounded(step, 3) +
+             " s apart: if the times are in ms, end their column's name in _ms, or give --unit time=ms");
 }
 
-/// Strokes, and what stands or falls together in them.
+/// Determines strokes and segments.
 void cut(Run& run, Measurement& into, double alpha_quantum) {
-  std::vector<Hold> holds = holds_in(run.samples, alpha_quantum);
+  std::vector<RowRange> dwells = dwells_in(run.samples, alpha_quantum);
   const double theta_quantum = quantum_of(run.samples, &Sample::theta);
-  const double alpha_step = quantum_beside(holds, run.samples, &Sample::alpha, alpha_quantum);
+  const double alpha_step = sensor_quantum(dwells, run.samples, &Sample::alpha, alpha_quantum);
   into.alpha_quantum = std::max(into.alpha_quantum, alpha_step);
-  into.theta_quantum = std::max(into.theta_quantum, quantum_beside(holds, run.samples, &Sample::theta, theta_quantum));
-  run.strokes = split_strokes(run.samples, holds, alpha_step, run.has_time);
+  into.theta_quantum = std::max(into.theta_quantum, sensor_quantum(dwells, run.samples, &Sample::theta, theta_quantum));
+  run.strokes = split_strokes(run.samples, dwells, alpha_step, run.has_time);
   if (run.strokes.empty() && has_levels_of_load(run)) {
-    holds = {{0, run.samples.size() - 1}};
+    dwells = {{0, run.samples.size() - 1}};
     run.strokes = {{0, run.samples.size() - 1, 0, 0, false}};
   }
-  run.stretches = cut_stretches(run, holds);
+  run.segments = cut_segments(run, dwells);
 }
 
 /// N·mm in a unit of torque; 0 for N.
@@ -100,7 +100,7 @@ void take_load_unit(const std::string& unit, Run& run, Measurement& into) {
   if (into.load_unit.empty()) into.load_unit = unit;
   if (into.load_unit == unit) return;
   if (torque_of(unit) == 0 || torque_of(into.load_unit) == 0)
-    throw InputError(run.name, "holds loads in " + unit + ", and a run before it in " + into.load_unit,
+    throw InputError(run.name, "has loads in " + unit + ", and an earlier run in " + into.load_unit,
                      "log forces in all runs, or torques in all");
   const double factor = torque_of(unit) / torque_of(into.load_unit);
   for (Sample& sample : run.samples) sample.load *= factor;
@@ -108,8 +108,8 @@ void take_load_unit(const std::string& unit, Run& run, Measurement& into) {
 }
 
 Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
-  const Say say = [&](const std::string& words) { into.notes.push_back(name + ": " + words); };
-  say_what_was_read(rows, name, say, into);
+  const NoteSink add_note = [&](const std::string& words) { into.notes.push_back(name + ": " + words); };
+  note_rows_read(rows, name, add_note, into);
   Run run;
   run.name = name;
   run.samples = std::move(rows.samples);
@@ -119,17 +119,17 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
   run.mounting = rows.mounting;
   if (!run.samples.empty()) {
     const double alpha_quantum = quantum_of(run.samples, &Sample::alpha);
-    repair(run, say);
+    repair(run, add_note);
     cut(run, into, alpha_quantum);
     describe(run);
-    say_implausible_steps(run, rows.stride, say);
+    note_implausible_steps(run, rows.stride, add_note);
   }
-  if (!is_unfilled(rows)) look_at_run(run, into, say);
+  if (!is_unfilled(rows)) check_run(run, into, add_note);
   if (run.has_load) take_load_unit(rows.load_unit, run, into);
   return run;
 }
 
-/// Files of one name in two folders are told apart by their paths.
+/// Files of the same name in two folders are named by their paths.
 std::vector<std::string> run_names(const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> names;
   for (const auto& file : files) {
@@ -142,20 +142,20 @@ std::vector<std::string> run_names(const std::vector<std::filesystem::path>& fil
 }
 
 bool same_rows(const std::vector<Sample>& a, const std::vector<Sample>& b) {
-  const auto alike = [](const Sample& one, const Sample& other) {
+  const auto are_equal = [](const Sample& one, const Sample& other) {
     return one.alpha == other.alpha && one.theta == other.theta;
   };
-  return a.size() > 1 && std::equal(a.begin(), a.end(), b.begin(), b.end(), alike);
+  return a.size() > 1 && std::equal(a.begin(), a.end(), b.begin(), b.end(), are_equal);
 }
 
-/// A run that counts twice vouches for itself.
+/// A run that is given twice would confirm itself.
 void refuse_copies(const std::vector<std::filesystem::path>& files, const std::vector<Run>& runs) {
   std::vector<Diagnostic> problems;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (!same_rows(runs[i].samples, runs[j].samples)) continue;
-      const InputError problem(files[i].string(), "holds the same rows as " + files[j].string(),
-                               "a run counts once: leave one of the two away");
+      const InputError problem(files[i].string(), "has the same rows as " + files[j].string(),
+                               "a run counts once: remove one of the two");
       problems.push_back(problem.diagnostics().front());
       break;
     }
@@ -201,7 +201,7 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
   }
   if (!problems.empty()) throw InputError(problems);
   refuse_copies(files, measurement.runs);
-  look_at_all(measurement);
+  check_all_runs(measurement);
   return measurement;
 }
 
@@ -219,18 +219,18 @@ Measurement read_driving(const std::filesystem::path& file, const Mechanism& dec
   Measurement measurement;
   Run& run = measurement.runs.emplace_back();
   run.name = file.filename().string();
-  const Say say = [&](const std::string& words) { measurement.notes.push_back(run.name + ": " + words); };
+  const NoteSink add_note = [&](const std::string& words) { measurement.notes.push_back(run.name + ": " + words); };
   LoggedRows rows = read_rows(file, file.string(), options);
   if (rows.samples.empty())
-    throw InputError(file.string(), "no row holds alpha", "one row a line: alpha_deg and, if known, time_s,load_N");
-  say_what_was_read(rows, run.name, say, measurement);
+    throw InputError(file.string(), "no row has alpha", "write one row a line: alpha_deg and, if known, time_s,load_N");
+  note_rows_read(rows, run.name, add_note, measurement);
   run.samples = std::move(rows.samples);
   run.mounting = rows.mounting;
   run.has_time = rows.has_time;
-  if (run.has_time) order_time(run, say);
-  unwrap(run.samples, &Sample::alpha, "alpha", say);
-  run.has_load = rows.has_load && fill_gaps(run.samples, &Sample::load, "load", say);
-  run.has_temperature = rows.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", say);
+  if (run.has_time) order_time(run, add_note);
+  unwrap(run.samples, &Sample::alpha, "alpha", add_note);
+  run.has_load = rows.has_load && fill_gaps(run.samples, &Sample::load, "load", add_note);
+  run.has_temperature = rows.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", add_note);
   if (run.has_load) measurement.load_unit = rows.load_unit;
   take_torques_as_forces(declared, measurement);
   return measurement;

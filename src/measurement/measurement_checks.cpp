@@ -12,8 +12,8 @@
 namespace fusee {
 namespace {
 
-/// Enough of a long run to see where it lies.
-std::vector<Sample> some_of(const Run& run) {
+/// Evenly spaced rows, enough to locate a long run.
+std::vector<Sample> thinned(const Run& run) {
   constexpr std::size_t enough = 500;
   std::vector<Sample> samples;
   const std::size_t every = run.samples.size() / enough + 1;
@@ -23,23 +23,23 @@ std::vector<Sample> some_of(const Run& run) {
 
 // ---- whole turns ----------------------------------------------------------------------------------------------------
 
-/// Median of what is measured beyond what is declared, with α moved by `turn`; rad.
-double beyond(const std::vector<Sample>& samples, const DeclaredLaw& law, double turn) {
+/// Median of measured minus declared θ, with α shifted by `turn`; rad.
+double offset_from_declared(const std::vector<Sample>& samples, const DeclaredLaw& law, double turn) {
   std::vector<double> values;
   for (const Sample& sample : samples) values.push_back(sample.theta - law.theta_extrapolated(sample.alpha + turn));
   return median_of(std::move(values));
 }
 
-struct Turns {
+struct TurnOffset {
   double alpha = 0;
   double theta = 0;
-  double left = 0;  ///< what is still beyond `expected`
+  double left = 0;  ///< remaining offset from `expected`
 };
 
-/// The fewest whole turns that bring a run to where it belongs.
-Turns best_turns(const std::vector<Sample>& samples, const DeclaredLaw& law, double expected) {
+/// The smallest number of whole turns that removes the offset of a run.
+TurnOffset best_turns(const std::vector<Sample>& samples, const DeclaredLaw& law, double expected) {
   constexpr int most = 3;
-  Turns best{0, 0, beyond(samples, law, 0) - expected};
+  TurnOffset best{0, 0, offset_from_declared(samples, law, 0) - expected};
   const double before = std::abs(best.left);
   std::vector<double> alphas;
   for (const Sample& sample : samples) alphas.push_back(sample.alpha);
@@ -47,11 +47,11 @@ Turns best_turns(const std::vector<Sample>& samples, const DeclaredLaw& law, dou
   int fewest = 0;
   for (int a = -most; a <= most; ++a) {
     if (!law.reaches(middle + a * k_two_pi)) continue;
-    const double beside = beyond(samples, law, a * k_two_pi) - expected;
+    const double beside = offset_from_declared(samples, law, a * k_two_pi) - expected;
     const int t = std::clamp(static_cast<int>(-std::round(beside / k_two_pi)), -most, most);
     const double left = std::abs(beside + t * k_two_pi);
     const int turns = std::abs(a) + std::abs(t);
-    // A zero that is set wrongly is no reason to turn an encoder: only what nearly vanishes by it.
+    // TurnOffset are accepted only if they nearly remove a large offset: a wrong zero is another fault.
     if (left > 0.25 * before || before < radians(45.0)) continue;
     if (fewest > 0 && (turns > fewest || (turns == fewest && left >= std::abs(best.left)))) continue;
     fewest = turns;
@@ -60,17 +60,17 @@ Turns best_turns(const std::vector<Sample>& samples, const DeclaredLaw& law, dou
   return best;
 }
 
-/// A single-turn encoder that was wrapped around when the log began starts whole turns away.
+/// Removes the whole turns by which a single-turn encoder that was wrapped at the log's beginning is off.
 void take_back_turns(const DeclaredLaw& law, Measurement& measurement) {
   double expected = 0;
   for (std::size_t i = 0; i < measurement.runs.size(); ++i) {
     Run& run = measurement.runs[i];
-    const std::vector<Sample> samples = some_of(run);
+    const std::vector<Sample> samples = thinned(run);
     if (i == 0 && !law.has_zero()) {
-      expected = beyond(samples, law, 0);
+      expected = offset_from_declared(samples, law, 0);
       continue;
     }
-    const Turns turns = best_turns(samples, law, expected);
+    const TurnOffset turns = best_turns(samples, law, expected);
     if (turns.alpha == 0 && turns.theta == 0) continue;
     for (Sample& sample : run.samples) {
       sample.alpha += turns.alpha;
@@ -86,14 +86,15 @@ void take_back_turns(const DeclaredLaw& law, Measurement& measurement) {
   }
 }
 
-/// A constant that no sensor's zero is off by, and no effect can take.
+/// Reports an offset too large for a sensor's zero and for any effect.
 std::string wrong_zero(const DeclaredLaw& law, const Measurement& measurement) {
   if (!law.has_zero()) return {};
   for (const Run& run : measurement.runs) {
-    const double off = beyond(some_of(run), law, 0);
+    const double off = offset_from_declared(thinned(run), law, 0);
     if (std::abs(off) < radians(30.0)) continue;
-    return run.name + ": theta stands " + rounded(degrees(off), 3) +
-           " deg beside what is declared at the same alpha: set both zeros at home (alpha = theta = 0), or subtract "
+    return run.name + ": theta is " + rounded(degrees(off), 3) +
+           " deg away from the declared angle at the same alpha: set both zeros at home (alpha = theta = 0), or "
+           "subtract "
            "them in the log (of counts: --zero-ticks theta=N)";
   }
   return {};
@@ -101,7 +102,7 @@ std::string wrong_zero(const DeclaredLaw& law, const Measurement& measurement) {
 
 // ---- slopes ---------------------------------------------------------------------------------------------------------
 
-/// Straight lines through all samples, over the same α.
+/// Straight lines fitted to measured and declared θ over the same α.
 struct Slopes {
   double measured = 0;  ///< dθ/dα
   double declared = 0;
@@ -109,15 +110,15 @@ struct Slopes {
   double scatter = 0;     ///< rms of θ about its line, rad
 };
 
-/// Its load alone moves the joint: no slope can be seen.
-bool stands(const Run& run) { return run.strokes.size() == 1 && run.strokes.front().direction == 0; }
+/// True if α is constant and the load alone moves the joint: there is no slope.
+bool is_moved_by_load(const Run& run) { return run.strokes.size() == 1 && run.strokes.front().direction == 0; }
 
 Slopes slopes_of(const DeclaredLaw& law, const Measurement& measurement) {
   double products = 0, declared_products = 0, squares = 0, theta_squares = 0, count = 0;
   Slopes slopes;
   for (const Run& run : measurement.runs) {
-    if (stands(run)) continue;
-    const std::vector<Sample> samples = some_of(run);
+    if (is_moved_by_load(run)) continue;
+    const std::vector<Sample> samples = thinned(run);
     const double n = static_cast<double>(samples.size());
     double alpha = 0, theta = 0, least = samples.front().alpha, most = least;
     for (const Sample& sample : samples) {
@@ -142,15 +143,15 @@ Slopes slopes_of(const DeclaredLaw& law, const Measurement& measurement) {
   return slopes;
 }
 
-/// Within a third of `expected`: a mistake of a kind is far larger than any error of a joint.
+/// Within a third of `expected`: mistakes of unit or sign are far larger than errors of a joint.
 bool is_about(double value, double expected) { return value / expected > 0.67 && value / expected < 1.5; }
 
 std::string slope_text(const Slopes& slopes) {
-  return "theta changes by " + rounded(slopes.measured, 3) + " deg a degree of alpha, and " +
+  return "theta changes by " + rounded(slopes.measured, 3) + " deg per degree of alpha, but " +
          rounded(slopes.declared, 3) + " is declared: ";
 }
 
-const char* const k_in_degrees = "; let the column's name end in _rad, or give --unit alpha=rad or theta=rad";
+const char* const k_in_degrees = "; end the column's name in _rad, or give --unit alpha=rad or theta=rad";
 
 std::string fault(const DeclaredLaw& law, const Slopes& slopes) {
   const double ratio = slopes.measured / slopes.declared;
@@ -166,7 +167,7 @@ std::string fault(const DeclaredLaw& law, const Slopes& slopes) {
   if (expected < 3 * slopes.scatter && std::abs(slopes.measured) * slopes.alpha_span < 3 * slopes.scatter) {
     return "alpha moves over " + rounded(degrees(slopes.alpha_span), 3) + " deg, which should turn the joint by " +
            rounded(degrees(expected), 3) + " deg; theta scatters by " + rounded(degrees(slopes.scatter), 3) +
-           " deg rms and does not show it: move further";
+           " deg rms, which hides that: use a larger range";
   }
   if (is_about(ratio, turn)) return slope_text(slopes) + "alpha looks like radians" + k_in_degrees;
   if (is_about(ratio, 1.0 / turn)) return slope_text(slopes) + "theta looks like radians" + k_in_degrees;
@@ -176,26 +177,28 @@ std::string fault(const DeclaredLaw& law, const Slopes& slopes) {
   }
   if (ratio < -0.4 && ratio > -2.5) {
     return slope_text(slopes) +
-           "one of the two has the opposite sign; alpha > 0 turns the pulley clockwise and lets theta grow: turn the "
+           "one of the two has the opposite sign; alpha > 0 turns the pulley clockwise and increases theta: reverse "
+           "the "
            "sign of one column";
   }
   return slope_text(slopes) + "this is not the declared joint, or a column has another unit";
 }
 
-/// A joint declared by its ratio has no range to compare with.
+/// A joint declared by a ratio has no range to compare with.
 void suspect_radians(const DeclaredLaw& law, const Slopes& slopes, Measurement& measurement) {
   if (law.has_zero() || slopes.declared == 0 || slopes.alpha_span > radians(k_two_pi)) return;
   measurement.notes.push_back("alpha moves over only " + rounded(degrees(slopes.alpha_span), 3) +
-                              " deg in any run: if these are radians, let the columns' names end in _rad");
+                              " deg in any run: if these are radians, end the columns' names in _rad");
 }
 
-void hold_against_law(const Mechanism& declared, Measurement& measurement) {
+void compare_with_law(const Mechanism& declared, Measurement& measurement) {
   if (!measurement.not_testable.empty() || measurement.runs.empty()) return;
   const DeclaredLaw law(declared);
   if (!law.exists()) {
     measurement.not_testable.push_back(
-        "the declared joint has no law over its range (a dead centre, or C meets a pin): there is nothing to hold the "
-        "data against; 'fusee build' says where");
+        "the declared joint has no law over its range (a dead centre, or C meets a pin): there is nothing to compare "
+        "the "
+        "data with; 'fusee build' shows where");
     return;
   }
   if (!std::isfinite(law.slope()) || law.slope() == 0) return;
@@ -209,7 +212,7 @@ void hold_against_law(const Mechanism& declared, Measurement& measurement) {
 
 // ---- loads ----------------------------------------------------------------------------------------------------------
 
-/// Tip force across OC that is a unit of the load column; 0 for what is no torque.
+/// Tip force across OC for one unit of the load column, N; 0 if it is not a torque.
 double force_of_unit(const std::string& unit, double length) {
   return unit == "Nm" ? 1000.0 / length : unit == "Nmm" ? 1.0 / length : 0.0;
 }
@@ -231,13 +234,13 @@ void take_torques_as_forces(const Mechanism& declared, Measurement& measurement)
     for (Sample& sample : run.samples) sample.load *= per_unit;
     run.mean_load *= per_unit;
   }
-  measurement.notes.push_back("the load column holds a torque in " + measurement.load_unit +
+  measurement.notes.push_back("the load column is a torque in " + measurement.load_unit +
                               ": taken as a tip force across OC, positive against +theta");
   measurement.load_unit = "N";
 }
 
 void compare_with_declared(const Mechanism& declared, Measurement& measurement) {
-  hold_against_law(declared, measurement);
+  compare_with_law(declared, measurement);
   take_torques_as_forces(declared, measurement);
 }
 

@@ -8,34 +8,32 @@
 #include "measurement/seen_span.h"
 #include "measurement/strokes.h"
 
-// Strokes of one direction, load and speed repeat one another. A row's distance from what its neighbours in that
-// sequence show at the same α is scatter: (2θ − θbefore − θafter)/√6, which a steady drift leaves alone. What else
-// there is:
+// Strokes of equal direction, load and speed are repeats. The scatter of a row is (2θ − θbefore − θafter)/√6, with θ of
+// the neighbouring repeats at the same α; a steady drift cancels. Further influences:
 //
-// - Single wild rows: the mean square is taken without what lies far outside the bulk, unless that is a part of it.
+// - Outliers: the mean square omits values far outside the bulk, unless they are a part of it.
 //
-// - Colour: neighbouring rows say the same thing. Degrees of freedom count what is left, n (1 − r²)/(1 + r²).
+// - Coloured noise: neighbouring rows are correlated by r. Degrees of freedom are n (1 − r²)/(1 + r²).
 //
-// - Held points repeat one another where α, the side it came from, the load and the side that came from are alike. Rows
-// are compared at the same share of the stand; what α misses the place by is taken out by the run's slope.
+// - Dwells repeat one another if α, its direction, the load and the load's direction agree. Rows are compared at the
+// same share of the dwell; differences in α are corrected by the run's slope.
 //
-// - Runs: between two something may have been changed. Where that shows, in differences that are smooth from row to row
-// and larger than what scatters within the runs, the runs are no repeats.
+// - Runs: the joint may have changed between two runs. If their differences are smooth from row to row and larger than
+// the scatter within runs, they are not repeats.
 //
-// - A coarse sensor: repeats that fall on the same step hide the step's own error, quantum/√12 of either sensor: a
-// lower bound.
+// - Quantisation: repeats on the same sensor step hide its error. quantum/√12 of either sensor is a lower bound.
 
 namespace fusee {
 namespace {
 
-/// Enough differences, and of repeats so few that they are better than rows at different places.
+/// Differences needed for an estimate; with fewer, differences of neighbouring rows are more accurate.
 constexpr std::size_t k_enough = 20;
 constexpr std::size_t k_few = 6;
 
-/// Differences scaled to the spread of a single row, in sequences of neighbours.
+/// Differences scaled to the standard deviation of one row, in sequences of neighbours.
 class Scatter {
  public:
-  /// `worth`: independent differences in each, for those of overlapping strokes. `places`: α of each, or none.
+  /// `worth`: independent differences in each, below 1 if strokes overlap. `places`: α of each, or empty.
   void add(const std::vector<double>& differences, double worth, const std::vector<double>& places = {}) {
     for (std::size_t i = 0; i < differences.size(); ++i) {
       values_.push_back(differences[i]);
@@ -47,14 +45,14 @@ class Scatter {
 
   std::size_t count() const { return values_.size(); }
 
-  /// Noise of most differences, rad: up to a third of them may be jumps.
+  /// Noise of most differences, rad; up to a third of them may be jumps.
   double typical() const {
     std::vector<double> sizes;
     for (const double value : values_) sizes.push_back(std::abs(value));
     return sizes.empty() ? 0.0 : median_of(std::move(sizes)) / 0.6745;
   }
 
-  /// α about which the differences, each with its place, have the largest mean square.
+  /// α at which the differences have the largest mean square.
   double largest_at() const {
     constexpr int k_places = 12;
     SeenSpan span;
@@ -80,10 +78,10 @@ class Scatter {
     double variance = 0;
     double degrees_of_freedom = 0;
     double colour = 0;  ///< correlation of neighbours, 0 … 0.99
-    double pairs = 0;   ///< that it was seen in
+    double pairs = 0;   ///< number of pairs from which it is estimated
   };
 
-  /// `least_limit`: what is never an outlier, rad.
+  /// `least_limit`: differences below it are never outliers, rad.
   Result result(double least_limit) const {
     const double limit = limit_of(least_limit);
     double squares = 0, products = 0, count = 0, pairs = 0;
@@ -116,18 +114,18 @@ class Scatter {
   double worth_ = 0;
 };
 
-/// θ at α on a stroke, and the sum of squares of the weights of the rows it comes from; nothing outside.
-struct Looked {
+/// θ at α on a stroke, and the sum of squared weights of its rows; empty outside of the stroke.
+struct InterpolatedAngle {
   bool inside = false;
   double theta = 0;
   double load = 0;
   double weight = 1;
 };
 
-/// The cubic through four rows. Rows that stand nearly on one another (a dwell, a quantum) make none.
-Looked on_cubic(const Run& run, std::size_t first, double alpha, double least_gap) {
+/// Cubic through four rows; empty if rows nearly coincide (a dwell, quantisation).
+InterpolatedAngle on_cubic(const Run& run, std::size_t first, double alpha, double least_gap) {
   const auto at = [&](std::size_t i) -> const Sample& { return run.samples[i]; };
-  Looked looked{true, 0, 0, 0};
+  InterpolatedAngle interpolated{true, 0, 0, 0};
   for (std::size_t j = first; j < first + 4; ++j) {
     double weight = 1;
     for (std::size_t k = first; k < first + 4; ++k) {
@@ -136,15 +134,14 @@ Looked on_cubic(const Run& run, std::size_t first, double alpha, double least_ga
       if (std::abs(gap) < least_gap || gap == 0) return {};
       weight *= (alpha - at(k).alpha) / gap;
     }
-    looked.theta += weight * at(j).theta;
-    looked.weight += weight * weight;
+    interpolated.theta += weight * at(j).theta;
+    interpolated.weight += weight * weight;
   }
-  return looked.weight < 3 ? looked : Looked{};
+  return interpolated.weight < 3 ? interpolated : InterpolatedAngle{};
 }
 
-/// The straight line through a small part of a stroke: for logs so dense that α stands still or jitters from row to
-/// row.
-Looked on_line(const Run& run, const Stretch& stroke, std::size_t place, double alpha) {
+/// Line fitted to a small part of a stroke, for logs so dense that α dwells still or jitters from row to row.
+InterpolatedAngle on_line(const Run& run, const Segment& stroke, std::size_t place, double alpha) {
   const double longest = std::abs(run.samples[stroke.last].alpha - run.samples[stroke.first].alpha) / 25;
   for (std::size_t half = 4; half <= (stroke.last - stroke.first) / 8; half *= 2) {
     const std::size_t first = place > stroke.first + half ? place - half : stroke.first,
@@ -168,7 +165,7 @@ Looked on_line(const Run& run, const Stretch& stroke, std::size_t place, double 
   return {};
 }
 
-Looked look_up(const Run& run, const Stretch& stroke, double sign, double alpha) {
+InterpolatedAngle interpolate(const Run& run, const Segment& stroke, double sign, double alpha) {
   const auto at = [&](std::size_t i) -> const Sample& { return run.samples[i]; };
   std::size_t low = stroke.first, high = stroke.last;
   if (high - low < 4 || sign * alpha < sign * at(low).alpha || sign * alpha > sign * at(high).alpha) return {};
@@ -177,37 +174,37 @@ Looked look_up(const Run& run, const Stretch& stroke, double sign, double alpha)
     (sign * at(middle).alpha <= sign * alpha ? low : high) = middle;
   }
   const std::size_t first = std::clamp(low, stroke.first + 1, stroke.last - 2) - 1;
-  Looked looked = on_cubic(run, first, alpha, 0.05 * std::abs(at(high).alpha - at(low).alpha));
-  if (!looked.inside) looked = on_line(run, stroke, low, alpha);
-  looked.load = at(low).load;
-  return looked;
+  InterpolatedAngle interpolated = on_cubic(run, first, alpha, 0.05 * std::abs(at(high).alpha - at(low).alpha));
+  if (!interpolated.inside) interpolated = on_line(run, stroke, low, alpha);
+  interpolated.load = at(low).load;
+  return interpolated;
 }
 
-/// Away from reversals, where play and friction are still on their way.
-bool is_inner(const Run& run, const Stretch& stroke, double alpha) {
+/// Away from reversals, where play and friction are still being taken up.
+bool is_inner(const Run& run, const Segment& stroke, double alpha) {
   const double from = run.samples[stroke.first].alpha, to = run.samples[stroke.last].alpha;
   const double share = (alpha - from) / (to - from);
   return share > 0.03 && share < 0.97;
 }
 
-/// A stretch, and what makes another one its repeat.
+/// A segment, and the conditions in which another one repeats it.
 struct Pass {
   const Run* run = nullptr;
-  Stretch rows;
+  Segment rows;
   int direction = 0;
-  double load = 0;   ///< in its middle
-  double alpha = 0;  ///< held: where
-  double slope = 0;  ///< dθ/dα of the run on the whole
+  double load = 0;   ///< at its middle
+  double alpha = 0;  ///< of a dwell
+  double slope = 0;  ///< mean dθ/dα of the run
 };
 
-/// The run's rows at the same share of a stand; its α is a little elsewhere.
-Looked look_up_held(const Pass& pass, double share, double alpha) {
+/// Interpolates at the same share of a dwell and corrects for the difference in α.
+InterpolatedAngle interpolate_in_dwell(const Pass& pass, double share, double alpha) {
   const auto rows = static_cast<double>(pass.rows.last - pass.rows.first);
   const Sample& sample = pass.run->samples[pass.rows.first + static_cast<std::size_t>(std::lround(share * rows))];
   return {true, sample.theta + pass.slope * (alpha - sample.alpha), sample.load, 1};
 }
 
-/// How far two loads may be apart that count as one: a part of all there are, or the load cell's own noise.
+/// Largest difference of two loads that count as equal: a share of their range, or the load cell's noise.
 double load_tolerance(const Measurement& measurement) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   std::vector<double> bends;
@@ -223,29 +220,28 @@ double load_tolerance(const Measurement& measurement) {
 
 bool same_speed(const Run& a, const Run& b) { return std::abs(a.speed - b.speed) <= 0.15 * std::max(a.speed, b.speed); }
 
-Pass pass_of(const Run& run, const Stretch& stretch, double slope) {
-  const Sample& middle = run.samples[stretch.first + (stretch.last - stretch.first) / 2];
-  return {&run, stretch, run.strokes[stretch.stroke].direction, run.has_load ? middle.load : 0, middle.alpha, slope};
+Pass pass_of(const Run& run, const Segment& segment, double slope) {
+  const Sample& middle = run.samples[segment.first + (segment.last - segment.first) / 2];
+  return {&run, segment, run.strokes[segment.stroke].direction, run.has_load ? middle.load : 0, middle.alpha, slope};
 }
 
-/// Of several strokes the first is not judged by (evidence.cpp): play, and what must bed in, are still on their way. Of
-/// held points the first.
-bool is_still_settling(const Run& run, const Stretch& stretch) {
-  if (is_from_point_to_point(run)) return stretch.first == run.stretches.front().first && run.stretches.size() > 2;
-  return stretch.stroke == 0 && run.strokes.size() > 2;
+/// The first of several strokes or dwells is not used (as in evidence.cpp): play and bedding-in are not settled.
+bool is_still_settling(const Run& run, const Segment& segment) {
+  if (is_from_point_to_point(run)) return segment.first == run.segments.front().first && run.segments.size() > 2;
+  return segment.stroke == 0 && run.strokes.size() > 2;
 }
 
-/// dθ/dα of a run on the whole, by its ends.
+/// Mean dθ/dα of a run, from its ends.
 double slope_of(const Run& run) {
   const auto [least, most] = std::minmax_element(run.samples.begin(), run.samples.end(),
                                                  [](const Sample& a, const Sample& b) { return a.alpha < b.alpha; });
   return most->alpha > least->alpha ? (most->theta - least->theta) / (most->alpha - least->alpha) : 0;
 }
 
-/// How close two passes must be to repeat one another.
-struct Alike {
+/// Tolerances within which two passes repeat one another.
+struct RepeatTolerance {
   double load = 0;
-  double alpha = 0;  ///< of held points: a share of all there are, or three steps of the sensor
+  double alpha = 0;  ///< of dwells: a share of the range, or three sensor steps
   bool across_runs = false;
 
   bool operator()(const Pass& a, const Pass& b) const {
@@ -257,30 +253,30 @@ struct Alike {
   }
 };
 
-Alike alike_in(const Measurement& measurement, bool across_runs) {
+RepeatTolerance repeat_tolerance(const Measurement& measurement, bool across_runs) {
   const SeenSpan alphas = seen_span(measurement, &Sample::alpha);
   return {load_tolerance(measurement),
           std::max(2e-3 * (alphas.any() ? alphas.size() : 0.0), 3 * measurement.alpha_quantum), across_runs};
 }
 
-/// Of more stands than that every n-th pair is looked at: each is compared with every group.
-constexpr std::size_t k_most_stands = 4000;
+/// Number of dwells beyond which only every n-th pair is compared: each is compared with every group.
+constexpr std::size_t k_max_dwells = 4000;
 
-/// Stretches that repeat one another, in the order in which they were made.
-std::vector<std::vector<Pass>> repeats(const Measurement& measurement, const Alike& alike) {
+/// Groups of segments that repeat one another, in order of time.
+std::vector<std::vector<Pass>> repeats(const Measurement& measurement, const RepeatTolerance& tolerance) {
   std::vector<std::vector<Pass>> groups;
   for (const Run& run : measurement.runs) {
-    const std::vector<Stretch> stretches = stretches_of(run);
-    const std::size_t every = stretches.size() / k_most_stands + 1;
+    const std::vector<Segment> segments = segments_of(run);
+    const std::size_t every = segments.size() / k_max_dwells + 1;
     const double slope = run.samples.empty() ? 0 : slope_of(run);
-    for (std::size_t i = 0; i < stretches.size(); ++i) {
-      const Stretch& stretch = stretches[i];
-      if (run.strokes[stretch.stroke].partial || is_still_settling(run, stretch) ||
-          (stretch.held && i / 2 % every != 0))
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const Segment& segment = segments[i];
+      if (run.strokes[segment.stroke].partial || is_still_settling(run, segment) ||
+          (segment.held && i / 2 % every != 0))
         continue;
-      const Pass pass = pass_of(run, stretch, slope);
+      const Pass pass = pass_of(run, segment, slope);
       const auto group = std::find_if(groups.begin(), groups.end(),
-                                      [&](const std::vector<Pass>& g) { return alike(g.front(), pass); });
+                                      [&](const std::vector<Pass>& g) { return tolerance(g.front(), pass); });
       if (group != groups.end()) {
         group->push_back(pass);
       } else {
@@ -291,14 +287,13 @@ std::vector<std::vector<Pass>> repeats(const Measurement& measurement, const Ali
   return groups;
 }
 
-/// Of second differences over `triples` neighbouring triples, which share strokes: what one of them is worth on its
-/// own.
+/// Independent differences in each of several neighbouring second differences, which share strokes.
 double worth_of(std::size_t triples) {
   const double n = static_cast<double>(triples);
   return n / (n + 2 * (n - 1) * (4.0 / 9.0) + 2 * std::max(0.0, n - 2) / 36.0);
 }
 
-/// Second differences over three strokes leave out a steady drift; first differences of two do with what there is.
+/// Second differences of three strokes cancel a steady drift; with two strokes only first differences exist.
 void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scatter) {
   if (group.size() < 2) return;
   const bool triples = group.size() > 2;
@@ -306,26 +301,28 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
   for (std::size_t k = 1; k <= count; ++k) {
     std::vector<double> differences, places;
     const Run& run = *group[k].run;
-    const Stretch& rows = group[k].rows;
+    const Segment& rows = group[k].rows;
     const auto look = [&](const Pass& pass, std::size_t row) {
       const Sample& sample = run.samples[row];
       const double share =
           static_cast<double>(row - rows.first) / static_cast<double>(std::max<std::size_t>(1, rows.last - rows.first));
-      const Looked looked = rows.held ? look_up_held(pass, share, sample.alpha)
-                                      : look_up(*pass.run, pass.rows, pass.direction, sample.alpha);
-      return !run.has_load || std::abs(looked.load - sample.load) <= tolerance ? looked : Looked{};
+      const InterpolatedAngle interpolated = rows.held
+                                                 ? interpolate_in_dwell(pass, share, sample.alpha)
+                                                 : interpolate(*pass.run, pass.rows, pass.direction, sample.alpha);
+      return !run.has_load || std::abs(interpolated.load - sample.load) <= tolerance ? interpolated
+                                                                                     : InterpolatedAngle{};
     };
     for (std::size_t i = rows.first; i <= rows.last; ++i) {
       const Sample& sample = run.samples[i];
       if (!rows.held && !is_inner(run, rows, sample.alpha)) continue;
-      const Looked before = look(group[k - 1], i);
+      const InterpolatedAngle before = look(group[k - 1], i);
       if (!before.inside) continue;
       if (!triples) {
         places.push_back(sample.alpha);
         differences.push_back((sample.theta - before.theta) / std::sqrt(1 + before.weight));
         continue;
       }
-      const Looked after = look(group[k + 1], i);
+      const InterpolatedAngle after = look(group[k + 1], i);
       if (!after.inside) continue;
       places.push_back(sample.alpha);
       differences.push_back((2 * sample.theta - before.theta - after.theta) /
@@ -335,13 +332,13 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
   }
 }
 
-/// Third differences of neighbouring rows: what is left where there are no repeats. Noise with colour hides from them.
-/// One of white noise is correlated with the next three by −3/4, 3/10, −1/20.
+/// Third differences of neighbouring rows, for data without repeats. They miss coloured noise. For white noise their
+/// correlations at lags 1, 2 and 3 are −3/4, 3/10 and −1/20.
 void add_neighbours(const Run& run, Scatter& scatter) {
   const double worth = 1 / (1 + 2 * (0.75 * 0.75 + 0.3 * 0.3 + 0.05 * 0.05));
-  for (const Stretch& stretch : stretches_of(run)) {
+  for (const Segment& segment : segments_of(run)) {
     std::vector<double> differences;
-    for (std::size_t i = stretch.first + 3; i <= stretch.last; ++i) {
+    for (std::size_t i = segment.first + 3; i <= segment.last; ++i) {
       const auto& s = run.samples;
       differences.push_back((s[i].theta - 3 * s[i - 1].theta + 3 * s[i - 2].theta - s[i - 3].theta) / std::sqrt(20.0));
     }
@@ -355,7 +352,7 @@ Scatter scatter_of_neighbours(const Measurement& measurement) {
   return scatter;
 }
 
-/// A row that lies on the parabola of three others but for their noise: the others' weights.
+/// Weights of three rows whose parabola passes through a fourth at `at`.
 std::array<double, 3> parabola_weights(double at, const std::array<double, 3>& places) {
   std::array<double, 3> weights{1, 1, 1};
   for (std::size_t j = 0; j < 3; ++j) {
@@ -366,8 +363,8 @@ std::array<double, 3> parabola_weights(double at, const std::array<double, 3>& p
   return weights;
 }
 
-/// Four held points, one after another, a row of each: what the second is off the parabola of the others.
-void add_stands(const std::array<const Sample*, 4>& rows, std::vector<double>& differences) {
+/// Distance of the second of four successive dwells from the parabola of the others, row by row.
+void add_dwells(const std::array<const Sample*, 4>& rows, std::vector<double>& differences) {
   const std::array<double, 3> weights =
       parabola_weights(rows[1]->alpha, {rows[0]->alpha, rows[2]->alpha, rows[3]->alpha});
   const double squares = 1 + weights[0] * weights[0] + weights[1] * weights[1] + weights[2] * weights[2];
@@ -377,47 +374,48 @@ void add_stands(const std::array<const Sample*, 4>& rows, std::vector<double>& d
   differences.push_back(off / std::sqrt(squares));
 }
 
-/// Held points with a row each have no neighbours but one another: from stand to stand on a stroke, under one load.
-Scatter scatter_of_stands(const Measurement& measurement) {
+/// Noise from dwells of one row each: successive dwells of a stroke under one load are the only neighbours.
+Scatter scatter_of_dwells(const Measurement& measurement) {
   constexpr double worth = 1 / (1 + 2 * (0.75 * 0.75 + 0.3 * 0.3 + 0.05 * 0.05));  // as in add_neighbours()
   const double tolerance = load_tolerance(measurement);
   Scatter scatter;
   for (const Run& run : measurement.runs) {
-    const std::vector<Stretch> stands = stretches_of(run);
+    const std::vector<Segment> dwells = segments_of(run);
     std::vector<double> differences;
-    for (std::size_t i = 3; i < stands.size(); ++i) {
+    for (std::size_t i = 3; i < dwells.size(); ++i) {
       std::array<const Sample*, 4> rows{};
-      bool alike = true;
+      bool comparable = true;
       for (std::size_t k = 0; k < 4; ++k) {
-        const Stretch& stand = stands[i - 3 + k];
-        rows[k] = &run.samples[stand.first];
-        alike = alike && stand.held && stand.stroke == stands[i].stroke && stand.pull == stands[i].pull &&
-                (!run.has_load || std::abs(rows[k]->load - rows[0]->load) <= tolerance);
+        const Segment& dwell = dwells[i - 3 + k];
+        rows[k] = &run.samples[dwell.first];
+        comparable = comparable && dwell.held && dwell.stroke == dwells[i].stroke && dwell.pull == dwells[i].pull &&
+                     (!run.has_load || std::abs(rows[k]->load - rows[0]->load) <= tolerance);
       }
-      if (alike) add_stands(rows, differences);
+      if (comparable) add_dwells(rows, differences);
     }
     scatter.add(differences, worth);
   }
   return scatter;
 }
 
-/// Repeats of one load and speed, either way and in any run.
+/// Repeats at one load and speed, of either direction and any run.
 struct ScatterAtLevel {
   NoiseLevel level;
   Scatter scatter;
 };
 
 std::vector<NoiseLevel> noise_levels(const Measurement& measurement, double least_limit) {
-  const Alike alike = alike_in(measurement, false);
+  const RepeatTolerance tolerance = repeat_tolerance(measurement, false);
   std::vector<ScatterAtLevel> all;
-  for (const std::vector<Pass>& group : repeats(measurement, alike)) {
+  for (const std::vector<Pass>& group : repeats(measurement, tolerance)) {
     const double load = group.front().load, speed = group.front().run->speed;
     auto at = std::find_if(all.begin(), all.end(), [&](const ScatterAtLevel& other) {
       const double faster = std::max(speed, other.level.speed);
-      return std::abs(other.level.load - load) <= alike.load && std::abs(other.level.speed - speed) <= 0.15 * faster;
+      return std::abs(other.level.load - load) <= tolerance.load &&
+             std::abs(other.level.speed - speed) <= 0.15 * faster;
     });
     if (at == all.end()) at = all.insert(all.end(), ScatterAtLevel{{load, speed, 0, 0, 0}, {}});
-    add_repeats(group, alike.load, at->scatter);
+    add_repeats(group, tolerance.load, at->scatter);
   }
   std::vector<NoiseLevel> levels;
   for (const ScatterAtLevel& at : all) {
@@ -430,53 +428,52 @@ std::vector<NoiseLevel> noise_levels(const Measurement& measurement, double leas
 }
 
 Scatter scatter_within_runs(const Measurement& measurement) {
-  const Alike alike = alike_in(measurement, false);
+  const RepeatTolerance tolerance = repeat_tolerance(measurement, false);
   Scatter scatter;
-  for (const std::vector<Pass>& group : repeats(measurement, alike)) add_repeats(group, alike.load, scatter);
+  for (const std::vector<Pass>& group : repeats(measurement, tolerance)) add_repeats(group, tolerance.load, scatter);
   return scatter;
 }
 
-/// Variance of noise that third differences show, of which neighbours are correlated by r: rᵏ against their weights
-/// 20, −15, 6, −1.
+/// Variance that third differences show of noise with correlation r at neighbours, rᵏ at lag k, by their weights 20,
+/// −15, 6, −1.
 double seen_by_neighbours(double r) { return 1 + (-15 * r + 6 * r * r - r * r * r) / 10; }
 
-/// Whether differences go on from row to row, and are twice as large as noise that neighbours scatter by could make
-/// them. Noise may have a colour of its own; what goes on by more than 0.7 is taken for none. Tests: a joint wired anew
-/// between two runs; noise alone, white and coloured.
+/// True if differences are correlated from row to row and twice as large as the neighbours' scatter explains. Noise may
+/// be coloured itself; a correlation above 0.7 is not taken for noise.
 bool is_smooth(const Scatter::Result& differences, double variance_of_neighbours) {
   const double noise = variance_of_neighbours / seen_by_neighbours(std::min(differences.colour, 0.7));
   return differences.colour > 0.3 && differences.colour * std::sqrt(differences.pairs) > 3.0 &&
          differences.variance > 2.0 * noise;
 }
 
-/// What runs that repeat one another differ by.
+/// Differences between runs that should repeat one another.
 struct BetweenRuns {
   Scatter noise;
-  double smooth_squares = 0;  ///< of what is no noise, rad²
+  double smooth_squares = 0;  ///< of smooth differences, rad²
   double smooth_count = 0;
 };
 
 BetweenRuns scatter_between_runs(const Measurement& measurement, double least_limit) {
-  const Alike alike = alike_in(measurement, true);
+  const RepeatTolerance tolerance = repeat_tolerance(measurement, true);
   const double neighbours = scatter_of_neighbours(measurement).result(least_limit).variance;
   BetweenRuns found;
-  for (const std::vector<Pass>& group : repeats(measurement, alike)) {
-    // Run by run: what was changed once is not to be lost among those that agree.
+  for (const std::vector<Pass>& group : repeats(measurement, tolerance)) {
+    // Pair by pair: a single change is visible even among many runs that agree.
     for (std::size_t k = 1; k < group.size(); ++k) {
       Scatter pair;
-      add_repeats({group[k - 1], group[k]}, alike.load, pair);
+      add_repeats({group[k - 1], group[k]}, tolerance.load, pair);
       const Scatter::Result result = pair.result(least_limit);
       if (is_smooth(result, neighbours)) {
         found.smooth_squares += result.variance * static_cast<double>(pair.count());
         found.smooth_count += static_cast<double>(pair.count());
       }
     }
-    if (found.smooth_count == 0) add_repeats(group, alike.load, found.noise);
+    if (found.smooth_count == 0) add_repeats(group, tolerance.load, found.noise);
   }
   return found;
 }
 
-/// Error of both sensors' own steps, as θ shows it.
+/// Quantisation error of both sensors, expressed in θ.
 double step_error(const Measurement& measurement) {
   double slope = 0;
   for (const Run& run : measurement.runs) {
@@ -498,7 +495,7 @@ double step_error(const Measurement& measurement) {
 NoiseFloor noise_floor(const Measurement& measurement) {
   const double least_limit = 3 * measurement.theta_quantum;
   NoiseFloor floor;
-  // Within a run nothing was touched in between; runs that repeat one another do where each is a single cycle.
+  // Nothing changes within a run; runs repeat one another if each is a single cycle.
   Scatter scatter = scatter_within_runs(measurement);
   if (scatter.count() < k_enough) {
     BetweenRuns between = scatter_between_runs(measurement, least_limit);
@@ -512,7 +509,7 @@ NoiseFloor noise_floor(const Measurement& measurement) {
   if (neighbours.count() >= k_enough) floor.within_stroke = std::max(neighbours.typical(), step_error(measurement));
   if (!floor.from_repeats) {
     floor.from_repeats = neighbours.count() < k_enough && scatter.count() >= k_few;
-    if (!floor.from_repeats) scatter = neighbours.count() < k_enough ? scatter_of_stands(measurement) : neighbours;
+    if (!floor.from_repeats) scatter = neighbours.count() < k_enough ? scatter_of_dwells(measurement) : neighbours;
   }
   const Scatter::Result result = scatter.result(least_limit);
   floor.rms = std::max(std::sqrt(result.variance), step_error(measurement));

@@ -14,7 +14,7 @@
 namespace fusee {
 namespace {
 
-/// With fewer rows there is no telling what is usual.
+/// Fewer rows do not show a usual scatter.
 constexpr std::size_t k_fewest_rows = 20;
 
 // ---- outliers -------------------------------------------------------------------------------------------------------
@@ -26,28 +26,28 @@ double middle_of_five(const std::vector<double>& values, std::size_t i) {
   return near[2];
 }
 
-/// How far a row may lie off the middle of its neighbours: by the scatter there is, and by as far as the values go from
-/// row to row.
-struct Wild {
+/// Outliers of a run: rows farther from the median of their neighbours than the scatter and the motion from row to row
+/// explain.
+struct Outliers {
   double limit = 0;
   std::vector<std::size_t> rows;
 };
 
-Wild wild_rows(const std::vector<double>& values) {
+Outliers outliers_in(const std::vector<double>& values) {
   std::vector<double> off(values.size()), steps;
-  // At its ends a log cannot tell a wild row from a step.
+  // At the ends of a log a spike is indistinguishable from a step.
   for (std::size_t i = 2; i + 2 < values.size(); ++i) off[i] = std::abs(values[i] - middle_of_five(values, i));
   for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(std::abs(values[i] - values[i - 1]));
   const auto ninth = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 9 / 10);
   std::nth_element(steps.begin(), ninth, steps.end());
-  Wild wild{12 * median_of(off) + 4 * *ninth + radians(0.02), {}};
+  Outliers outliers{12 * median_of(off) + 4 * *ninth + radians(0.02), {}};
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (off[i] > wild.limit) wild.rows.push_back(i);
+    if (off[i] > outliers.limit) outliers.rows.push_back(i);
   }
-  return wild;
+  return outliers;
 }
 
-/// θ without the part that goes with α: what is left hardly moves from row to row.
+/// θ without its linear part in α: the remainder hardly changes from row to row.
 std::vector<double> beside_line(const std::vector<Sample>& samples) {
   double alpha = 0, theta = 0, products = 0, squares = 0;
   for (const Sample& sample : samples) {
@@ -64,18 +64,19 @@ std::vector<double> beside_line(const std::vector<Sample>& samples) {
   return values;
 }
 
-void drop_wild(std::vector<Sample>& samples, const Wild& wild, const std::string& name, const Say& say) {
-  if (wild.rows.empty()) return;
-  const std::string words = rows_text(wild.rows.size()) + " with " + name + " more than " +
-                            rounded(degrees(wild.limit), 2) + " deg off their neighbours: ";
-  if (wild.rows.size() > samples.size() / 50 + 1) return say(words + "too many to be outliers, kept");
+void drop_rows(std::vector<Sample>& samples, const Outliers& outliers, const std::string& name,
+               const NoteSink& add_note) {
+  if (outliers.rows.empty()) return;
+  const std::string words = rows_text(outliers.rows.size()) + " with " + name + " more than " +
+                            rounded(degrees(outliers.limit), 2) + " deg off their neighbours: ";
+  if (outliers.rows.size() > samples.size() / 50 + 1) return add_note(words + "too many to be outliers, kept");
   std::vector<Sample> kept;
   kept.reserve(samples.size());
-  auto next = wild.rows.begin();
+  auto next = outliers.rows.begin();
   bool after_break = false;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     after_break = after_break || samples[i].after_break;
-    if (next != wild.rows.end() && *next == i) {
+    if (next != outliers.rows.end() && *next == i) {
       ++next;
     } else {
       kept.push_back(samples[i]);
@@ -83,10 +84,10 @@ void drop_wild(std::vector<Sample>& samples, const Wild& wild, const std::string
     }
   }
   samples = std::move(kept);
-  say(words + "dropped as outliers");
+  add_note(words + "dropped as outliers");
 }
 
-/// Without the hundredth that may be wild.
+/// Range without the outermost 1 %, which may be outliers.
 double span_of_theta(const std::vector<Sample>& samples) {
   std::vector<double> thetas;
   for (const Sample& sample : samples) thetas.push_back(sample.theta);
@@ -99,7 +100,7 @@ double span_of_theta(const std::vector<Sample>& samples) {
 
 }  // namespace
 
-void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::string& name, const Say& say) {
+void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::string& name, const NoteSink& add_note) {
   double shift = 0;
   std::size_t wraps = 0;
   double before = samples.front().*angle;
@@ -117,18 +118,18 @@ void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::stri
     samples[i].*angle = here + shift;
   }
   if (wraps > 0)
-    say(name + " jumps by a turn " + std::to_string(wraps) + (wraps == 1 ? " time" : " times") + ": unwrapped");
+    add_note(name + " jumps by a turn " + std::to_string(wraps) + (wraps == 1 ? " time" : " times") + ": unwrapped");
 }
 
-void drop_outliers(Run& run, const Say& say) {
+void drop_outliers(Run& run, const NoteSink& add_note) {
   if (run.samples.size() < k_fewest_rows) return;
   std::vector<double> alphas;
   for (const Sample& sample : run.samples) alphas.push_back(sample.alpha);
-  drop_wild(run.samples, wild_rows(alphas), "alpha", say);
-  drop_wild(run.samples, wild_rows(beside_line(run.samples)), "theta", say);
+  drop_rows(run.samples, outliers_in(alphas), "alpha", add_note);
+  drop_rows(run.samples, outliers_in(beside_line(run.samples)), "theta", add_note);
 }
 
-bool fill_gaps(std::vector<Sample>& samples, double Sample::*value, const std::string& name, const Say& say) {
+bool fill_gaps(std::vector<Sample>& samples, double Sample::*value, const std::string& name, const NoteSink& add_note) {
   const auto known =
       std::find_if(samples.begin(), samples.end(), [&](const Sample& sample) { return !std::isnan(sample.*value); });
   if (known == samples.end()) return false;
@@ -141,13 +142,12 @@ bool fill_gaps(std::vector<Sample>& samples, double Sample::*value, const std::s
     }
     last = sample.*value;
   }
-  if (lost > 0) say(rows_text(lost) + " without a " + name + ": the " + name + " before was taken");
+  if (lost > 0) add_note(rows_text(lost) + " without a " + name + ": the preceding " + name + " is used");
   return true;
 }
 
-// Values on a grid: sorted, their distances are multiples of one step. A joint that moves evenly and is logged without
-// noise shows equal steps too, but always the same number of them from row to row; a sensor that rounds shows now one
-// step, now none or two.
+// Values on a grid have differences that are multiples of one step. A steady noiseless motion also has equal steps, but
+// always the same number of them from row to row; a quantised sensor alternates between one step, none and two.
 double quantum_of(const std::vector<Sample>& samples, double Sample::*angle) {
   constexpr std::size_t enough = 20000;
   constexpr double same = radians(1e-7);
@@ -161,7 +161,7 @@ double quantum_of(const std::vector<Sample>& samples, double Sample::*angle) {
   }
   if (steps.empty()) return 0;
   std::sort(steps.begin(), steps.end());
-  // A lone value off the grid does not hide it; rounding to decimals makes single steps differ a little.
+  // One value off the grid does not hide it; decimal rounding makes single steps differ slightly.
   const double least = steps[steps.size() / 20];
   double sum = 0, singles = 0;
   for (const double step : steps) {

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: what a logger spoils and a reader can put right. Every repair is said.
+/// Internal: repairs defects of a log. Each repair adds a note.
 #pragma once
 
 #include <functional>
@@ -9,19 +9,19 @@
 
 namespace fusee {
 
-using Say = std::function<void(const std::string&)>;
+using NoteSink = std::function<void(const std::string&)>;
 
-/// An encoder that jumps by about a turn was wrapped around. Not the motor's where θ goes by a quarter of its span at
-/// the same time: from point to point a motor may turn as far between two rows.
-void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::string& name, const Say& say);
+/// Unwraps an encoder that jumps by about a turn. A jump of the motor's encoder is kept if θ moves by a quarter of its
+/// span at the same time: in a point-to-point log a motor may turn as far between two rows.
+void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::string& name, const NoteSink& add_note);
 
-/// Single rows far off their neighbours are dropped: spikes of a sensor, not motion. A step that stays is no outlier.
-void drop_outliers(Run& run, const Say& say);
+/// Drops single rows far from their neighbours: sensor spikes. A lasting step is not an outlier.
+void drop_outliers(Run& run, const NoteSink& add_note);
 
-/// A load or temperature that was not logged for a moment is the last one that was. False when it was never logged.
-bool fill_gaps(std::vector<Sample>& samples, double Sample::*value, const std::string& name, const Say& say);
+/// Replaces missing loads or temperatures by the last logged value. False if none was ever logged.
+bool fill_gaps(std::vector<Sample>& samples, double Sample::*value, const std::string& name, const NoteSink& add_note);
 
-/// The step of a sensor that only knows multiples of it; 0 when its values are finer than can be told.
+/// Step of a quantised sensor; 0 if it is too fine to be detected.
 double quantum_of(const std::vector<Sample>& samples, double Sample::*angle);
 
 }  // namespace fusee

@@ -18,9 +18,9 @@ namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t k_most_problems = 20;
-/// Lines above the header: settings of a logger, a scope, a motor's tool.
+/// Lines above the header, such as settings of a logger or an oscilloscope.
 constexpr std::size_t k_longest_preamble = 1000;
-/// Values beyond this are a logger's garbage; their squares are still numbers. Times in ns since 1970 are below.
+/// Larger values are garbage; their squares are still finite. Times in ns since 1970 are below the limit.
 constexpr double k_largest_value = 1e15, k_largest_time = 1e19;
 
 const char* const k_usual_header =
@@ -38,7 +38,7 @@ bool all_numbers(const std::vector<std::string>& cells) {
                      [&](const std::string& cell) { return read_number(cell, value) == Cell::number; });
 }
 
-/// "sep=;" of spreadsheets; 0 for another line.
+/// Separator of a spreadsheet's "sep=;" line; 0 for another line.
 char stated_separator(std::string_view line) {
   if (line.size() >= 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
   return line.size() == 5 && lower(line.substr(0, 4)) == "sep=" ? line[4] : '\0';
@@ -62,7 +62,7 @@ char separator_of(std::string_view line) {
   return ',';
 }
 
-/// A line that may be the header: for what is said where none is.
+/// A possible header line, for the message if there is no header.
 struct HeaderLine {
   std::string text;
   std::vector<std::string> names;
@@ -87,21 +87,21 @@ class RowReader {
       if (columns_.empty()) comment_ = content.substr(1);
       return;
     }
-    if (columns_.empty()) return look_for_header(content);
+    if (columns_.empty()) return find_header(content);
     row(separator_ == '\t' ? record.text : content);
   }
 
   LoggedRows finish() {
     if (columns_.empty()) refuse_without_header();
-    // A log that was cut off ends in the middle of a row.
+    // A truncated log ends in the middle of a row.
     if (!cut_off_.message.empty() && problems_.empty()) {
-      found_.notes.push_back("the last row (line " + std::to_string(cut_off_.place.line) + ") is cut off: left out");
+      found_.notes.push_back("the last row (line " + std::to_string(cut_off_.place.line) + ") is truncated: omitted");
     }
     if (!problems_.empty()) throw InputError(problems_);
     if (headers_ > 0) {
-      found_.notes.push_back("the header stands again " + times(headers_) + ", first in line " +
+      found_.notes.push_back("the header is repeated " + times(headers_) + ", first in line " +
                              std::to_string(second_header_) + ": a new motion begins there" +
-                             (dropped_ > 0 ? ", and " + rows_text(dropped_) + " before it were no rows" : ""));
+                             (dropped_ > 0 ? ", and " + rows_text(dropped_) + " before it were not data" : ""));
     }
     const std::string units = settle_units(columns_, found_.samples, options_, name_);
     if (!units.empty()) found_.notes.push_back(units);
@@ -115,10 +115,10 @@ class RowReader {
     const std::string most = std::to_string(k_longest_record);
     const Diagnostic problem =
         open_quote ? Diagnostic{Severity::error, place(line, 1),
-                                "a quotation mark opens a cell here and never closes it", "close it, or take it away"}
+                                "the quotation mark that opens a cell here is never closed", "close or remove it"}
                    : Diagnostic{Severity::error, place(line, 1),
-                                "a line of more than " + most + " bytes: this is no table of measured data",
-                                "one row a line, ended by LF, CR LF or CR"};
+                                "a line of more than " + most + " bytes: this is not a table of measured data",
+                                "write one row a line, ended by LF, CR LF or CR"};
     throw InputError(problem);
   }
 
@@ -129,7 +129,7 @@ class RowReader {
     return {name_, static_cast<int>(std::min<long long>(line, std::numeric_limits<int>::max())), line > 0 ? column : 0};
   }
 
-  /// 1 for the whole line.
+  /// Column number of a cell; 1 for the whole line.
   int column_of(std::string_view cell) const { return static_cast<int>(cell.data() - line_text_.data()) + 1; }
 
   void fail(int column, std::string message, std::string hint) {
@@ -146,20 +146,20 @@ class RowReader {
     const auto found = std::find_if(text.begin(), text.end(), is_control);
     if (found == text.end()) return;
     const std::string_view start = text.substr(0, 2);
-    std::string hint = "measured data are a CSV text";
+    std::string hint = "give measured data as CSV text";
     if (line_ == 1 && text.size() > 1 && (text[0] == '\0' || text[1] == '\0'))
       hint = "it looks like UTF-16 without its byte order mark: save it as UTF-8";
     if (line_ == 1 && text.substr(0, 1) == "\x1F") hint = "it looks compressed: unpack it with gunzip";
     if (line_ == 1 && start == "PK") hint = "it looks like a spreadsheet or a zip: export a CSV text";
     const Diagnostic problem{Severity::error, place(line_, static_cast<int>(found - text.begin()) + 1),
-                             "holds binary bytes", hint};
+                             "contains binary bytes", hint};
     throw InputError(problem);
   }
 
   // ---- header
 
-  /// The header is the first line that names the angles; what stands above is a preamble.
-  void look_for_header(std::string_view text) {
+  /// The header is the first line that names the angles; lines above it are a preamble.
+  void find_header(std::string_view text) {
     if (const char stated = stated_separator(text)) {
       stated_separator_ = stated;
       return;
@@ -179,7 +179,7 @@ class RowReader {
   [[noreturn]] void refuse_many_columns() const {
     const Diagnostic problem{Severity::error, place(line_, 1),
                              "the header names more than " + std::to_string(k_most_columns) + " columns",
-                             "measured data need a few"};
+                             "measured data need only a few"};
     throw InputError(problem);
   }
 
@@ -193,11 +193,11 @@ class RowReader {
     found_.has_load = has("load");
     found_.has_temperature = has("temperature");
     if (preamble_ > 0)
-      found_.notes.push_back("the header is line " + std::to_string(line_) + ": the lines above are left out");
+      found_.notes.push_back("the header is line " + std::to_string(line_) + ": the lines above are omitted");
   }
 
-  /// The likeliest header of a file without the names that are looked for: the first line above a row of as many
-  /// numbers, or else the first line.
+  /// Remembers the likeliest header of a file without known names: the first line above a row of as many numbers, else
+  /// the first line.
   void remember(std::string_view text) {
     HeaderLine here{std::string(text), names_in(text, stated_separator_ ? stated_separator_ : separator_of(text)),
                     line_};
@@ -214,14 +214,14 @@ class RowReader {
 
   [[noreturn]] void refuse_without_header() {
     if (preamble_ == 0) {
-      const Diagnostic problem{Severity::error, place(0, 0), "holds no header", k_usual_header};
+      const Diagnostic problem{Severity::error, place(0, 0), "has no header", k_usual_header};
       throw InputError(problem);
     }
     line_ = likely_.line;
     if (all_numbers(likely_.names)) {
       const bool in_comment = comment_.find("alpha") != std::string::npos;
-      fail(1, "the first line holds numbers: there is no header",
-           in_comment ? "line " + std::to_string(line_) + " follows a comment that may be it: take the # away"
+      fail(1, "the first line has numbers: there is no header",
+           in_comment ? "line " + std::to_string(line_) + " follows a comment that may be the header: remove its #"
                       : k_usual_header);
     } else {
       for (Diagnostic& problem : find_columns(likely_.names, options_).problems)
@@ -239,7 +239,7 @@ class RowReader {
                        [&](const Column& column) { return values[column.index] == column.name; });
   }
 
-  /// The board started again: what it printed since the last row was no row.
+  /// The logger restarted: its output since the last row is not data.
   void begin_again() {
     if (headers_++ == 0) second_header_ = line_;
     dropped_ += problems_.size() - problems_at_last_row_ + (cut_off_.message.empty() ? 0 : 1);
@@ -270,7 +270,7 @@ class RowReader {
     keep(sample);
   }
 
-  /// False for what is no value of that column, after saying so.
+  /// False if the cell is not a value of that column; reports the fault.
   bool take_cell(Column& column, std::string_view cell, Sample& sample) {
     double value = k_nan;
     if (!read_value(column, cell, value)) {
@@ -302,12 +302,12 @@ class RowReader {
   bool is_possible(const Column& column, std::string_view cell, double value) {
     const bool is_angle = column.quantity == Quantity::angle && column.unit != nullptr;
     if (is_angle && std::abs(value) * column.unit->factor > radians(k_largest_deg)) {
-      fail(column_of(cell), column.name + " = " + shortest(value) + " is no angle",
+      fail(column_of(cell), column.name + " = " + shortest(value) + " is not an angle",
            "leave the cell empty where nothing was logged");
       return false;
     }
     if (std::abs(value) > (column.quantity == Quantity::time ? k_largest_time : k_largest_value)) {
-      fail(column_of(cell), column.name + " = " + shortest(value) + " is beyond anything measured",
+      fail(column_of(cell), column.name + " = " + shortest(value) + " is too large for a measured value",
            "leave the cell empty where nothing was logged");
       return false;
     }
@@ -318,8 +318,7 @@ class RowReader {
     if (mounted_.insert(column.role).second) {
       mounting = angle;
     } else if (mounting != angle) {
-      fail(column_of(cell), column.name + " changes within the run",
-           "one file for each way in which the encoders were mounted");
+      fail(column_of(cell), column.name + " changes within the run", "use one file for each mounting of the encoders");
       return false;
     }
     return true;
@@ -332,9 +331,9 @@ class RowReader {
       fail(1, message, "if commas are the decimal marks, separate the values with ; as in 1,5;2,5");
       throw InputError(problems_);
     }
-    Diagnostic problem{Severity::error, place(line_, 1), message, "remove the row, or complete it"};
+    Diagnostic problem{Severity::error, place(line_, 1), message, "remove or complete the row"};
     if (count < count_) {
-      cut_off_ = problem;  // no fault if it is the last one
+      cut_off_ = problem;  // not a fault if it is the last row
     } else {
       fail(1, problem.message, problem.hint);
     }
@@ -346,13 +345,13 @@ class RowReader {
     const bool all_text = std::all_of(values_.begin(), values_.end(),
                                       [&](std::string_view v) { return read_number(v, value) != Cell::number; });
     if (all_text && found_.rows == 1) {
-      return fail(column_of(cell), message, "a second line of the header? Begin it with #");
+      return fail(column_of(cell), message, "is this a second header line? Begin it with #");
     }
     fail(column_of(cell), message,
-         column.quantity == Quantity::time
-             ? "numbers, or time stamps as 2025-03-01T10:00:00.020 in all rows"
-             : "numbers, one a cell, with one decimal mark in the whole file; leave the cell empty where nothing was "
-               "logged");
+         column.quantity == Quantity::time ? "write numbers, or time stamps as 2025-03-01T10:00:00.020 in all rows"
+                                           : "write one number a cell, with one decimal mark in the whole file; leave "
+                                             "the cell empty where nothing was "
+                                             "logged");
   }
 
   void keep(Sample sample) {
@@ -389,7 +388,7 @@ class RowReader {
   std::vector<Column> columns_;
   std::vector<std::string_view> values_;
   NumberReader numbers_;
-  std::set<std::string> mounted_;  ///< roles of the mounting that have their value
+  std::set<std::string> mounted_;  ///< mounting roles that already have their value
   std::vector<Diagnostic> problems_;
   Diagnostic cut_off_;
   std::string_view line_text_;
@@ -439,11 +438,11 @@ void check_roles(const MeasurementOptions& options) {
   }
   for (const auto& [role, ticks] : options.ticks_per_turn) {
     if (member_of(role) == nullptr || quantity_of(role) != Quantity::angle || !(std::abs(ticks) >= 2))
-      throw InputError("", "counts a turn are of alpha or theta, and 2 or more (negative where they fall)");
+      throw InputError("", "give counts a turn for alpha or theta, 2 or more (negative if they fall)");
   }
   for (const auto& [role, ticks] : options.zero_ticks) {
     if (options.ticks_per_turn.count(role) == 0)
-      throw InputError("", "counts of " + role + " at home need the counts a turn, too");
+      throw InputError("", "counts of " + role + " at home also need the counts a turn");
   }
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: from the bytes of one CSV file to samples. Read in blocks: a log may be larger than the memory.
+/// Internal: reads one CSV file into samples, in blocks, since a log may exceed the memory.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@
 
 namespace fusee {
 
-/// Rows kept of all files together; beyond a file's share every second one goes, again and again.
+/// Largest number of rows kept of all files. A file beyond its share is thinned by halves.
 constexpr std::size_t k_most_samples = std::size_t{1} << 20;
 
-/// The rows of one file in its order, in the units of Sample.
+/// Rows of one file, in its order and in the units of Sample.
 struct LoggedRows {
   std::vector<Sample> samples;  ///< every `stride`-th row that holds both angles
   std::vector<std::string> notes;
@@ -24,19 +24,19 @@ struct LoggedRows {
   Mounting mounting;
   std::size_t rows = 0;  ///< in the file
   std::size_t without_angle = 0;
-  std::size_t without_theta = 0;      ///< of these: with α alone
-  long long first_without_angle = 0;  ///< line
+  std::size_t without_theta = 0;      ///< rows with α alone
+  long long first_without_angle = 0;  ///< line number
   std::size_t stride = 1;
 };
 
-/// InputError (name:line:column) with all that is wrong, up to a number that a person can read.
+/// Throws InputError (name:line:column) with all faults, up to a readable number.
 LoggedRows read_rows(std::string_view text, const std::string& name, const MeasurementOptions& options,
                      std::size_t most_samples = k_most_samples);
-/// The same of a file; `name` stands in the messages.
+/// Reads a file; `name` appears in messages.
 LoggedRows read_rows(const std::filesystem::path& path, const std::string& name, const MeasurementOptions& options,
                      std::size_t most_samples = k_most_samples);
 
-/// InputError for a role that no column can have, or a unit that a role cannot.
+/// Throws InputError for an unknown role, or a unit that does not fit the role.
 void check_roles(const MeasurementOptions& options);
 
 /// "1 row", "7 rows".

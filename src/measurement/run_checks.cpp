@@ -12,7 +12,7 @@ namespace fusee {
 namespace {
 
 constexpr std::size_t k_fewest_samples = 20;
-/// A motion smaller than this is none: the last decimal of a log.
+/// Smaller motions are rounding of a log's last decimal.
 constexpr double k_no_motion = radians(1e-6);
 
 double span_of(const std::vector<Sample>& samples, double Sample::*value) {
@@ -24,7 +24,7 @@ double span_of(const std::vector<Sample>& samples, double Sample::*value) {
   return most - least;
 }
 
-/// A stretch of rows where one value stays exactly the same.
+/// Rows in which one value stays exactly constant.
 struct Standstill {
   std::size_t first = 0;
   std::size_t last = 0;
@@ -48,14 +48,15 @@ std::string place_of(const Run& run, const Standstill& still) {
   return "at alpha " + rounded(degrees(run.samples[still.first].alpha)) + " deg";
 }
 
-/// How far α goes while θ stands, where play is no reason: play holds θ at a stroke's beginning and then lets go.
-struct Frozen {
+/// The longest motion of α during which θ is constant. Standstill at a stroke's beginning may be play and counts a
+/// quarter.
+struct FrozenSpan {
   double way = 0;
   Standstill where;
 };
 
-Frozen frozen_theta(const Run& run) {
-  Frozen worst;
+FrozenSpan frozen_theta(const Run& run) {
+  FrozenSpan worst;
   for (const Stroke& stroke : run.strokes) {
     for (const Standstill& still : standstills(run.samples, &Sample::theta, stroke.first, stroke.last)) {
       const bool may_be_play = still.first <= stroke.first + 2;
@@ -67,21 +68,21 @@ Frozen frozen_theta(const Run& run) {
   return worst;
 }
 
-void look_for_frozen_theta(const Run& run, Measurement& into) {
+void check_frozen_theta(const Run& run, Measurement& into) {
   const double alpha_span = span_of(run.samples, &Sample::alpha), theta_span = span_of(run.samples, &Sample::theta);
-  // A coarse sensor stands for the way of one step.
+  // A coarse sensor is constant over the motion of one step.
   const double one_step = alpha_span * into.theta_quantum / theta_span;
-  const Frozen frozen = frozen_theta(run);
+  const FrozenSpan frozen = frozen_theta(run);
   if (frozen.way <= std::max(0.1 * alpha_span, 3.0 * one_step)) return;
   const double way = std::abs(run.samples[frozen.where.last].alpha - run.samples[frozen.where.first].alpha);
-  into.not_testable.push_back(run.name + ": theta stands still at " +
-                              rounded(degrees(run.samples[frozen.where.first].theta)) + " deg while alpha moves over " +
-                              rounded(degrees(way), 3) + " deg (" + place_of(run, frozen.where) +
-                              "): a frozen or saturated sensor, or the joint at a stop; log again without it");
+  into.not_testable.push_back(
+      run.name + ": theta is constant at " + rounded(degrees(run.samples[frozen.where.first].theta)) +
+      " deg while alpha moves over " + rounded(degrees(way), 3) + " deg (" + place_of(run, frozen.where) +
+      "): the sensor is frozen or saturated, or the joint is at a stop; log again without that");
 }
 
-/// θ may move at a constant α when the load does; by a part of its span, not by much of it.
-void look_for_frozen_alpha(const Run& run, Measurement& into) {
+/// θ may move at constant α when the load changes, but only by a part of its span.
+void check_frozen_alpha(const Run& run, Measurement& into) {
   const double theta_span = span_of(run.samples, &Sample::theta);
   const double load_span = run.has_load ? span_of(run.samples, &Sample::load) : 0;
   for (const Standstill& still : standstills(run.samples, &Sample::alpha, 0, run.samples.size() - 1)) {
@@ -91,37 +92,37 @@ void look_for_frozen_alpha(const Run& run, Measurement& into) {
     const double way = span_of(rows, &Sample::theta);
     if (way <= 0.25 * theta_span) continue;
     into.not_testable.push_back(
-        run.name + ": alpha stands still while theta moves over " + rounded(degrees(way), 3) + " deg (" +
+        run.name + ": alpha is constant while theta moves over " + rounded(degrees(way), 3) + " deg (" +
         place_of(run, still) +
         "): the motor's sensor is frozen, or the pulley slips on its shaft; log again without it");
     return;
   }
 }
 
-void say_gaps(const Run& run, const Say& say) {
+void note_gaps(const Run& run, const NoteSink& add_note) {
   for (const std::size_t gap : gaps_in(run.samples, run.has_time)) {
-    if (run.samples[gap].after_break) continue;  // said where the log was read
+    if (run.samples[gap].after_break) continue;  // already reported when the log was read
     const double way = std::abs(run.samples[gap].alpha - run.samples[gap - 1].alpha);
     const std::string time =
         run.has_time ? "of " + rounded(run.samples[gap].time - run.samples[gap - 1].time) + " s " : "";
-    say("a gap " + time + "(" + place_of(run, {gap, gap}) + ") over which alpha moves " + rounded(degrees(way), 3) +
-        " deg: the play after it is not known, the stroke is left out");
+    add_note("a gap " + time + "(" + place_of(run, {gap, gap}) + ") over which alpha moves " +
+             rounded(degrees(way), 3) + " deg: the play after it is unknown, the stroke is omitted");
   }
 }
 
 std::string stops_text(const Run& run) {
   const auto stops =
-      std::count_if(run.stretches.begin(), run.stretches.end(), [](const Stretch& stretch) { return stretch.held; });
+      std::count_if(run.segments.begin(), run.segments.end(), [](const Segment& segment) { return segment.held; });
   return "from point to point: alpha is held " + std::to_string(stops) +
-         " times (a change of the load counts), and between two of them it is taken to go straight";
+         " times (a change of the load counts); a straight motion is assumed between dwells";
 }
 
 }  // namespace
 
-void look_at_run(const Run& run, Measurement& into, const Say& say) {
+void check_run(const Run& run, Measurement& into, const NoteSink& add_note) {
   const auto refuse = [&](const std::string& reason) { into.not_testable.push_back(run.name + ": " + reason); };
   if (run.samples.size() < k_fewest_samples) {
-    return refuse(rows_text(run.samples.size()) + " that can be used; at least " + std::to_string(k_fewest_samples) +
+    return refuse(rows_text(run.samples.size()) + " can be used; at least " + std::to_string(k_fewest_samples) +
                   " are needed");
   }
   const double alpha_span = span_of(run.samples, &Sample::alpha), theta_span = span_of(run.samples, &Sample::theta);
@@ -132,27 +133,27 @@ void look_at_run(const Run& run, Measurement& into, const Say& say) {
                   " deg: the joint's sensor is dead, or the joint is stuck");
   }
   if (run.strokes.empty())
-    return refuse("alpha only jitters (by " + rounded(degrees(alpha_span), 2) + " deg): no motion in it");
-  look_for_frozen_theta(run, into);
-  look_for_frozen_alpha(run, into);
+    return refuse("alpha only jitters (by " + rounded(degrees(alpha_span), 2) + " deg): there is no motion");
+  check_frozen_theta(run, into);
+  check_frozen_alpha(run, into);
   if (is_from_point_to_point(run)) {
-    say(stops_text(run));
+    add_note(stops_text(run));
   } else {
-    say_gaps(run, say);
+    note_gaps(run, add_note);
   }
   const auto goes = [&](int direction) {
     return std::any_of(run.strokes.begin(), run.strokes.end(),
                        [&](const Stroke& s) { return s.direction == direction; });
   };
-  if (!goes(0) && (!goes(1) || !goes(-1))) say("alpha moves in one direction only");
+  if (!goes(0) && (!goes(1) || !goes(-1))) add_note("alpha moves in one direction only");
   const Stroke& first = run.strokes.front();
   if (first.partial) {
-    say("the first stroke (" + rows_text(first.last - first.first + 1) +
-        ") does not begin at a reversal: its play is not known, it is left out");
+    add_note("the first stroke (" + rows_text(first.last - first.first + 1) +
+             ") does not begin at a reversal: its play is unknown, it is omitted");
   }
 }
 
-void look_at_all(Measurement& measurement) {
+void check_all_runs(Measurement& measurement) {
   if (measurement.runs.empty()) measurement.not_testable.push_back("no run was given");
   if (!measurement.not_testable.empty()) return;
   int up = 0, down = 0;
@@ -162,21 +163,22 @@ void look_at_all(Measurement& measurement) {
       up += stroke.direction > 0;
       down += stroke.direction < 0;
     }
-    for (const Stretch& stretch : run.stretches) {
-      loaded = loaded || stretch.pull > 0;
-      unloaded = unloaded || stretch.pull < 0;
+    for (const Segment& segment : run.segments) {
+      loaded = loaded || segment.pull > 0;
+      unloaded = unloaded || segment.pull < 0;
     }
   }
-  // At a held motor angle the load moves the joint both ways.
+  // At a constant motor angle the load moves the joint both ways.
   if ((up > 0 && down > 0) || (loaded && unloaded)) return;
   if (up == 0 && down == 0) {
-    measurement.not_testable.push_back(std::string("alpha stands and the load only ") + (loaded ? "grows" : "falls") +
-                                       ": without the way back friction cannot be told from stretch; log both");
+    measurement.not_testable.push_back(
+        std::string("alpha is constant and the load only ") + (loaded ? "grows" : "falls") +
+        ": without the return, friction and stretch cannot be distinguished; log both directions");
     return;
   }
-  measurement.not_testable.push_back(
-      std::string("alpha only ") + (up > 0 ? "grows" : "falls") +
-      ": without the way back backlash, friction and delay cannot be told from a wrong shape; log both directions");
+  measurement.not_testable.push_back(std::string("alpha only ") + (up > 0 ? "grows" : "falls") +
+                                     ": without the return, backlash, friction and delay cannot be distinguished from "
+                                     "a wrong shape; log both directions");
 }
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: whether anything can be concluded from runs, before any model is held against them.
+/// Internal: checks whether the runs can be evaluated at all, before any model is involved.
 #pragma once
 
 #include "fusee/measurement/measurement.h"
@@ -7,10 +7,10 @@
 
 namespace fusee {
 
-/// Too few rows, no motion, sensors that stand still. Reasons go to `into.not_testable`, remarks to `say`.
-void look_at_run(const Run& run, Measurement& into, const Say& say);
+/// Checks one run: enough rows, motion, live sensors. Reasons go to `into.not_testable`, remarks to `add_note`.
+void check_run(const Run& run, Measurement& into, const NoteSink& add_note);
 
-/// What only all runs together tell: whether α goes both ways at all.
-void look_at_all(Measurement& measurement);
+/// Checks all runs together: α must move in both directions.
+void check_all_runs(Measurement& measurement);
 
 }  // namespace fusee

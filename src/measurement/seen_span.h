@@ -1,5 +1,5 @@
 /// \file
-/// Internal: between what values a logged number lay, and even places in between.
+/// Internal: range of a logged number, and even bins over it.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ inline SeenSpan seen_span(const std::vector<Sample>& samples, double Sample::*nu
   return span;
 }
 
-/// Over all runs.
+/// Range over all runs.
 inline SeenSpan seen_span(const Measurement& measurement, double Sample::*number) {
   SeenSpan span;
   for (const Run& run : measurement.runs) {
@@ -41,13 +41,13 @@ struct Bins {
   SeenSpan span;
   int count = 1;
 
-  /// 0 at the span's beginning, `count` at its end; values beyond lie at the ends. Of no span all lie at its beginning.
+  /// Position in bins, clamped to 0 … `count`; 0 for an empty span.
   double place(double value) const {
     if (!span.any()) return 0;
     return std::clamp((value - span.least) / span.size() * count, 0.0, static_cast<double>(count));
   }
   int bin(double value) const { return std::min(static_cast<int>(place(value)), count - 1); }
-  /// Where a bin begins.
+  /// Lower edge of a bin.
   double edge(int bin) const { return span.least + span.size() * bin / count; }
 };
 

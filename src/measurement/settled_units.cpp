@@ -1,4 +1,4 @@
-// Units that no option and no column's name states, found from the values.
+// Determines units that neither option nor column name states from the values.
 
 #include <algorithm>
 #include <array>
@@ -14,10 +14,10 @@ namespace {
 
 // ---- time -----------------------------------------------------------------------------------------------------------
 
-/// s since 1970: from 2000 to 2100.
+/// Plausible as s since 1970: years 2000 to 2100.
 bool is_since_1970(double seconds) { return seconds > 9.4e8 && seconds < 4.2e9; }
 
-/// How far rows lie apart on the whole, whatever restarts there are between them.
+/// Typical distance of rows, robust to restarts of the clock.
 double mean_step(const std::vector<Sample>& samples) {
   double sum = 0, steps = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -31,9 +31,9 @@ double mean_step(const std::vector<Sample>& samples) {
 
 // ---- counts ---------------------------------------------------------------------------------------------------------
 
-/// Encoders of joints and of servos that show their angle as a number of so many bits.
+/// Counts a turn of absolute encoders in joints and servos.
 constexpr std::array k_absolute_encoders = {4096.0, 16384.0};
-/// Counts a turn that a jump over a whole turn shows.
+/// Counts a turn that a jump over a whole turn confirms.
 constexpr std::array k_wrapping_encoders = {256.0,   400.0,   512.0,    600.0,    800.0,    1000.0,   1024.0,  1200.0,
                                             1600.0,  2000.0,  2048.0,   2400.0,   2500.0,   3200.0,   3600.0,  4000.0,
                                             4096.0,  5000.0,  8000.0,   8192.0,   10000.0,  16384.0,  20000.0, 32768.0,
@@ -46,7 +46,7 @@ double largest_jump(const std::vector<Sample>& samples, double Sample::*value) {
   return largest;
 }
 
-/// Counts a turn of an encoder that begins again at 0 after a turn; 0 where the values do not tell.
+/// Counts a turn of an encoder that restarts at 0 after a turn; 0 if the values do not show it.
 double plausible_ticks(const Column& column, const std::vector<Sample>& samples) {
   if (!column.whole || column.least < 0) return 0;
   for (const double ticks : k_absolute_encoders) {
@@ -57,7 +57,7 @@ double plausible_ticks(const Column& column, const std::vector<Sample>& samples)
   return next != k_wrapping_encoders.end() && jump > 0.9 * *next ? *next : 0;
 }
 
-/// A counter of 16 or 32 bits that ran over. A jump of an encoder's single turn is unwrap()'s.
+/// Unwraps an overflowing counter of 16 or 32 bits. A jump of a single-turn encoder is left to unwrap().
 std::size_t unwrap_counter(std::vector<Sample>& samples, double Sample::*value, double ticks_per_turn) {
   std::size_t wraps = 0;
   double shift = 0, before = samples.front().*value;
@@ -83,7 +83,7 @@ class UnitFinder {
              std::string name)
       : columns_(columns), samples_(samples), options_(options), name_(std::move(name)) {}
 
-  /// One line of words: what is not the usual unit.
+  /// Returns one line about unusual units.
   std::string settle() {
     if (samples_.empty()) return {};
     for (Column& column : columns_) {
@@ -97,7 +97,7 @@ class UnitFinder {
   }
 
  private:
-  void say(const std::string& words) { words_ += (words_.empty() ? "" : "; ") + words; }
+  void add_note(const std::string& words) { words_ += (words_.empty() ? "" : "; ") + words; }
 
   void refuse(const std::string& message, const std::string& hint) {
     problems_.push_back(InputError(name_, message, hint).diagnostics().front());
@@ -111,63 +111,63 @@ class UnitFinder {
   void find_time_unit(Column& column) {
     if (column.is_date) {
       column.unit = find_unit(Quantity::time, "s");
-      return say("time in time stamps");
+      return add_note("time in time stamps");
     }
     if (column.unit != nullptr) {
       if (column.unit != usual_unit(Quantity::time) || column.is_given)
-        say("time in " + std::string(column.unit->name));
+        add_note("time in " + std::string(column.unit->name));
       return;
     }
     for (const char* const spelling : {"s", "ms", "us", "ns"}) {
       const Unit* unit = find_unit(Quantity::time, spelling);
       if (!is_since_1970(column.most * unit->factor)) continue;
       column.unit = unit;
-      return say(std::string("time in ") + spelling + " since 1970");
+      return add_note(std::string("time in ") + spelling + " since 1970");
     }
     const double step = mean_step(samples_);
     if (step > k_longest_step || (column.whole && step >= 1)) {
       return refuse(
-          "the unit of " + shown(column.name) + " is not known: as s, the rows lie " + rounded(step, 3) + " s apart",
-          "let the column's name end in its unit (_s, _ms, _us, _ns), or say it: --unit time=ms");
+          "the unit of " + shown(column.name) + " is unknown: as s, the rows are " + rounded(step, 3) + " s apart",
+          "end the column's name in its unit (_s, _ms, _us, _ns), or give --unit time=ms");
     }
     column.unit = find_unit(Quantity::time, "s");
-    say("time taken as s, as the name " + shown(column.name) + " states no unit");
+    add_note("time taken as s, as the name " + shown(column.name) + " states no unit");
   }
 
   void find_angle_unit(Column& column) {
     if (!(column.most >= column.least)) column.unit = usual_unit(Quantity::angle);  // empty
     if (column.unit != nullptr && column.unit->is_counts() && !column.whole && column.ticks_per_turn == 0)
-      column.unit = nullptr;  // "raw" of something else
+      column.unit = nullptr;  // "raw" data of something else
     if (column.unit == nullptr) {
       find_unit_of_values(column);
     } else if (column.unit->is_counts()) {
       find_ticks(column);
     } else if (column.unit != usual_unit(Quantity::angle) || column.is_given) {
-      say(column.role + " in " + std::string(column.unit->name));
+      add_note(column.role + " in " + std::string(column.unit->name));
     } else if (column.whole && column.most - column.least > 360) {
-      say(column.role + ": " + values_of(column) + ", read as degrees; if they are counts, --ticks-per-turn " +
-          column.role + "=4096");
+      add_note(column.role + ": " + values_of(column) + ", read as degrees; if they are counts, --ticks-per-turn " +
+               column.role + "=4096");
     }
   }
 
   void find_ticks(Column& column) {
     if (column.ticks_per_turn != 0) {
-      return say(column.role + " in counts of " + rounded(std::abs(column.ticks_per_turn), 9) + " a turn" +
-                 (column.ticks_per_turn < 0 ? ", falling" : "") +
-                 (column.zero_ticks != 0 ? ", " + rounded(column.zero_ticks, 9) + " at home" : ""));
+      return add_note(column.role + " in counts of " + rounded(std::abs(column.ticks_per_turn), 9) + " a turn" +
+                      (column.ticks_per_turn < 0 ? ", falling" : "") +
+                      (column.zero_ticks != 0 ? ", " + rounded(column.zero_ticks, 9) + " at home" : ""));
     }
     column.ticks_per_turn = plausible_ticks(column, samples_);
     if (column.ticks_per_turn == 0 && column.least >= 0 && column.most < found_ticks_)
-      column.ticks_per_turn = found_ticks_;  // α's encoder has a twin
+      column.ticks_per_turn = found_ticks_;  // of α's encoder, assumed to be of the same type
     if (column.ticks_per_turn == 0) {
-      return refuse(column.role + ": " + shown(column.name) + " holds " + values_of(column) +
+      return refuse(column.role + ": " + shown(column.name) + " dwells " + values_of(column) +
                         ", which look like counts of an encoder",
-                    "say how many make a turn, --ticks-per-turn " + column.role + "=4096, or what they are: --unit " +
+                    "give the counts a turn, --ticks-per-turn " + column.role + "=4096, or their unit: --unit " +
                         column.role + "=deg");
     }
     found_ticks_ = column.ticks_per_turn;
-    say(column.role + ": " + values_of(column) + ", taken as counts of " + rounded(column.ticks_per_turn, 9) +
-        " a turn (--ticks-per-turn " + column.role + "=N says otherwise)");
+    add_note(column.role + ": " + values_of(column) + ", taken as counts of " + rounded(column.ticks_per_turn, 9) +
+             " a turn (--ticks-per-turn " + column.role + "=N overrides this)");
   }
 
   void find_unit_of_values(Column& column) {
@@ -181,12 +181,12 @@ class UnitFinder {
     column.unit = find_unit(Quantity::angle, column.whole ? "deg"
                                              : span > 0   ? nearest_to(span, column)
                                                           : guess(column));
-    say(column.role + " taken as " + std::string(column.unit->name) + ", as the name " + shown(column.name) +
-        " states no unit (--unit " + column.role + "=" + (column.unit->name == "deg" ? "rad" : "deg") +
-        " says otherwise)");
+    add_note(column.role + " taken as " + std::string(column.unit->name) + ", as the name " + shown(column.name) +
+             " states no unit (--unit " + column.role + "=" + (column.unit->name == "deg" ? "rad" : "deg") +
+             " overrides this)");
   }
 
-  /// The unit in which the values go nearest to as far as the declared joint.
+  /// The unit in which the range of the values is nearest to the declared range.
   static const char* nearest_to(double span, const Column& column) {
     const char* best = "deg";
     double least = 1e300;
@@ -200,7 +200,7 @@ class UnitFinder {
     return best;
   }
 
-  /// Without a declared range: positions of ROS are radians, and so is what moves less than 2π in its unit.
+  /// Without a declared range: ROS positions are radians, and so are motions below 2π in the column's unit.
   static const char* guess(const Column& column) {
     const bool is_position = lower(column.name).find("position") != std::string::npos;
     return is_position || column.most - column.least <= k_two_pi ? "rad" : "deg";
@@ -213,17 +213,17 @@ class UnitFinder {
       convert_counts(column, value);
     } else {
       if (column.role == "load" && column.unit->factor != 1)
-        say("load in " + std::string(column.unit->name) + ", converted to " + std::string(column.unit->base));
+        add_note("load in " + std::string(column.unit->name) + ", converted to " + std::string(column.unit->base));
       scale(value, column.unit->factor, column.unit->offset);
     }
     if (column.quantity == Quantity::angle) refuse_wild_angle(column, value);
   }
 
   void refuse_wild_angle(const Column& column, double Sample::*value) {
-    const auto is_wild = [&](const Sample& sample) { return std::abs(sample.*value) > radians(k_largest_deg); };
-    const auto wild = std::find_if(samples_.begin(), samples_.end(), is_wild);
-    if (wild == samples_.end()) return;
-    refuse(shown(column.name) + " goes to " + rounded(degrees((*wild).*value)) + " deg, which is no angle",
+    const auto is_implausible = [&](const Sample& sample) { return std::abs(sample.*value) > radians(k_largest_deg); };
+    const auto implausible = std::find_if(samples_.begin(), samples_.end(), is_implausible);
+    if (implausible == samples_.end()) return;
+    refuse(shown(column.name) + " reaches " + rounded(degrees((*implausible).*value)) + " deg, which is not an angle",
            "leave the cell empty where nothing was logged");
   }
 
@@ -235,8 +235,8 @@ class UnitFinder {
   void convert_counts(const Column& column, double Sample::*value) {
     const std::size_t wraps = unwrap_counter(samples_, value, column.ticks_per_turn);
     if (wraps > 0)
-      say("the counter of " + column.role + " ran over " + std::to_string(wraps) + (wraps == 1 ? " time" : " times") +
-          ", unwrapped");
+      add_note("the counter of " + column.role + " overflowed " + std::to_string(wraps) +
+               (wraps == 1 ? " time" : " times") + ", unwrapped");
     for (Sample& sample : samples_)
       sample.*value = (sample.*value - column.zero_ticks) / column.ticks_per_turn * k_two_pi;
   }

@@ -8,19 +8,19 @@
 namespace fusee {
 namespace {
 
-/// How far α must come back before it counts as a reversal. `stands`: in most rows.
+/// Return of α from its extreme that counts as a reversal. `stands`: α is constant in most rows.
 double reversal_threshold(const std::vector<Sample>& samples, double quantum, bool stands) {
   double least = samples.front().alpha, most = least;
   for (const Sample& sample : samples) {
     least = std::min(least, sample.alpha);
     most = std::max(most, sample.alpha);
   }
-  const double noise = stands ? noise_of_stands(samples, &Sample::alpha) : noise_of(samples, &Sample::alpha);
+  const double noise = stands ? noise_of_dwells(samples, &Sample::alpha) : noise_of(samples, &Sample::alpha);
   return std::min(std::max({0.01 * (most - least), 2.5 * quantum, 5.0 * noise}), 0.25 * (most - least));
 }
 
-/// Scatter about one place: values that know nothing of the ones before (von Neumann's ratio, 2 for pure noise), and
-/// steps of less than a degree or that θ knows nothing of. A row at each end in turn is a motion.
+/// True for scatter about one place: successive values are independent (von Neumann ratio, 2 for white noise), and the
+/// steps are below a degree or uncorrelated with θ. Alternating between two ends, a row each, is a motion.
 bool only_jitters(const std::vector<Sample>& samples) {
   const double n = static_cast<double>(samples.size());
   double mean = 0, spread = 0, steps = 0, steps_of_theta = 0, together = 0;
@@ -67,7 +67,7 @@ class Splitter {
 
   void look_at(std::size_t i) {
     const double alpha = samples_[i].alpha;
-    // The last sample of a dwell at the extreme still belongs to the stroke that led there.
+    // The last sample of a dwell at the extreme belongs to the stroke that led there.
     if (alpha >= samples_[high_].alpha) high_ = i;
     if (alpha <= samples_[low_].alpha) low_ = i;
     if (direction_ >= 0 && samples_[high_].alpha - alpha > threshold_) {
@@ -108,16 +108,16 @@ class Splitter {
   int direction_ = 0;
 };
 
-/// A stroke with which a log begins is whole when it begins where another of its direction begins.
+/// The first stroke of a log is complete if it begins where another stroke of its direction begins.
 bool begins_at_reversal(const std::vector<Sample>& samples, const std::vector<Stroke>& strokes, std::size_t stroke,
                         double threshold) {
   const double start = samples[strokes[stroke].first].alpha;
   for (std::size_t i = 1; i < strokes.size(); ++i) {
     if (i == stroke || strokes[i].direction != strokes[stroke].direction || strokes[i].partial) continue;
-    // The row at the reversal still belongs to the stroke before.
+    // The row at the reversal belongs to the stroke before.
     return std::abs(samples[strokes[i].first - 1].alpha - start) <= 3 * threshold;
   }
-  // A single stroke each way: whole when the way back ends where it began.
+  // A single stroke each way is complete if the return ends where it began.
   return strokes.size() == 2 && std::abs(samples[strokes.back().last].alpha - start) <= 3 * threshold;
 }
 
@@ -130,7 +130,7 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Second differences of white noise have √6 of its spread, first ones √2; a median of their size is .674 of that.
+// Second differences of white noise have √6 of its standard deviation; the median magnitude is 0.674 of that.
 double white_noise_of(std::vector<double> second_differences) {
   return median_of(std::move(second_differences)) / (0.6745 * std::sqrt(6.0));
 }
@@ -142,7 +142,7 @@ double noise_of(const std::vector<Sample>& samples, double Sample::*value) {
   return white_noise_of(std::move(bends));
 }
 
-double noise_of_stands(const std::vector<Sample>& samples, double Sample::*value) {
+double noise_of_dwells(const std::vector<Sample>& samples, double Sample::*value) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(std::abs(samples[i].*value - samples[i - 1].*value));
   return median_of(std::move(steps)) / (0.6745 * std::sqrt(2.0));
@@ -172,24 +172,24 @@ std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_ti
   return gaps;
 }
 
-std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<Hold>& holds,
+std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<RowRange>& dwells,
                                   double alpha_quantum, bool has_time) {
-  // A motor that is held at one angle after another moves, though its joint follow it not at all.
-  if (samples.size() < 3 || (holds.empty() && only_jitters(samples))) return {};
-  const double threshold = reversal_threshold(samples, alpha_quantum, !holds.empty());
+  // A point-to-point log is a motion even if the joint does not follow.
+  if (samples.size() < 3 || (dwells.empty() && only_jitters(samples))) return {};
+  const double threshold = reversal_threshold(samples, alpha_quantum, !dwells.empty());
   if (!(threshold > 0)) return {};
-  const std::vector<std::size_t> gaps = holds.empty() ? gaps_in(samples, has_time) : std::vector<std::size_t>{};
-  const std::vector<Sample> standing = settled(samples, holds);
+  const std::vector<std::size_t> gaps = dwells.empty() ? gaps_in(samples, has_time) : std::vector<std::size_t>{};
+  const std::vector<Sample> standing = settled(samples, dwells);
   std::vector<Stroke> strokes = Splitter(standing, threshold, marked(gaps, samples.size())).split();
   if (strokes.empty()) return strokes;
-  // From point to point play is known from the second hold on, wherever the first one was.
+  // In a point-to-point log the play is known from the second dwell on, wherever the first one is.
   strokes.front().partial =
-      holds.empty() && (strokes.front().partial || !begins_at_reversal(samples, strokes, 0, threshold));
+      dwells.empty() && (strokes.front().partial || !begins_at_reversal(samples, strokes, 0, threshold));
   for (std::size_t i = 1; i < strokes.size(); ++i) {
     if (strokes[i].partial && samples[strokes[i].first].after_break)
       strokes[i].partial = !begins_at_reversal(samples, strokes, i, threshold);
   }
-  // A cycle begins with each stroke of the direction of the first whole one.
+  // A cycle begins with each stroke in the direction of the first complete stroke.
   const std::size_t first = strokes.front().partial && strokes.size() > 1 ? 1 : 0;
   int cycle = -1;
   for (std::size_t i = first; i < strokes.size(); ++i) {

@@ -1,33 +1,32 @@
 /// \file
-/// Internal: a run cut at the reversals of α.
+/// Internal: cuts a run at the reversals of α.
 #pragma once
 
 #include <vector>
 
 #include "fusee/measurement/measurement.h"
-#include "measurement/stretches.h"
+#include "measurement/segments.h"
 
 namespace fusee {
 
-/// By direction of α, robust to noise and to a quantum: a reversal counts once α has come back from its extreme by more
-/// than both and by a hundredth of the run's span. A gap in time over which α moved begins a new stroke, whose play
-/// state is unknown: `partial`. Between holds there are no gaps: α went from one to the next. None where α only
-/// jitters.
-std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<Hold>& holds,
+/// Strokes by direction of α, robust to noise and quantisation. A reversal counts once α has returned from its extreme
+/// by more than both and by 1 % of the run's span. A time gap over which α moved begins a `partial` stroke, whose play
+/// state is unknown. Between dwells there are no gaps. Empty if α only jitters.
+std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<RowRange>& dwells,
                                   double alpha_quantum, bool has_time);
 
-/// Rows before which α moved without being logged: after a pause in time, faster than it ever does, or where the log
-/// begins again.
+/// Rows before which α moved unlogged: after a pause, faster than ever in the log, or at a restart of the log.
 std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_time);
 
-/// The value in the middle; 0 for none. Reorders its copy.
+/// Median; 0 for an empty list.
 double median_of(std::vector<double> values);
 
-/// Spread of white noise, from the sizes of second differences of a smooth curve that it lies on.
+/// Standard deviation of white noise, from the magnitudes of second differences of a smooth curve plus noise.
 double white_noise_of(std::vector<double> second_differences);
-/// The same of a logged number that goes on steadily between its stands …
+/// Noise of a logged number that changes steadily between dwells.
 double noise_of(const std::vector<Sample>& samples, double Sample::*value);
-/// … and of one that mostly stands: of three rows a stand two bends in three are those of a step.
-double noise_of_stands(const std::vector<Sample>& samples, double Sample::*value);
+/// Noise of a logged number that mostly stands. With three rows a dwell, two of three second differences contain a
+/// step.
+double noise_of_dwells(const std::vector<Sample>& samples, double Sample::*value);
 
 }  // namespace fusee

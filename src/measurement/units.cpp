@@ -61,7 +61,7 @@ constexpr std::array k_units = {
     Unit{"F", "f °f degf fahrenheit", Quantity::temperature, "C", 5.0 / 9, -160.0 / 9},
 };
 
-/// "kgf·cm" and "kgf*cm" are "kgfcm".
+/// Removes marks between letters: "kgf·cm" and "kgf*cm" become "kgfcm".
 std::string squeezed(std::string_view text) {
   std::string letters;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -84,7 +84,7 @@ bool has_word(std::string_view list, std::string_view word) {
   return false;
 }
 
-/// "load [kg]": its brackets at the end and what stands before them.
+/// A name such as "load [kg]", split into bracket content and the text before.
 struct Parts {
   std::string_view base, unit;
 };
@@ -104,7 +104,7 @@ std::optional<Parts> stated_unit(std::string_view name) {
   return std::nullopt;
 }
 
-/// Where the last word of "load_kg", "load kg" or "loadKg" begins; npos for a single word.
+/// Index of the last word of "load_kg", "load kg" or "loadKg"; npos for a single word.
 std::size_t last_word(std::string_view name) {
   const std::size_t mark = name.find_last_of("_ .-:");
   if (mark != std::string_view::npos) return mark + 1;
@@ -160,7 +160,7 @@ ColumnName parse_column_name(std::string_view name, Quantity quantity) {
   if (const auto parts = stated_unit(name)) {
     parsed.unit = find_unit(quantity, parts->unit);
     const bool in_brackets = std::string_view("])}>").find(name.back()) != std::string_view::npos;
-    // "Motor, left" and "joint/position" state no unit.
+    // Names such as "Motor, left" and "joint/position" state no unit.
     if (parsed.unit != nullptr || in_brackets) {
       parsed.base = base_of(parts->base);
       parsed.states_unit = true;
@@ -169,7 +169,7 @@ ColumnName parse_column_name(std::string_view name, Quantity quantity) {
     }
   }
   const std::size_t last = last_word(name);
-  // The longest end that is a unit: "tau_kgf_cm" before "tau_kgf". No unit is longer, and names come from anybody.
+  // The longest suffix that is a unit: "tau_kgf_cm" before "tau_kgf". The limit bounds the work on untrusted names.
   constexpr std::size_t k_longest_unit = 40;
   for (std::size_t at = name.size() - std::min(name.size(), k_longest_unit); at < name.size(); ++at) {
     const bool begins_word =

@@ -7,7 +7,7 @@ namespace {
 
 unsigned char byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
 
-/// Bytes of the UTF-8 character that begins at `at`; 0 if none does.
+/// Length of the UTF-8 character that begins at `at`; 0 if it is invalid.
 std::size_t character_length(std::string_view text, std::size_t at) {
   const unsigned char first = byte_at(text, at);
   const std::size_t length = first < 0x80                    ? 1

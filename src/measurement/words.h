@@ -1,5 +1,5 @@
 /// \file
-/// Internal: text of a log, which is UTF-8 by the time that it comes here.
+/// Internal: helpers for the text of a log, which is UTF-8 here.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace fusee {
 
-/// Without the blanks and tabs around it.
+/// Removes blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
-/// A to Z in lower case; other letters as they are.
+/// Converts A to Z to lower case.
 std::string lower(std::string_view text);
-/// In quotation marks, as a message may show it: control characters as ?, long text cut off.
+/// Quotes text for a message: control characters become ?, long text is cut.
 std::string shown(std::string_view text);
-/// Latin-1 becomes UTF-8; what is UTF-8 stays.
+/// Converts Latin-1 to UTF-8; UTF-8 is unchanged.
 std::string to_utf8(std::string_view bytes);
 
 }  // namespace fusee

@@ -26,8 +26,8 @@ double largest_distance(const TriangleMesh& a, const TriangleMesh& b) {
   return largest;
 }
 
-/// The largest distance from a vertex of `from` to the nearest of `to`; infinite beyond `reach`. Sorted along x, so
-/// that only the few within reach are looked at.
+/// Largest distance from a vertex of `from` to the nearest of `to`; infinite beyond `reach`. Vertices are sorted along
+/// x, so that only those within reach are compared.
 double farthest_from(const TriangleMesh& to, const TriangleMesh& from, double reach) {
   std::vector<Vec3> sorted = to.vertices;
   std::sort(sorted.begin(), sorted.end(), [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
@@ -46,7 +46,7 @@ double farthest_from(const TriangleMesh& to, const TriangleMesh& from, double re
 }  // namespace
 
 std::vector<Check> same_mesh(const TriangleMesh& reference, const TriangleMesh& other) {
-  // Text holds the shortest decimal number that gives the same float, which as a double is another one.
+  // Text formats hold the shortest decimal that gives the same float; as a double it differs.
   return {same_count(reference, other),
           at_most("deviation", largest_distance(reference, rounded_to_float(other)), 0.0, "mm")};
 }

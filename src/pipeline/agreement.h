@@ -1,5 +1,5 @@
 /// \file
-/// Do two files hold the same part?
+/// Checks that two files contain the same part.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace fusee {
 
-/// "triangles": as many as in `reference`; "deviation": the corners of triangle i are those of triangle i of
-/// `reference`, to the last bit of a float. For formats that keep every number and the order.
+/// For formats that keep every number and the order. "triangles": equal counts; "deviation": triangle i of both has the
+/// same corners, to the last bit of a float.
 std::vector<Check> same_mesh(const TriangleMesh& reference, const TriangleMesh& other);
 
-/// "triangles": as many as in `reference`; "deviation": every vertex of one lies within `tolerance` (mm) of a vertex of
-/// the other. For formats that round and reorder.
+/// For formats that round and reorder. "triangles": equal counts; "deviation": every vertex of either mesh lies within
+/// `tolerance` (mm) of a vertex of the other.
 std::vector<Check> near_mesh(const TriangleMesh& reference, const TriangleMesh& other, double tolerance);
 
 }  // namespace fusee

@@ -8,7 +8,7 @@
 namespace fusee {
 namespace {
 
-/// Of what stands against a pulley, what several turns do away with.
+/// Removes the obstacles that a pulley of several turns does not have.
 void wind_several_times(AnalysisResult& result) {
   std::erase_if(result.obstacles, [](const Condition& condition) { return condition.name.rfind("one_turn_", 0) == 0; });
 }
@@ -22,7 +22,7 @@ AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options
   }
   AnalysisResult result = analyse(as_it_is(file.mechanism).mechanism, options);
   result.warnings = likely_input_errors(file);
-  // A tendon that breaks is no doubt but an error.
+  // A tendon that breaks is an error rather than a warning.
   if (const auto overloaded = overloaded_tendon(file); overloaded && !result.breaks_at)
     result.warnings.push_back(*overloaded);
   const std::vector<Diagnostic> bends = tight_bends(file);

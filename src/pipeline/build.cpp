@@ -26,7 +26,7 @@
 namespace fusee {
 namespace {
 
-/// A folder of our own in the system's temporary folder, gone with all it holds at the end.
+/// A private folder in the system's temporary folder, removed with its content by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -50,21 +50,21 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// As many points of outlines are made for advice: a making of 200, as most have, takes a quarter of a second, and its
-// time grows in proportion (campaign of seed 210002).
+// Limit of outline points for the full builds of advice. A build of the usual 200 points takes a quarter of a second,
+// in proportion to the points (campaign of seed 210002).
 constexpr double k_points_for_advice = 1600;
 
 constexpr const char* k_step = "pulley.step";
 
-// No file of ours is larger.
+// Upper bound of our own output files.
 constexpr std::size_t k_largest_draco = std::size_t{512} << 20;
 
 void announce(const BuildOptions& options, std::string_view what) {
   if (options.before_step) options.before_step(what);
 }
 
-/// A build under way: what was made so far and where it is staged.
-struct Workshop {
+/// State of a build: results so far and their staging folder.
+struct BuildContext {
   const BuildOptions& options;
   BuildResult& result;
   OutputFolder& folder;
@@ -79,7 +79,7 @@ struct Workshop {
     result.outputs.push_back({std::move(name), std::move(bytes)});
     folder.stage(result.outputs.back());
   }
-  /// What another thread makes.
+  /// Waits for the result of another thread.
   template <typename Value>
   Value take(std::future<Value>& made) const {
     while (made.wait_for(std::chrono::milliseconds(20)) == std::future_status::timeout) {
@@ -97,41 +97,41 @@ struct Workshop {
   }
 };
 
-void stage_step(Workshop& shop, StepFile file) {
+void stage_step(BuildContext& context, StepFile file) {
   const bool is_made = !file.bytes.empty();
-  shop.add({exactly("made", is_made ? 1 : 0, 1, "1", file.complaint)}, "step_");
-  if (is_made) shop.stage(k_step, std::move(file.bytes));
+  context.add({exactly("made", is_made ? 1 : 0, 1, "1", file.complaint)}, "step_");
+  if (is_made) context.stage(k_step, std::move(file.bytes));
 }
 
-bool has_step(const Workshop& shop) {
-  const auto& outputs = shop.result.outputs;
+bool has_step(const BuildContext& context) {
+  const auto& outputs = context.result.outputs;
   return std::any_of(outputs.begin(), outputs.end(), [](const OutputFile& file) { return file.name == k_step; });
 }
 
-/// Of several turns: there are no plates to cut grooves out of that climb.
-DracoFile write_climbing(Workshop& shop) {
-  const Product& product = shop.result.product;
+/// Writes the files of a helical pulley. It has no plates.dxf: plates cannot contain helical grooves.
+DracoFile write_helical_parts(BuildContext& context) {
+  const Product& product = context.result.product;
   const TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
-  shop.step("writing meshes and drawings");
-  auto draco = run_async([&] { return draco_file(mesh, shop.options.tolerance); });
-  auto profile = run_async([&] { return profile_dxf(product, shop.options.dxf); });
+  context.step("writing meshes and drawings");
+  auto draco = run_async([&] { return draco_file(mesh, context.options.tolerance); });
+  auto profile = run_async([&] { return profile_dxf(product, context.options.dxf); });
   auto threemf = run_async([&] { return threemf_bytes(mesh, name); });
   auto obj = run_async([&] { return obj_text(mesh, name); });
   auto scad = run_async([&] { return scad_text(product); });
-  auto step = run_async([&] { return shop.options.step ? step_file(product) : StepFile(); }, shop.options.step);
-  shop.stage("pulley.stl", stl_bytes(mesh, name));
-  shop.stage("pulley.obj", shop.take(obj));
-  shop.stage("pulley.3mf", shop.take(threemf));
-  DracoFile file = shop.take(draco);
-  shop.stage("pulley.drc", file.bytes);
-  if (shop.options.step) stage_step(shop, shop.take(step));
-  shop.stage("pulley.scad", shop.take(scad));
-  shop.stage("profile.dxf", shop.take(profile));
+  auto step = run_async([&] { return context.options.step ? step_file(product) : StepFile(); }, context.options.step);
+  context.stage("pulley.stl", stl_bytes(mesh, name));
+  context.stage("pulley.obj", context.take(obj));
+  context.stage("pulley.3mf", context.take(threemf));
+  DracoFile file = context.take(draco);
+  context.stage("pulley.drc", file.bytes);
+  if (context.options.step) stage_step(context, context.take(step));
+  context.stage("pulley.scad", context.take(scad));
+  context.stage("profile.dxf", context.take(profile));
   return file;
 }
 
-/// As it lies on the printer.
+/// Checks a mesh in its print orientation.
 std::vector<Check> print_checks(const Print& print, const TriangleMesh& mesh) {
   if (print.supports) return {};
   PrintLimits limits;
@@ -139,105 +139,109 @@ std::vector<Check> print_checks(const Print& print, const TriangleMesh& mesh) {
   return check_print(mesh, limits);
 }
 
-std::vector<Check> draco_checks(const Workshop& shop, const TriangleMesh& mesh, const DracoFile& made) {
-  const bool is_what_was_read = read_output(shop.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
-  const Part decoded = is_what_was_read ? Part(made.decoded) : shop.read_back("pulley.drc");
-  std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), shop.options.tolerance);
-  for (const Check& check : is_what_was_read ? made.checks : check_part(decoded)) checks.push_back(check);
+std::vector<Check> draco_checks(const BuildContext& context, const TriangleMesh& mesh, const DracoFile& made) {
+  const bool is_unchanged = read_output(context.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
+  const Part decoded = is_unchanged ? Part(made.decoded) : context.read_back("pulley.drc");
+  std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), context.options.tolerance);
+  for (const Check& check : is_unchanged ? made.checks : check_part(decoded)) checks.push_back(check);
   return checks;
 }
 
-/// A solid that CAD can use, and tendons wound on its floors.
-std::vector<Check> step_checks(const Workshop& shop) {
-  const Product& product = shop.result.product;
-  StepInspection look = inspect_step(shop.folder.staged_path(k_step), product, shop.options.tolerance);
+/// Checks that the STEP file is a valid solid, and winds tendons on its floors.
+std::vector<Check> step_checks(const BuildContext& context) {
+  const Product& product = context.result.product;
+  StepInspection look = inspect_step(context.folder.staged_path(k_step), product, context.options.tolerance);
   std::vector<Check> checks = std::move(look.checks);
   if (!all_ok(checks)) return checks;
   const RewindResult wound = product.helix
                                  ? rewind_several_turns(product, look.climbing).result
                                  : rewind_floors(product.joint, product.pulley.layout, look.floor1, look.floor2);
-  for (Check& check : as_built_checks(product.joint.mechanism, wound, shop.options.limits))
+  for (Check& check : as_built_checks(product.joint.mechanism, wound, context.options.limits))
     checks.push_back(std::move(check));
   return checks;
 }
 
-/// As it was written, and as it lies on the printer.
-std::vector<Check> checks_of_printed(const Workshop& shop, const PrintedPart& part) {
-  const TriangleMesh piece = shop.mesh_of(part_file_name(part.side));
+/// Checks the written file of a printed part, also in its print orientation.
+std::vector<Check> checks_of_printed(const BuildContext& context, const PrintedPart& part) {
+  const TriangleMesh piece = context.mesh_of(part_file_name(part.side));
   std::vector<Check> checks = check_printed_part(piece, part);
-  for (const Check& check : print_checks(shop.result.product.joint.mechanism.print, piece)) checks.push_back(check);
+  for (const Check& check : print_checks(context.result.product.joint.mechanism.print, piece)) checks.push_back(check);
   return checks;
 }
 
-/// Looks at files, not at what is in memory: only what was written can be printed. What was found of the same bytes, or
-/// of the same facets, before they were written is not looked for again. Each begins as soon as its file is staged.
-struct Looks {
-  using Found = std::future<std::vector<Check>>;
+/// Checks of the written files; each starts as soon as its file is staged. A check that was already made on equal bytes
+/// or facets is not repeated.
+struct PendingChecks {
+  using Checks = std::future<std::vector<Check>>;
 
-  std::shared_future<TriangleMesh> mesh;  ///< of pulley.stl
-  Found of_pulley, of_obj, of_3mf, of_draco, of_step, of_profile, of_plates;
-  std::vector<Found> of_printed;
+  std::shared_future<TriangleMesh> mesh;  ///< from pulley.stl
+  Checks pulley_checks, obj_checks, threemf_checks, draco_checks, step_checks, profile_checks, plates_checks;
+  std::vector<Checks> printed_checks;
   std::future<RewindResult> as_built;
 };
 
-void look_at_mesh(Looks& looks, const Workshop& shop) {
-  const Product& product = shop.result.product;
+void begin_mesh_checks(PendingChecks& pending, const BuildContext& context) {
+  const Product& product = context.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
-  looks.mesh = run_async([&shop] { return shop.mesh_of("pulley.stl"); }).share();
-  looks.of_pulley = run_async([&shop, &product, mesh = looks.mesh] {
-    return check_pulley(mesh.get(), product.joint.mechanism, product.synthesis, product.pulley, shop.options.tolerance);
+  pending.mesh = run_async([&context] { return context.mesh_of("pulley.stl"); }).share();
+  pending.pulley_checks = run_async([&context, &product, mesh = pending.mesh] {
+    return check_pulley(mesh.get(), product.joint.mechanism, product.synthesis, product.pulley,
+                        context.options.tolerance);
   });
-  looks.as_built = run_async(
-      [&product, mesh = looks.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh.get()); });
+  pending.as_built =
+      run_async([&product, mesh = pending.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh.get()); });
   if (product.pulley.parts.empty())
-    looks.of_printed.push_back(
-        run_async([&mechanism, mesh = looks.mesh] { return print_checks(mechanism.print, mesh.get()); }));
+    pending.printed_checks.push_back(
+        run_async([&mechanism, mesh = pending.mesh] { return print_checks(mechanism.print, mesh.get()); }));
 }
 
-/// Every file that has a part in it, in order, each made beside the others.
-Looks write_parts(Workshop& shop) {
-  Product& product = shop.result.product;
+/// Writes all part files in order, with parallel threads, and starts their checks.
+PendingChecks write_parts(BuildContext& context) {
+  Product& product = context.result.product;
   const TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
-  shop.step("writing meshes and drawings");
-  auto draco = run_async([&] { return draco_file(mesh, shop.options.tolerance); });
-  auto plates = run_async([&] { return plates_dxf(product, shop.options.dxf); });
-  auto profile = run_async([&] { return profile_dxf(product, shop.options.dxf); });
+  context.step("writing meshes and drawings");
+  auto draco = run_async([&] { return draco_file(mesh, context.options.tolerance); });
+  auto plates = run_async([&] { return plates_dxf(product, context.options.dxf); });
+  auto profile = run_async([&] { return profile_dxf(product, context.options.dxf); });
   auto threemf = run_async([&] { return threemf_bytes(plate_of(product.pulley), name); });
   auto obj = run_async([&] { return obj_text(mesh, name); });
   auto scad = run_async([&] { return scad_text(product); });
   auto holding = run_async([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
-  auto step = run_async([&] { return shop.options.step ? step_file(product) : StepFile(); }, shop.options.step);
-  Looks looks;
-  shop.stage("pulley.stl", stl_bytes(mesh, name));
-  look_at_mesh(looks, shop);
-  shop.stage("pulley.obj", shop.take(obj));
-  looks.of_obj = run_async([&shop, read = looks.mesh] { return same_mesh(read.get(), shop.mesh_of("pulley.obj")); });
-  shop.stage("pulley.3mf", shop.take(threemf));
-  looks.of_3mf =
-      run_async([&shop, &product] { return same_mesh(plate_of(product.pulley), shop.mesh_of("pulley.3mf")); });
+  auto step = run_async([&] { return context.options.step ? step_file(product) : StepFile(); }, context.options.step);
+  PendingChecks pending;
+  context.stage("pulley.stl", stl_bytes(mesh, name));
+  begin_mesh_checks(pending, context);
+  context.stage("pulley.obj", context.take(obj));
+  pending.obj_checks =
+      run_async([&context, read = pending.mesh] { return same_mesh(read.get(), context.mesh_of("pulley.obj")); });
+  context.stage("pulley.3mf", context.take(threemf));
+  pending.threemf_checks =
+      run_async([&context, &product] { return same_mesh(plate_of(product.pulley), context.mesh_of("pulley.3mf")); });
   for (const PrintedPart& part : product.pulley.parts) {
-    shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
-    looks.of_printed.push_back(run_async([&shop, &part] { return checks_of_printed(shop, part); }));
+    context.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
+    pending.printed_checks.push_back(run_async([&context, &part] { return checks_of_printed(context, part); }));
   }
-  DracoFile file = shop.take(draco);
-  shop.stage("pulley.drc", file.bytes);
-  looks.of_draco = run_async([&shop, read = looks.mesh, made = std::make_shared<const DracoFile>(std::move(file))] {
-    return draco_checks(shop, read.get(), *made);
-  });
-  if (shop.options.step) stage_step(shop, shop.take(step));
-  shop.stage("pulley.scad", shop.take(scad));
-  shop.stage("profile.dxf", shop.take(profile));
-  looks.of_profile = run_async([&shop] { return check_part(shop.read_back("profile.dxf")); });
-  shop.stage("plates.dxf", shop.take(plates));
-  looks.of_plates = run_async([&shop] { return check_part(shop.read_back("plates.dxf")); });
-  product.holding = shop.take(holding);
-  const bool is_step = has_step(shop);
-  looks.of_step = run_async([&shop, is_step] { return is_step ? step_checks(shop) : std::vector<Check>(); }, is_step);
-  return looks;
+  DracoFile file = context.take(draco);
+  context.stage("pulley.drc", file.bytes);
+  pending.draco_checks =
+      run_async([&context, read = pending.mesh, made = std::make_shared<const DracoFile>(std::move(file))] {
+        return draco_checks(context, read.get(), *made);
+      });
+  if (context.options.step) stage_step(context, context.take(step));
+  context.stage("pulley.scad", context.take(scad));
+  context.stage("profile.dxf", context.take(profile));
+  pending.profile_checks = run_async([&context] { return check_part(context.read_back("profile.dxf")); });
+  context.stage("plates.dxf", context.take(plates));
+  pending.plates_checks = run_async([&context] { return check_part(context.read_back("plates.dxf")); });
+  product.holding = context.take(holding);
+  const bool is_step = has_step(context);
+  pending.step_checks =
+      run_async([&context, is_step] { return is_step ? step_checks(context) : std::vector<Check>(); }, is_step);
+  return pending;
 }
 
-/// Tables that ask for no check: made while the last of them are under way.
+/// Tables that need no check; made while the last checks run.
 struct Tables {
   std::future<std::string> profile, p1, p2, transmission;
 };
@@ -248,88 +252,88 @@ Tables begin_tables(const Product& product) {
           run_async([&product] { return transmission_csv(product); })};
 }
 
-/// What the looks found.
-Tables check_parts(Workshop& shop, Looks& looks) {
-  Product& product = shop.result.product;
-  shop.step("checking what was written");
-  shop.add(shop.take(looks.of_pulley));
-  shop.step("winding tendons on it");
-  product.as_built = shop.take(looks.as_built);
-  shop.add(as_built_checks(product.joint.mechanism, product.as_built, shop.options.limits));
+/// Collects the checks.
+Tables check_parts(BuildContext& context, PendingChecks& pending) {
+  Product& product = context.result.product;
+  context.step("checking the written files");
+  context.add(context.take(pending.pulley_checks));
+  context.step("winding tendons on it");
+  product.as_built = context.take(pending.as_built);
+  context.add(as_built_checks(product.joint.mechanism, product.as_built, context.options.limits));
   Tables tables = begin_tables(product);
-  shop.step("checking the other files");
+  context.step("checking the other files");
   for (std::size_t k = 0; k < product.pulley.parts.size(); ++k)
-    shop.add(shop.take(looks.of_printed[k]), product.pulley.parts[k].side == Side::left ? "p1_" : "p2_");
-  if (product.pulley.parts.empty()) shop.add(shop.take(looks.of_printed.front()));
-  shop.add(shop.take(looks.of_obj), "obj_");
-  shop.add(shop.take(looks.of_3mf), "3mf_");
-  shop.add(shop.take(looks.of_draco), "drc_");
-  shop.add(shop.take(looks.of_step), "step_");
-  shop.add(shop.take(looks.of_profile), "profile_dxf_");
-  shop.add(shop.take(looks.of_plates), "plates_dxf_");
+    context.add(context.take(pending.printed_checks[k]), product.pulley.parts[k].side == Side::left ? "p1_" : "p2_");
+  if (product.pulley.parts.empty()) context.add(context.take(pending.printed_checks.front()));
+  context.add(context.take(pending.obj_checks), "obj_");
+  context.add(context.take(pending.threemf_checks), "3mf_");
+  context.add(context.take(pending.draco_checks), "drc_");
+  context.add(context.take(pending.step_checks), "step_");
+  context.add(context.take(pending.profile_checks), "profile_dxf_");
+  context.add(context.take(pending.plates_checks), "plates_dxf_");
   return tables;
 }
 
-Tables check_climbing(Workshop& shop, const DracoFile& draco) {
-  Product& product = shop.result.product;
+Tables check_helical_parts(BuildContext& context, const DracoFile& draco) {
+  Product& product = context.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
-  shop.step("checking what was written");
-  const TriangleMesh mesh = shop.mesh_of("pulley.stl");
-  auto of_draco = run_async([&] { return draco_checks(shop, mesh, draco); });
-  auto of_3mf = run_async([&] { return same_mesh(mesh, shop.mesh_of("pulley.3mf")); });
-  auto of_obj = run_async([&] { return same_mesh(mesh, shop.mesh_of("pulley.obj")); });
-  auto of_profile = run_async([&] { return check_part(shop.read_back("profile.dxf")); });
+  context.step("checking the written files");
+  const TriangleMesh mesh = context.mesh_of("pulley.stl");
+  auto of_draco = run_async([&] { return draco_checks(context, mesh, draco); });
+  auto of_3mf = run_async([&] { return same_mesh(mesh, context.mesh_of("pulley.3mf")); });
+  auto of_obj = run_async([&] { return same_mesh(mesh, context.mesh_of("pulley.obj")); });
+  auto of_profile = run_async([&] { return check_part(context.read_back("profile.dxf")); });
   auto of_pulley = run_async([&] { return check_several_turns(product, mesh); });
   auto of_printing = run_async([&] { return print_checks(mechanism.print, mesh); });
   auto as_built = run_async([&] { return rewind_several_turns(product, mesh); });
   auto of_step =
-      run_async([&] { return has_step(shop) ? step_checks(shop) : std::vector<Check>(); }, shop.options.step);
-  shop.add(shop.take(of_pulley));
-  shop.step("winding tendons on it");
-  product.helix->as_built = shop.take(as_built);
+      run_async([&] { return has_step(context) ? step_checks(context) : std::vector<Check>(); }, context.options.step);
+  context.add(context.take(of_pulley));
+  context.step("winding tendons on it");
+  product.helix->as_built = context.take(as_built);
   product.as_built = product.helix->as_built.result;
-  shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
+  context.add(as_built_checks(mechanism, product.as_built, context.options.limits));
   Tables tables = begin_tables(product);
-  shop.step("checking the other files");
-  shop.add(shop.take(of_printing));
-  shop.add(shop.take(of_obj), "obj_");
-  shop.add(shop.take(of_3mf), "3mf_");
-  shop.add(shop.take(of_draco), "drc_");
-  shop.add(shop.take(of_step), "step_");
-  shop.add(shop.take(of_profile), "profile_dxf_");
+  context.step("checking the other files");
+  context.add(context.take(of_printing));
+  context.add(context.take(of_obj), "obj_");
+  context.add(context.take(of_3mf), "3mf_");
+  context.add(context.take(of_draco), "drc_");
+  context.add(context.take(of_step), "step_");
+  context.add(context.take(of_profile), "profile_dxf_");
   return tables;
 }
 
-/// A file of ours that cannot be used is nobody's bad input.
-template <typename Look>
-Tables check_written(const Look& look) {
+/// A written file that cannot be read back is a bug, not bad input.
+template <typename Checking>
+Tables check_written(const Checking& run_checks) {
   try {
-    return look();
+    return run_checks();
   } catch (const InputError& error) {
-    throw Bug(std::string("what was written cannot be used: ") + error.what());
+    throw Bug(std::string("a written file cannot be read back: ") + error.what());
   }
 }
 
-Tables write_and_check_parts(Workshop& shop) {
-  if (shop.result.product.helix) {
-    const DracoFile draco = write_climbing(shop);
-    return check_written([&] { return check_climbing(shop, draco); });
+Tables write_and_check_parts(BuildContext& context) {
+  if (context.result.product.helix) {
+    const DracoFile draco = write_helical_parts(context);
+    return check_written([&] { return check_helical_parts(context, draco); });
   }
-  Looks looks = write_parts(shop);
-  return check_written([&] { return check_parts(shop, looks); });
+  PendingChecks pending = write_parts(context);
+  return check_written([&] { return check_parts(context, pending); });
 }
 
-void write_texts(Workshop& shop, Tables tables) {
-  const Product& product = shop.result.product;
-  shop.step("writing tables, report and manifest");
+void write_texts(BuildContext& context, Tables tables) {
+  const Product& product = context.result.product;
+  context.step("writing tables, report and manifest");
   auto report = run_async([&] { return report_html(product); });
-  shop.stage("profile.csv", shop.take(tables.profile));
-  shop.stage("profile_p1.csv", shop.take(tables.p1));
-  shop.stage("profile_p2.csv", shop.take(tables.p2));
-  shop.stage("transmission.csv", shop.take(tables.transmission));
-  shop.stage("report.html", shop.take(report));
-  auto manifest = run_async([&] { return manifest_json(product, shop.result.outputs); });
-  shop.stage("manifest.json", shop.take(manifest));
+  context.stage("profile.csv", context.take(tables.profile));
+  context.stage("profile_p1.csv", context.take(tables.p1));
+  context.stage("profile_p2.csv", context.take(tables.p2));
+  context.stage("transmission.csv", context.take(tables.transmission));
+  context.stage("report.html", context.take(report));
+  auto manifest = run_async([&] { return manifest_json(product, context.result.outputs); });
+  context.stage("manifest.json", context.take(manifest));
 }
 
 bool passes_checks_of_several_turns(const Product& product, const BuildOptions& options) {
@@ -339,7 +343,7 @@ bool passes_checks_of_several_turns(const Product& product, const BuildOptions& 
          all_ok(as_built_checks(mechanism, rewind_several_turns(product, mesh).result, options.limits));
 }
 
-/// Curves, body and plates with the checks that a design can fail; the other files say the same. Nothing is written.
+/// Designs curves, body and plates in memory and runs the checks that a design can fail.
 bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   Product product;
   product.file = file;
@@ -352,7 +356,7 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   if (product.helix) return passes_checks_of_several_turns(product, options);
   const Mechanism& mechanism = product.joint.mechanism;
   const TriangleMesh& mesh = product.pulley.mesh;
-  announce(quietly, "checking its mesh");
+  announce(quietly, "checking the trial's mesh");
   auto of_plates = run_async([&] {
     const std::string drawing = plates_dxf(product, options.dxf);
     return all_ok(check_part(read_dxf(drawing, "plates.dxf")));
@@ -369,7 +373,7 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   return of_plates.get() && prints && is_right;
 }
 
-/// A number that makes the file bad input, or a part on which no tendon can be wound, is no advice.
+/// Bad input and parts on which no tendon can be wound are not feasible.
 bool is_made(const MechanismFile& file, const BuildOptions& options) {
   try {
     return passes_checks(file, options);
@@ -378,11 +382,11 @@ bool is_made(const MechanismFile& file, const BuildOptions& options) {
   }
 }
 
-/// The quick look at mechanisms that are hardly different from a file's: curves and body of the joint as it is, without
-/// a mesh. What differs in its body alone has the file's curves.
-class Look {
+/// Quick feasibility check of small variants of a file: curves and body without a mesh. A variant of the body alone
+/// reuses the file's curves.
+class FeasibilityCheck {
  public:
-  Look(const Product& refused, const BuildOptions& options)
+  FeasibilityCheck(const Product& refused, const BuildOptions& options)
       : file_(refused.file),
         options_(options),
         own_(curves_of(refused.file.mechanism)),
@@ -398,15 +402,15 @@ class Look {
     return obstacles(curves);
   }
 
-  /// That its largest part leaves time for.
-  int builds_left() const {
+  /// Number of full builds for which the largest variant leaves time.
+  int max_builds() const {
     const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.tolerance / largest_));
     const double points = std::max(k_two_pi / turn, own_points_);
     return std::max(1, static_cast<int>(k_points_for_advice / points));
   }
 
  private:
-  /// A flange's reach says how finely curves are drawn.
+  /// The flange's radius determines the chord length of the curves.
   bool has_own_curves(const Mechanism& changed) const {
     if (changed.groove_depth() != file_.mechanism.groove_depth()) return false;
     Mechanism with_own_body = changed;
@@ -423,7 +427,7 @@ class Look {
     const auto of_body = body_obstacles(mechanism, synthesis);
     if (!of_body.empty()) return of_body;
     for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
-      for (const OutlinePoint& point : outline->points) see_size(point.position.norm());
+      for (const OutlinePoint& point : outline->points) record_size(point.position.norm());
     }
     const auto floor = [&mechanism](const Outline& outline) {
       return parallel(outline, -0.5 * mechanism.tendon.diameter);
@@ -431,7 +435,7 @@ class Look {
     return failed_of(windable(mechanism, [&] { rewind(mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
   }
 
-  void see_size(double reach) const {
+  void record_size(double reach) const {
     double known = largest_;
     while (reach > known && !largest_.compare_exchange_weak(known, reach)) {
     }
@@ -441,7 +445,7 @@ class Look {
   const BuildOptions& options_;
   Curves own_;
   double own_points_;  ///< of an outline as it would be made, 0 where there is none
-  /// Of all that had room for a body: from the axis to an outline's furthest point, mm.
+  /// Largest distance of an outline from the axis among the trials with room for a body, mm.
   mutable std::atomic<double> largest_ = 0;
 };
 
@@ -451,35 +455,35 @@ Advice advice_for(const Product& product, const BuildOptions& options) {
     const auto made = [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); };
     return advice_for_several_turns(product, {options.tolerance, made, options.between_tries});
   }
-  const Look look(product, options);
+  const FeasibilityCheck check(product, options);
   std::atomic<int> begun = 0;
-  const FeasibilityOracle judge{.obstacles = [&](const Mechanism& changed) { return look(changed); },
-                                .made =
-                                    [&](const Mechanism& changed) {
-                                      ++begun;
-                                      return is_made(with_declared(file, changed), options);
-                                    },
-                                .builds_left = [&] { return look.builds_left() - begun; }};
+  const FeasibilityOracle judge{.obstacles = [&](const Mechanism& changed) { return check(changed); },
+                    .made =
+                        [&](const Mechanism& changed) {
+                          ++begun;
+                          return is_made(with_declared(file, changed), options);
+                        },
+                    .builds_left = [&] { return check.max_builds() - begun; }};
   return body_advice(file.mechanism, judge, product.pulley.layout.parts);
 }
 
-void write_and_check(Workshop& shop) {
-  Tables tables = write_and_check_parts(shop);
-  Product& product = shop.result.product;
+void write_and_check(BuildContext& context) {
+  Tables tables = write_and_check_parts(context);
+  Product& product = context.result.product;
   for (Diagnostic& thin : walls_below_a_line(product)) product.file.warnings.push_back(std::move(thin));
-  write_texts(shop, std::move(tables));
-  shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
+  write_texts(context, std::move(tables));
+  context.result.status = all_ok(context.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }
 
-void write_and_forget(BuildResult& result, const BuildOptions& options) {
+void write_dry_run(BuildResult& result, const BuildOptions& options) {
   if (options.before_writing) options.before_writing();
   const TemporaryFolder temporary;
   OutputFolder staging(temporary.path() / "out", true);
-  Workshop shop{options, result, staging, [&] {
-                  staging.discard();
-                  temporary.remove();
-                }};
-  write_and_check(shop);
+  BuildContext context{options, result, staging, [&] {
+                         staging.discard();
+                         temporary.remove();
+                       }};
+  write_and_check(context);
 }
 
 }  // namespace
@@ -495,14 +499,14 @@ const std::vector<std::string>& output_names() {
 BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   BuildResult result;
   result.product.file = file;
-  auto doubted = run_async([&file] { return plausibility_warnings(file); });
+  auto warned = run_async([&file] { return doubts(file); });
   result.product.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   if (const auto why = options.step ? step_missing() : std::nullopt)
     throw InputError("", "no pulley.step: this fusee was built without STEP: " + *why, "build without --step");
   target.claim(output_names());  // before the work: a refusal should not cost a wait
   const bool is_possible = design_any(result.product, options.tolerance, options.limits, options.before_step);
-  for (Diagnostic& doubt : doubted.get()) result.product.file.warnings.push_back(std::move(doubt));
+  for (Diagnostic& warning : warned.get()) result.product.file.warnings.push_back(std::move(warning));
   if (!is_possible) {
     result.status = BuildStatus::infeasible;
     announce(options, "looking for what would make it possible");
@@ -513,15 +517,15 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
     for (Diagnostic& unused : unused_turn_keys(file)) result.product.file.warnings.push_back(std::move(unused));
   }
   if (options.dry_run) {
-    write_and_forget(result, options);
+    write_dry_run(result, options);
     return result;
   }
   if (options.before_writing) options.before_writing();
-  Workshop shop{options, result, target, [&target] { target.discard(); }};
-  write_and_check(shop);
+  BuildContext context{options, result, target, [&target] { target.discard(); }};
+  write_and_check(context);
   const bool may_publish = result.status == BuildStatus::done || !target.has_earlier_run() || options.force;
   if (!may_publish) return result;
-  shop.step("publishing");
+  context.step("publishing");
   // pulley_p1.stl of an earlier run does not belong to a pulley in one piece.
   target.withdraw(output_names());
   target.publish(result.product.file.warnings);

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t k_largest_spec = 1 << 20;
 constexpr int k_most_next_runs = 9;
-constexpr int k_most_earlier_runs = 99;  // of an earlier calibration
+constexpr int k_most_earlier_runs = 99;  // run files of an earlier calibration
 
-/// Files to read, each once; those held out stand last.
+/// Files to read, each once; held-out runs last.
 struct RunFiles {
   std::vector<std::filesystem::path> all;
   std::size_t fitted = 0;
@@ -34,8 +34,8 @@ RunFiles run_files(const std::vector<std::filesystem::path>& runs, const std::ve
   return files;
 }
 
-/// A calibration under way.
-struct Bench {
+/// State of a calibration.
+struct CalibrationContext {
   const MechanismFile& file;
   const CalibrateOptions& options;
   CalibrateResult& result;
@@ -51,36 +51,36 @@ std::vector<std::string> names_from(const Measurement& measurement, std::size_t 
   return names;
 }
 
-/// What is looked for is what is still amiss: a corrected file describes the joint as it is.
-void conclude(const Bench& bench, const RunFiles& runs) {
-  CalibrationProduct& product = bench.result.product;
-  const DeclaredMechanism& declared = bench.file.mechanism;
+/// A corrected file describes the joint with its identified effects: only further effects are identified.
+void conclude(const CalibrationContext& context, const RunFiles& runs) {
+  CalibrationProduct& product = context.result.product;
+  const DeclaredMechanism& declared = context.file.mechanism;
   const DeclaredMechanism expected = expected_joint(declared);
-  bench.step("reading the runs");
-  const Measurement as_read = read_measurement(runs.all, expecting(expected, bench.options.columns));
+  context.step("reading the runs");
+  const Measurement as_read = read_measurement(runs.all, expecting(expected, context.options.columns));
   product.measurement = as_read;
   compare_with_declared(expected, product.measurement);
   CalibrationOptions options;
   options.hold_out = names_from(product.measurement, runs.fitted);
-  options.progress = [&](const std::string& what, double share) { bench.step(what, share); };
-  options.audit = bench.options.audit;
+  options.progress = [&](const std::string& what, double share) { context.step(what, share); };
+  options.audit = context.options.audit;
   options.look_for_effects = !is_plainly_a_slip(declared, as_read);
   product.calibration = calibrate(expected, product.measurement, options);
-  bench.step("looking for slips of the file");
+  context.step("checking for input errors");
   product.slips = slips_that_explain(declared, as_read, product.calibration);
   if (!product.slips.empty() && product.calibration.curve.used) {
     product.calibration.curve.used = false;
-    product.calibration.curve.why = "a slip of the file or of the log would explain the data: look there first";
+    product.calibration.curve.why = "an input error in the file or the log may explain the data: check it first";
   }
-  bench.step("working out the correction");
+  context.step("computing the correction");
   product.correction.identified = declared.identified;
-  product.correction.why_no_pulley_file = product.correction.why_no_table = "the data decide nothing";
+  product.correction.why_no_pulley_file = product.correction.why_no_table = "the data are inconclusive";
   if (product.calibration.verdict != CalibrationVerdict::not_testable)
     product.correction = correct(declared, product.measurement, product.calibration);
   product.rehearsal = rehearse(expected, product.measurement, product.calibration);
 }
 
-/// The person's own text while it says what the mechanism is; else every key.
+/// The user's text if it describes the mechanism; else a new text with every key.
 std::string own_text(const MechanismFile& file, bool& rewritten) {
   const std::filesystem::path path = file.path;
   rewritten = true;
@@ -90,7 +90,7 @@ std::string own_text(const MechanismFile& file, bool& rewritten) {
   return rewritten ? write_mechanism(file.mechanism) : text;
 }
 
-/// What corrected.toml begins with, wherever it lies.
+/// Text that corrected.toml starts from, independent of its folder.
 std::string declared_text(const MechanismFile& file, bool& rewritten) {
   const std::string text = own_text(file, rewritten);
   return law_table_name(file.mechanism) ? with_table_beside(text, file) : text;
@@ -118,7 +118,8 @@ std::vector<std::string> output_names(const MechanismFile& file) {
   return names;
 }
 
-/// Names with those of the next measurements: those that may be written, or, of any earlier calibration, withdrawn.
+/// Adds the files of the next measurements: those that may be written now, or are withdrawn from an earlier
+/// calibration.
 std::vector<std::string> with_next(std::vector<std::string> names, int first_run, int runs) {
   for (const std::string& name : next_file_names(first_run, runs)) names.push_back(name);
   return names;
@@ -130,13 +131,13 @@ int first_free_run_beside(const RunFiles& files) {
   return first_free_run(names);
 }
 
-void publish(const Bench& bench, OutputFolder& folder) {
-  for (const OutputFile& output : bench.result.outputs) {
-    if (bench.options.before_writing) bench.options.before_writing();
+void publish(const CalibrationContext& context, OutputFolder& folder) {
+  for (const OutputFile& output : context.result.outputs) {
+    if (context.options.before_writing) context.options.before_writing();
     folder.stage(output);
   }
-  folder.publish(bench.result.product.file.warnings);
-  bench.result.published = true;
+  folder.publish(context.result.product.file.warnings);
+  context.result.published = true;
 }
 
 }  // namespace
@@ -145,17 +146,17 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
                           const CalibrateOptions& options) {
   CalibrateResult result;
   result.product.file = with_plausibility_warnings_and_turns(file);
-  const Bench bench{file, options, result};
+  const CalibrationContext context{file, options, result};
   OutputFolder target(options.folder, options.force);
   const RunFiles files = run_files(runs, options.hold_out);
   target.claim(with_next(output_names(file), first_free_run_beside(files),
-                         k_most_next_runs));  // before the work: a refusal should not cost a wait
+                         k_most_next_runs));  // before the work, so that a refusal costs no time
   const std::string declared = declared_text(file, result.rewritten);
-  conclude(bench, files);
+  conclude(context, files);
   result.outputs = outputs_of(result.product, declared);
   target.withdraw(
-      with_next(output_names(file), 1, k_most_earlier_runs));  // a correction, a run file, that this run does not make
-  if (!options.dry_run) publish(bench, target);
+      with_next(output_names(file), 1, k_most_earlier_runs));  // a correction or run file that this run does not write
+  if (!options.dry_run) publish(context, target);
   return result;
 }
 

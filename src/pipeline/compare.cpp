@@ -15,7 +15,7 @@ std::vector<OutputFile> outputs_of(const ComparisonProduct& product) {
   return outputs;
 }
 
-/// The runs are measured against the joint that the file says is mounted; both states have it.
+/// Both states are compared with the mounted joint of the file.
 void conclude(const MechanismFile& file, const Paths& before, const Paths& after, const CompareOptions& options,
               ComparisonProduct& product) {
   const auto step = [&](const std::string& what, std::optional<double> share = std::nullopt) {
@@ -51,7 +51,8 @@ CompareResult compare(const MechanismFile& file, const std::vector<std::filesyst
   std::optional<OutputFolder> target;
   if (!options.folder.empty()) {
     target.emplace(options.folder, options.force);
-    target->claim({"comparison.json", "report.html", "manifest.json"});  // a refusal should not cost a wait
+    target->claim(
+        {"comparison.json", "report.html", "manifest.json"});  // before the work, so that a refusal costs no time
   }
   conclude(file, before, after, options, result.product);
   if (!target) return result;

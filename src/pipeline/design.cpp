@@ -8,8 +8,8 @@
 namespace fusee {
 namespace {
 
-// While advice is searched for the curves are drawn no finer than this, mm, and the stroke needs no table: what is
-// advised is made with the tolerance that was asked for.
+// Coarsest chord error of trial curves, mm. Trials need no table of the stroke; the advised design is built with the
+// requested tolerance.
 constexpr double k_trial_tolerance = 0.05;
 constexpr int k_trial_steps = 36;
 
@@ -39,13 +39,13 @@ bool design(Product& product, double tolerance, const std::function<void(std::st
   SynthesisOptions synthesis_options;
   synthesis_options.tolerance = tolerance;
   synthesis_options.drawn_out = -product.joint.outline.offset;
-  synthesis_options.advice = false;  // it is searched for with the body
+  synthesis_options.advice = false;  // advice is searched for together with the body
   product.synthesis = synthesise(mechanism, synthesis_options);
   if (!product.synthesis.made()) return false;
   draw_for_making(product.synthesis, product.joint.outline);
   product.pulley.conditions = turns_inward_as_drawn(product.synthesis, product.joint.outline);
   if (!product.pulley.conditions.empty()) return false;
-  if (before_step) before_step("making the body");
+  if (before_step) before_step("building the body");
   auto cut_layout = run_async([&] { return layout_to_cut(mechanism, product.synthesis); });
   product.pulley = make_pulley(mechanism, product.synthesis, search);
   product.cut_layout = cut_layout.get();
@@ -67,7 +67,7 @@ Curves curves_of(const DeclaredMechanism& declared) {
   Curves curves{as_it_is(declared, LawSearch::brief), {}, {}};
   const Mechanism& mechanism = curves.joint.mechanism;
   if (const auto obstacle = obstacle_to(mechanism)) {
-    curves.obstacles = {*obstacle};  // most fail early, and what is cheap to see comes first
+    curves.obstacles = {*obstacle};  // cheap obstacles first, since most trials fail early
     return curves;
   }
   curves.synthesis =

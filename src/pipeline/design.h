@@ -1,6 +1,5 @@
 /// \file
-/// Internal: a mechanism's curves and body, as they will be made, or quickly while it is tried what would make it
-/// possible.
+/// Internal: curves and body of a mechanism, for the final part or, faster, for trial mechanisms of the advice.
 #pragma once
 
 #include <functional>
@@ -12,15 +11,15 @@
 
 namespace fusee {
 
-/// Curves and body of product.joint, with curves within `tolerance`, mm. False when no such pulley can be made: the
-/// conditions of product.synthesis, or of product.pulley where there are curves, say why.
+/// Designs curves within `tolerance`, mm, and the body of product.joint. False if it is infeasible: the reasons are
+/// conditions of product.synthesis, or of product.pulley if the curves exist.
 bool design(Product& product, double tolerance, const std::function<void(std::string_view step)>& before_step,
             TieOffSearch search = TieOffSearch::thorough);
 
-/// What is tried stands in place of what was declared; what was found to be otherwise stays.
+/// Replaces the declared mechanism by a trial mechanism, and keeps the identified effects.
 MechanismFile with_declared(MechanismFile file, const Mechanism& changed);
 
-/// Of a mechanism that is tried: the joint as it is, and its curves or why there are none.
+/// A trial mechanism: its identified joint, and its curves or the obstacles to them.
 struct Curves {
   JointAsItIs joint;
   SynthesisResult synthesis;
@@ -29,8 +28,8 @@ struct Curves {
 
 Curves curves_of(const DeclaredMechanism& declared);
 
-/// What the paper's equations draw may be so far from what large pins or thick tendons need that no tendon can be wound
-/// on it at all: `wind` throws. What the exact method draws always can: there it would be a bug.
+/// Fails if `wind` throws because no tendon can be wound on the curves. Curves of the paper's equations may differ so
+/// far from those for large pins or thick tendons. Exact curves can always be wound; for them it is a bug.
 std::vector<Condition> windable(const Mechanism& mechanism, const std::function<void()>& wind);
 
 }  // namespace fusee

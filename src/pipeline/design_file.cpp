@@ -18,7 +18,7 @@ Diagnostic warning(std::string message) {
   return diagnostic;
 }
 
-/// Whether an edited file is one, and has the numbers that were meant.
+/// True if the edited text is a valid mechanism with the intended numbers.
 bool holds(const std::string& text, const std::vector<ValueEdit>& edits, const std::string& path) {
   try {
     const DeclaredMechanism read = parse_mechanism(text, path, std::filesystem::path(path).parent_path());
@@ -30,7 +30,7 @@ bool holds(const std::string& text, const std::vector<ValueEdit>& edits, const s
   }
 }
 
-/// Of the settings and of the design, which comes last.
+/// Edits of the settings, then of the design, which takes precedence.
 std::vector<ValueEdit> all_edits(const Problem& problem, const Design& design, const std::vector<Setting>& settings,
                                  std::vector<Diagnostic>& warnings) {
   std::vector<ValueEdit> edits;
@@ -39,7 +39,7 @@ std::vector<ValueEdit> all_edits(const Problem& problem, const Design& design, c
     if (key)
       edits.push_back({setting.key, key->get(problem.base)});
     else
-      warnings.push_back(warning("the new file does not hold --set " + setting.key + "=" + setting.value));
+      warnings.push_back(warning("the new file omits --set " + setting.key + "=" + setting.value));
   }
   for (const ValueEdit& edit : edits_of(problem, design)) {
     std::erase_if(edits, [&edit](const ValueEdit& earlier) { return earlier.key == edit.key; });
@@ -56,7 +56,7 @@ DesignFile design_file(const MechanismFile& file, const Problem& problem, const 
   const std::vector<ValueEdit> edits = all_edits(problem, design, settings, result.warnings);
   result.text = edit_values(read_file(file.path, k_largest_file), edits);
   if (holds(result.text, edits, file.path)) return result;
-  // Tables written as dotted keys have no place for a new key.
+  // Dotted keys leave no place for a new key of their table.
   result.warnings.push_back(warning("the layout of " + file.path + " could not be kept: the new file has every key"));
   DeclaredMechanism whole = mechanism_at(problem, design);
   whole.optimize = file.mechanism.optimize;

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: a design in the person's own file.
+/// Internal: writes a design into the user's file.
 #pragma once
 
 #include "fusee/mechanism/file.h"
@@ -9,10 +9,10 @@ namespace fusee {
 
 struct DesignFile {
   std::string text;
-  std::vector<Diagnostic> warnings;  ///< of what it could not keep
+  std::vector<Diagnostic> warnings;  ///< about settings that could not be kept
 };
 
-/// `file` with the design's numbers where their keys stand. What `settings` gave and is a number goes in too.
+/// `file` with the design's numbers at their keys, and with the numeric values of `settings`.
 DesignFile design_file(const MechanismFile& file, const Problem& problem, const Design& design,
                        const std::vector<Setting>& settings);
 

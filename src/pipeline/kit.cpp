@@ -17,36 +17,36 @@
 namespace fusee {
 namespace {
 
-void say(const KitOptions& options, std::string_view what) {
+void begin_step(const KitOptions& options, std::string_view what) {
   if (options.before_step) options.before_step(what);
 }
 
-/// A file of ours that cannot be read back is nobody's bad input.
+/// A written file that cannot be read back is a bug, not bad input.
 TriangleMesh read_back(const OutputFile& file) {
   try {
     return read_mesh(file.bytes, file.name);
   } catch (const InputError& error) {
-    throw Bug(std::string("what was written cannot be used: ") + error.what());
+    throw Bug(std::string("a written file cannot be read back: ") + error.what());
   }
 }
 
-/// A part's files, and what was found of them.
-struct MadePart {
+/// Files and checks of a part.
+struct CheckedPart {
   std::vector<OutputFile> files;
   std::vector<Check> checks;
 };
 
-MadePart made(const KitPart& part, const KitProduct& product) {
+CheckedPart made(const KitPart& part, const KitProduct& product) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   const BodyLayout& layout = product.pulley.pulley.layout;
   const TriangleMesh mesh = printed_mesh(part, mechanism, layout);
   const std::string name = mechanism.name + ", " + part.name;
-  MadePart result;
+  CheckedPart result;
   result.files = {{kit_file_name(part, "stl"), stl_bytes(mesh, name)},
                   {kit_file_name(part, "3mf"), threemf_bytes(mesh, name)}};
   const TriangleMesh written = read_back(result.files[0]);
   result.checks = check_mesh(written);
-  // Rounding moves a corner by half of a float's last place: its area by that.
+  // Rounding moves a corner by half of a float's last digit, which changes the volume by that times the area.
   const double volume = printed_volume(part, mechanism, layout);
   result.checks.push_back(at_most("volume_error", std::abs(enclosed_volume(written) / volume - 1), 1e-4, "1"));
   if (!mechanism.print.supports) {
@@ -64,13 +64,13 @@ MadePart made(const KitPart& part, const KitProduct& product) {
 
 void make_files(KitResult& result, const KitOptions& options) {
   KitProduct& product = result.product;
-  say(options, "making parts");
+  begin_step(options, "building parts");
   auto drawing = run_async([&] { return kit_dxf(product, options.dxf); });
-  std::vector<std::future<MadePart>> parts;
+  std::vector<std::future<CheckedPart>> parts;
   for (const KitPart& part : product.plan.parts) parts.push_back(run_async([&] { return made(part, product); }));
   product.checks = kit_fit_checks(product.plan);
   for (auto& part : parts) {
-    MadePart one = part.get();
+    CheckedPart one = part.get();
     result.outputs.insert(result.outputs.end(), one.files.begin(), one.files.end());
     product.checks.insert(product.checks.end(), one.checks.begin(), one.checks.end());
   }
@@ -79,7 +79,7 @@ void make_files(KitResult& result, const KitOptions& options) {
     check.name = "kit_dxf_" + check.name;
     product.checks.push_back(std::move(check));
   }
-  say(options, "writing the page");
+  begin_step(options, "writing the page");
   result.outputs.push_back({"bom.csv", bom_csv(product)});
   result.outputs.push_back({"kit.html", kit_html(product)});
   for (std::size_t i = 0; i < product.bench.plan.steps.size(); ++i) {
@@ -89,7 +89,7 @@ void make_files(KitResult& result, const KitOptions& options) {
   result.outputs.push_back({"manifest.json", kit_manifest_json(product, result.outputs)});
 }
 
-/// What curves, body or model lack.
+/// Obstacles of curves, body or rig.
 std::vector<Condition> obstacles_to_kit(const DeclaredMechanism& declared) {
   const Curves curves = curves_of(declared);
   if (!curves.obstacles.empty()) return curves.obstacles;
@@ -103,7 +103,7 @@ KitPlan plan_of(const Product& pulley) {
   return plan_kit(pulley.joint.mechanism, pulley.synthesis, pulley.pulley.layout);
 }
 
-/// With the very numbers that are advised. One that makes the file bad input is no advice.
+/// Tests the rounded numbers that are advised. A number that makes the file bad input is infeasible.
 bool has_kit(const MechanismFile& file, double tolerance) {
   try {
     Product pulley;
@@ -115,7 +115,7 @@ bool has_kit(const MechanismFile& file, double tolerance) {
   }
 }
 
-/// What would make room for a model whose pulley can be made.
+/// Changes that make room for the rig of a feasible pulley.
 Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, const KitOptions& options) {
   const KitPlan& plan = product.plan;
   const FeasibilityOracle judge{
@@ -126,7 +126,7 @@ Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, cons
           },
       .made = [&](const Mechanism& changed) { return has_kit(with_declared(file, changed), options.tolerance); }};
   Advice advice = find_advice(file.mechanism, judge, {"body.flange_thickness_mm"});
-  // No step leads away from a pin that is a point.
+  // Steps are relative, so none leaves a pin radius of 0.
   if (Mechanism thicker = file.mechanism; thicker.guides.radius == 0) {
     thicker.guides.radius = k_least_pin;
     const std::string radius = shortest(k_least_pin);
@@ -138,7 +138,7 @@ Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, cons
 
 constexpr int k_most_kit_runs = 99;
 
-/// Files that a kit can have: a part of an earlier one does not belong to this.
+/// All files that a rig may have; those of an earlier rig that this one lacks are withdrawn.
 std::vector<std::string> kit_names(const KitPlan& plan) {
   std::vector<std::string> names{"kit.dxf", "bom.csv", "kit.html", "manifest.json"};
   for (const KitPart& part : plan.parts) {
@@ -168,17 +168,17 @@ KitResult kit(const MechanismFile& file, const KitOptions& options) {
   product.pulley.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   target.claim(
-      {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work: a refusal should not cost a wait
+      {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work, so that a refusal costs no time
   if (!design_any(product.pulley, options.tolerance, {}, options.before_step)) {
     result.ending = KitEnding::no_pulley;
     return result;
   }
   const Mechanism& mechanism = product.pulley.joint.mechanism;
-  say(options, "placing parts");
+  begin_step(options, "placing parts");
   product.plan = plan_of(product.pulley);
   if (!product.plan.made()) {
     result.ending = KitEnding::no_kit;
-    say(options, "looking for what would make room");
+    begin_step(options, "searching for changes that make room");
     result.advice = advice_for_kit(file, product, options);
     return result;
   }
@@ -192,7 +192,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options) {
   result.ending = all_ok(product.checks) ? KitEnding::done : KitEnding::check_failed;
   if (options.dry_run) return result;
   if (result.ending != KitEnding::done && target.has_earlier_run() && !options.force) return result;
-  say(options, "publishing");
+  begin_step(options, "publishing");
   if (options.before_writing) options.before_writing();
   for (const OutputFile& output : result.outputs) target.stage(output);
   target.withdraw(kit_names(product.plan));

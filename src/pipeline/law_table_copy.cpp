@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::size_t k_largest_law = 8 << 20;
 
-/// What stands in the file as the table that the law is read from.
+/// The table from which the declared law is read.
 template <typename AnyMechanism>
 auto& declared_table(AnyMechanism& mechanism) {
   return mechanism.pulley.law == Law::torque ? mechanism.pulley.torque_table : mechanism.pulley.table;
@@ -15,7 +15,7 @@ std::filesystem::path table_path(const MechanismFile& file) {
   return std::filesystem::path(file.path).parent_path() / std::filesystem::path(declared_table(file.mechanism));
 }
 
-/// Whether `text`, lying in `folder`, is a mechanism whose table lies beside it.
+/// True if `text`, placed in `folder`, is a mechanism that finds its table there.
 bool has_beside(const std::string& text, const std::filesystem::path& folder, const std::string& table) {
   try {
     const DeclaredMechanism mechanism = parse_mechanism(text, "corrected.toml", folder);
@@ -39,8 +39,8 @@ OutputFile law_table_copy(const MechanismFile& file) {
   return {law_table_name(file.mechanism).value(), read_file(table_path(file), k_largest_law)};
 }
 
-// The same words may stand in a comment or in another value: the one place is that with which the reader finds the
-// table in its own folder. A value written with escapes stands nowhere as it reads: then every key is written anew.
+// The table's name may also occur in a comment or another value. The right occurrence is the one with which the reader
+// finds the table in its own folder. A value with escapes does not occur literally: then every key is written anew.
 std::string with_table_beside(const std::string& text, const MechanismFile& file) {
   const std::string& declared = declared_table(file.mechanism);
   const std::string beside = law_table_name(file.mechanism).value();

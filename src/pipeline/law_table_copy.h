@@ -1,5 +1,5 @@
 /// \file
-/// The CSV of law = "table" or law = "torque", which goes where a changed mechanism file goes.
+/// Copies the CSV of law = "table" or law = "torque" next to a changed mechanism file.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace fusee {
 
-/// The table's name without its folder; none where the law is read from no table.
+/// File name of the table without folder; empty if the law has no table.
 std::optional<std::string> law_table_name(const Mechanism& mechanism);
 
-/// Its bytes under that name.
+/// Content of the table under that name.
 OutputFile law_table_copy(const MechanismFile& file);
 
-/// `text`, which says what `file.mechanism` is, with the table beside it. The value of pulley.table, or of
-/// pulley.torque_table, alone changes.
+/// `text` with the value of pulley.table or pulley.torque_table replaced by the table's file name. `text` must describe
+/// `file.mechanism`.
 std::string with_table_beside(const std::string& text, const MechanismFile& file);
 
 }  // namespace fusee

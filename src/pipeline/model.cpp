@@ -21,7 +21,7 @@ void begin_step(const ModelOptions& options, std::string_view what) {
   if (options.before_step) options.before_step(what);
 }
 
-/// What an earlier run of calibrate left beside its corrected.toml; the manifest of both says whether it did.
+/// compensation.csv that calibrate() wrote next to its corrected.toml, as confirmed by both manifests.
 std::optional<std::filesystem::path> compensation_beside(const MechanismFile& file) {
   const std::filesystem::path spec = file.path, csv = spec.parent_path() / "compensation.csv";
   try {
@@ -30,7 +30,7 @@ std::optional<std::filesystem::path> compensation_beside(const MechanismFile& fi
     if (!names_output(manifest, csv.filename().string(), sha256(read_file(csv, k_largest_csv)))) return std::nullopt;
     return csv;
   } catch (const InputError&) {
-    return std::nullopt;  // there is none
+    return std::nullopt;  // no manifest
   }
 }
 
@@ -42,26 +42,26 @@ void take_compensation(ModelProduct& product, const ModelOptions& options) {
   product.compensation = path->filename().string();
 }
 
-/// Counts of the whole range fit into 32 bits.
+/// Throws unless the counts of the whole range fit into 32 bits.
 void demand_countable(const ModelProduct& product, const MotorUnit& unit) {
   if (!unit.ticks) return;
   double most = 0;
   for (const double alpha : {product.curves.sensed.middle.alpha_min, product.curves.sensed.middle.alpha_max})
     most = std::max(most, std::abs(unit.of(1.1 * alpha)));
   if (most > 2e9)
-    throw InputError("--ticks-per-turn", "counts of this joint go up to " + rounded(most) + ": more than 32 bits hold",
-                     "fewer counts a turn, or a --zero-ticks nearer to 0");
+    throw InputError("--ticks-per-turn", "counts of this joint reach " + rounded(most) + ": too large for 32 bits",
+                     "use fewer counts a turn, or a --zero-ticks nearer to 0");
 }
 
-// ---- what would do --------------------------------------------------------------------------------------------------
+// ---- changes that make it possible ----------------------------------------------------------------------------------
 
-/// Rounded up to three digits, in degrees.
+/// Rounded up to three digits, deg.
 std::string limit_deg(double angle) {
   const double value = degrees(angle), scale = std::pow(10.0, 2 - std::floor(std::log10(value)));
   return rounded(std::ceil(value * scale) / scale, 3);
 }
 
-/// The law over `share` of its range, in whole thousandths of a degree.
+/// The law over `share` of its range, rounded to thousandths of a degree.
 DeclaredMechanism narrowed(DeclaredMechanism mechanism, double share) {
   const auto to_hand = [share](double angle) { return radians(std::trunc(1000 * share * degrees(angle)) / 1000); };
   mechanism.joint.theta_min = to_hand(mechanism.joint.theta_min);
@@ -106,7 +106,7 @@ std::vector<ModelChange> changes_for_table(const ModelProduct& product, const Mo
 
 // ---- the steps ------------------------------------------------------------------------------------------------------
 
-/// False where there is no θ(α) to fit anything to: `result` says why.
+/// False if there is no θ(α) to fit; the reason is in `result`.
 bool find_curves(ModelResult& result, const ModelOptions& options) {
   ModelProduct& product = result.product;
   const DeclaredMechanism& declared = product.file.mechanism;
@@ -129,13 +129,13 @@ bool find_curves(ModelResult& result, const ModelOptions& options) {
     return false;
   }
   product.mechanism = as_it_is(declared).mechanism;
-  // Of several turns it is that one turn does not suffice.
+  // For several turns the obstacle would be that one turn does not suffice.
   const auto obstacle = note_on_turns(product.file) ? std::nullopt : obstacle_to(product.mechanism);
   if (obstacle)
     product.file.warnings.push_back({Severity::warning,
                                      {product.file.path},
-                                     "no pulley can be made that gives this law: " + obstacle->message,
-                                     "'fusee build' says what would make it possible"});
+                                     "no pulley can have this law: " + obstacle->message,
+                                     "'fusee build' lists changes that make it possible"});
   const auto curves = joint_curves(declared);
   if (!curves) {
     result.ending = ModelEnding::no_equilibrium;
@@ -160,7 +160,7 @@ bool find_fits(ModelResult& result, const ModelOptions& options) {
   if (!product.tendons) product.notes.push_back("no joint_tendons.xml: " + product.without_tendons);
   for (std::size_t i = 0; product.tendons && i < 2; ++i) {
     if (const std::string& why = product.tendons->omission[i]; !why.empty())
-      product.notes.push_back("joint_tendons.xml is without tendon " + std::to_string(i + 1) + ": " + why);
+      product.notes.push_back("joint_tendons.xml omits tendon " + std::to_string(i + 1) + ": " + why);
   }
   if (options.with_polynomial && !(product.equality.error <= options.most_error)) {
     result.ending = ModelEnding::polynomial_off;
@@ -204,11 +204,11 @@ ModelResult model(const MechanismFile& file, const ModelOptions& options) {
   product.prefix = options.prefix.empty() ? c_prefix(file.mechanism.name) : options.prefix;
   OutputFolder target(options.folder, options.force);
   target.claim(k_model_names);
-  begin_step(options, "following the joint");
+  begin_step(options, "simulating the joint");
   if (!find_curves(result, options)) return result;
   begin_step(options, "fitting");
   if (!find_fits(result, options)) return result;
-  begin_step(options, "writing and reading again");
+  begin_step(options, "writing and checking");
   write_files(result);
   result.ending = all_ok(product.checks) ? ModelEnding::done : ModelEnding::check_failed;
   if (options.dry_run) return result;

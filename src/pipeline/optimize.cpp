@@ -11,14 +11,13 @@
 namespace fusee {
 namespace {
 
-/// Whether what was identified changes anything that an objective sees: all but how a pulley comes out when it is made.
+/// True if an identified effect changes an objective. Manufacturing errors of the pulley do not.
 bool joint_differs(DeclaredMechanism declared) {
   declared.identified.pulley.scale = 0;
   return !(as_it_is(declared).mechanism == static_cast<const Mechanism&>(declared));
 }
 
-/// The one place where a design as declared becomes the joint that is judged. What was identified is an addition to the
-/// declared number: the design's declared numbers come first, then what is added to them.
+/// Converts a declared design into the joint that is evaluated. Identified effects add to the declared numbers.
 JointConverter joint_gate(const DeclaredMechanism& declared) {
   if (declared.transmission || !joint_differs(declared)) return {};
   return [](const DeclaredMechanism& design) { return as_it_is(design).mechanism; };
@@ -41,8 +40,8 @@ void demand_one_objective(const MechanismFile& file, const Problem& problem) {
       "--method pareto, or --set optimize.objective=" + std::string(info(problem.objectives.front()).name));
 }
 
-/// Notes in `stopped` that it said so.
-KeepGoing watched(const KeepGoing& keep_going, bool& stopped) {
+/// Forwards keep_going() and records in `stopped` that it returned false.
+KeepGoing recording_stop(const KeepGoing& keep_going, bool& stopped) {
   return [&keep_going, &stopped](const SearchProgress& progress) {
     if (keep_going && !keep_going(progress)) stopped = true;
     return !stopped;
@@ -58,13 +57,13 @@ void take_best(const Found& found, OptimizeResult& result) {
   result.theta = found.theta;
 }
 
-/// Among the designs that tie with the first optimum, the best by another measure.
+/// Selects the best of the designs that tie with the first optimum, by another objective.
 void break_ties(Objective second, CertifiedOptions options, const CertifiedResult& first, OptimizeResult& result) {
   const Objective objective = result.problem.objectives.front();
   Problem among = result.problem;
   among.cap = ObjectiveCap{objective, first.value + options.tie * std::abs(first.value)};
   options.first_tries = {first.best};
-  // Among ties of 0.1 % nobody asks for a millionth, and the edge of a thin set of designs is costly to follow.
+  // Ties of 0.1 % need no finer gap, and the edge of a thin set of designs is costly to follow.
   options.gap = options.tie;
   options.most_boxes = 300000;
   result.then = certified_optimum(among, second, options);
@@ -76,7 +75,7 @@ void break_ties(Objective second, CertifiedOptions options, const CertifiedResul
 
 void search_certified(const OptimizeOptions& asked, OptimizeResult& result) {
   CertifiedOptions options;
-  options.keep_going = watched(asked.keep_going, result.stopped);
+  options.keep_going = recording_stop(asked.keep_going, result.stopped);
   const CertifiedResult found = certified_optimum(result.problem, result.problem.objectives.front(), options);
   take_best(found, result);
   result.search = found;
@@ -89,7 +88,7 @@ void search_genetic(const GeneticOptions& options, OptimizeResult& result) {
   result.search = found;
 }
 
-/// The point of the front that is nearest to the best of everything, each objective measured by its span on the front.
+/// The point of the front nearest to the ideal point, with each objective scaled by its span on the front.
 const FrontPoint& balanced_point(const std::vector<FrontPoint>& front, const std::vector<Objective>& objectives) {
   std::vector<double> distances(front.size(), 0.0);
   for (std::size_t k = 0; k < objectives.size(); ++k) {
@@ -117,7 +116,7 @@ void search_front(const GeneticOptions& options, OptimizeResult& result) {
 
 void search(SearchMethod method, const OptimizeOptions& options, OptimizeResult& result) {
   GeneticOptions genetic = options.genetic;
-  genetic.keep_going = watched(options.keep_going, result.stopped);
+  genetic.keep_going = recording_stop(options.keep_going, result.stopped);
   switch (method) {
     case SearchMethod::certified:
       return search_certified(options, result);
@@ -128,7 +127,7 @@ void search(SearchMethod method, const OptimizeOptions& options, OptimizeResult&
   }
 }
 
-/// point_001.toml …
+/// File name of a point: point_001.toml …
 std::string point_name(std::size_t number) {
   const std::string digits = std::to_string(number);
   return "point_" + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits + ".toml";
@@ -140,7 +139,7 @@ void write_texts(const MechanismFile& file, const OptimizeOptions& options, Opti
     warnings = std::move(written.warnings);
     return std::move(written.text);
   };
-  std::vector<Diagnostic> warnings;  // of every point the same
+  std::vector<Diagnostic> warnings;  // equal for every point
   if (const auto* pareto = std::get_if<ParetoResult>(&result.search); pareto && !options.front_folder.empty()) {
     for (const FrontPoint& point : pareto->front)
       result.front_files.push_back({point_name(result.front_files.size() + 1), text_of(point.design, warnings)});
@@ -149,7 +148,7 @@ void write_texts(const MechanismFile& file, const OptimizeOptions& options, Opti
   result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
 }
 
-/// What slopes leave out of the values of the design that was found, and what its grooves do to the tendons.
+/// Adds the notes and warnings about several turns to the result.
 void note_turns(const MechanismFile& file, OptimizeResult& result) {
   MechanismFile found = file;
   found.mechanism = mechanism_at(result.problem, result.design);
@@ -177,7 +176,8 @@ OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& option
   const SearchMethod method = options.method ? *options.method : strongest_method(result.problem);
   if (method != SearchMethod::pareto) demand_one_objective(file, result.problem);
   OutputFolder front_folder(options.front_folder, options.force);
-  if (!options.front_folder.empty()) front_folder.claim({point_name(1)});  // a refusal should not cost a wait
+  // before the work, so that a refusal costs no time
+  if (!options.front_folder.empty()) front_folder.claim({point_name(1)});
   search(method, options, result);
   result.before = evaluate(result.problem.objectives.front(), judged(result.problem, result.problem.base));
   if (!result.found) return result;

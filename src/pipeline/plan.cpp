@@ -15,7 +15,7 @@ std::vector<OutputFile> outputs_of(const PlanProduct& product) {
   return outputs;
 }
 
-/// Every run of an earlier plan.
+/// Run files of any earlier plan.
 std::vector<std::string> run_names() {
   constexpr int k_most_runs = 99;
   std::vector<std::string> names;
@@ -33,7 +33,7 @@ PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options) {
   result.without_law = without_law(file.mechanism);
   if (result.without_law) return result;
   OutputFolder target(options.folder, options.force);
-  target.claim({"plan.json", "plan.html", "manifest.json"});  // before the work: a refusal should not cost a wait
+  target.claim({"plan.json", "plan.html", "manifest.json"});  // before the work, so that a refusal costs no time
   result.product.plan = plan_runs(file.mechanism, options.plan);
   if (result.product.plan.steps.empty()) return result;
   result.outputs = outputs_of(result.product);

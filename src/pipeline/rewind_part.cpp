@@ -14,7 +14,7 @@
 namespace fusee {
 namespace {
 
-/// The closed path of a layer that surrounds most; null when there is none.
+/// The closed path of a layer with the largest area; null if there is none.
 const DrawingPath* largest_path(const Drawing& drawing, const std::string& layer) {
   const DrawingPath* largest = nullptr;
   double largest_area = 0;
@@ -34,7 +34,7 @@ Polygon counter_clockwise(Polygon polygon) {
   return polygon;
 }
 
-/// On floors as they were drawn, of a joint that has its declared pins and tendon.
+/// Winds tendons on drawn floors, with the declared pins and tendon.
 RewindResult rewind_drawn(const JointAsItIs& joint, Polygon floor1, Polygon floor2) {
   return rewind(with_inset(joint), as_made(std::move(floor1), joint.outline),
                 as_made(std::move(floor2), joint.outline));
@@ -50,9 +50,9 @@ RewindResult rewind_drawing(const JointAsItIs& joint, const Drawing& drawing) {
   if (!pitch1 || !pitch2) {
     throw InputError(
         "", "the drawing has no closed contours on the layers P1_FLOOR and P2_FLOOR (nor on P1_PITCH and P2_PITCH)",
-        "name the layers of the two groove floors so; 'fusee build' writes such a profile.dxf");
+        "name the layers of the two groove floors like that; 'fusee build' writes such a profile.dxf");
   }
-  // A centre line that lies on the pitch curve: a tendon without thickness, over pins thicker by its radius.
+  // A drawn centre line is the pitch curve: a tendon without thickness, over pins thicker by its radius.
   JointAsItIs centre_line = joint;
   centre_line.mechanism.guides.radius = joint.mechanism.guide_pitch_radius();
   centre_line.mechanism.joint.drum_radius = joint.mechanism.drum_pitch_radius();
@@ -60,7 +60,7 @@ RewindResult rewind_drawing(const JointAsItIs& joint, const Drawing& drawing) {
   return rewind_drawn(centre_line, counter_clockwise(pitch1->points), counter_clockwise(pitch2->points));
 }
 
-/// The mesh is larger than the part by the material's shrinkage.
+/// Undoes the scale for the material's shrinkage, by which the mesh is larger than the part.
 Polygon shrunk(Polygon outline, double scale) {
   for (Vec2& point : outline) point /= scale;
   return outline;
@@ -76,17 +76,17 @@ Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
   return shrunk(*floor, scale);
 }
 
-/// The right part: where its grooves are, and their floors as the mesh has them.
-struct RightPart {
+/// The expected part: groove heights and floors in the mesh.
+struct ExpectedPart {
   BodyLayout layout;
   GrooveFloors floors;
 };
 
 SynthesisResult declared_curves(const JointAsItIs& joint) { return synthesise(joint.mechanism, {.advice = false}); }
 
-RightPart right_part(const JointAsItIs& joint) {
+ExpectedPart expected_part(const JointAsItIs& joint) {
   SynthesisResult synthesis = declared_curves(joint);
-  if (!synthesis.made()) throw InputError("", "no pulley of this mechanism can be made: " + synthesis.brief());
+  if (!synthesis.made()) throw InputError("", "no pulley is feasible for this mechanism: " + synthesis.brief());
   draw_for_making(synthesis, joint.outline);
   const BodyLayout layout = resolve_layout(joint.mechanism, synthesis);
   const double half = 0.5 * joint.mechanism.tendon.diameter;
@@ -100,24 +100,24 @@ RewindResult rewind_mesh(const JointAsItIs& joint, const BodyLayout& layout, con
                       floor_in_section(mesh, layout.z_p2, layout.scale));
 }
 
-// ---- a part that somebody moved ------------------------------------------------------------------
+// ---- moved parts ------------------------------------------------------------------------------------------------
 
-/// Half of what facets may stray by: what fits better was not moved.
+/// Half of the facets' deviation, mm: a part that fits better than this was not moved.
 constexpr double k_as_made = 0.005;
-/// A move has to fit this much better than none: what is off in another way fits badly everywhere.
+/// Share of the deviation that a move must reach to be accepted. Other faults fit badly at every position.
 constexpr double k_clearly_better = 0.5;
-/// A file of more pieces is no pulley on a print bed.
+/// A file with more bodies is not a pulley on a print bed.
 constexpr std::size_t k_most_bodies = 20;
 
-/// How far the floors are off where the part lies; infinite without a section there.
-double deviation_as_it_lies(const TriangleMesh& mesh, const BodyLayout& layout, const GrooveFloors& expected) {
+/// Deviation of the floors at the part's present position; infinite without a section there.
+double deviation_in_place(const TriangleMesh& mesh, const BodyLayout& layout, const GrooveFloors& expected) {
   const std::optional<Polygon> floor1 = outline_at(mesh, layout.z_p1 * layout.scale);
   const std::optional<Polygon> floor2 = outline_at(mesh, layout.z_p2 * layout.scale);
   if (!floor1 || !floor2) return std::numeric_limits<double>::infinity();
   return outline_deviation({*floor1, *floor2}, expected);
 }
 
-/// P1 and P2 printed apart and laid side by side: each is looked for in the bodies that are left.
+/// P1 and P2 printed separately and placed side by side: each is searched among the remaining bodies.
 std::vector<PlacementResult> find_apart(const TriangleMesh& mesh, GrooveFloors expected, double tendon_diameter) {
   std::vector<PlacementResult> found;
   const std::vector<TriangleMesh> bodies = bodies_of(mesh);
@@ -132,7 +132,7 @@ std::vector<PlacementResult> find_apart(const TriangleMesh& mesh, GrooveFloors e
   return found;
 }
 
-/// One placement for the whole, or one each for what is printed apart.
+/// One placement for the whole part, or one each for parts printed separately.
 std::vector<PlacementResult> find_all(const TriangleMesh& mesh, const GrooveFloors& expected, double tendon_diameter) {
   const PlacementResult whole = find_placement(mesh, expected, tendon_diameter);
   if (whole.placement.grooves.size() == 2) return {whole};
@@ -140,7 +140,7 @@ std::vector<PlacementResult> find_all(const TriangleMesh& mesh, const GrooveFloo
   return apart.size() == 2 ? apart : std::vector{whole};
 }
 
-/// 0.0394 → "it is in inches"; "" for a size that no unit explains.
+/// Explains a scale by a unit, such as 0.0394 by inches.
 std::string unit_words(double scale) {
   struct Unit {
     double scale;
@@ -155,16 +155,16 @@ std::string unit_words(double scale) {
   for (const Unit& unit : k_units) {
     if (std::abs(scale / unit.scale - 1) < 0.02) return unit.words;
   }
-  return "scale it by " + rounded(1 / scale, 4) + ", or was it made for another pulley.r1_mm?";
+  return "scale it by " + rounded(1 / scale, 4) + ", or check whether it was made for another pulley.r1_mm";
 }
 
 void refuse(const PlacementResult& result) {
   if (result.status == PlacementStatus::scaled)
     throw InputError("", "the part is " + rounded(result.scale, 4) + " times the size of this mechanism's pulley",
-                     unit_words(result.scale) + " (--as-is winds it as it lies)");
+                     unit_words(result.scale) + " (--as-is winds it in its present position)");
   if (result.status == PlacementStatus::mirrored)
     throw InputError("", "the part is the mirror image of this mechanism's pulley",
-                     "take the mirroring out where the part was moved (--as-is winds it as it lies)");
+                     "undo the mirroring (--as-is winds it in its present position)");
 }
 
 const PlacedGroove* groove_of(const std::vector<Placement>& placements, Side side) {
@@ -191,32 +191,32 @@ RewoundPart rewind_placed(const JointAsItIs& joint, std::vector<Placement> place
   return result;
 }
 
-// ---- a part whose grooves climb ------------------------------------------------------------------
+// ---- helical parts ----------------------------------------------------------------------------------------------
 
-bool climbs(const JointAsItIs& joint) {
+bool is_helical(const JointAsItIs& joint) {
   return need_several_turns(declared_curves(joint)) && !kept_to_one_turn(joint.mechanism);
 }
 
-RewindResult rewind_climbing(const JointAsItIs& joint, const Part& part) {
+RewindResult rewind_helical_part(const JointAsItIs& joint, const Part& part) {
   const auto* mesh = std::get_if<TriangleMesh>(&part);
   if (mesh == nullptr)
-    throw InputError("", "the grooves of this mechanism's pulley climb: nothing can be wound on a drawing of them",
-                     "wind it on the mesh: pulley.stl");
+    throw InputError("", "the grooves of this mechanism's pulley are helical: tendons cannot be wound on a drawing",
+                     "use the mesh: pulley.stl");
   Product right;
   right.joint = joint;
   if (!design_several_turns(right, BuildOptions().tolerance, {})) {
     std::string why = right.synthesis.made() ? "" : right.synthesis.brief();
     for (const Condition& condition : right.pulley.conditions)
       if (!condition.ok && why.empty()) why = condition.message;
-    throw InputError("", "no pulley of this mechanism can be made: " + why);
+    throw InputError("", "no pulley is feasible for this mechanism: " + why);
   }
   return rewind_several_turns(right, *mesh).result;
 }
 
-/// Where it lies, axis along z: a move would be looked for in grooves of one height each.
-RewoundPart rewind_climbing_as_it_lies(const JointAsItIs& joint, const Part& part) {
+/// Winds on the part in its present position, axis along z: the search for a move needs grooves of constant height.
+RewoundPart rewind_helical_in_place(const JointAsItIs& joint, const Part& part) {
   constexpr double k_another = radians(0.5);
-  RewoundPart result{rewind_climbing(joint, part), PartPlace::as_made, {}};
+  RewoundPart result{rewind_helical_part(joint, part), PartPlace::as_made, {}};
   if (!(result.as_built.max_theta_error < k_another)) result.place = PartPlace::not_recognised;
   return result;
 }
@@ -225,7 +225,7 @@ bool is_finite(const TriangleMesh& mesh) {
   return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Vec3& vertex) { return vertex.allFinite(); });
 }
 
-/// What is recognised nowhere may have no groove where it lies either.
+/// A part that is recognised nowhere may have no groove at its present position either.
 RewoundPart rewind_unrecognised(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh) {
   try {
     return {rewind_mesh(joint, layout, mesh), PartPlace::not_recognised, {}};
@@ -238,9 +238,9 @@ RewoundPart rewind_unrecognised(const JointAsItIs& joint, const BodyLayout& layo
 }
 
 RewoundPart rewind_moved_mesh(const JointAsItIs& joint, const TriangleMesh& mesh) {
-  const auto [layout, expected] = right_part(joint);
+  const auto [layout, expected] = expected_part(joint);
   if (!is_finite(mesh)) return rewind_unrecognised(joint, layout, mesh);
-  const double as_it_lies = deviation_as_it_lies(mesh, layout, expected);
+  const double as_it_lies = deviation_in_place(mesh, layout, expected);
   if (as_it_lies <= k_as_made) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
   const std::vector<PlacementResult> found = find_all(mesh, expected, joint.mechanism.tendon.diameter * layout.scale);
   if (found.front().status == PlacementStatus::unknown) return rewind_unrecognised(joint, layout, mesh);
@@ -258,8 +258,9 @@ RewoundPart rewind_moved_mesh(const JointAsItIs& joint, const TriangleMesh& mesh
 }  // namespace
 
 RewindResult rewind_part(const JointAsItIs& joint, const Part& part) {
-  if (climbs(joint)) return rewind_climbing(joint, part);
-  if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_mesh(joint, right_part(joint).layout, *mesh);
+  if (is_helical(joint)) return rewind_helical_part(joint, part);
+  if (const auto* mesh = std::get_if<TriangleMesh>(&part))
+    return rewind_mesh(joint, expected_part(joint).layout, *mesh);
   return rewind_drawing(joint, std::get<Drawing>(part));
 }
 
@@ -273,7 +274,7 @@ RewindResult rewind_floors(const JointAsItIs& joint, const BodyLayout& layout, c
 }
 
 RewoundPart rewind_moved_part(const JointAsItIs& joint, const Part& part) {
-  if (climbs(joint)) return rewind_climbing_as_it_lies(joint, part);
+  if (is_helical(joint)) return rewind_helical_in_place(joint, part);
   if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_moved_mesh(joint, *mesh);
   return {rewind_drawing(joint, std::get<Drawing>(part)), PartPlace::as_made, {}};
 }
@@ -284,7 +285,7 @@ std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResul
   const std::string error_at = "at alpha = " + rounded(degrees(as_built.max_theta_error_at)) + " deg";
   const std::string slack_at = "at alpha = " + rounded(degrees(as_built.max_slack_at)) + " deg";
   if (mechanism.pulley.method == Method::paper) {
-    // No gates: more than this would be a fault of the winding.
+    // No limits: a larger value would be a bug of the rewinding.
     const double whole_mechanism = mechanism.joint.R + mechanism.pulley.EF;
     return {at_most("theta_error_reported", error, 180.0, "deg", error_at),
             at_most("slack_reported", as_built.max_slack, whole_mechanism, "mm", slack_at)};

@@ -24,13 +24,12 @@ namespace {
 HelixGroove groove_of(const Mechanism& mechanism) {
   const HelicalSection section = helical_section(mechanism);
   const double d = mechanism.tendon.diameter;
-  // In the part a later turn lies below the one before.
-  return {section.depth,
-          std::min(room_at_groove_edge(section.walls.below, d), room_at_groove_edge(section.walls.above, d)),
+  // A later turn lies below the one before.
+  return {section.depth, std::min(room_at_groove_edge(section.walls.below, d), room_at_groove_edge(section.walls.above, d)),
           [section](double step) { return least_lead(section, -step); }};
 }
 
-/// What the tables of a body do not say of several turns.
+/// Properties of several turns that the body's tables do not contain.
 std::vector<std::string> notes_of(const Mechanism& mechanism, const HelixProduct& helix) {
   const TendonsLaid ends = helix.laid(mechanism.guides.collar);
   const std::string where = mechanism.guides.collar ? "the guides' collars hold the tendons at the heights "
@@ -38,22 +37,22 @@ std::vector<std::string> notes_of(const Mechanism& mechanism, const HelixProduct
   const double left = std::exp(-mechanism.pulley.mu * k_two_pi * mechanism.body.spare_turns);
   std::vector<std::string> notes = {
       where + rounded(ends.z1, 4) + " mm (tendon 1) and " + rounded(ends.z2, 4) +
-          " mm (tendon 2) above the pulley's lower face: there the fleet angle is smallest",
+          " mm (tendon 2) above the pulley's lower face, where the fleet angle is smallest",
       "wound several times, " + rounded(helix.synthesis.sides[0].turns, 3) + " (P1) and " +
           rounded(helix.synthesis.sides[1].turns, 3) + " turns (P2) over the range and " +
           rounded(mechanism.body.spare_turns) + " spare at each end, which leave " + rounded(100.0 * left, 2) +
           " % of a tension to the knot; lead " + rounded(helix.synthesis.sides[0].lead, 3) + " and " +
           rounded(helix.synthesis.sides[1].lead, 3) + " mm",
-      "of several turns there is no plates.dxf: plates have no grooves that climb"};
+      "there is no plates.dxf: plates cannot have helical grooves"};
   for (const HelixSide& side : helix.synthesis.sides) {
     if (side.fleet <= k_noted_fleet || side.fleet > k_warned_fleet) continue;
     notes.push_back("a fleet angle of " + rounded(degrees(side.fleet), 3) +
-                    "° is more than the 1.5° of smooth drums, and within the 2° of grooved ones");
+                    "° exceeds the 1.5° limit of smooth drums and is within the 2° limit of grooved drums");
   }
   return notes;
 }
 
-/// A body whose tie-offs do not fit, or not without support, is refused, and no file that came out wrong.
+/// A body is refused, with no file, if its tie-offs do not fit or need support.
 std::vector<Condition> faults_of(const Mechanism& mechanism, const HelicalPulley& pulley, const TriangleMesh& mesh) {
   std::vector<Check> checks = check_helical_pulley(mesh, pulley, helical_section(mechanism));
   if (!mechanism.print.supports) {
@@ -70,14 +69,14 @@ std::vector<Condition> faults_of(const Mechanism& mechanism, const HelicalPulley
     fault.value = check.value;
     fault.limit = check.limit;
     fault.unit = check.unit;
-    fault.message = "no body of several turns comes out right here: " + check.name + " is " + rounded(check.value, 4) +
-                    ", and may be " + rounded(check.limit, 4) + (check.where.empty() ? "" : " (" + check.where + ")");
+    fault.message = "the body of several turns fails a check: " + check.name + " is " + rounded(check.value, 4) +
+                    ", the limit is " + rounded(check.limit, 4) + (check.where.empty() ? "" : " (" + check.where + ")");
     faults.push_back(std::move(fault));
   }
   return faults;
 }
 
-HelixSynthesis looked_at(const Mechanism& mechanism) {
+HelixSynthesis brief_synthesis(const Mechanism& mechanism) {
   constexpr double k_look_tolerance = 0.05;
   SynthesisOptions options;
   options.tolerance = k_look_tolerance;
@@ -92,13 +91,13 @@ bool winds_several_times(const DeclaredMechanism& mechanism) {
   return need_several_turns(synthesise(mechanism, options));
 }
 
-/// What slopes do to forces that are computed of level tendons. In a tension T along a path of slope φ there is T cos φ
-/// to turn the joint with; and at one α, the rise being what it is, a path of planar length L gets longer by cos φ dL,
-/// and is L/cos φ long: so a tendon of EA cos³φ in the plane gives way as it does.
+/// Effect of the slope φ of tendon paths on forces that are computed for level tendons. A tension T turns the joint
+/// with T cos φ. For constant rise, a path of planar length L grows by cos φ dL and is L/cos φ long: its compliance is
+/// that of a planar tendon with EA cos³φ.
 std::string words_on_slopes(const Mechanism& mechanism) {
   constexpr double k_noted_theta = radians(0.001);
-  const HelixSynthesis helix = looked_at(mechanism);
-  const std::string start = "the tendons are wound several times: angles and forces are those of level tendons";
+  const HelixSynthesis helix = brief_synthesis(mechanism);
+  const std::string start = "the tendons are wound several times: angles and forces are computed for level tendons";
   if (helix.sides[0].stroke.empty()) return start;
   double steepest = 0, off = 0;
   const Transmission level(mechanism);
@@ -107,11 +106,11 @@ std::string words_on_slopes(const Mechanism& mechanism) {
     off = std::max(off, std::abs(level.theta(helix.stroke[i].alpha) - helix.stroke[i].theta));
   }
   const auto more = [steepest](int power) { return rounded(100.0 * (std::pow(std::cos(steepest), -power) - 1.0), 2); };
-  std::string words = start + ", while their paths slope by up to " + rounded(degrees(steepest), 3) +
-                      "°: that makes tensions up to " + more(1) + " % larger, and what they give way by up to " +
-                      more(3) + " %";
+  std::string words = start + ". Their paths slope by up to " + rounded(degrees(steepest), 3) +
+                      "°, which increases tensions by up to " + more(1) + " % and their stretch by up to " + more(3) +
+                      " %";
   if (off > k_noted_theta)
-    words += "; what guides.collar does to theta, up to " + rounded(degrees(off), 2) + "°, is not in them";
+    words += "; the effect of guides.collar on theta, up to " + rounded(degrees(off), 2) + "°, is omitted";
   return words;
 }
 
@@ -127,14 +126,14 @@ void draw_for_making(Spiral& spiral, const OutlineError& outline) {
 FloorLine as_made(FloorLine drawn, const OutlineError& outline) {
   Polygon plan;
   for (const Vec3& point : drawn) plan.push_back(point.head<2>());
-  // Half-planes see each side of the floor's polygon several times: a normal is that of several sides.
+  // Half-planes meet each side of the floor's polygon several times, so a normal averages several sides.
   constexpr std::size_t k_beside = 14;
   plan = line_as_made(std::move(plan), outline, k_beside);
   for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i].head<2>() = plan[i];
   return drawn;
 }
 
-void take_over(Product& product, const HelixProduct& helix) {
+void adopt_synthesis(Product& product, const HelixProduct& helix) {
   SynthesisResult& synthesis = product.synthesis;
   synthesis = {};
   synthesis.status = helix.synthesis.status;
@@ -153,7 +152,7 @@ std::optional<Diagnostic> note_on_turns(const MechanismFile& file) {
 std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file) {
   std::vector<Diagnostic> warnings;
   if (!winds_several_times(file.mechanism)) return warnings;
-  for (const std::string& words : looked_at(file.mechanism).warnings)
+  for (const std::string& words : brief_synthesis(file.mechanism).warnings)
     warnings.push_back({Severity::warning, file.place_of("pulley.winding"), words, {}});
   return warnings;
 }
@@ -162,10 +161,11 @@ std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file) {
   std::vector<Diagnostic> warnings;
   for (const char* key : {"guides.collar", "body.lead_mm", "body.spare_turns"}) {
     if (!find_field(key)->is_set(file.mechanism)) continue;
-    warnings.push_back({Severity::warning,
-                        file.place_of(key),
-                        std::string(key) + " is not used: it is for pulleys of several turns, and these are of one",
-                        {}});
+    warnings.push_back(
+        {Severity::warning,
+         file.place_of(key),
+         std::string(key) + " is not used: it applies to pulleys of several turns, and these have one turn",
+         {}});
   }
   return warnings;
 }
@@ -186,10 +186,10 @@ bool design_several_turns(Product& product, double tolerance,
   options.tolerance = tolerance;
   options.drawn_out = -product.joint.outline.offset;
   helix.synthesis = synthesise_helix(mechanism, groove_of(mechanism), options);
-  take_over(product, helix);
+  adopt_synthesis(product, helix);
   if (!helix.synthesis.made()) return false;
   for (HelixSide& side : helix.synthesis.sides) draw_for_making(side.spiral, product.joint.outline);
-  if (before_step) before_step("making the body");
+  if (before_step) before_step("building the body");
   helix.pulley = make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral,
                                      tolerance, search);
   Pulley& pulley = product.pulley;
@@ -213,9 +213,9 @@ bool design_several_turns(Product& product, double tolerance,
 
 namespace {
 
-/// Of several turns. A string on a polygon whose corners lie on its curve is short by a share of the tolerance for each
-/// radian that it is wound: where that is too much over the range, the curves are drawn once more, as finely as the
-/// limit asks for (campaign of seed 620001, design 316: 10.5 rad, 0.11 mm of slack).
+/// A string on a polygon inscribed in its curve is too short by a share of the tolerance per radian of winding. If the
+/// slack over the range exceeds its limit, the curves are drawn again, as finely as the limit requires (campaign of
+/// seed 620001, design 316: 10.5 rad, 0.11 mm of slack).
 bool design_turns_within(Product& product, double tolerance, const AsBuiltLimits& limits,
                          const std::function<void(std::string_view step)>& before_step, TieOffSearch search) {
   if (!design_several_turns(product, tolerance, before_step, search)) return false;
@@ -247,7 +247,7 @@ HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& m
 
 HelicalRewind rewind_several_turns(const Product& product, const std::vector<FloorLine>& floors) {
   if (floors.size() != 2)
-    throw InputError("", "it has " + std::to_string(floors.size()) + " grooves of several turns, and should have 2");
+    throw InputError("", "it has " + std::to_string(floors.size()) + " grooves of several turns instead of 2");
   const JointAsItIs& joint = product.joint;
   return rewind_floors(as_made(floors[0], joint.outline), as_made(floors[1], joint.outline), with_inset(joint),
                        product.synthesis.stroke, product.helix->laid(joint.mechanism.guides.collar));
@@ -277,20 +277,20 @@ HelixSynthesis trial_curves(const Mechanism& mechanism, double tolerance) {
   return synthesise_helix(mechanism, groove_of(mechanism), options, HelixAccuracy::coarse);
 }
 
-/// Of curves first, then of the body.
+/// Obstacles of the curves first, then of the body.
 std::vector<Condition> obstacles_of(const Mechanism& mechanism, const HelixSynthesis& made, double tolerance) {
   if (!made.made()) return failed_of(made.conditions);
   return helical_obstacles(mechanism, made.sides[0].spiral, made.sides[1].spiral, tolerance);
 }
 
-/// Of the arcs that tendons lie on.
+/// The first bend of a tendon that is tighter than tendon.bend_ratio allows.
 std::optional<std::string> tight_bend(const Mechanism& mechanism, const HelixSynthesis& curves) {
   const double least = 0.5 * mechanism.tendon.bend_ratio * mechanism.tendon.diameter;
   for (const HelixSide& side : curves.sides) {
     const Spiral& spiral = side.spiral;
     for (std::size_t i = spiral.first_used; i <= spiral.last_used; ++i) {
       if (spiral.rows[i].rho >= least) continue;
-      return "the tendon would be bent to a radius of " + rounded(spiral.rows[i].rho, 3) + " mm, and wants " +
+      return "the tendon is bent to a radius of " + rounded(spiral.rows[i].rho, 3) + " mm, and requires " +
              rounded(least, 3) + " mm or more (tendon.bend_ratio)";
     }
   }
@@ -308,11 +308,11 @@ std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism)
 
 namespace {
 
-// As many rows of spirals are made for advice: a making of 2400 takes half a second (campaign of seed 990202, design
-// 237). Two, which are made at once, are always tried.
+// Limit of spiral rows for the full builds of advice: a build of 2400 rows takes half a second (campaign of seed
+// 990202, design 237). Two builds, which run in parallel, are always allowed.
 constexpr double k_rows_for_advice = 9000;
 
-/// Of spirals like these as they would be made, about.
+/// Approximate number of rows of such spirals at the final tolerance.
 double rows_as_made(const HelixSynthesis& curves, double tolerance) {
   double rows = 0;
   for (const HelixSide& side : curves.sides) {
@@ -323,10 +323,10 @@ double rows_as_made(const HelixSynthesis& curves, double tolerance) {
   return rows;
 }
 
-/// Mechanisms hardly different from a file's, looked at and made.
-class TurnsLook {
+/// Quick checks and full builds of small variants of a file.
+class MultiTurnCheck {
  public:
-  TurnsLook(const DeclaredMechanism& declared, const TurnsTrial& trial) : declared_(declared), trial_(trial) {}
+  MultiTurnCheck(const DeclaredMechanism& declared, const MultiTurnTrial& trial) : declared_(declared), trial_(trial) {}
 
   std::vector<Condition> obstacles(const Mechanism& changed) {
     if (trial_.between) trial_.between();
@@ -335,37 +335,37 @@ class TurnsLook {
     const Mechanism joint = as_it_is(declared, LawSearch::brief).mechanism;
     const HelixSynthesis curves = trial_curves(joint, k_helix_trial_tolerance);
     std::vector<Condition> obstacles = obstacles_of(joint, curves, k_helix_trial_tolerance);
-    if (obstacles.empty()) see_size(rows_as_made(curves, trial_.tolerance));
+    if (obstacles.empty()) record_size(rows_as_made(curves, trial_.tolerance));
     return obstacles;
   }
   bool make(const Mechanism& changed) {
     ++begun_;
     return trial_.made(changed);
   }
-  /// That the largest of what can be made leaves time for.
-  int makings_left() const { return std::max(2, static_cast<int>(k_rows_for_advice / most_rows_)) - begun_; }
+  /// Number of full builds for which the largest feasible variant leaves time.
+  int builds_left() const { return std::max(2, static_cast<int>(k_rows_for_advice / most_rows_)) - begun_; }
 
  private:
-  void see_size(double rows) {
+  void record_size(double rows) {
     double known = most_rows_;
     while (rows > known && !most_rows_.compare_exchange_weak(known, rows)) {
     }
   }
 
   const DeclaredMechanism& declared_;
-  const TurnsTrial& trial_;
+  const MultiTurnTrial& trial_;
   std::atomic<double> most_rows_ = 1;
   std::atomic<int> begun_ = 0;
 };
 
 }  // namespace
 
-Advice advice_for_several_turns(const Product& product, const TurnsTrial& trial) {
-  TurnsLook look(product.file.mechanism, trial);
-  const FeasibilityOracle judge{.obstacles = [&look](const Mechanism& changed) { return look.obstacles(changed); },
-                                .made = [&look](const Mechanism& changed) { return look.make(changed); },
-                                .is_expensive = true,
-                                .builds_left = [&look] { return look.makings_left(); }};
+Advice advice_for_several_turns(const Product& product, const MultiTurnTrial& trial) {
+  MultiTurnCheck check(product.file.mechanism, trial);
+  const FeasibilityOracle judge{.obstacles = [&check](const Mechanism& changed) { return check.obstacles(changed); },
+                    .made = [&check](const Mechanism& changed) { return check.make(changed); },
+                    .is_expensive = true,
+                    .builds_left = [&check] { return check.builds_left(); }};
   DeclaredMechanism in_one = product.file.mechanism;
   const Field& parts = *find_field("print.parts");
   if (const std::string from = parts.get_text(in_one); from == "two") {

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: a pulley whose tendons are wound several times, where one turn does not suffice.
+/// Internal: pulleys of several turns, used if one turn does not suffice.
 #pragma once
 
 #include <functional>
@@ -15,49 +15,48 @@
 
 namespace fusee {
 
-/// Of pulleys that turn less than once: warnings of what the file says of helical grooves.
+/// Warnings about keys for helical grooves, if the pulleys turn less than once.
 std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file);
 
-/// What a joint of level tendons leaves out of one whose tendons are wound several times; null where they are not.
+/// Note on the approximations that the planar joint model makes for pulleys of several turns; empty for one turn.
 std::optional<Diagnostic> note_on_turns(const MechanismFile& file);
-/// Where its pulleys bend a tendon tighter than tendon.bend_ratio wants, and where a tendon leaves its groove at too
-/// large an angle; nothing where they turn less than once.
+/// Warnings about bends tighter than tendon.bend_ratio and about large fleet angles; empty for one turn.
 std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file);
-/// with_plausibility_warnings(), and that note.
+/// Adds the plausibility warnings and note_on_turns() to the file's warnings.
 MechanismFile with_plausibility_warnings_and_turns(MechanismFile file);
 
-/// Spirals and body of product.joint in place of what one turn could not be; as design() otherwise.
+/// Designs spirals and body of product.joint, which one turn could not provide; otherwise as design().
 bool design_several_turns(Product& product, double tolerance,
                           const std::function<void(std::string_view step)>& before_step,
                           TieOffSearch search = TieOffSearch::thorough);
 
-/// One turn where it suffices, else several: false when neither can be made. Where several are not for this file, what
-/// keeps it to one is said.
+/// Designs one turn if it suffices, else several; false if neither is feasible. If the file excludes several turns, the
+/// conditions state the key.
 bool design_any(Product& product, double tolerance, const AsBuiltLimits& limits,
                 const std::function<void(std::string_view step)>& before_step,
                 TieOffSearch search = TieOffSearch::thorough);
 
-/// Where its tendons lie above the pulley's lower face, on guides and drum.
+/// Heights of the tendons above the pulley's lower face, on guides and drum.
 TendonHeights tendon_heights(const Product& product);
 
-/// Tendons wound in space on the grooves of a mesh of it.
+/// Winds tendons in space on the grooves of a mesh.
 HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& mesh);
-/// On floors that were found elsewhere. InputError: other than two.
+/// Winds tendons on the given groove floors. Throws InputError unless there are two.
 HelicalRewind rewind_several_turns(const Product& product, const std::vector<FloorLine>& floors);
-/// Of a mesh that was read back.
+/// Checks of a mesh that was read back.
 std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh);
 
-/// What keeps a joint whose pulleys turn further than once from helical grooves, looked at as briefly as trials are;
-/// null where nothing is seen to. A search would make r1 ever smaller: to it a bend that build warns of is an obstacle.
+/// An obstacle to helical grooves for pulleys of more than one turn, by a brief check; empty if none is found. A bend
+/// that build() warns of counts as an obstacle here: a search would otherwise make r1 ever smaller.
 std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism);
 
-/// How advice on several turns is tried.
-struct TurnsTrial {
-  double tolerance = 0;                        ///< that pulleys are made to, mm
-  std::function<bool(const Mechanism&)> made;  ///< the whole making
-  std::function<void()> between;               ///< called between looks; may be empty
+/// Functions with which advice on several turns is tested.
+struct MultiTurnTrial {
+  double tolerance = 0;                        ///< chord error of the pulleys, mm
+  std::function<bool(const Mechanism&)> made;  ///< the full build with checks
+  std::function<void()> between;               ///< called between checks; may be empty
 };
-/// What would make a refused one possible.
-Advice advice_for_several_turns(const Product& product, const TurnsTrial& trial);
+/// Changes that make a refused pulley of several turns possible.
+Advice advice_for_several_turns(const Product& product, const MultiTurnTrial& trial);
 
 }  // namespace fusee

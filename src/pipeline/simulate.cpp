@@ -10,19 +10,19 @@
 namespace fusee {
 namespace {
 
-/// A mechanism and by how much the joint differs from it.
-struct Simulated {
+/// A mechanism and the imperfections of its joint.
+struct SimulatedJoint {
   DeclaredMechanism mechanism;
   Imperfections at;
 };
 
-Simulated with_pulley(const DeclaredMechanism& declared, bool corrected) {
+SimulatedJoint with_pulley(const DeclaredMechanism& declared, bool corrected) {
   if (!corrected) return {declared, declared.identified};
   return {expected_joint(declared), beyond_mechanism(declared.identified, kind_of(declared))};
 }
 
-/// Where the motor goes further than the pulley does, the law's formulas go on, and mean nothing.
-void leave_out_beyond(const DeclaredMechanism& mechanism, const Run& run, std::vector<JointState>& states) {
+/// Marks rows beyond the pulley's range, where the law's formulas are meaningless.
+void mark_rows_beyond_range(const DeclaredMechanism& mechanism, const Run& run, std::vector<JointState>& states) {
   const DeclaredLaw law(mechanism);
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (!law.reaches(run.samples[i].alpha)) states[i] = {EquilibriumStatus::no_equilibrium};
@@ -43,9 +43,9 @@ SimulateResult simulate(const MechanismFile& file, const std::filesystem::path& 
   simulation.log = read_driving(log, file.mechanism, options.columns);
   result.without_law = without_law(file.mechanism);
   if (result.without_law) return result;
-  const Simulated joint = with_pulley(file.mechanism, options.corrected);
+  const SimulatedJoint joint = with_pulley(file.mechanism, options.corrected);
   simulation.states = simulate(joint.mechanism, joint.at, bench_log(simulation.log)).front();
-  leave_out_beyond(joint.mechanism, simulation.log.runs.front(), simulation.states);
+  mark_rows_beyond_range(joint.mechanism, simulation.log.runs.front(), simulation.states);
   if (options.noise > 0) add_noise(simulation.states, options.noise, options.seed);
   return result;
 }

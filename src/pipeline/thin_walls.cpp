@@ -10,7 +10,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_grain = 1e-3;  // mm: a wall of just one line may be measured that much thinner
+constexpr double k_grain = 1e-3;  // mm: measured walls of exactly one line may be thinner by this
 
 Diagnostic thinner_than_a_line(const Product& product, const char* key, double value, const std::string& what) {
   const double nozzle = product.joint.mechanism.print.nozzle;
@@ -20,7 +20,7 @@ Diagnostic thinner_than_a_line(const Product& product, const char* key, double v
                       value > 0 ? rounded(value) : "automatic")};
 }
 
-/// The thinnest wall beside a groove or between two of its turns, as the checks measured it on the mesh.
+/// The thinnest wall at a groove or between two of its turns, as measured on the mesh by the checks.
 double thinnest_measured(const Product& product, double at_most) {
   for (const Check& check : product.checks) {
     if (check.name.starts_with("wall") || check.name.starts_with("rib")) at_most = std::min(at_most, check.value);
@@ -36,14 +36,14 @@ std::vector<Diagnostic> walls_below_a_line(const Product& product) {
   const double line = product.joint.mechanism.print.nozzle - k_grain;
   std::vector<Diagnostic> warnings;
   if (layout.flange_thickness < line) {
-    warnings.push_back(
-        thinner_than_a_line(product, "body.flange_thickness_mm", body.flange_thickness,
-                            fmt::format("the flanges are {} mm thick at the lip", rounded(layout.flange_thickness))));
+    warnings.push_back(thinner_than_a_line(
+        product, "body.flange_thickness_mm", body.flange_thickness,
+        fmt::format("the flanges are {} mm thick at the groove edge", rounded(layout.flange_thickness))));
   }
   const double measured = thinnest_measured(product, layout.min_wall);
   if (measured < line) {
     warnings.push_back(thinner_than_a_line(product, "body.min_wall_mm", body.min_wall,
-                                           fmt::format("walls may be {} mm thick", rounded(measured))));
+                                           fmt::format("walls are only {} mm thick", rounded(measured))));
   }
   return warnings;
 }

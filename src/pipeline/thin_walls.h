@@ -1,5 +1,5 @@
 /// \file
-/// Internal: flanges and walls that a printer cannot lay as one line.
+/// Internal: flanges and walls thinner than one printed line.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace fusee {
 
-/// Warnings for flanges and walls of a checked part that are thinner than print.nozzle_mm. A slicer leaves such walls
-/// out, or makes them wider than they are.
+/// Warnings about flanges and walls of a checked part that are thinner than print.nozzle_mm. A slicer omits or widens
+/// such walls.
 std::vector<Diagnostic> walls_below_a_line(const Product& product);
 
 }  // namespace fusee

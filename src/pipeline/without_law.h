@@ -8,7 +8,7 @@
 
 namespace fusee {
 
-/// The conditions that fail, with advice; null where the law exists, and of a joint declared by a ratio.
+/// The failed conditions, with advice; empty if the law exists or the joint is declared by a ratio.
 std::optional<SynthesisResult> without_law(const Mechanism& mechanism);
 
 }  // namespace fusee

@@ -11,7 +11,7 @@ namespace fusee {
 namespace {
 
 constexpr double k_quarter = 0.25 * k_two_pi;
-/// Rows of a dwell come at this distance, s.
+/// Time between two rows of a dwell, s.
 constexpr double k_dwell_step = 2.0;
 
 double seconds_of_stroke(const PlannedRun& run) { return std::abs(run.to - run.from) / run.speed; }

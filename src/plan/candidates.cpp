@@ -10,19 +10,19 @@
 namespace fusee {
 namespace {
 
-constexpr double k_slow_cycle = 30.0;  // s: friction and play, and hardly anything that a delay does
-constexpr double k_fast_cycle = 6.0;   // s: what a hobby servo can just do
-constexpr int k_slow_cycles = 3;       // the first stroke finds out where the play stands; two of each way repeat
+constexpr double k_slow_cycle = 30.0;  // s: friction and play dominate, delays hardly show
+constexpr double k_fast_cycle = 6.0;   // s: close to the limit of a hobby servo
+constexpr int k_slow_cycles = 3;       // the first stroke settles the play; two strokes each way repeat
 constexpr int k_fast_cycles = 5;
-constexpr double k_long_dwell = 60.0;  // s: nearly two decades of creep, thirty delays
+constexpr double k_long_dwell = 60.0;  // s: nearly two decades of creep, thirty time constants of a delay
 constexpr int k_held_cycles = 2;
-constexpr int k_looked_at = 24;  // rows of a stroke that chooses the load
+constexpr int k_selection_rows = 24;  // simulated rows of a stroke when the load is chosen
 
-/// What a person can hang on, N.
+/// Weights that a person can hang on, N.
 constexpr double k_weights[] = {1, 2, 5, 10, 20, 50, 100};
-/// The joint should give way by so many times the noise: then a tenth of it is still seen in a few dozen rows.
-constexpr double k_clear = 5.0;
-/// Without a strength, the tensions that are taken for bearable, in pretensions.
+/// Deflection that a load should cause, in noise: a tenth of it is still detected in a few dozen rows.
+constexpr double k_clear_deflection = 5.0;
+/// Largest allowed tension where the tendon's strength is unknown, in pretensions.
 constexpr double k_most_pretensions = 10.0;
 
 std::pair<double, double> range_of(const DeclaredMechanism& declared) {
@@ -39,7 +39,7 @@ double bearable(const Mechanism& declared) {
 std::vector<std::vector<JointState>> under_load(const DeclaredMechanism& declared, PlannedRun run, double load) {
   run.load = load;
   run.cycles = 1;
-  return simulate(declared, {}, {driven(run, k_looked_at)});
+  return simulate(declared, {}, {driven(run, k_selection_rows)});
 }
 
 std::vector<std::vector<double>> angles(const std::vector<std::vector<JointState>>& states) {
@@ -58,8 +58,8 @@ bool is_borne(const std::vector<JointState>& states, double most) {
   });
 }
 
-/// The smallest weight under which the joint clearly gives way; where none does, the largest that the tendons bear.
-double load_that_shows(const DeclaredMechanism& declared, const PlannedRun& slow, double noise) {
+/// The smallest weight whose deflection is clear; if there is none, the largest that the tendons bear.
+double smallest_clear_load(const DeclaredMechanism& declared, const PlannedRun& slow, double noise) {
   const auto without = angles(under_load(declared, slow, 0));
   const double most = bearable(declared);
   double chosen = k_weights[0];
@@ -67,13 +67,13 @@ double load_that_shows(const DeclaredMechanism& declared, const PlannedRun& slow
     const auto states = under_load(declared, slow, weight);
     if (!is_borne(states.front(), most)) break;
     chosen = weight;
-    if (rms_apart(angles(states), without) >= k_clear * noise) break;
+    if (rms_apart(angles(states), without) >= k_clear_deflection * noise) break;
   }
   return chosen;
 }
 
 std::vector<double> usual_loads(const DeclaredMechanism& declared, const PlannedRun& slow, double noise) {
-  const double load = declared.transmission ? 1.0 : load_that_shows(declared, slow, noise);
+  const double load = declared.transmission ? 1.0 : smallest_clear_load(declared, slow, noise);
   return {0.0, load, 0.5 * load, -load};
 }
 
@@ -107,7 +107,7 @@ std::vector<PlannedRun> candidate_runs(const Bench& bench) {
                       .speed = speed,
                       .load = load};
   };
-  // A weight that is swung fast pulls with its mass too: only slow runs are loaded.
+  // A fast load also pulls by its inertia: only slow runs are loaded.
   const double slow = bench.speeds.front();
   for (const double load : bench.loads) runs.push_back(run(slow, load));
   for (const double speed : bench.speeds) {

@@ -1,5 +1,5 @@
 /// \file
-/// What could be measured of a joint, before anything is chosen.
+/// The candidate runs of a joint.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace fusee {
 
-/// The range, paces and loads of a bench, where the options leave them open.
+/// Range, speeds and loads of the bench; options that are not given are chosen here.
 struct Bench {
   double from = 0, to = 0;      ///< motor, rad
-  std::vector<double> speeds;   ///< rad/s, the slowest first
-  std::vector<double> loads;    ///< the first is the one to begin with: none, where there is none
-  double largest_load() const;  ///< size
+  std::vector<double> speeds;   ///< rad/s, ascending
+  std::vector<double> loads;    ///< unloaded first, if 0 is among them
+  double largest_load() const;  ///< largest magnitude
 };
 Bench bench_of(const DeclaredMechanism& declared, const PlanOptions& options);
 
-/// The first is the one that every plan begins with: slow, at the first load.
+/// All candidate runs. The first one is slow and at the first load: every plan begins with it.
 std::vector<PlannedRun> candidate_runs(const Bench& bench);
 }  // namespace fusee

@@ -5,18 +5,18 @@
 #include <set>
 
 #include "fusee/base/text.h"
+#include "plan/false_positives.h"
 #include "plan/separation.h"
 #include "plan/thresholds.h"
-#include "plan/worlds.h"
 
-// Greedy: the pairs that a set of measurements tells apart grow with each one, and by less the more there are; for such
-// functions the best step for its minutes, again and again, is near the best of all sets (Nemhauser, Wolsey and Fisher
-// 1978; with costs, Sviridenko 2004). What later steps made needless is taken out again.
+// Greedy selection. The number of resolved pairs is submodular in the set of measurements, so repeatedly adding the
+// step of largest gain per minute is near-optimal (Nemhauser, Wolsey and Fisher 1978; with costs, Sviridenko 2004).
+// Steps that later ones made redundant are removed at the end.
 
 namespace fusee {
 namespace {
 
-/// Something that could be measured, and what it would say.
+/// A candidate measurement and its information.
 struct Option {
   PlanStep step;
   std::optional<Signatures::Seen> seen;
@@ -25,10 +25,10 @@ struct Option {
   Information added_to(const Information& known) const { return seen ? known.with(*seen) : known.with(read); }
 };
 
-/// Of every cause from nothing (first), then from every other: each margin at the size that is worth a name.
+/// Margins at the size that is worth identifying: a row a cause, column 0 against no cause, then against each cause.
 using Margins = std::vector<std::vector<double>>;
 
-/// A cause that matters for this joint is one that a plan of everything would see.
+/// Plans for the causes that the set of all candidate measurements detects.
 class Planner {
  public:
   Planner(const DeclaredMechanism& declared, const PlanOptions& options)
@@ -38,7 +38,7 @@ class Planner {
     for (const EffectParameter* reading : unread_numbers(declared)) add(*reading);
     start_ = Information::none(signatures_.columns());
     add_known_readings(declared);
-    keep_what_matters();
+    keep_detectable();
   }
 
   Plan plan() const {
@@ -49,7 +49,7 @@ class Planner {
     plan.load_unit = unit_;
     plan.left_out = left_out_;
     std::vector<std::size_t> chosen = choose(options_.minutes, {});
-    chosen = without_needless(chosen);
+    chosen = without_redundant(chosen);
     const std::vector<std::size_t> all = choose(1e9, chosen);
     Information known = start_;
     put_steps(chosen, known, 0, plan.steps);
@@ -61,12 +61,12 @@ class Planner {
   }
 
  private:
-  void say(const std::string& what) const {
+  void report(const std::string& what) const {
     if (options_.progress) options_.progress(what);
   }
 
   void add(const PlannedRun& run) {
-    say(words(run, bench_.speeds.front(), unit_));
+    report(words(run, bench_.speeds.front(), unit_));
     const auto seen = signatures_.of(run);
     if (!seen) return;
     Option option;
@@ -87,7 +87,7 @@ class Planner {
     options_of_bench_.push_back(std::move(option));
   }
 
-  /// What [prior] of the file says.
+  /// Information of the values in [prior].
   void add_known_readings(const DeclaredMechanism& declared) {
     for (const Cause& cause : signatures_.causes()) {
       for (const EffectParameter* number : cause.numbers) {
@@ -107,7 +107,7 @@ class Planner {
     return known;
   }
 
-  void keep_what_matters() {
+  void keep_detectable() {
     left_out_ = signatures_.left_out();
     const Information all = everything();
     for (const Cause& cause : signatures_.causes()) {
@@ -135,9 +135,9 @@ class Planner {
     return margins;
   }
 
-  /// Of all that could be told, the share that is, 0 … 1: a cause is seen, is told from others, and half of its worth,
-  /// is told from the one that is nearest to it.
-  double told(const Information& known) const {
+  /// Share of all separations that is reached, 0 … 1. Half is the mean over a cause's rivals and over its detection,
+  /// half is the separation from its nearest rival.
+  double separation(const Information& known) const {
     double sum = 0;
     for (const std::vector<double>& row : margins_of(known)) {
       double rivals = 0;
@@ -148,7 +148,7 @@ class Planner {
     return causes_.empty() ? 1.0 : sum / static_cast<double>(causes_.size());
   }
 
-  /// From what is chosen already, the best step for its minutes, as long as one is worth them.
+  /// Adds the step of largest gain per minute, as long as one exceeds the least gain and fits into the minutes.
   std::vector<std::size_t> choose(double minutes, std::vector<std::size_t> chosen) const {
     Information known = start_;
     double used = 0;
@@ -156,14 +156,14 @@ class Planner {
       known = options_of_bench_[i].added_to(known);
       used += options_of_bench_[i].step.minutes;
     }
-    // Every plan begins with the slow run: its repeats are the noise floor.
+    // The slow run comes first: its repeats measure the noise floor.
     if (chosen.empty() && !options_of_bench_.empty() && options_of_bench_.front().step.run) {
       if (options_of_bench_.front().step.minutes > minutes) return {};
       chosen = {0};
       known = options_of_bench_.front().added_to(known);
       used = options_of_bench_.front().step.minutes;
     }
-    double before = told(known);
+    double before = separation(known);
     while (true) {
       double best = 0;
       std::size_t next = options_of_bench_.size();
@@ -172,7 +172,7 @@ class Planner {
         const Option& option = options_of_bench_[i];
         if (std::find(chosen.begin(), chosen.end(), i) != chosen.end()) continue;
         if (used + option.step.minutes > minutes) continue;
-        const double gained = told(option.added_to(known)) - before;
+        const double gained = separation(option.added_to(known)) - before;
         if (gained < k_plan.least_gain || gained / option.step.minutes <= best) continue;
         best = gained / option.step.minutes;
         next = i;
@@ -186,22 +186,22 @@ class Planner {
     }
   }
 
-  std::vector<std::size_t> without_needless(std::vector<std::size_t> chosen) const {
-    const auto told_by = [&](const std::vector<std::size_t>& set) {
+  std::vector<std::size_t> without_redundant(std::vector<std::size_t> chosen) const {
+    const auto separation_by = [&](const std::vector<std::size_t>& set) {
       Information known = start_;
       for (const std::size_t i : set) known = options_of_bench_[i].added_to(known);
-      return told(known);
+      return separation(known);
     };
     for (std::size_t k = chosen.size(); k-- > 1;) {
       std::vector<std::size_t> fewer = chosen;
       fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
-      if (told_by(fewer) > told_by(chosen) - k_plan.least_gain) chosen = fewer;
+      if (separation_by(fewer) > separation_by(chosen) - k_plan.least_gain) chosen = fewer;
     }
     return chosen;
   }
 
-  /// What `after` tells and `before` does not, cause by cause.
-  void put_gain(const Margins& before, const Margins& after, PlanStep& step) const {
+  /// Lists the separations, cause by cause, that `after` reaches and `before` does not.
+  void list_gain(const Margins& before, const Margins& after, PlanStep& step) const {
     constexpr std::size_t k_most_names = 4;
     for (std::size_t a = 0; a < causes_.size(); ++a) {
       const std::string& name = causes_[a].effect->name;
@@ -219,7 +219,7 @@ class Planner {
     }
   }
 
-  /// Of every cause the places of those that it is not told from.
+  /// For each cause the indices of the causes that it is not resolved from.
   std::vector<std::set<std::size_t>> rivals_in(const Information& known) const {
     std::vector<std::set<std::size_t>> rivals(causes_.size());
     for (std::size_t a = 0; a < causes_.size(); ++a) {
@@ -239,7 +239,7 @@ class Planner {
       PlanStep step = options_of_bench_[i].step;
       minutes += step.minutes;
       step.by = minutes;
-      put_gain(before, after, step);
+      list_gain(before, after, step);
       into.push_back(std::move(step));
       before = after;
     }
@@ -266,7 +266,7 @@ class Planner {
     return described;
   }
 
-  /// Every cause with what it is not told from; what stands whole in another group is left out.
+  /// Groups of a cause and its unresolved rivals; a group that is contained in another is omitted.
   static std::vector<std::vector<std::string>> groups_of(const std::vector<PlannedCause>& causes) {
     std::vector<std::set<std::string>> all;
     for (const PlannedCause& cause : causes) {
@@ -291,11 +291,11 @@ class Planner {
     if (plan.steps.empty()) return;
     for (const Cause& cause : causes_) plan.causes.push_back(described(known, cause));
     plan.groups = groups_of(plan.causes);
-    say("trying blame in simulated joints");
-    const Blame tried = blame(signatures_, known, causes_, rivals_in(known), options_.seed);
-    plan.nothing = tried.nothing;
-    plan.one = tried.one;
-    plan.unknown = tried.unknown;
+    report("estimating the false-positive rate");
+    const FalsePositiveRates rates = false_positive_rates(signatures_, known, causes_, rivals_in(known), options_.seed);
+    plan.nothing = rates.nothing;
+    plan.one = rates.one;
+    plan.unmodelled = rates.unmodelled;
   }
 
   const PlanOptions& options_;

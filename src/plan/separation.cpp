@@ -13,9 +13,9 @@ Eigen::MatrixXd block(const Eigen::MatrixXd& squares, const Cause& one, const Ca
   return squares.block(one.first, other.first, one.count(), other.count());
 }
 
-/// Trace of what is left of `cause` when others take what they can: G_aa − G_az (prior + G_zz)⁻¹ G_za.
-double left_of(const Eigen::MatrixXd& own, const Eigen::MatrixXd& shared, const Eigen::MatrixXd& others,
-               const Eigen::MatrixXd& precision) {
+/// Trace of the residual of a cause after the others are fitted to it: G_aa − G_az (prior + G_zz)⁻¹ G_za.
+double residual_trace(const Eigen::MatrixXd& own, const Eigen::MatrixXd& shared, const Eigen::MatrixXd& others,
+                      const Eigen::MatrixXd& precision) {
   if (others.size() == 0) return own.trace();
   const Eigen::MatrixXd taken = shared * solved(precision + others, Eigen::MatrixXd(shared.transpose()));
   return std::max(0.0, (own - taken).trace());
@@ -37,9 +37,9 @@ double usual_rms(const Information& known, const Cause& cause) {
 }
 
 double margin(const Signatures& signatures, const Information& known, const Cause& cause, const Cause* rival) {
-  const Eigen::Index model = signatures.unknown_first() - signatures.model_first();
+  const Eigen::Index model = signatures.unmodelled_first() - signatures.model_first();
   const Eigen::Index beside = rival != nullptr ? rival->count() : 0;
-  // The model's own error, then the rival.
+  // Model error first, then the rival.
   Eigen::MatrixXd shared(cause.count(), model + beside);
   Eigen::MatrixXd others(model + beside, model + beside);
   shared.leftCols(model) = known.runs.block(cause.first, signatures.model_first(), cause.count(), model);
@@ -55,16 +55,16 @@ double margin(const Signatures& signatures, const Information& known, const Caus
   }
   const Eigen::MatrixXd own = block(known.runs, cause, cause);
   const double read = block(known.readings, cause, cause).trace();
-  const double left = left_of(own, shared, others, precision);
-  const double beyond_noise = std::sqrt(left + read) / k_plan.told_apart;
-  if (!(own.trace() > 0)) return std::sqrt(read) / k_plan.told_apart;
+  const double left = residual_trace(own, shared, others, precision);
+  const double beyond_noise = std::sqrt(left + read) / k_plan.resolved_distance;
+  if (!(own.trace() > 0)) return std::sqrt(read) / k_plan.resolved_distance;
   double trusted = 1e9;
   if (rival != nullptr) {
-    const double rest = left_of(own, shared.rightCols(beside), others.bottomRightCorner(beside, beside),
-                                precision.bottomRightCorner(beside, beside));
+    const double rest = residual_trace(own, shared.rightCols(beside), others.bottomRightCorner(beside, beside),
+                                       precision.bottomRightCorner(beside, beside));
     trusted = std::sqrt(rest / own.trace()) / k_plan.model_share;
   }
-  return std::max(std::min(beyond_noise, trusted), std::sqrt(read) / k_plan.told_apart);
+  return std::max(std::min(beyond_noise, trusted), std::sqrt(read) / k_plan.resolved_distance);
 }
 
 }  // namespace fusee

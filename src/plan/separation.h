@@ -1,20 +1,21 @@
 /// \file
-/// Whether measurements tell causes apart: sums of squares in, margins out.
+/// Separability of causes: normal equations in, margins out.
 ///
-/// y = A x + noise, every number of x at its usual size 1: all that measurements say is in AᵀA. A cause a, at its usual
-/// size, is told from another, b, when what is left of it after b and the model's own error were fitted is beyond the
-/// noise, and no part of a that small is a's model to be trusted with. Kennedy and O'Hagan 2001 (the model's error as
-/// a prior); for the sum over a cause's numbers, the expectation over their directions.
+/// Model: y = A x + noise, each element of x in units of its usual size, y in units of the noise. AᵀA is a sufficient
+/// statistic. Cause a is resolved from cause b if the residual of a's response exceeds the noise after b and the model
+/// error are fitted to it, and if that residual is larger than the share of a's response to which the model is
+/// accurate. The model error has a prior (Kennedy and O'Hagan 2001). For several numbers of one cause the margin is the
+/// expectation over their directions.
 #pragma once
 
 #include "plan/signatures.h"
 
 namespace fusee {
 
-/// Of runs and readings that were added up.
+/// Normal equations, summed over runs and hand measurements.
 struct Information {
-  Eigen::MatrixXd runs;      ///< AᵀA of rows
-  Eigen::MatrixXd readings;  ///< of what was read by hand
+  Eigen::MatrixXd runs;      ///< AᵀA of the run rows
+  Eigen::MatrixXd readings;  ///< AᵀA of the hand measurements
   double rows = 0;
 
   static Information none(Eigen::Index columns);
@@ -22,10 +23,10 @@ struct Information {
   Information with(const Eigen::MatrixXd& reading) const;
 };
 
-/// By how much a cause of its usual size is told from another, or with null from nothing: 1 is just told.
+/// Separation of a cause at its usual size from `rival`, or from no cause if null. At 1 it is just resolved.
 double margin(const Signatures& signatures, const Information& known, const Cause& cause, const Cause* rival);
 
-/// What the cause moves the joint by at its usual size, rms over the rows, in units of the noise.
+/// Rms response of the joint to the cause at its usual size, over the rows, in units of the noise.
 double usual_rms(const Information& known, const Cause& cause);
 
 }  // namespace fusee

@@ -10,18 +10,18 @@
 #include "plan/thresholds.h"
 #include "transmission/declared_law.h"
 
-// One row of a simulated stroke stands for some 15° of the motor, or five rows of a log: neighbours repeat each other,
-// and a row that is not independent is none.
+// Effective sample size: one row of a simulated stroke stands for some 15° of the motor, or five rows of a log, because
+// neighbouring rows are correlated.
 
 namespace fusee {
 namespace {
 
 constexpr int k_rows_a_stroke = 24;
-/// Legendre polynomials over the range that stand for smooth shapes: of the model's error, of what has no name.
+/// Legendre polynomials over the range: shapes of the model error and of unmodelled causes.
 constexpr int k_model_shapes = 3;
-constexpr int k_unknown_shapes = 9;
-/// What has no name may come with: nothing, the direction, the load, both, the speed.
-constexpr int k_unknown_factors = 5;
+constexpr int k_unmodelled_shapes = 9;
+/// Factors of an unmodelled cause: constant, direction, load, both, speed.
+constexpr int k_unmodelled_factors = 5;
 
 double legendre(int degree, double x) {
   double before = 1, value = degree == 0 ? 1 : x;
@@ -33,7 +33,7 @@ double legendre(int degree, double x) {
   return value;
 }
 
-/// Of each row: where in the range −1 … 1, and which way the motor came.
+/// Position of a row in the range, −1 … 1, and the direction of the motor's motion.
 struct RowPlace {
   double at = 0;
   double direction = 0;
@@ -66,8 +66,8 @@ Signatures::Signatures(const DeclaredMechanism& declared, const Bench& bench, do
     }
   }
   model_first_ = columns_;
-  unknown_first_ = model_first_ + 2 * k_model_shapes;
-  columns_ = unknown_first_ + k_unknown_shapes * k_unknown_factors;
+  unmodelled_first_ = model_first_ + 2 * k_model_shapes;
+  columns_ = unmodelled_first_ + k_unmodelled_shapes * k_unmodelled_factors;
 }
 
 void Signatures::add(const Effect& effect) {
@@ -90,8 +90,9 @@ std::string Signatures::why_not(const Effect& effect) const {
   return "";
 }
 
-/// What a number at its usual size moves the joint by, beside `from`; nothing where there is no equilibrium.
-Eigen::VectorXd Signatures::moved_by(Forward& forward, const Imperfections& from, const EffectParameter& number) const {
+/// Change of the joint angle when a number is set to its usual size, from the state `from`; 0 without equilibrium.
+Eigen::VectorXd Signatures::response_to(Forward& forward, const Imperfections& from,
+                                        const EffectParameter& number) const {
   const std::vector<double> before = forward(from).front();
   Imperfections at = from;
   set_value(at, number, usual_size(number, bench_.largest_load()));
@@ -114,12 +115,12 @@ std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
   for (const Cause& cause : causes_) {
     for (Eigen::Index i = 0; i < cause.count(); ++i) {
       const Eigen::Index column = cause.first + i;
-      A.col(column) = moved_by(forward, {}, *cause.numbers[static_cast<std::size_t>(i)]);
-      // What does nothing by itself changes what the first number does.
+      A.col(column) = response_to(forward, {}, *cause.numbers[static_cast<std::size_t>(i)]);
+      // A number without an effect of its own is varied from the first number's usual size.
       if (i > 0 && A.col(column).isZero(0)) {
         Imperfections first;
         set_value(first, *cause.numbers.front(), usual_size(*cause.numbers.front(), bench_.largest_load()));
-        A.col(column) = moved_by(forward, first, *cause.numbers[static_cast<std::size_t>(i)]);
+        A.col(column) = response_to(forward, first, *cause.numbers[static_cast<std::size_t>(i)]);
       }
     }
   }
@@ -135,11 +136,11 @@ std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
       A(k, model_first_ + 2 * n) = error;
       A(k, model_first_ + 2 * n + 1) = error * where[row].direction;
     }
-    const double factors[k_unknown_factors] = {1, where[row].direction, load, load * where[row].direction,
-                                               speed * where[row].direction};
-    for (int n = 0; n < k_unknown_shapes; ++n) {
-      for (int f = 0; f < k_unknown_factors; ++f)
-        A(k, unknown_first_ + n * k_unknown_factors + f) = radians(1.0) * legendre(n, where[row].at) * factors[f];
+    const double factors[k_unmodelled_factors] = {1, where[row].direction, load, load * where[row].direction,
+                                                  speed * where[row].direction};
+    for (int n = 0; n < k_unmodelled_shapes; ++n) {
+      for (int f = 0; f < k_unmodelled_factors; ++f)
+        A(k, unmodelled_first_ + n * k_unmodelled_factors + f) = radians(1.0) * legendre(n, where[row].at) * factors[f];
     }
   }
   A /= noise_;

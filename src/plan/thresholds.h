@@ -1,32 +1,32 @@
 /// \file
-/// Every number by which a plan decides, with its reason.
+/// Decision thresholds of the planner, each with its reason.
 #pragma once
 
 namespace fusee {
 
 struct PlanThresholds {
-  /// In standard errors: of two causes that these runs put so far apart, noise makes the wrong one fit better in 2 % of
-  /// all cases (normal distribution at half of it).
-  double told_apart = 4.1;
-  /// The part of a cause's own signature by which a rival must miss it: what the model itself is trusted to.
+  /// Separation in standard errors at which two causes count as resolved: at this distance noise makes the wrong cause
+  /// fit better in 2 % of cases (normal distribution at half of it).
+  double resolved_distance = 4.1;
+  /// Accuracy of an effect's model: a rival within this share of a cause's response is not resolved from it.
   double model_share = 0.05;
-  /// The same of what the joint gives way by under its load: an error of the tendons' model, smooth over the range.
+  /// Accuracy of the elastic deflection, as a share of it: error of the tendon model, smooth over the range.
   double deflection_share = 0.03;
-  /// Of the usual size of a cause: half of them are smaller than two thirds of it, a third is still worth a name.
+  /// Smallest share of a cause's usual size that is worth identifying. Half of all causes are below 2/3 of it.
   double worth_a_name = 1.0 / 3.0;
-  /// Log evidence by which one explanation must beat another: 50 to 1, the odds of 2 %.
+  /// Log evidence by which one explanation must exceed another: odds of 50 : 1, or 2 %.
   double odds = 3.9;
-  /// Of all that could be told: a step that tells less is not worth its minutes.
+  /// Smallest gain in separation (scale 0 … 1) that makes a step worth its minutes.
   double least_gain = 0.004;
-  /// Joints that are simulated for each of the three rates of blame: 2 % is 5 of 250.
-  int worlds = 250;
+  /// Synthetic data sets for each of the three false-positive rates: 2 % is 5 of 250.
+  int samples = 250;
 };
 inline constexpr PlanThresholds k_plan;
 
 /// Minutes that changes on the bench take, as a rule of thumb.
 struct BenchMinutes {
   double load = 1;      ///< another weight on the cord
-  double mounting = 5;  ///< an encoder turned, and home set again, twice: there and back
+  double mounting = 5;  ///< an encoder turned and home set again, twice: there and back
   double reading = 2;   ///< a caliper, with two repeats
   double inspection = 5;
 };

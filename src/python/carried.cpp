@@ -16,7 +16,8 @@ class CarriedFirst : public FileAccess {
     const std::string name = request.path.string();
     if (const std::string* bytes = carried(name)) {
       if (bytes->size() > request.limit)
-        throw InputError(name, "is larger than " + std::to_string(request.limit) + " bytes", "is it the right file?");
+        throw InputError(name, "is larger than " + std::to_string(request.limit) + " bytes",
+                         "check that it is the right file");
       if (!bytes->empty()) take(*bytes);
       return;
     }
@@ -50,7 +51,7 @@ Carrying::~Carrying() {
 }
 
 void read_carried_files_first() {
-  // Never removed: threads that outlive the interpreter's last line still read.
+  // Never removed: threads may still read after the interpreter has ended.
   static const auto* const access = new CarriedFirst();
   static_cast<void>(access);
 }

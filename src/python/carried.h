@@ -1,5 +1,5 @@
 /// \file
-/// A mechanism that goes from one process to another with all the files that it was read from.
+/// Mechanisms that are sent to another process together with the files that they were read from.
 #pragma once
 
 #include <filesystem>
@@ -11,33 +11,33 @@
 
 namespace fusee::python {
 
-/// Path, as it is asked for, → bytes.
+/// Requested path → content.
 using CarriedFiles = std::map<std::string, std::string>;
 
-/// While one lives, this thread reads these files in place of the disk's.
+/// While an instance exists, its thread reads these files instead of those on the disk.
 class Carrying {
  public:
-  /// What is read from the disk all the same is kept in `seen`, where there is one.
+  /// Files that are still read from the disk are added to `seen`, if given.
   explicit Carrying(const CarriedFiles& files, CarriedFiles* seen = nullptr);
   ~Carrying();
   Carrying(const Carrying&) = delete;
   Carrying& operator=(const Carrying&) = delete;
 };
 
-/// Once in the life of the module: from here on all reading asks for what is carried.
+/// Installs the file access for Carrying. To be called once, when the module is loaded.
 void read_carried_files_first();
 
-/// A mechanism as it was read, and what it takes to read it anew anywhere.
+/// A mechanism as it was read, and everything that reading it again requires.
 struct CarriedMechanism {
   MechanismFile file;
   std::vector<Setting> settings;
   CarriedFiles files;
 
-  /// The same file with more settings, the last of a key first in its say. InputError.
+  /// The mechanism with further settings; the last value of a key applies. Throws InputError.
   CarriedMechanism with(const std::vector<Setting>& more) const;
 };
 
-/// As read_mechanism(), `files` before the disk. InputError.
+/// As read_mechanism(), with `files` in preference to the disk. Throws InputError.
 CarriedMechanism read_carried(const std::filesystem::path& path, std::vector<Setting> settings, CarriedFiles files);
 
 }  // namespace fusee::python

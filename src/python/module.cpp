@@ -1,5 +1,5 @@
-// The module fusee._core: the verbs with C++ values, the lock of the interpreter given back while they work. Everything
-// a person sees (names, ranges of numbers, classes) is in the package beside it, src/python/fusee.
+// The module fusee._core: the verbs with C++ values, without the interpreter's lock while they run. The user interface
+// (names, ranges of arguments, classes) is in the package, src/python/fusee.
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -20,12 +20,12 @@
 namespace fusee::python {
 namespace {
 
-// ---- stopping -------------------------------------------------------------------------------------------------------
+// ---- interruption ---------------------------------------------------------------------------------------------------
 
-/// Thrown into a verb by its own callbacks once somebody asked it to stop.
+/// Thrown by a verb's callbacks after a request to stop.
 class Stopped : public std::exception {};
 
-/// Set by the thread that waits for a verb, looked at by the verb.
+/// Set by the thread that waits for a verb, and read by the verb.
 class Stop {
  public:
   void set() { asked_ = true; }
@@ -38,7 +38,7 @@ class Stop {
   std::atomic<bool> asked_ = false;
 };
 
-/// What a verb makes, made while other Python threads run, with the mechanism's files at hand.
+/// The result of `make`, computed without the interpreter's lock, with the mechanism's files available.
 template <typename Make>
 auto made_unlocked(const CarriedFiles& files, Make make) {
   using Made = decltype(make());
@@ -67,23 +67,23 @@ CarriedMechanism read(const std::string& path, const std::vector<std::pair<std::
   return read_carried(path, settings_from(settings), files);
 }
 
-/// As it would be written, and not as degrees of radians happen to come out.
+/// The number as in the file, without rounding errors of radians.
 py::object number(const Field& field, const DeclaredMechanism& mechanism, int end) {
   const double value = std::stod(number_text(field, mechanism, end));
   if (field.whole) return py::int_(static_cast<long long>(value));
   return py::float_(value);
 }
 
-/// A table that is there as a whole or not at all, and is not there.
+/// True for an optional table that is missing.
 bool lacks_table(const Field& field, const DeclaredMechanism& mechanism) {
   return field.is_set != nullptr && !field.is_set(mechanism) &&
          std::any_of(fields().begin(), fields().end(),
                      [&field](const Field& other) { return other.table == field.table && other.needed_in_table; });
 }
 
-/// A key's value by its row of the field table.
+/// The value of a key, by its row of the field table.
 py::object value_of(const CarriedMechanism& carried, const Field& field) {
-  // The table's lists are members to write to; a copy is read.
+  // Access to lists needs a mutable mechanism, so a copy is read.
   DeclaredMechanism mechanism = carried.file.mechanism;
   if (lacks_table(field, mechanism)) return py::none();
   switch (field.kind) {
@@ -150,7 +150,7 @@ py::dict synthesise_joint(const CarriedMechanism& carried, double tolerance, boo
 
 AsBuiltLimits limits_of(double max_theta_error, double max_slack) { return {max_theta_error, max_slack}; }
 
-/// What is wrong with the part is said of its file.
+/// Rewinds a part; faults are reported with its file name.
 RewoundPart rewound(const JointAsItIs& joint, const std::string& path, bool as_is) {
   const Part part = read_part(path);
   try {
@@ -166,7 +166,7 @@ py::dict with_checks(const CarriedMechanism& carried, const std::shared_ptr<cons
                      const AsBuiltLimits& limits) {
   py::dict dict = to_python(part);
   std::vector<Check> checks = as_built_checks(as_it_is(carried.file.mechanism).mechanism, part->as_built, limits);
-  // One tendon alone has no slack that could be known.
+  // With only one tendon the slack is unknown.
   if (part->alone) checks.erase(checks.begin() + 1, checks.end());
   dict["checks"] = to_python(checks);
   return dict;
@@ -207,7 +207,7 @@ py::dict check_file(const std::string& path) {
   return dict;
 }
 
-/// Where files go, of every verb that leaves some.
+/// Output folder of the verbs that write files.
 struct Target {
   std::string folder;
   bool force = false;
@@ -259,10 +259,10 @@ py::tuple objective_names() {
   return to_python(names);
 }
 
-/// A second objective is for a search that says which designs tie.
+/// A second objective requires a search that reports ties.
 void demand_agreement(const MechanismFile& file, const OptimizeOptions& options) {
   if (!options.then || options.method.value_or(strongest_method(file)) == SearchMethod::certified) return;
-  throw InputError("then", "goes with method \"certified\" only");
+  throw InputError("then", "requires method \"certified\"");
 }
 
 std::optional<SearchMethod> search_method(const std::string& name) {
@@ -282,10 +282,10 @@ py::dict optimize_joint(const CarriedMechanism& carried, const std::string& meth
     options.genetic.generations = generations;
     options.genetic.seed = seed;
     options.genetic.threads = threads;
-    // Its other settings no number of the text can hold: the package gives them to what it reads from it.
+    // Settings that are not numbers cannot be written into the text: the package applies them to it.
     std::copy_if(carried.settings.begin(), carried.settings.end(), std::back_inserter(options.settings),
                  [](const Setting& setting) { return find_number_key(setting.key).has_value(); });
-    options.new_file = carried.file.path;  // nowhere: its text is asked for
+    options.new_file = carried.file.path;  // not written: only the text is used
     options.dry_run = true;
     options.keep_going = [&stop](const SearchProgress&) { return !stop.is_set(); };
     demand_agreement(carried.file, options);
@@ -299,7 +299,7 @@ std::vector<std::filesystem::path> paths_of(const std::vector<std::string>& name
   return {names.begin(), names.end()};
 }
 
-/// How logs are read, as the package gives it: columns, units, counts a turn, counts at home, each by role.
+/// Options for reading logs by role: columns, units, counts a turn, counts at home.
 using ReadingOptions = std::tuple<std::map<std::string, std::string>, std::map<std::string, std::string>,
                                   std::map<std::string, double>, std::map<std::string, double>>;
 

@@ -12,7 +12,7 @@ namespace {
 
 // ---- arrays ---------------------------------------------------------------------------------------------------------
 
-/// What arrays hold on to: the value whose numbers they show.
+/// Keeps the value alive while arrays show its numbers.
 py::capsule keep(std::shared_ptr<const void> value) {
   return {new std::shared_ptr<const void>(std::move(value)),
           [](void* held) { delete static_cast<std::shared_ptr<const void>*>(held); }};
@@ -20,13 +20,13 @@ py::capsule keep(std::shared_ptr<const void> value) {
 
 py::array view(const py::capsule& kept, const py::dtype& type, std::vector<py::ssize_t> shape,
                std::vector<py::ssize_t> strides, const void* first) {
-  static const double nothing = 0;  // an empty array shows no number, and must not be taken for one without memory
+  static const double nothing = 0;  // the address of empty arrays, since a null pointer means new memory
   py::array array(type, std::move(shape), std::move(strides), first != nullptr ? first : &nothing, kept);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 
-/// Rows that lie `stride` bytes apart in a value that is held on to.
+/// Rows in a value that is kept alive, `stride` bytes apart.
 template <typename Row>
 struct Rows {
   const py::capsule& kept;
@@ -54,7 +54,7 @@ py::array numbers(const py::capsule& kept, const std::vector<double>& values) {
               values.empty() ? nullptr : values.data());
 }
 
-/// Points in the plane or in space: one row each.
+/// Points in the plane or in space, one row each.
 template <typename Row, typename Get>
 py::array points_of(const py::capsule& kept, const std::vector<Row>& rows, py::ssize_t dimensions, Get get) {
   const double* first = rows.empty() ? nullptr : get(rows.front()).data();
@@ -75,7 +75,7 @@ py::object maybe(const std::optional<double>& value) { return value ? py::object
 
 std::string_view side_word(Side side) { return side == Side::left ? "left" : "right"; }
 
-/// Of a number its value, of a word the word.
+/// The number, or the word if it is one.
 py::object changed(double number, const std::string& word, bool is_word) {
   return is_word ? py::object(words(word)) : py::float_(number);
 }
@@ -312,7 +312,7 @@ std::string_view place_word(PartPlace place) {
 
 // ---- searches -------------------------------------------------------------------------------------------------------
 
-/// What a design changes in the file, ties followed: key → value.
+/// The keys that a design changes, ties included: key → value.
 py::dict numbers_of(const Problem& problem, const Design& design) {
   py::dict dict;
   for (const MovingKey& moving : problem.moving) dict[words(moving.key)] = moving.value(design);

@@ -1,5 +1,5 @@
 /// \file
-/// Values of C++ as Python's: dictionaries that the package's classes are made from, arrays as read-only views.
+/// Converts C++ values to dictionaries for the package's classes, with arrays as read-only views.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -18,9 +18,9 @@ namespace fusee::python {
 
 namespace py = pybind11;
 
-/// What a message or a file of words says; bytes that are no UTF-8 are replaced.
+/// Text as str; invalid UTF-8 is replaced.
 py::str words(std::string_view text);
-/// A path as Python's os.fsdecode() has it.
+/// A path as str, as by os.fsdecode().
 py::str path_words(const std::string& path);
 
 py::tuple to_python(const std::vector<std::string>& texts);
@@ -28,10 +28,10 @@ py::tuple to_python(const std::vector<Diagnostic>& diagnostics);
 py::tuple to_python(const std::vector<Condition>& conditions);
 py::tuple to_python(const std::vector<Check>& checks);
 py::tuple to_python(const std::vector<Change>& changes);
-/// Name → bytes.
+/// File name → bytes.
 py::dict to_python(const std::vector<OutputFile>& files);
 
-/// Arrays of these are views of the value, which lives as long as the last of them.
+/// Arrays of these dictionaries are views of the value, which lives as long as the last of them.
 py::dict to_python(std::shared_ptr<const SynthesisResult> result);
 py::dict to_python(std::shared_ptr<const RewoundPart> result);
 py::dict to_python(std::shared_ptr<const BuildResult> result);

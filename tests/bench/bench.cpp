@@ -1,4 +1,4 @@
-// How long the steps of a build take, and how they grow with the number of triangles.
+// Duration of the steps of a build, and its growth with the number of triangles.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ const Pulley& paper_pulley() {
   return pulley;
 }
 
-/// A ring of about `triangles` faces, coordinates as floats hold them: a sound solid of any size.
+/// A valid ring of about `triangles` faces; coordinates are rounded to floats.
 TriangleMesh torus(std::int64_t triangles) {
   const auto n = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(triangles) / 2)));
   TriangleMesh mesh;
@@ -56,7 +56,7 @@ void synthesis(benchmark::State& state) {
 }
 BENCHMARK(synthesis)->Unit(benchmark::kMillisecond);
 
-/// Over drums, to ends of their own, through sheaths, and of a wanted torque.
+/// With drums, attachments, sheaths and a torque law.
 void synthesis_of_wide_joint(benchmark::State& state, const char* profile) {
   const MechanismFile file =
       read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (std::string(profile) + ".toml"));
@@ -87,7 +87,7 @@ void rewinding(benchmark::State& state) {
 }
 BENCHMARK(rewinding)->Unit(benchmark::kMillisecond);
 
-/// Every format and every check, onto the disk.
+/// All formats and checks, with files on the disk.
 void whole_build(benchmark::State& state) {
   const auto folder = std::filesystem::temp_directory_path() / "fusee-bench";
   BuildOptions options;
@@ -97,7 +97,7 @@ void whole_build(benchmark::State& state) {
 }
 BENCHMARK(whole_build)->Unit(benchmark::kMillisecond);
 
-// Joints of the wider class: drums with and without lift-off, idlers, sheaths, a wanted torque.
+// Joints of the wider class: drums with and without lift-off, idlers, sheaths, a torque law.
 void synthesis_of(benchmark::State& state, const std::string& name) {
   const MechanismFile file = profile(name);
   for (auto _ : state) benchmark::DoNotOptimize(synthesise(file.mechanism));
@@ -119,7 +119,7 @@ const bool wide_joints = [] {
   return true;
 }();
 
-/// Round pulleys of a radius of 8 mm, so that turns alone make the difference: the joint's drum grows with them.
+/// Round pulleys of radius 8 mm, so that only the number of turns varies; the joint's drum grows with it.
 MechanismFile with_turns(double turns) {
   constexpr double k_range_deg = 110, k_radius = 8;
   const double drum = turns * k_radius * 360.0 / k_range_deg;
@@ -137,7 +137,7 @@ MechanismFile with_turns(double turns) {
                          {"pulley.r1_mm", std::to_string(k_radius)}});
 }
 
-/// The most that this process held since it was last forgotten (Linux). MB
+/// Peak memory of this process since the last reset (Linux), MB.
 double peak_megabytes() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -146,7 +146,7 @@ double peak_megabytes() {
 }
 void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
-/// Drawn to 0.01 mm, every format and every check, onto the disk: at most 1 s and 300 MB of ten turns.
+/// Chord error 0.01 mm, all formats and checks: at most 1 s and 300 MB for ten turns.
 void whole_build_of_turns(benchmark::State& state) {
   const MechanismFile file = with_turns(static_cast<double>(state.range(0)));
   BuildOptions options;
@@ -165,7 +165,7 @@ void whole_build_of_turns(benchmark::State& state) {
 }
 BENCHMARK(whole_build_of_turns)->DenseRange(2, 10, 2)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
-/// The page beside a build, with the joint that moves in it.
+/// The report with the moving joint.
 void page(benchmark::State& state) {
   BuildOptions options;
   options.dry_run = true;
@@ -175,7 +175,7 @@ void page(benchmark::State& state) {
 }
 BENCHMARK(page)->Unit(benchmark::kMillisecond);
 
-// Finer and finer facets of the same part.
+// One part with ever smaller facets.
 void build_by_tolerance(benchmark::State& state) {
   BuildOptions options;
   options.tolerance = 0.01 / static_cast<double>(state.range(0));
@@ -187,7 +187,7 @@ void build_by_tolerance(benchmark::State& state) {
 }
 BENCHMARK(build_by_tolerance)->Arg(1)->Arg(4)->Arg(16)->Unit(benchmark::kMillisecond);
 
-// Growth up to a million triangles: the figure at the end is the exponent's verdict ("N" is linear).
+// Growth up to a million triangles: the complexity follows from the exponent ("N" is linear).
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
 }
@@ -201,7 +201,7 @@ void write_stl(benchmark::State& state) {
 }
 BENCHMARK(write_stl)->Apply(sizes);
 
-/// What the STL writer is held against: the same bytes, copied.
+/// Reference for the STL writer: a copy of the same bytes.
 void copy_stl(benchmark::State& state) {
   const std::string stl = stl_bytes(torus(state.range(0)), "torus");
   for (auto _ : state) {

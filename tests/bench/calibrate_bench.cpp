@@ -1,5 +1,4 @@
-// How long a calibration takes: five runs of 500 rows against the whole catalogue, and how it grows with the number of
-// rows.
+// Duration of a calibration with five runs of 500 rows and the whole catalogue, and its growth with the number of rows.
 //
 // Peers: calibrate_peers.py FUSEE
 #include <benchmark/benchmark.h>
@@ -26,7 +25,7 @@ const DeclaredMechanism& forearm() {
   return mechanism;
 }
 
-/// The sum of twelve: near enough to a normal deviate, and the same on every machine.
+/// Sum of twelve uniform deviates: approximately normal, and equal on every machine.
 class Noise {
  public:
   double operator()() {
@@ -50,7 +49,7 @@ constexpr Plan k_runs[] = {{0, 75}, {20, 75}, {0, 15}, {10, 75}, {-20, 75}};
 constexpr int k_strokes = 5;  // reversals fall on rows
 constexpr int k_model_rows = 4000;
 
-/// α of a motor that goes to and fro, at a share of the run.
+/// Motor angle at a share of the run, for strokes there and back.
 double alpha_at(double share) {
   static const Transmission law(forearm());
   const double stroke = share * k_strokes;
@@ -58,8 +57,8 @@ double alpha_at(double share) {
   return 0.9 * (law.alpha_min() + (law.alpha_max() - law.alpha_min()) * (there <= 1 ? there : 2 - there));
 }
 
-/// θ over such runs with a tendon of 12000 instead of 40000 MPa and a play of 1.2°, without noise: at so many rows,
-/// whatever is logged in the end.
+/// θ of such runs with a tendon of 12000 instead of 40000 MPa and 1.2° of play, without noise, at a fixed number of
+/// rows.
 const std::vector<std::vector<double>>& true_angles() {
   static const std::vector<std::vector<double>> angles = [] {
     Measurement measurement;
@@ -111,7 +110,7 @@ Measurement measured(const std::vector<std::string>& runs) {
   return measurement;
 }
 
-/// `rows` in five runs, and the correction: all that `fusee calibrate` does but files.
+/// `rows` in five runs, with the correction: everything of `fusee calibrate` except files.
 void calibrate_rows(benchmark::State& state) {
   const Measurement measurement = measured(texts(state.range(0)));
   std::string verdict;
@@ -138,7 +137,7 @@ BENCHMARK(calibrate_rows)
     ->UseRealTime()
     ->Iterations(1);
 
-/// The joint moved through the rows once: what a fit does for every number of every step.
+/// One simulation of the rows: a fit does this for each parameter in each step.
 void move_joint(benchmark::State& state) {
   const BenchLog log = bench_log(measured(texts(state.range(0))));
   Imperfections soft;

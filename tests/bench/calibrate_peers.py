@@ -3,14 +3,16 @@
 
     calibrate_peers.py FUSEE [BENCH_FIT]
 
-BENCH_FIT is the program of fit_bench.cpp; unless told, the one in FUSEE's build. Needs numpy and scipy. What is compared: the runs are of a joint whose sensor shows too much and whose motor has play. scipy is told which effects to fit (gain, play,
-and the joint sensor's zero) and fits them once, to all rows, over a forward model written anew here in numpy: exact kinematics over pins of their radius and a play operator,
-no elasticity, no history but the play's. fusee is told nothing: it reads the files, finds the noise floor, tries every effect of its catalogue and pairs of them through an elastic
-model with friction, each with runs left out, looks for rivals, and writes the correction and a report. So the ratio is that of a whole calibration to one fit of three numbers of a known
-model; divided by the number of candidates it says what one of them costs. Both must end at the same rest, or the script fails.
+BENCH_FIT is the program of fit_bench.cpp, by default the one in FUSEE's build. Requires numpy and scipy.
 
-Fit against fit: BENCH_FIT is told the same three numbers and fits them with what calibrate fits with, elastic model, friction, discrepancy and all. scipy then fits them over the
-same forward model as a function (predict() through a pipe, the same rows), so the difference is the method's; and over its own, which knows kinematics alone.
+The runs are of a joint whose sensor has a gain error and whose motor has play. scipy is told the effects (gain, play and zero) and fits them once
+to all rows, over an independent forward model in numpy: exact kinematics over pins with radius, and a play operator. fusee reads the files,
+estimates the noise floor, tests all effects and pairs with an elastic model with friction and held-out runs, searches rivals, and writes the
+correction and a report. So the first ratio compares a whole calibration with one fit of three known parameters; divided by the number of
+candidates it is the cost of one of them. Both must reach the same residual, or the script fails.
+
+The second comparison is of fits: BENCH_FIT fits the same three parameters with elastic model, friction and discrepancy. scipy then fits them over
+the same forward model (predict() through a pipe, the same rows), and over its own kinematic one.
 """
 
 import json
@@ -49,12 +51,13 @@ START, SCALE = np.array([0.0, np.radians(0.5), 0.0]), np.array([1e-3, 1e-2, 1e-3
 
 
 def path_length(theta):
-    """Free tendon of side 1 from C over pin B, up to where it leaves the pin towards the pulley, whose side does not move with θ: mm."""
+    """Length of the free tendon on side 1 from C over pin B to the point where it leaves the pin for the pulley, mm.
+    The rest is constant."""
     rho = PIN + TENDON / 2
     cx, cy = R * np.sin(theta), R * np.cos(theta)
     dx, dy = cx + EB, cy + OE
     distance = np.hypot(dx, dy)
-    # The tendon passes the outer side of the pin: a straight part, and an arc that ends where the lower part begins.
+    # The tendon passes the outer side of the pin: a straight part, and an arc up to the lower part.
     return np.sqrt(distance**2 - rho**2) + rho * (np.arcsin(rho / distance) + np.arctan2(dx, dy))
 
 
@@ -63,12 +66,13 @@ LENGTH = path_length(GRID) - path_length(0.0)
 
 
 def joint_angle(alpha):
-    """θ where a round P1 of radius r1 has let out as much tendon 1 as the path has grown. α > 0 lets tendon 1 out."""
+    """θ at which a round P1 of radius r1 has paid out as much of tendon 1 as its path has grown. α > 0 pays out tendon
+    1."""
     return np.interp(R1 * alpha, LENGTH, GRID)
 
 
 def behind_play(alpha, width):
-    # The motor came down to where the log begins, and turns there.
+    # The motor came down to the beginning of the log, and reverses there.
     half, state = 0.5 * width, alpha[0] + 0.5 * width
     follower = np.empty_like(alpha)
     for i, value in enumerate(alpha):
@@ -112,12 +116,12 @@ def fitted(runs, measured):
 
 
 def fit_against_fit(bench, folder, kinematic):
-    """Prints one fit by BENCH_FIT, and one by scipy over the same joint."""
+    """Prints one fit by BENCH_FIT, and one by scipy for the same joint."""
     process = subprocess.Popen([bench, *inputs(folder)], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     ours = json.loads(process.stdout.readline())
     count = 0
 
-    # Slopes from steps that are large against the simulation's own 1e-9 rad: near 1, of a part of each number's scale.
+    # Steps large against the simulation's accuracy of 1e-9 rad: near 1, as shares of each parameter's scale.
     def residual(scaled):
         nonlocal count
         parameters = SCALE * (scaled - 1)

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""What takes long to compile: compile_times.py [BUILD [HOW_MANY]], from the log that ninja keeps of the latest making of each file.
+"""Files with the longest compile times: compile_times.py [BUILD [HOW_MANY]], from ninja's log of the latest builds.
 
-Measure from nothing, with nothing else running and without a cache of objects: CCACHE_DISABLE=1 cmake --workflow --preset release
+Measure a full build without other load and without a compiler cache: CCACHE_DISABLE=1 cmake --workflow --preset release
 """
 import pathlib
 import sys
 
 
 def seconds_of(log: pathlib.Path) -> dict[str, float]:
-    """Output → seconds on the wall of its latest making; times in the log are milliseconds."""
+    """Output → duration of its latest build, s; the log has milliseconds."""
     rows = (line.split("\t") for line in log.read_text().splitlines() if not line.startswith("#"))
     return {output: (int(end) - int(start)) / 1000 for start, end, _, output, _ in rows}
 

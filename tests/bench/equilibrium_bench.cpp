@@ -1,4 +1,4 @@
-// How long the full model takes for a sweep of three cycles, 1000 points.
+// Duration of a sweep of three cycles, 1000 points, with the full model.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

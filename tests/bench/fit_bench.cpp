@@ -1,10 +1,10 @@
-// One fit of three numbers that are told, gain, play and zero, to measured runs; then the same joint as a function, for
-// least squares that other people wrote over the same physics: calibrate_peers.py.
+// One fit of three known parameters, gain, play and zero, to measured runs. Then the joint as a function, for other
+// least-squares solvers with the same physics: calibrate_peers.py.
 //
 //   bench_fit SPEC RUN.csv...
 //
-// On standard output a line of JSON of the fit. Then for every line "gain play zero" (rad) of standard input the
-// residuals of as many rows as the line said, measured − model in rad, as doubles.
+// Standard output gets a line of JSON for the fit. Then each line "gain play zero" (rad) of standard input is answered
+// by the residuals, measured − model in rad, as doubles. The first line states their number.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -26,7 +26,7 @@ constexpr int k_times = 7;
 
 const Effect* effect(const char* name) { return find_effect(name, JointKind::tendons); }
 
-/// Best of some, each with a simulation of its own: what others do on the machine only makes it slower.
+/// Best of several, each with its own simulation: other load on the machine only increases the time.
 double fit_seconds(const Evidence& evidence, const EffectSet& effects, Fit& fit) {
   double best = 1e300;
   for (int i = 0; i < k_times; ++i) {

@@ -25,7 +25,7 @@ TICK = os.sysconf("SC_CLK_TCK")
 
 
 def processor_of(pid):
-    """Seconds of processor so far of a process, all its threads."""
+    """Processor time of a process with all its threads so far, s."""
     fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
     return (int(fields[11]) + int(fields[12])) / TICK
 
@@ -41,7 +41,7 @@ def length_of(command):
 
 
 def interrupted_at(command, moment):
-    """Seconds on the clock and of processor after the signal, and the exit status; None where it was over before."""
+    """Wall time and processor time after the signal, s, and the exit status; None if the command ended before it."""
     child = start(command)
     time.sleep(moment)
     if child.poll() is not None:
@@ -102,7 +102,7 @@ diameter_mm = 4.0
 
 
 def prepare(fusee, folder):
-    """A giant; run files, and what the joint itself would read on them: something to calibrate."""
+    """A large design, and run files with its simulated angles for calibration."""
     pathlib.Path(folder, "giant.toml").write_text(GIANT)
     spec = str(ROOT / "profiles/forearm.toml")
     fine = [fusee, "build", str(ROOT / "profiles/paper_optimum.toml"), "-o", f"{folder}/fine", "--tolerance-mm", "0.001"]

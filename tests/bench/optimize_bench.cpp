@@ -1,5 +1,5 @@
-// How fast designs are judged, and how long the searches take on the paper's problem. One JSON document;
-// optimize_peers.py reads it.
+// Speed of evaluating designs, and duration of the searches of the paper's problem. Prints one JSON document, which
+// optimize_peers.py reads.
 #include <Eigen/Core>
 #include <chrono>
 #include <cstdio>
@@ -13,12 +13,12 @@
 namespace fusee {
 namespace {
 
-/// All 61 places of the stroke at once.
+/// All 61 points of the stroke as one vector.
 struct Lanes {
   using Array = Eigen::Array<double, 61, 1>;
   Array v;
   Lanes() = default;
-  Lanes(double x) : v(Array::Constant(x)) {}  // NOLINT: constants stand in formulas
+  Lanes(double x) : v(Array::Constant(x)) {}  // NOLINT: constants occur in formulas
   Lanes(const Array& x) : v(x) {}             // NOLINT
 };
 Lanes operator+(const Lanes& a, const Lanes& b) { return {a.v + b.v}; }
@@ -46,7 +46,7 @@ Lanes hypot(const Lanes& a, const Lanes& b) { return sqrt(squared(a) + squared(b
 Lanes cathetus(const Lanes& hypotenuse, const Lanes& other, Domain& domain) {
   return sqrt(positive_part((hypotenuse - other) * (hypotenuse + other), domain));
 }
-/// Of points above: pins below C, and the pulley below its pins.
+/// For guides above the pulley: pins below C, and the pulley below its pins.
 Lanes direction(const Lanes& x, const Lanes& y, Domain& domain) {
   domain.whole = domain.whole && (y.v > 0).all();
   return 0.5 * k_pi - Lanes((x.v / y.v).atan());
@@ -77,7 +77,7 @@ double seconds(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Best of five: what others do on the machine only makes it slower.
+/// Best of five: other load on the machine only increases the time.
 double best_seconds(const std::function<void()>& work) {
   double best = 1e300;
   for (int i = 0; i < 5; ++i) best = std::min(best, seconds(work));

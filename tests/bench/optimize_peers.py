@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The paper's problem by other people's solvers, in the same run as ours: value found, evaluations, time ratio.
+"""The paper's problem by other solvers, in the same run as fusee: value found, evaluations, time ratio.
 
     optimize_peers.py BENCH_OPTIMIZE
 

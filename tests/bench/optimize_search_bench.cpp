@@ -1,5 +1,5 @@
-// The searches of six lengths, in one run: what a feasible design costs against drawing it whole, as it was judged
-// before, and how long a proof takes on one and on two threads.
+// Searches over six lengths: cost of a feasible design compared with drawing it completely, and duration of a proof on
+// one and two threads.
 #include <benchmark/benchmark.h>
 
 #include "fusee/optimize/certified.h"
@@ -25,7 +25,7 @@ Problem six_lengths(const std::string& feasible) {
        {"optimize.upper", "[120, 60, 60, 20, 120, 20]"}});
 }
 
-/// As long as the objective alone allows it, which is what a search goes on with.
+/// Duration of the objective alone, for comparison.
 std::vector<Mechanism> designs(const Problem& problem) {
   Random random(1);
   std::vector<Mechanism> all;
@@ -51,7 +51,7 @@ void feasible_by_drawing(benchmark::State& state) {
   options.advice = false;
   for (auto _ : state) {
     for (const Mechanism& mechanism : all) {
-      // Nearly straight curves are drawn in gigabytes of points: they are left out, to the advantage of this way.
+      // Nearly straight curves need gigabytes of points. They are omitted, in favour of the drawing method.
       if (obstacle_to(mechanism) || evaluate(Objective::min_bend, mechanism).value > 1e4) continue;
       benchmark::DoNotOptimize(synthesise(mechanism, options));
     }

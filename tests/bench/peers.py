@@ -1,5 +1,5 @@
-"""Times `fusee build` against OpenSCAD in the same run: on the pulley.scad of the same part, and on the plain union of two
-drums that a person would write from the same numbers: floors, flanges, hub and bore, no groove's section, no tie-offs.
+"""Compares the times of `fusee build` and OpenSCAD, for the pulley.scad of the same part and for a simple union of two
+drums with floors, flanges, hub and bore, but without groove sections and tie-offs.
 
 usage: peers.py FUSEE SPEC.toml
 """
@@ -16,7 +16,7 @@ import time
 
 
 def measured(command):
-    """Seconds, seconds of processor and peak memory in MB of one run."""
+    """Wall time and processor time, s, and peak memory, MB, of one run."""
     start = time.perf_counter()
     child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(child.pid, 0)
@@ -30,7 +30,7 @@ def best(command, runs):
 
 
 def two_drums(folder):
-    """The drums as one would write them: each a floor between two flanges that follow it."""
+    """The drums as a user would write them: each a floor between two flanges with its outline."""
     with open(f"{folder}/manifest.json") as file:
         manifest = json.load(file)
     with open(f"{folder}/pulley.scad") as file:

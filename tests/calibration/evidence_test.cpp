@@ -131,7 +131,7 @@ Measurement held_at_ends(const std::vector<double>& loads, std::size_t rows) {
       run.samples.push_back(sample);
     }
     run.strokes.push_back({first, first + rows - 1, direction, static_cast<int>(visit / 2), false});
-    run.stretches.push_back({first, first + rows - 1, visit, true, 0});
+    run.segments.push_back({first, first + rows - 1, visit, true, 0});
   }
   return measurement;
 }
@@ -155,7 +155,7 @@ Measurement in_thirds(const std::array<double, 3>& levels) {
     }
     run.strokes.push_back({first, first + 59, direction, static_cast<int>(stroke / 2), false});
     for (const std::size_t third : {0, 1, 2})
-      run.stretches.push_back({first + 20 * third, first + 20 * third + 19, stroke, false, 0});
+      run.segments.push_back({first + 20 * third, first + 20 * third + 19, stroke, false, 0});
   }
   return measurement;
 }

@@ -1,4 +1,4 @@
-"""The table of `fusee analyze`: the same numbers on the terminal, as CSV and as JSON, and never one that is none."""
+"""The table of `fusee analyze`: equal numbers on the terminal, in CSV and in JSON, and never NaN or infinity."""
 
 import csv
 import io
@@ -8,7 +8,7 @@ import xml.etree.ElementTree
 
 import harness
 
-# What strains the model: rough pins, rubber, no tension, loads either way, a hanging link, other laws.
+# Difficult inputs: rough pins, rubber, no tension, loads in both directions, a hanging link, other laws.
 STRAINS = [
     "",
     "--set load.tip_force_N=10",
@@ -25,7 +25,7 @@ class Analyze(harness.Scratch):
     def rows(self, arguments):
         return list(csv.DictReader(io.StringIO(self.expect(f"analyze arm.toml --csv {arguments}", 0).stdout.decode())))
 
-    def test_every_number_is_one(self):
+    def test_all_numbers_are_finite(self):
         for strain in STRAINS:
             with self.subTest(strain):
                 rows = self.rows(f"{strain} --samples 10 --steps 20")
@@ -37,7 +37,7 @@ class Analyze(harness.Scratch):
                         else:
                             self.assertTrue(math.isfinite(float(value)), f"{name}: {value}")
 
-    def test_where_the_load_is_lost_cells_are_empty(self):
+    def test_cells_without_equilibrium_are_empty(self):
         strain = "--set tendon.modulus_MPa=30 --set load.tip_force_N=300 --samples 10"
         text = self.expect(f"analyze arm.toml --csv {strain}", 5, "no_equilibrium,,,", "past its dead centre at alpha").stdout.decode()
         self.assertNotIn("nan", text)
@@ -57,7 +57,7 @@ class Analyze(harness.Scratch):
         self.assertEqual(document["summary"]["largest_tension"]["tendon"], 2)
         self.assertEqual(document["tolerances"][-1]["key"], "all")
 
-    def test_files_are_whole_and_not_overwritten(self):
+    def test_files_are_complete_and_protected(self):
         self.expect("analyze arm.toml -o stroke.csv --samples 10", 0)
         self.assertEqual((self.folder / "stroke.csv").read_text(), self.fusee("analyze arm.toml --csv --samples 10").stdout.decode())
         self.expect("analyze arm.toml -o stroke.csv --samples 10", 6, "^$", "stroke.csv")
@@ -67,7 +67,7 @@ class Analyze(harness.Scratch):
         self.assertIn("<h2>The joint moves</h2>", (self.folder / "arm.html").read_text())
         self.assertEqual(json.loads((self.folder / "stroke.json").read_text()), self.expect_json("analyze arm.toml --samples 10", 0)["rows"])
 
-    def test_the_ending_says_what_is_written(self):
+    def test_ending_selects_format(self):
         self.expect("analyze arm.toml -o plots.svg --samples 10", 0)
         picture = (self.folder / "plots.svg").read_text()
         self.assertEqual(xml.etree.ElementTree.fromstring(picture).tag, "{http://www.w3.org/2000/svg}svg")
@@ -87,10 +87,10 @@ class Analyze(harness.Scratch):
             self.expect(f"analyze arm.toml -o {name}", 2, "^$", name)
             self.assertFalse((self.folder / name).exists())
 
-    def test_the_same_input_gives_the_same_bytes(self):
+    def test_is_reproducible(self):
         self.assertEqual(self.fusee("analyze arm.toml").stdout, self.fusee("analyze arm.toml").stdout)
 
-    def test_fits_a_terminal(self):
+    def test_fits_terminal(self):
         for strain in STRAINS + ["--set load.tip_force_N=500 --set joint.length_mm=1000 --set guides.EB_mm=500 --set guides.ED_mm=500 "
                                  "--set guides.OE_mm=-400 --set pulley.EF_mm=800 --set pulley.r1_mm=160 --set tendon.diameter_mm=5"]:
             for line in self.fusee(f"analyze arm.toml --samples 10 {strain}").stdout.decode().splitlines():

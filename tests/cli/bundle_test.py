@@ -1,4 +1,4 @@
-"""--bundle and replay: whatever a run read is in one file, nothing else is, and it runs again as it ran."""
+"""--bundle and replay: a bundle has exactly the files that the run read, and its replay gives the same result."""
 
 import hashlib
 import json
@@ -18,7 +18,7 @@ TABLE = "alpha_deg,theta_deg\n" + "".join(f"{2 * angle},{angle}\n" for angle in 
 
 class Packed(harness.Scratch):
     def pack(self, words, code, bundle="bug.zip", cwd=None):
-        """What a run with --bundle left: its process, and the index of the bundle."""
+        """Runs with --bundle; returns the process and the index of the bundle."""
         done = harness.fusee([*words, "--bundle", str(self.folder / bundle)], cwd or self.folder)
         self.assertEqual(done.returncode, code, done.stderr.decode())
         with zipfile.ZipFile(self.folder / bundle) as archive:
@@ -43,13 +43,13 @@ class Packed(harness.Scratch):
         change(index)
         entries["bundle.json"] = json.dumps(index).encode()
         with warnings.catch_warnings(), zipfile.ZipFile(self.folder / bundle, "w") as archive:
-            warnings.simplefilter("ignore")  # of names that stand twice
+            warnings.simplefilter("ignore")  # duplicate names
             for name, content in [*entries.items(), *add]:
                 archive.writestr(name, content)
 
 
 class Bundles(Packed):
-    def test_every_command_ends_as_it_did(self):
+    def test_replays_every_command(self):
         self.build("p")
         self.runs()
         (self.folder / "law.csv").write_text(TABLE)
@@ -90,7 +90,7 @@ class Bundles(Packed):
                     self.assertEqual(index["command"], words)
                 self.assertIn("the same", self.replay().stdout.decode())
 
-    def test_holds_what_was_read_and_no_names_of_this_machine(self):
+    def test_has_input_and_no_local_names(self):
         secret = self.folder / "of-anna" / "deep"
         secret.mkdir(parents=True)
         spec = (self.folder / "arm.toml").read_text().replace("[pulley]", '[pulley]\nlaw = "table"\ntable = "../law.csv"')
@@ -115,10 +115,10 @@ class Bundles(Packed):
                     self.assertNotIn(name.encode(), told)
                 allowed = {spec.encode(), TABLE.encode()}
                 self.assertLessEqual(set(files.values()), allowed)
-                if code != 6:  # what stood where the outputs went is not packed
+                if code != 6:  # existing output files are not packed
                     self.replay()
 
-    def test_a_table_with_an_absolute_path_is_found(self):
+    def test_finds_table_with_absolute_path(self):
         place = self.folder / "tables"
         place.mkdir()
         (place / "law.csv").write_text(TABLE)
@@ -128,7 +128,7 @@ class Bundles(Packed):
         shutil.rmtree(place)
         self.replay()
 
-    def test_two_files_of_one_name(self):
+    def test_distinguishes_files_of_one_name(self):
         self.runs()
         for folder in ["a", "b"]:
             (self.folder / folder).mkdir()
@@ -138,13 +138,13 @@ class Bundles(Packed):
         self.pack(["calibrate", "arm.toml", "a/run.csv", "b/run.csv", "--no-audit", "--dry-run"], 0)
         self.replay()
 
-    def test_same_run_same_bytes(self):
+    def test_is_reproducible(self):
         self.pack(["build", "arm.toml"], 0, "one.zip")
         os.environ["TZ"] = "Pacific/Chatham"
         self.pack(["build", "arm.toml"], 0, "two.zip")
         self.assertEqual((self.folder / "one.zip").read_bytes(), (self.folder / "two.zip").read_bytes())
 
-    def test_what_was_in_the_way_is_again(self):
+    def test_recreates_existing_outputs(self):
         (self.folder / "out/arm").mkdir(parents=True)
         (self.folder / "out/arm/pulley.stl").write_text("mine")
         (self.folder / "stroke.csv").write_text("mine")
@@ -157,14 +157,14 @@ class Bundles(Packed):
                 with zipfile.ZipFile(self.folder / "bug.zip") as archive:
                     self.assertNotIn("mine", archive.read("bundle.json").decode())
 
-    def test_says_what_differs(self):
+    def test_reports_differences(self):
         self.pack(["build", "arm.toml", "--dry-run"], 0)
         self.edit("bug.zip", lambda index: index.update(exit=4, version="0.0.9"))
         done = self.replay(5)
         self.assertRegex(done.stdout.decode(), "differs +exit code\n +then +4\n +now +0")
-        self.assertIn("the bundle is of fusee 0.0.9", done.stderr.decode())
+        self.assertIn("the bundle was made by fusee 0.0.9", done.stderr.decode())
 
-    def test_leaves_everything_where_it_is_asked_to(self):
+    def test_keeps_files_in_given_folder(self):
         self.pack(["build", "arm.toml", "-o", "made"], 0)
         made = self.files("made")
         self.replay(options=["-o", "again"])
@@ -174,12 +174,12 @@ class Bundles(Packed):
         self.replay(6, options=["-o", "again"])
         self.assertEqual(sorted(path.name for path in (self.folder / "elsewhere").iterdir()), ["again", "bug.zip"])
 
-    def test_is_not_written_over_what_is_no_bundle(self):
+    def test_does_not_overwrite_other_files(self):
         before = (self.folder / "arm.toml").read_bytes()
         (self.folder / "other.zip").write_bytes(b"PK\3\4 another zip")
         for name in ["arm.toml", "other.zip", "."]:
-            self.expect(f"build arm.toml --dry-run --bundle {name}", 6, "^$", "exists and is no bundle")
-        self.expect("build arm.toml --dry-run --force --bundle arm.toml", 6, "", "is one of the files that were read")
+            self.expect(f"build arm.toml --dry-run --bundle {name}", 6, "^$", "exists and is not a bundle")
+        self.expect("build arm.toml --dry-run --force --bundle arm.toml", 6, "", "is one of the input files")
         self.assertEqual((self.folder / "arm.toml").read_bytes(), before)
         self.expect("build arm.toml --dry-run --force --bundle other.zip", 0)
         self.expect("build arm.toml --dry-run --bundle other.zip", 0)
@@ -187,28 +187,28 @@ class Bundles(Packed):
         self.expect("build arm.toml --bundle=", 2, "^$", "--bundle needs a value")
         self.expect("build arm.toml --dry-run --bundle /proc/bug.zip", 6, "", "bug.zip|/proc")
 
-    def test_document_names_it(self):
+    def test_document_names_bundle(self):
         document = self.expect_json("analyze arm.toml --bundle bug.zip", 0)
         self.assertEqual(document["bundle"], "bug.zip")
         document = self.expect_json("replay bug.zip", 0)
         self.assertTrue(document["same"])
         self.assertEqual(document["replayed"], ["analyze", "arm.toml", "--json"])
 
-    def test_a_pipe_is_packed_too(self):
+    def test_packs_pipe(self):
         self.runs()
         done = subprocess.run(["bash", "-c", "fusee simulate arm.toml <(cat run.csv) --bundle bug.zip"], cwd=self.folder, env=harness.ENVIRONMENT, capture_output=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.replay()
 
-    def test_output_in_the_folder_itself(self):
+    def test_replays_output_in_working_folder(self):
         for words in [["build", "arm.toml", "-o", "."], ["build", "arm.toml", "--out=./"], ["plan", "arm.toml", "-o", "."]]:
             with self.subTest(words):
                 self.pack(words, 0)
                 begin = time.monotonic()
                 self.assertIn("the same", self.replay().stdout.decode())
-                self.assertLess(time.monotonic() - begin, 40)  # it waited 60 s for its own lock
+                self.assertLess(time.monotonic() - begin, 40)  # regression: it waited 60 s for its own lock
 
-    def test_a_run_whose_folder_is_gone(self):
+    def test_works_without_working_folder(self):
         secret = self.folder / "of-anna"
         secret.mkdir()
         shutil.copy(self.folder / "arm.toml", secret)
@@ -225,7 +225,7 @@ class Bundles(Packed):
                     self.assertNotIn(name.encode(), told)
                 self.assertIn("the same", self.replay().stdout.decode())
 
-    def test_names_of_odd_bytes(self):
+    def test_accepts_names_of_any_bytes(self):
         self.runs()
         for i, name in enumerate([b"\xff.csv", b"\xfe.csv", b"a\x1b[2Jb.csv", b".hidden.csv", b"x:\\y.csv", "größe\u202e.csv".encode()]):
             shutil.copy(self.folder / "run.csv", os.path.join(os.fsencode(self.folder), name))
@@ -241,7 +241,7 @@ class Bundles(Packed):
         made = os.path.join(os.fsencode(self.folder), b"o\xff\x1b[2J")
         for file in os.listdir(made):
             with open(os.path.join(made, file), "rb") as output:
-                output.read().decode()  # pages too are UTF-8
+                output.read().decode()  # pages must be UTF-8, too
         self.assertIn("the same", self.replay(bundle="both.zip").stdout.decode())
         self.pack([*both, b"--json", b"--force"], 0, "json.zip")
         self.assertIn("the same", self.replay(bundle="json.zip").stdout.decode())
@@ -249,12 +249,12 @@ class Bundles(Packed):
         self.pack([b"build", b"\xff.toml", b"-o", b".made\xff"], 0, "spec.zip")
         self.assertIn("the same", self.replay(bundle="spec.zip").stdout.decode())
 
-    def test_questions_are_never_asked_again(self):
+    def test_rejects_questions(self):
         done, index = self.pack(["new", "--ask"], 2)
-        self.assertIn("no bundle holds that", done.stderr.decode())
+        self.assertIn("which a bundle cannot record", done.stderr.decode())
         for words in (["new", "--ask"], ["new", "--ask", "--set", "joint.length_mm=50"]):
             self.edit("bug.zip", lambda index: index.update(command=words))
-            read, write = os.pipe()  # that nobody writes to: who reads it waits
+            read, write = os.pipe()  # a reader of this pipe would wait forever
             self.addCleanup(os.close, write)
             done = harness.fusee(["replay", "bug.zip"], self.folder, stdin=read, timeout=20)
             os.close(read)
@@ -262,7 +262,7 @@ class Bundles(Packed):
             self.assertNotIn("1/6", done.stderr.decode())
 
     @unittest.skipUnless(shutil.which("strace"), "strace is not installed")
-    def test_packs_every_file_that_was_opened(self):
+    def test_packs_every_opened_file(self):
         self.runs()
         trace = self.folder / "trace"
         subprocess.run(["strace", "-f", "-e", "trace=open,openat", "-o", trace, harness.PROGRAM, "calibrate", "arm.toml", "run.csv", "--no-audit", "--bundle", "bug.zip"],
@@ -278,7 +278,7 @@ class Bundles(Packed):
 
 
 class Hostile(Packed):
-    """A bundle from anybody reads nothing here, and writes nothing outside of its folder."""
+    """A bundle from strangers reads nothing on this machine and writes nothing outside of its folder."""
 
     def setUp(self):
         super().setUp()
@@ -289,14 +289,14 @@ class Hostile(Packed):
         self.assertRegex(done.stderr.decode(), words)
         self.assertEqual([path.name for path in (self.folder / "elsewhere").iterdir()], ["bug.zip"])
 
-    def test_names_that_lead_out(self):
+    def test_rejects_names_outside(self):
         for name in ["../evil", "/tmp/evil", "files/../../evil", "files/./evil", "files//evil", "files\\evil", "c:evil", "files/", "files/a\nb"]:
             with self.subTest(name):
                 self.setUp()
                 self.edit("bug.zip", lambda index: None, [(name, "x")])
                 self.refuse(3, "bug.zip: error: .*(leads out of the bundle, or is hidden|is a link, a folder)")
 
-    def test_entries_that_are_not_listed_or_twice(self):
+    def test_rejects_unlisted_entries(self):
         self.edit("bug.zip", lambda index: None, [("files/more.toml", "x")])
         self.refuse(3, "files/more.toml: is not listed")
         self.setUp()
@@ -306,20 +306,20 @@ class Hostile(Packed):
         self.edit("bug.zip", lambda index: index["files"].append(index["files"][0]))
         self.refuse(3, r"files\[1\].path is not in the bundle, or listed twice")
 
-    def test_links(self):
+    def test_rejects_links(self):
         link = zipfile.ZipInfo("files/link")
         link.create_system, link.external_attr = 3, 0o120777 << 16
         self.edit("bug.zip", lambda index: None, [(link, "/etc/passwd")])
         self.refuse(3, "files/link: is a link")
 
-    def test_bombs(self):
+    def test_rejects_bombs(self):
         with zipfile.ZipFile(self.folder / "bug.zip", "a", zipfile.ZIP_DEFLATED) as archive:
             with archive.open("files/bomb", "w") as bomb:
                 for _ in range(600):
                     bomb.write(b"\0" * (1 << 20))
         self.refuse(3, "files/bomb: unpacks to too much; a bundle may have 512 MiB")
 
-    def test_other_zips_and_other_bytes(self):
+    def test_rejects_other_files(self):
         (self.folder / "bug.zip").write_bytes(b"no zip")
         self.refuse(3, "expected a bundle of fusee")
         with zipfile.ZipFile(self.folder / "bug.zip", "w") as archive:
@@ -339,19 +339,19 @@ class Hostile(Packed):
             with self.subTest(words):
                 self.edit("bug.zip", lambda index: index.update(command=words, exit=0))
                 self.refuse(5, "differs")
-                self.assertIn("lies outside of the folder", self.replay(5).stdout.decode())
+                self.assertIn("is outside of the folder", self.replay(5).stdout.decode())
                 self.assertFalse(outside.exists() or outside.with_suffix(".csv").exists())
 
     def test_reads_nothing_of_this_machine(self):
         self.edit("bug.zip", lambda index: index.update(command=["check", str(self.folder / "other.toml")], exit=0))
         self.assertIn("it is not in the bundle", self.replay(5).stdout.decode())
 
-    def test_a_replay_is_not_replayed(self):
+    def test_rejects_nested_replay(self):
         self.edit("bug.zip", lambda index: index.update(command=["replay", "arm.toml"]))
-        self.refuse(3, "holds a run of 'fusee replay'")
+        self.refuse(3, "contains a run of 'fusee replay'")
 
 
-    def test_prints_nothing_that_a_terminal_obeys(self):
+    def test_prints_no_control_codes(self):
         evil = "a\x1b[2J\x1b]52;c;aGk=\x07\x9b31m\u202eb\r\x7f"
         self.edit("bug.zip", lambda index: index.update(
             version=evil, built_with=evil, runs_on=evil, command=["explain", evil, "'; touch /tmp/x; '"], exit=0,
@@ -370,8 +370,8 @@ class Hostile(Packed):
         self.assertIn("'\\'';", self.replay(5).stdout.decode())  # quoted for a shell
         json.loads(self.replay(5, options=["--json"]).stdout)
 
-    def test_everything_else_that_a_bundle_may_try(self):
-        """Each ends with a clear code in seconds, leaves nothing anywhere, and prints nothing that a terminal obeys."""
+    def test_survives_hostile_bundles(self):
+        """Each ends in seconds with a valid exit code, leaves no file, and prints no terminal control code."""
         temporary = self.folder / "temporary"
         temporary.mkdir()
         original = (self.folder / "bug.zip").read_bytes()
@@ -400,11 +400,11 @@ UNFIT = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\u200e
 
 
 def hostile(folder):
-    """Name → what it does to bundle.json, and further entries of the zip."""
+    """Name → change of bundle.json, and further entries of the zip."""
     nothing = lambda index: None
 
     def listed(path, content="x"):
-        """An entry that the index lists as it should."""
+        """An entry with a correct index."""
         digest = hashlib.sha256(content.encode()).hexdigest()
         return (lambda index: index["files"].append({"path": path, "bytes": len(content), "sha256": digest})), [("files/" + path, content)]
 

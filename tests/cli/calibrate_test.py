@@ -1,4 +1,4 @@
-"""`fusee calibrate` as a person meets it: what it reads, refuses, leaves behind and says."""
+"""`fusee calibrate` from the user's view: input, refusals, files and messages."""
 
 import csv
 import html.parser
@@ -15,7 +15,7 @@ import harness
 
 OUTPUTS = {"calibration.json", "corrected.toml", "compensation.csv", "report.html", "manifest.json"}
 RIG = harness.SOURCE / "tests/data/rig"
-# Every key of the document, whatever the verdict.
+# Keys of the document for every verdict.
 KEYS = {
     "": {"schema", "verdict", "effects", "noise_floor_deg", "before", "after", "held_out", "unexplained_rms_deg", "detectable", "next", "iso230", "correctable"},
     "before": {"rms_deg", "max_deg", "held_out_rms_deg"},
@@ -33,7 +33,7 @@ RATIO = 'schema = 1\nname = "joint"  # mine\n[transmission]\nkind = "ratio"\nrat
 
 
 def run_csv(lash=0.0, strokes=8, rows=60, seed=1):
-    """A joint behind a play of `lash` deg of alpha, with a little repeatable noise."""
+    """A joint with play of `lash` deg of alpha and a little repeatable noise."""
     lines = ["alpha_deg,theta_deg"]
     pulley, state = -40.0, seed
     for i in range(strokes * rows + 1):
@@ -52,7 +52,7 @@ class Calibrate(harness.Scratch):
         for i in range(1, 4):
             (self.folder / f"run_{i}.csv").write_text(run_csv(lash=4.0, seed=i))
 
-    def test_it_leaves_every_file_and_the_same_document(self):
+    def test_writes_files_and_document(self):
         document = self.expect_json("calibrate joint.toml run_1.csv run_2.csv run_3.csv -o out", 0)
         files = self.files("out")
         self.assertEqual(set(files), {"calibration.json", "corrected.toml", "compensation.csv", "report.html", "manifest.json"})
@@ -70,7 +70,7 @@ class Calibrate(harness.Scratch):
         self.assertAlmostEqual(float(middle["alpha_up_deg"]) - float(middle["alpha_down_deg"]), 4.0, delta=0.3)
 
     def assert_numbers(self, value, where):
-        """A finite number, not null, text or a switch."""
+        """True for a finite number, not for null, text or a switch."""
         self.assertIsInstance(value, (int, float), where)
         self.assertNotIsInstance(value, bool, where)
         self.assertTrue(math.isfinite(value), where)
@@ -107,7 +107,7 @@ class Calibrate(harness.Scratch):
             self.assertTrue(all(isinstance(text, str) and text for text in texts))
         self.assertTrue(document["summary"].strip())
 
-    def test_every_key_whatever_the_verdict(self):
+    def test_document_has_every_key(self):
         (self.folder / "still.csv").write_text("alpha_deg,theta_deg\n" + "1,2\n" * 50)
         (self.folder / "none.csv").write_text(run_csv())
         cases = [("joint.toml run_1.csv run_2.csv run_3.csv", {"explained", "confounded"}),
@@ -118,13 +118,13 @@ class Calibrate(harness.Scratch):
             with self.subTest(arguments):
                 self.assert_document(self.expect_json(f"calibrate {arguments} --dry-run", 0), verdicts)
 
-    def test_same_input_same_bytes(self):
+    def test_is_reproducible(self):
         self.expect("calibrate joint.toml run_1.csv run_2.csv -o one", 0)
         os.environ["TZ"] = "Pacific/Chatham"
         self.expect("calibrate joint.toml run_1.csv run_2.csv -o two", 0)
         self.assertEqual(self.files("one"), self.files("two"))
 
-    def test_the_page_is_whole_and_asks_nobody(self):
+    def test_page_is_self_contained(self):
         class Page(html.parser.HTMLParser):
             VOID = {"meta", "br"}
 
@@ -161,24 +161,24 @@ class Calibrate(harness.Scratch):
         self.assertIn("✓ backlash", page.words)
         self.assertNotRegex(page.words, r"\b(nan|inf|null)\b")
         self.assertNotRegex(text, r"@import|url\(|https?://(?!www\.w3\.org)")
-        # Before and after on one axis: the same range in both plots of a run.
+        # Plots before and after have one axis: the same range for each run.
         axes = re.findall(r"<title>(Before|After)</title>.*?data-plot=|data-plot=\"([^\"]*)\"[^>]*><title>(?:Before|After)</title>", text)
         ranges = {tuple(values.split()[-2:]) for _, values in axes if values}
         self.assertEqual(len(ranges), 1, ranges)
 
-    def test_data_that_cannot_be_tested_are_shown(self):
+    def test_shows_untestable_data(self):
         (self.folder / "still.csv").write_text("alpha_deg,theta_deg\n" + "1,2\n" * 50)
         self.expect("calibrate joint.toml still.csv -o out", 0, "not_testable.*alpha does not change.*Measure next")
         page = self.files("out")["report.html"].decode()
         self.assertRegex(page, "(?s)Why nothing can be concluded.*alpha does not change.*What was logged.*<svg")
 
-    def test_the_folder_has_a_default_and_is_ours_to_write_again(self):
+    def test_default_folder_is_rewritten(self):
         self.expect("calibrate joint.toml run_1.csv run_2.csv", 0, "joint_calibration")
         self.expect("calibrate joint.toml run_1.csv run_2.csv", 0)
         (self.folder / "out/joint_calibration/report.html").write_text("mine")
         self.expect("calibrate joint.toml run_1.csv run_2.csv", 6, err="report.html")
 
-    def test_the_summary_fits_a_terminal(self):
+    def test_summary_fits_terminal(self):
         for more in ["", "-v"]:
             text = self.expect(f"calibrate joint.toml run_1.csv run_2.csv --dry-run {more}", 0, "before +after.*Effects.*backlash.*Correction").stdout.decode()
             self.assertLessEqual(max(len(line) for line in text.splitlines()), 80)
@@ -186,11 +186,11 @@ class Calibrate(harness.Scratch):
             self.assertEqual(bool(re.search(r"^Tried +odds$", text, re.M)), more == "-v")
         self.assertFalse((self.folder / "out").exists())
 
-    def test_quiet_verbose_and_the_bar(self):
+    def test_progress_options(self):
         line = "calibrate joint.toml run_1.csv run_2.csv --dry-run"
         self.assertEqual(self.expect(line, 0).stderr.count(b"#"), 0)
         self.assertEqual(self.expect(line + " -q", 0).stderr, b"")
-        self.expect(line + " -v", 0, err=r"reading the runs.*\[#+\.*\] \d+ %, .*working out the correction")
+        self.expect(line + " -v", 0, err=r"reading the runs.*\[#+\.*\] \d+ %, .*computing the correction")
         try:
             ours, theirs = os.openpty()
         except OSError as error:
@@ -208,7 +208,7 @@ class Calibrate(harness.Scratch):
         self.assertRegex(shown, rb"\r\x1b\[K\[#+\.*\] \d+ %")
         self.assertTrue(shown.endswith(b"\r\x1b[K"))
 
-    def test_notes_that_say_the_same_are_said_twice(self):
+    def test_repeated_notes_are_merged(self):
         for i in range(1, 6):
             text = run_csv(seed=i).splitlines()
             (self.folder / f"mid_{i}.csv").write_text("\n".join([text[0], *text[20:]]) + "\n")
@@ -217,8 +217,8 @@ class Calibrate(harness.Scratch):
         self.assertEqual(self.expect(line + " -v", 0).stderr.count(b"first stroke"), 5)
         self.assertEqual(sum("first stroke" in note for note in self.expect_json(line, 0)["notes"]), 5)
 
-    def test_settings_stand_in_the_corrected_file(self):
-        self.expect("calibrate joint.toml run_1.csv run_2.csv --set transmission.ratio=4.02 -o out", 0, err="what --set gave")
+    def test_corrected_file_has_settings(self):
+        self.expect("calibrate joint.toml run_1.csv run_2.csv --set transmission.ratio=4.02 -o out", 0, err="includes the values of --set")
         self.assertRegex(self.files("out")["corrected.toml"], rb"ratio = 4\.02")
         self.expect("calibrate out/corrected.toml run_1.csv --dry-run", 0)
 
@@ -231,8 +231,8 @@ class Calibrate(harness.Scratch):
         self.expect("calibrate joint.toml other.csv --column alfa=motor", 2, err="did you mean 'alpha'")
         self.expect("calibrate joint.toml other.csv --column motor", 2, err="role=name")
 
-    def test_units_and_counts_read_as_degrees_do(self):
-        """One motion in degrees, radians and counts of an encoder: the same backlash."""
+    def test_units_and_counts_agree(self):
+        """One motion in degrees, radians and encoder counts gives the same backlash."""
         rows = [line.split(",") for line in run_csv(lash=4.0).splitlines()[1:]]
 
         def log(name, header, alpha, theta):
@@ -254,15 +254,15 @@ class Calibrate(harness.Scratch):
         counts = "counts.csv --ticks-per-turn alpha=65536 --zero-ticks alpha=100 --ticks-per-turn theta=-65536 --zero-ticks theta=7"
         self.assertAlmostEqual(lash(counts), expected, delta=0.01)
         self.expect(f"calibrate joint.toml {counts} --dry-run --no-audit", 0, err="alpha in counts of 65536 a turn, 100 at home; .*time in ms")
-        self.expect("calibrate joint.toml rad.csv --column alpha=motor --column time=t --column 'theta=joint [mrad]'", 3, err="as s, the rows lie 20 s apart")
+        self.expect("calibrate joint.toml rad.csv --column alpha=motor --column time=t --column 'theta=joint [mrad]'", 3, err="as s, the rows are 20 s apart")
 
-    def test_how_a_log_is_read_is_refused_in_words(self):
+    def test_rejects_reading_options(self):
         for option, said in (("--unit time=furlong", "units: s, ms, us"), ("--unit tim=ms", "did you mean 'time'"), ("--unit ms", "role=value"),
                              ("--ticks-per-turn load=4096", "no role 'load'"), ("--ticks-per-turn alpha=many", "'many' is none"),
                              ("--ticks-per-turn alpha=1", "2 or more"), ("--zero-ticks theta=2048", "give --ticks-per-turn theta=N too")):  # fmt: skip
             self.expect(f"calibrate joint.toml run_1.csv {option}", 2, err=said)
 
-    def test_what_cannot_be_read_or_tested(self):
+    def test_rejects_unreadable_runs(self):
         self.expect("calibrate joint.toml", 2, err="needs RUN.csv")
         self.expect("calibrate joint.toml nothing.csv", 3, err="No such file")
         (self.folder / "text.csv").write_text("alpha_deg,theta_deg\n1,2\n3,four\n")
@@ -274,21 +274,21 @@ class Calibrate(harness.Scratch):
 
 
 class Correction(harness.Scratch):
-    """From measured runs to a pulley that can be built."""
+    """From measured runs to a feasible pulley."""
 
     def calibrate(self, name):
         folder = RIG / name
         runs = " ".join(str(path) for path in sorted(folder.glob("run_*.csv")))
         return self.expect_json(f"calibrate {folder}/spec.toml {runs} -o out", 0)
 
-    def test_the_corrected_pulley_is_built_and_passes_its_checks(self):
+    def test_corrected_pulley_passes_checks(self):
         document = self.calibrate("e_one_sweep_only")
         self.assertGreater(document["correctable"]["by_pulley_rms_deg"], 0.3)
         self.assertIn("p1_round", document["correctable"])
         self.expect("build out/corrected.toml --dry-run", 0)
 
 
-class SomebodysWork(harness.Scratch):
+class ForeignFiles(harness.Scratch):
     LINE = "calibrate joint.toml run.csv"
 
     def setUp(self):
@@ -296,7 +296,7 @@ class SomebodysWork(harness.Scratch):
         (self.folder / "joint.toml").write_text(RATIO)
         (self.folder / "run.csv").write_text(run_csv(lash=4.0))
 
-    def test_is_refused_without_force(self):
+    def test_require_force(self):
         (self.folder / "mine").mkdir()
         (self.folder / "mine/report.html").write_text("a week of work")
         self.expect(f"{self.LINE} -o mine", 6, "^$", "fusee did not write: report.html.*--force")
@@ -305,15 +305,15 @@ class SomebodysWork(harness.Scratch):
         self.expect(f"{self.LINE} -o mine --force", 0)
         self.assertEqual(set(self.files("mine")), OUTPUTS)
 
-    def test_a_place_that_nobody_can_write(self):
+    def test_unwritable_place_is_reported(self):
         self.expect(f"{self.LINE} -o /proc/fusee", 6, "^$", "/proc")
 
     @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
-    def test_a_folder_that_cannot_be_written(self):
+    def test_unwritable_folder_is_reported(self):
         (self.folder / "locked").mkdir(mode=0o500)
         self.expect(f"{self.LINE} -o locked/here", 6, "^$", "locked")
 
-    def test_interrupted_leaves_the_earlier_files_whole(self):
+    def test_interrupt_keeps_earlier_files(self):
         self.expect(f"{self.LINE} -o out", 0)
         earlier = self.files("out")
         (self.folder / "run.csv").write_text(run_csv(lash=3.0))

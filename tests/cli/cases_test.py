@@ -1,10 +1,10 @@
-"""One line a case: arguments, exit code, what stands on stdout, what stands on stderr. Each runs with --json too."""
+"""One case a line: arguments, exit code, patterns for stdout and stderr. Each also runs with --json."""
 
 import harness
 
 # A rectangle of 1500 by 40.
 DXF = "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\nCUT\n90\n4\n70\n1\n10\n0\n20\n0\n10\n1500\n20\n0\n10\n1500\n20\n40\n10\n0\n20\n40\n0\nENDSEC\n0\nEOF\n"
-# Files that the cases name, beside arm.toml.
+# Files that the cases use in addition to arm.toml.
 FILES = {
     "empty.toml": b"",
     "binary.toml": bytes(range(256)) * 40,
@@ -25,7 +25,7 @@ OPTIMIZE_OTHER = """optimize arm.toml --set optimize.variables='["%s"]' --set op
 ALL_COMMANDS = "new.*explain.*analyze.*build.*check.*rewind.*optimize.*reproduce.*calibrate.*compare.*plan.*simulate.*replay"
 
 CASES = [
-    # Asking for help.
+    # Help.
     ("--help", 0, ALL_COMMANDS, "^$"),
     ("", 0, ALL_COMMANDS + ".*'fusee build arm.toml' makes the pulley", "^$"),
     ("help", 0, ALL_COMMANDS, "^$"),
@@ -54,7 +54,7 @@ CASES = [
     (OPTIMIZE_OTHER % "guides.EDD_mm", 3, "^$", "did you mean guides.ED_mm"),
     (OPTIMIZE_OTHER % "cut.kerf_mm", 3, "^$", "cut.kerf_mm has no effect on max_tension"),
     (f'''optimize {OPTIMIZE} --set optimize.constraints='["guides.ED_mm < 3"]' ''', 3, "^$", "character 14.*write <= or >="),
-    (f'''optimize {OPTIMIZE} --set optimize.constraints='["guides.ED_mm >= 300"]' ''', 4, "^$", "no design of the box is possible.*a constraint is violated.*widen"),
+    (f'''optimize {OPTIMIZE} --set optimize.constraints='["guides.ED_mm >= 300"]' ''', 4, "^$", "no design of the box is feasible.*a constraint is not kept.*widen"),
     (f"optimize {OPTIMIZE} --set optimize.objective=min_bend --method certified", 3, "^$", "cannot be certified.*certified: max_tension"),
     # Wrong usage.
     ("bild arm.toml", 2, "^$", "unknown command 'bild'.*fusee build"),
@@ -111,14 +111,14 @@ CASES = [
     ("build arm.toml --set pulley.law=torque", 3, "^$", "requires a wanted torque.*motor_torque_Nmm"),
     ("build arm.toml --set pulley.law=torque --set pulley.torque_table=none.csv", 3, "^$", "none.csv"),
     ("rewind missing.toml triangle.obj", 3, "^$", "missing.toml"),
-    # Designs that cannot be made: exit 4, where, why, and which number to change.
-    ("build arm.toml --set pulley.r1_mm=60", 4, "^$", "error: .*it would be possible with "),
+    # Infeasible designs: exit 4, place, reason and advice.
+    ("build arm.toml --set pulley.r1_mm=60", 4, "^$", "error: .*try "),
     ("build arm.toml --set pulley.law=torque --set pulley.motor_torque_Nmm=-300 --set load.torque_Nmm=900", 4, "^$",
-     r"error: .*900 N·mm against \+θ at θ = .*wanted to hold -300 N·mm.*it would be possible with pulley\.motor_torque_Nmm"),
+     r"error: .*900 N·mm against \+θ at θ = .*wanted to hold -300 N·mm.*try pulley\.motor_torque_Nmm"),
     ("build arm.toml --set joint.range_deg=[-80,80]", 4, "^$", "error: "),
     ("build arm.toml --set body.bore_diameter_mm=60", 4, "^$", "error: .*bore"),
     # Forces.
-    ("analyze arm.toml", 0, "Geometry.*Forces.*What gives way.*largest tension.*Error budget.*Tolerances.*all ", "^$"),
+    ("analyze arm.toml", 0, "Geometry.*Forces.*Compliance.*largest tension.*Error budget.*Tolerances.*all ", "^$"),
     ("analyze arm.toml --set load.tip_force_N=10", 0, "tendon 1 slack.*tendon.pretension_N >= ", "^$"),
     ("analyze arm.toml --csv", 0, "^alpha_deg,theta_deg,r1_mm,r2_mm,.*rising_T2_N", "^$"),
     ("analyze arm.toml -o stroke.csv --dry-run", 0, "Summary", "^$"),
@@ -126,8 +126,8 @@ CASES = [
     ("analyze arm.toml --samples many", 2, "^$", "'many' is not"),
     ("analyze missing.toml", 3, "^$", "missing.toml"),
     ("analyze arm.toml --set load.mass_kg=-1", 3, "^$", "mass_kg"),
-    ("analyze arm.toml --set tendon.pretension_N=0", 0, "Summary", "warning: both tendons are without tension, alpha = .*nothing holds.*pretension_N >="),
-    ("analyze arm.toml --set joint.range_deg=[-30,60]", 4, "^$", "at θ = 53.58°, α = 199°.*dead centre.*it would be possible with "),
+    ("analyze arm.toml --set tendon.pretension_N=0", 0, "Summary", "warning: both tendons are slack, alpha = .*nothing holds.*pretension_N >="),
+    ("analyze arm.toml --set joint.range_deg=[-30,60]", 4, "^$", "at θ = 53.58°, α = 199°.*dead centre.*try "),
     ("analyze arm.toml --set tendon.modulus_MPa=30 --set load.tip_force_N=300", 5, "Summary", "past its dead centre at alpha = "),
     ("analyze arm.toml --set load.tip_force_N=900", 5, "Summary", "the tendon breaks at alpha = .*hmpe-1.0"),
     ("analyze arm.toml --set tendon.strength_N=20 --set load.tip_force_N=20", 5, "Summary", "the tendon breaks at alpha = .*tendon.strength_N"),
@@ -140,8 +140,8 @@ CASES = [
     ("check empty.dxf", 3, "^$", "empty.dxf"),
     ("check text.dxf", 3, "^$", "text.dxf"),
     ("check arm.toml", 3, "^$", "arm.toml"),
-    ("check triangle.obj", 5, r"size 1 × 1 × 0 mm, no volume: it is not sound.*FAILED", "looks like inches \\(× 25.4 = 25.4 × 25.4 × 0 mm\\) or metres.*check '.*' failed"),
-    ("check contours.dxf", 0, r"size 1500 × 40 mm, 1 closed contour\n", r"looks like millimetres taken for inches \(÷ 25.4 = 59.06 × 1.575 mm\)"),
+    ("check triangle.obj", 5, r"size 1 × 1 × 0 mm, no volume: the mesh is not closed.*FAILED", "looks like inches \\(× 25.4 = 25.4 × 25.4 × 0 mm\\) or metres.*check '.*' failed"),
+    ("check contours.dxf", 0, r"size 1500 × 40 mm, 1 closed contour\n", r"looks like millimetres read as inches \(÷ 25.4 = 59.06 × 1.575 mm\)"),
     ("rewind arm.toml triangle.obj", 3, "^$", "triangle.obj.*groove"),
     ("rewind arm.toml missing.stl", 3, "^$", "missing.stl"),
     ("replay missing.zip", 3, "^$", "missing.zip"),
@@ -175,7 +175,7 @@ class Cases(harness.Scratch):
                 self.expect_json(arguments, code)
         self.assertEqual(sorted(self.folder.rglob("*")), before, "a case left something behind")
 
-    def test_a_huge_file_is_refused_at_once(self):
+    def test_rejects_huge_file_at_once(self):
         with open(self.folder / "huge.toml", "wb") as huge:
             huge.truncate(100 << 20)
         self.expect("build huge.toml", 3, "^$", "huge.toml: error: .*larger")

@@ -1,4 +1,4 @@
-"""`fusee compare` as a person meets it: what it reads, refuses, says and leaves behind."""
+"""`fusee compare` from the user's view: input, refusals, messages and files."""
 
 import json
 import unittest
@@ -21,7 +21,7 @@ class Compare(harness.Scratch):
     def runs(self, folder):
         return f"{folder}/run_1.csv {folder}/run_2.csv"
 
-    def test_play_that_grew(self):
+    def test_reports_grown_play(self):
         line = f"compare joint.toml --before {self.runs('monday')} --after {self.runs('friday')}"
         text = self.expect(line, 0, "play.*grew by.*Cause.*of the difference").stdout.decode()
         self.assertLessEqual(len(text.split("\n\n")[0].split()), 60)
@@ -41,13 +41,13 @@ class Compare(harness.Scratch):
         self.assertLess(document["difference"]["after_rms_deg"], 0.5 * document["difference"]["before_rms_deg"])
         self.assertEqual(document["runs"]["before"], ["monday/run_1.csv", "monday/run_2.csv"])
 
-    def test_nothing_changed(self):
+    def test_reports_no_change(self):
         document = self.expect_json(f"compare joint.toml --before {self.runs('monday')} --after {self.runs('tuesday')}", 0)
         self.assertEqual((document["verdict"], document["changes"]), ("no_change", []))
         self.assertRegex(document["summary"], "^Nothing changed.*would have been seen")
         self.assertTrue(document["detectable"])
 
-    def test_files_are_left_where_they_are_asked_for(self):
+    def test_writes_files_to_folder(self):
         line = f"compare joint.toml --before {self.runs('monday')} --after {self.runs('friday')} -o out"
         self.expect(f"{line} --dry-run", 0, "Would be written")
         self.assertFalse((self.folder / "out").exists())
@@ -57,20 +57,20 @@ class Compare(harness.Scratch):
         self.assertEqual(json.loads(files["comparison.json"])["verdict"], "changed")
         self.assertIn(b"What changed", files["report.html"])
         self.assertNotIn(b"http://", files["report.html"].replace(b"http://www.w3.org", b""))
-        self.expect(line, 0)  # over an earlier run of its own
+        self.expect(line, 0)  # replaces its own earlier run
         (self.folder / "out/report.html").write_text("mine")
         self.expect(line, 6, err="report.html")
 
-    def test_files_that_are_no_two_states_of_one_joint(self):
+    def test_rejects_runs_of_other_joint(self):
         turned = "\n".join(row if not i else ",".join((row.split(",")[0], str(2 * float(row.split(",")[1])))) for i, row in enumerate(run_csv().split()))
         (self.folder / "other.csv").write_text(turned + "\n")
         line = f"compare joint.toml --before {self.runs('monday')} --after other.csv"
         self.expect(line, 3, err="no two states of one joint")
         self.assertEqual(self.expect_json(line, 3)["verdict"], "not_comparable")
 
-    def test_wrong_usage_and_bad_files(self):
-        self.expect("compare joint.toml", 2, err="compare needs --before")
-        self.expect("compare joint.toml --before monday/run_1.csv", 2, err="compare needs --after")
+    def test_rejects_wrong_usage_and_files(self):
+        self.expect("compare joint.toml", 2, err="compare requires --before")
+        self.expect("compare joint.toml --before monday/run_1.csv", 2, err="compare requires --after")
         self.expect("compare --before monday/run_1.csv --after friday/run_1.csv", 2, err="needs SPEC")
         self.expect("compare joint.toml --before none.csv --after friday/run_1.csv", 3, err="none.csv")
         self.expect("compare joint.toml --before monday/run_1.csv --after monday/run_1.csv", 3, err="monday/run_1.csv")

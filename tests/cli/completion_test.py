@@ -1,4 +1,4 @@
-"""What shells offer at the Tab key, asked of the shells themselves; pages for man(1); what fusee says when nothing is asked of it."""
+"""Completion, tested in the shells; manual pages; the overview of `fusee` alone."""
 
 import hashlib
 import json
@@ -25,22 +25,22 @@ class Candidates(harness.Scratch):
         self.assertEqual(self.offered("fus"), [])
         self.assertEqual(self.offered("fusee nonsense "), [])
 
-    def test_options_are_those_of_the_command(self):
+    def test_offers_options_of_command(self):
         self.assertEqual(self.offered("fusee build --d"), ["--dxf", "--dry-run"])
         self.assertNotIn("--dxf", self.offered("fusee check -"))
 
-    def test_words_that_an_option_takes(self):
+    def test_offers_words_of_option(self):
         self.assertEqual(self.offered("fusee build arm.toml --dxf "), ["ac1015", "r12"])
         self.assertEqual(self.offered("fusee optimize --method p"), ["pareto"])
         self.assertEqual(self.offered("fusee build --out "), [":files"])
 
-    def test_keys_and_their_words(self):
+    def test_offers_keys_and_values(self):
         self.assertEqual(self.offered("fusee build --set pulley.r1"), [":open", "pulley.r1_mm="])
         self.assertEqual(self.offered("fusee build arm.toml --set pulley.law=c"), ["pulley.law=compensate"])
         self.assertEqual(self.offered("fusee build --set 'pulley.law=c"), ["pulley.law=compensate"])
         self.assertEqual(self.offered("fusee explain joint.le"), ["joint.length_mm"])
 
-    def test_arguments_by_their_place(self):
+    def test_offers_arguments_by_position(self):
         self.assertEqual(self.offered("fusee build "), [":files.toml"])
         self.assertEqual(self.offered("fusee build arm.toml "), [])
         self.assertEqual(self.offered("fusee calibrate --hold-out a.csv arm.toml b.csv "), [":files.csv"])
@@ -48,16 +48,16 @@ class Candidates(harness.Scratch):
         self.assertIn("forearm", self.offered("fusee new "))
         self.assertEqual(self.offered("fusee completion "), ["bash", "zsh", "fish"])
 
-    def test_says_what_words_mean(self):
+    def test_explains_words(self):
         document = json.loads(self.fusee(["completion", "candidates", "fusee new grip", "--json"]).stdout)
         self.assertEqual([one["word"] for one in document["candidates"]], ["gripper"])
         self.assertTrue(document["candidates"][0]["meaning"])
 
-    def test_any_line(self):
+    def test_survives_any_line(self):
         for line in ["", " ", "'", "\\", "fusee \"", "fusee --set", "fusee " + "x " * 5000, "fusee build \\\\\\", "fusee é\t\x01"]:
             self.fusee(["completion", "candidates", line] if line else ["completion", "candidates"])
 
-    def test_another_shell(self):
+    def test_rejects_other_shell(self):
         self.expect("completion tcsh", 2, err="bash, zsh, fish")
 
 
@@ -76,7 +76,7 @@ class Shells(harness.Scratch):
 
     def in_bash(self, *words):
         line = " ".join(words)
-        # Where bash breaks words: at "=" too.
+        # bash also breaks words at "=".
         broken = [part for word in words for part in (word.replace("=", "\n=\n").split("\n") if "=" in word else [word])]
         quoted = " ".join(f"'{part}'" for part in broken)
         return self.run_in("bash", f"source <(fusee completion bash); compopt() {{ :; }}; COMP_WORDS=({quoted}) COMP_CWORD={len(broken) - 1} COMP_LINE='{line}' COMP_POINT={len(line)};"
@@ -99,7 +99,7 @@ class Shells(harness.Scratch):
 
     @unittest.skipUnless(shutil.which("zsh"), "zsh is not installed")
     def test_zsh(self):
-        # Its own widgets stand in a terminal only; what they are given is seen through functions of their names.
+        # zsh's widgets exist only in a terminal, so functions of the same names record their arguments.
         def offered(*words):
             quoted = " ".join(f"'{word}'" for word in words)
             return self.run_in("zsh", "compdef() { :; }; _describe() { shift; print -l -- ${(P)1}; }; _files() { print -- files $2; }; source <(fusee completion zsh);"
@@ -110,7 +110,7 @@ class Shells(harness.Scratch):
 
 
 class Manual(harness.Scratch):
-    def test_every_command_has_a_page_that_troff_reads(self):
+    def test_troff_reads_every_page(self):
         for command in ["", *commands()]:
             page = self.fusee(["manual", command] if command else ["manual"]).stdout
             self.assertTrue(page.startswith(b".TH FUSEE"))
@@ -118,20 +118,20 @@ class Manual(harness.Scratch):
                 done = subprocess.run(["groff", "-man", "-ww", "-Kutf8", "-Tutf8", "-z"], input=page, capture_output=True, check=True)
                 self.assertEqual(done.stderr.decode(), "", command)
 
-    def test_build_makes_them_all(self):
+    def test_build_writes_all_pages(self):
         listed = (harness.SOURCE / "src/cli/CMakeLists.txt").read_text().split("set(FUSEE_COMMANDS ")[1].split(")")[0].split()
         self.assertEqual(sorted(commands()), listed)
 
-    def test_of_nothing(self):
+    def test_rejects_unknown_command(self):
         self.expect("manual biuld", 2, err="did you mean 'fusee build'")
 
 
 class Bytes(harness.Scratch):
-    """Completions and manual pages are files that are installed: same program, same bytes, whichever compiler made it."""
+    """Completions and manual pages are installed, so their bytes must not depend on the compiler."""
 
     pinned = harness.SOURCE / "tests/cli/shared_words.sha256"
 
-    def test_are_the_pinned_ones(self):
+    def test_match_pins(self):
         made = {f"completion.{shell}": ["completion", shell] for shell in ["bash", "zsh", "fish"]}
         made |= {"-".join(["fusee", *words]) + ".1": ["manual", *words] for words in [[], *([one] for one in commands())]}
         now = "".join(f"{hashlib.sha256(self.fusee(line).stdout).hexdigest()}  {name}\n" for name, line in sorted(made.items()))
@@ -139,7 +139,7 @@ class Bytes(harness.Scratch):
 
 
 class Alone(harness.Scratch):
-    def test_says_what_to_type_next(self):
+    def test_suggests_next_command(self):
         self.expect("", 0, "fusee build arm.toml.* makes the pulley", "^$")
         (self.folder / "arm.toml").unlink()
         (self.folder / "other.toml").write_text("[project]\n")

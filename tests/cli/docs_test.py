@@ -1,4 +1,4 @@
-"""The house of the pages: links lead somewhere, the README is short, and pages made of help texts are up to date."""
+"""Consistency of pages: valid links, a short README, up-to-date generated pages."""
 
 import json
 import re
@@ -13,11 +13,11 @@ sys.dont_write_bytecode = True
 import update  # noqa: E402
 
 FOLDERS = ["docs", "profiles", "src", "export", "include", "tests", ".github", ".ci"]
-# Pages that docs/update.py or `fusee reproduce` writes, whose lines are the program's.
+# Pages that docs/update.py or `fusee reproduce` writes.
 MADE = ["docs/reference/commands.md", "docs/reference/keys.md", "docs/reference/catalogue.md", "docs/reference/columns.md",
         "docs/reference/json.md", "docs/background/paper.md"]
 
-# Periphrases, each for a word that exists: residual, compliance, distinguishes, module, test rig …
+# Periphrases for terms that exist: residual, compliance, distinguishes, module, test rig …
 REPLACED = re.compile(r"\b(has no name|what is left|what stays|as it lies|it takes \d|would be possible with|tells? \w+ from|may as well be|"
                       r"how sure|nobody|gives way|foretold|mouths?|blame[ds]?|culprits?|makings|roofs?|gables?|keels?|test model)\b", re.I)
 
@@ -32,19 +32,19 @@ def without_code(text):
 
 
 def written(page):
-    """The prose of a page: no code, tables, pictures and links' targets."""
+    """The prose of a page, without code, tables, pictures and link targets."""
     text = re.sub(r"^(\||!\[|#|<!--).*$", "", without_code(page.read_text()), flags=re.M)
     return re.sub(r"\]\([^)]*\)", "]", text)
 
 
 def anchors(path):
-    """Names by which a page's headings are linked, as GitHub makes them."""
+    """The anchors of a page's headings, in GitHub's form."""
     titles = re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```", "", path.read_text(), flags=re.M | re.S), re.M)
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
 
 
 def links(path):
-    """Each relative link of a page: the file, and the place in it."""
+    """Each relative link of a page, with its file and anchor."""
     for target in re.findall(r"\]\(\s*([^)\s]+)\s*\)", without_code(path.read_text())):
         if "://" not in target:
             file, _, place = target.partition("#")
@@ -52,7 +52,7 @@ def links(path):
 
 
 class Links(unittest.TestCase):
-    def test_lead_to_files_and_headings(self):
+    def test_have_valid_targets(self):
         pages = files(".md")
         self.assertGreater(len(pages), 30)
         for page in pages:
@@ -77,9 +77,9 @@ class Links(unittest.TestCase):
 
 
 class References(unittest.TestCase):
-    """Comments and pages cite only documents that are here."""
+    """Comments and pages cite only documents of the repository."""
 
-    def test_are_to_documents_of_the_repository(self):
+    def test_cite_existing_documents(self):
         names = {path.name for path in files(".md")} | {"FILE.md"}
         for path in files(".md", ".h", ".cpp", ".py", ".js", ".cmake", ".txt", ".toml"):
             place = str(path.relative_to(harness.SOURCE))
@@ -118,8 +118,8 @@ class Pages(unittest.TestCase):
             for sentence in re.split(r"(?<=[.!?:;])\s|\n\n|\n\s*(?:-|\d+\.)\s", written(page)):
                 self.assertLessEqual(len(re.findall(r"\S*\w\S*", sentence)), 25, f"{page}: {sentence}")
 
-    def test_use_the_words_of_the_field(self):
-        """Not those that readers stumbled on: the noun exists."""
+    def test_use_terms_of_the_field(self):
+        """Pages avoid periphrases for which a term exists."""
         for page in self.prose():
             self.assertEqual(REPLACED.findall(written(page)), [], page)
 
@@ -127,12 +127,12 @@ class Pages(unittest.TestCase):
     def prose():
         return [path for path in files(".md") if str(path.relative_to(harness.SOURCE)) not in MADE]
 
-    def test_made_of_help_texts_are_current(self):
+    def test_generated_pages_are_current(self):
         for path, text in update.quick_pages(harness.PROGRAM).items():
             with self.subTest(path):
                 self.assertEqual((harness.SOURCE / path).read_text(), text, "renew it: docs/update.py build/release/fusee")
 
-    def test_name_every_file_that_is_built(self):
+    def test_name_every_output_file(self):
         listed = "".join(re.findall(r"^\| (.*?) \|", (harness.SOURCE / "docs/reference/outputs.md").read_text(), re.M))
         built = subprocess.run([harness.PROGRAM, "build", harness.SOURCE / "profiles/forearm.toml", "--dry-run", "--json"],
                                capture_output=True, check=True).stdout

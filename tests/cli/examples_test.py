@@ -1,4 +1,4 @@
-"""Every example of --help works as it is written, in the order in which the help shows them."""
+"""Every example of --help works as printed, in the order of the help."""
 
 import re
 import subprocess
@@ -15,21 +15,21 @@ class Examples(harness.Scratch):
         return lines
 
     def test_all(self):
-        (self.folder / "arm.toml").unlink()  # the examples make their own
+        (self.folder / "arm.toml").unlink()  # the examples create their own
         for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce", "plan", "kit", "model", "simulate", "replay", "completion", "manual"]:
             for line in self.examples(command):
                 with self.subTest(line):
                     done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, capture_output=True, timeout=120)
                     self.assertEqual(done.returncode, 0, done.stderr.decode())
-                    if command == "reproduce":  # the others' below; this one takes long
+                    if command == "reproduce":  # tested below, since it takes long
                         self.assertLessEqual(max(map(len, done.stdout.decode().splitlines()), default=0), 80)
 
-    def test_help_fits_a_terminal(self):
+    def test_help_fits_terminal(self):
         for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce", "calibrate", "compare", "plan", "kit", "simulate", "replay", "completion", "manual"]:
             for line in self.fusee(f"{command} --help").stdout.decode().splitlines():
                 self.assertLessEqual(len(line), 80, line)
 
-    def test_results_fit_a_terminal(self):
+    def test_results_fit_terminal(self):
         for command in ["", "new", "explain", "explain pulley.friction", "analyze arm.toml", "build arm.toml", "check out/arm/plates.dxf",
                         "rewind arm.toml out/arm/pulley.stl", "plan arm.toml", "kit arm.toml"]:
             for line in self.fusee(command).stdout.decode().splitlines():

@@ -1,4 +1,4 @@
-"""Runs the program as a person would, in a scratch folder. Called as: SCRIPT PROGRAM SOURCE_FOLDER."""
+"""Runs the program like a user, in a scratch folder. Called as: SCRIPT PROGRAM SOURCE_FOLDER."""
 
 import hashlib
 import json
@@ -24,14 +24,14 @@ def fusee(arguments, folder, **options):
 
 
 class Content(bytes):
-    """What stands in a file, named in a failure by its hash: unittest would spend hours on the difference of two meshes."""
+    """Content of a file. Failures show its hash, because unittest's difference of two meshes takes hours."""
 
     def __repr__(self):
         return f"<{len(self)} bytes, {hashlib.sha256(self).hexdigest()[:12]}>"
 
 
 class Scratch(unittest.TestCase):
-    """Each test has a folder of its own with arm.toml, a small mechanism that can be built."""
+    """Each test has its own folder with arm.toml, a small feasible mechanism."""
 
     def setUp(self):
         self.folder = Path(tempfile.mkdtemp(prefix="fusee-cli-"))
@@ -42,7 +42,7 @@ class Scratch(unittest.TestCase):
         return fusee(arguments, self.folder, **options)
 
     def expect(self, arguments, code, out="", err=""):
-        """Exit code, and what must be found on stdout and stderr; the same with --json must be one document that agrees."""
+        """Expects an exit code and patterns on stdout and stderr, and from --json one document that agrees."""
         done = self.fusee(arguments)
         shown = f"fusee {arguments}\n{done.stdout.decode(errors='replace')}\n{done.stderr.decode(errors='replace')}"
         self.assertEqual(done.returncode, code, shown)
@@ -65,12 +65,12 @@ class Scratch(unittest.TestCase):
         return document
 
     def build(self, folder="out/arm", arguments=""):
-        """A finished build, and the bytes of its files."""
+        """The finished process of a build, and the content of its files."""
         self.expect(f"build arm.toml -o {folder} {arguments}", 0)
         return self.files(folder)
 
     def files(self, folder):
-        """Bytes by name, of subfolders as "next/bench.html"."""
+        """Content by name, including subfolders such as "next/bench.html"."""
         top = self.folder / folder
         return {path.relative_to(top).as_posix(): Content(path.read_bytes()) for path in sorted(top.rglob("*")) if path.is_file()}
 

@@ -1,4 +1,4 @@
-"""`fusee model` as those meet it who take its files: what it leaves, what it refuses, and the header compiled for 32-bit arithmetic."""
+"""`fusee model` from the view of its users: files, refusals, and the header compiled for 32-bit arithmetic."""
 
 import csv
 import hashlib
@@ -21,7 +21,7 @@ COMPENSATION = "theta_deg,alpha_up_deg,alpha_down_deg\n" + "".join(f"{t},{4 * t 
 
 class Model(harness.Scratch):
     def compiled(self, body, folder="m", compiler="gcc", standard="c99"):
-        """What a program prints that includes the header of `folder`."""
+        """Output of a C program that includes the header of `folder`."""
         suffix = "c" if compiler == "gcc" else "cpp"
         source = self.folder / f"main.{suffix}"
         source.write_text(f'#include "{folder}/joint_table.h"\n#include <stdio.h>\nint main(void) {{\n{body}\n  return 0;\n}}\n')
@@ -30,11 +30,11 @@ class Model(harness.Scratch):
         return [[float(word) for word in line.split()] for line in said.splitlines()]
 
     def stated(self, folder="m"):
-        """θ read from the motor, θ where it is sent to: what the header says that it misses."""
+        """The header's stated errors of θ, read from the motor and sent to it."""
         text = (self.folder / folder / "joint_table.h").read_text()
         return [float(x) for x in re.search(r"by\n \*\s+(\S+) deg at most in theta read.*\n \*\s+(\S+) deg at most", text).groups()]
 
-    def test_it_leaves_files_each_with_what_it_misses(self):
+    def test_files_state_their_errors(self):
         document = self.expect_json("model arm.toml -o m", 0)
         files = self.files("m")
         self.assertEqual(set(files), FILES)
@@ -57,20 +57,20 @@ class Model(harness.Scratch):
         of_theta, returned = self.stated(folder)
         for compiler, standard in (("gcc", "c99"), ("g++", "c++17")):
             for (alpha, theta, slope), (read, sent, g) in zip(rows, self.compiled(body, folder, compiler, standard), strict=True):
-                # The CSV has six decimals, what is asked and said seven digits.
+                # The CSV has six decimals; requested and reported limits have seven digits.
                 asked = 2e-6 + 6e-8 * (abs(float(alpha)) * slope + abs(float(theta)))
                 self.assertLessEqual(abs(read - float(theta)), of_theta + asked)
                 self.assertLessEqual(abs(sent - float(alpha)) * slope, 1.02 * returned + asked)
                 self.assertAlmostEqual(g / slope, 1, 3)
 
-    def test_the_header_gives_the_figures_of_transmission_csv(self):
+    def test_header_matches_transmission_csv(self):
         self.header_against_transmission_csv("arm.toml", "arm", "m")
 
-    def test_so_it_does_over_several_turns(self):
+    def test_header_matches_several_turns(self):
         shutil.copy(harness.SOURCE / "profiles/elbow_capstan.toml", self.folder)
         self.header_against_transmission_csv("elbow_capstan.toml", "elbow_capstan", "turns")
 
-    def test_the_header_stands_still_beyond_its_ends_and_grows_between_them(self):
+    def test_header_is_monotonic_and_clamped(self):
         self.expect("model arm.toml -o m", 0)
         rows = self.compiled('  int i;\n  for (i = -2000; i <= 2000; ++i) printf("%.9g %.9g\\n", (double)arm_theta_deg(0.1f * (float)i), (double)arm_alpha_deg(0.03f * (float)i));\n'
                              '  printf("%.9g %.9g\\n", (double)arm_theta_deg(1e30f), (double)arm_alpha_deg(1e30f));\n'
@@ -79,10 +79,10 @@ class Model(harness.Scratch):
             self.assertLessEqual(before[0], after[0])
             self.assertLessEqual(before[1], after[1])
         self.assertEqual([rows[0][0], rows[4001][0]], [-30, 30])
-        self.assertEqual(rows[4002][0], -30)  # not a number: an end, and no place outside of the table
+        self.assertEqual(rows[4002][0], -30)  # not a number: it gives an end of the table, and no access outside of it
         self.assertEqual(rows[4002][1], rows[0][1])
 
-    def test_counts_go_on_over_the_turn_and_fall_where_they_should(self):
+    def test_counts_are_continuous(self):
         for ticks, zero in ((4096, 2048), (-4096, 100), (16384, -70000)):
             self.expect(f"model arm.toml -o m --ticks-per-turn {ticks} --zero-ticks {zero} --force", 0)
             rows = self.compiled(f'  int i;\n  for (i = -1200; i <= 1200; ++i) {{\n    const int32_t count = {zero} + i;\n'
@@ -105,22 +105,22 @@ class Model(harness.Scratch):
                 self.assertAlmostEqual(got, wanted, 4)
             self.assertEqual(law["motor_unit"], {"name": "count", "per_turn": ticks, "zero": zero})
 
-    def test_a_heavy_load_is_held(self):
+    def test_holds_heavy_load(self):
         self.expect("model arm.toml -o m --set load.mass_kg=0.5 --set load.lever_mm=80 --set load.tilt_deg=90", 0)
         rows = self.compiled('  printf("%.9g %.9g\\n", (double)arm_holding_torque_Nmm(0.0f), (double)arm_motor_torque(0.0f, 1.0f));')
         self.assertAlmostEqual(rows[0][0], 0.5 * 9.80665 * 80 * rows[0][1], 2)
         self.assertIn('gravity="-9.80665 ', (self.folder / "m/joint.xml").read_text())
 
-    def test_a_compensation_is_taken_both_ways(self):
+    def test_compensation_has_both_directions(self):
         (self.folder / "c.csv").write_text(COMPENSATION)
-        self.expect("model arm.toml -o m --compensation c.csv --set pulley.law=linear --set pulley.ratio=4", 0, "from below and from above")
+        self.expect("model arm.toml -o m --compensation c.csv --set pulley.law=linear --set pulley.ratio=4", 0, "in both directions")
         rows = self.compiled("".join(f'  printf("%.9g %.9g %.9g %.9g\\n", (double)arm_alpha_up_deg({t}.0f), (double)arm_alpha_down_deg({t}.0f), (double)arm_alpha_deg({t}.0f), (double)arm_theta_up_deg({4 * t}.0f));\n'
                                      for t in range(-24, 25, 3)))
         for t, (up, down, middle, theta) in zip(range(-24, 25, 3), rows):
             for got, wanted in ((up, 4 * t + 0.5), (down, 4 * t - 0.5), (middle, 4 * t), (theta, t - 0.125)):
                 self.assertLess(abs(got - wanted), 0.002)
 
-    def test_a_bad_compensation_is_said_with_its_lines(self):
+    def test_reports_lines_of_bad_compensation(self):
         for text, said in (("", "fewer than two rows"), ("a,b,c\n1,2,3\n", "c.csv:1:1.*theta_deg"), (COMPENSATION + "26,x,3\n", "c.csv:13:1.*'x'"),
                            (COMPENSATION + "20,90,90\n", "must grow"), (COMPENSATION + "27\n", "is no angle"), ("\0" * 50, "c.csv:1"), (COMPENSATION + "nan,1,2\n", "c.csv:13")):
             (self.folder / "c.csv").write_text(text)
@@ -128,7 +128,7 @@ class Model(harness.Scratch):
         self.expect("model arm.toml -o m --compensation nowhere.csv", 3, "^$", "nowhere.csv")
         self.assertFalse((self.folder / "m").exists())
 
-    def test_an_identified_joint_differs_by_the_way(self):
+    def test_identified_joint_has_hysteresis(self):
         document = self.expect_json("model arm.toml -o m --set identified.backlash_deg=2", 0)
         self.assertGreater(document["loop_deg"], 0.1)
         rows = self.compiled('  printf("%.9g %.9g\\n", (double)arm_alpha_up_deg(5.0f), (double)arm_alpha_down_deg(5.0f));')
@@ -136,7 +136,7 @@ class Model(harness.Scratch):
         declared = self.expect_json("model arm.toml -o m --set identified.backlash_deg=2 --declared", 0)
         self.assertEqual(declared["loop_deg"], 0)
 
-    def test_what_calibrate_left_beside_the_file_is_found(self):
+    def test_finds_compensation_of_calibrate(self):
         shutil.copy(self.folder / "arm.toml", self.folder / "corrected.toml")
         (self.folder / "compensation.csv").write_text(COMPENSATION)
         outputs = [{"file": name, "bytes": 0, "sha256": hashlib.sha256((self.folder / name).read_bytes()).hexdigest()} for name in ("corrected.toml", "compensation.csv")]
@@ -150,31 +150,31 @@ class Model(harness.Scratch):
             (self.folder / "manifest.json").write_text(text)
             self.expect("model corrected.toml -o m --dry-run", 0, "of the declared law")
 
-    def test_a_polynomial_that_is_too_far_off_is_refused_with_what_would_do(self):
+    def test_coarse_polynomial_is_refused_with_advice(self):
         document = self.expect_json("model arm.toml -o m --max-error-deg 0.001", 4)
         self.assertFalse((self.folder / "m").exists())
         self.assertEqual(len(document["advice"]), 3)
         for advice in document["advice"]:
             option = f"--max-error-deg 0.001 --set '{advice['key']}={advice['value']}'" if "key" in advice else (advice["text"] if "max" in advice["text"] else "--max-error-deg 0.001 " + advice["text"])
             self.expect(f"model arm.toml -o m --force {option}", 0)
-        self.expect("model arm.toml -o m --max-error-deg 0.001", 4, "^$", "would miss theta")
+        self.expect("model arm.toml -o m --max-error-deg 0.001", 4, "^$", "theta error of joint.xml would be")
         self.expect("model arm.toml -o m --force --no-polynomial", 0)
         self.assertEqual(set(self.files("m")), FILES - {"joint.xml"})
 
-    def test_a_table_that_is_too_far_off_is_refused_with_what_would_do(self):
+    def test_coarse_table_is_refused_with_advice(self):
         document = self.expect_json("model arm.toml -o m --max-table-error-deg 0.000001", 4)
         self.assertEqual(len(document["advice"]), 1)
         self.expect(f"model arm.toml -o m {document['advice'][0]['text']}", 0)
 
-    def test_a_joint_without_a_law_is_refused(self):
-        self.expect("model arm.toml -o m --set joint.range_deg=[-89,89]", 4, "^$", "would be possible with")
+    def test_rejects_joint_without_law(self):
+        self.expect("model arm.toml -o m --set joint.range_deg=[-89,89]", 4, "^$", "try ")
         (self.folder / "ratio.toml").write_text(RATIO)
         self.expect("model ratio.toml", 3, "^$", r"\[transmission\]")
 
-    def test_a_pulley_that_cannot_be_made_is_said(self):
-        self.expect("model arm.toml -o m --set pulley.r1_mm=25", 0, "", "no pulley can be made")
+    def test_reports_infeasible_pulley(self):
+        self.expect("model arm.toml -o m --set pulley.r1_mm=25", 0, "", "no pulley can have this law")
 
-    def test_names_are_names_in_every_language(self):
+    def test_names_are_valid_identifiers(self):
         for name in ('"*/ \\"--> <&\\\\ ??/"', '"42"', '""', '"größe"', '"int"'):
             self.expect(f"model arm.toml -o m --force --set 'name={name}'", 0)
             prefix = re.search(r"(\w+)_slope_table", (self.folder / "m/joint_table.h").read_text()).group(1)
@@ -184,7 +184,7 @@ class Model(harness.Scratch):
         self.expect("model arm.toml -o m --force --prefix left_elbow", 0)
         self.assertIn("left_elbow_theta_deg(float", (self.folder / "m/joint_table.h").read_text())
 
-    def test_options_are_held_to_what_they_mean(self):
+    def test_rejects_invalid_options(self):
         for option, said in (("--ticks-per-turn 0", "2 or more"), ("--ticks-per-turn 4096.5", "whole number"), ("--ticks-per-turn 1e9", "from"), ("--zero-ticks 3", "ticks-per-turn"),
                              ("--ticks-per-turn 4096 --zero-ticks 1e30", "from"), ("--max-error-deg 0", "from"), ("--max-error-deg nan", "number"), ("--max-table-error-deg -1", "from"),
                              ("--prefix 3d", "for example"), ("--prefix a-b", "left|a_b"), ("--prefix ''", "prefix"), ("--max-eror-deg 1", "--max-error-deg")):
@@ -192,7 +192,7 @@ class Model(harness.Scratch):
         self.expect("model arm.toml -o m --ticks-per-turn 100000000 --zero-ticks 990000000 --set pulley.r1_mm=16", 0)
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name not in ("arm.toml", "m")], [])
 
-    def test_whatever_is_asked_ends_as_it_should(self):
+    def test_survives_any_options(self):
         numbers = ["0", "-1", "1", "2", "-4096", "4096", "1e-7", "0.001", "1e308", "nan", "inf", "", "x", "4096.5", "99999999"]
         files = ["none", "arm.toml", "nowhere", ".", "/dev/null", ""]
         choice = random.Random(20261122)
@@ -207,7 +207,7 @@ class Model(harness.Scratch):
             if document["exit"] == 0 and "--dry-run" not in words:
                 self.assertTrue(all(check["ok"] for check in json.loads(self.files("m")["manifest.json"])["checks"]), words)
 
-    def test_same_input_same_bytes_and_a_dry_run_leaves_nothing(self):
+    def test_is_reproducible_and_a_dry_run_leaves_nothing(self):
         self.expect("model arm.toml -o one", 0)
         os.environ["TZ"] = "Pacific/Chatham"
         self.expect("model arm.toml -o two", 0)
@@ -215,7 +215,7 @@ class Model(harness.Scratch):
         self.expect("model arm.toml --dry-run", 0, r"none written \(--dry-run\)")
         self.assertFalse((self.folder / "out").exists())
 
-    def test_what_somebody_changed_is_kept_and_what_is_no_longer_made_goes(self):
+    def test_keeps_edited_files_and_removes_old_ones(self):
         self.expect("model arm.toml -o m", 0)
         self.expect("model arm.toml -o m --no-polynomial", 0)
         self.assertNotIn("joint.xml", self.files("m"))
@@ -223,7 +223,7 @@ class Model(harness.Scratch):
         self.expect("model arm.toml -o m", 6, "^$", "joint.urdf")
         self.assertEqual((self.folder / "m/joint.urdf").read_text(), "mine")
 
-    def test_it_can_be_packed_and_run_again(self):
+    def test_replays_bundle(self):
         self.expect("model arm.toml -o m --bundle bug.zip", 0)
         self.expect("replay bug.zip", 0)
 

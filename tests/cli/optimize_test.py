@@ -1,4 +1,5 @@
-"""fusee optimize: NEW.toml keeps what a person wrote, the same seed gives the same bytes, Ctrl-C leaves the best so far."""
+"""fusee optimize: NEW.toml keeps the user's text, equal seeds give equal bytes, and Ctrl-C leaves the best design so
+far."""
 
 import json
 import re
@@ -46,7 +47,7 @@ class Optimize(harness.Scratch):
         self.assertEqual(done.returncode, code, done.stdout.decode() + done.stderr.decode())
         return json.loads(done.stdout)
 
-    def test_the_papers_optimum_is_proven(self):
+    def test_proves_paper_optimum(self):
         answer = self.answer("")
         self.assertEqual(answer["method"], "certified")
         self.assertEqual(answer["design"], {"joint.length_mm": 100, "guides.ED_mm": 50, "guides.OE_mm": -40, "guides.EB_mm": 50})
@@ -65,7 +66,7 @@ class Optimize(harness.Scratch):
         self.assertEqual(self.fusee("optimize problem.toml -o new.toml --force").returncode, 0)
         self.assertAlmostEqual(json.loads(self.fusee("optimize new.toml --json").stdout)["value_before"], 2.3673443, 7)
 
-    def test_a_file_of_dotted_keys_still_gets_its_numbers(self):
+    def test_updates_dotted_keys(self):
         (self.folder / "dotted.toml").write_text(
             "schema = 1\njoint = {length_mm = 100, range_deg = [-30, 30]}\nguides.EB_mm = 50\nguides.ED_mm = 50\nguides.OE_mm = -40\n"
             "pulley = {EF_mm = 60, r1_mm = 20}\ntendon.diameter_mm = 1\n"
@@ -75,7 +76,7 @@ class Optimize(harness.Scratch):
         again = json.loads(self.fusee("optimize new.toml --json").stdout)
         self.assertAlmostEqual(again["value_before"], json.loads(done.stdout)["value"], 8)
 
-    def test_the_same_seed_gives_the_same_bytes(self):
+    def test_equal_seeds_give_equal_bytes(self):
         first = self.fusee("optimize problem.toml --json --method ga --seed 3").stdout
         self.assertEqual(first, self.fusee("optimize problem.toml --json --method ga --seed 3").stdout)
         self.assertNotEqual(first, self.fusee("optimize problem.toml --json --method ga --seed 4").stdout)
@@ -91,7 +92,7 @@ class Optimize(harness.Scratch):
         self.assertEqual(len(files), len(answer["front"]))
         self.assertIn("# my joint", files[0].read_text())
 
-    def test_a_front_appears_whole_or_not_at_all(self):
+    def test_front_is_atomic(self):
         objectives = """'optimize.objective=["max_tension", "footprint"]'"""
         (self.folder / "points").mkdir()
         (self.folder / "points" / "point_002.toml").write_text("mine")
@@ -101,7 +102,7 @@ class Optimize(harness.Scratch):
         self.assertEqual(self.fusee(words + " --force").returncode, 0)
         self.assertIn("# my joint", (self.folder / "points" / "point_002.toml").read_text())
 
-    def test_it_says_what_a_pin_is(self):
+    def test_describes_pins(self):
         self.assertEqual(self.answer("")["pins"], {"points": True, "pitch_radius_mm": 0})
         self.assertEqual(self.answer("--set pulley.method=exact")["pins"], {"points": False, "pitch_radius_mm": 0.5})
         for command in ["analyze", "build --dry-run"]:
@@ -110,14 +111,14 @@ class Optimize(harness.Scratch):
             said = self.fusee(f"{command} problem.toml --set pulley.method=exact").stderr.decode()
             self.assertIn("centre line runs 0.5 mm from a pin's centre", said)
 
-    def test_identified_numbers_are_added_to_the_designs(self):
+    def test_adds_identified_numbers(self):
         (self.folder / "problem.toml").write_text(PROBLEM + "[identified]\nfriction = 0.1\nlength_mm = 2.0\n")
         answer = self.answer("--generations 3 --population 12 -o new.toml")
         self.assertEqual((answer["method"], answer["joint"]), ("ga", "as_it_is"))
         new = (self.folder / "new.toml").read_text()
         self.assertIn("[identified]\nfriction = 0.1\nlength_mm = 2.0\n", new)
         self.assertGreaterEqual(answer["design"]["joint.length_mm"], 100)
-        again = self.answer("--generations 1 --population 8")  # of the file as it was written
+        again = self.answer("--generations 1 --population 8")  # on the file that was written
         self.assertNotEqual(again["value_before"], answer["value"])
         (self.folder / "problem.toml").write_text(new)
         self.assertAlmostEqual(self.answer("--generations 1 --population 8")["value_before"], answer["value"], 9)
@@ -131,7 +132,7 @@ class Optimize(harness.Scratch):
         self.assertEqual(broken["then"]["objective"], "footprint")
         self.assertLessEqual(broken["value"], 2.003)
 
-    def test_interrupt_leaves_the_best_so_far(self):
+    def test_interrupt_keeps_best_design(self):
         running = subprocess.Popen([harness.PROGRAM, "optimize", "problem.toml", "--json", "--method", "ga", "--generations", "100000", "-o", "best.toml"],
                                    cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         time.sleep(1.0)

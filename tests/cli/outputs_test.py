@@ -1,4 +1,4 @@
-"""What a build leaves behind, in good times and in bad: whole files or none."""
+"""Files of a build, successful or not: complete files or none."""
 
 import fcntl
 import hashlib
@@ -17,22 +17,22 @@ import harness
 
 OUTPUTS = {"pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "pulley.scad", "profile.dxf", "plates.dxf",
            "profile.csv", "profile_p1.csv", "profile_p2.csv", "transmission.csv", "report.html", "manifest.json"}
-PARTS = {"pulley_p1.stl", "pulley_p2.stl"}  # of a pulley that is printed in two, as arm.toml's is
+PARTS = {"pulley_p1.stl", "pulley_p2.stl"}  # of a pulley printed in two parts, like that of arm.toml
 
 
 class Build(harness.Scratch):
-    def test_leaves_every_file_and_nothing_else(self):
+    def test_writes_exactly_its_files(self):
         files = self.build()
         self.assertEqual(set(files), OUTPUTS | PARTS)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["arm.toml", "out"])
         self.assertTrue(all(files.values()))
 
-    def test_in_one_part_leaves_no_parts(self):
+    def test_one_part_has_no_part_files(self):
         self.assertEqual(set(self.build("one", "--set print.parts=one")), OUTPUTS)
         self.build("again")
         self.assertEqual(set(self.build("again", "--set print.parts=one")), OUTPUTS)
 
-    def test_step_is_written_where_it_is_asked_for_and_can_be(self):
+    def test_writes_step_on_request(self):
         done = self.fusee("build arm.toml -o out/cad --step")
         if b"built without STEP" in done.stderr:
             self.assertEqual(done.returncode, 3)
@@ -41,16 +41,16 @@ class Build(harness.Scratch):
         self.assertEqual(done.returncode, 0)
         names = {path.name for path in (self.folder / "out/cad").iterdir()}
         self.assertEqual(names, OUTPUTS | PARTS | {"pulley.step"})
-        # The next run without it leaves none that is older than the rest.
+        # The next run without --step removes the older pulley.step.
         self.expect("build arm.toml -o out/cad", 0, "pulley.scad")
         self.assertFalse((self.folder / "out/cad/pulley.step").exists())
 
-    def test_same_input_same_bytes(self):
+    def test_is_reproducible(self):
         first = self.build("one")
         os.environ["TZ"] = "Pacific/Chatham"
         self.assertEqual(first, self.build("two"))
 
-    def test_summary_fits_a_narrow_terminal(self):
+    def test_summary_fits_narrow_terminal(self):
         done = self.expect("build arm.toml", 0, "alpha.*r2.*as built.*checks.*report.html")
         self.assertLessEqual(max(len(line) for line in done.stdout.decode().splitlines()), 80)
 
@@ -62,11 +62,11 @@ class Build(harness.Scratch):
         self.assertEqual([output["file"] for output in document["outputs"]],
                          [output["file"] for output in manifest["outputs"]] + ["manifest.json"])
 
-    def test_dry_run_leaves_nothing(self):
+    def test_dry_run_writes_nothing(self):
         self.expect("build arm.toml --dry-run", 0, r"none written \(--dry-run\)")
         self.assertEqual([path.name for path in self.folder.iterdir()], ["arm.toml"])
 
-    def test_what_was_built_passes_check_and_rewind(self):
+    def test_outputs_pass_check_and_rewind(self):
         self.build("p")
         for name in ["pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "profile.dxf", "plates.dxf"]:
             self.expect(f"check p/{name}", 0, "valid")
@@ -86,7 +86,7 @@ class Build(harness.Scratch):
             self.assertAlmostEqual(axis / 25.4, size, 5)
 
     def move(self, source, target, turn=0.0, by=(0.0, 0.0, 0.0), scale=1.0, mirror=1, keep=lambda z: True):
-        """What a slicer does to a binary STL."""
+        """Moves a binary STL as a slicer does."""
         cosine, sine = math.cos(math.radians(turn)), math.sin(math.radians(turn))
         data = (self.folder / source).read_bytes()
         facets = []
@@ -102,13 +102,13 @@ class Build(harness.Scratch):
             facets.append(struct.pack("<12fH", 0, 0, 0, *flat, 0))
         (self.folder / target).write_bytes(data[:80] + struct.pack("<I", len(facets)) + b"".join(facets))
 
-    def test_rewind_finds_what_was_moved(self):
+    def test_rewind_finds_moved_part(self):
         self.build("a/long/path/p")
         stl = "a/long/path/p/pulley.stl"
         right = self.expect_json(f"rewind arm.toml {stl}", 0)
         self.assertEqual(right["placements"], [])
         self.move(stl, "moved.stl", turn=90, by=(125, 105, -3))
-        done = self.expect("rewind arm.toml moved.stl", 0, r"^moved.stl: theta within .*\n  found from its grooves: its axis at\s+\(125, 105\)\s+mm,\s+turned\s+by\s+90°\s+about\s+it;\s+grooves\s+P1\s+at\s+z\s+= ", "note: the grooves are not where they were made.*--as-is")
+        done = self.expect("rewind arm.toml moved.stl", 0, r"^moved.stl: theta within .*\n  found from its grooves: its axis at\s+\(125, 105\)\s+mm,\s+turned\s+by\s+90°\s+about\s+it;\s+grooves\s+P1\s+at\s+z\s+= ", "note: the part was moved after the build.*--as-is")
         moved = self.expect_json("rewind arm.toml moved.stl", 0)
         self.assertAlmostEqual(moved["placements"][0]["turned_deg"], 90, 4)
         self.assertAlmostEqual(moved["as_built"]["max_theta_error_deg"], right["as_built"]["max_theta_error_deg"], 4)
@@ -126,19 +126,19 @@ class Build(harness.Scratch):
         self.expect("rewind arm.toml mirrored.stl --as-is", 5, "mirrored.stl: theta within", "check 'slack' failed")
         self.expect(f"rewind arm.toml {stl} --as-is", 0, "^pulley.stl: theta within", "^$")
 
-    def test_limits_that_cannot_be_met_fail_the_build(self):
+    def test_tight_limits_fail_build(self):
         self.expect("build arm.toml --max-theta-error-deg 0", 5, "FAILED|of", "check 'theta_error' failed")
         document = self.expect_json("rewind arm.toml out/arm/pulley.stl --max-slack-mm 0", 5)
         self.assertTrue(document["points"])
 
-    def test_failed_check_keeps_the_earlier_run(self):
+    def test_failed_check_keeps_earlier_run(self):
         earlier = self.build()
         self.expect("build arm.toml --max-theta-error-deg 0", 5, "keeps its earlier run", "were kept.*--force")
         self.assertEqual(self.files("out/arm"), earlier)
         self.expect("build arm.toml --max-theta-error-deg 0 --force", 5, "report.html")
         self.assertNotEqual(self.files("out/arm"), earlier)
 
-    def test_infeasible_design_says_what_would_do(self):
+    def test_infeasible_design_has_advice(self):
         document = self.expect_json("build arm.toml --set pulley.r1_mm=60", 4)
         broken = [condition for condition in document["conditions"] if not condition["ok"]]
         self.assertTrue(broken)
@@ -147,7 +147,7 @@ class Build(harness.Scratch):
             self.assertEqual(set(change), {"key", "from", "to", "unit", "text"})
         self.assertFalse((self.folder / "out").exists())
 
-    def test_advice_is_true(self):
+    def test_advice_builds(self):
         advice = self.expect_json("build arm.toml --set pulley.r1_mm=60", 4)["advice"]
         r1 = [change for change in advice if change["key"] == "pulley.r1_mm"]
         self.assertTrue(r1)
@@ -161,22 +161,22 @@ class Build(harness.Scratch):
         self.assertGreater(document["as_built"]["max_slack_mm"], 0.05)
 
 
-class SomebodysWork(harness.Scratch):
-    def test_is_refused_without_force(self):
+class ForeignFiles(harness.Scratch):
+    def test_require_force(self):
         (self.folder / "mine").mkdir()
         (self.folder / "mine/pulley.stl").write_text("a week of work")
         self.expect("build arm.toml -o mine", 6, "^$", "fusee did not write: pulley.stl.*--force")
         self.assertEqual(self.files("mine"), {"pulley.stl": b"a week of work"})
         self.expect("build arm.toml -o mine --force", 0)
 
-    def test_beside_the_outputs_is_left_alone(self):
+    def test_unrelated_files_are_kept(self):
         (self.folder / "mine").mkdir()
         (self.folder / "mine/notes.txt").write_text("notes")
         files = self.build("mine")
         self.assertEqual(files.pop("notes.txt"), b"notes")
         self.assertEqual(set(files), OUTPUTS | PARTS)
 
-    def test_is_seen_when_an_output_was_edited(self):
+    def test_edited_outputs_are_detected(self):
         self.build()
         (self.folder / "out/arm/pulley.scad").write_text("my changes")
         self.expect("build arm.toml", 6, "^$", "changed after fusee wrote them: pulley.scad")
@@ -187,20 +187,20 @@ class SomebodysWork(harness.Scratch):
         second = self.build(arguments="--set pulley.r1_mm=15")
         self.assertNotEqual(first["pulley.stl"], second["pulley.stl"])
 
-    def test_a_file_in_the_way(self):
+    def test_file_at_output_folder_is_refused(self):
         (self.folder / "out").write_text("a file")
         self.expect("build arm.toml", 6, "^$", "out.*not a folder")
 
-    def test_a_folder_in_the_way(self):
+    def test_folder_at_output_file_is_refused(self):
         (self.folder / "out/arm/pulley.stl").mkdir(parents=True)
         self.expect("build arm.toml", 6, "^$", "pulley.stl")
 
     @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
-    def test_a_folder_that_cannot_be_written(self):
+    def test_unwritable_folder_is_reported(self):
         (self.folder / "locked").mkdir(mode=0o500)
         self.expect("build arm.toml -o locked", 6, "^$", "locked")
 
-    def test_a_place_that_nobody_can_write(self):
+    def test_unwritable_place_is_reported(self):
         self.expect("build arm.toml -o /proc/fusee", 6, "^$", "/proc")
 
 
@@ -219,9 +219,9 @@ class FullDisk(harness.Scratch):
 
 
 class LargestFile(harness.Scratch):
-    """What `ulimit -f` allows no more of."""
+    """Files at the limit of `ulimit -f`."""
 
-    def test_leaves_the_earlier_files(self):
+    def test_keeps_earlier_files(self):
         earlier = self.build()
         for blocks in (0, 1, 20, 100, 300):
             done = subprocess.run(["bash", "-c", f"ulimit -f {blocks}; exec fusee build arm.toml --set pulley.r1_mm=15 -q 2>&1 | cat; exit ${{PIPESTATUS[0]}}"],
@@ -231,15 +231,15 @@ class LargestFile(harness.Scratch):
             self.assertEqual(self.files("out/arm"), earlier)
             self.assertEqual([path.name for path in (self.folder / "out").iterdir()], ["arm"])
 
-    def test_leaves_no_half_file(self):
+    def test_leaves_no_partial_file(self):
         done = subprocess.run(["bash", "-c", "ulimit -f 1; fusee analyze arm.toml -q -o table.csv 2>&1 | cat; exit ${PIPESTATUS[0]}"],
                               cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE, timeout=120)
         self.assertEqual(done.returncode, 6, done.stdout)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["arm.toml"])
 
 
-class NamesOfDots(harness.Scratch):
-    def test_of_the_mechanism(self):
+class DotNames(harness.Scratch):
+    def test_mechanism_file(self):
         for name, folder in {"..toml": "..toml", "...toml": "...toml", "....toml": "...", "arm..toml": "arm.", ".toml": ".toml"}.items():
             (self.folder / name).write_bytes((self.folder / "arm.toml").read_bytes())
             self.expect(["build", name, "-q"], 0)
@@ -247,7 +247,7 @@ class NamesOfDots(harness.Scratch):
         self.assertFalse((self.folder / "manifest.json").exists())
         self.assertFalse((self.folder / "out/manifest.json").exists())
 
-    def test_of_the_outputs(self):
+    def test_output_folder(self):
         for name in ("...", "..x", "x..", ".hidden"):
             self.assertEqual(set(self.build(name)), OUTPUTS | PARTS)
         for name in (".", "..", "x/.."):
@@ -257,7 +257,7 @@ class NamesOfDots(harness.Scratch):
         self.expect("analyze arm.toml -o .table.csv", 0)
         self.assertTrue((self.folder / ".table.csv").exists())
 
-    def test_this_folder_stays_this_folder(self):
+    def test_working_folder_is_not_replaced(self):
         inode = self.folder.stat().st_ino
         for _ in range(2):
             self.expect("build arm.toml -o .", 0)
@@ -266,7 +266,7 @@ class NamesOfDots(harness.Scratch):
 
 
 class Streams(harness.Scratch):
-    """stdout and stderr closed, full or broken: a clear end, and never a message inside an output file."""
+    """stdout and stderr closed, full or broken: a defined exit, and never a message inside an output file."""
 
     def shell(self, line):
         return subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE,
@@ -292,12 +292,12 @@ class Streams(harness.Scratch):
         self.assertEqual(self.shell("fusee build arm.toml -o bad -v <&- >&- 2>&-").returncode, 6)
         self.assertEqual(self.files("bad"), good)
 
-    def test_no_colours_and_no_progress_off_a_terminal(self):
+    def test_plain_output_without_terminal(self):
         for line in ["fusee build arm.toml --force", "fusee build missing.toml"]:
             self.assertNotIn(b"\x1b", self.shell(line).stderr)
 
     def terminal(self, line):
-        """What `line` shows on a terminal."""
+        """The terminal output of `line`."""
         try:
             ours, theirs = os.openpty()
         except OSError as error:
@@ -321,12 +321,12 @@ class Streams(harness.Scratch):
         self.assertNotIn(b"\x1b", self.terminal("NO_COLOR=1 fusee build missing.toml"))
         self.assertIn("finding both pitch curves …".encode(), self.terminal("fusee build arm.toml"))
 
-    def test_escape_sequences_in_names_are_not_obeyed(self):
+    def test_names_are_escaped(self):
         done = self.fusee(["build", "\x1b[31mred.toml"])
         self.assertEqual(done.returncode, 3)
         self.assertNotIn(b"\x1b", done.stderr)
 
-    def test_control_characters_come_out_nowhere(self):
+    def test_prints_no_control_characters(self):
         unfit = "a\x1b[2J\x9b\u202e\x7f"
         spec = (self.folder / "arm.toml").read_text()
         (self.folder / f"{unfit}.toml").write_text(spec)
@@ -338,21 +338,21 @@ class Streams(harness.Scratch):
             for one in unfit[1], *unfit[5:]:
                 self.assertNotIn(one.encode(), shown)
         document = harness.json.loads(self.fusee(["check", f"o{unfit}/pulley.stl", "--json"]).stdout)
-        self.assertEqual(document["file"], f"o{unfit}/pulley.stl")  # escaped, and the same
+        self.assertEqual(document["file"], f"o{unfit}/pulley.stl")  # escaped in the document
 
-    def test_names_that_are_no_text(self):
+    def test_accepts_names_that_are_not_utf8(self):
         done = self.fusee([b"build", b"\xff\xfe.toml", b"--json"])
         self.assertEqual(harness.json.loads(done.stdout)["exit"], 3)
 
 
 class Leftovers(harness.Scratch):
-    """Staging folders that nobody of ours made: 3999999 is no process."""
+    """Staging folders that fusee did not make; 3999999 is not a process."""
 
     def tree(self):
         return {str(path.relative_to(self.folder)): path.read_bytes() if path.is_file() else b"" for path in self.folder.rglob("*")}
 
     def plant(self, folder, withdrawn, journal=None):
-        """A journal as fusee 0.1 left it, that lists files for removal with their right hashes."""
+        """A journal of fusee 0.1, which lists files for removal with correct hashes."""
         (self.folder / "doc").mkdir(exist_ok=True)
         (self.folder / "doc/t").write_text("data")
         leftover = self.folder / folder / ".fusee-3999999-x"
@@ -377,7 +377,7 @@ class Leftovers(harness.Scratch):
         self.expect("build arm.toml -o dl", 0, "", "note: .*fusee-3999999-x is ignored")
         self.assertEqual((self.folder / "doc/t").read_text(), "data")
 
-    def test_malformed_ones_are_ignored(self):
+    def test_malformed_journals_are_ignored(self):
         self.build("dl")
         for journal in ("", "{", "[]", '{"tool":"fusee","outputs":[],"withdrawn":7}', "\0" * 100):
             self.plant("dl", "t", journal)
@@ -385,7 +385,7 @@ class Leftovers(harness.Scratch):
             self.expect("build arm.toml -o dl", 0)
             shutil.rmtree(self.folder / "dl/.fusee-3999999-x")
 
-    def test_locks_of_others_hold_up_nothing(self):
+    def test_foreign_locks_do_not_block(self):
         for place in (".", "out"):
             (self.folder / place).mkdir(exist_ok=True)
             lock = os.open(self.folder / place, os.O_RDONLY)
@@ -397,7 +397,7 @@ class Leftovers(harness.Scratch):
 
 
 class Machine(harness.Scratch):
-    """What the machine does not have is said, and is no bug."""
+    """Missing resources of the machine are reported, and are not bugs."""
 
     def test_no_temporary_folder(self):
         bundle = self.folder / "bug.zip"
@@ -419,7 +419,7 @@ class Machine(harness.Scratch):
             for limit in (50_000, 80_000, 110_000):
                 done = subprocess.run(["bash", "-c", f"ulimit -v {limit}; exec fusee {words} -q --force"], cwd=self.folder, env=harness.ENVIRONMENT, capture_output=True)
                 if done.returncode == 127 or b"error while loading shared libraries" in done.stderr:
-                    continue  # the system's own words: there was no room for the program
+                    continue  # the system's own message: no memory to start the program
                 self.assertIn(done.returncode, (0, 6), (words, limit, done.stderr))
                 if done.returncode == 6:
                     self.assertIn(b"not enough memory", done.stderr)
@@ -428,7 +428,7 @@ class Machine(harness.Scratch):
 
 
 class Kill(harness.Scratch):
-    """Killed at any moment, the earlier files are whole, and the next run cleans up."""
+    """When killed at any moment, the earlier files are complete, and the next run cleans up."""
 
     DELAYS = [0.005, 0.02, 0.05, 0.08, 0.11, 0.15, 0.2, 0.3]
 
@@ -436,8 +436,8 @@ class Kill(harness.Scratch):
         line = [harness.PROGRAM, "build", "arm.toml", "--set", "pulley.r1_mm=15", *arguments.split()]
         return subprocess.Popen(line, cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
-    def test_outright(self):
-        """FUSEE_KILLS=200 asks for more than these few; tests/base/kill_test.cpp kills before every call that changes a file."""
+    def test_killed(self):
+        """FUSEE_KILLS=200 kills more often; tests/base/kill_test.cpp kills before every call that changes a file."""
         later = self.build(arguments="--set pulley.r1_mm=15")
         earlier = self.build()
         started = time.monotonic()
@@ -467,7 +467,7 @@ class Kill(harness.Scratch):
             out, _ = process.communicate(timeout=60)
             self.assertIn(process.returncode, (0, 130, -number), delay)
             if process.returncode == -number:
-                continue  # so early that the program had not begun
+                continue  # killed before the program began
             self.assertEqual(harness.json.loads(out)["exit"], process.returncode)
             self.assertEqual(self.files("out/arm"), later if process.returncode == 0 else earlier, (delay, process.returncode))
             if process.returncode == 0:
@@ -479,8 +479,8 @@ class Kill(harness.Scratch):
     def test_terminated(self):
         self.interrupt(signal.SIGTERM)
 
-    def test_interrupted_when_all_is_in_place(self):
-        """The files are there and nobody reads what is said of them: 130 would say that they are the earlier ones."""
+    def test_late_interrupt_is_ignored(self):
+        """All files are in place and stdout is blocked: exit 130 would wrongly mean that the earlier files remain."""
         later = self.build("later", "--set pulley.r1_mm=15")
         self.build()
         reading, writing = os.pipe()

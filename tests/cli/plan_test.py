@@ -1,4 +1,4 @@
-"""`fusee plan` and `fusee simulate` as a person meets them: the bench before the bench."""
+"""`fusee plan` and `fusee simulate` from the user's view."""
 
 import csv
 import json
@@ -18,7 +18,7 @@ def rows_of(text):
 
 
 class Plan(harness.Scratch):
-    def test_it_leaves_a_page_a_document_and_empty_runs(self):
+    def test_writes_page_document_and_runs(self):
         document = self.expect_json("plan arm.toml -o bench", 0)
         files = self.files("bench")
         left = json.loads(files["plan.json"])
@@ -35,17 +35,17 @@ class Plan(harness.Scratch):
         self.assertNotRegex(files["plan.html"].decode(), r'(src|href)=|http://(?!www\.w3\.org)|https://')
         self.assertEqual(files["plan.html"].decode().count('class="box"'), len(left["steps"]))
 
-    def test_same_input_same_bytes(self):
+    def test_is_reproducible(self):
         self.expect("plan arm.toml -o one", 0)
         os.environ["TZ"] = "Pacific/Chatham"
         self.expect("plan arm.toml -o two", 0)
         self.assertEqual(self.files("one"), self.files("two"))
 
-    def test_an_unfilled_run_has_no_measured_rows(self):
+    def test_unfilled_run_is_reported(self):
         self.expect("plan arm.toml -o bench", 0)
         self.expect("calibrate arm.toml bench/run_1.csv --dry-run", 0, r"not_testable.*no\s+measured\s+rows:\s+theta\s+is\s+empty")
 
-    def test_a_shorter_plan_leaves_no_run_of_the_longer_one(self):
+    def test_shorter_plan_removes_runs(self):
         self.expect("plan arm.toml -o bench", 0)
         (self.folder / "bench/mine.csv").write_text("mine")
         self.expect("plan arm.toml -o bench --minutes 2 --loads 0", 0)
@@ -53,28 +53,28 @@ class Plan(harness.Scratch):
         runs = {step["file"] for step in document["steps"] if step["file"]}
         self.assertEqual(set(self.files("bench")), {"plan.json", "plan.html", "manifest.json", "mine.csv", *runs})
 
-    def test_a_filled_run_is_somebodys_work(self):
+    def test_filled_run_is_protected(self):
         self.expect("plan arm.toml -o bench", 0)
         filled = self.folder / "bench/run_1.csv"
         filled.write_text(filled.read_text().replace(",0,\n", ",0,1.5\n"))
         self.expect("plan arm.toml -o bench", 6, "^$", "changed after fusee wrote them: run_1.csv")
 
-    def test_too_little_time_says_what_minutes_buy(self):
+    def test_short_time_has_advice(self):
         done = self.expect("plan arm.toml --minutes 0.2", 3, "^$", r"nothing can be measured in 0\.2 minutes: the first run takes .*by minute .*sees")
         self.assertNotIn("Traceback", done.stderr.decode())
         self.assertFalse((self.folder / "out").exists())
         self.assertTrue(self.expect_json("plan arm.toml --minutes 0.2", 3)["more_minutes"])
 
-    def test_bad_words(self):
+    def test_rejects_bad_options(self):
         for words in ["--minutes -1", "--minutes nan", "--noise-deg 0", "--noise-deg x", "--loads 1,,2", "--loads nan", "--loads 1e99",
                       "--speeds 0", "--speeds -3", "--range-deg 5", "--range-deg 9,3", "--loads " + ",".join(map(str, range(20)))]:
             with self.subTest(words):
                 self.expect(f"plan arm.toml {words}", 2, "^$", "error: ")
 
-    def test_a_joint_without_a_law(self):
+    def test_reports_joint_without_law(self):
         self.expect("plan arm.toml --set joint.range_deg=[-170,170]", 4, "^$", "error")
 
-    def test_a_geared_joint(self):
+    def test_plans_ratio_joint(self):
         (self.folder / "joint.toml").write_text(RATIO)
         document = self.expect_json("plan joint.toml -o bench --loads 0,2", 0)
         self.assertIn("backlash", [cause["name"] for cause in document["causes"]])
@@ -94,7 +94,7 @@ class Simulate(harness.Scratch):
             lines.append(f"{i / 10 / pace},{alpha:.4f},{load}")
         return self.log("\n".join(lines) + "\n")
 
-    def test_a_row_for_a_row(self):
+    def test_has_one_row_per_log_row(self):
         done = self.expect(f"simulate arm.toml {self.sweep()}", 0, "", "^$")
         rows = rows_of(done.stdout.decode())
         self.assertEqual(list(rows[0]), COLUMNS)
@@ -104,7 +104,7 @@ class Simulate(harness.Scratch):
         self.assertEqual(list(columns), COLUMNS)
         self.assertAlmostEqual(columns["theta_deg"][7], float(rows[7]["theta_deg"]), 5)
 
-    def test_what_is_put_in_is_found_again(self):
+    def test_simulated_effect_is_identified(self):
         for number, (load, pace) in enumerate([("0", 1.0), ("5", 1.0), ("0", 6.0)], 1):
             self.sweep(load=load, pace=pace)
             self.expect(f"simulate arm.toml log.csv -o run_{number}.csv --noise-deg 0.01 --seed {number} --set identified.backlash_deg=1.5", 0, "rows +361")
@@ -113,7 +113,7 @@ class Simulate(harness.Scratch):
         self.assertIn("backlash", found)
         self.assertAlmostEqual(found["backlash"]["parameters"]["width_deg"]["value"], 1.5, delta=0.1)
 
-    def test_a_corrected_pulley_takes_out_what_it_can(self):
+    def test_corrected_pulley_reduces_error(self):
         self.sweep(load="0")
         def theta(words):
             return self.expect_json(f"simulate arm.toml log.csv {words}", 0)["columns"]["theta_deg"]
@@ -123,21 +123,21 @@ class Simulate(harness.Scratch):
         self.assertGreater(apart(declared, off), 0.1)
         self.assertLess(apart(declared, corrected), 0.02 * apart(declared, off))
 
-    def test_where_nothing_holds_the_joint(self):
+    def test_marks_loose_rows(self):
         self.sweep(load="0")
-        done = self.expect("simulate arm.toml log.csv --set identified.slack_mm=4", 0, ",loose\n", "warning: nothing holds the joint in")
+        done = self.expect("simulate arm.toml log.csv --set identified.slack_mm=4", 0, ",loose\n", "warning: the joint is loose in")
         self.assertTrue(any(float(row["loose_deg"]) > 0 for row in rows_of(done.stdout.decode()) if row["status"] == "loose"))
 
-    def test_beyond_the_pulley(self):
+    def test_marks_rows_beyond_range(self):
         self.log("alpha_deg\n0\n100\n5000\n")
-        self.expect("simulate arm.toml log.csv", 5, ",no_equilibrium\n", "error: no joint angle balances")
+        self.expect("simulate arm.toml log.csv", 5, ",no_equilibrium\n", "error: there is no equilibrium in")
 
-    def test_a_protocol_of_a_plan(self):
+    def test_simulates_planned_runs(self):
         self.expect("plan arm.toml -o bench", 0)
         self.expect("simulate arm.toml bench/run_1.csv -o shown.csv", 0, "tensions")
         self.expect("calibrate arm.toml shown.csv --dry-run", 0)
 
-    def test_files_are_whole_or_not_there(self):
+    def test_files_are_complete(self):
         self.sweep()
         (self.folder / "mine.csv").write_text("mine")
         self.expect("simulate arm.toml log.csv -o mine.csv", 6, "^$", "mine.csv")
@@ -146,8 +146,8 @@ class Simulate(harness.Scratch):
         self.expect("simulate arm.toml log.csv -o other.csv --dry-run", 0)
         self.assertFalse((self.folder / "other.csv").exists())
 
-    def test_bad_logs(self):
-        for text, words in [("", "holds no header"), ("alpha_deg\n", "no row holds alpha"), ("alpha_deg\nnan\n", "no row holds alpha"),
+    def test_rejects_bad_logs(self):
+        for text, words in [("", "has no header"), ("alpha_deg\n", "no row has alpha"), ("alpha_deg\nnan\n", "no row has alpha"),
                             ("theta_deg\n1\n", "no column alpha_deg"), ("alpha_deg,load_N\n1,x\n", 'log.csv:2:3: error: load_N: "x"'),
                             ("alpha_deg\n1e300\n", "log.csv:2:1: error"), ("\0\1\2", "binary"),
                             ("alpha_deg,joint_sensor_turned_deg\n1,0\n2,90\n", "changes within the run")]:

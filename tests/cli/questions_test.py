@@ -1,4 +1,5 @@
-"""`fusee new --ask`: what is typed becomes a file of which a pulley can be made; what cannot be understood is asked again, and not for ever."""
+"""`fusee new --ask`: answers become a file with a feasible pulley; invalid answers are asked again, a limited number of
+times."""
 
 import os
 import pty
@@ -21,48 +22,48 @@ class Questions(harness.Scratch):
         (self.folder / "asked.toml").write_text(text)
         self.expect("build asked.toml --dry-run", 0)
 
-    def test_enter_takes_what_is_proposed_and_it_builds(self):
+    def test_proposals_build(self):
         text, asked = self.ask(b"\n" * 6)
         self.assertRegex(text, r"(?m)^length_mm = 60$")
         self.assertRegex(text, r"(?m)^range_deg = \[-30, 30\]")
         self.assertEqual([f"{n}/6 " in asked for n in range(1, 7)], [True] * 6)
-        self.assertIn("a pulley can be made of this", asked)
-        self.assertEqual(text, self.ask(b"")[0])  # the end of the input is six times Enter
+        self.assertIn("a pulley is feasible", asked)
+        self.assertEqual(text, self.ask(b"")[0])  # the end of the input acts like Enter
         self.builds(text)
 
-    def test_answers_stand_in_the_file(self):
+    def test_file_has_answers(self):
         text, asked = self.ask(b'a "left" finger\n32\n-15, 45\n0.56\n12.5\nn20-d3\n')
         for line in ('name = "a \\"left\\" finger"', "length_mm = 32", "range_deg = [-15, 45]", "diameter_mm = 0.56",
                      "tip_force_N = 12.5", 'shaft = "n20-d3"'):
             self.assertIn("\n" + line + "\n", text)
-        # What nobody was asked for had to be another number, and that is said.
-        self.assertRegex(asked, r"so that a pulley can be made: \S+ [≥≤] ")
+        # A number without a question had to change, which is reported.
+        self.assertRegex(asked, r"changed to make a pulley feasible: \S+ [≥≤] ")
         self.builds(text)
 
-    def test_what_cannot_be_understood_is_asked_again(self):
+    def test_invalid_answers_are_repeated(self):
         text, asked = self.ask(b"arm\nsixty\n-3\n60 70\n60\n30 -30\n10 30\n-20 20\n\n\n\n")
-        for words in ("'sixty' is no number", "-3 mm is not within", "one number is asked for", "the lower end comes first", "home, at 0"):
+        for words in ("'sixty' is not a number", "-3 mm is not within", "give one number", "the lower end comes first", "home, at 0"):
             self.assertIn(words, asked)
         self.assertIn("range_deg = [-20, 20]", text)
 
-    def test_no_answer_goes_on_for_ever(self):
+    def test_gives_up_after_invalid_answers(self):
         for typed in (b"nonsense\n" * 1000, bytes(100_000), bytes(range(256)) * 40, b"9" * 100_000):
             out, err = self.ask(typed, code=3)
             self.assertEqual(out, "")
             self.assertIn("was not answered in 5 tries", err)
 
-    def test_a_joint_of_which_no_pulley_can_be_made_is_written_and_said(self):
+    def test_infeasible_answers_are_reported(self):
         text, asked = self.ask(b"big\n40\n-20 90\n\n\n\n")
         self.assertIn("range_deg = [-20, 90]", text)
-        self.assertRegex(asked, r"no pulley yet: .*\n(.*\n)*.*it would be possible with the range's upper end ≤ ")
+        self.assertRegex(asked, r"no pulley yet: .*\n(.*\n)*.*try joint\.range_deg\[1\] = ")
 
-    def test_other_words_beside_it(self):
+    def test_rejects_other_arguments(self):
         self.assertIn("takes no template", self.ask(b"", 2, "new forearm --ask")[1])
-        self.assertIn("no bundle holds that", self.ask(b"", 2, "new --ask --bundle b.zip")[1])
+        self.assertIn("which a bundle cannot record", self.ask(b"", 2, "new --ask --bundle b.zip")[1])
         self.assertIn("min_wall_mm = 2.5", self.ask(b"", 0, "new --ask --set body.min_wall_mm=2.5")[0])
         self.assertIn("length_mm = 60\n", self.expect_json("new --ask", 0)["text"])
 
-    def test_a_signal_ends_it_while_it_waits(self):
+    def test_signal_ends_question(self):
         ours, theirs = pty.openpty()
         process = subprocess.Popen([harness.PROGRAM, "new", "--ask"], stdin=theirs, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    cwd=self.folder, env=harness.ENVIRONMENT)

@@ -1,7 +1,7 @@
-"""Pages show what the program does: each command of README.md and docs/ runs as it is written, in its order, in a copy of profiles/ and
-docs/, and prints what is shown. Pages of reference and pictures that are made of outputs are up to date.
+"""Each command of README.md and docs/ runs as printed, in order, in a copy of profiles/ and docs/, and prints the shown output. Generated pages
+and pictures are up to date.
 
-The two commands that install packages and compile are run by .ci/run in a fresh clone; here the program under test takes their place.
+.ci/run runs the two commands that install packages and compile in a fresh clone; here the program under test takes their place.
 """
 
 import re
@@ -18,7 +18,7 @@ RENEW = "renew it: docs/update.py build/release/fusee"
 
 
 class Readme(unittest.TestCase):
-    def test_starts_with_the_two_commands_that_set_everything_up(self):
+    def test_starts_with_the_setup_commands(self):
         blocks = re.findall(r"^```sh\n(.*?)^```", (harness.SOURCE / "README.md").read_text(), re.M | re.S)
         first, second = "".join(blocks).splitlines()[:2]
         self.assertRegex(first, r"^\.ci/setup && .*build/release/fusee build profiles/paper_optimum\.toml$")
@@ -26,7 +26,7 @@ class Readme(unittest.TestCase):
 
 
 class Pages(unittest.TestCase):
-    def test_commands_succeed_and_print_what_is_shown(self):
+    def test_commands_print_shown_output(self):
         self.assertGreater(len(update.PAGES), 20)
         for page in update.PAGES:
             with self.subTest(page), update.Bench(harness.PROGRAM) as bench:
@@ -34,7 +34,7 @@ class Pages(unittest.TestCase):
                 self.assertEqual((harness.SOURCE / page).read_text(), update.rewritten(page, bench, failed), RENEW)
                 self.assertEqual(failed, [])
 
-    def test_made_pages_and_pictures_are_current(self):
+    def test_generated_pages_are_current(self):
         made = update.run_pages(harness.PROGRAM)
         for path, text in made.items():
             with self.subTest(path):
@@ -42,7 +42,7 @@ class Pages(unittest.TestCase):
         pictures = {f"docs/pictures/{path.name}" for path in (harness.SOURCE / "docs/pictures").glob("*.svg")}
         self.assertEqual(pictures, {path for path in made if path.endswith(".svg")})
 
-    def test_slack_of_the_first_sentence_is_that_of_the_picture(self):
+    def test_slack_matches_picture(self):
         words = re.search(r"leave ([\d.]+ mm) of slack", (harness.SOURCE / "docs/pictures/slack.svg").read_text())[1]
         self.assertIn(words, (harness.SOURCE / "README.md").read_text()[:400])
 
@@ -50,10 +50,10 @@ class Pages(unittest.TestCase):
 class Shortened(unittest.TestCase):
     PRINTED = ["one", "two", "three", "four"]
 
-    def test_whole_output_is_compared_without_ellipsis(self):
+    def test_compares_whole_output_without_ellipsis(self):
         self.assertEqual(update.shortened(self.PRINTED, ["one"]), self.PRINTED)
 
-    def test_ellipsis_keeps_as_many_lines_as_were_shown(self):
+    def test_ellipsis_keeps_number_of_lines(self):
         self.assertEqual(update.shortened(self.PRINTED, ["1", "…", "4"]), ["one", "…", "four"])
         self.assertEqual(update.shortened(self.PRINTED, ["1", "…"]), ["one", "…"])
 

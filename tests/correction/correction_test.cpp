@@ -44,8 +44,8 @@ DeclaredMechanism frictionless() {
   return mechanism;
 }
 
-/// How far a joint with the true geometry `truth` and a pulley made for `drawn` misses the law of `wanted`: tendons
-/// wound on the outline, scaled by `scale` and `offset` further out, its centre moved by `runout`. rad
+/// Deviation from the law of `wanted`, rad, of a joint with the true geometry `truth` and a pulley drawn for
+/// `made_for`. Tendons are wound on its outline, scaled by `scale`, `offset` further out and moved by `runout`.
 double miss(const Mechanism& wanted, const Mechanism& truth, const JointAsItIs& made_for, double scale = 1,
             double offset = 0, const Vec2& runout = {0, 0}) {
   const Mechanism& drawn = made_for.mechanism;
@@ -60,7 +60,7 @@ double miss(const Mechanism& wanted, const Mechanism& truth, const JointAsItIs& 
     for (Vec2& point : polygon) point = printed * point + runout;
     return polygon;
   };
-  // An offset all round is a thicker tendon over thinner pins.
+  // A uniform offset is equivalent to a thicker tendon over thinner pins.
   Mechanism joint = truth;
   joint.tendon.diameter += 2 * offset;
   joint.guides.radius -= offset;
@@ -75,7 +75,7 @@ double miss(const Mechanism& wanted, const Mechanism& truth, const JointAsItIs& 
   return worst;
 }
 
-TEST(AsItIs, NothingIdentifiedChangesNothing) {
+TEST(AsItIs, IsDeclaredWithoutIdentification) {
   EXPECT_EQ(as_it_is(declared()).mechanism, static_cast<const Mechanism&>(declared()));
   EXPECT_EQ(as_it_is(declared()).outline, OutlineError{});
   DeclaredMechanism backlash = declared();
@@ -84,7 +84,7 @@ TEST(AsItIs, NothingIdentifiedChangesNothing) {
   EXPECT_EQ(as_it_is(backlash).mechanism.pulley, declared().pulley);
 }
 
-TEST(AsItIs, IsExpectedOfTheNextCalibration) {
+TEST(AsItIs, IsExpectedByNextCalibration) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pins.radius = 1.5;
   mechanism.identified.pulley.outline.runout_x = 0.1;
@@ -94,9 +94,9 @@ TEST(AsItIs, IsExpectedOfTheNextCalibration) {
   EXPECT_EQ(expected_joint(expected), expected);
 }
 
-// A look takes another joint for hundreds of mechanisms: near the one that is made, and the same where nothing gives
-// way.
-TEST(AsItIs, ABriefSearchForTheLawIsNearTheWhole) {
+// The brief search is used for hundreds of candidate mechanisms: it is close to the full search, and equal without
+// compliance.
+TEST(AsItIs, BriefSearchIsCloseToFull) {
   DeclaredMechanism mechanism = declared();
   mechanism.load.tip_force = 15.0;
   mechanism.identified.tendon.stretch = 12.0;
@@ -117,7 +117,7 @@ TEST(AsItIs, ABriefSearchForTheLawIsNearTheWhole) {
   EXPECT_EQ(as_it_is(mechanism, LawSearch::brief).mechanism.joint, as_it_is(mechanism).mechanism.joint);
 }
 
-TEST(AsItIs, AnotherGuideRadiusIsTakenOut) {
+TEST(AsItIs, CorrectsGuideRadius) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pins.radius = 2.0;
   DeclaredMechanism truth = declared();
@@ -127,7 +127,7 @@ TEST(AsItIs, AnotherGuideRadiusIsTakenOut) {
   EXPECT_LT(degrees(miss(declared(), truth, as_it_is(mechanism))), 0.03);
 }
 
-TEST(AsItIs, AnotherLengthIsTakenOut) {
+TEST(AsItIs, CorrectsLength) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.joint.length = 2.0;
   DeclaredMechanism truth = declared();
@@ -136,26 +136,26 @@ TEST(AsItIs, AnotherLengthIsTakenOut) {
   EXPECT_LT(miss(declared(), truth, as_it_is(mechanism)), 0.1 * before);
 }
 
-TEST(AsItIs, AnOffsetOfThePulleyIsTakenOut) {
+TEST(AsItIs, CorrectsPulleyOffset) {
   for (const double offset : {0.2, -0.3}) {
     DeclaredMechanism mechanism = declared();
     mechanism.identified.pulley.outline.offset = offset;
     const double before = miss(declared(), declared(), as_it_is(declared()), 1, offset);
     EXPECT_GT(degrees(before), 0.2);
     EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 1, offset), 0.05 * before);
-    // Grooves, anchors and holes stay those of the tendon that there is.
+    // Grooves, anchors and holes are those of the actual tendon.
     EXPECT_EQ(as_it_is(mechanism).mechanism.tendon, declared().tendon);
   }
 }
 
-TEST(AsItIs, AScaleOfThePulleyIsTakenOut) {
+TEST(AsItIs, CorrectsPulleyScale) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pulley.scale = -0.02;
   const double before = miss(declared(), declared(), as_it_is(declared()), 0.98);
   EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 0.98), 0.05 * before);
 }
 
-TEST(AsItIs, ARunoutIsTakenOut) {
+TEST(AsItIs, CorrectsRunout) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pulley.outline.runout_x = 0.3;
   mechanism.identified.pulley.outline.runout_y = -0.2;
@@ -163,7 +163,7 @@ TEST(AsItIs, ARunoutIsTakenOut) {
   EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 1, 0, {0.3, -0.2}), 0.05 * before);
 }
 
-TEST(RoundChoice, StaysRoundWhereThatSuffices) {
+TEST(RoundChoice, StaysRoundIfSufficient) {
   DeclaredMechanism mechanism = declared();
   EXPECT_TRUE(round_choice(mechanism).suffices);
   EXPECT_NEAR(round_choice(mechanism).r1, 16, 1e-3);
@@ -185,7 +185,7 @@ Calibration found_guide_radius() {
   return calibration;
 }
 
-TEST(CorrectedToml, KeepsTheFileAndAddsWhatWasFound) {
+TEST(CorrectedToml, KeepsFileAndAddsIdentified) {
   Correction correction;
   correction.identified = found_guide_radius().identified;
   const std::string text = corrected_toml(k_declared, declared(), found_guide_radius(), correction);
@@ -200,16 +200,17 @@ TEST(CorrectedToml, KeepsTheFileAndAddsWhatWasFound) {
   EXPECT_EQ(read, declared());
 }
 
-TEST(CorrectedToml, SaysWhatIsPerhapsBesideAName) {
+TEST(CorrectedToml, NamesPossibleFurtherEffect) {
   Calibration calibration = found_guide_radius();
   calibration.effects.front().group.emplace_back("joint_sensor_gain");
   calibration.effects.front().beside = {{"joint_sensor_gain", {{"gain_percent", 1.25, 1, 1.5}}}};
   EXPECT_THAT(
       corrected_toml(k_declared, declared(), calibration, {}),
-      HasSubstr("cannot tell; perhaps joint_sensor_gain beside it: gain_percent = 1.25, 95 % within 1 to 1.5\n"));
+      HasSubstr(
+          "do not distinguish them; perhaps with joint_sensor_gain: gain_percent = 1.25, 95 % within 1 to 1.5\n"));
 }
 
-TEST(CorrectedToml, ASecondCalibrationReplacesTheFirst) {
+TEST(CorrectedToml, SecondCalibrationReplacesFirst) {
   Correction correction;
   correction.identified = found_guide_radius().identified;
   const std::string once = corrected_toml(k_declared, declared(), found_guide_radius(), correction);
@@ -220,15 +221,15 @@ TEST(CorrectedToml, ASecondCalibrationReplacesTheFirst) {
   EXPECT_EQ(twice.find("\n[identified]"), twice.rfind("\n[identified]"));
 }
 
-/// One run up and down, modelled with a loop: θ late by half of `loop` each way.
-struct Loop {
+/// One run up and down, simulated with hysteresis: θ lags by half of `loop` each way.
+struct HysteresisRun {
   Measurement measurement;
   Calibration calibration;
 };
 
-Loop loop_of(const DeclaredMechanism& mechanism, double loop) {
+HysteresisRun hysteresis_run(const DeclaredMechanism& mechanism, double loop) {
   const Transmission law(mechanism);
-  Loop data;
+  HysteresisRun data;
   Run run;
   std::vector<double> before;
   for (int i = 0; i < 400; ++i) {
@@ -248,8 +249,8 @@ Loop loop_of(const DeclaredMechanism& mechanism, double loop) {
   return data;
 }
 
-/// The run as the joint with what was identified logs it, found by rows that were not fitted.
-void log_as_identified(const DeclaredMechanism& mechanism, Loop& data) {
+/// Logs the run as the identified joint does, in rows that were not fitted.
+void log_as_identified(const DeclaredMechanism& mechanism, HysteresisRun& data) {
   Run& run = data.measurement.runs.front();
   run.name = "run.csv";
   Calibration& calibration = data.calibration;
@@ -260,15 +261,15 @@ void log_as_identified(const DeclaredMechanism& mechanism, Loop& data) {
   calibration.before.held_out_rms = 1;
 }
 
-TEST(Correct, ALoopGoesIntoTheTable) {
+TEST(Correct, HysteresisGoesIntoTable) {
   const double loop = radians(0.6);
-  Loop data = loop_of(frictionless(), loop);
+  HysteresisRun data = hysteresis_run(frictionless(), loop);
   log_as_identified(frictionless(), data);
   const Correction correction = correct(frictionless(), data.measurement, data.calibration);
   EXPECT_FALSE(correction.has_pulley);
   EXPECT_EQ(correction.by_pulley, 0);
   EXPECT_EQ(correction.error_with_pulley, correction.error_now);
-  // All but the few rows in which the play is taken up.
+  // The play is taken up in a few rows, which are omitted.
   EXPECT_GT(correction.by_table, 0.97 * correction.error_now);
   ASSERT_GT(correction.table.size(), 20u);
   const Transmission law(frictionless());
@@ -281,8 +282,8 @@ TEST(Correct, ALoopGoesIntoTheTable) {
   EXPECT_THAT(compensation_csv(correction), Not(HasSubstr("nan")));
 }
 
-TEST(Correct, AGuideRadiusGoesIntoThePulley) {
-  Loop data = loop_of(frictionless(), 0);
+TEST(Correct, GuideRadiusGoesIntoPulley) {
+  HysteresisRun data = hysteresis_run(frictionless(), 0);
   data.calibration.identified = {};
   data.calibration.identified.pins.radius = 1.5;
   log_as_identified(frictionless(), data);
@@ -295,19 +296,19 @@ TEST(Correct, AGuideRadiusGoesIntoThePulley) {
   EXPECT_EQ(correction.why_no_pulley_file, "");
 }
 
-TEST(Correct, RejectsPulleyThatHeldOutRowsDoNotBear) {
-  Loop data = loop_of(frictionless(), 0);
+TEST(Correct, RejectsPulleyWithoutHeldOutGain) {
+  HysteresisRun data = hysteresis_run(frictionless(), 0);
   data.calibration.identified = {};
   log_as_identified(frictionless(), data);
-  data.calibration.identified.pins.radius = 1.5;  // of which the run shows nothing
+  data.calibration.identified.pins.radius = 1.5;  // the run shows none of this
   data.calibration.left_out.front().identified = data.calibration.identified;
   const Correction correction = correct(frictionless(), data.measurement, data.calibration);
   EXPECT_FALSE(correction.has_pulley);
   EXPECT_THAT(correction.why_no_pulley_file, HasSubstr("not fitted"));
 }
 
-TEST(Correct, RejectsTableThatHeldOutRowsDoNotBear) {
-  Loop data = loop_of(frictionless(), 0);
+TEST(Correct, RejectsTableWithoutHeldOutGain) {
+  HysteresisRun data = hysteresis_run(frictionless(), 0);
   data.calibration.identified = {};
   log_as_identified(frictionless(), data);
   data.calibration.identified.shaft.backlash = radians(1.0);
@@ -317,10 +318,10 @@ TEST(Correct, RejectsTableThatHeldOutRowsDoNotBear) {
   EXPECT_THAT(correction.why_no_table, HasSubstr("not fitted"));
 }
 
-TEST(Correct, ARatioHasATableOnly) {
+TEST(Correct, RatioHasTableOnly) {
   const DeclaredMechanism jaw =
       parse_mechanism("schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.1\n", "jaw.toml");
-  Loop data = loop_of(declared(), radians(1.0));
+  HysteresisRun data = hysteresis_run(declared(), radians(1.0));
   data.calibration.identified.shaft.backlash = 2 * 1.1 * radians(0.5);
   log_as_identified(jaw, data);
   const Correction correction = correct(jaw, data.measurement, data.calibration);
@@ -330,8 +331,7 @@ TEST(Correct, ARatioHasATableOnly) {
     EXPECT_NEAR(row.alpha_up, -1.1 * (row.theta - radians(0.5)), 1e-3);
     EXPECT_NEAR(row.alpha_down, -1.1 * (row.theta + radians(0.5)), 1e-3);
   }
-  // A ratio says nothing of where θ is 0. Of a real jaw that stands at 77° then it was said that the table takes 76.7°
-  // away.
+  // The zero of a ratio joint is arbitrary. A jaw at 77° once got a table that claimed to correct 76.7°.
   data.calibration.identified.sensor.zero = radians(77);
   log_as_identified(jaw, data);
   const Correction elsewhere = correct(jaw, data.measurement, data.calibration);

@@ -1,5 +1,5 @@
-// The empirical curve of what has no name, on a rig that shares no equation with it: what it promises is held against
-// new runs of the same joint.
+// The empirical curve of the unmodelled error, on a rig that shares no equation with it: its predicted gain is compared
+// with new runs of the same joint.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -48,22 +48,22 @@ Answer answer(const std::vector<std::string>& faults, std::uint64_t seed, Protoc
   return answer;
 }
 
-/// The same joint and programme once more, with other noise.
+/// Measures the same joint and programme again, with other noise.
 Case measured_again(Case made) {
   made.sensors.seed += 1000;
   made.logs = log_runs(made.joint, made.hidden, made.plans, made.sensors, made.motion);
   return made;
 }
 
-/// rms of measured − model on new runs, rad.
-struct Left {
+/// Rms of measured − model on new runs, rad.
+struct RemainingError {
   double effects = 0;
   double with_curve = 0;
 
   double gain() const { return std::sqrt(std::max(0.0, effects * effects - with_curve * with_curve)); }
 };
 
-Left left_on_new_runs(const Answer& answer) {
+RemainingError error_on_new_runs(const Answer& answer) {
   const EmpiricalCurve& curve = answer.calibration.curve;
   const Measurement again = read(measured_again(answer.made));
   const Readings model = predict(answer.made.joint.declared, answer.calibration.identified, bench_log(again));
@@ -83,7 +83,7 @@ Left left_on_new_runs(const Answer& answer) {
   return {std::sqrt(without / rows), std::sqrt(with / rows)};
 }
 
-/// A line of compensation.csv, degrees.
+/// A line of compensation.csv, deg.
 using Line = std::array<double, 5>;
 
 std::vector<Line> lines_of(const std::string& csv) {
@@ -105,8 +105,8 @@ std::vector<Line> lines_of(const std::string& csv) {
   return lines;
 }
 
-/// By how much a joint is elsewhere than the table says, rms, degrees: rows of a log after its first reversal.
-double off_table(const Log& log, const std::vector<Line>& table, bool with_curve) {
+/// Rms deviation of a joint from the table, deg, over the rows of a log after its first reversal.
+double deviation_from_table(const Log& log, const std::vector<Line>& table, bool with_curve) {
   double squares = 0, rows = 0;
   for (std::size_t i = log.size() / 4 + 1; i < log.size(); ++i) {
     const std::size_t way = log[i].alpha > log[i - 1].alpha ? 1 : 2;
@@ -130,12 +130,12 @@ std::vector<std::string> names_of(const Calibration& calibration) {
   return names;
 }
 
-TEST(Covered, ABumpCommonToAllLoadsAsPromised) {
+TEST(Covered, CoversBumpAsPredicted) {
   const Answer found = answer({"lump"}, 1);
   const EmpiricalCurve& curve = found.calibration.curve;
   ASSERT_TRUE(curve.used) << curve.why;
   EXPECT_GT(degrees(curve.gain), 0.15);
-  const Left left = left_on_new_runs(found);
+  const RemainingError left = error_on_new_runs(found);
   EXPECT_NEAR(left.gain(), curve.gain, 0.05 * curve.gain);
   EXPECT_NEAR(left.effects, curve.held_out_effects, 0.05 * left.effects);
   EXPECT_NEAR(left.with_curve, curve.held_out_rms, 0.2 * left.with_curve);
@@ -143,19 +143,20 @@ TEST(Covered, ABumpCommonToAllLoadsAsPromised) {
   EXPECT_GE(found.correction.by_table, found.correction.by_curve);
 }
 
-TEST(Covered, AControllerWithTheTableIsNearerByAsMuch) {
+TEST(Covered, TableReducesControllerError) {
   const Answer found = answer({"lump"}, 1);
   const std::vector<Line> table = lines_of(compensation_csv(found.correction));
   const Case again = measured_again(found.made);
   const Log& unloaded = again.logs.front();
-  const double before = off_table(unloaded, table, false), after = off_table(unloaded, table, true);
+  const double before = deviation_from_table(unloaded, table, false),
+               after = deviation_from_table(unloaded, table, true);
   EXPECT_LT(after, 0.3 * before);
   EXPECT_NEAR(std::sqrt(before * before - after * after), degrees(found.calibration.curve.gain),
               0.1 * degrees(found.calibration.curve.gain));
 }
 
-TEST(Covered, EachWayItsOwn) {
-  const Answer found = answer({"climbing_flank"}, 3);  // only while tendon 2 is wound in
+TEST(Covered, DistinguishesDirections) {
+  const Answer found = answer({"climbing_flank"}, 3);  // acts only while tendon 2 is wound in
   const EmpiricalCurve& curve = found.calibration.curve;
   ASSERT_TRUE(curve.used) << curve.why;
   double up = 0, down = 0;
@@ -164,24 +165,24 @@ TEST(Covered, EachWayItsOwn) {
     down = std::max(down, std::abs(curve.down[i]));
   }
   EXPECT_GT(up, 10 * down);
-  EXPECT_GT(left_on_new_runs(found).gain(), 0.9 * curve.gain);
+  EXPECT_GT(error_on_new_runs(found).gain(), 0.9 * curve.gain);
 }
 
-TEST(Covered, AKnownCauseBesideItIsKept) {
+TEST(Covered, KeepsKnownCause) {
   const Answer found = answer({"backlash", "lump"}, 1);
   EXPECT_THAT(names_of(found.calibration), Contains("backlash"));
   ASSERT_TRUE(found.calibration.curve.used) << found.calibration.curve.why;
-  EXPECT_NEAR(left_on_new_runs(found).gain(), found.calibration.curve.gain, 0.15 * found.calibration.curve.gain);
+  EXPECT_NEAR(error_on_new_runs(found).gain(), found.calibration.curve.gain, 0.15 * found.calibration.curve.gain);
 }
 
-struct Uncovered {
+struct UncorrectableFault {
   const char* fault;
   std::uint64_t seed;
 };
 
-TEST(Covered, NotWhatDependsOnLoadOrTime) {
-  // A flat under the tendon that gives under load, and knots that have pulled tight by the second run.
-  for (const Uncovered& one : {Uncovered{"flat_on_pin", 2}, {"tightening_knots", 1}}) {
+TEST(Covered, RejectsLoadOrTimeDependence) {
+  // A flat under a compliant tendon, and knots that have settled by the second run.
+  for (const UncorrectableFault& one : {UncorrectableFault{"flat_on_pin", 2}, {"tightening_knots", 1}}) {
     const Answer found = answer({one.fault}, one.seed);
     EXPECT_FALSE(found.calibration.curve.used) << one.fault;
     EXPECT_EQ(found.calibration.curve.why.empty(), found.calibration.verdict != CalibrationVerdict::unexplained);
@@ -190,21 +191,21 @@ TEST(Covered, NotWhatDependsOnLoadOrTime) {
   }
 }
 
-TEST(Covered, NotAWaveFinerThanTheRows) {
+TEST(Covered, RejectsWaveFinerThanRows) {
   const Answer found = answer({"jumping_hub"}, 3);
   EXPECT_FALSE(found.calibration.curve.used);
   EXPECT_NE(found.calibration.curve.why, "");
 }
 
-TEST(Covered, NothingWhereNothingIsWithoutAName) {
+TEST(Covered, IsEmptyWithoutDiscrepancy) {
   const Answer found = answer({"backlash"}, 1);
   EXPECT_EQ(found.calibration.curve.why, "");
   EXPECT_TRUE(found.calibration.curve.alpha.empty());
   EXPECT_THAT(compensation_csv(found.correction), Not(HasSubstr("empirical")));
 }
 
-// Minutes: the figures of the empirical curve in docs/background/calibration-results.md.
-TEST(Covered, PromisesAreKeptOnJointsDrawn) {
+// Long: the figures of the empirical curve in docs/background/calibration-results.md.
+TEST(Covered, PredictedGainHoldsOnRandomJoints) {
   if (std::getenv("FUSEE_LONG_TESTS") == nullptr) GTEST_SKIP() << "FUSEE_LONG_TESTS is not set";
   constexpr std::uint64_t joints = 4;
   for (const Protocol protocol : {Protocol::full, Protocol::random}) {
@@ -215,16 +216,15 @@ TEST(Covered, PromisesAreKeptOnJointsDrawn) {
         const Answer found = answer({fault}, seed, protocol);
         ++all;
         if (!found.calibration.curve.used) continue;
-        kept.push_back(left_on_new_runs(found).gain() / found.calibration.curve.gain);
+        kept.push_back(error_on_new_runs(found).gain() / found.calibration.curve.gain);
         EXPECT_GT(kept.back(), 0.7) << fault << " " << seed;
       }
     }
     std::sort(kept.begin(), kept.end());
     ASSERT_FALSE(kept.empty());
-    std::printf(
-        "%s protocol: %zu of %zu covered; what a new run gains over what was promised: %.2f … %.2f, median %.2f\n",
-        protocol == Protocol::full ? "full" : "random", kept.size(), all, kept.front(), kept.back(),
-        kept[kept.size() / 2]);
+    std::printf("%s protocol: %zu of %zu covered; gain on a new run / predicted gain: %.2f … %.2f, median %.2f\n",
+                protocol == Protocol::full ? "full" : "random", kept.size(), all, kept.front(), kept.back(),
+                kept[kept.size() / 2]);
   }
 }
 

@@ -1,4 +1,4 @@
-// What a page shows of each effect that was found is what the effect does: by equations of its own where there are any.
+// Each slider of the report shows the effect's influence, compared with independent equations where they exist.
 #include "fusee/correction/rehearsal.h"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ Calibration with_play(double width) {
   return calibration;
 }
 
-TEST(Rehearse, PlayLagsByHalfItsWidthEachWay) {
+TEST(Rehearse, PlayLagsByHalfItsWidth) {
   const double width = radians(2);
   const Rehearsal rehearsal = rehearse(stiff(), {}, with_play(width));
   ASSERT_THAT(rehearsal.effects, SizeIs(1));
@@ -42,7 +42,7 @@ TEST(Rehearse, PlayLagsByHalfItsWidthEachWay) {
   for (std::size_t s = 0; s < k_rehearsed_shares.size(); ++s) {
     const RehearsedShare& share = rehearsal.effects[0].shares[s];
     EXPECT_NEAR(share.parameters.at(0).value, degrees(k_rehearsed_shares[s] * width), 1e-9);
-    // Not at the ends: there the motor turns, and play is taken up.
+    // At the ends the motor reverses and play is taken up.
     for (std::size_t i = 5; i + 5 < stroke.size(); ++i) {
       const double half = 0.5 * k_rehearsed_shares[s] * width;
       EXPECT_NEAR(share.rising.at(0)[i], law.theta(stroke[i].alpha - half) - stroke[i].theta, radians(2e-3));
@@ -51,8 +51,8 @@ TEST(Rehearse, PlayLagsByHalfItsWidthEachWay) {
   }
 }
 
-// The page said "slack 0.004 mm, pretension 5 N" under a slider of a joint that was found without pretension.
-TEST(Rehearse, WhatDoesNothingIsShownAsNothing) {
+// Regression: the slider showed "slack 0.004 mm, pretension 5 N" for a joint identified without pretension.
+TEST(Rehearse, InertEffectShowsZero) {
   Calibration calibration = with_play(0);
   calibration.effects.back().name = "slack";
   calibration.identified.tendon.slack = 0.3;
@@ -65,7 +65,7 @@ TEST(Rehearse, WhatDoesNothingIsShownAsNothing) {
   }
 }
 
-TEST(Rehearse, UnderTheLoadsThatWereLogged) {
+TEST(Rehearse, UsesLoggedLoads) {
   Measurement measurement;
   measurement.load_unit = "N";
   fusee::Run run;
@@ -82,12 +82,12 @@ TEST(Rehearse, UnderTheLoadsThatWereLogged) {
   EXPECT_EQ(rehearsal.strokes[1].load, 12);
   EXPECT_GT(rehearsal.strokes[1].points[30].rising.t2.upper, rehearsal.strokes[0].points[30].rising.t2.upper + 1);
   EXPECT_THAT(rehearsal.effects[0].shares[2].rising, SizeIs(2));
-  // A torque is not a force at the tip.
+  // A torque is not a tip force.
   measurement.load_unit = "Nmm";
   EXPECT_THAT(rehearse(stiff(), measurement, with_play(radians(1))).strokes, SizeIs(1));
 }
 
-TEST(Rehearse, NothingWhereNothingMovesOrIsDrawn) {
+TEST(Rehearse, IsEmptyWithoutMotionOrPulley) {
   EXPECT_THAT(rehearse(stiff(), {}, {}).effects, IsEmpty());
   EXPECT_THAT(rehearse(stiff(), {}, with_play(radians(1e-4))).effects, IsEmpty());
   const DeclaredMechanism jaw =

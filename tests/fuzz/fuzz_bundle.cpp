@@ -1,5 +1,5 @@
-// Any bytes as a bundle. What is read can be packed again, and is the same then. Corpus: tests/fuzz/corpus/bundle,
-// which bundle_test.cpp replays.
+// Any bytes as a bundle: a valid one is packed again and reads the same. bundle_test.cpp replays the corpus,
+// tests/fuzz/corpus/bundle.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Any bytes as the outline of a closed, upright solid, written as Draco within any tolerance: read again it is the same
-// solid, face for face, no vertex further off. What Draco's reader does with any bytes is fuzz_mesh's.
+// Any bytes as the outline of a closed, upright solid, written as Draco within any tolerance. It must read as the same
+// solid, with equal faces and all vertices within the tolerance. fuzz_mesh covers the reader.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -17,7 +17,7 @@ using fusee::Vec3;
 
 constexpr std::size_t k_most_corners = 64;
 
-/// A star-shaped prism: a ring of corners below and one above, both about the axis.
+/// A star-shaped prism: rings of corners below and above, both around the axis.
 TriangleMesh prism(const std::vector<double>& radii, double height) {
   TriangleMesh mesh;
   const auto count = static_cast<std::uint32_t>(radii.size());
@@ -44,7 +44,7 @@ bool is_solid(const TriangleMesh& mesh) {
   return std::all_of(checks.begin(), checks.end(), [](const fusee::Check& check) { return check.ok; });
 }
 
-/// Whether each vertex of `one` has one of `other` within `reach`.
+/// True if each vertex of `one` has a vertex of `other` within `reach`.
 bool lies_within(const TriangleMesh& one, const TriangleMesh& other, double reach) {
   return std::all_of(one.vertices.begin(), one.vertices.end(), [&](const Vec3& vertex) {
     return std::any_of(other.vertices.begin(), other.vertices.end(),
@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const TriangleMesh mesh = prism(radii, height);
   if (!is_solid(mesh)) return 0;
   const TriangleMesh again = fusee::read_mesh(fusee::draco_bytes(mesh, tolerance), "fuzz.drc");
-  const double reach = tolerance + 1e-6 * (height + 17 * scale);  // the floats' own
+  const double reach = tolerance + 1e-6 * (height + 17 * scale);  // rounding of floats
   if (again.triangles.size() != mesh.triangles.size() || !is_solid(again)) std::abort();
   if (!lies_within(mesh, again, reach) || !lies_within(again, mesh, reach)) std::abort();
   return 0;

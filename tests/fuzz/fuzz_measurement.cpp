@@ -1,4 +1,4 @@
-// libFuzzer target: any bytes as a measured run. An InputError, or a run whose laws hold.
+// libFuzzer target: any bytes as a measured run give an InputError, or a run for which all laws hold.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

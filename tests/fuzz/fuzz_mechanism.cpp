@@ -1,4 +1,4 @@
-// libFuzzer target: any bytes as a mechanism file. What is accepted must survive being written and read again.
+// libFuzzer target: any bytes as a mechanism file. An accepted file must survive writing and reading.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

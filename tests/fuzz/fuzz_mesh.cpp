@@ -1,4 +1,4 @@
-// Any bytes under any name: a mesh or an InputError. A mesh that came out has its indices in range.
+// Any bytes under any name give an InputError, or a mesh with indices in range.
 
 #include <cstdint>
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  // The name decides where the content does not tell.
+  // The name selects the format if the content does not.
   for (const char* name : {"fuzz.stl", "fuzz.obj", "fuzz.off"}) {
     try {
       const fusee::TriangleMesh mesh = fusee::read_mesh(bytes, name);

@@ -1,4 +1,4 @@
-// Anything in an output folder and beside it: names, links, leftovers of any shape. Nothing outside changes.
+// Arbitrary names, links and leftovers in and next to an output folder: nothing outside changes.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -1,6 +1,6 @@
 /// \file
-/// What holds of a measured run whatever the bytes it was read from. For the fuzz target and for the test that replays
-/// its corpus.
+/// Laws of every measured run, whatever bytes it was read from; for the fuzz target and for the test that replays its
+/// corpus.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace fusee::testing {
 
-/// "" or what is broken in what was made of the samples.
+/// The broken law of a run, or "".
 inline std::string broken_law(const Run& run) {
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     const Sample& sample = run.samples[i];
@@ -31,10 +31,10 @@ inline std::string broken_law(const Run& run) {
   return {};
 }
 
-/// Reads `bytes` as a run, judges it and works out its figures. "" or what is broken; throws InputError where it cannot
-/// be read.
+/// Reads `bytes` as a run and computes its figures. Returns the broken law, or ""; throws InputError for unreadable
+/// bytes.
 inline std::string broken_law(std::string_view bytes) {
-  // A first byte ! turns to other columns, ? to columns without units, & to counts: one corpus reaches options too.
+  // A first byte ! selects other columns, ? columns without units, & counts, so that one corpus covers the options.
   MeasurementOptions options;
   const char first = bytes.empty() ? ' ' : bytes.front();
   if (first == '!') options.columns = {{"load", "x"}, {"alpha", "a_rad"}, {"time", "t_ms"}};

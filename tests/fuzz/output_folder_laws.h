@@ -1,6 +1,6 @@
 /// \file
-/// What holds of publishing whatever lies in the output folder and beside it. For the fuzz target and for the unit test
-/// that draws bytes by itself.
+/// Laws of publishing, whatever is in or next to the output folder; for the fuzz target and for the unit test with
+/// random bytes.
 #pragma once
 
 #include <fcntl.h>
@@ -24,7 +24,7 @@ namespace fusee::testing {
 
 namespace fs = std::filesystem;
 
-/// Kind, rights and content of everything in a folder, by path.
+/// Kind, permissions and content of everything in a folder, by path.
 inline std::map<std::string, std::string> tree_of(const fs::path& folder) {
   std::map<std::string, std::string> tree;
   for (auto it = fs::recursive_directory_iterator(folder); it != fs::recursive_directory_iterator(); ++it) {
@@ -43,7 +43,7 @@ inline std::map<std::string, std::string> tree_of(const fs::path& folder) {
   return tree;
 }
 
-/// A place `root/home/out` and the leftovers in and beside it, laid out by bytes: each entry takes four of them.
+/// A folder `root/home/out` with leftovers in and next to it, created from bytes: each entry uses four of them.
 class OddGround {
  public:
   OddGround(fs::path root, std::string_view bytes) : root_(std::move(root)) {
@@ -59,7 +59,7 @@ class OddGround {
  private:
   static void put(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
-  /// Where an entry lies: in the output folder, beside it, or in a leftover of either.
+  /// Parent of an entry: the output folder, its parent, or a leftover in either.
   fs::path ground(unsigned choice) const {
     const std::string beside = staging_key(out(), StagingSite::beside),
                       inside = staging_key(out(), StagingSite::inside);
@@ -112,7 +112,7 @@ class OddGround {
     if (top.filename().string().rfind(".fusee-", 0) == 0) ::chmod(top.c_str(), modes[byte(3) % 6]);
   }
 
-  /// Of fusee, with names that lead elsewhere and the hashes of what lies there.
+  /// A journal of fusee whose names point elsewhere, with the hashes of the files there.
   std::string manifest(unsigned choice) const {
     const std::vector<std::string> files = {"../../outside/secret", (outside() / "secret").string(), "notes.txt",
                                             "pulley.stl"};
@@ -124,7 +124,7 @@ class OddGround {
   fs::path root_;
 };
 
-/// Publishes a set into the place. "" or the law that does not hold.
+/// Publishes a set of files. Returns the broken law, or "".
 inline std::string broken_publishing_law(const fs::path& root, std::string_view bytes) {
   const OddGround ground(root, bytes);
   const auto outside = tree_of(ground.outside()), all = tree_of(root), before = tree_of(ground.out());

@@ -1,4 +1,4 @@
-// Replays the fuzzer's corpus: whatever the bytes, reading ends with a run whose laws hold or with an InputError.
+// Replays the fuzzer's corpus: reading ends with a valid run or with an InputError.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 namespace fusee {
 namespace {
 
-TEST(MeasurementCorpus, EveryFileIsReadOrRefused) {
+TEST(MeasurementCorpus, ReadsOrRefusesEveryFile) {
   const std::filesystem::path corpus = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/fuzz/corpus/measurement";
   int read = 0, refused = 0;
   for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
@@ -28,8 +28,8 @@ TEST(MeasurementCorpus, EveryFileIsReadOrRefused) {
   EXPECT_GE(refused, 10);
 }
 
-// The laws are seen broken on things broken on purpose.
-TEST(MeasurementCorpus, TheLawsCanFail) {
+// Each law detects a deliberately broken run.
+TEST(MeasurementCorpus, LawsDetectBrokenRuns) {
   fusee::Run run;
   run.samples.resize(3);
   for (std::size_t i = 0; i < 3; ++i) run.samples[i].time = static_cast<double>(i);

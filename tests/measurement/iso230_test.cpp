@@ -9,13 +9,13 @@
 namespace fusee {
 namespace {
 
-// By hand, three positions, three repeats:
+// Worked by hand, three positions, three repeats:
 //   i   up           x̄    s     down          x̄    s    B     2s↑+2s↓+|B|  4s↑  4s↓  mean
 //   1   1 2 3        2    1     5 5 5         5    0    −3    5            4    0    3.5
 //   2   0 0 0        0    0     1 3 5         3    2    −3    7            0    8    1.5
 //   3   −1 −1 −1     −1   0     −1 −1 −1      −1   0    0     0            0    0    −1
 // B = 3; R = 8; E = 5 − (−1) = 6; M = 3.5 − (−1) = 4.5; A = (3 + 4) − (−1 or 3 − 4 = −1) = 8
-TEST(Iso230, AsWorkedByHand) {
+TEST(Iso230, MatchesHandCalculation) {
   const Iso230 figures = iso230({{{{1, 2, 3}, {5, 5, 5}}}, {{{0, 0, 0}, {1, 3, 5}}}, {{{-1, -1, -1}, {-1, -1, -1}}}});
   EXPECT_DOUBLE_EQ(figures.B, 3);
   EXPECT_DOUBLE_EQ(figures.R, 8);
@@ -24,27 +24,27 @@ TEST(Iso230, AsWorkedByHand) {
   EXPECT_DOUBLE_EQ(figures.A, 8);
 }
 
-// By hand, two positions, both directions, three repeats, in units of .01°:
+// Worked by hand, two positions, both directions, three repeats, in units of .01°:
 //   i   up           x̄    s     down          x̄    s    B     2s↑+2s↓+|B|   4s↑   4s↓   mean
 //   1   4 6 8        6    2     −1 0 1        0    1    6     4+2+6 = 12    8     4     3
 //   2   −9 −6 −3     −6   3     −8 −8 −8      −8   0    2     6+0+2 = 8     12    0     −7
-// B = 6; R = 12, of position 1 by its sum and of position 2 by 4s↑; E = 6 − (−8) = 14; M = 3 − (−7) = 10;
+// B = 6; R = 12, from position 1 by its sum and from position 2 by 4s↑; E = 6 − (−8) = 14; M = 3 − (−7) = 10;
 // A = max(6+4, 0+2, −6+6, −8) − min(6−4, 0−2, −6−6, −8) = 10 − (−12) = 22
-TEST(Iso230, TwoPositionsAsWorkedByHand) {
+TEST(Iso230, MatchesHandCalculationOfTwoPositions) {
   const Iso230 figures = iso230({{{{4, 6, 8}, {-1, 0, 1}}}, {{{-9, -6, -3}, {-8, -8, -8}}}});
   EXPECT_DOUBLE_EQ(figures.B, 6);
   EXPECT_DOUBLE_EQ(figures.R, 12);
   EXPECT_DOUBLE_EQ(figures.E, 14);
   EXPECT_DOUBLE_EQ(figures.M, 10);
   EXPECT_DOUBLE_EQ(figures.A, 22);
-  // Each position alone: R of the second is 4s↑, more than 2s↑ + 2s↓ + |B|.
+  // Each position alone: R of the second is 4s↑, which exceeds 2s↑ + 2s↓ + |B|.
   EXPECT_DOUBLE_EQ(iso230({{{{4, 6, 8}, {-1, 0, 1}}}}).R, 12);
   EXPECT_DOUBLE_EQ(iso230({{{{-9, -6, -3}, {-8, -8, -8}}}}).R, 12);
-  // And of a downward scatter 4s↓.
+  // For a downward scatter it is 4s↓.
   EXPECT_DOUBLE_EQ(iso230({{{{-8, -8, -8}, {-9, -6, -3}}}}).R, 12);
 }
 
-// What a table of corrections can do: it takes reversal and shape away, and leaves R at 4s.
+// A compensation table removes reversal and shape, and leaves R at 4s.
 TEST(Iso230, RepeatabilityIsBoundedByFourDeviations) {
   const Iso230 figures = iso230({{{{-2, 0, 2}, {-2, 0, 2}}}, {{{-2, 0, 2}, {0, 0, 0}}}});
   EXPECT_DOUBLE_EQ(figures.B, 0);
@@ -54,8 +54,8 @@ TEST(Iso230, RepeatabilityIsBoundedByFourDeviations) {
   EXPECT_DOUBLE_EQ(figures.A, 8);
 }
 
-// A constant moves no figure; a sign turns none; doubling doubles all.
-TEST(Iso230, FiguresAreRangesAndScale) {
+// A constant offset changes no figure; a reversed sign neither; a factor of two doubles all.
+TEST(Iso230, FiguresIgnoreOffsetAndScale) {
   const auto of = [](double factor, double offset) {
     std::vector<std::array<std::vector<double>, 2>> all = {{{{4, 6, 8}, {-1, 0, 1}}}, {{{-9, -6, -3}, {-8, -8, -8}}}};
     for (auto& position : all) {
@@ -83,12 +83,12 @@ TEST(Iso230, RepeatabilityAddsReversalAndBothSpreads) {
   EXPECT_DOUBLE_EQ(figures.M, 0);
 }
 
-TEST(Iso230, NothingMeasuredIsNothing) {
+TEST(Iso230, IsZeroWithoutData) {
   EXPECT_EQ(iso230(std::vector<std::array<std::vector<double>, 2>>{}).A, 0);
   EXPECT_EQ(iso230({{{{1, 2}, {}}}}).R, 0);
 }
 
-TEST(Iso230, TakesResidualsWhereStrokesPass) {
+TEST(Iso230, InterpolatesResidualsAtPositions) {
   Measurement measurement;
   fusee::Run run;
   std::vector<double> residuals;
@@ -98,7 +98,7 @@ TEST(Iso230, TakesResidualsWhereStrokesPass) {
     run.samples.push_back(sample);
     residuals.push_back(i <= 100 ? 0.5 : 0.2);
   }
-  // A partial stroke does not count: its residuals are far off.
+  // A partial stroke does not count; its residuals are large here.
   run.strokes = {{0, 100, 1, 0, false}, {101, 200, -1, 0, false}, {201, 250, 1, 1, true}};
   for (int i = 0; i < 50; ++i) {
     Sample sample;

@@ -84,7 +84,7 @@ std::string reasons_of(const Measurement& measurement) {
   return all;
 }
 
-/// A scratch file that goes with the test.
+/// A scratch file, deleted with the test.
 class Scratch {
  public:
   explicit Scratch(const std::string& text, const std::string& name = "run")
@@ -99,7 +99,7 @@ class Scratch {
   std::filesystem::path path_;
 };
 
-TEST(Measurement, ReadsWhatABenchLogs) {
+TEST(Measurement, ReadsBenchLog) {
   const Parsed p = parsed(csv(triangle(40, 50, 4), quarter));
   EXPECT_THAT(p.measurement.not_testable, IsEmpty());
   EXPECT_THAT(p.measurement.notes, IsEmpty());
@@ -111,7 +111,7 @@ TEST(Measurement, ReadsWhatABenchLogs) {
   EXPECT_NEAR(degrees(p.run.speed), 16.0, 1e-9);
 }
 
-TEST(Measurement, FindsStrokesAtTheReversals) {
+TEST(Measurement, CutsStrokesAtReversals) {
   const Parsed p = parsed(csv(triangle(40, 50, 4), quarter));
   ASSERT_THAT(p.run.strokes, SizeIs(4));
   for (std::size_t i = 0; i < 4; ++i) {
@@ -122,7 +122,7 @@ TEST(Measurement, FindsStrokesAtTheReversals) {
   }
 }
 
-TEST(Measurement, NoiseAndQuantumMakeNoStrokes) {
+TEST(Measurement, NoiseMakesNoStrokes) {
   std::vector<double> alphas = triangle(40, 400, 4);
   for (std::size_t i = 0; i < alphas.size(); ++i)
     alphas[i] = 0.25 * std::round(4 * (alphas[i] + 0.2 * std::sin(12.9898 * static_cast<double>(i))));
@@ -130,7 +130,7 @@ TEST(Measurement, NoiseAndQuantumMakeNoStrokes) {
   EXPECT_NEAR(degrees(parsed(csv(alphas, quarter)).measurement.alpha_quantum), 0.25, 1e-9);
 }
 
-TEST(Measurement, AFirstStrokeFromTheMiddleIsPartial) {
+TEST(Measurement, FirstStrokeFromMiddleIsPartial) {
   std::vector<double> alphas = triangle(40, 50, 4);
   alphas.erase(alphas.begin(), alphas.begin() + 25);
   const Parsed p = parsed(csv(alphas, quarter));
@@ -140,7 +140,7 @@ TEST(Measurement, AFirstStrokeFromTheMiddleIsPartial) {
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("does not begin at a reversal"));
 }
 
-TEST(Measurement, TakesCommentsByteOrderMarksAndAnyLineEnd) {
+TEST(Measurement, AcceptsCommentsMarksAndLineEnds) {
   std::string text = csv(triangle(40, 50, 4), quarter);
   std::string windows = "\xEF\xBB\xBF# a log\r\n";
   for (const char c : text) windows += c == '\n' ? std::string("\r\n  # said\r\n") : std::string(1, c);
@@ -156,7 +156,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-TEST(Measurement, ReadsEverySeparatorAndLineEndAlike) {
+TEST(Measurement, ReadsEverySeparator) {
   const std::string text = csv(triangle(40, 50, 4), quarter);
   const Parsed plain = parsed(text);
   const std::string padded = replaced(replaced(text, ",", " , "), "\n", "\t\n");
@@ -173,7 +173,7 @@ TEST(Measurement, ReadsEverySeparatorAndLineEndAlike) {
   }
 }
 
-TEST(Measurement, TheUnitStandsInTheColumnsName) {
+TEST(Measurement, TakesUnitFromColumnName) {
   const std::string text = "clock_ms,motor_rad,joint_rad\n500,0.5,0.1\n";
   const Parsed p = parsed(text, named({{"time", "clock_ms"}, {"alpha", "motor_rad"}, {"theta", "joint_rad"}}));
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).time, 0.5);
@@ -181,31 +181,31 @@ TEST(Measurement, TheUnitStandsInTheColumnsName) {
   EXPECT_DOUBLE_EQ(p.run.samples.at(0).theta, 0.1);
 }
 
-TEST(Measurement, OneColumnIsNotTwoThings) {
+TEST(Measurement, RejectsColumnWithTwoRoles) {
   EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,2\n", named({{"load", "theta_deg"}})),
               HasSubstr("\"theta_deg\" is taken as theta and as load"));
 }
 
-TEST(Measurement, DecimalCommasBetweenCommasAreSaidOnce) {
+TEST(Measurement, ReportsDecimalCommasOnce) {
   EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,5,2,5\n2,5,3,5\n"), HasSubstr("if commas are the decimal marks"));
 }
 
-TEST(Measurement, WhatIsNoTableIsSaid) {
+TEST(Measurement, RejectsTextWithoutTable) {
   EXPECT_THAT(error_of(std::string("a\0l\0", 4)), HasSubstr("save it as UTF-8"));
   EXPECT_THAT(error_of("\x1F\x8B\x08\x01"), HasSubstr("unpack it with gunzip"));
   EXPECT_THAT(error_of("PK\x03\x04"), HasSubstr("export a CSV text"));
   EXPECT_THAT(error_of("alpha_deg,theta_deg\n" + std::string(70'000, '1')),
               HasSubstr("run.csv:2:1: error: a line of more than 65536 bytes"));
   EXPECT_THAT(error_of("1,2\n3,4\n"), HasSubstr("there is no header"));
-  EXPECT_THAT(error_of("# alpha_deg,theta_deg\n1,2\n3,4\n"), HasSubstr("take the # away"));
+  EXPECT_THAT(error_of("# alpha_deg,theta_deg\n1,2\n3,4\n"), HasSubstr("remove its #"));
   EXPECT_THAT(error_of("alpha_deg,theta_deg\ndeg,deg\n1,2\n"),
-              HasSubstr("a second line of the header? Begin it with #"));
+              HasSubstr("is this a second header line? Begin it with #"));
   EXPECT_THAT(error_of("ALPHADEG,theta_deg\n1,2\n"), HasSubstr("the nearest is \"ALPHADEG\""));
   EXPECT_THAT(error_of("alpha_deg,theta_deg\n1e300,2\n"),
-              HasSubstr("run.csv:2:1: error: alpha_deg = 1e+300 is no angle"));
+              HasSubstr("run.csv:2:1: error: alpha_deg = 1e+300 is not an angle"));
 }
 
-TEST(Measurement, ReadingStopsAtAsManyErrorsAsCanBeRead) {
+TEST(Measurement, StopsAfterManyErrors) {
   std::string text = "alpha_deg,theta_deg\n";
   for (int i = 0; i < 1000; ++i) text += "1,x\n";
   const std::string errors = error_of(text);
@@ -213,13 +213,13 @@ TEST(Measurement, ReadingStopsAtAsManyErrorsAsCanBeRead) {
   EXPECT_THAT(errors, HasSubstr("there may be more"));
 }
 
-TEST(Measurement, ALastRowCutOffIsLeftOut) {
+TEST(Measurement, OmitsTruncatedLastRow) {
   const Parsed p = parsed(csv(triangle(40, 50, 4), quarter) + "20.1,-39");
   EXPECT_THAT(p.run.samples, SizeIs(201));
-  EXPECT_THAT(notes_of(p.measurement), HasSubstr("the last row (line 203) is cut off"));
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("the last row (line 203) is truncated"));
 }
 
-TEST(Measurement, ColumnsCanBeGivenARole) {
+TEST(Measurement, AssignsRolesToColumns) {
   const std::string text = "alpha_deg,theta_deg,tau_out_Nm\n1,2,3\n";
   const Parsed p = parsed(text, named({{"load", "tau_out_Nm"}}));
   EXPECT_TRUE(p.run.has_load);
@@ -229,14 +229,14 @@ TEST(Measurement, ColumnsCanBeGivenARole) {
   EXPECT_THAT(error_of(text, named({{"loud", "tau_out_Nm"}})), HasSubstr("did you mean load?"));
 }
 
-TEST(Measurement, AMissingColumnIsNamedWithTheNearest) {
+TEST(Measurement, SuggestsNearestColumn) {
   EXPECT_THAT(error_of("alpha_deg,thta_deg\n1,2\n"), HasSubstr("run.csv:1:1: error: there is no column theta_deg"));
   EXPECT_THAT(error_of("alpha_deg,thta_deg\n1,2\n"), HasSubstr("the nearest is \"thta_deg\""));
-  EXPECT_THAT(error_of(""), HasSubstr("holds no header"));
+  EXPECT_THAT(error_of(""), HasSubstr("has no header"));
   EXPECT_THAT(error_of("alpha_deg,theta_deg,alpha_deg\n1,2,3\n"), HasSubstr("two columns are called \"alpha_deg\""));
 }
 
-TEST(Measurement, TextInANumberIsSaidWithItsLine) {
+TEST(Measurement, ReportsLineOfInvalidNumber) {
   const std::string errors = error_of("alpha_deg,theta_deg\n1,2\n# ok\n1,two\n3,4\nx,5\n");
   EXPECT_THAT(errors, HasSubstr("run.csv:4:3: error: theta_deg: \"two\" is not a number"));
   EXPECT_THAT(errors, HasSubstr("run.csv:6:1: error: alpha_deg: \"x\" is not a number"));
@@ -245,7 +245,7 @@ TEST(Measurement, TextInANumberIsSaidWithItsLine) {
   EXPECT_THAT(error_of(std::string("alpha_deg,theta_deg\n\0\n", 22)), HasSubstr("binary"));
 }
 
-TEST(Measurement, RowsWithoutAnAngleAreLeftOutAndCounted) {
+TEST(Measurement, CountsRowsWithoutAngle) {
   std::string text = csv(triangle(40, 50, 4), quarter);
   text.replace(text.find("\n0,") + 1, 2, "0.0,nan,inf\n0,");
   const Parsed p = parsed(text);
@@ -253,20 +253,20 @@ TEST(Measurement, RowsWithoutAnAngleAreLeftOutAndCounted) {
   EXPECT_THAT(p.run.samples, SizeIs(201));
 }
 
-TEST(Measurement, WrapAroundIsTakenBack) {
+TEST(Measurement, UnwrapsEncoder) {
   const auto wrapped = [](double alpha) { return std::remainder(alpha, 360.0); };
   std::vector<double> alphas = triangle(300, 100, 4);
   std::string text = "alpha_deg,theta_deg\n";
   for (const double alpha : alphas) text += shortest(wrapped(alpha)) + "," + shortest(quarter(alpha)) + "\n";
   const Parsed p = parsed(text);
-  // The first value decides on which turn the log begins.
+  // The first value determines the turn on which the log begins.
   const double shift = degrees(p.run.samples[0].alpha) - alphas[0];
   for (std::size_t i = 0; i < alphas.size(); ++i) EXPECT_NEAR(degrees(p.run.samples[i].alpha), alphas[i] + shift, 1e-9);
   EXPECT_NEAR(std::remainder(shift, 360.0), 0, 1e-9);
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("unwrapped"));
 }
 
-TEST(Measurement, ARowDeliveredLateIsPutBack) {
+TEST(Measurement, MovesLateRowBack) {
   std::string text = csv(triangle(40, 50, 4), quarter);
   const std::size_t a = text.find("\n3,") + 1, b = text.find('\n', a) + 1, c = text.find('\n', b) + 1;
   text = text.substr(0, a) + text.substr(b, c - b) + text.substr(a, b - a) + text.substr(a, b - a) + text.substr(c);
@@ -274,12 +274,12 @@ TEST(Measurement, ARowDeliveredLateIsPutBack) {
   ASSERT_THAT(p.run.samples, SizeIs(201));
   for (std::size_t i = 1; i < 201; ++i) EXPECT_GT(p.run.samples[i].time, p.run.samples[i - 1].time);
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("delivered late"));
-  EXPECT_THAT(notes_of(p.measurement), HasSubstr("taken together"));
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("averaged"));
 }
 
 // ---- time -----------------------------------------------------------------------------------------------------------
 
-/// The rows of a triangle wave, each with a time of one's own making.
+/// Rows of a triangle wave, with times from `time`.
 std::string timed(const std::function<std::string(int)>& time) {
   std::string text = "time_s,alpha_deg,theta_deg\n";
   const std::vector<double> alphas = triangle(40, 50, 4);
@@ -288,7 +288,7 @@ std::string timed(const std::function<std::string(int)>& time) {
   return text;
 }
 
-TEST(Measurement, AFewMissingTimesAreFilledInAndManyAreNot) {
+TEST(Measurement, InterpolatesFewMissingTimes) {
   const Parsed few = parsed(timed([](int i) { return i == 7 || i == 8 ? "" : shortest(0.1 * i); }));
   EXPECT_NEAR(few.run.samples[7].time, 0.7, 1e-12);
   EXPECT_NEAR(few.run.samples[8].time, 0.8, 1e-12);
@@ -299,28 +299,28 @@ TEST(Measurement, AFewMissingTimesAreFilledInAndManyAreNot) {
   EXPECT_THAT(notes_of(many.measurement), HasSubstr("time is not used"));
 }
 
-TEST(Measurement, AClockCoarserThanTheLogIsSpread) {
+TEST(Measurement, SpreadsCoarseClock) {
   const Parsed p = parsed(timed([](int i) { return std::to_string(i / 10); }));
   ASSERT_THAT(p.run.samples, SizeIs(201));
   for (std::size_t i = 0; i < 200; ++i) EXPECT_NEAR(p.run.samples[i].time, 0.1 * static_cast<double>(i), 1e-12);
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("coarser than the log"));
 }
 
-TEST(Measurement, AClockThatStandsStillIsNotUsed) {
+TEST(Measurement, DropsConstantClock) {
   const Parsed p = parsed(timed([](int) { return "1.0"; }));
   EXPECT_FALSE(p.run.has_time);
   EXPECT_THAT(p.run.samples, SizeIs(201));
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("the clock stands still"));
 }
 
-TEST(Measurement, AClockThatStartsAgainGoesOn) {
+TEST(Measurement, ContinuesRestartedClock) {
   const Parsed p = parsed(timed([](int i) { return shortest(0.1 * (i % 100)); }));
   ASSERT_THAT(p.run.samples, SizeIs(201));
   for (std::size_t i = 0; i < 201; ++i) EXPECT_NEAR(p.run.samples[i].time, 0.1 * static_cast<double>(i), 1e-9);
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("the clock goes back 2 times, first from 9.9 to 0 s"));
 }
 
-TEST(Measurement, HalvesInTheWrongOrderStayInTheirOrder) {
+TEST(Measurement, KeepsOrderOfSwappedHalves) {
   const std::string text = timed([](int i) { return shortest(0.1 * i); });
   const std::size_t body = text.find('\n') + 1, middle = text.find("\n13,") + 1;
   const Parsed p = parsed(text.substr(0, body) + text.substr(middle) + text.substr(body, middle - body));
@@ -340,13 +340,13 @@ std::vector<double> sine(double size, int rows, double cycles) {
   return alphas;
 }
 
-/// A little of what every sensor does, the same each time.
+/// Adds small deterministic jitter, as a sensor's noise.
 std::vector<double> jittered(std::vector<double> values, double size) {
   for (std::size_t i = 0; i < values.size(); ++i) values[i] += size * std::sin(12.9898 * static_cast<double>(i * i));
   return values;
 }
 
-/// Stands `rows` rows wherever `at` says.
+/// Inserts a dwell of `rows` rows at every `every`-th value.
 std::vector<double> dwelling(const std::vector<double>& values, std::size_t every, int rows) {
   std::vector<double> found;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -361,24 +361,24 @@ std::string directions_of(const fusee::Run& run) {
   return signs;
 }
 
-TEST(Strokes, OfSinesBeginWithAPartialOne) {
+TEST(Strokes, SineBeginsWithPartialStroke) {
   for (const double noise : {0.0, 0.05, 0.5}) {
     const Parsed p = parsed(csv(jittered(sine(40, 2000, 3), noise), quarter));
     EXPECT_EQ(directions_of(p.run), "(+)-+-+-+") << noise;
-    // A quarter sine is partial; cycles are counted from the first whole stroke.
+    // A quarter sine is partial; cycles count from the first complete stroke.
     for (std::size_t i = 1; i < p.run.strokes.size(); ++i)
       EXPECT_EQ(p.run.strokes[i].cycle, static_cast<int>((i - 1) / 2));
   }
 }
 
-TEST(Strokes, OfFewRowsBeginAtTheReversalToo) {
+TEST(Strokes, FewRowsBeginAtReversal) {
   EXPECT_EQ(directions_of(parsed(csv(triangle(40, 8, 6), quarter)).run), "+-+-+-");
 }
 
-TEST(Strokes, DwellsDoNotCutThem) {
+TEST(Strokes, DwellsDoNotCutStrokes) {
   const std::vector<double> alphas = triangle(40, 50, 6);
   for (const std::size_t every :
-       {std::size_t{50}, std::size_t{25}, std::size_t{10}}) {  // at the reversals, in the middle too, staircases
+       {std::size_t{50}, std::size_t{25}, std::size_t{10}}) {  // at the reversals, in the middle, staircases
     for (const double noise : {0.0, 0.02}) {
       const Parsed p = parsed(csv(jittered(dwelling(alphas, every, 40), noise),
                                   [](double alpha) { return 0.25 * alpha + 1e-4 * std::sin(1e5 * alpha); }));
@@ -387,27 +387,29 @@ TEST(Strokes, DwellsDoNotCutThem) {
   }
 }
 
-TEST(Strokes, ADitherOnASweepIsNoStroke) {
+TEST(Strokes, DitherMakesNoStroke) {
   std::vector<double> alphas = triangle(40, 200, 4);
   for (std::size_t i = 0; i < alphas.size(); ++i) alphas[i] += 0.3 * std::sin(1.7 * static_cast<double>(i));
   EXPECT_EQ(directions_of(parsed(csv(alphas, quarter)).run), "+-+-");
 }
 
-TEST(Strokes, ATinyMotionIsOne) { EXPECT_EQ(directions_of(parsed(csv(triangle(0.1, 50, 4), quarter)).run), "+-+-"); }
+TEST(Strokes, TinyMotionMakesStrokes) {
+  EXPECT_EQ(directions_of(parsed(csv(triangle(0.1, 50, 4), quarter)).run), "+-+-");
+}
 
-TEST(Strokes, JitterIsNone) {
+TEST(Strokes, JitterMakesNoStroke) {
   const Parsed p = parsed(csv(jittered(std::vector<double>(300, 3.0), 0.01), quarter));
   EXPECT_EQ(directions_of(p.run), "");
   EXPECT_THAT(reasons_of(p.measurement), HasSubstr("alpha only jitters (by 0.02 deg)"));
 }
 
-TEST(Strokes, ManyCyclesAreAllFound) {
+TEST(Strokes, FindsManyCycles) {
   const Parsed p = parsed(csv(jittered(triangle(40, 20, 400), 0.02), quarter));
   ASSERT_THAT(p.run.strokes, SizeIs(400));
   EXPECT_EQ(p.run.strokes.back().cycle, 199);
 }
 
-TEST(Strokes, AGapCutsWithAndWithoutTime) {
+TEST(Strokes, GapCutsStroke) {
   std::string text = csv(triangle(40, 50, 6), quarter);
   text.erase(text.find("\n7,") + 1, text.find("\n14,") - text.find("\n7,"));
   for (const char* const name : {"time_s", "frame"}) {
@@ -417,7 +419,7 @@ TEST(Strokes, AGapCutsWithAndWithoutTime) {
   }
 }
 
-TEST(Strokes, StaircasesOfLoadLeaveThemAlone) {
+TEST(Strokes, LoadStepsDoNotCutStrokes) {
   const std::vector<double> alphas = triangle(40, 50, 8);
   std::string text = "alpha_deg,theta_deg,load_N\n";
   for (std::size_t i = 0; i < alphas.size(); ++i) {
@@ -430,9 +432,9 @@ TEST(Strokes, StaircasesOfLoadLeaveThemAlone) {
   EXPECT_THAT(p.measurement.notes, IsEmpty());
 }
 
-// ---- what cannot be used --------------------------------------------------------------------------------------------
+// ---- unusable runs --------------------------------------------------------------------------------------------------
 
-TEST(Measurement, OutliersAreDroppedAndMotionIsNot) {
+TEST(Measurement, DropsOutliersAndKeepsMotion) {
   std::string text = csv(triangle(40, 50, 4), quarter);
   const std::size_t at = text.find("\n7,");
   const std::size_t end = text.find('\n', at + 1);
@@ -440,25 +442,25 @@ TEST(Measurement, OutliersAreDroppedAndMotionIsNot) {
   const Parsed p = parsed(text);
   EXPECT_THAT(p.run.samples, SizeIs(200));
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("dropped as outliers"));
-  // A step that stays is no outlier.
+  // A lasting step is not an outlier.
   const Parsed step = parsed(csv(triangle(40, 50, 4), [](double alpha) { return 0.25 * alpha + (alpha > 3 ? 2 : 0); }));
   EXPECT_THAT(step.run.samples, SizeIs(201));
 }
 
-TEST(Measurement, WhatCannotBeTestedIsSaid) {
-  EXPECT_THAT(reasons_of(parsed("alpha_deg,theta_deg\n1,2\n").measurement), HasSubstr("1 row that can be used"));
+TEST(Measurement, ReportsUntestableRuns) {
+  EXPECT_THAT(reasons_of(parsed("alpha_deg,theta_deg\n1,2\n").measurement), HasSubstr("1 row can be used"));
   EXPECT_THAT(reasons_of(parsed(csv(std::vector<double>(50, 1.0), quarter)).measurement),
               HasSubstr("alpha does not change"));
   EXPECT_THAT(reasons_of(parsed(csv(triangle(40, 50, 4), [](double) { return 3.0; })).measurement),
               HasSubstr("sensor is dead"));
   const auto frozen = [](double alpha) { return 0.25 * std::min(alpha, -20.0); };
-  EXPECT_THAT(reasons_of(parsed(csv(triangle(40, 50, 4), frozen)).measurement), HasSubstr("stands still"));
+  EXPECT_THAT(reasons_of(parsed(csv(triangle(40, 50, 4), frozen)).measurement), HasSubstr("theta is constant"));
   const Scratch one_way(csv(triangle(40, 50, 1), quarter));
   EXPECT_THAT(reasons_of(read_measurement({one_way.path()})), HasSubstr("alpha only grows"));
   EXPECT_THROW(read_measurement({"no/such/file.csv"}), InputError);
 }
 
-TEST(Measurement, SmallOutliersAreFoundBesideALargeMotion) {
+TEST(Measurement, FindsSmallOutliersInLargeMotion) {
   const std::vector<double> alphas = triangle(40, 50, 4);
   std::string text = "alpha_deg,theta_deg\n";
   for (std::size_t i = 0; i < alphas.size(); ++i) {
@@ -471,7 +473,7 @@ TEST(Measurement, SmallOutliersAreFoundBesideALargeMotion) {
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("3 rows with theta more than"));
 }
 
-TEST(Measurement, ManyOutliersAreKeptAndSaid) {
+TEST(Measurement, KeepsManyOutliers) {
   std::vector<double> alphas = triangle(40, 50, 4);
   std::string text = "alpha_deg,theta_deg\n";
   for (std::size_t i = 0; i < alphas.size(); ++i)
@@ -481,8 +483,8 @@ TEST(Measurement, ManyOutliersAreKeptAndSaid) {
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("too many to be outliers, kept"));
 }
 
-TEST(Measurement, PlayAndACoarseSensorAreNoFrozenOne) {
-  // Play of 8 deg: θ stands for a tenth of the sweep after each reversal. No noise, so it stands exactly.
+TEST(Measurement, PlayIsNotFrozenSensor) {
+  // Play of 8 deg: θ is constant for a tenth of the sweep after each reversal, exactly so without noise.
   double pulley = -40;
   std::string text = "alpha_deg,theta_deg\n";
   for (const double alpha : triangle(40, 100, 6)) {
@@ -490,7 +492,7 @@ TEST(Measurement, PlayAndACoarseSensorAreNoFrozenOne) {
     text += shortest(alpha) + "," + shortest(0.25 * pulley) + "\n";
   }
   EXPECT_EQ(reasons_of(parsed(text).measurement), "");
-  // Strokes that turn back within the play, beside large ones.
+  // Strokes that reverse within the play, next to large ones.
   pulley = -40;
   text = "alpha_deg,theta_deg\n";
   std::vector<double> alphas = triangle(40, 100, 4);
@@ -504,10 +506,10 @@ TEST(Measurement, PlayAndACoarseSensorAreNoFrozenOne) {
   EXPECT_EQ(reasons_of(parsed(csv(triangle(40, 100, 4), coarse)).measurement), "");
 }
 
-TEST(Measurement, SaturatedAndFrozenSensorsAreSaid) {
+TEST(Measurement, ReportsFrozenSensors) {
   const auto saturated = [](double alpha) { return 0.25 * std::clamp(alpha, -30.0, 30.0); };
   EXPECT_THAT(reasons_of(parsed(csv(triangle(40, 50, 4), saturated)).measurement),
-              HasSubstr("theta stands still at 7.5 deg while alpha moves over 9.6 deg (at 4.4 s)"));
+              HasSubstr("theta is constant at 7.5 deg while alpha moves over 9.6 deg (at 4.4 s)"));
   std::string text = "alpha_deg,theta_deg,load_N\n", loaded = text;
   const std::vector<double> alphas = triangle(40, 50, 4);
   for (std::size_t i = 0; i < alphas.size(); ++i) {
@@ -516,21 +518,21 @@ TEST(Measurement, SaturatedAndFrozenSensorsAreSaid) {
     text += rows + "0\n";
     loaded += rows + (i > 75 ? "5\n" : "0\n");
   }
-  EXPECT_THAT(reasons_of(parsed(text).measurement), HasSubstr("alpha stands still while theta moves over"));
+  EXPECT_THAT(reasons_of(parsed(text).measurement), HasSubstr("alpha is constant while theta moves over"));
   EXPECT_EQ(reasons_of(parsed(loaded).measurement), "");  // a step of the load moves the joint
 }
 
-TEST(Measurement, ARunGivenTwiceIsRefused) {
+TEST(Measurement, RejectsRepeatedRun) {
   const Scratch one(csv(triangle(40, 50, 4), quarter), "one"), copy(csv(triangle(40, 50, 4), quarter), "copy");
   try {
     read_measurement({one.path(), copy.path()});
     ADD_FAILURE() << "a copy was taken";
   } catch (const InputError& error) {
-    EXPECT_THAT(to_text(error.diagnostics().at(0)), HasSubstr("holds the same rows as"));
+    EXPECT_THAT(to_text(error.diagnostics().at(0)), HasSubstr("has the same rows as"));
   }
 }
 
-TEST(Measurement, AllFilesErrorsAreShownAtOnce) {
+TEST(Measurement, ReportsErrorsOfAllFiles) {
   const Scratch one("alpha_deg,theta_deg\n1,x\n", "one"), other("alpha_deg\n1\n", "other");
   try {
     read_measurement({one.path(), "no/such/file.csv", other.path(), std::filesystem::temp_directory_path()});
@@ -540,7 +542,7 @@ TEST(Measurement, AllFilesErrorsAreShownAtOnce) {
   }
 }
 
-TEST(Measurement, ManyLongFilesShareTheRowsThatAreKept) {
+TEST(Measurement, ThinsManyLongFiles) {
   std::string text = "alpha_deg,theta_deg\n";
   for (int i = 0; i < 600'000; ++i)
     text += std::to_string(i % 200'000 < 100'000 ? i % 100'000 : 100'000 - i % 100'000) + "e-3," +
@@ -553,7 +555,7 @@ TEST(Measurement, ManyLongFilesShareTheRowsThatAreKept) {
   EXPECT_GT(kept, std::size_t{1} << 19);
 }
 
-TEST(Measurement, AFileAndItsTextAreTheSame) {
+TEST(Measurement, FileAndTextAgree) {
   const std::string text = csv(triangle(40, 5000, 4), quarter);
   const Scratch file(text);
   const Measurement measurement = read_measurement({file.path()});
@@ -564,7 +566,7 @@ TEST(Measurement, AFileAndItsTextAreTheSame) {
     ASSERT_EQ(measurement.runs[0].samples[i].theta, run.samples[i].theta);
 }
 
-TEST(Measurement, ALogTooLongToKeepIsThinned) {
+TEST(Measurement, ThinsLongLog) {
   std::string text = "alpha_deg,theta_deg\n";
   constexpr int rows = 1'200'000;
   for (int i = 0; i < rows; ++i) {
@@ -579,7 +581,7 @@ TEST(Measurement, ALogTooLongToKeepIsThinned) {
   EXPECT_THAT(notes_of(p.measurement), HasSubstr("of 1200000 rows one in 2 is used"));
 }
 
-// ---- against what was declared --------------------------------------------------------------------------------------
+// ---- comparison with the file ---------------------------------------------------------------------------------------
 
 Measurement of_joint(double alpha_factor, double theta_factor, bool exchanged = false) {
   const Transmission law(testing::forearm());
@@ -594,7 +596,7 @@ Measurement of_joint(double alpha_factor, double theta_factor, bool exchanged = 
   return measurement;
 }
 
-TEST(MeasurementAgainstDeclared, ExchangedTurnedAndInRadiansAreSaid) {
+TEST(MeasurementAgainstDeclared, ReportsSwappedSignedOrRadianColumns) {
   EXPECT_EQ(reasons_of(of_joint(1, 1)), "");
   EXPECT_EQ(reasons_of(of_joint(1, 1.2)), "");
   EXPECT_THAT(reasons_of(of_joint(1, -1)), HasSubstr("opposite sign"));
@@ -605,8 +607,8 @@ TEST(MeasurementAgainstDeclared, ExchangedTurnedAndInRadiansAreSaid) {
   EXPECT_THAT(reasons_of(of_joint(1, 7)), HasSubstr("not the declared joint"));
 }
 
-TEST(MeasurementAgainstDeclared, WholeTurnsAreTakenBack) {
-  // An encoder from 0 to 360 deg: below home it shows a turn too much.
+TEST(MeasurementAgainstDeclared, RemovesWholeTurns) {
+  // An encoder from 0 to 360 deg reads a turn too much below home.
   const Transmission law(testing::forearm());
   const double most = degrees(law.alpha_max());
   const auto wrapped = [](double value) { return value < 0 ? value + 360 : value; };
@@ -625,7 +627,7 @@ TEST(MeasurementAgainstDeclared, WholeTurnsAreTakenBack) {
   }
 }
 
-TEST(MeasurementAgainstDeclared, RunsOfARatioBeginOnTheFirstOnesTurn) {
+TEST(MeasurementAgainstDeclared, RatioRunsStartOnSameTurn) {
   Mechanism ratio;
   ratio.transmission = RatioTransmission{4.0};
   Measurement measurement;
@@ -639,7 +641,7 @@ TEST(MeasurementAgainstDeclared, RunsOfARatioBeginOnTheFirstOnesTurn) {
   EXPECT_NEAR(degrees(measurement.runs[1].samples[0].theta), 60, 1e-9);
 }
 
-TEST(MeasurementAgainstDeclared, AZeroThatWasNotSetIsSaid) {
+TEST(MeasurementAgainstDeclared, ReportsUnsetZero) {
   const Transmission law(testing::forearm());
   const double most = degrees(law.alpha_max());
   const auto beside = [&](double offset) {
@@ -650,11 +652,11 @@ TEST(MeasurementAgainstDeclared, AZeroThatWasNotSetIsSaid) {
     compare_with_declared(testing::forearm(), measurement);
     return reasons_of(measurement);
   };
-  EXPECT_EQ(beside(10), "");  // within what zero_offset finds
-  EXPECT_THAT(beside(100), HasSubstr("theta stands 100 deg beside what is declared"));
+  EXPECT_EQ(beside(10), "");  // within the range of zero_offset
+  EXPECT_THAT(beside(100), HasSubstr("theta is 100 deg away from the declared angle"));
 }
 
-TEST(MeasurementAgainstDeclared, AMotionLostInNoiseAccusesNoColumn) {
+TEST(MeasurementAgainstDeclared, NoisyMotionSuspectsNoColumn) {
   Measurement measurement;
   std::string text = "alpha_deg,theta_deg\n";
   const std::vector<double> alphas = triangle(0.05, 50, 4);
@@ -662,10 +664,10 @@ TEST(MeasurementAgainstDeclared, AMotionLostInNoiseAccusesNoColumn) {
     text += shortest(alphas[i]) + "," + shortest(0.1 * std::sin(12.9898 * static_cast<double>(i * i))) + "\n";
   measurement.runs.push_back(parse_run(text, "run.csv", {}, measurement));
   compare_with_declared(testing::forearm(), measurement);
-  EXPECT_THAT(reasons_of(measurement), HasSubstr("move further"));
+  EXPECT_THAT(reasons_of(measurement), HasSubstr("use a larger range"));
 }
 
-// ---- what drives a joint --------------------------------------------------------------------------------------------
+// ---- input of simulations --------------------------------------------------------------------------------------------
 
 std::filesystem::path written(const std::string& text) {
   const std::filesystem::path path =
@@ -688,7 +690,7 @@ TEST(Driving, NeedsNoTheta) {
   }
 }
 
-TEST(Driving, TakesATorqueAsATipForce) {
+TEST(Driving, ConvertsTorqueToTipForce) {
   const DeclaredMechanism joint = testing::forearm();
   MeasurementOptions options;
   options.columns["load"] = "tau_Nm";
@@ -696,18 +698,18 @@ TEST(Driving, TakesATorqueAsATipForce) {
   EXPECT_DOUBLE_EQ(log.runs[0].samples[0].load, 1000.0 / joint.joint.R);
 }
 
-TEST(Driving, WithoutAnyAlphaIsNone) {
+TEST(Driving, RequiresAlpha) {
   EXPECT_THROW(read_driving(written("alpha_deg\n\n"), testing::forearm()), InputError);
   EXPECT_THROW(read_driving(written("alpha_deg\nnan\n"), testing::forearm()), InputError);
 }
 
-TEST(UnfilledRuns, HaveNoMeasuredRows) {
+TEST(UnfilledRuns, AreReported) {
   const Parsed run = parsed("time_s,alpha_deg,load_N,theta_deg\n0,1,5,\n1,2,5,\n2,3,5,\n");
   ASSERT_THAT(run.measurement.not_testable, SizeIs(1));
   EXPECT_THAT(run.measurement.not_testable[0], HasSubstr("no measured rows: theta is empty in all 3 rows"));
 }
 
-TEST(Mounting, IsOneForARun) {
+TEST(Mounting, IsConstantInRun) {
   const std::string head = "alpha_deg,theta_deg,joint_sensor_turned_deg\n";
   EXPECT_DOUBLE_EQ(parsed(head + "0,0,90\n1,0,\n2,0,90\n").run.mounting.joint_sensor_turned, radians(90.0));
   EXPECT_THAT(error_of(head + "0,0,90\n1,0,0\n"), HasSubstr("changes within the run"));

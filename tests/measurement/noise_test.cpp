@@ -10,7 +10,7 @@
 namespace fusee {
 namespace {
 
-/// A bench in a few numbers.
+/// Parameters of a simulated bench.
 struct Bench {
   double noise = 0;  ///< rad
   int cycles = 6;
@@ -67,7 +67,7 @@ Measurement measured(const Bench& bench) {
 
 NoiseFloor floor_of(const Bench& bench) { return noise_floor(measured(bench)); }
 
-TEST(NoiseFloor, IsTheNoise) {
+TEST(NoiseFloor, EqualsSimulatedNoise) {
   for (const double noise : {1e-4, 1e-2}) {
     const NoiseFloor floor = floor_of({.noise = noise});
     EXPECT_TRUE(floor.from_repeats);
@@ -76,13 +76,12 @@ TEST(NoiseFloor, IsTheNoise) {
   }
 }
 
-TEST(NoiseFloor, SteadyDriftIsNoNoise) { EXPECT_NEAR(floor_of({.noise = 1e-4, .shift = 0.01}).rms, 1e-4, 1e-5); }
+TEST(NoiseFloor, IgnoresSteadyDrift) { EXPECT_NEAR(floor_of({.noise = 1e-4, .shift = 0.01}).rms, 1e-4, 1e-5); }
 
-TEST(NoiseFloor, AnExactJointHasNone) { EXPECT_LT(floor_of({.cycles = 4}).rms, 1e-8); }
+TEST(NoiseFloor, IsZeroForExactJoint) { EXPECT_LT(floor_of({.cycles = 4}).rms, 1e-8); }
 
-// Scatter holds the sensor's step once the noise spreads readings over more than one: σ² + q²/12, and not the step a
-// second time.
-TEST(NoiseFloor, ACoarseSensorAddsItsStepOnce) {
+// If the noise spreads readings over more than one step, the scatter is σ² + q²/12: the step is counted once.
+TEST(NoiseFloor, CountsQuantisationOnce) {
   const double quantum = radians(0.1);
   for (const double noise : {0.5, 1.0}) {
     const double expected = quantum * std::sqrt(noise * noise + 1.0 / 12.0);
@@ -90,35 +89,35 @@ TEST(NoiseFloor, ACoarseSensorAddsItsStepOnce) {
   }
 }
 
-TEST(NoiseFloor, RepeatsOnTheSameStepHideIt) {
+TEST(NoiseFloor, RepeatsOnSameStepHideQuantisation) {
   const double quantum = radians(0.1);
   EXPECT_DOUBLE_EQ(floor_of({.quantum = quantum, .same_places = true}).rms, quantum / std::sqrt(12.0));
 }
 
-TEST(NoiseFloor, AStepOfTheMotorsSensorIsSeenThroughTheSlope) {
+TEST(NoiseFloor, ScalesMotorStepBySlope) {
   const double step = 0.1;
-  // θ spans .3 over an α that spans 1, rounded.
+  // θ spans .3 and α spans 1, rounded.
   EXPECT_NEAR(floor_of({.alpha_quantum = step, .same_places = true}).rms, 0.3 * step / std::sqrt(12.0), 1e-4);
 }
 
-TEST(NoiseFloor, ALogDenserThanItsSensorsStepsHasRepeats) {
+TEST(NoiseFloor, DenseLogHasRepeats) {
   const double quantum = 2e-3;
   const NoiseFloor floor = floor_of({.noise = 3e-3, .rows = 3000, .quantum = quantum, .alpha_quantum = 5e-3});
   EXPECT_TRUE(floor.from_repeats);
-  // α's own step is seen through the slope, .6 cos 2α: .43 of it, rms.
+  // α's step appears in θ by the slope .6 cos 2α, .43 rms.
   const double expected = std::sqrt(9e-6 + (quantum * quantum + 0.43 * 0.43 * 25e-6) / 12.0);
   EXPECT_NEAR(floor.rms, expected, 0.05 * expected);
 }
 
-TEST(NoiseFloor, WildRowsAreNoNoise) {
+TEST(NoiseFloor, IgnoresOutliers) {
   Measurement measurement = measured({.noise = 1e-3});
   for (std::size_t i = 40; i < measurement.runs[0].samples.size(); i += 371)
     measurement.runs[0].samples[i].theta += 0.2;
   EXPECT_NEAR(noise_floor(measurement).rms, 1e-3, 1e-4);
 }
 
-// A joint that now and then lands elsewhere does so in more rows than any sensor spikes.
-TEST(NoiseFloor, ABulkApartIsNoOutlier) {
+// A joint that sometimes settles elsewhere does so in more rows than sensor spikes do.
+TEST(NoiseFloor, CountsFrequentDeviations) {
   Measurement measurement = measured({.noise = 1e-3});
   for (std::size_t i = 0; i < measurement.runs[0].samples.size(); ++i) {
     if (i / 400 == 2) measurement.runs[0].samples[i].theta += 0.02;
@@ -126,15 +125,15 @@ TEST(NoiseFloor, ABulkApartIsNoOutlier) {
   EXPECT_GT(noise_floor(measurement).rms, 5e-3);
 }
 
-TEST(NoiseFloor, ColourLeavesTheSizeAndCostsDegreesOfFreedom) {
+TEST(NoiseFloor, ColourReducesDegreesOfFreedom) {
   const NoiseFloor white = floor_of({.noise = 1e-3, .cycles = 20}),
                    coloured = floor_of({.noise = 1e-3, .cycles = 20, .colour = 0.9});
   EXPECT_NEAR(coloured.rms, 1e-3, 1e-4);
   EXPECT_LT(coloured.degrees_of_freedom, 0.25 * white.degrees_of_freedom);
 }
 
-// The law of a variance from n degrees of freedom: its own variance is 2/n of its square.
-TEST(NoiseFloor, DegreesOfFreedomSayHowFarItScatters) {
+// A variance from n degrees of freedom has a variance of 2/n of its square.
+TEST(NoiseFloor, DegreesOfFreedomPredictScatter) {
   for (const double colour : {0.0, 0.8}) {
     double sum = 0, squares = 0, degrees_of_freedom = 0;
     constexpr int trials = 300;
@@ -156,17 +155,17 @@ TEST(NoiseFloor, DegreesOfFreedomSayHowFarItScatters) {
   }
 }
 
-TEST(NoiseFloor, OnlyTheSameLoadRepeats) {
+TEST(NoiseFloor, ComparesEqualLoadsOnly) {
   const NoiseFloor stairs = floor_of({.noise = 1e-4, .cycles = 8, .loads = {0, 10, 20, 30, 0, 10, 20, 30}});
   EXPECT_TRUE(stairs.from_repeats);
   EXPECT_NEAR(stairs.rms, 1e-4, 1e-5);
-  // What a load cell's own noise parts is one load all the same.
+  // Loads that differ by the load cell's noise count as one load.
   const NoiseFloor constant = floor_of({.noise = 1e-4, .load_noise = 0.1});
   EXPECT_TRUE(constant.from_repeats);
   EXPECT_GT(constant.degrees_of_freedom, 400);
 }
 
-TEST(NoiseFloor, SingleCyclesRepeatFromRunToRun) {
+TEST(NoiseFloor, ComparesSingleCyclesBetweenRuns) {
   Measurement measurement;
   for (unsigned i = 0; i < 5; ++i) measurement.runs.push_back(logged({.noise = 1e-3, .cycles = 1, .seed = i}));
   const NoiseFloor floor = noise_floor(measurement);
@@ -176,8 +175,8 @@ TEST(NoiseFloor, SingleCyclesRepeatFromRunToRun) {
   EXPECT_FALSE(noise_floor(measurement).from_repeats);
 }
 
-// Run anew after something was changed: the same load, speed and places, another joint.
-TEST(NoiseFloor, RunsThatDifferSmoothlyAreNoRepeats) {
+// Runs before and after a change of the joint, at the same load, speed and places.
+TEST(NoiseFloor, RejectsSmoothlyDifferentRuns) {
   for (const double colour : {0.0, 0.5}) {
     Measurement measurement;
     for (unsigned i = 0; i < 2; ++i)
@@ -194,7 +193,7 @@ TEST(NoiseFloor, RunsThatDifferSmoothlyAreNoRepeats) {
   }
 }
 
-TEST(NoiseFloor, RepeatsWithinARunAreHeardBeforeRunsThatDiffer) {
+TEST(NoiseFloor, PrefersRepeatsWithinRun) {
   Measurement measurement;
   for (unsigned i = 0; i < 2; ++i) measurement.runs.push_back(logged({.noise = 1e-3, .seed = i}));
   for (Sample& sample : measurement.runs[1].samples) sample.theta += 0.02 * std::cos(3 * sample.alpha);
@@ -203,10 +202,10 @@ TEST(NoiseFloor, RepeatsWithinARunAreHeardBeforeRunsThatDiffer) {
   EXPECT_NEAR(floor.rms, 1e-3, 5e-5);
 }
 
-TEST(NoiseFloor, SaysItsColour) {
+TEST(NoiseFloor, EstimatesColour) {
   for (const double colour : {0.0, 0.5, 0.9}) {
     const NoiseFloor floor = floor_of({.noise = 1e-3, .cycles = 20, .colour = colour});
-    EXPECT_NEAR(floor.colour, colour, 0.08);  // looking up between rows adds a little
+    EXPECT_NEAR(floor.colour, colour, 0.08);  // interpolation between rows adds a little
     // The variance of a mean of n rows with correlation r^k is (1 + r)/(1 − r)/n, of every second one (1 + r²)/(1 −
     // r²).
     const double r = floor.colour;
@@ -215,7 +214,7 @@ TEST(NoiseFloor, SaysItsColour) {
   }
 }
 
-/// Ends in turn, `rows` rows at each; each visit lands `apart` elsewhere.
+/// Alternating dwells at both ends, `rows` rows each; each visit settles `apart` elsewhere.
 Measurement held(double noise, double apart, int rows) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
@@ -226,31 +225,31 @@ Measurement held(double noise, double apart, int rows) {
     const std::size_t first = run.samples.size();
     for (int i = 0; i < rows; ++i) {
       Sample sample;
-      // The motor misses the angle a little.
+      // The motor misses the angle slightly.
       sample.alpha = alpha + 3e-4 * normal(random);
       sample.theta = 0.3 * sample.alpha + landed + noise * normal(random);
       run.samples.push_back(sample);
     }
     run.strokes.push_back({first, run.samples.size() - 1, visit % 2 == 0 ? -1 : 1, visit / 2, false});
-    run.stretches.push_back({first, run.samples.size() - 1, run.strokes.size() - 1, true, 0});
+    run.segments.push_back({first, run.samples.size() - 1, run.strokes.size() - 1, true, 0});
   }
   return measurement;
 }
 
-TEST(NoiseFloor, HeldAnglesRepeatThemselves) {
+TEST(NoiseFloor, ComparesDwells) {
   for (const int rows : {1, 12}) {
     const NoiseFloor floor = noise_floor(held(1e-3, 0, rows));
     EXPECT_TRUE(floor.from_repeats);
     EXPECT_NEAR(floor.rms, 1e-3, rows == 1 ? 1e-4 : 3e-5) << rows;
   }
-  // What each visit misses by counts, and counts once a visit.
+  // The scatter of visits counts, once a visit.
   const NoiseFloor apart = noise_floor(held(1e-3, 2e-3, 12));
   EXPECT_NEAR(apart.rms, std::sqrt(5.0) * 1e-3, 2e-4);
   EXPECT_GT(apart.colour, 0.6);
   EXPECT_LT(apart.degrees_of_freedom, 0.5 * noise_floor(held(1e-3, 0, 12)).degrees_of_freedom);
 }
 
-/// Five uneven angles on each stroke, a row at each, each cycle under another load; θ bends with α and the load.
+/// Five uneven angles on each stroke, one row each, every cycle under another load; θ bends with α and the load.
 Measurement stops_that_repeat_nothing(double noise, unsigned seed) {
   constexpr int cycles = 8;
   std::mt19937 random(seed);
@@ -268,7 +267,7 @@ Measurement stops_that_repeat_nothing(double noise, unsigned seed) {
       sample.theta =
           (0.3 + 0.01 * sample.load) * sample.alpha - 0.1 * sample.alpha * sample.alpha + noise * normal(random);
       run.samples.push_back(sample);
-      run.stretches.push_back(
+      run.segments.push_back(
           {run.samples.size() - 1, run.samples.size() - 1, static_cast<std::size_t>(stroke), true, 0});
     }
     run.strokes.push_back({first, run.samples.size() - 1, stroke % 2 == 0 ? 1 : -1, stroke / 2, false});
@@ -276,8 +275,9 @@ Measurement stops_that_repeat_nothing(double noise, unsigned seed) {
   return measurement;
 }
 
-TEST(NoiseFloor, StopsThatRepeatNothingAreHeldAgainstOneAnother) {
-  EXPECT_LT(noise_floor(stops_that_repeat_nothing(0, 1)).rms, 1e-12);  // a parabola is no noise, evenly met or not
+TEST(NoiseFloor, ComparesNeighbouringDwells) {
+  // a parabola is not noise, at even or uneven distances
+  EXPECT_LT(noise_floor(stops_that_repeat_nothing(0, 1)).rms, 1e-12);
   constexpr unsigned logs = 400;
   double squares = 0;
   for (unsigned seed = 1; seed <= logs; ++seed) {
@@ -289,7 +289,7 @@ TEST(NoiseFloor, StopsThatRepeatNothingAreHeldAgainstOneAnother) {
   EXPECT_NEAR(std::sqrt(squares), 1e-3, 3e-5);
 }
 
-TEST(NoiseFloor, WithoutRepeatsItIsOnlyABound) {
+TEST(NoiseFloor, IsLowerBoundWithoutRepeats) {
   const NoiseFloor floor = floor_of({.noise = 1e-3, .cycles = 1});
   EXPECT_FALSE(floor.from_repeats);
   EXPECT_NEAR(floor.rms, 1e-3, 1e-4);

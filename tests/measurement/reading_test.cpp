@@ -1,5 +1,5 @@
-// Logs as loggers, spreadsheets and motor tools write them: clocks, units and text. Each is one motion, written in
-// many ways, that must read as the same numbers.
+// One motion, written as loggers, spreadsheets and motor tools write it: different clocks, units and text. All must
+// read as the same numbers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using ::testing::SizeIs;
 
 constexpr int k_rows = 401;
 
-/// A joint of ratio 2 that swings five times, 20 ms from row to row.
+/// A joint of ratio 2 that swings five times, with 20 ms from row to row.
 double time_of(int row) { return 0.02 * row; }
 double alpha_of(int row) { return 60 * std::sin(k_two_pi * 5 * row / (k_rows - 1)) + 0.003; }
 double theta_of(int row) { return 0.5 * alpha_of(row) + 0.001; }
@@ -38,7 +38,7 @@ Value theta() {
   return [](int row) { return number(theta_of(row)); };
 }
 
-/// A table of such values, in rows `first` to `end`.
+/// A table of these values, rows `first` to `end`.
 std::string table(const std::string& header, const std::vector<Value>& columns, char separator = ',', int first = 0,
                   int end = k_rows) {
   std::string text = header + "\n";
@@ -75,7 +75,7 @@ std::string error_of(const std::string& text, const MeasurementOptions& options 
   return "none";
 }
 
-/// Every row, in its order, from row `first` on; angles to `within` deg.
+/// Checks every row in order, from row `first` on; angles to `within` deg.
 void expect_motion(const Run& run, double within = 1e-5, int first = 0) {
   ASSERT_EQ(run.samples.size(), static_cast<std::size_t>(k_rows - first));
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
@@ -108,7 +108,7 @@ std::size_t breaks_of(const Run& run) {
 
 // ---- clocks ---------------------------------------------------------------------------------------------------------
 
-TEST(LoggedClock, GoesOnWhenItsCounterRunsOver) {
+TEST(LoggedClock, ContinuesOverflowedCounter) {
   struct Counter {
     const char* name;
     double tick, size, start;  // s, counts, counts
@@ -126,8 +126,8 @@ TEST(LoggedClock, GoesOnWhenItsCounterRunsOver) {
   }
 }
 
-TEST(LoggedClock, BeginsANewMotionWhereItGoesBack) {
-  // To 0, to the middle of what was logged, and by less than a row.
+TEST(LoggedClock, RestartBeginsNewMotion) {
+  // Back to 0, to the middle of the log, and by less than a row.
   for (const double start : {0.0, 5.5, 8.975}) {
     const Value time = [&](int row) { return fixed(row < 200 ? 5 + time_of(row) : start + time_of(row - 200), 4); };
     const ReadRun found = read(table("time_s,alpha_deg,theta_deg", {time, alpha(), theta()}));
@@ -139,7 +139,7 @@ TEST(LoggedClock, BeginsANewMotionWhereItGoesBack) {
   }
 }
 
-TEST(LoggedClock, SetBackByFewRowsMixesNone) {
+TEST(LoggedClock, SetBackKeepsRowOrder) {
   const Value time = [](int row) { return fixed(row < 200 ? time_of(row) : time_of(row) - 0.05, 3); };
   const ReadRun found = read(table("time_s,alpha_deg,theta_deg", {time, alpha(), theta()}));
   ASSERT_THAT(found.run.samples, SizeIs(k_rows));
@@ -148,7 +148,7 @@ TEST(LoggedClock, SetBackByFewRowsMixesNone) {
   EXPECT_TRUE(found.run.samples[200].after_break);
 }
 
-TEST(LoggedClock, ThatIsNoneIsNotUsed) {
+TEST(LoggedClock, DropsUnusableClock) {
   const Value time = [](int row) { return fixed(std::fmod(7.31 * row, 50.0), 3); };
   const ReadRun found = read(table("time_s,alpha_deg,theta_deg", {time, alpha(), theta()}));
   EXPECT_FALSE(found.run.has_time);
@@ -156,8 +156,8 @@ TEST(LoggedClock, ThatIsNoneIsNotUsed) {
   EXPECT_THAT(found.notes, HasSubstr("time is not used"));
 }
 
-TEST(LoggedClock, ARestartLeavesOutTheStrokeAfterIt) {
-  // The board starts again in the middle of a stroke.
+TEST(LoggedClock, RestartOmitsNextStroke) {
+  // The logger restarts in the middle of a stroke.
   const Value time = [](int row) { return fixed(row < 210 ? time_of(row) : time_of(row - 210), 3); };
   const ReadRun found = read(table("time_s,alpha_deg,theta_deg", {time, alpha(), theta()}));
   std::size_t partial = 0;
@@ -168,7 +168,7 @@ TEST(LoggedClock, ARestartLeavesOutTheStrokeAfterIt) {
   EXPECT_EQ(partial, 1u);
 }
 
-TEST(LoggedTime, IsReadInTheUnitOfItsName) {
+TEST(LoggedTime, TakesUnitFromName) {
   const auto in = [](double unit) { return Value([unit](int row) { return fixed(time_of(row) / unit, 3); }); };
   for (const auto& [name, unit] : std::vector<std::pair<std::string, double>>{{"time_s", 1},
                                                                               {"Time [s]", 1},
@@ -193,10 +193,10 @@ TEST(LoggedTime, IsReadInTheUnitOfItsName) {
         read(table(name + ",alpha_deg,theta_deg", {in(unit), alpha(), theta()}), named({{"time", name}})).run);
 }
 
-TEST(LoggedTime, OfNoUnitIsFoundOrRefused) {
+TEST(LoggedTime, InfersUnitOrRefuses) {
   const Value millis = [](int row) { return whole(1000 * time_of(row)); };
   const std::string text = table("time,alpha_deg,theta_deg", {millis, alpha(), theta()});
-  EXPECT_THAT(error_of(text), HasSubstr("the unit of \"time\" is not known: as s, the rows lie 20 s apart"));
+  EXPECT_THAT(error_of(text), HasSubstr("the unit of \"time\" is unknown: as s, the rows are 20 s apart"));
   EXPECT_THAT(error_of(text), HasSubstr("--unit time=ms"));
   expect_motion(read(text, in_units({{"time", "ms"}})).run);
   const Value epoch = [](int row) { return whole(1740823200000.0 + 1000 * time_of(row)); };
@@ -205,14 +205,14 @@ TEST(LoggedTime, OfNoUnitIsFoundOrRefused) {
   EXPECT_THAT(found.notes, HasSubstr("time in ms since 1970"));
 }
 
-TEST(LoggedTime, OfImplausibleStepsIsReported) {
+TEST(LoggedTime, ReportsImplausibleSteps) {
   const Value millis = [](int row) { return whole(1000 * time_of(row)); };
   const std::string text = table("time_s,alpha_deg,theta_deg", {millis, alpha(), theta()});
-  EXPECT_THAT(read(text).notes, HasSubstr("the rows lie 20 s apart: if the times are in ms"));
+  EXPECT_THAT(read(text).notes, HasSubstr("the rows are 20 s apart: if the times are in ms"));
   EXPECT_THAT(read(plain()).notes, ::testing::Not(HasSubstr("s apart")));
 }
 
-TEST(LoggedTime, IsReadFromTimeStamps) {
+TEST(LoggedTime, ReadsTimeStamps) {
   const auto stamp = [](const std::string& before, double start, char mark, const std::string& after) {
     return Value([=](int row) {
       const double time = start + time_of(row);
@@ -230,7 +230,7 @@ TEST(LoggedTime, IsReadFromTimeStamps) {
     if (text.find(":60:") != std::string::npos) continue;
     expect_motion(read(text).run);
   }
-  // Over midnight.
+  // A time of day over midnight.
   const Value of_day = [](int row) {
     const double time = 86396 + time_of(row);
     return time < 86400 ? "23:59:" + fixed(time - 86340, 3) : "00:00:0" + fixed(time - 86400, 3);
@@ -248,7 +248,7 @@ Value scaled(const std::function<double(int)>& angle, double per_degree, int dec
   return [=](int row) { return fixed(angle(row) * per_degree, decimals); };
 }
 
-TEST(LoggedAngles, AreReadInTheUnitOfTheirName) {
+TEST(LoggedAngles, TakeUnitFromName) {
   struct Written {
     const char *alpha, *theta;
     double per_degree;
@@ -271,7 +271,7 @@ TEST(LoggedAngles, AreReadInTheUnitOfTheirName) {
              return options;
            }())
           .run);
-  EXPECT_THAT(error_of("alpha [furlong],theta_deg\n1,2\n"), HasSubstr("the unit of \"alpha [furlong]\" is not known"));
+  EXPECT_THAT(error_of("alpha [furlong],theta_deg\n1,2\n"), HasSubstr("the unit of \"alpha [furlong]\" is unknown"));
 }
 
 Value counts(const std::function<double(int)>& angle, double per_turn, double zero, double size = 0) {
@@ -281,7 +281,7 @@ Value counts(const std::function<double(int)>& angle, double per_turn, double ze
   };
 }
 
-TEST(LoggedAngles, AreReadFromCounts) {
+TEST(LoggedAngles, ReadCounts) {
   MeasurementOptions options;
   options.ticks_per_turn = {{"alpha", 4096}, {"theta", -16384}};
   options.zero_ticks = {{"alpha", 100}, {"theta", 2048}};
@@ -302,7 +302,7 @@ TEST(LoggedAngles, AreReadFromCounts) {
   }
 }
 
-TEST(LoggedAngles, OfWholeNumbersAreNeverDegreesInSilence) {
+TEST(LoggedAngles, ReportUnitOfWholeNumbers) {
   const MeasurementOptions roles = named({{"alpha", "motor"}, {"theta", "joint"}});
   const auto logged = [](double per_turn, double zero, double size = 0) {
     return table("time_s,motor,joint",
@@ -310,7 +310,7 @@ TEST(LoggedAngles, OfWholeNumbersAreNeverDegreesInSilence) {
   };
   const ReadRun found = read(logged(4096, 2048), roles);
   EXPECT_NEAR(degrees(found.run.samples[100].alpha - found.run.samples[0].alpha), alpha_of(100) - alpha_of(0), 0.1);
-  EXPECT_THAT(found.notes, HasSubstr("taken as counts of 4096 a turn (--ticks-per-turn alpha=N says otherwise)"));
+  EXPECT_THAT(found.notes, HasSubstr("taken as counts of 4096 a turn (--ticks-per-turn alpha=N overrides this)"));
   const ReadRun wrapped = read(logged(2000, 100, 2000), roles);
   EXPECT_THAT(wrapped.notes, HasSubstr("taken as counts of 2000 a turn"));
   EXPECT_THAT(error_of(logged(20000, 0), roles), HasSubstr("which look like counts of an encoder"));
@@ -322,7 +322,7 @@ TEST(LoggedAngles, OfWholeNumbersAreNeverDegreesInSilence) {
   EXPECT_THAT(with_unit.notes, HasSubstr("read as degrees; if they are counts, --ticks-per-turn alpha=4096"));
 }
 
-TEST(LoggedAngles, OfNoUnitAreHeldAgainstTheDeclaredRange) {
+TEST(LoggedAngles, InferUnitFromDeclaredRange) {
   const DeclaredMechanism joint = testing::forearm();
   const MeasurementOptions expected = expecting(joint, named({{"alpha", "motor"}, {"theta", "joint"}}));
   ASSERT_GT(expected.alpha_span, 1);
@@ -334,7 +334,7 @@ TEST(LoggedAngles, OfNoUnitAreHeldAgainstTheDeclaredRange) {
     EXPECT_NEAR(degrees(found.run.samples[20].alpha), size * alpha_of(20), 1e-5) << unit;
     EXPECT_THAT(found.notes, HasSubstr("theta taken as " + unit));
   }
-  // Positions of ROS, over several turns of a motor.
+  // ROS positions, over several turns of a motor.
   const ReadRun ros = read(
       table("time_s,motor_position,joint_position", {seconds(), scaled(alpha_of, 0.2, 9), scaled(theta_of, 0.2, 9)}),
       named({{"alpha", "motor_position"}, {"theta", "joint_position"}}));
@@ -344,7 +344,7 @@ TEST(LoggedAngles, OfNoUnitAreHeldAgainstTheDeclaredRange) {
 
 // ---- loads ----------------------------------------------------------------------------------------------------------
 
-TEST(LoggedLoads, AreConverted) {
+TEST(LoggedLoads, ConvertUnits) {
   struct Written {
     const char* name;
     double load;  // of 1 in its unit
@@ -369,7 +369,7 @@ TEST(LoggedLoads, AreConverted) {
   }
 }
 
-TEST(LoggedLoads, OfSeveralRunsAreInOneUnit) {
+TEST(LoggedLoads, RequireOneUnit) {
   const auto logged = [](const std::string& name) {
     return table("alpha_deg,theta_deg," + name, {alpha(), theta(), [](int) { return "2"; }});
   };
@@ -382,11 +382,11 @@ TEST(LoggedLoads, OfSeveralRunsAreInOneUnit) {
   EXPECT_THROW(parse_run(logged("load_kg"), "c.csv", {}, measurement), InputError);
 }
 
-TEST(LoggedLoads, OfAnUnknownUnitAreRefused) {
+TEST(LoggedLoads, RejectUnknownUnit) {
   const auto logged = [](const std::string& name) {
     return table("alpha_deg,theta_deg," + name, {alpha(), theta(), [](int) { return "2"; }});
   };
-  EXPECT_THAT(error_of(logged("load [stone]")), HasSubstr("the unit of \"load [stone]\" is not known: \"stone\""));
+  EXPECT_THAT(error_of(logged("load [stone]")), HasSubstr("the unit of \"load [stone]\" is unknown: \"stone\""));
   EXPECT_THAT(error_of(logged("load_stone"), named({{"load", "load_stone"}})), HasSubstr("units: N, mN, cN"));
   EXPECT_THAT(error_of(logged("pull"), in_units({{"load", "stone"}})), HasSubstr("there is no unit \"stone\" of load"));
   EXPECT_THAT(read(logged("load_cell")).notes, HasSubstr("column \"load_cell\" is not used"));
@@ -398,7 +398,7 @@ TEST(LoggedLoads, OfAnUnknownUnitAreRefused) {
 
 // ---- text -----------------------------------------------------------------------------------------------------------
 
-TEST(LoggedText, HasQuotesOfRfc4180) {
+TEST(LoggedText, ReadsQuotesOfRfc4180) {
   const std::string remark = "\"he said \"\"stop\"\",\nand it; stopped\"";
   const ReadRun found = read(table("time_s,\"Motor, deg\",\"Joint, deg\",remark",
                                    {seconds(), alpha(), theta(), [&](int row) { return row == 7 ? remark : "\"\""; }}),
@@ -410,19 +410,19 @@ TEST(LoggedText, HasQuotesOfRfc4180) {
                            {seconds(), alpha(), theta(), [](int) { return std::string("7\" long"); }}))
                     .run);
   EXPECT_THAT(error_of("alpha_deg,theta_deg,note\n1,2,\"x\n3,4,y\n"),
-              HasSubstr("run.csv:2:1: error: a quotation mark opens a cell here and never closes it"));
+              HasSubstr("run.csv:2:1: error: the quotation mark that opens a cell here is never closed"));
   // Lines are counted through a quoted cell.
   EXPECT_THAT(error_of("alpha_deg,theta_deg,note\n1,2,\"x\n\ny\"\n3,z,y\n"), HasSubstr("run.csv:5:3: error"));
 }
 
-TEST(LoggedText, HasCommentsOnlyAtALinesBeginning) {
+TEST(LoggedText, ReadsCommentsAtLineBeginning) {
   expect_motion(read(table("# of a bench\nsample #,time_s,alpha_deg,theta_deg,remark",
                            {[](int row) { return std::to_string(row); }, seconds(), alpha(), theta(),
                             [](int row) { return "#" + std::to_string(row); }}))
                     .run);
 }
 
-TEST(LoggedText, HasAPreamble) {
+TEST(LoggedText, SkipsPreamble) {
   const std::string body = plain();
   for (const char* const above : {"Logger,v2.1\nDate,2025-03-01\n\n", "Record Length,2500\n1,2\n3,4\n",
                                   "A \"new\" bench; by, me\n", "sep=,\n", "\"sep=,\"\r\n"}) {
@@ -441,12 +441,12 @@ TEST(LoggedText, HasAPreamble) {
   ASSERT_THAT(found.run.samples, SizeIs(k_rows));
   EXPECT_NEAR(degrees(found.run.samples[20].alpha) - 180, alpha_of(20), 0.05);
   EXPECT_THAT(found.notes, HasSubstr("the header is line 4"));
-  // A header without the names is the one that is complained of.
+  // Without known names, the likeliest header is the one reported.
   EXPECT_THAT(error_of("Logger,v2\nOperator,me\ntime_s,motor,joint\n0,1,2\n1,2,3\n"),
               HasSubstr("run.csv:3:1: error: there is no column alpha_deg"));
 }
 
-TEST(LoggedText, HasItsHeaderAgainAfterARestart) {
+TEST(LoggedText, AcceptsRepeatedHeader) {
   const std::vector<Value> columns = {seconds(), alpha(), theta()};
   const std::string header = "time_s,alpha_deg,theta_deg";
   const std::string rest = table("", columns, ',', 200).substr(1);
@@ -454,12 +454,12 @@ TEST(LoggedText, HasItsHeaderAgainAfterARestart) {
   expect_motion(found.run);
   EXPECT_TRUE(found.run.samples[200].after_break);
   EXPECT_EQ(breaks_of(found.run), 1u);
-  EXPECT_THAT(found.notes, HasSubstr("the header stands again 1 time, first in line 202: a new motion begins there"));
-  // With a row cut off by the restart, and what the board prints as it starts.
+  EXPECT_THAT(found.notes, HasSubstr("the header is repeated 1 time, first in line 202: a new motion begins there"));
+  // A row truncated by the restart, followed by the logger's start-up text.
   const ReadRun booted = read(table(header, columns, ',', 0, 200) +
                               "3.98,1\nets Jun  8 2016\nrst:0x1 (POWERON),boot:0x13\n" + header + "\n" + rest);
   expect_motion(booted.run);
-  EXPECT_THAT(booted.notes, HasSubstr("and 3 rows before it were no rows"));
+  EXPECT_THAT(booted.notes, HasSubstr("and 3 rows before it were not data"));
 }
 
 std::string utf16(const std::string& text, bool big) {
@@ -468,7 +468,7 @@ std::string utf16(const std::string& text, bool big) {
   return bytes;
 }
 
-TEST(LoggedText, IsReadInEveryEncoding) {
+TEST(LoggedText, ReadsEveryEncoding) {
   expect_motion(read(utf16(plain(), false)).run);
   expect_motion(read(utf16(plain(), true)).run);
   const std::vector<Value> columns = {seconds(), alpha(), theta()};
@@ -488,7 +488,7 @@ TEST(LoggedText, IsReadInEveryEncoding) {
   expect_motion(read(returns).run);
 }
 
-TEST(LoggedText, HasOneDecimalMark) {
+TEST(LoggedText, RequiresOneDecimalMark) {
   const auto comma = [](const Value& value) {
     return Value([value](int row) {
       std::string text = value(row);
@@ -502,7 +502,7 @@ TEST(LoggedText, HasOneDecimalMark) {
   expect_motion(read(table("time_s\talpha_deg\ttheta_deg", commas, '\t')).run);
   expect_motion(
       read(table("time_s,alpha_deg,theta_deg", {quoted(commas[0]), quoted(commas[1]), quoted(commas[2])})).run);
-  // Thousands: "1,020" ms.
+  // Grouped thousands: "1,020" ms.
   const Value grouped = [](int row) {
     const int ms = 20 * row;
     if (ms < 1000) return "\"" + std::to_string(ms) + "\"";

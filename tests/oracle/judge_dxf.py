@@ -1,9 +1,11 @@
-"""ezdxf as a judge: each DXF must load and audit with no error and nothing to mend, in mm, and hold nothing but closed contours where something
-is cut. What is round must be round: bores, dowel holes, knot pockets and a horn's screws circles, the shaft's part of D and keyway bores one
-arc about the axis; centres and diameters are held against pulley.scad and the manifest, which know nothing of drawings. Pitch curves are circles or
-arcs, held against profile.csv.
-Usage: judge_dxf.py FILE.dxf   any drawing; judge_dxf.py FOLDER   with profile.dxf, plates.dxf, pulley.scad, manifest.json; or judge_dxf.py FOLDER --self-test: that this judge sees
-a polygon in a circle's place, a wrong diameter and a shifted centre.   Prints what is wrong; exit 1 when anything is, 77 without ezdxf."""
+"""ezdxf as a judge: each DXF must load and pass its audit without errors or repairs, in mm, with closed contours only on cut layers.
+
+Round features must be exact: bores, dowel holes, knot pockets and screw holes are circles, and the round part of D and keyway bores is one arc
+about the axis. Centres and diameters are compared with pulley.scad and the manifest. Pitch curves are circles or arcs, compared with profile.csv.
+
+Usage: judge_dxf.py FILE.dxf   any drawing; judge_dxf.py FOLDER   with profile.dxf, plates.dxf, pulley.scad, manifest.json; or
+judge_dxf.py FOLDER --self-test: the judge must detect a polygon in place of a circle, a wrong diameter and a shifted centre.
+Prints the faults; exit 1 if there are any, 77 without ezdxf."""
 import argparse
 import csv
 import json
@@ -20,7 +22,7 @@ except ImportError:
     sys.exit(77)
 
 CONTOURS = {"P1_PITCH", "P2_PITCH", "P1_FLOOR", "P2_FLOOR", "BORE", "CUT_OUTER", "CUT_INNER", "CHECK_10MM", "SHEET"}
-NEAR = 2e-5  # mm: pulley.scad is written to 1e-5
+NEAR = 2e-5  # mm: pulley.scad has five decimals
 
 
 def is_closed(entity):
@@ -46,17 +48,17 @@ def drawing_faults(document):
             yield f"has an open contour on {entity.dxf.layer}"
 
 
-# What is round -------------------------------------------------------------------------------------------------------
+# Round features ------------------------------------------------------------------------------------------------------
 
 def vertices(entity):
-    """(place, bulge) of a polyline."""
+    """Converts a vertex of a polyline to (point, bulge)."""
     if entity.dxftype() == "LWPOLYLINE":
         return [(Vec2(x, y), bulge) for x, y, bulge in entity.get_points("xyb")]
     return [(Vec2(v.dxf.location), v.dxf.bulge) for v in entity.vertices]
 
 
 class Expected:
-    """The holes as pulley.scad has them, without what is added for a printer."""
+    """The holes of pulley.scad, without compensation for printing."""
 
     def __init__(self, folder):
         text = (folder / "pulley.scad").read_text()
@@ -74,7 +76,7 @@ class Expected:
         self.kerf = mechanism["cut"]["kerf_mm"]
 
     def bore_faults(self, entity, axis, kerf):
-        """Of the bore, which is drawn `kerf` narrower."""
+        """The bore, drawn smaller by `kerf`."""
         if self.shape in ("round", "horn"):
             if entity.dxftype() != "CIRCLE":
                 yield f"draws the bore as a {entity.dxftype()}"
@@ -110,7 +112,7 @@ def same(a, b):
 
 
 def without(circles, expected):
-    """`circles` without those expected, and how many of these are missing."""
+    """`circles` without the expected ones, and the number of missing ones."""
     missing = [e for e in expected if not any(same(c, e) for c in circles)]
     return [c for c in circles if not any(same(c, e) for e in expected)], missing
 
@@ -125,7 +127,7 @@ def profile_faults(document, expected):
 
 
 def distance_to_curve(point, entity):
-    """From a point to a circle, or to the nearest piece of a closed polyline of arcs."""
+    """Distance of a point from a circle, or from the nearest segment of a closed polyline of arcs."""
     if entity.dxftype() == "CIRCLE":
         return abs(point.distance(Vec2(entity.dxf.center)) - entity.dxf.radius)
     corners = vertices(entity)
@@ -142,7 +144,7 @@ def distance_to_curve(point, entity):
 
 
 def curve_faults(document, folder):
-    """The pitch curves against profile.csv: within 0.0005 mm, and of far fewer pieces than it has points."""
+    """Compares the pitch curves with profile.csv: within 0.0005 mm, and with far fewer segments than points."""
     with open(folder / "profile.csv") as table:
         rows = list(csv.DictReader(table))
     for pulley in ("P1", "P2"):
@@ -240,7 +242,7 @@ def self_test(folder):
     for spoil in (polygon, wider, shifted):
         for which, layer in ((0, "BORE"), (1, "CUT_INNER")):
             documents = read(folder)
-            # The last: what lies about the axis is what a plate's other holes are measured from.
+            # The last circle: holes are measured from the one around the axis.
             spoil(documents[which], list(documents[which].modelspace().query(f'CIRCLE[layer=="{layer}"]'))[-1])
             if not list(round_faults(*documents, expected)):
                 yield f"the judge accepts a {spoil.__name__} circle on {layer}"

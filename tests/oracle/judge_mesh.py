@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Other people's programs judge a mesh that fusee wrote.
+"""Independent programs judge a mesh of fusee.
 
     judge_mesh.py admesh pulley.stl
     judge_mesh.py prusa-slicer pulley.3mf --like .
     judge_mesh.py openscad pulley.stl
     judge_mesh.py draco pulley.drc --like pulley.stl
     judge_mesh.py assimp pulley.obj --like pulley.stl
-    judge_mesh.py admesh --self-test       that this judge rejects what is broken
+    judge_mesh.py admesh --self-test       the judge must reject broken meshes
 
-Exit 0: content; 1: not, with the faults on stdout; 77: the program is not installed.
+Exit 0: no faults; 1: faults, on stdout; 77: the program is not installed.
 
-None of these programs says by its exit code what it thinks of a mesh, and all of them mend in silence: what they print is read. Each
-runs under a time limit, since admesh can loop for ever.
+The exit codes of these programs do not depend on the mesh, and they repair meshes silently, so their output is read. Each has a time
+limit, since admesh can loop for ever.
 """
 
 import argparse
@@ -35,7 +35,7 @@ class NotInstalled(Exception):
 
 
 def printed_by(program, *arguments):
-    """All that `program` prints, or a fault when it does not end in time."""
+    """The output of `program`, or a fault if it does not end in time."""
     path = shutil.which(program)
     if path is None:
         raise NotInstalled(program)
@@ -53,7 +53,7 @@ def facets_of(stl):
 
 
 def printed_of(folder):
-    """What goes to the printer, as the manifest names it."""
+    """The part files for the printer, from the manifest."""
     manifest = json.loads(pathlib.Path(folder, "manifest.json").read_text(encoding="utf-8"))
     return [pathlib.Path(folder, part["file"]) for part in manifest["print"]]
 
@@ -78,7 +78,7 @@ def judge_by_admesh(mesh, like=None):
 
 
 def differing_facets(program, facets, like):
-    """`like`: an STL or several that have as many together."""
+    """`like`: STL files that together have as many triangles."""
     if like is None:
         return []
     stls = [like] if isinstance(like, (str, os.PathLike)) else like
@@ -92,7 +92,7 @@ def judge_by_prusa_slicer(mesh, like=None):
     if "manifold" not in values:
         return ["prusa-slicer gave no results: " + text.strip()[-300:]]
     faults = [] if values["manifold"] == "yes" else ["prusa-slicer: manifold = " + values["manifold"]]
-    # It prints these lines only where it mended something.
+    # It prints these lines only after a repair.
     for name, value in values.items():
         if name.startswith("facets_") or name in ("open_edges", "edges_fixed", "degenerate_facets", "backwards_edges"):
             faults.append(f"prusa-slicer: {name} = {value}")
@@ -102,7 +102,7 @@ def judge_by_prusa_slicer(mesh, like=None):
 
 
 def judge_by_openscad(mesh, like=None):
-    """It looks at a mesh only within a boolean."""
+    """It checks a mesh only within a boolean operation."""
     with tempfile.TemporaryDirectory() as folder:
         program = pathlib.Path(folder, "judge.scad")
         path = str(pathlib.Path(mesh).resolve()).replace("\\", "\\\\").replace('"', '\\"')
@@ -115,7 +115,7 @@ def judge_by_openscad(mesh, like=None):
 
 
 def judge_converted(convert, mesh, like):
-    """Lets a program turn `mesh` into an STL, which admesh judges."""
+    """Lets a program convert `mesh` to an STL, which admesh checks."""
     with tempfile.TemporaryDirectory() as folder:
         converted = pathlib.Path(folder, "converted.stl")
         text = convert(converted)
@@ -136,7 +136,7 @@ JUDGES = {"admesh": judge_by_admesh, "prusa-slicer": judge_by_prusa_slicer, "ope
           "draco": judge_by_draco, "assimp": judge_by_assimp}
 
 
-# Self-test: a judge that never says no is none ----------------------------------------------------------------------
+# Self-test: the judge must be able to fail ----------------------------------------------------------------------
 
 def torus(around=16, across=8):
     vertices = []
@@ -193,12 +193,12 @@ BREAK = {
     "an inverted mesh": lambda faces: [face[::-1] for face in faces],
     "a duplicate facet": lambda faces: faces + faces[:1],
 }
-# Nobody here sees a mesh that crosses itself: that is fusee's own check.
+# None of these programs detects a mesh that crosses itself; fusee's own check does.
 UNSEEN = {"openscad": ["an inverted mesh", "a duplicate facet"]}
 
 
 def self_test(judge):
-    """The faults of the judge itself."""
+    """Faults of the judge itself."""
     vertices, faces = torus()
     faults = []
     with tempfile.TemporaryDirectory() as folder:

@@ -16,7 +16,7 @@ import tempfile
 import xml.etree.ElementTree as ET
 
 HERE = pathlib.Path(__file__).resolve().parent
-# Of constraints that give way a little to what pulls at them, and of the law between two rows of the CSV.
+# MuJoCo's constraints are slightly compliant, and the law is interpolated between rows of the CSV.
 SOFT_DEG = 0.001
 
 
@@ -26,7 +26,7 @@ def not_installed(what):
 
 
 def mujoco_library():
-    """The pinned version, where .ci/setup puts it."""
+    """The pinned version, installed by .ci/setup."""
     if not shutil.which("node"):
         not_installed("node")
     library = pathlib.Path.home() / ".cache/fusee-judges/node_modules/@mujoco/mujoco/mujoco.js"
@@ -36,7 +36,7 @@ def mujoco_library():
 
 
 def law_of(path):
-    """θ(α) in degrees between the rows of transmission.csv, by cubics through four of them."""
+    """θ(α) in degrees, interpolated by cubics through four rows of transmission.csv."""
     with open(path, newline="") as file:
         rows = [(float(row["alpha_deg"]), float(row["theta_deg"])) for row in csv.DictReader(file)]
 
@@ -49,7 +49,7 @@ def law_of(path):
 
 
 def stated_error(text):
-    """What the comment of the file promises, deg."""
+    """The error that the file's comment states, deg."""
     return float(re.search(r"misses theta\(alpha\)\s+by ([0-9.e+-]+) deg at most", text).group(1))
 
 
@@ -61,7 +61,7 @@ def follow(library, path):
 
 
 def taut(a, b, cylinder):
-    """From a over the outer side of a cylinder (its place, radius and a point beside it) to b: two tangents and an arc."""
+    """Path from a over the outer side of a cylinder (centre, radius and side point) to b: two tangents and an arc."""
     x, y, rho, beside = cylinder
     side = math.copysign(1, (b[0] - a[0]) * (beside[1] - y) - (b[1] - a[1]) * (beside[0] - x))
 
@@ -75,13 +75,13 @@ def taut(a, b, cylinder):
 
 
 def path_faults(path, said):
-    """Lengths of all tendons against a taut string, from site to site and round what is between them."""
+    """Compares tendon lengths with a taut string from site to site, around the geometry in between."""
     root = ET.parse(path).getroot()
     place = lambda node: [float(x) for x in node.get("pos").split()][:2]
     link = next(body for body in root.iter("body") if body.get("name") == "link")
 
     def at(kind, name, theta):
-        """Of the world, or carried along by the link, which turns clockwise."""
+        """In the world's frame, or rotated with the link, which turns clockwise."""
         own = next((node for node in link.findall(kind) if node.get("name") == name), None)
         if own is None:
             return place(next(node for node in root.find("worldbody").findall(kind) if node.get("name") == name))
@@ -143,7 +143,7 @@ def urdf_faults(folder, _):
             yield f"{name}: check_urdf says: {words.strip()}"
         if "child(1):" not in words:
             yield f"{name}: check_urdf sees no link: {words.strip()}"
-    # What hardware_interface/src/component_parser.cpp of ros2_control asks for.
+    # Requirements of hardware_interface/src/component_parser.cpp in ros2_control.
     try:
         control = ET.parse(folder / "joint_ros2_control.urdf").getroot().find("ros2_control")
         assert control.get("name") and control.get("type") in ("system", "actuator", "sensor"), "ros2_control: name and type"
@@ -164,7 +164,7 @@ def urdf_faults(folder, _):
 
 
 def broken_copies(judge, folder, scratch):
-    """Folders each of which must be found at fault."""
+    """Folders with a fault that must be detected."""
     def copy(name, change):
         target = scratch / name
         shutil.copytree(folder, target)

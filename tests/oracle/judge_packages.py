@@ -1,7 +1,9 @@
-"""Debian's own tools as judges of the packages: cpack makes them from a build, lintian finds no error and no warning but the overrides that they
-state, and what they hold runs from where dpkg puts it: the program makes a pulley, man finds its page, Python imports its module, pkg-config's flags
-compile and link a program of somebody else.
-Usage: judge_packages.py BUILD CONSUMER.cpp   Prints what is wrong; exit 1 when anything is, 77 without the tools."""
+"""Debian's tools as judges of the packages that cpack makes from a build.
+
+lintian must find no errors and no warnings except the stated overrides. The installed content must work: the program makes a pulley, man finds
+its page, Python imports its module, and the flags of pkg-config compile and link another program.
+
+Usage: judge_packages.py BUILD CONSUMER.cpp   Prints the faults; exit 1 if there are any, 77 without the tools."""
 import os
 import pathlib
 import shutil
@@ -27,7 +29,7 @@ def packages_of(build, folder):
 
 
 def what_lintian_says(packages):
-    # As root it warns of that alone.
+    # As root it warns only of that.
     code, said = run("lintian", "--allow-root", "--fail-on", "error,warning", *packages.values())
     if code:
         yield f"lintian:\n{said}"

@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
-"""Chromium judges pages on which a joint moves: what their scripts do, and what they show.
+"""Chromium judges pages with a moving joint: their scripts and their drawings.
 
     judge_page.py build/forearm [page.html …]   a folder of `fusee build`, and other pages of the same joint
-    judge_page.py build/forearm --self-test     that this judge sees a broken page (of several turns as well)
-    judge_page.py --still page.html …           pages without scripts: nothing asked for, nothing too wide, pictures that show
+    judge_page.py build/forearm --self-test     the judge must detect broken pages (also of several turns)
+    judge_page.py --still page.html …           pages without scripts: no requests, no overflow, visible pictures
 
-Exit 0: all is well; 1: something is not, a line each on stdout; 77: Chromium is not installed.
+Exit 0: no faults; 1: faults, one line each on stdout; 77: Chromium is not installed.
 
-The page is opened as it is, with a script before its own that notes errors and one after them that moves the slider and
-looks at the outcome. What must hold: the drawn lever stands where transmission.csv says; each drawn tendon keeps its
-length over the stroke; the 3-D view is neither blank nor inside out and turns with the pulley; without WebGL there is a
-still picture; nothing is asked of a network; nothing is wider than a phone; a frame takes at most
-10 ms (sixty a second, on a machine that has other things to do). Where a pulley has
-several turns the tendons' take-offs are drawn instead of a lever: they must stand on the spirals of profile.csv, turned,
-at the place whose normal looks across the line to the guide pin.
+The page is opened with a script before its own that records errors, and one after them that moves the slider and reads
+the result. The requirements:
+
+- The drawn lever has the angle of transmission.csv, and each drawn tendon keeps its length over the stroke.
+- The 3-D view is neither blank nor inside out, and turns with the pulley. Without WebGL there is a still picture.
+- There are no network requests, and nothing is wider than a phone.
+- A frame takes at most 10 ms (sixty a second, on a machine with other load).
+- For several turns the take-offs of the tendons lie on the turned spirals of profile.csv, where the normal is
+  perpendicular to the line to the guide pin.
 """
 
 import csv
@@ -33,7 +35,7 @@ MOST_BYTES = 1_000_000
 
 BEFORE = """
 window.noted = [];
-// Chromium paints a page that nobody looks at when it likes.
+// Chromium paints a page that is hidden at any time.
 window.requestAnimationFrame = paint => setTimeout(() => paint(performance.now()), 0);
 addEventListener("error", e => noted.push("script error: " + e.message));
 addEventListener("unhandledrejection", e => noted.push("script error: " + e.reason));
@@ -41,7 +43,7 @@ document.addEventListener("securitypolicyviolation", e => noted.push("asks for "
 for (const name of ["error", "warn"]) console[name] = (...words) => noted.push("console: " + words.join(" "));
 """
 
-# What is drawn at one α: of a joint seen along its axis …
+# The drawing at one α, for a joint seen along its axis.
 LEVER = """
   const scene = document.querySelector(".moving .scene"), [scale, x, y] = scene.dataset.view.split(" ").map(Number);
   const long = points => points.reduce((sum, p, k) => k ? sum + Math.hypot(p[0] - points[k - 1][0], p[1] - points[k - 1][1]) : 0, 0) / scale;
@@ -55,7 +57,8 @@ LEVER = """
     };
   };
 """
-# … and of a pulley of several turns seen from the side: right and up, in mm, by the lines at its lower and upper face.
+# For a pulley of several turns seen from the side, x right and y up, in mm, scaled by the lines at its lower and
+# upper face.
 CLIMB = """
   const scene = document.querySelector(".climbing-scene");
   const [[low, high], [, top]] = scene.querySelector(".dimension").getAttribute("d").slice(1).split("M").map(part => part.split("L").map(p => p.split(" ").map(Number)));
@@ -132,7 +135,7 @@ AFTER = """
 """
 
 
-# Of a page on which nothing moves.
+# For a page without motion.
 STILL = """
 (() => {
   const found = { noted, requests: performance.getEntriesByType("resource").length, room: innerWidth, wide: document.documentElement.scrollWidth };
@@ -152,10 +155,10 @@ def script(words):
 
 
 def seen_in(page, alphas, width, options=(), after=AFTER.replace("DRAWN", LEVER)):
-    """What `after` found on the page."""
+    """The values that `after` found on the page."""
     page = page.replace("<head>", "<head>" + script(BEFORE), 1)
     page = page.replace("</body>", script(after.replace("ALPHAS", json.dumps(alphas))) + "</body>", 1)
-    # In a frame: a window of Chromium's is never narrower than 500 px.
+    # In a frame, because a window of Chromium is at least 500 px wide.
     frame = f'<!DOCTYPE html><body><iframe width="{width}" height="900" srcdoc="{html.escape(page)}"></iframe></body>'
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "page.html")
@@ -182,7 +185,7 @@ def faults_of_words(place, row):
 
 
 def faults_of_motion(found, rows, lever):
-    """The drawing against the table that another program wrote."""
+    """Compares the drawing with the table of another program."""
     for place, row in zip(found["places"], rows):
         alpha, theta = float(row["alpha_deg"]), float(row["theta_deg"])
         yield from faults_of_words(place, row)
@@ -200,7 +203,7 @@ def faults_of_motion(found, rows, lever):
 
 @dataclasses.dataclass
 class Climb:
-    """A pulley of several turns: what profile.csv says of each groove, and where the tendons go."""
+    """A pulley of several turns: the grooves of profile.csv, and the tendons."""
     height: float   # mm, of the grooves' part
     spirals: list   # of P1 and P2: turn_deg, x_mm, y_mm, z_mm, in order
     pins: list      # in the pulley's plane, mm, joint above
@@ -214,7 +217,7 @@ class Climb:
         return abs((last[3] - first[3]) / (last[0] - first[0])) * 360.0
 
     def take_off(self, k, z):
-        """The place at a height: turn_deg, x, y."""
+        """The point of a groove at a height: turn_deg, x, y."""
         spiral = self.spirals[k]
         for a, b in zip(spiral, spiral[1:]):
             if min(a[3], b[3]) <= z <= max(a[3], b[3]) and a[3] != b[3]:
@@ -223,7 +226,7 @@ class Climb:
         return None
 
     def faults(self, found, rows):
-        # A tenth of a pixel is what a drawing's numbers hold: read from the height, that is some degrees of a turn.
+        # Drawing coordinates have a resolution of a tenth of a pixel, which is some degrees of a turn.
         for place, row in zip(found["places"], rows):
             alpha = float(row["alpha_deg"])
             yield from faults_of_words(place, row)
@@ -261,7 +264,7 @@ def faults_of_view(found):
         yield "the 3-D part does not turn with the pulley"
 
 
-# Name, px, options of Chromium.
+# Name, width in px, options of Chromium.
 WAYS = [("wide", 1200, ()), ("phone", 320, ()), ("no WebGL", 800, ("--disable-3d-apis",))]
 
 
@@ -291,8 +294,8 @@ def faults(page, rows, lever, ways=WAYS):
         if found["wide"] > found["room"]:
             looks.append(f"{found['wide']} px wide in a window of {found['room']}")
         if not found["label"]:
-            looks.append("the slider has no name for those who cannot see it")
-        quick = sorted(found["times"])[len(found["times"]) // 4]  # the others waited for whatever else this machine does
+            looks.append("the slider has no label for screen readers")
+        quick = sorted(found["times"])[len(found["times"]) // 4]  # other repaints wait for other load on the machine
         if quick > MOST_FRAME_MS:
             looks.append(f"a frame takes {quick:.1f} ms")
         print(f"  {name}: {quick:.2f} ms a frame" + (f", part on {100 * found['home']['part']:.0f} % of the view" if found["part"] else ""))
@@ -304,7 +307,8 @@ def still_faults(page):
         yield "has a script"
     if len(page.encode()) > MOST_BYTES:
         yield f"{len(page.encode())} bytes"
-    page = page.replace("default-src 'none'", "default-src 'none'; script-src 'unsafe-inline'", 1)  # for this judge's own
+    # allows the judge's own script
+    page = page.replace("default-src 'none'", "default-src 'none'; script-src 'unsafe-inline'", 1)
     for width in (320, 1200):
         found = seen_in(page, [], width, (), STILL)
         if found is None:
@@ -324,7 +328,7 @@ def still_faults(page):
 
 @dataclasses.dataclass
 class Lever:
-    """From the joint's axis to where tendon 1 ends: mm, and deg from OC at home, to the right."""
+    """From the joint's axis to the end of tendon 1: distance, mm, and angle from OC at home, deg, to the right."""
     length: float
     angle: float
 
@@ -333,7 +337,7 @@ def lever_of(mechanism):
     joint, d = mechanism["joint"], mechanism["tendon"]["diameter_mm"]
     across, along = joint.get("attachment1_mm", (0.0, joint["length_mm"]))
     length = math.hypot(across, along)
-    if "drum_radius_mm" in joint:  # an end in the drum's skin is taken onto the circle of the centre lines
+    if "drum_radius_mm" in joint:  # an attachment on the drum's surface is moved to the circle of the centre lines
         length = max(length, joint["drum_radius_mm"] + 0.5 * d)
     return Lever(length, math.degrees(math.atan2(across, along)))
 
@@ -362,7 +366,7 @@ def read(folder):
     return page, rows, climb_of(folder, mechanism, page) if 'id="climb">' in page else lever_of(mechanism)
 
 
-# What breaks a page, and a word of what the judge must say then.
+# Changes that break a page, with a word of the expected fault.
 BREAKS = {
     "angle": ("place = place_of(alpha), theta = theta_at(place)", "place = place_of(alpha), theta = 0.9 * theta_at(place)", "the lever is drawn at"),
     "tendon": ("turned(points[k], -alpha)", "turned(points[k], alpha)", "mm long over the stroke"),

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""PrusaSlicer judges whether the parts that fusee made print without supports.
+"""PrusaSlicer judges if the parts of fusee print without supports.
 
     judge_print.py build/forearm …          folders of `fusee build`: each file of the manifest's "print", else pulley.stl
-    judge_print.py part.stl …               or files, lying as they print
+    judge_print.py part.stl …               or files in print orientation
     judge_print.py --designs 100 --seed 1 --fusee path/to/fusee
-                                            so many random designs that can be made, else FUSEE_PRINT_DESIGNS of them; design n of a
-                                            seed is always the same
-    judge_print.py --self-test              that this judge sees what needs a support
+                                            this number of feasible random designs, by default FUSEE_PRINT_DESIGNS; they depend only on
+                                            the seed
+    judge_print.py --self-test              the judge must detect unsupported parts
 
-Exit 0: nothing to support; 1: something, one line a file on stdout; 77: not installed, or no designs asked for.
+Exit 0: no supports; 1: supports, one line a file on stdout; 77: not installed, or no designs requested.
 
-Supports are on, automatic, below 45° (PrusaSlicer takes that as "below 46°"), layers of 0.2 mm, its own default of 0.3 mm being milder. What it calls a bridge
-it does not support. It is judged by the G-code it writes: each stretch of support is one block.
+Supports are on, automatic, below 45° (PrusaSlicer takes that as "below 46°"), layers of 0.2 mm, since its default of 0.3 mm is milder. It does not support
+bridges. Supports are found in its G-code: each connected piece is one block.
 """
 
 import argparse
@@ -39,7 +39,7 @@ class NotSliced(Exception):
 
 
 def supports(stl):
-    """Blocks of support by kind, and the height of the highest. NotSliced where no G-code came."""
+    """Number of support blocks by kind, and the height of the highest one. NotSliced without G-code."""
     with tempfile.TemporaryDirectory() as folder:
         gcode = pathlib.Path(folder, "part.gcode")
         text = printed_by("prusa-slicer", *SETTINGS, "--export-gcode", "-o", gcode, stl)
@@ -57,7 +57,7 @@ def supports(stl):
 
 
 def report(name, stl):
-    """Prints what was found; is there anything?"""
+    """Prints the supports; true if there are any."""
     try:
         blocks, highest = supports(stl)
     except NotSliced as error:
@@ -70,7 +70,7 @@ def report(name, stl):
 
 
 def parts_of(path):
-    """What goes to the printer."""
+    """The part files for the printer."""
     if not path.is_dir():
         return [path]
     manifest = json.loads((path / "manifest.json").read_text(encoding="utf-8"))
@@ -81,7 +81,7 @@ def needing_supports(paths):
     return sum([report(part, part) for path in paths for part in parts_of(path)])
 
 
-# Random designs: what a workshop would write, finger to arm ----------------------------------------------------------
+# Random designs: plausible values, finger to arm ----------------------------------------------------------
 
 def design(rng):
     def log_uniform(low, high):
@@ -124,13 +124,13 @@ def toml_of(name, values):
 
 
 def is_refused(run):
-    """The curves or the body cannot be (exit 4), or a check failed (exit 5) that has nothing to do with printing: another judge's business."""
+    """Infeasible (exit 4), or a failed check (exit 5) unrelated to printing."""
     prints_wrongly = re.search(r"check '\w*(overhang|unsupported_step|bridge|island)\w*' failed", run.stderr)
     return run.returncode == 4 or run.returncode == 5 and not prints_wrongly
 
 
 def needing_supports_of_designs(wanted, seed, fusee):
-    """Of `wanted` designs that fusee can make."""
+    """`wanted` feasible designs."""
     made = number = faults = 0
     with tempfile.TemporaryDirectory() as folder:
         while made < wanted:
@@ -157,10 +157,10 @@ def needing_supports_of_designs(wanted, seed, fusee):
     return faults
 
 
-# Self-test: a judge that never says no is none -----------------------------------------------------------------------
+# Self-test: the judge must be able to fail -----------------------------------------------------------------------
 
 def turned(profile, around=96):
-    """A part of rings (radius, z) from the bottom up."""
+    """A part from rings (radius, z), bottom to top."""
     vertices = [(r * math.cos(2 * math.pi * i / around), r * math.sin(2 * math.pi * i / around), z)
                 for r, z in profile for i in range(around)]
     faces = [(0, i + 1, i) for i in range(1, around - 1)]

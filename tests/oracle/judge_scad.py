@@ -36,7 +36,7 @@ def triangles(path):
 
 
 def measure(path):
-    """Volume and the box's corners."""
+    """Volume and bounding box."""
     low, high, volume = [math.inf] * 3, [-math.inf] * 3, 0.0
     for t in triangles(path):
         a, b, c = t[0:3], t[3:6], t[6:9]
@@ -69,11 +69,11 @@ def number(scad, name):
 
 # The part ------------------------------------------------------------------------------------------------------------
 
-BETWEEN_PARTS = 5.0  # mm, on the printer
+BETWEEN_PARTS = 5.0  # mm, distance on the printer
 
 
 def unlike(what, found, made, nearest=0.01):
-    """Words on how a volume and a box differ from what they should be."""
+    """Describes how volume and box differ from their expected values."""
     (volume, box), (made_volume, made_box) = found, made
     off = max(abs(a - b) for a, b in zip(box, made_box))
     print(f"{what}: volume {volume:.1f} mm³, {100 * (volume / made_volume - 1):+.3f} % of the mesh's; box off by {off:.4f} mm")
@@ -92,7 +92,7 @@ def side_by_side(first, second):
 
 
 def printed_faults(folder, scratch):
-    """Of a pulley in two parts, each as it lies on the printer."""
+    """The parts of a pulley in two, in print orientation."""
     pieces = json.loads((folder / "manifest.json").read_text())["print"]
     offered = re.search(r'^show = "assembled"; // \[(.*)\]$', (folder / "pulley.scad").read_text(), re.M).group(1)
     shows = ["assembled", "print"] + [piece["part"] for piece in pieces if "part" in piece]
@@ -109,7 +109,7 @@ def part_faults(folder, scratch):
     scad = folder / "pulley.scad"
     volume, box = render(scad, scratch / "as_it_is.stl")
     climbs = "\ncolumns = " in scad.read_text()
-    # A helix keeps no extreme points: its corners lie within the program's sagitta of the mesh's.
+    # A helix has no fixed extreme points: its corners are within the program's sagitta of the mesh's.
     yield from unlike("assembled", (volume, box), measure(folder / "pulley.stl"), 0.025 if climbs else 0.01)
     if not climbs:
         yield from printed_faults(folder, scratch)
@@ -121,7 +121,7 @@ def part_faults(folder, scratch):
         yield "a shallower groove does not make a smaller part"
 
 
-# Of a pulley in two parts: what is broken, and what must be seen to be wrong.
+# For a pulley in two parts: faults, and the words by which they must be detected.
 BROKEN = (("a roof of another slope", "slope = supports ? 0 : overhang_deg + 2.5", "slope = overhang_deg - 10", "assembled"),
           ("P1 not turned over", "rotate([piece == 1 ? 180 : 0, 0, 0])", "", "P1"),
           ("a part without its pockets", "if (knot_pocket > 0) pocket(t)", "", "P2"),
@@ -142,7 +142,7 @@ def part_self_test(folder, scratch):
 
 
 def changed_bore(scad, scratch, volume):
-    """Tie-offs and set screw away, so that only the bore's polygon changes, whose area is known."""
+    """Without tie-offs and set screw only the bore's polygon changes, whose area is known."""
     bore, clearance, scale = (number(scad, name) for name in ("bore", "hole_compensation", "print_scale"))
 
     def area(diameter):
@@ -159,17 +159,18 @@ def changed_bore(scad, scratch, volume):
 
 # The preview ---------------------------------------------------------------------------------------------------------
 
-# Turned about x, y and z, degrees: from above, from below, level, and along the axis both ways.
+# Views by rotation about x, y and z, degrees: from above, from below, level, and along the axis in both directions.
 SIDES = ("60,0,30", "125,0,210", "90,0,120", "0,0,0", "180,0,0")
 SIZE = "480,360"
-# Single pixels at edges: up to 0.01 % of them on the seven profiles. Without its convexity the forearm's pulley loses 33 %.
+# Limit for single pixels at edges: up to 0.01 % on the seven profiles. A wrong convexity changes 33 % of the forearm's
+# pulley.
 MOST_DIFFERENT_PIXELS = 0.002
-SAME_COLOUR = 40  # of 255, in each channel
+SAME_COLOUR = 40  # of 255, for each channel
 
 
 @contextlib.contextmanager
 def display():
-    """An X server of its own, which chooses a free number itself."""
+    """A private X server, which chooses a free display number."""
     read_end, write_end = os.pipe()
     server = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "800x600x24"], pass_fds=[write_end],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -193,7 +194,7 @@ def look(scad, side, mode, scratch, environment):
 
 
 def different_pixels(a, b):
-    """Share of those that show the part in either."""
+    """Share of differing pixels among those that show the part in either image."""
     background = a.getpixel((0, 0))
     pairs = list(zip(a.getdata(), b.getdata()))
     part = sum(1 for p, q in pairs if p != background or q != background)
@@ -202,7 +203,7 @@ def different_pixels(a, b):
 
 
 def preview_difference(scad, scratch):
-    """The largest of all sides, and from where."""
+    """The largest share over all views, and the view."""
     with display() as environment:
         return max((different_pixels(*(look(scad, side, mode, scratch, environment) for mode in ("preview", "render"))), side) for side in SIDES)
 
@@ -214,7 +215,7 @@ def preview_faults(folder, scratch):
         yield f"the preview differs from the full render in {100 * different:.1f} % of the part's pixels, turned by {side}"
 
 
-# Two plates on a stem, as one polyhedron: what a line of sight enters twice.
+# Two plates on a stem as one polyhedron, which a line of sight enters twice.
 SPOOL = """
 function ring(r, z) = [for (i = [0 : 23]) [r * cos(15 * i), r * sin(15 * i), z]];
 rings = [ring(10, 0), ring(10, 3), ring(4, 3), ring(4, 8), ring(10, 8), ring(10, 11)];
@@ -240,7 +241,7 @@ def preview_self_test(_, scratch):
 # The Customizer ------------------------------------------------------------------------------------------------------
 
 def customizer(scad):
-    """(name, value, what stands behind it, words above it) of each parameter."""
+    """(name, value, text behind it, text above it) of each parameter."""
     lines = scad.read_text().split("/* [Hidden] */")[0].splitlines()
     for above, line in zip(lines, lines[1:]):
         match = re.match(r"(\w+) = (.*?);(?: // (.*))?$", line)
@@ -249,7 +250,7 @@ def customizer(scad):
 
 
 def choices(value, behind):
-    """What the Customizer offers, as far as it is worth a try; a ValueError where it offers nothing."""
+    """Parameter values of the Customizer to test; ValueError if it offers none."""
     if value in ("true", "false"):
         return ["true", "false"]
     if value.startswith('"'):

@@ -1,9 +1,9 @@
-"""FreeCAD as a judge of pulley.step: it must open as one valid solid, in mm, with the box and the volume of pulley.stl, and be cut at
-both grooves' planes as that is; a face of P1 and one of P2 carry their names and colours in the file.
+"""FreeCAD as a judge of pulley.step: it must open as one valid solid, in mm, with the box, the volume and the
+groove sections of pulley.stl. A face of P1 and one of P2 have their names and colours.
 
-    judge_step.py FOLDER [--self-test]   what `fusee build --step` wrote; --self-test: that this judge sees a file that is broken on purpose
+    judge_step.py FOLDER [--self-test]   what `fusee build --step` wrote; --self-test: the judge must detect a broken file
 
-Exit 0: content; 1: not, with the faults on stdout; 77: FreeCAD is not installed, or the file is not there, as this fusee cannot write it."""
+Exit 0: no faults; 1: faults, on stdout; 77: FreeCAD is not installed, or this fusee cannot write the file."""
 import json
 import math
 import pathlib
@@ -14,8 +14,8 @@ import tempfile
 
 SKIPPED = 77
 PLACES = ["/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib"]
-SAGITTA = 0.004  # mm, of the triangles that are made of its faces here
-SAGITTA_OF_TURNS = 0.012  # of a part of several turns: its seats take FreeCAD minutes otherwise
+SAGITTA = 0.004  # mm, of the triangles that FreeCAD makes of the faces
+SAGITTA_OF_TURNS = 0.012  # for several turns: FreeCAD would take minutes for their seats
 NEAR = 0.02  # mm: two tolerances of the mesh
 COLOURS = 3
 
@@ -48,7 +48,7 @@ def area_of(triangles):
 
 
 def section_area(triangles, z):
-    """Of the solid at height z, by the segments in which its facets are cut."""
+    """The section of the solid at height z, from the segments of its facets."""
     total = 0.0
     for t in triangles:
         above = [p[2] > z for p in t]
@@ -69,14 +69,14 @@ def faults_of(step, folder, part_module):
     shape = part_module.Shape()
     try:
         shape.read(str(step))
-    except Exception as error:  # FreeCAD throws types of its own
+    except Exception as error:  # FreeCAD's exception types are not importable
         yield f"FreeCAD does not read it: {error}"
         return
     if len(shape.Solids) != 1:
         yield f"{len(shape.Solids)} solids"
         return
     mesh = list(triangles_of_stl(folder / "pulley.stl"))
-    # Before it is cut into triangles: in metres it would never end.
+    # Checked before triangulation, which would never end for a part in metres.
     size = max(max(abs(x) for x in t[0]) for t in mesh)
     if abs(shape.BoundBox.DiagonalLength) > 10 * size:
         yield f"it is {shape.BoundBox.DiagonalLength:.0f} mm large"
@@ -89,7 +89,7 @@ def faults_of(step, folder, part_module):
     mine = list(triangles_of_shape(shape, SAGITTA_OF_TURNS if climbs else SAGITTA))
     surface = area_of(mesh)
     difference = abs(volume_of(mine) - volume_of(mesh))
-    # A print's holes have facets around the circle, where a shape has the circle.
+    # A print's holes are circumscribed polygons, and circles in CAD.
     if difference > NEAR * surface:
         yield f"its volume is {difference:.1f} mm3 off that of pulley.stl"
     for k, name in enumerate("xyz"):
@@ -113,7 +113,7 @@ def faults_of(step, folder, part_module):
 
 
 def without_a_face(text):
-    """The shell that has lost a face: what a hand-written exporter makes when two faces do not share an edge."""
+    """The shell without one face, as an exporter makes it if two faces do not share an edge."""
     return re.sub(r"(CLOSED_SHELL\('[^']*',\()#\d+,", r"\1", text, count=1)
 
 

@@ -15,14 +15,14 @@ namespace fusee::pins {
 /// Path → hash.
 using Hashes = std::map<std::string, std::string>;
 
-/// "build/forearm" → "build.sha256".
+/// Name of the hash file: "build/forearm" → "build.sha256".
 std::string hash_file_of(const std::string& run_name);
 Hashes hashes_of(const std::string& run_name, const std::vector<OutputFile>& outputs);
 
 std::string text_of(const Hashes& hashes);
 Hashes parse_hashes(std::string_view text);
 
-/// What differs, a line each, in words: changed, gone, new. Empty when nothing does.
+/// Differences in words, one a line: changed, removed, new. Empty if there are none.
 std::vector<std::string> differences(const Hashes& pinned, const Hashes& found);
 
 }  // namespace fusee::pins

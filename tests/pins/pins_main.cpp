@@ -1,4 +1,4 @@
-// Every pinned output, to be looked at, and the hashes of all: pins FOLDER [RUN...]
+// Writes every pinned output, for inspection, and the hashes: pins FOLDER [RUN...]
 //
 // The hashes are accepted with: build/release/tests/pins/pins now && cp now/*.sha256 tests/pins/
 #include <algorithm>
@@ -21,7 +21,7 @@ void leave(const std::vector<OutputFile>& outputs, const fs::path& folder) {
   }
 }
 
-/// Hashes are left only of whole verbs: those of a few runs are no file to accept.
+/// Hash files are written only for complete verbs, since those of a few runs must not be accepted.
 int run(const fs::path& folder, const std::vector<std::string>& wanted) {
   std::map<std::string, Hashes> lists;
   for (const PinnedRun& one : runs()) {

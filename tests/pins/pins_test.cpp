@@ -1,5 +1,5 @@
-// Same input, same bytes: of every output, on every machine, with every compiler. tests/pins/*.sha256 hold what the
-// bytes were.
+// Equal input gives equal bytes for every output, on every machine and with every compiler. tests/pins/*.sha256 have
+// the hashes.
 #include <gmock/gmock.h>
 
 #include <Eigen/Core>
@@ -29,7 +29,7 @@ Hashes pinned_in(const fs::path& hash_file) {
   return fs::exists(hash_file) ? parse_hashes(read_file(hash_file, k_largest_list)) : Hashes();
 }
 
-/// Those of one run.
+/// The hashes of one run.
 Hashes pinned_of(const std::string& run_name) {
   Hashes hashes;
   for (const auto& [path, hash] : pinned_in(k_pins / hash_file_of(run_name))) {
@@ -46,7 +46,7 @@ std::string list(const std::vector<std::string>& words) {
 
 class Outputs : public ::testing::TestWithParam<PinnedRun> {};
 
-TEST_P(Outputs, AreThePinnedBytes) {
+TEST_P(Outputs, MatchPins) {
   const PinnedRun& run = GetParam();
   if (run.name.rfind(k_step_runs, 0) == 0) {
     if (const auto why = step_missing()) GTEST_SKIP() << *why;
@@ -66,14 +66,14 @@ std::string test_name(const ::testing::TestParamInfo<PinnedRun>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Of, Outputs, ::testing::ValuesIn(runs()), test_name);
 
-// By them Eigen cuts its products, and sums end in other digits.
-TEST(Pins, DoNotGoByTheCachesOfTheProcessor) {
+// Eigen would block its products by the cache sizes, which changes the last digits of sums.
+TEST(Pins, IgnoreProcessorCaches) {
   EXPECT_EQ(Eigen::l1CacheSize(), 32 << 10);
   EXPECT_EQ(Eigen::l2CacheSize(), 256 << 10);
   EXPECT_EQ(Eigen::l3CacheSize(), 2 << 20);
 }
 
-TEST(Pins, AreOfRunsThatThereAre) {
+TEST(Pins, BelongToRuns) {
   const std::vector<PinnedRun> all = runs();
   const auto is_made = [&all](const std::string& path) {
     return std::any_of(all.begin(), all.end(),
@@ -86,18 +86,18 @@ TEST(Pins, AreOfRunsThatThereAre) {
   }
 }
 
-TEST(Pins, SayWhichFileChanged) {
+TEST(Pins, NameChangedFiles) {
   const std::vector<OutputFile> before = {{"a.txt", "as it was"}, {"b.txt", "b"}, {"c.txt", "c"}};
   const std::vector<OutputFile> after = {{"a.txt", "as it is"}, {"b.txt", "b"}, {"d.txt", "d"}};
   EXPECT_THAT(differences(hashes_of("verb/run", before), hashes_of("verb/run", after)),
               ElementsAre("verb/run/a.txt changed", "verb/run/d.txt is new", "verb/run/c.txt is gone"));
 }
 
-TEST(Pins, ReadWhatTheyWrite) {
+TEST(Pins, ReadTheirOwnFiles) {
   const Hashes hashes = hashes_of("verb/run", {{"a.txt", ""}, {"b.txt", "b"}});
   EXPECT_EQ(parse_hashes(text_of(hashes)), hashes);
   EXPECT_THAT(differences(parse_hashes(text_of(hashes)), hashes), IsEmpty());
-  // As sha256sum has it for an empty file.
+  // As printed by sha256sum for an empty file.
   EXPECT_EQ(hashes.at("verb/run/a.txt"), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 

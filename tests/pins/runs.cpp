@@ -40,7 +40,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& beginn
 
 // ---- one function a verb --------------------------------------------------------------------------------------------
 
-/// The part for CAD alone: what else there is, is pinned without it.
+/// Only the part for CAD: the other files are pinned without it.
 Outputs built_for_cad(const fs::path& spec) {
   BuildOptions options;
   options.step = true;
@@ -66,7 +66,7 @@ Outputs calibration_outputs(const fs::path& spec, const std::vector<fs::path>& m
   return calibrate(read_mechanism(spec), measured, options).outputs;
 }
 
-/// The pulley that a calibration asks for.
+/// The pulley of a calibration's corrected.toml.
 Outputs built_corrected(const fs::path& spec, const std::vector<fs::path>& measured) {
   const Outputs outputs = calibration_outputs(spec, measured);
   const auto corrected = std::find_if(outputs.begin(), outputs.end(),
@@ -78,7 +78,7 @@ Outputs built_corrected(const fs::path& spec, const std::vector<fs::path>& measu
   return built(file, DxfVersion::ac1015);
 }
 
-/// The new file, and what `fusee optimize` says, to as many digits.
+/// The new file, and the figures of `fusee optimize` with a fixed number of digits.
 Outputs optimum_outputs(const fs::path& spec) {
   const Problem problem = make_problem(read_mechanism(spec));
   const CertifiedResult result = certified_optimum(problem, problem.objectives.front());
@@ -89,7 +89,7 @@ Outputs optimum_outputs(const fs::path& spec) {
           {"said.txt", said}};
 }
 
-// ---- what they are run on -------------------------------------------------------------------------------------------
+// ---- inputs ---------------------------------------------------------------------------------------------------------
 
 void add_builds(std::vector<PinnedRun>& all) {
   for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml")) {
@@ -99,7 +99,7 @@ void add_builds(std::vector<PinnedRun>& all) {
   }
 }
 
-// One in one piece, one in two with dowels, one with a horn, one of several turns.
+// One part, two parts with dowels, a horn, several turns.
 void add_steps(std::vector<PinnedRun>& all) {
   for (const std::string name : {"paper_optimum", "forearm", "wrist_exo", "elbow_capstan"})
     all.push_back({k_step_runs + name, [name] { return built_for_cad(k_root / "profiles" / (name + ".toml")); }});
@@ -148,7 +148,7 @@ Outputs modelled(const MechanismFile& file, const MotorUnit& unit) {
   return model(file, options).outputs;
 }
 
-/// A measured run driven once more, with play, an encoder off its axis and noise; and with the corrected pulley.
+/// A measured run simulated with play, an eccentric encoder and noise; also with the corrected pulley.
 Outputs simulated() {
   const fs::path log = k_root / "profiles/measured/forearm_2.csv";
   const MechanismFile file =
@@ -166,7 +166,7 @@ void add_plans(std::vector<PinnedRun>& all) {
   for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml"))
     all.push_back({"plan/" + spec.stem().string(), [spec] { return planned(spec); }});
   for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml")) {
-    // One drawing for an old cutter stands for all.
+    // One drawing in the old format is enough.
     const DxfVersion dxf = spec.stem() == "unsymmetric" ? DxfVersion::r12 : DxfVersion::ac1015;
     all.push_back({"kit/" + spec.stem().string(), [spec, dxf] { return kits(spec, dxf); }});
   }
@@ -176,7 +176,7 @@ void add_plans(std::vector<PinnedRun>& all) {
 void add_models(std::vector<PinnedRun>& all) {
   for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml"))
     all.push_back({"model/" + spec.stem().string(), [spec] { return modelled(read_mechanism(spec), {}); }});
-  // A joint as it was found, each way, in counts.
+  // An identified joint, in both directions, in counts.
   all.push_back({"model/identified", [] {
                    const MechanismFile file =
                        read_mechanism(k_root / "profiles/forearm.toml",
@@ -185,7 +185,7 @@ void add_models(std::vector<PinnedRun>& all) {
                  }});
 }
 
-/// Between them these have identified a tendon, a pin, and more than one of them at once.
+/// Together these have identified a tendon, a pin, and several effects at once.
 void add_corrected_builds(std::vector<PinnedRun>& all) {
   for (const std::string name : {"b_stretch", "d_guide_radius"}) {
     const fs::path folder = k_root / "tests/data/rig" / name;

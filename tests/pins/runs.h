@@ -1,5 +1,5 @@
 /// \file
-/// Every file that fusee leaves behind for what lies in profiles/ and tests/data/rig, as bytes, through the library.
+/// All output files for the inputs in profiles/ and tests/data/rig, as bytes, through the library.
 #pragma once
 
 #include <functional>
@@ -11,14 +11,14 @@
 
 namespace fusee::pins {
 
-/// One run of a verb. "build/forearm": what stands before the first slash names the file of hashes, too.
+/// One run of a verb, such as "build/forearm"; the part before the slash also names the file of hashes.
 struct PinnedRun {
   std::string name;
   std::function<std::vector<OutputFile>()> outputs;
 };
-/// Runs whose names begin so need OpenCASCADE: nothing is asked of them where step_missing().
+/// Prefix of runs that require OpenCASCADE; they are skipped if step_missing().
 inline constexpr const char* k_step_runs = "step/";
-/// For the names of tests.
+/// A run's name as the name of a test.
 inline void PrintTo(const PinnedRun& run, std::ostream* stream) { *stream << run.name; }
 
 /// build/NAME and build_r12/NAME for each of profiles/*.toml, step/NAME for some, calibrate/NAME for each folder of

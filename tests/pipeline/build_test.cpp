@@ -1,4 +1,4 @@
-// The whole way: every mechanism of profiles/ becomes checked files, and nothing stays behind when it does not.
+// Builds of the mechanisms in profiles/: all files are checked, and a failed build leaves no file.
 #include <gmock/gmock.h>
 #include <stdlib.h>
 
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 const fs::path k_profiles = fs::path(FUSEE_SOURCE_DIR) / "profiles";
 
-// Without blanks and line breaks.
+// Removes blanks and line breaks.
 std::string words_of(std::string json) {
   std::erase_if(json, [](char c) { return c == ' ' || c == '\n'; });
   return json;
@@ -60,7 +60,7 @@ std::vector<std::string> names_of(const std::vector<OutputFile>& outputs) {
   return names;
 }
 
-TEST_F(Build, LeavesTheFilesItNames) {
+TEST_F(Build, WritesNamedFiles) {
   const BuildResult built = build(file_, options_);
   EXPECT_EQ(built.status, BuildStatus::done);
   EXPECT_TRUE(built.published);
@@ -73,7 +73,7 @@ TEST_F(Build, LeavesTheFilesItNames) {
 
 // ---- as one print or two --------------------------------------------------------------------------------------------
 
-TEST_F(Build, InTwoPartsWritesEachAsItLiesOnThePrinter) {
+TEST_F(Build, TwoPartsAreInPrintOrientation) {
   file_.mechanism.print.parts = Parts::two;
   const BuildResult built = build(file_, options_);
   EXPECT_EQ(built.status, BuildStatus::done);
@@ -81,7 +81,7 @@ TEST_F(Build, InTwoPartsWritesEachAsItLiesOnThePrinter) {
   const std::string manifest = read_file(options_.folder / "manifest.json", 1 << 20);
   EXPECT_THAT(words_of(manifest),
               HasSubstr(R"("print":[{"file":"pulley_p1.stl","part":"P1"},{"file":"pulley_p2.stl","part":"P2"}])"));
-  // The 3mf holds both as they are, side by side.
+  // The 3mf has both parts side by side.
   const auto bodies = bodies_of(std::get<TriangleMesh>(read_part(options_.folder / "pulley.3mf")));
   ASSERT_EQ(bodies.size(), 2u);
   double volume = 0;
@@ -96,7 +96,7 @@ TEST_F(Build, InTwoPartsWritesEachAsItLiesOnThePrinter) {
               1e-6 * volume);
 }
 
-TEST_F(Build, InOnePartWritesNoOther) {
+TEST_F(Build, OnePartWritesNoOther) {
   file_.mechanism.print.parts = Parts::one;
   const BuildResult built = build(file_, options_);
   EXPECT_EQ(built.status, BuildStatus::done);
@@ -107,7 +107,7 @@ TEST_F(Build, InOnePartWritesNoOther) {
   EXPECT_EQ(bodies_of(std::get<TriangleMesh>(read_part(options_.folder / "pulley.3mf"))).size(), 1u);
 }
 
-TEST_F(Build, InOnePartTakesThePartsOfAnEarlierBuildAway) {
+TEST_F(Build, OnePartRemovesEarlierParts) {
   file_.mechanism.print.parts = Parts::two;
   build(file_, options_);
   file_.mechanism.print.parts = Parts::one;
@@ -116,7 +116,7 @@ TEST_F(Build, InOnePartTakesThePartsOfAnEarlierBuildAway) {
   EXPECT_THAT(names_in(options_.folder), ::testing::UnorderedElementsAreArray(names_of(built.outputs)));
 }
 
-TEST_F(Build, HoldsOverhangsAgainstTheFilesLimit) {
+TEST_F(Build, ComparesOverhangsWithLimit) {
   file_.mechanism.print.parts = Parts::two;
   for (const double overhang : {35.0, 55.0}) {
     file_.mechanism.print.overhang = radians(overhang);
@@ -131,7 +131,7 @@ TEST_F(Build, HoldsOverhangsAgainstTheFilesLimit) {
   }
 }
 
-TEST_F(Build, WithSupportsAsksNothingOfOverhangs) {
+TEST_F(Build, SupportsAllowOverhangs) {
   for (const Parts parts : {Parts::one, Parts::two}) {
     file_.mechanism.print = {parts, radians(45), true};
     options_.dry_run = true;
@@ -141,8 +141,8 @@ TEST_F(Build, WithSupportsAsksNothingOfOverhangs) {
   }
 }
 
-// A slicer leaves out what is thinner than the nozzle's line, and no check of the mesh sees it.
-TEST_F(Build, WarnsOfWallsThinnerThanALine) {
+// A slicer omits walls thinner than one line, and no check of the mesh detects that.
+TEST_F(Build, WarnsOfThinWalls) {
   const auto thin = [&](double nozzle) {
     file_.mechanism.print.nozzle = nozzle;
     options_.dry_run = true;
@@ -156,7 +156,7 @@ TEST_F(Build, WarnsOfWallsThinnerThanALine) {
   EXPECT_THAT(thin(0.4), ::testing::IsEmpty());
   file_.mechanism.body.flange_thickness = 0.3;
   EXPECT_THAT(thin(0.4), ::testing::ElementsAre(
-                             ::testing::AllOf(HasSubstr("the flanges are 0.3 mm thick at the lip"),
+                             ::testing::AllOf(HasSubstr("the flanges are 0.3 mm thick at the groove edge"),
                                               HasSubstr("try body.flange_thickness_mm = 0.4 or more (now 0.3)"))));
   EXPECT_THAT(thin(0.25), ::testing::IsEmpty());
   file_.mechanism.body.flange_thickness = 1.2;
@@ -171,7 +171,7 @@ TEST_F(Build, NamesEveryCheckOnce) {
   EXPECT_EQ(std::unique(names.begin(), names.end()), names.end());
 }
 
-TEST_F(Build, GivesTheSameBytesAgain) {
+TEST_F(Build, IsReproducible) {
   const BuildResult first = build(file_, options_);
   options_.folder = scratch_ / "again";
   const BuildResult second = build(file_, options_);
@@ -179,7 +179,7 @@ TEST_F(Build, GivesTheSameBytesAgain) {
     EXPECT_EQ(first.outputs[i].bytes, second.outputs[i].bytes) << first.outputs[i].name;
 }
 
-TEST_F(Build, DryRunLeavesNothingAndSaysTheSame) {
+TEST_F(Build, DryRunWritesNothing) {
   options_.dry_run = true;
   const BuildResult dry = build(file_, options_);
   EXPECT_FALSE(dry.published);
@@ -188,7 +188,7 @@ TEST_F(Build, DryRunLeavesNothingAndSaysTheSame) {
   EXPECT_EQ(names_of(dry.product.checks), names_of(build(file_, options_).product.checks));
 }
 
-TEST_F(Build, StoppedBeforeAnyStepLeavesNothing) {
+TEST_F(Build, StoppedBuildLeavesNothing) {
   struct Stop {};
   int steps = 0;
   options_.before_step = [&steps](std::string_view) { ++steps; };
@@ -204,7 +204,7 @@ TEST_F(Build, StoppedBeforeAnyStepLeavesNothing) {
   }
 }
 
-TEST_F(Build, OfWhatCannotBeMadeIsAValue) {
+TEST_F(Build, InfeasibleDesignIsValue) {
   file_.mechanism.pulley.r1 = 60;
   const BuildResult no_curves = build(file_, options_);
   EXPECT_EQ(no_curves.status, BuildStatus::infeasible);
@@ -217,7 +217,7 @@ TEST_F(Build, OfWhatCannotBeMadeIsAValue) {
   EXPECT_THAT(names_in(scratch_), IsEmpty());
 }
 
-TEST_F(Build, ThatFailsACheckIsPublishedOnlyWhereNothingIsLost) {
+TEST_F(Build, FailedBuildKeepsEarlierRun) {
   options_.limits.theta_error = 0;
   const BuildResult first = build(file_, options_);
   EXPECT_EQ(first.status, BuildStatus::check_failed);
@@ -227,7 +227,7 @@ TEST_F(Build, ThatFailsACheckIsPublishedOnlyWhereNothingIsLost) {
   EXPECT_TRUE(build(file_, options_).published);
 }
 
-TEST_F(Build, ByThePapersMethodReportsItsSlack) {
+TEST_F(Build, PaperMethodReportsSlack) {
   file_.mechanism.pulley.method = Method::paper;
   const BuildResult built = build(file_, options_);
   EXPECT_EQ(built.status, BuildStatus::done);
@@ -238,7 +238,7 @@ TEST_F(Build, ByThePapersMethodReportsItsSlack) {
 
 class Profiles : public Build, public ::testing::WithParamInterface<fs::path> {};
 
-TEST_P(Profiles, IsBuiltAndHoldsEveryCheck) {
+TEST_P(Profiles, PassesEveryCheck) {
   const BuildResult built = build(read_mechanism(GetParam()), options_);
   EXPECT_EQ(built.status, BuildStatus::done);
   EXPECT_THAT(built.product.checks, Each(Field(&Check::ok, true)));

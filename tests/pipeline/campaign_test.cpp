@@ -1,8 +1,7 @@
-// Random designs through the whole making, of every law and with every choice of the file: each is made, with every
-// check, or refused for a reason. FUSEE_LAW_CASES: how many (24); FUSEE_LAW_SEED: which (1). And the choices in [body]
-// and [print] on three mechanisms: every pair of words of two keys, FUSEE_LAW_CASES combinations more, and with
-// FUSEE_LONG_TESTS every combination that says something else than another (7560 a mechanism, a quarter of an hour of
-// one core each).
+// Random designs through the whole build, with every law and option: each is built with all checks, or refused with a
+// reason. FUSEE_LAW_CASES: number of designs (24); FUSEE_LAW_SEED: seed (1). Also the options in [body] and [print] on
+// three mechanisms: every pair of words of two keys, FUSEE_LAW_CASES further combinations, and with FUSEE_LONG_TESTS
+// all distinct combinations (7560 a mechanism, a quarter of an hour of one core each).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -25,7 +24,7 @@ namespace {
 
 using namespace fusee;
 
-/// Numbers of its own, the same on every machine.
+/// A random number generator with equal results on every machine.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : bits_(seed) {}
@@ -45,7 +44,7 @@ struct Number {
   const char* key;
   double low, high;
 };
-/// What a workshop would write.
+/// Plausible values of users.
 constexpr std::array k_numbers{Number{"guides.friction", 0, 0.5},
                                Number{"tendon.modulus_MPa", 500, 2e5},
                                Number{"tendon.pretension_N", 0, 60},
@@ -149,12 +148,12 @@ int number_from(const char* variable, int otherwise) {
   return text == nullptr ? otherwise : std::atoi(text);
 }
 
-/// Thrown at the first try: whether advice is right is a matter of its own, and takes longer than all else.
+/// Thrown at the first trial: advice is tested elsewhere, and takes longer than the rest.
 struct NoAdvice {};
 
 enum class End { made, refused, bad_input };
 
-/// What the pulley is for stands round it, or is refused with what to change.
+/// The test rig is designed, or refused with the reason.
 void expect_kit_or_reasons(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const KitPlan plan = plan_kit(mechanism, product.synthesis, product.pulley.layout);
@@ -168,7 +167,7 @@ void expect_kit_or_reasons(const Product& product) {
   }
 }
 
-/// `read` gives the mechanism: bad input is an end too.
+/// `read` returns the mechanism; bad input is a valid outcome.
 template <typename Read>
 End end_of(Read read, double tolerance) {
   BuildOptions options;
@@ -189,11 +188,11 @@ End end_of(Read read, double tolerance) {
   }
 }
 
-constexpr int k_shards = 8;  // so that ctest may run them side by side
+constexpr int k_shards = 8;  // so that ctest can run them in parallel
 
 class Campaign : public ::testing::TestWithParam<int> {};
 
-TEST_P(Campaign, DesignsAreMadeOrRefused) {
+TEST_P(Campaign, DesignsAreBuiltOrRefused) {
   const int cases = number_from("FUSEE_LAW_CASES", 24), seed = number_from("FUSEE_LAW_SEED", 1);
   int made = 0, refused = 0, bad = 0;
   for (int i = GetParam(); i < cases; i += k_shards) {
@@ -228,7 +227,7 @@ struct Choice {
   std::vector<std::string> words;
 };
 
-/// Of every key of [body] and [print] that takes one of a few words; of screws and shafts two or three stand for all.
+/// All words of the keys of [body] and [print]; two or three screws and shafts stand for all.
 std::vector<Choice> all_choices() {
   const std::map<std::string, std::vector<std::string>> fewer{{"body.set_screw", {"auto", "none", "M3"}},
                                                               {"body.clamp_screw", {"none", "M2"}},
@@ -245,7 +244,7 @@ std::vector<Choice> all_choices() {
   return choices;
 }
 
-/// Which word of each choice.
+/// For each choice the index of its word.
 using Combination = std::vector<std::size_t>;
 
 Combination combination_of(std::size_t number, const std::vector<Choice>& choices) {
@@ -257,7 +256,7 @@ Combination combination_of(std::size_t number, const std::vector<Choice>& choice
   return combination;
 }
 
-/// A key that another one leaves without use has its first word.
+/// A key that another key makes irrelevant has its first word.
 bool says_something_new(const Combination& combination, const std::vector<Choice>& choices) {
   const auto at = [&](const std::string& key) {
     return static_cast<std::size_t>(
@@ -270,7 +269,7 @@ bool says_something_new(const Combination& combination, const std::vector<Choice
   return word("body.tail") != "none" || combination[at("body.clamp_screw")] == 0;
 }
 
-/// All of them, in an order in which neighbours differ in most keys.
+/// All combinations, in an order in which neighbours differ in most keys.
 std::vector<Combination> all_combinations(const std::vector<Choice>& choices) {
   constexpr std::size_t k_stride = 7919;  // a prime
   std::size_t count = 1;
@@ -293,7 +292,7 @@ Pairs pairs_in(const Combination& combination) {
   return pairs;
 }
 
-/// First those that between them hold every pair of words of two keys that any combination holds; then the others.
+/// First a set that contains every pair of words of two keys, then the others.
 std::vector<Combination> pairs_first(std::vector<Combination> all, std::size_t& needed) {
   Pairs missing;
   for (const Combination& combination : all) missing.merge(pairs_in(combination));
@@ -321,7 +320,7 @@ class Choices : public ::testing::TestWithParam<const char*> {
       settings.push_back({choices[i].key, choices[i].words[combination[i]]});
       words += " --set " + settings.back().key + "=" + settings.back().value;
     }
-    // Beside a shaft the bore is the shaft's.
+    // With a shaft the bore is given by the shaft.
     const bool has_shaft = words.find("body.shaft=none") == std::string::npos;
     if (has_shaft) settings.push_back({"body.bore", "d"});
     SCOPED_TRACE(GetParam() + words);
@@ -337,7 +336,7 @@ class Choices : public ::testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(Choices, AreMadeOrRefused) {
+TEST_P(Choices, AreBuiltOrRefused) {
   const std::vector<Choice> choices = all_choices();
   ASSERT_GE(choices.size(), 10u);
   std::size_t needed = 0;

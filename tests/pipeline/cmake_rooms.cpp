@@ -16,7 +16,7 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-/// All words that a pattern finds, by its first group.
+/// All first groups of a pattern's matches.
 std::vector<std::string> found(std::string_view text, const std::string& pattern) {
   const std::regex regex(pattern);
   std::vector<std::string> words;
@@ -43,7 +43,7 @@ std::set<std::string> rooms_named(const std::string& call) {
   return rooms;
 }
 
-/// The program is no library: it names its rooms as targets, "fusee_pipeline".
+/// The program is not a library: it links its modules as targets, such as "fusee_pipeline".
 std::set<std::string> rooms_linked(const std::string& call, const std::vector<std::string>& rooms) {
   std::set<std::string> linked;
   const std::vector<std::string> words = words_of(call);

@@ -1,4 +1,4 @@
-// A word in time, whichever verb reads the file: in the value that it gives back and in what it writes.
+// Plausibility warnings of every verb: in the returned value and in the written files.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ MechanismFile profile(const std::string& name, const std::vector<Setting>& setti
   return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (name + ".toml"), settings);
 }
 
-/// An arm whose pins were meant to be above the joint, and which is overloaded.
+/// An overloaded arm whose pins have the wrong sign: they were meant to be above the joint.
 MechanismFile slipped_forearm() {
   return profile("forearm", {{"guides.OE_mm", "40"}, {"tendon.strength_N", "20"}, {"load.tip_force_N", "25"}});
 }
@@ -45,7 +45,7 @@ BuildResult built(const MechanismFile& file) {
   return build(file, options);
 }
 
-TEST(Doubts, OfABuildStandInManifestAndReport) {
+TEST(PlausibilityWarnings, AppearInManifestAndReport) {
   const BuildResult result = built(slipped_forearm());
   EXPECT_THAT(messages(result.product.file.warnings),
               ElementsAre(HasSubstr("guides.OE_mm = 40"), HasSubstr("the tendon breaks")));
@@ -54,36 +54,36 @@ TEST(Doubts, OfABuildStandInManifestAndReport) {
   EXPECT_THAT(text_of(result.outputs, "report.html"), HasSubstr("guides.OE_mm = 40 mm"));
 }
 
-TEST(Doubts, OfABuildThatCannotBeMadeAreSaidToo) {
+TEST(PlausibilityWarnings, AppearForInfeasibleBuild) {
   const BuildResult result = built(profile("forearm", {{"guides.EB_mm", "5"}}));
   EXPECT_EQ(result.status, BuildStatus::infeasible);
   EXPECT_THAT(messages(result.product.file.warnings), ElementsAre(HasSubstr("guides.EB_mm = 5")));
 }
 
-TEST(Doubts, OfAnAnalysisLeaveABreakingTendonToItsError) {
+TEST(PlausibilityWarnings, BreakingTendonIsError) {
   const AnalysisResult result = analyze(slipped_forearm());
   EXPECT_TRUE(result.breaks_at);
   EXPECT_THAT(messages(result.warnings), ElementsAre(HasSubstr("guides.OE_mm = 40")));
-  // An estimate is a doubt: there is no error.
+  // An estimated strength gives a warning, not an error.
   const AnalysisResult likely =
       analyze(profile("forearm", {{"load.tip_force_N", "500"}, {"tendon.diameter_mm", "0.9"}}));
   EXPECT_FALSE(likely.breaks_at);
   EXPECT_THAT(messages(likely.warnings), ElementsAre(HasSubstr("an estimate")));
 }
 
-TEST(Doubts, OfAnAnalysisNameTightBends) {
+TEST(PlausibilityWarnings, NameTightBends) {
   EXPECT_THAT(messages(analyze(profile("forearm", {{"tendon.bend_ratio", "34"}})).warnings),
               ElementsAre(HasSubstr("P1 bends the tendon"), HasSubstr("P2 bends the tendon")));
 }
 
-TEST(Doubts, OfASearchAreOfTheFileAsItIs) {
+TEST(PlausibilityWarnings, SearchUsesIdentifiedFile) {
   OptimizeOptions options;
   options.dry_run = true;
   EXPECT_THAT(messages(optimize(profile("paper_optimum", {{"tendon.modulus_MPa", "40"}}), options).warnings),
               ElementsAre(HasSubstr("tendon.modulus_MPa = 40 MPa")));
 }
 
-TEST(Doubts, AreNoneOfAnOrdinaryFile) {
+TEST(PlausibilityWarnings, OrdinaryFileHasNone) {
   const MechanismFile file = profile("forearm", {});
   const BuildResult result = built(file);
   EXPECT_THAT(result.product.file.warnings, IsEmpty());

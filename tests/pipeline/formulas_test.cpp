@@ -1,5 +1,5 @@
-// One formula once: what is written twice is mended once. Oracles of the tests write their own on purpose, so that only
-// the house is searched.
+// Each of these formulas occurs once in the code. Tests have independent copies on purpose, so only the product's
+// sources are searched.
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -12,16 +12,16 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// What is written once, and the file or room that has it.
+/// A formula that may occur once, and its place.
 struct Formula {
   std::string name;
   std::string pattern;
-  std::string home;  ///< the beginning of its path; "": any
+  std::string home;  ///< prefix of the path; "": anywhere
 };
 void PrintTo(const Formula& formula, std::ostream* stream) { *stream << formula.name; }
 
 const std::vector<Formula> k_formulas = {
-    // tan(π/4 − …) is another matter.
+    // tan(π/4 − …) is another formula.
     {"section_stiffness", R"((0\.25\s*\*\s*k_pi|k_pi\s*/\s*4(\.0)?)\b(?!\s*-))", "include/fusee/mechanism/mechanism.h"},
     {"standard_gravity", R"(\b9\.8\d*)", "include/fusee/transmission/load.h"},
     {"weight_moment", R"(\bmass\s*\*\s*k_gravity\b|\bk_gravity\s*\*\s*[\w.]*mass\b)", "src/transmission/load.cpp"},
@@ -29,11 +29,11 @@ const std::vector<Formula> k_formulas = {
     {"declared_law", R"(\bclass\s+DeclaredLaw\b)", "src/transmission/declared_law.h"},
     {"binning", R"(\bstruct\s+Bins\b)", "src/measurement/seen_span.h"},
     {"median", R"(\bmedian\w*\(std::vector<double>\s+\w+\)\s*\{)", ""},
-    // The character itself stands in quotes, which are blank here.
+    // The character itself is in quotes, which are blanked here.
     {"progress_bar", R"(std::string\(k_places - full)", "src/cli/"},
 };
 
-/// "src/transmission/load.cpp:15", each place where the code has it.
+/// "src/transmission/load.cpp:15": every occurrence in code.
 std::vector<std::string> places_of(const std::string& pattern, const std::vector<Source>& sources) {
   const std::regex regex(pattern);
   std::vector<std::string> places;
@@ -52,7 +52,7 @@ const std::vector<Source>& house() {
 
 class Formulas : public ::testing::TestWithParam<Formula> {};
 
-TEST_P(Formulas, StandOnce) {
+TEST_P(Formulas, OccurOnce) {
   const std::vector<std::string> places = places_of(GetParam().pattern, house());
   ASSERT_THAT(places, ::testing::SizeIs(1));
   EXPECT_THAT(places.front(), ::testing::StartsWith(GetParam().home));
@@ -61,7 +61,7 @@ TEST_P(Formulas, StandOnce) {
 INSTANTIATE_TEST_SUITE_P(Of, Formulas, ::testing::ValuesIn(k_formulas),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST(FormulaText, IsFoundInCodeAlone) {
+TEST(FormulaText, IgnoresComments) {
   const std::vector<Source> sources = {{"a.cpp", "// 0.25 * k_pi * d * d\ndouble EA = E * 0.25 * k_pi * d * d;\n"},
                                        {"b.cpp", "double tangent = std::tan(0.25 * k_pi - 0.5 * lean);\n"}};
   EXPECT_THAT(places_of(k_formulas.front().pattern, sources), ElementsAre("a.cpp:2"));

@@ -1,5 +1,4 @@
-// The flow is the layout: a room uses only rooms to its left. These tests read every #include and say which one does
-// not.
+// A module includes only modules to its left. These tests read every #include and report violations.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -16,14 +15,14 @@ namespace {
 namespace house = fusee::house;
 namespace fs = std::filesystem;
 
-/// Room → its place in the flow. Read on first use: other files' constants need not be there before.
+/// Module → its place in the order. Built on first use, after the constants of other files.
 const std::map<std::string, int>& flow() {
   static const std::map<std::string, int> read = house::flow();
   return read;
 }
 
-/// What each inner room of export may use of export beside itself. The value Product stands between the meshes, which
-/// know no pulley, and all that is made of one. (tool.h, what fusee calls itself, is everybody's.)
+/// For each inner module of export, the inner modules that it may use. Product separates the mesh formats, which know
+/// no pulley, from everything that describes one. All may use tool.h, the program's name.
 const std::map<std::string, std::set<std::string>> k_export_uses = {
     {"product", {}},
     {"mesh_files", {}},
@@ -32,14 +31,14 @@ const std::map<std::string, std::set<std::string>> k_export_uses = {
     {"kit", {"product", "mesh_files", "drawings", "report"}},
     {"model", {}},
     {"step", {"product"}}};
-/// Public headers of report beside report.h.
+/// Public headers of report other than report.h.
 const std::set<std::string> k_report_headers = {"calibration", "paper"};
 
 struct Include {
   fs::path file;  ///< relative to the source tree
   int line = 0;
   std::string target;
-  bool quoted = false;  ///< "…" and not <…>
+  bool quoted = false;  ///< "…" instead of <…>
 
   std::string says() const { return file.string() + ":" + std::to_string(line) + " includes " + target; }
 };
@@ -51,7 +50,7 @@ std::string room_of(const std::string& target) {
   return std::regex_search(target, match, pattern) && flow().count(match[1]) ? match[1].str() : "";
 }
 
-/// include/fusee/solid/mesh.h, src/solid/mesh.cpp → "solid"; export/stl.cpp → "export".
+/// include/fusee/solid/mesh.h and src/solid/mesh.cpp → "solid"; export/stl.cpp → "export".
 std::string home_of(const fs::path& file) {
   const std::string path = file.generic_string();
   for (const std::string prefix : {"include/", "src/", ""}) {
@@ -60,7 +59,7 @@ std::string home_of(const fs::path& file) {
   return "";
 }
 
-/// "export/report/svg.h", "fusee/export/report.h", "include/fusee/export/paper.h" → "report"; "" where it is in none.
+/// "export/report/svg.h", "fusee/export/report.h", "include/fusee/export/paper.h" → "report"; "" for others.
 std::string inner_room_of(const std::string& path) {
   static const std::regex pattern("^(?:include/)?(?:fusee/)?export/([a-z_]+)(?:/|\\.h$)");
   std::smatch match;
@@ -94,7 +93,7 @@ const std::vector<Include>& all_includes() {
   return includes;
 }
 
-/// Rooms whose headers the files of each room include.
+/// For each module the modules whose headers its files include.
 std::map<std::string, std::set<std::string>> rooms_included() {
   std::map<std::string, std::set<std::string>> rooms;
   for (const Include& include : all_includes()) {
@@ -104,24 +103,24 @@ std::map<std::string, std::set<std::string>> rooms_included() {
   return rooms;
 }
 
-/// The inner rooms of export count each by itself.
+/// Inner modules of export count separately.
 std::string room_or_inner_room(const fs::path& file) {
   const std::string inner = file.parent_path().generic_string();
   return inner.rfind("export/", 0) == 0 ? inner : home_of(file);
 }
 
-TEST(Rooms, AreLinkedAsTheyInclude) {
+TEST(Modules, LinkWhatTheyInclude) {
   const auto links = house::links();
   for (const auto& [home, rooms] : rooms_included()) {
     const std::set<std::string> reached = house::reached_from(home, links);
     for (const std::string& room : rooms)
-      EXPECT_TRUE(reached.count(room)) << home << " includes " << room << " and is not linked with it";
+      EXPECT_TRUE(reached.count(room)) << home << " includes " << room << " but does not link it";
     for (const std::string& room : links.at(home))
-      EXPECT_TRUE(rooms.count(room)) << home << " is linked with " << room << " and includes nothing of it";
+      EXPECT_TRUE(rooms.count(room)) << home << " links " << room << " but includes none of its headers";
   }
 }
 
-TEST(Rooms, HoldAFifthOfAllLinesAtMost) {
+TEST(Modules, HaveAFifthOfLinesAtMost) {
   std::map<std::string, long> lines;
   long all = 0;
   for (const house::Source& source : house::sources_under({"include", "src", "export"})) {
@@ -133,32 +132,32 @@ TEST(Rooms, HoldAFifthOfAllLinesAtMost) {
     EXPECT_LE(5 * count, all) << room << " has " << count << " of " << all << " lines";
 }
 
-TEST(Includes, AreFoundInEveryRoom) {
+TEST(Includes, ExistInEveryModule) {
   std::set<std::string> homes;
   for (const Include& include : all_includes()) homes.insert(home_of(include.file));
   for (const auto& [room, place] : flow()) EXPECT_TRUE(homes.count(room)) << room;
 }
 
-TEST(Includes, GoOnlyToTheLeft) {
+TEST(Includes, PointToTheLeft) {
   for (const Include& include : all_includes()) {
     const std::string home = home_of(include.file), room = room_of(include.target);
     if (!include.quoted || room.empty()) continue;
-    ASSERT_FALSE(home.empty()) << include.file << " stands in no room";
+    ASSERT_FALSE(home.empty()) << include.file << " is in no module";
     EXPECT_LE(flow().at(room), flow().at(home)) << include.says();
   }
 }
 
-TEST(Includes, OfExportKeepToTheOrderOfItsInnerRooms) {
+TEST(Includes, KeepOrderOfInnerModules) {
   for (const Include& include : all_includes()) {
     if (home_of(include.file) != "export") continue;
     const std::string home = inner_room_of(include.file.generic_string()), room = inner_room_of(include.target);
     if (room.empty() || room == home) continue;
-    ASSERT_FALSE(home.empty()) << include.file << " stands in no inner room";
+    ASSERT_FALSE(home.empty()) << include.file << " is in no inner module";
     EXPECT_TRUE(k_export_uses.at(home).count(room)) << include.says();
   }
 }
 
-TEST(Includes, OfOurOwnAreQuotedAndKnown) {
+TEST(Includes, OwnHeadersAreQuoted) {
   for (const Include& include : all_includes()) {
     if (include.quoted) {
       const bool beside = fs::exists(fs::path(FUSEE_SOURCE_DIR) / include.file.parent_path() / include.target);
@@ -169,7 +168,7 @@ TEST(Includes, OfOurOwnAreQuotedAndKnown) {
   }
 }
 
-TEST(Includes, OfPublicHeadersNameOnlyEigen) {
+TEST(Includes, PublicHeadersNeedOnlyEigen) {
   static const std::regex standard("^[a-z_0-9]+$");
   for (const Include& include : all_includes()) {
     if (include.file.generic_string().rfind("include/", 0) != 0) continue;
@@ -182,8 +181,8 @@ TEST(Includes, OfPublicHeadersNameOnlyEigen) {
   }
 }
 
-/// Heavy or telling libraries live in one place each.
-TEST(Includes, OfLibrariesStayInTheirPlaces) {
+/// Each of these libraries is included in one place only.
+TEST(Includes, LibrariesStayInTheirPlaces) {
   const std::vector<std::pair<std::regex, std::regex>> places = {
       {std::regex("^CGAL/"), std::regex("_cgal\\.(cpp|h)$")},
       {std::regex("^OpenMesh/"), std::regex("^src/solid/")},
@@ -205,7 +204,7 @@ TEST(Includes, OfLibrariesStayInTheirPlaces) {
   }
 }
 
-TEST(Rooms, AreReadFromPaths) {
+TEST(Modules, AreReadFromPaths) {
   EXPECT_EQ(room_of("fusee/solid/mesh.h"), "solid");
   EXPECT_EQ(room_of("fusee/pipeline.h"), "pipeline");
   EXPECT_EQ(room_of("cli/console.h"), "cli");

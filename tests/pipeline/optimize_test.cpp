@@ -1,4 +1,4 @@
-// The verbs `optimize` and `analyze`: what they look at, and what they leave behind.
+// The verbs `optimize` and `analyze`: values and files.
 #include <gmock/gmock.h>
 #include <stdlib.h>
 
@@ -20,9 +20,9 @@ using ::testing::HasSubstr;
 namespace joints = fusee::testing;
 namespace fs = std::filesystem;
 
-// ---- one answer to "is the pin a point?" ----------------------------------------------------------------------------
+// ---- points and pins ------------------------------------------------------------------------------------------------
 
-/// Largest T_b that the stroke from which a pulley is built gives, per newton.
+/// Largest T_b per newton over the stroke from which build() makes a pulley.
 double tension_of_build(const Mechanism& mechanism) {
   Mechanism loaded = mechanism;
   loaded.load.tip_force = 1.0;
@@ -41,8 +41,9 @@ double tension_of_analyze(const Mechanism& mechanism) {
   return analyze(file, options).largest_paper_tension.value;
 }
 
-/// A pin of radius 0 is no point: its tendon runs at half the tendon's thickness. Only method = "paper" sees points.
-TEST(Pins, AreTheSameToOptimizeAnalyzeAndBuild) {
+/// A pin of radius 0 is not a point: its tendon's centre line runs at half the tendon's diameter. Only method = "paper"
+/// has points.
+TEST(Pins, AreEqualInOptimizeAnalyzeAndBuild) {
   for (const double radius : {0.0, 2.0}) {
     for (const Method method : {Method::exact, Method::paper}) {
       Mechanism mechanism = joints::forearm();
@@ -57,7 +58,7 @@ TEST(Pins, AreTheSameToOptimizeAnalyzeAndBuild) {
   }
 }
 
-// ---- the joint as it is ---------------------------------------------------------------------------------------------
+// ---- the identified joint -------------------------------------------------------------------------------------------
 
 class Optimize : public ::testing::Test {
  protected:
@@ -81,7 +82,7 @@ class Optimize : public ::testing::Test {
 
 const std::string k_identified = "[identified]\nfriction = 0.1\nlength_mm = 4.0\n";
 
-TEST_F(Optimize, LooksAtTheJointAsItIs) {
+TEST_F(Optimize, UsesIdentifiedJoint) {
   const MechanismFile file = file_with(k_identified);
   const OptimizeResult result = optimize(file, options_);
   ASSERT_TRUE(result.found) << result.reason;
@@ -92,7 +93,7 @@ TEST_F(Optimize, LooksAtTheJointAsItIs) {
   EXPECT_GT(result.value, 1.02 * value(declared));
 }
 
-/// The bounds and what is written are of the declared numbers: what was identified is added to them afterwards.
+/// Bounds and results are declared numbers; identified effects are added to them.
 TEST_F(Optimize, WritesDeclaredNumbers) {
   options_.new_file = scratch_ / "new.toml";
   const OptimizeResult result = optimize(file_with(k_identified), options_);
@@ -104,9 +105,9 @@ TEST_F(Optimize, WritesDeclaredNumbers) {
   EXPECT_THAT(result.new_text, HasSubstr(k_identified));
 }
 
-TEST_F(Optimize, CertifiesOnlyWhatHasAnIntervalForm) {
+TEST_F(Optimize, CertifiesObjectivesWithIntervalForm) {
   EXPECT_EQ(optimize(file_with(k_identified), options_).method(), SearchMethod::genetic);
-  // How a pulley comes out when it is made is no objective's business.
+  // Manufacturing errors of the pulley change no objective.
   EXPECT_EQ(
       optimize(file_with("[identified]\nradius_offset_mm = 0.1\npulley_scale_percent = 1.0\n"), options_).method(),
       SearchMethod::certified);
@@ -114,7 +115,7 @@ TEST_F(Optimize, CertifiesOnlyWhatHasAnIntervalForm) {
   EXPECT_THROW(optimize(file_with(k_identified), options_), InputError);
 }
 
-// ---- a front is published whole or not at all -----------------------------------------------------------------------
+// ---- fronts ---------------------------------------------------------------------------------------------------------
 
 class Front : public Optimize {
  protected:
@@ -129,7 +130,7 @@ class Front : public Optimize {
   }
 };
 
-TEST_F(Front, IsAValueAndItsFiles) {
+TEST_F(Front, HasValueAndFiles) {
   const OptimizeResult result = front();
   const auto& points = std::get<ParetoResult>(result.search).front;
   ASSERT_GT(points.size(), 1u);
@@ -144,8 +145,8 @@ TEST_F(Front, IsAValueAndItsFiles) {
                           [&](const FrontPoint& point) { return point.design == result.design; }));
 }
 
-/// The second name is taken: the first must not be left behind either.
-TEST_F(Front, LeavesNothingWhereOneFileCannotBe) {
+/// The second file cannot be written: the first must not remain either.
+TEST_F(Front, LeavesNothingIfOneFileFails) {
   fs::create_directories(options_.front_folder);
   write_file(options_.front_folder / "point_002.toml", "mine", false);
   EXPECT_THROW(front(), OutputError);
@@ -153,7 +154,7 @@ TEST_F(Front, LeavesNothingWhereOneFileCannotBe) {
   EXPECT_EQ(read_file(options_.front_folder / "point_002.toml", 100), "mine");
 }
 
-TEST_F(Front, IsNotPublishedInADryRun) {
+TEST_F(Front, DryRunWritesNothing) {
   options_.dry_run = true;
   EXPECT_FALSE(front().published);
   EXPECT_FALSE(fs::exists(options_.front_folder));
@@ -161,13 +162,13 @@ TEST_F(Front, IsNotPublishedInADryRun) {
 
 // ---- analyze --------------------------------------------------------------------------------------------------------
 
-TEST(Analyze, RefusesAJointWithoutTendons) {
+TEST(Analyze, RejectsJointWithoutTendons) {
   MechanismFile file;
   file.mechanism.transmission = RatioTransmission{2.0};
   EXPECT_THROW(analyze(file), InputError);
 }
 
-TEST(Analyze, LooksAtTheJointAsItIs) {
+TEST(Analyze, UsesIdentifiedJoint) {
   MechanismFile file;
   file.mechanism = joints::forearm();
   file.mechanism.load.tip_force = 10.0;
@@ -180,7 +181,7 @@ TEST(Analyze, LooksAtTheJointAsItIs) {
 
 // ---- several turns --------------------------------------------------------------------------------------------------
 
-/// The less r1, the less torque of the motor: over 110 degrees of a drum of 90 mm it decides how often a pulley turns.
+/// The smaller r1, the smaller the motor torque: over 110 degrees of a drum of 90 mm it determines the number of turns.
 OptimizeResult least_torque(const std::string& winding, const char* bend_ratio = "8") {
   const MechanismFile file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / "elbow_capstan.toml",
                                             {{"pulley.r1_mm", "35"},
@@ -200,11 +201,11 @@ OptimizeResult least_torque(const std::string& winding, const char* bend_ratio =
   return optimize(file, options);
 }
 
-TEST(OptimizeTurns, TakesPulleysOfSeveralTurnsThatBuildMakes) {
+TEST(OptimizeTurns, FindsBuildablePulleys) {
   const OptimizeResult one = least_torque("\"one_turn\""), several = least_torque("\"auto\"");
   ASSERT_TRUE(one.found) << one.reason;
   ASSERT_TRUE(several.found) << several.reason;
-  // 110 degrees of 90 mm are 172.8 mm: a round pulley that takes them in less than a turn is larger than 27.5 mm.
+  // 110 degrees of 90 mm are 172.8 mm: a round pulley that winds them in one turn is larger than 27.5 mm.
   EXPECT_GT(one.design[0], 27.5);
   EXPECT_LT(several.design[0], 9.0);
   EXPECT_LT(several.value, 0.35 * one.value);
@@ -221,7 +222,7 @@ TEST(OptimizeTurns, TakesPulleysOfSeveralTurnsThatBuildMakes) {
   EXPECT_GT(built.product.helix->synthesis.sides[0].turns, 3.0);
   EXPECT_LT(degrees(built.product.as_built.max_theta_error), 0.01);
 
-  // The tendon of 0.6 mm sets the limit where it wants more than the r1 of 7 mm that may be.
+  // The bend of the 0.6 mm tendon is the limit if it requires more than r1 ≥ 7 mm.
   const OptimizeResult gentle = least_torque("\"auto\"", "40");
   ASSERT_TRUE(gentle.found) << gentle.reason;
   EXPECT_GT(gentle.design[0], 12.0);

@@ -1,4 +1,4 @@
-// src/README.md, the page of the code, is held against the code, and the pages that name equations and tests too.
+// Checks src/README.md against the code, and the equations and tests that other pages name.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ const std::vector<Source>& house() {
   return sources;
 }
 
-/// A row of a table, or a paragraph: what is named together.
+/// Table rows and paragraphs: names of one passage belong together.
 std::vector<std::string> passages_of(const std::string& page) {
   std::vector<std::string> passages = {""};
   std::istringstream lines(page);
@@ -37,7 +37,7 @@ std::vector<std::string> passages_of(const std::string& page) {
   return passages;
 }
 
-/// What stands in `backticks`.
+/// The names in `backticks`.
 std::vector<std::string> named_in(const std::string& passage) {
   static const std::regex pattern("`([^`]+)`");
   std::vector<std::string> names;
@@ -49,14 +49,14 @@ bool is_command(const std::string& name) { return name.rfind("fusee ", 0) == 0; 
 bool is_function(const std::string& name) { return name.size() > 2 && name.substr(name.size() - 2) == "()"; }
 bool is_path(const std::string& name) { return name.find('/') != std::string::npos; }
 
-/// Functions of the house begin their definition or declaration in the first column; calls do not.
+/// Definitions and declarations begin in the first column; calls do not.
 bool has_function(const std::string& path, const std::string& name) {
   const std::string words = name.substr(0, name.size() - 2);
   const std::regex pattern("(^|\n)[A-Za-z][^\n;={]*\\b" + words + "\\(");
   return std::regex_search(code_of(text_of(path)), pattern);
 }
 
-/// A type, a key, a name that outputs have: it stands somewhere in the house, or a file ends so.
+/// True for a type, key or name in outputs: it occurs in the code, or a file name ends in it.
 bool is_word_of_the_house(const std::string& name) {
   const std::string word = std::regex_replace(name, std::regex("^\\[|\\]$"), "");
   return fs::exists(k_root / name) || std::any_of(house().begin(), house().end(), [&](const Source& source) {
@@ -73,7 +73,7 @@ std::string why_untrue(const std::string& name, const std::vector<std::string>& 
   const bool found = std::any_of(beside.begin(), beside.end(), [&](const std::string& path) {
     return is_path(path) && fs::is_regular_file(k_root / path) && has_function(path, name);
   });
-  return found ? "" : "no file named beside " + name + " has it";
+  return found ? "" : "no file in the passage of " + name + " defines it";
 }
 
 std::vector<std::string> untrue_in(const std::string& page) {
@@ -88,7 +88,7 @@ std::vector<std::string> untrue_in(const std::string& page) {
   return words;
 }
 
-TEST(Page, NamesOnlyWhatThereIs) { EXPECT_THAT(untrue_in(text_of("src/README.md")), IsEmpty()); }
+TEST(Page, NamesExist) { EXPECT_THAT(untrue_in(text_of("src/README.md")), IsEmpty()); }
 
 bool is_test(const std::string& name) {
   static const std::regex pattern("[A-Z][A-Za-z]+\\.[A-Za-z_]+");
@@ -103,7 +103,7 @@ bool there_is_test(const std::string& name) {
   });
 }
 
-/// Of what a page for users names in backticks, what is ours to keep true: files, functions, tests.
+/// Checks the names in backticks of a page for users as far as they are the project's: files, functions, tests.
 std::vector<std::string> untrue_for_users_in(const std::string& page) {
   std::vector<std::string> words;
   for (const std::string& passage : passages_of(page)) {
@@ -118,7 +118,7 @@ std::vector<std::string> untrue_for_users_in(const std::string& page) {
   return words;
 }
 
-TEST(Page, OfThePhysicsNamesOnlyWhatThereIs) {
+TEST(Page, NamesOnUserPagesExist) {
   for (const char* page : {"background/physics.md", "background/calibration.md", "background/guarantees.md",
                            "background/certified-optimum.md", "development/architecture.md", "development/extending.md",
                            "development/testing.md", "development/releasing.md"}) {
@@ -126,7 +126,7 @@ TEST(Page, OfThePhysicsNamesOnlyWhatThereIs) {
   }
 }
 
-TEST(Page, HasEveryRoomInTheOrderOfTheFlow) {
+TEST(Page, ListsModulesInOrder) {
   static const std::regex row("^\\| `([a-z]+)` \\|");
   std::vector<std::string> rooms;
   for (const std::string& passage : passages_of(text_of("src/README.md"))) {
@@ -136,17 +136,17 @@ TEST(Page, HasEveryRoomInTheOrderOfTheFlow) {
   EXPECT_EQ(rooms, rooms_in_flow());
 }
 
-TEST(Page, IsSeenToBeUntrue) {
+TEST(Page, DetectsUnknownNames) {
   EXPECT_THAT(untrue_in("`read_file()` in `src/base/files.cpp`; `fusee build`\n"), IsEmpty());
   EXPECT_THAT(untrue_in("| `read_file()` | `src/base/text.cpp` |\n| `src/base/files.cpp` |\n"),
-              ElementsAre("no file named beside read_file() has it"));
+              ElementsAre("no file in the passage of read_file() defines it"));
   EXPECT_THAT(untrue_in("`src/base/nowhere.cpp`\n\n`Mechanism`, `Mechanizm`\n```\n`fenced`\n```\n"),
               ElementsAre("there is no src/base/nowhere.cpp", "nothing is called Mechanizm"));
-  EXPECT_THAT(untrue_for_users_in("`Page.IsSeenToBeUntrue` `Page.IsNot` `law = 1/2` `src/base/nowhere.cpp`"),
+  EXPECT_THAT(untrue_for_users_in("`Page.DetectsUnknownNames` `Page.IsNot` `law = 1/2` `src/base/nowhere.cpp`"),
               ElementsAre("there is no test Page.IsNot", "there is no src/base/nowhere.cpp"));
-  // It calls it, and that is not where a reader finds it.
+  // build.cpp calls the function but does not define it.
   EXPECT_THAT(untrue_in("`synthesise()` in `src/pipeline/build.cpp`"),
-              ElementsAre("no file named beside synthesise() has it"));
+              ElementsAre("no file in the passage of synthesise() defines it"));
 }
 
 }  // namespace

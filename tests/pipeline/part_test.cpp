@@ -1,4 +1,4 @@
-// Rewinding what is right gives the declared law; what was broken on purpose is found out.
+// Rewinding an intact part gives the declared law; deliberate faults are detected.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ class MadePart : public ::testing::Test {
     for (Vec3& vertex : mesh.vertices) change(vertex);
     return mesh;
   }
-  /// The names of what fails when tendons are wound on it.
+  /// The names of failed checks after winding tendons on the part.
   static std::vector<std::string> failures(const Part& part) {
     std::vector<std::string> names;
     for (const Check& check : as_built_checks(*mechanism_, rewind_part({*mechanism_, {}}, part), {})) {
@@ -58,42 +58,42 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-TEST_F(MadePart, AsMadePasses) { EXPECT_THAT(failures(*mesh_), IsEmpty()); }
+TEST_F(MadePart, UnchangedPartPasses) { EXPECT_THAT(failures(*mesh_), IsEmpty()); }
 
-TEST_F(MadePart, InsideOutGivesTheSameAngles) {
+TEST_F(MadePart, InsideOutHasSameAngles) {
   TriangleMesh mesh = *mesh_;
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   EXPECT_NEAR(rewind_part({*mechanism_, {}}, mesh).max_theta_error,
               rewind_part({*mechanism_, {}}, *mesh_).max_theta_error, 1e-9);
 }
 
-TEST_F(MadePart, PrintedTooSmallGivesWrongAngles) {
+TEST_F(MadePart, DetectsSmallPrint) {
   EXPECT_THAT(failures(changed([](Vec3& v) { v.head<2>() *= 0.995; })), Contains("theta_error"));
 }
 
-TEST_F(MadePart, BoredOffCentreGivesWrongAnglesAndSlack) {
+TEST_F(MadePart, DetectsEccentricBore) {
   EXPECT_THAT(failures(changed([](Vec3& v) { v.x() += 0.2; })), ElementsAre("theta_error", "slack"));
 }
 
-TEST_F(MadePart, MirroredIsFoundOut) {
+TEST_F(MadePart, DetectsMirroring) {
   EXPECT_THAT(failures(changed([](Vec3& v) { v.x() = -v.x(); })), Contains("slack"));
 }
 
-TEST_F(MadePart, TurnedOnItsShaftLeavesSlack) {
+TEST_F(MadePart, DetectsTurnOnShaft) {
   // The profile meets the tendons at the wrong place.
   const double c = std::cos(radians(5.0)), s = std::sin(radians(5.0));
   EXPECT_THAT(failures(changed([&](Vec3& v) { v.head<2>() = Vec2(c * v.x() - s * v.y(), s * v.x() + c * v.y()); })),
               Contains("slack"));
 }
 
-TEST_F(MadePart, WithoutGroovesIsBadInput) {
+TEST_F(MadePart, RejectsPartWithoutGrooves) {
   EXPECT_THROW(rewind_part({*mechanism_, {}}, changed([](Vec3& v) { v.z() += 1000; })), InputError);
   EXPECT_THROW(rewind_part({*mechanism_, {}}, TriangleMesh()), InputError);
 }
 
-// ---- where a slicer put it -----------------------------------------------------------------------
+// ---- moved parts ---------------------------------------------------------------------------------
 
-/// Upside down about x or not, then turned, then moved; as floats of an STL hold it.
+/// Turned over about x or not, then turned about its axis, then moved; rounded to floats as in an STL.
 TriangleMesh put(TriangleMesh mesh, bool over, double turn_deg, const Vec3& by) {
   for (Vec3& v : mesh.vertices) {
     if (over) v = Vec3(v.x(), -v.y(), -v.z());
@@ -103,7 +103,7 @@ TriangleMesh put(TriangleMesh mesh, bool over, double turn_deg, const Vec3& by) 
   return rounded_to_float(mesh);
 }
 
-TEST_F(MadePart, UnmovedIsWoundAsItLiesToTheBit) {
+TEST_F(MadePart, UnmovedPartIsNotChanged) {
   const RewoundPart part = rewind_moved_part({*mechanism_, {}}, *mesh_);
   EXPECT_EQ(part.place, PartPlace::as_made);
   EXPECT_THAT(part.placements, IsEmpty());
@@ -112,7 +112,7 @@ TEST_F(MadePart, UnmovedIsWoundAsItLiesToTheBit) {
   EXPECT_EQ(part.as_built.max_slack, as_it_lies.max_slack);
 }
 
-TEST_F(MadePart, MovedGivesTheSameAngles) {
+TEST_F(MadePart, MovedPartHasSameAngles) {
   const RewindResult unmoved = rewind_part({*mechanism_, {}}, *mesh_);
   for (const bool over : {false, true}) {
     for (const double turn : {0.0, 90.0, 213.4}) {
@@ -127,8 +127,8 @@ TEST_F(MadePart, MovedGivesTheSameAngles) {
   }
 }
 
-TEST_F(MadePart, WhatIsWrongStaysWrongWhereverItIsPut) {
-  // Small by half a per cent: what does not fit better elsewhere was not moved, and moved it is as wrong.
+TEST_F(MadePart, FaultRemainsAfterMove) {
+  // Half a per cent too small: the part fits no better elsewhere, so it was not moved, and its error remains.
   const TriangleMesh small = changed([](Vec3& v) { v.head<2>() *= 0.995; });
   const RewindResult as_it_lies = rewind_part({*mechanism_, {}}, small);
   EXPECT_EQ(rewind_moved_part({*mechanism_, {}}, small).place, PartPlace::as_made);
@@ -138,7 +138,7 @@ TEST_F(MadePart, WhatIsWrongStaysWrongWhereverItIsPut) {
   EXPECT_GT(degrees(moved.as_built.max_theta_error), 0.05);
 }
 
-TEST_F(MadePart, MirroredOrInInchesIsRefusedWithWords) {
+TEST_F(MadePart, RejectsMirroredOrScaledPart) {
   const auto message = [](const TriangleMesh& mesh) {
     try {
       rewind_moved_part({*mechanism_, {}}, mesh);
@@ -152,16 +152,16 @@ TEST_F(MadePart, MirroredOrInInchesIsRefusedWithWords) {
               ::testing::HasSubstr("mirror image"));
   EXPECT_THAT(message(changed([](Vec3& v) { v /= 25.4; })), ::testing::HasSubstr("inches: scale it by 25.4"));
   EXPECT_THAT(message(changed([](Vec3& v) { v *= 1.1; })), ::testing::HasSubstr("1.1 times the size"));
-  // Not every other size is a unit's.
+  // Other scales are not explained by a unit.
   EXPECT_THAT(message(changed([](Vec3& v) { v *= 1.1; })), ::testing::HasSubstr("another pulley.r1_mm"));
   EXPECT_EQ(message(*mesh_), "taken");
   EXPECT_EQ(message(changed([](Vec3& v) { v *= 1.004; })), "taken");
 }
 
-TEST_F(MadePart, BothPulleysSideBySideAreBothFound) {
+TEST_F(MadePart, FindsPulleysSideBySide) {
   const BodyLayout layout = resolve_layout(*mechanism_, *synthesis_);
   const double middle = 0.5 * (layout.z_p1 + layout.z_p2);
-  // Facets between the grooves bridge the cut, and are left out.
+  // Facets between the grooves bridge the cut, and are omitted.
   TriangleMesh lower{mesh_->vertices, {}}, upper = lower;
   for (const auto& triangle : mesh_->triangles) {
     const auto is_above = [&](std::uint32_t vertex) { return mesh_->vertices[vertex].z() > middle; };
@@ -186,7 +186,7 @@ TEST_F(MadePart, BothPulleysSideBySideAreBothFound) {
   EXPECT_LT(part.as_built.max_slack, 0.01);
 }
 
-TEST_F(MadePart, OfAnotherMechanismIsWoundWhereItLiesAndSaidSo) {
+TEST_F(MadePart, ReportsPartOfAnotherMechanism) {
   Mechanism other = *mechanism_;
   other.guides.ED = 62;
   other.guides.OE = -25;
@@ -220,13 +220,13 @@ TEST_F(MadePart, HasItsSize) {
   EXPECT_FALSE(flat.volume);
 }
 
-TEST_F(MadePart, MayBeTextInUtf16OrWithCarriageReturnsAlone) {
+TEST_F(MadePart, ReadsUtf16AndCarriageReturns) {
   const std::string square = "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n40\n50\n0\nENDSEC\n0\nEOF\n";
   std::string utf16 = "\xFF\xFE", cr = square;
   for (const char c : square) utf16 += {c, '\0'};
   std::replace(cr.begin(), cr.end(), '\n', '\r');
   for (const std::string& bytes : {utf16, cr}) {
-    // Without an ending that tells it.
+    // Without a file name ending that shows the format.
     const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "round_part";
     std::ofstream(file, std::ios::binary) << bytes;
     const Part part = read_part(file);
@@ -236,7 +236,7 @@ TEST_F(MadePart, MayBeTextInUtf16OrWithCarriageReturnsAlone) {
   }
 }
 
-TEST_F(MadePart, AsADrawingOfFloorsOrOfPitchCurvesGivesTheSameAngles) {
+TEST_F(MadePart, DrawingHasSameAngles) {
   const double floor = -0.5 * mechanism_->tendon.diameter;
   Drawing floors, pitches;
   floors.paths = {path("P1_FLOOR", synthesis_->p1, floor), path("P2_FLOOR", synthesis_->p2, floor)};
@@ -244,19 +244,19 @@ TEST_F(MadePart, AsADrawingOfFloorsOrOfPitchCurvesGivesTheSameAngles) {
   const RewindResult by_floors = rewind_part({*mechanism_, {}}, floors),
                      by_pitches = rewind_part({*mechanism_, {}}, pitches);
   EXPECT_LT(degrees(by_floors.max_theta_error), 0.005);
-  // The tolerance of the polygons: 0.01 mm of tendon is 0.01° here.
+  // Chord error of the polygons: 0.01 mm of tendon is 0.01° here.
   EXPECT_NEAR(degrees(by_floors.max_theta_error), degrees(by_pitches.max_theta_error), 0.005);
   std::swap(floors.paths[0].layer, floors.paths[1].layer);
   EXPECT_THAT(failures(floors), Contains("slack"));
 }
 
-TEST_F(MadePart, AsADrawingWithoutLayersIsBadInput) {
+TEST_F(MadePart, RejectsDrawingWithoutLayers) {
   Drawing drawing;
   drawing.paths = {path("P1_FLOOR", synthesis_->p1, 0)};
   EXPECT_THROW(rewind_part({*mechanism_, {}}, drawing), InputError);
 }
 
-TEST_F(MadePart, LargerForShrinkageIsWoundAtItsShrunkSize) {
+TEST_F(MadePart, RewindsAtShrunkSize) {
   Mechanism shrinking = *mechanism_;
   shrinking.material.shrinkage = 0.02;
   const TriangleMesh mesh = make_pulley(shrinking, synthesise(shrinking)).mesh;
@@ -266,7 +266,7 @@ TEST_F(MadePart, LargerForShrinkageIsWoundAtItsShrunkSize) {
 
 bool agree(const std::vector<Check>& checks) { return all_ok(checks); }
 
-TEST_F(MadePart, AgreesWithItselfAlone) {
+TEST_F(MadePart, EqualsOnlyItself) {
   EXPECT_TRUE(agree(same_mesh(*mesh_, *mesh_)));
   TriangleMesh moved = *mesh_;
   moved.vertices[100].x() = std::nextafter(static_cast<float>(moved.vertices[100].x()), 1000.0F);
@@ -277,7 +277,7 @@ TEST_F(MadePart, AgreesWithItselfAlone) {
   EXPECT_FALSE(agree(near_mesh(*mesh_, fewer, 0.01)));
 }
 
-TEST_F(MadePart, IsNearWhatIsReorderedAndRounded) {
+TEST_F(MadePart, ToleratesReorderingAndRounding) {
   TriangleMesh other = changed([](Vec3& v) { v = (v * 256.0).array().round() / 256.0; });
   std::reverse(other.triangles.begin(), other.triangles.end());
   EXPECT_TRUE(agree(near_mesh(*mesh_, other, 0.01)));

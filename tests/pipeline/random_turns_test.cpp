@@ -1,5 +1,5 @@
-// Random joints whose pulleys turn several times, through the whole making: each is made, with every check, or refused
-// for what the design is, never for what became of its mesh. FUSEE_LAW_CASES: how many (24); FUSEE_LAW_SEED: which (1).
+// Random joints whose pulleys have several turns, through the whole build: each is built with all checks, or refused
+// for its design, never for its mesh. FUSEE_LAW_CASES: number of joints (24); FUSEE_LAW_SEED: seed (1).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 using namespace fusee;
 
-/// Numbers of its own, the same on every machine.
+/// A random number generator with equal results on every machine.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : bits_(seed) {}
@@ -70,7 +70,7 @@ void add_capstan(Dice& dice, std::vector<Setting>& settings) {
   settings.push_back({"joint.length_mm", fmt::format("{:.3f}", drum + 0.3)});
   settings.push_back({"joint.attachment1_mm", tie});
   settings.push_back({"joint.attachment2_mm", tie});
-  // All of both tendons' paths along the drum.
+  // The length of both tendons' paths along the drum.
   settings.push_back({"guides.EB_mm", fmt::format("{:.3f}", 1.45 * drum)});
   settings.push_back({"guides.ED_mm", fmt::format("{:.3f}", 1.45 * drum)});
   settings.push_back({"guides.OE_mm", fmt::format("{:.3f}", 1.45 * drum)});
@@ -101,7 +101,7 @@ TurningJoint draw_joint(std::uint64_t seed) {
   return joint;
 }
 
-/// Thrown at the first try: advice is a matter of its own.
+/// Thrown at the first trial: advice is tested elsewhere.
 struct NoTries {};
 
 enum class End { made, refused, bad_input };
@@ -130,7 +130,7 @@ Outcome outcome_of(const TurningJoint& joint, BuildOptions options) {
     if (built.status == BuildStatus::infeasible) return {End::refused, 0};
     return {End::made, built.product.as_built.max_theta_error};
   } catch (const NoTries&) {
-    // Why is not to be had then: made once more, without advice.
+    // The exception hides the reason, so the design is repeated without advice.
     Product product;
     product.file = read_mechanism(path, joint.settings);
     product.joint = as_it_is(product.file.mechanism);
@@ -151,11 +151,11 @@ int number_of(const char* variable, int otherwise) {
   return text == nullptr ? otherwise : std::atoi(text);
 }
 
-constexpr int k_shards = 4;  // so that ctest may run them side by side
+constexpr int k_shards = 4;  // so that ctest can run them in parallel
 
 class RandomTurns : public ::testing::TestWithParam<int> {};
 
-TEST_P(RandomTurns, AreMadeOrRefusedForTheDesign) {
+TEST_P(RandomTurns, AreBuiltOrRefusedForDesign) {
   const int cases = number_of("FUSEE_LAW_CASES", 24), seed = number_of("FUSEE_LAW_SEED", 1);
   int made = 0, refused = 0, bad = 0;
   double worst = 0;

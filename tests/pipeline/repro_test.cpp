@@ -1,5 +1,5 @@
-// Designs that fusee once got wrong: a sound part that failed a check, a refusal that was called a bug, advice that did
-// not help. Each is made, or refused with advice that builds.
+// Regressions: designs with a sound part that failed a check, a refusal reported as a bug, or advice that did not help.
+// Each is built, or refused with advice that builds.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 struct Repro {
   const char* name;
-  const char* path;  ///< from the source folder on
+  const char* path;  ///< relative to the source folder
   std::vector<Setting> settings;
   double tolerance = 0.01;
   BuildStatus status = BuildStatus::done;
@@ -40,7 +40,7 @@ BuildResult dry_run(const Repro& repro, std::vector<Setting> more = {}) {
   return build(read_mechanism(fs::path(FUSEE_SOURCE_DIR) / repro.path, more), options);
 }
 
-/// As a person would type it.
+/// The setting as a user types it.
 Setting setting_of(const Change& change, const Mechanism& mechanism) {
   if (!change.to_word.empty()) return {change.key, change.to_word};
   const std::string number = fmt::format("{}", change.to);
@@ -54,7 +54,7 @@ Setting setting_of(const Change& change, const Mechanism& mechanism) {
 
 class Repros : public ::testing::TestWithParam<Repro> {};
 
-TEST_P(Repros, IsMadeOrRefusedWithAdviceThatBuilds) {
+TEST_P(Repros, IsBuiltOrRefusedWithValidAdvice) {
   const BuildResult built = dry_run(GetParam());
   ASSERT_EQ(built.status, GetParam().status) << shown(built);
   if (built.status == BuildStatus::done) return;

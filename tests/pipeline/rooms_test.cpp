@@ -1,5 +1,4 @@
-// The flow is drawn once, in the top CMakeLists.txt. These tests hold every other list of rooms against it, so that
-// none can leave one out.
+// The order of modules is drawn once, in the top CMakeLists.txt. All other lists of modules must agree with it.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -35,35 +34,35 @@ std::vector<std::string> folders_in(const fs::path& folder) {
   return names;
 }
 
-TEST(Flow, HasARoomOnce) {
+TEST(Modules, AreUniqueInOrder) {
   EXPECT_EQ(flow().size(), rooms_in_flow().size());
   EXPECT_EQ(rooms_in_flow().front(), "base");
   EXPECT_EQ(rooms_in_flow().back(), "cli");
 }
 
-TEST(Flow, KnowsEveryFolder) {
+TEST(Modules, IncludeEveryFolder) {
   for (const std::string& folder : folders_in("src")) EXPECT_THAT(rooms_in_flow(), Contains(folder));
   for (const std::string& folder : folders_in("include/fusee")) EXPECT_THAT(rooms_in_flow(), Contains(folder));
 }
 
-TEST(Flow, IsTheOrderInWhichRoomsAreBuilt) {
+TEST(Modules, AreBuiltInOrder) {
   EXPECT_EQ(arguments_of(text_of("src/CMakeLists.txt"), "add_subdirectory"), flow_without({"export"}));
 }
 
-/// But for the two ends, which are no libraries: the program and the Python module.
-TEST(Flow, IsInstalledWhole) {
+/// All but the ends of the order, which are not libraries: the program and the Python module.
+TEST(Modules, AreInstalled) {
   EXPECT_EQ(list_in(text_of("src/install.cmake"), "set", "FUSEE_ROOMS"), flow_without({"python", "cli"}));
 }
 
-TEST(Flow, IsLinkedFromRightToLeft) {
+TEST(Modules, LinkFromRightToLeft) {
   const std::map<std::string, int> place = flow();
   for (const auto& [room, linked] : links()) {
     for (const std::string& other : linked) EXPECT_LT(place.at(other), place.at(room)) << room << " ← " << other;
   }
 }
 
-/// A folder that the list leaves out is a folder of tests that nobody runs.
-TEST(Flow, HasAllItsTestsRun) {
+/// A folder of tests that is missing from the list would never run.
+TEST(Modules, HaveTests) {
   const std::vector<std::string> listed = list_in(text_of("tests/CMakeLists.txt"), "foreach", "folder");
   for (const std::string& folder : folders_in("tests")) {
     if (!fs::exists(k_root / "tests" / folder / "CMakeLists.txt")) continue;
@@ -71,7 +70,7 @@ TEST(Flow, HasAllItsTestsRun) {
   }
 }
 
-TEST(Flow, IsReadFromCMake) {
+TEST(Modules, AreReadFromCMake) {
   const std::string text = "add_subdirectory(a)  # add_subdirectory(b)\nset(ROOMS a b\n  c)\nset(OTHER d)\n";
   EXPECT_THAT(arguments_of(text, "add_subdirectory"), ElementsAre("a"));
   EXPECT_THAT(list_in(text, "set", "ROOMS"), ElementsAre("a", "b", "c"));

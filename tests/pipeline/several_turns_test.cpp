@@ -1,4 +1,4 @@
-// Joints whose pulleys turn further than once: what is made, what is refused, and in which words.
+// Pulleys of several turns: builds, refusals and messages.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ std::string failures_of(const BuildResult& built) {
   return text;
 }
 
-/// All that is said of a build that ends well.
+/// All messages of a successful build.
 std::string words_of(const BuildResult& built) {
   std::string text;
   for (const std::string& warning : built.product.synthesis.warnings) text += "warning: " + warning + "\n";
@@ -63,7 +63,7 @@ std::string text_of(const BuildResult& built, const std::string& name) {
 
 class SeveralTurns : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(SeveralTurns, AreMadeAndGiveTheDeclaredLaw) {
+TEST_P(SeveralTurns, FollowDeclaredLaw) {
   const BuildResult built = made(read_profile(GetParam()));
   ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
   ASSERT_TRUE(built.product.helix);
@@ -76,7 +76,7 @@ TEST_P(SeveralTurns, AreMadeAndGiveTheDeclaredLaw) {
 INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurns, ::testing::Values("wrist_turns", "elbow_capstan", "fusee_proper"),
                          [](const auto& which) { return which.param; });
 
-/// What a joint with this pulley does when its pins, lengths and grooves are otherwise, and the pulley does not know.
+/// Smallest error of θ, deg, when pins, lengths and grooves deviate and the pulley is not corrected.
 double uncorrected(const std::string& profile, const JointAsItIs& joint) {
   const Product product = made(read_profile(profile)).product;
   const std::vector<FloorLine> floors = helical_floors(product.pulley.mesh, product.pulley.layout.scale);
@@ -89,13 +89,13 @@ struct Found {
   const char* profile;
   const char* key;
   const char* value;
-  double without;  ///< degrees that it makes of θ at least, where pins and lengths do
+  double without;  ///< minimum of that error where pins and lengths deviate
 };
 
 class IdentifiedTurns : public ::testing::TestWithParam<Found> {};
 
-// The corrected pulley of several turns gives the declared law on the joint as it is, wound with a string on its mesh.
-TEST_P(IdentifiedTurns, AreTakenOutByThePulley) {
+// The corrected pulley follows the declared law on the identified joint, rewound on its mesh.
+TEST_P(IdentifiedTurns, AreCorrectedByPulley) {
   const Found& found = GetParam();
   const BuildResult built = made(read_profile(found.profile, {{std::string("identified.") + found.key, found.value}}));
   ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Of, IdentifiedTurns,
                                            Found{"elbow_capstan", "pulley_scale_percent", "1", 0}),
                          [](const auto& which) { return std::string(which.param.profile) + "_" + which.param.key; });
 
-/// A place of a pitch curve in profile.csv, of what the range winds.
+/// A point of a pitch curve in profile.csv, within the range.
 struct Place {
   double x = 0, y = 0, turn = 0;
   double radius() const { return x * std::cos(turn) + y * std::sin(turn); }
@@ -146,11 +146,10 @@ std::map<std::string, std::vector<Place>> curves_in(const std::string& table) {
   return curves;
 }
 
-// A string about a barrel of pitch radius 50.3 mm, over a pin of 8 mm, and on the curves in the file: how far the
-// barrel has turned follows from how much of the string is wound, and the spring's torque from that. The clockmaker's
-// rule is then that the chain's pull times the fusee's radius is the same at every place. (Level strings: 0.02 % is the
-// slope's.)
-TEST(TheFuseeOfAClock, PullTimesRadiusIsTheSameAllTheWay) {
+// A string runs from a barrel of pitch radius 50.3 mm over a pin of 8 mm onto the curves in the file. The wound length
+// gives the barrel's angle, and that the spring's torque. By the clockmaker's rule the chain's pull times the fusee's
+// radius is constant. (For level strings; the slope adds 0.02 %.)
+TEST(TheFuseeOfAClock, PullTimesRadiusIsConstant) {
   constexpr double k_barrel = 50.3, k_pin = 8.3, k_torque = 66.6667;
   const double to_pin = std::hypot(70.0, 180.0);
   const BuildResult built = made(read_profile("fusee_proper"));
@@ -165,7 +164,7 @@ TEST(TheFuseeOfAClock, PullTimesRadiusIsTheSameAllTheWay) {
       paid_out.push_back(wound + hand * (std::sqrt(to_pin * to_pin - out * out) - k_pin * std::asin(out / to_pin)) -
                          curve[i].along());
     }
-    // Home is where 400 N mm are held.
+    // At home 400 N mm are held.
     const double home = k_torque * k_barrel / 400.0;
     const auto at_home = std::min_element(curve.begin(), curve.end(), [home](const Place& a, const Place& b) {
       return std::abs(a.radius() - home) < std::abs(b.radius() - home);
@@ -183,9 +182,8 @@ TEST(TheFuseeOfAClock, PullTimesRadiusIsTheSameAllTheWay) {
   }
 }
 
-// The mesh is wound, and what turns it has done the work that is in the spring: 66.67 alpha = 400 theta + 50.93
-// theta²/2.
-TEST(TheFuseeOfAClock, StoresInTheSpringWhatTurnsIt) {
+// The work that turns the wound mesh equals the energy in the spring: 66.67 alpha = 400 theta + 50.93 theta²/2.
+TEST(TheFuseeOfAClock, SpringStoresWork) {
   const BuildResult built = made(read_profile("fusee_proper"));
   ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
   ASSERT_GT(built.product.as_built.points.size(), 50U);
@@ -195,7 +193,7 @@ TEST(TheFuseeOfAClock, StoresInTheSpringWhatTurnsIt) {
   }
 }
 
-TEST(SeveralTurnsFiles, SayWhereTheCurvesClimb) {
+TEST(SeveralTurnsFiles, ListHelicalCurves) {
   const BuildResult built = made(read_profile("wrist_turns"));
   ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
   std::istringstream profile(text_of(built, "profile.csv"));
@@ -212,8 +210,8 @@ TEST(SeveralTurnsFiles, SayWhereTheCurvesClimb) {
   EXPECT_THAT(built.product.pulley.layout.notes, Contains(HasSubstr("there is no plates.dxf")));
 }
 
-// Both polylines of each groove, as another program sees them: the working arc's turns, and its height from end to end.
-TEST(SeveralTurnsFiles, DrawTheSpiralsInSpace) {
+// Both polylines of each groove as another program reads them: turns of the working arc, and height from end to end.
+TEST(SeveralTurnsFiles, DrawSpiralsInSpace) {
   for (const DxfVersion version : {DxfVersion::ac1015, DxfVersion::r12}) {
     BuildOptions options;
     options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns";
@@ -239,7 +237,7 @@ TEST(SeveralTurnsFiles, DrawTheSpiralsInSpace) {
   }
 }
 
-TEST(SeveralTurnsFiles, AreAProgramThatKnowsBothGrooves) {
+TEST(SeveralTurnsFiles, ScadHasBothGrooves) {
   const BuildResult built = made(read_profile("fusee_proper"));
   const std::string program = text_of(built, "pulley.scad");
   for (const char* has :
@@ -248,8 +246,9 @@ TEST(SeveralTurnsFiles, AreAProgramThatKnowsBothGrooves) {
   for (const char* none : {"module channel", "//= ", "face_holes"}) EXPECT_THAT(program, Not(HasSubstr(none)));
 }
 
-// Channels have gables of 57.5° at least: with flatter ones, on printers that hang out further, none could be cut.
-TEST(SeveralTurnsPrint, AreMadeForEveryPrinter) {
+// The channels' roofs slope by 57.5° at least: flatter ones would be impossible on printers with steeper overhang
+// limits.
+TEST(SeveralTurnsPrint, FitEveryPrinter) {
   for (const char* profile : {"wrist_turns", "elbow_capstan"}) {
     for (const char* overhang : {"20", "35", "60", "70"})
       EXPECT_EQ(made(read_profile(profile, {{"print.overhang_deg", overhang}})).status, BuildStatus::done)
@@ -258,24 +257,24 @@ TEST(SeveralTurnsPrint, AreMadeForEveryPrinter) {
   }
 }
 
-// 4.68° at most: 1/cos and 1/cos³ of it.
-TEST(SeveralTurnsWords, SayHowMuchLevelTendonsLeaveOut) {
+// At most 4.68°: 1/cos and 1/cos³ of it.
+TEST(SeveralTurnsWords, NoteErrorOfLevelTendons) {
   const auto note_of = [](const std::vector<Setting>& settings) {
     std::string text;
     for (const Diagnostic& one : analyze(read_profile("wrist_turns", settings)).warnings) text += one.message;
     return text;
   };
   EXPECT_THAT(note_of({}),
-              HasSubstr("slope by up to 4.68°: that makes tensions up to 0.34 % larger, and what they give "
-                        "way by up to 1 %"));
+              HasSubstr("slope by up to 4.68°, which increases tensions by up to 0.34 % and their stretch by "
+                        "up to 1 %"));
 }
 
-TEST(SeveralTurnsWords, SayWhatKeepsToOneTurn) {
+TEST(SeveralTurnsWords, NameReasonForOneTurn) {
   EXPECT_THAT(failures_of(made(read_profile("wrist_turns", {{"pulley.winding", "one_turn"}}))),
               HasSubstr("more than one turn (pulley.winding = \"one_turn\")"));
 }
 
-TEST(SeveralTurnsWords, OfPulleysThatTurnLessAreNotUsed) {
+TEST(SeveralTurnsWords, ReportUnusedKeys) {
   const auto words_with = [](const char* profile, const std::vector<Setting>& settings) {
     std::string text;
     for (const Diagnostic& one : made(read_profile(profile, settings)).product.file.warnings)
@@ -292,8 +291,8 @@ TEST(SeveralTurnsWords, OfPulleysThatTurnLessAreNotUsed) {
   }
 }
 
-/// With how many turns there would be a pulley stands in the message, and a number that builds after it.
-TEST(SeveralTurnsWords, MoreTurnsThanAreMadeSayHowMany) {
+/// The message gives the required number of turns, and a value that builds.
+TEST(SeveralTurnsWords, ReportTooManyTurns) {
   const std::vector<Setting> many{{"pulley.r1_mm", "1.2"}};
   const BuildResult built = made(read_profile("elbow_capstan", many));
   ASSERT_EQ(built.status, BuildStatus::infeasible);
@@ -306,21 +305,21 @@ TEST(SeveralTurnsWords, MoreTurnsThanAreMadeSayHowMany) {
             BuildStatus::done);
 }
 
-/// There are no marks on a helix and no plates.dxf; both are said, whatever was asked for.
-TEST(SeveralTurnsWords, SayWhatIsLeftOut) {
+/// Marks and plates.dxf do not exist for several turns; the notes say so, whatever the file requests.
+TEST(SeveralTurnsWords, ListOmittedFeatures) {
   for (const char* marks : {"engraved", "raised"}) {
     const BuildResult built = made(read_profile("wrist_turns", {{"body.marks", marks}}));
     ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
     for (const std::string& text : {words_of(built), text_of(built, "manifest.json")}) {
       EXPECT_THAT(text, HasSubstr("multi-turn pulleys have no marks and no slots for the tails"));
-      EXPECT_THAT(text, HasSubstr("of several turns there is no plates.dxf: plates have no grooves that climb"));
+      EXPECT_THAT(text, HasSubstr("there is no plates.dxf: plates cannot have helical grooves"));
     }
     EXPECT_EQ(text_of(built, "plates.dxf"), "");
   }
 }
 
-/// Nothing else stands against this joint: the ratio that is advised builds.
-TEST(SeveralTurnsWords, SheathsKeepToOneTurnAndSayWhichRatioBuilds) {
+/// This joint has no other obstacle: the advised ratio builds.
+TEST(SeveralTurnsWords, SheathsAdviseRatio) {
   const BuildResult built = made(read_profile("wrist_sheath", {{"pulley.ratio", "13"}}));
   ASSERT_EQ(built.status, BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built),
@@ -329,7 +328,7 @@ TEST(SeveralTurnsWords, SheathsKeepToOneTurnAndSayWhichRatioBuilds) {
   EXPECT_EQ(made(read_profile("wrist_sheath", {{"pulley.ratio", "4.55"}})).status, BuildStatus::done);
 }
 
-TEST(SeveralTurnsWords, RefuseWithAdviceThatBuilds) {
+TEST(SeveralTurnsWords, AdviceBuilds) {
   const BuildResult built = made(read_profile("wrist_turns", {{"body.lead_mm", "1.2"}}));
   ASSERT_EQ(built.status, BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built), HasSubstr("is too small"));
@@ -340,8 +339,8 @@ std::vector<Setting> with_collars(double ef, double lead) {
   return {{"guides.collar", "true"}, {"pulley.EF_mm", std::to_string(ef)}, {"body.lead_mm", std::to_string(lead)}};
 }
 
-/// Without collars there is none; with them the pulley's distance and the lead decide.
-TEST(FleetAngles, AreSilentThenNotedThenWarnedOf) {
+/// Without collars there is no fleet angle; with them the pulley's distance and the lead determine it.
+TEST(FleetAngles, GrowingAnglesAreReported) {
   const BuildResult none = made(read_profile("wrist_turns"));
   EXPECT_THAT(words_of(none), Not(HasSubstr("fleet angle of")));
   const BuildResult small = made(read_profile("wrist_turns", with_collars(300, 0)));
@@ -350,7 +349,7 @@ TEST(FleetAngles, AreSilentThenNotedThenWarnedOf) {
   EXPECT_THAT(words_of(small), Not(HasSubstr("leaves its groove")));
   const BuildResult noted = made(read_profile("wrist_turns", with_collars(170, 0)));
   ASSERT_EQ(noted.status, BuildStatus::done) << failures_of(noted);
-  EXPECT_THAT(words_of(noted), HasSubstr("note: a fleet angle of 1.95° is more than the 1.5° of smooth drums"));
+  EXPECT_THAT(words_of(noted), HasSubstr("note: a fleet angle of 1.95° exceeds the 1.5° limit of smooth drums"));
   EXPECT_THAT(words_of(noted), Not(HasSubstr("leaves its groove")));
   const BuildResult warned = made(read_profile("wrist_turns", with_collars(60, 7)));
   ASSERT_EQ(warned.status, BuildStatus::done) << failures_of(warned);
@@ -358,9 +357,9 @@ TEST(FleetAngles, AreSilentThenNotedThenWarnedOf) {
   EXPECT_THAT(words_of(warned), Not(HasSubstr("note: a fleet angle of")));
 }
 
-/// The default's lower wall leans by 25°, on the largest radius of 10.2 mm and 1 mm deep: tan 25° √(1/20.4) is 5.9°,
-/// and the seat, a little wider than the tendon, has room for the rest.
-TEST(FleetAngles, AtWhichTheTendonLiesOnTheLipAreRefusedWithNumbersThatBuild) {
+/// The default lower wall leans by 25°, at a largest radius of 10.2 mm and 1 mm deep: tan 25° √(1/20.4) is 5.9°. The
+/// seat is slightly wider than the tendon, which gives the rest.
+TEST(FleetAngles, LargeAnglesAreRefusedWithAdvice) {
   const BuildResult built = made(read_profile("wrist_turns", with_collars(60, 8)));
   ASSERT_EQ(built.status, BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built), HasSubstr("tendon 1 leaves its groove at a fleet angle of 6.29° at α = "));
@@ -373,8 +372,8 @@ TEST(FleetAngles, AtWhichTheTendonLiesOnTheLipAreRefusedWithNumbersThatBuild) {
   }
 }
 
-/// The same tendons in the same place: steep walls hold them less than those that lean.
-TEST(FleetAngles, AreTakenBetterByGroovesThatLean) {
+/// Equal tendons and places: steep walls allow smaller angles than leaning ones.
+TEST(FleetAngles, LeaningGroovesAllowLargerAngles) {
   std::vector<Setting> steep = with_collars(60, 0), leaning = with_collars(60, 8);
   steep.push_back({"body.groove_angle_deg", "5"});
   leaning.push_back({"body.groove_angle_deg", "80"});
@@ -383,8 +382,8 @@ TEST(FleetAngles, AreTakenBetterByGroovesThatLean) {
   EXPECT_EQ(made(read_profile("wrist_turns", leaning)).status, BuildStatus::done);
 }
 
-/// Of what a body of several turns refuses: the number that is named builds.
-TEST(SeveralTurnsWords, BodiesAreRefusedWithNumbersThatBuild) {
+/// The number that the refusal of a body advises builds.
+TEST(SeveralTurnsWords, BodyAdviceBuilds) {
   const std::vector<Setting> pocket{{"tendon.diameter_mm", "1.07"}, {"body.knot_pocket_mm", "7"}};
   const BuildResult built = made(read_profile("elbow_capstan", pocket));
   ASSERT_EQ(built.status, BuildStatus::infeasible);
@@ -397,8 +396,8 @@ TEST(SeveralTurnsWords, BodiesAreRefusedWithNumbersThatBuild) {
   EXPECT_EQ(made(read_profile("elbow_capstan", mended)).status, BuildStatus::done);
 }
 
-/// Each once left a body that crossed itself, or broke through its rim.
-TEST(SeveralTurnsBodies, ThatOnceWentWrong) {
+/// Regressions: each of these bodies once intersected itself or broke through its rim.
+TEST(SeveralTurnsBodies, PassRegressions) {
   const std::vector<std::vector<Setting>> designs{
       {{"tendon.diameter_mm", "0.72"}, {"pulley.r1_mm", "6.61"}, {"body.spare_turns", "1.7"}},
       {{"tendon.diameter_mm", "0.9"}, {"body.anchor_hole_mm", "2"}}};
@@ -406,7 +405,7 @@ TEST(SeveralTurnsBodies, ThatOnceWentWrong) {
     const BuildResult built = made(read_profile("elbow_capstan", settings));
     EXPECT_EQ(built.status, BuildStatus::done) << settings.front().value << "\n" << failures_of(built);
   }
-  // Turns of one normal lie far aside of one another.
+  // Turns of one normal are far apart sideways.
   const BuildResult aside = made(read_profile("wrist_turns", {{"pulley.ratio", "6.71"},
                                                               {"joint.length_mm", "246.3"},
                                                               {"guides.EB_mm", "136.6"},
@@ -417,7 +416,7 @@ TEST(SeveralTurnsBodies, ThatOnceWentWrong) {
   EXPECT_EQ(aside.status, BuildStatus::done) << failures_of(aside);
 }
 
-TEST(SeveralTurnsWords, AHubHasToStandOnItsFlange) {
+TEST(SeveralTurnsWords, RejectWideHub) {
   const BuildResult wide = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "90"}}));
   EXPECT_EQ(wide.status, BuildStatus::infeasible);
   EXPECT_THAT(failures_of(wide), HasSubstr("the upper flange has space for a hub of"));
@@ -426,10 +425,10 @@ TEST(SeveralTurnsWords, AHubHasToStandOnItsFlange) {
   EXPECT_THAT(failures_of(thin), HasSubstr("body.hub_diameter_mm) leaves"));
 }
 
-// ---- wound on a file of it
+// ---- rewinding of files
 
-/// As the build found it, on any of its meshes; what shrinks is printed larger.
-TEST_P(SeveralTurns, AreWoundOnTheirFiles) {
+/// As found by the build, on each of its mesh files; shrinking materials are printed larger.
+TEST_P(SeveralTurns, RewindOnFiles) {
   const MechanismFile file = read_profile(GetParam(), {{"material.shrinkage_percent", "0.8"}});
   const BuildResult built = made(file);
   ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
@@ -445,10 +444,10 @@ TEST_P(SeveralTurns, AreWoundOnTheirFiles) {
   }
 }
 
-TEST(SeveralTurnsWords, ADrawingOfThemIsNotWound) {
+TEST(SeveralTurnsWords, RejectDrawing) {
   try {
     rewind_part(as_it_is(read_profile("wrist_turns").mechanism), Drawing{});
-    FAIL() << "wound on a drawing";
+    FAIL() << "rewound on a drawing";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("pulley.stl"));
   }
@@ -456,7 +455,7 @@ TEST(SeveralTurnsWords, ADrawingOfThemIsNotWound) {
 
 // ---- the kit
 
-/// A turn of the spiral about the row `turn`, as a curve of its own in plan.
+/// One turn of the spiral around the row `turn`, as a plane curve.
 Outline turn_about(const Spiral& spiral, Side side, double turn) {
   Outline outline;
   outline.side = side;
@@ -468,7 +467,7 @@ Outline turn_about(const Spiral& spiral, Side side, double turn) {
   return outline;
 }
 
-/// A tendon at one place of the stroke, by tangents to what is drawn: from its end on the joint to the row it leaves.
+/// A tendon at one place of the stroke, by tangents to the drawing: from its end on the joint to the row it leaves.
 struct Strung {
   TendonTrace trace;
   std::size_t row = 0;
@@ -512,8 +511,9 @@ class SeveralTurnsKit : public ::testing::TestWithParam<std::string> {
   }
 };
 
-/// The cut from knot to knot: over the drawn path in plan with its rise, along the rows in space, and to the pocket.
-TEST_P(SeveralTurnsKit, CutsTendonsAsLongAsTheyAreWound) {
+/// Cut length from knot to knot: along the drawn path in plan with its rise, along the rows in space, and to the
+/// pocket.
+TEST_P(SeveralTurnsKit, CutLengthMatchesWoundLength) {
   const KitResult made = made_kit();
   ASSERT_EQ(made.ending, KitEnding::done);
   const Product& product = made.product.pulley;
@@ -538,8 +538,8 @@ TEST_P(SeveralTurnsKit, CutsTendonsAsLongAsTheyAreWound) {
   }
 }
 
-/// Over drum and pins a tendon rises evenly: between the heights that are given, and once to each of them.
-TEST_P(SeveralTurnsKit, SaysHowHighTheTendonsRun) {
+/// A tendon rises evenly over drum and pins, and reaches each of the given heights once.
+TEST_P(SeveralTurnsKit, ReportsTendonHeights) {
   const KitResult made = made_kit();
   ASSERT_TRUE(made.product.plan.heights);
   const TendonHeights& heights = *made.product.plan.heights;
@@ -584,8 +584,8 @@ TEST_P(SeveralTurnsKit, SaysHowHighTheTendonsRun) {
 INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurnsKit, ::testing::Values("wrist_turns", "elbow_capstan", "fusee_proper"),
                          [](const auto& which) { return which.param; });
 
-/// A printer that bears no slope below 55° gets steeper chamfers at the bed.
-TEST(SeveralTurnsKitWords, PartsPrintAsSteeplyAsAsked) {
+/// A printer that requires slopes of 55° gets steeper chamfers at the bed.
+TEST(SeveralTurnsKitWords, PartsFollowOverhangLimit) {
   KitOptions options;
   options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";
   options.dry_run = true;
@@ -594,8 +594,8 @@ TEST(SeveralTurnsKitWords, PartsPrintAsSteeplyAsAsked) {
   EXPECT_EQ(made.ending, KitEnding::done);
 }
 
-/// What stands in the way is said, with what was seen to make room.
-TEST(SeveralTurnsKitWords, SaysWhatWouldMakeRoom) {
+/// The refusal names the obstacle and tested changes.
+TEST(SeveralTurnsKitWords, AdviceMakesRoom) {
   KitOptions options;
   options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";
   options.dry_run = true;

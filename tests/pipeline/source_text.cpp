@@ -14,7 +14,7 @@ const fs::path k_root = FUSEE_SOURCE_DIR;
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// Where what begins with `quote` at `at` ends, one beyond it; a backslash takes the next character along.
+/// End of the quotation that begins with `quote` at `at`; a backslash escapes the next character.
 std::size_t end_of_quoted(std::string_view text, std::size_t at, char quote) {
   for (std::size_t i = at + 1; i < text.size(); ++i) {
     if (text[i] == '\\') {
@@ -31,20 +31,20 @@ std::size_t end_after(std::string_view text, std::string_view mark, std::size_t 
   return found == std::string_view::npos ? text.size() : found + mark.size();
 }
 
-/// R"mark( … )mark": `at` is that of the quote.
+/// End of R"mark( … )mark"; `at` is the index of the quotation mark.
 std::size_t end_of_raw(std::string_view text, std::size_t at) {
   const std::size_t open = std::min(text.find('(', at), text.size() - 1);
   return end_after(text, ")" + std::string(text.substr(at + 1, open - at - 1)) + "\"", open);
 }
 
-/// Where the comment or quotation that begins at `at` ends; `at` itself where none does.
+/// End of the comment or quotation that begins at `at`; `at` if there is none.
 std::size_t end_of_no_code(std::string_view text, std::size_t at) {
   const char before = at > 0 ? text[at - 1] : ' ';
   const std::string_view pair = text.substr(at, 2);
   if (pair == "//") return std::min(text.find('\n', at), text.size());
   if (pair == "/*") return end_after(text, "*/", at + 2);
   if (text[at] == '"') return before == 'R' ? end_of_raw(text, at) : end_of_quoted(text, at, '"');
-  if (text[at] == '\'' && !is_word(before)) return end_of_quoted(text, at, '\'');  // and not 1'000
+  if (text[at] == '\'' && !is_word(before)) return end_of_quoted(text, at, '\'');  // not 1'000
   return at;
 }
 

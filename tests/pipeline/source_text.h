@@ -1,5 +1,5 @@
 /// \file
-/// Our own sources as text, for tests that read them.
+/// The project's sources as text, for tests that read them.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace fusee::house {
 
-/// One file: its path below the source tree ("src/base/text.cpp"), and its text.
+/// A file: its path below the source tree ("src/base/text.cpp"), and its text.
 struct Source {
   std::string path;
   std::string text;
@@ -17,12 +17,12 @@ struct Source {
 
 /// The text of a file of the source tree; "" when there is none.
 std::string text_of(const std::filesystem::path& path);
-/// Every .h and .cpp below these folders of the source tree, by path.
+/// All .h and .cpp files below these folders of the source tree, by path.
 std::vector<Source> sources_under(const std::vector<std::string>& folders);
 
-/// Comments, and what stands in quotes, as blanks: what is left is code, line for line where it was.
+/// The text with comments and quoted text replaced by blanks; lines are kept.
 std::string code_of(std::string_view text);
-/// 1 in the first line.
+/// The line number of an offset; the first line is 1.
 int line_at(std::string_view text, std::size_t offset);
 
 }  // namespace fusee::house

@@ -13,13 +13,13 @@ struct Word {
   std::string text;
   std::size_t at = 0;
 };
-/// What was read since the last ; { or }.
+/// Tokens since the last ; { or }.
 using Head = std::vector<Word>;
 
-/// What a brace opened.
+/// The scope that a brace opens.
 struct Scope {
   bool is_namespace = false;
-  std::string name;  ///< "" where it is an unnamed namespace
+  std::string name;  ///< "" for an unnamed namespace
 };
 
 bool is_name(const std::string& text) {
@@ -29,12 +29,12 @@ bool has(const Head& head, const std::string& text) {
   return std::any_of(head.begin(), head.end(), [&](const Word& word) { return word.text == text; });
 }
 
-/// Of those that begin a type.
+/// True for keywords that begin a type.
 bool is_keyword(const Word& word) {
   return word.text == "struct" || word.text == "class" || word.text == "union" || word.text == "enum";
 }
 
-/// Lines of the preprocessor as blanks.
+/// Replaces preprocessor lines by blanks.
 std::string without_directives(std::string code) {
   bool directive = false;
   for (std::size_t at = 0; at < code.size();) {
@@ -58,7 +58,7 @@ std::vector<Word> words_of(const std::string& code) {
   return words;
 }
 
-/// One beyond what `open` at `at` begins.
+/// Index after the bracket that closes the `open` at `at`.
 std::size_t closed(const Head& head, std::size_t at, const std::string& open, const std::string& close) {
   int depth = 0;
   for (; at < head.size(); ++at) {
@@ -68,7 +68,7 @@ std::size_t closed(const Head& head, std::size_t at, const std::string& open, co
   return at;
 }
 
-/// Without `template <…>` before it and [[attributes]] in it.
+/// Removes `template <…>` before a declaration, and [[attributes]] in it.
 Head declaration_of(const Head& head) {
   Head left;
   for (std::size_t at = 0; at < head.size();) {
@@ -83,7 +83,7 @@ Head declaration_of(const Head& head) {
   return left;
 }
 
-/// The type that a head with a body after it defines; members of types and specialisations have no name of their own.
+/// The type that a head before a body defines; nested types and specialisations define no name of their own.
 std::optional<Word> defined_by(const Head& whole) {
   const Head head = declaration_of(whole);
   if (head.empty() || !is_keyword(head.front()) || has(head, "=") || has(head, "(")) return {};
@@ -93,7 +93,7 @@ std::optional<Word> defined_by(const Head& whole) {
   return next == "<" || next == "::" ? std::nullopt : std::optional(head[i]);
 }
 
-/// The name that a head with a semicolon after it gives a type.
+/// The alias that a head before a semicolon defines.
 std::optional<Word> alias_of(const Head& whole) {
   const Head head = declaration_of(whole);
   if (head.size() > 2 && head[0].text == "using" && head[2].text == "=") return head[1];

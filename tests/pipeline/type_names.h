@@ -1,5 +1,5 @@
 /// \file
-/// Which types stand at namespace scope, read from the text of the sources.
+/// The types at namespace scope, read from the text of the sources.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace fusee::house {
 
-/// struct, class, union, enum or alias at namespace scope; members of types and what stands in functions do not count,
-/// nor do declarations without a body and specialisations.
+/// A struct, class, union, enum or alias at namespace scope. Nested types, types in functions, declarations without
+/// body and specialisations do not count.
 struct TypeName {
   std::string scope;      ///< "fusee::cli"
   std::string name;       ///< "Column"
-  bool one_file = false;  ///< in an unnamed namespace: no other file can mean it
+  bool one_file = false;  ///< in an unnamed namespace: invisible to other files
   std::string where;      ///< "src/cli/table.h:13"
 };
 
 std::vector<TypeName> types_of(const Source& source);
 
-/// A line for each name that two types of one namespace have: "fusee::Box: src/optimize/bound.h:13, export/…".
-/// Types of unnamed namespaces may share a name with any other: the compiler refuses the one file that would see both.
+/// One line for each name of two types in one namespace: "fusee::Box: src/optimize/bound.h:13, export/…". Types of
+/// unnamed namespaces may share a name: the compiler refuses a file that sees both.
 std::vector<std::string> shared_names(const std::vector<TypeName>& types);
 
 }  // namespace fusee::house

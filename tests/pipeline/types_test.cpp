@@ -1,5 +1,5 @@
-// No two types of one namespace share a name: the linker would take one for the other and say nothing. Tests link with
-// the rooms, and count.
+// No two types of one namespace share a name: the linker would merge them silently. Tests link with the modules, so
+// they count, too.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -27,18 +27,18 @@ std::vector<std::string> shared(const std::vector<Source>& sources) {
   return shared_names(types);
 }
 
-TEST(Types, OfOneNamespaceHaveNamesOfTheirOwn) {
+TEST(Types, AreUniqueInNamespace) {
   EXPECT_THAT(shared(sources_under({"include", "src", "export", "tests"})), IsEmpty());
 }
 
-TEST(Types, AreFoundInTheHouse) {
+TEST(Types, AreFoundInSources) {
   std::vector<TypeName> types = types_of({"mechanism.h", text_of("include/fusee/mechanism/mechanism.h")});
   EXPECT_TRUE(std::any_of(types.begin(), types.end(), [](const TypeName& type) {
     return type.scope == "fusee" && type.name == "Mechanism" && !type.one_file;
   }));
 }
 
-TEST(Types, ThatShareANameAreSeen) {
+TEST(Types, SharedNamesAreDetected) {
   const Source struct_box = {"bound.h", "namespace fusee {\n/// of designs\nstruct Box { double low; };\n}"};
   const Source class_box = {"writer.h", "namespace fusee {\nclass Box final : Base {};\n}"};
   const Source alias = {"interval.h", "namespace fusee { using Box = Other<int>; }"};
@@ -48,7 +48,7 @@ TEST(Types, ThatShareANameAreSeen) {
               ElementsAre("fusee::Box: bound.h:3, enum.h:1"));
 }
 
-TEST(Types, MayShareANameApart) {
+TEST(Types, SeparateScopesMayShareNames) {
   const Source box = {"bound.h", "namespace fusee { struct Box { int a; }; }"};
   EXPECT_THAT(shared({box, {"other.h", "namespace fusee::cli { struct Box {}; }"}}), IsEmpty());
   EXPECT_THAT(shared({box, {"one.cpp", "namespace fusee { namespace { struct Box {}; } }"}}), IsEmpty());
@@ -67,7 +67,7 @@ TEST(Types, AreReadFromText) {
               ElementsAre("a::Z"));
 }
 
-TEST(Types, AreNotReadFromWhatIsNoType) {
+TEST(Types, IgnoreTextThatIsNoType) {
   EXPECT_THAT(names("namespace a { // struct X {}\n/* struct Y {} */ const char* s = \"struct Z { };\"; }"), IsEmpty());
   EXPECT_THAT(names("namespace a { auto r = R\"(struct Z { )\"; char c = '{'; int n = 1'000; struct sig act = {}; }"),
               IsEmpty());

@@ -1,6 +1,6 @@
-// Random joints of the wide class through the whole making: drums, ends of their own, idlers, sheaths and wanted
-// torques. Each is made, with every check, and winds back to its law, or is refused for a reason. FUSEE_LAW_CASES: how
-// many (24); FUSEE_LAW_SEED: which (1); FUSEE_LONG_TESTS: with advice, each of it tried before it is given.
+// Random joints of the wide class through the whole build: drums, attachments, idlers, sheaths and torque laws. Each is
+// built with all checks and rewinds to its law, or is refused with a reason. FUSEE_LAW_CASES: number of joints (24);
+// FUSEE_LAW_SEED: seed (1); FUSEE_LONG_TESTS: with advice, of which each change is tested.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -25,7 +25,7 @@ namespace {
 
 using namespace fusee;
 
-/// Numbers of its own, the same on every machine.
+/// A random number generator with equal results on every machine.
 class WideDice {
  public:
   explicit WideDice(std::uint64_t seed) : bits_(seed) {}
@@ -47,7 +47,7 @@ struct WideText {
   void word(std::string_view key, std::string_view value) { text += fmt::format("{} = \"{}\"\n", key, value); }
 };
 
-/// Where a tendon ends: on the drum, now and then inside of it, or anywhere about the joint.
+/// The end of a tendon: on the drum, sometimes inside of it, or anywhere near the joint.
 void add_end(WideDice& dice, WideText& file, std::string_view key, double drum, double sign) {
   const bool on_drum = drum > 0 && dice.happens(0.6);
   const double away = on_drum    ? drum * (dice.happens(0.1) ? dice.between(0.7, 1) : dice.between(1, 1.03))
@@ -102,7 +102,7 @@ void add_sheath(WideDice& dice, WideText& file, double pulley) {
   file.number("exit_above_mm", pulley * dice.between(1.5, 7));
 }
 
-/// One torque of the motor against a weight, a spring or both; now and then the wrong way.
+/// One motor torque against a weight, a spring or both; sometimes of the wrong sign.
 void add_torque_law(WideDice& dice, WideText& file, double ratio) {
   const double weight = dice.log_between(0.1, 5), lever = file.size * dice.between(1, 6), tilt = dice.between(60, 170);
   const double mean = weight * 9.80665 * lever * std::sin(radians(tilt - 0.5 * (file.low + file.high)));
@@ -157,15 +157,15 @@ int wide_number(const char* variable, int otherwise) {
 
 struct NoWideAdvice {};
 
-/// What winding back may miss, deg: 0.005 of joints that take their tendons by 8 mm or more, and as much along the
-/// tendon of smaller ones.
+/// Limit of the rewinding error, deg: 0.005 for joints with tendon arms of 8 mm or more, and the same length of tendon
+/// for smaller ones.
 double rewinding_limit(const SynthesisResult& synthesis) {
   double arm = 1e9;
   for (const TransmissionPoint& at : synthesis.stroke) arm = std::min({arm, at.t1.m, at.t2.m});
   return 0.005 * std::max(1.0, 8.0 / arm);
 }
 
-/// Plates to drill the joint by, each a sound solid, or what stands in another's place.
+/// Drill plates are sound solids, or the obstacle is reported.
 void expect_plates_or_reasons(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const KitPlan plan = plan_kit(mechanism, product.synthesis, product.pulley.layout);
@@ -193,7 +193,7 @@ WideEnd wide_end(const std::string& text) {
       EXPECT_TRUE(check.ok) << check.name << " " << check.value << ", limit " << check.limit << "; " << check.where;
     if (built.status == BuildStatus::infeasible) return WideEnd::refused;
     const RewindResult& wound = built.product.as_built;
-    // Of pulleys of several turns random_turns_test.cpp speaks.
+    // Pulleys of several turns are tested in random_turns_test.cpp.
     if (!built.product.helix) {
       EXPECT_LT(degrees(wound.max_theta_error), rewinding_limit(built.product.synthesis))
           << "at alpha " << degrees(wound.max_theta_error_at);
@@ -207,11 +207,11 @@ WideEnd wide_end(const std::string& text) {
   }
 }
 
-constexpr int k_wide_shards = 4;  // so that ctest may run them side by side
+constexpr int k_wide_shards = 4;  // so that ctest can run them in parallel
 
 class WideCampaign : public ::testing::TestWithParam<int> {};
 
-TEST_P(WideCampaign, JointsAreMadeOrRefused) {
+TEST_P(WideCampaign, JointsAreBuiltOrRefused) {
   const int cases = wide_number("FUSEE_LAW_CASES", 24), seed = wide_number("FUSEE_LAW_SEED", 1);
   int made = 0, refused = 0, bad = 0;
   for (int i = GetParam(); i < cases; i += k_wide_shards) {

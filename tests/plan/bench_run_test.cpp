@@ -1,4 +1,4 @@
-// What a person drives at the bench, as rows.
+// Bench runs as rows, and the next measurements.
 #include "fusee/plan/bench_run.h"
 
 #include <gmock/gmock.h>
@@ -18,14 +18,14 @@ using ::testing::Not;
 
 constexpr PlannedRun k_run{.from = -1.5, .to = 2.0, .cycles = 3, .speed = 0.25, .load = 5};
 
-TEST(PlannedRun, TakesTheTimeOfItsWay) {
+TEST(PlannedRun, DurationFollowsStrokes) {
   EXPECT_DOUBLE_EQ(minutes_of(k_run), 3 * 2 * (3.5 / 0.25) / 60);
   PlannedRun held = k_run;
   held.dwell = 30;
   EXPECT_DOUBLE_EQ(minutes_of(held), minutes_of(k_run) + 3 * 2 * 30 / 60.0);
 }
 
-TEST(PlannedRun, IsDrivenThereAndBackInThatTime) {
+TEST(PlannedRun, RowsCoverStrokesInThatTime) {
   for (const double dwell : {0.0, 30.0}) {
     PlannedRun run = k_run;
     run.dwell = dwell;
@@ -48,7 +48,7 @@ TEST(PlannedRun, IsDrivenThereAndBackInThatTime) {
   }
 }
 
-TEST(PlannedRun, SaysWhatIsDone) {
+TEST(PlannedRun, HasInstruction) {
   EXPECT_EQ(words(k_run, k_run.speed, "N"), "3 cycles, slow, at 5 N");
   PlannedRun other = k_run;
   other.load = 0;
@@ -58,8 +58,8 @@ TEST(PlannedRun, SaysWhatIsDone) {
   EXPECT_THAT(words(other, k_run.speed, "N"), HasSubstr("90 deg/s, without load"));
 }
 
-// e(α + φ) − e(φ): what an encoder errs by after it was turned by φ and its zero was set again.
-TEST(TurnedEncoder, ShowsTheSameErrorLater) {
+// e(α + φ) − e(φ): the encoder's error after it is turned by φ and its zero is set again.
+TEST(TurnedEncoder, ShiftsMotorError) {
   MotorSensorError motor;
   motor.eccentricity_sin = 0.02;
   motor.eccentricity_cos = -0.01;
@@ -76,7 +76,7 @@ TEST(TurnedEncoder, ShowsTheSameErrorLater) {
   EXPECT_EQ(turned(motor, 0.0), motor);
 }
 
-TEST(TurnedEncoder, OfTheJointToo) {
+TEST(TurnedEncoder, ShiftsJointError) {
   JointSensorError sensor;
   sensor.eccentricity_sin = 0.02;
   sensor.eccentricity_cos = 0.03;
@@ -89,11 +89,11 @@ TEST(TurnedEncoder, OfTheJointToo) {
     EXPECT_NEAR(error(theta, turned(sensor, turn)), error(theta + turn, sensor) - error(turn, sensor), 1e-15);
 }
 
-TEST(NextMeasurement, OfEachKind) {
+TEST(NextMeasurement, DescribesEachKind) {
   const NextMeasurement run = next_run(k_run, k_run.speed, "N");
   EXPECT_EQ(run.kind(), "run");
   EXPECT_EQ(run.words, "drive 3 cycles, slow, at 5 N");
-  EXPECT_GT(run.minutes, minutes_of(k_run)) << "the load has to be hung on";
+  EXPECT_GT(run.minutes, minutes_of(k_run)) << "hanging the load takes time";
   PlannedRun turned = k_run;
   turned.change = BenchChange::joint_sensor_turned;
   EXPECT_EQ(next_run(turned, k_run.speed, "N").kind(), "turn_sensor");
@@ -108,8 +108,8 @@ TEST(NextMeasurement, OfEachKind) {
   EXPECT_GT(inspection.minutes, 0);
 }
 
-// A reading that is asked for can be written into the file, and is not asked for again.
-TEST(UnreadNumbers, AreReadFromTheirKeys) {
+// A reading that is written into the file is not requested again.
+TEST(UnreadNumbers, WritesToItsKey) {
   for (const EffectParameter* number : unread_numbers(testing::forearm())) {
     DeclaredMechanism joint = testing::forearm();
     const Field* field = find_field(number->by_hand.key);
@@ -127,7 +127,7 @@ TEST(UnreadNumbers, AreReadFromTheirKeys) {
   }
 }
 
-TEST(BenchChanges, HaveWords) {
+TEST(BenchChanges, HaveInstructions) {
   EXPECT_THAT(words(BenchChange::none), IsEmpty());
   for (const BenchChange change : {BenchChange::motor_sensor_turned, BenchChange::joint_sensor_turned})
     EXPECT_THAT(words(change), Not(IsEmpty()));

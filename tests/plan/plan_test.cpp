@@ -1,4 +1,4 @@
-// Which runs tell causes apart: laws that hold whatever the joint.
+// Laws of a plan that hold for every joint.
 #include "fusee/plan/plan.h"
 
 #include <gmock/gmock.h>
@@ -33,8 +33,8 @@ const PlannedCause& cause(const Plan& plan, const std::string& name) {
   return *found;
 }
 
-// If θ is α by a ratio, both offsets are one number: no run tells them.
-TEST(Plan, KeepsTogetherWhatIsTheSame) {
+// With θ proportional to α both offsets are one number: no run resolves them.
+TEST(Plan, GroupsIndistinguishableCauses) {
   PlanOptions one_run;
   one_run.minutes = 1.9;
   const Plan plan = plan_runs(testing::linear_wrist(), one_run);
@@ -44,8 +44,8 @@ TEST(Plan, KeepsTogetherWhatIsTheSame) {
   EXPECT_THAT(plan.groups, Contains(::testing::AllOf(Contains("motor_offset"), Contains("zero_offset"))));
 }
 
-// Play is α standing still: half its width at the joint, over the ratio, and never mistaken once a second speed is run.
-TEST(Plan, SeesPlayAsLargeAsItIs) {
+// The rms response to play is half its width over the ratio.
+TEST(Plan, PredictsResponseToPlay) {
   const DeclaredMechanism joint = testing::linear_wrist();
   const Plan plan = plan_runs(joint);
   const PlannedCause& play = cause(plan, "backlash");
@@ -56,7 +56,7 @@ TEST(Plan, SeesPlayAsLargeAsItIs) {
   EXPECT_NEAR(play.smallest_key / 2.0, play.smallest / play.usual, 1e-9);
 }
 
-TEST(Plan, MoreNoiseShowsLess) {
+TEST(Plan, NoiseRaisesDetectionLimit) {
   PlanOptions quiet, loud;
   loud.noise = 5 * quiet.noise;
   const Plan one = plan_runs(ratio_joint(), quiet), other = plan_runs(ratio_joint(), loud);
@@ -83,7 +83,7 @@ TEST(Plan, StaysWithinItsMinutes) {
   }
 }
 
-TEST(Plan, WithoutTimeSaysWhatMinutesBuy) {
+TEST(Plan, WithoutTimeListsFurtherSteps) {
   PlanOptions options;
   options.minutes = 0.1;
   const Plan plan = plan_runs(ratio_joint(), options);
@@ -92,7 +92,7 @@ TEST(Plan, WithoutTimeSaysWhatMinutesBuy) {
   EXPECT_THAT(plan.beyond.front().sees, Not(IsEmpty()));
 }
 
-TEST(Plan, WithoutLoadLeavesOutWhatLoadShows) {
+TEST(Plan, WithoutLoadOmitsLoadEffects) {
   PlanOptions options;
   options.loads = {0};
   const Plan plan = plan_runs(ratio_joint(), options);
@@ -102,14 +102,14 @@ TEST(Plan, WithoutLoadLeavesOutWhatLoadShows) {
   EXPECT_THAT(plan.causes, Each(::testing::Field(&PlannedCause::name, Not("tendon_stretch"))));
 }
 
-TEST(Plan, BlamesRarelyWhereTheCatalogueHoldsTheCause) {
+TEST(Plan, FalsePositivesAreRare) {
   const Plan plan = plan_runs(testing::forearm());
-  EXPECT_LE(plan.nothing.blamed, 5);
-  EXPECT_LE(plan.one.blamed, 5);
-  EXPECT_GT(plan.one.alone, plan.one.worlds / 2);
+  EXPECT_LE(plan.nothing.wrong, 5);
+  EXPECT_LE(plan.one.wrong, 5);
+  EXPECT_GT(plan.one.alone, plan.one.samples / 2);
 }
 
-TEST(Plan, AsksNotForWhatIsKnown) {
+TEST(Plan, OmitsKnownReadings) {
   DeclaredMechanism known = testing::forearm();
   const auto asks = [](const DeclaredMechanism& joint) {
     std::vector<std::string> keys;
@@ -144,13 +144,13 @@ class Separations : public ::testing::Test {
   }
 };
 
-TEST_F(Separations, NothingIsToldFromItself) {
+TEST_F(Separations, CauseIsNotResolvedFromItself) {
   const Information known = after(2);
   for (const Cause& cause : signatures.causes())
     EXPECT_LT(margin(signatures, known, cause, &cause), 0.5) << cause.effect->name;
 }
 
-TEST_F(Separations, AnotherIsNotEasierThanNone) {
+TEST_F(Separations, RivalIsNoEasierThanDetection) {
   const Information known = after(3);
   for (const Cause& cause : signatures.causes()) {
     const double seen = margin(signatures, known, cause, nullptr);
@@ -160,14 +160,14 @@ TEST_F(Separations, AnotherIsNotEasierThanNone) {
   }
 }
 
-TEST_F(Separations, MoreRunsSeeMore) {
+TEST_F(Separations, MoreRunsRaiseMargins) {
   const Information few = after(1), more = after(4);
   for (const Cause& cause : signatures.causes())
     EXPECT_GE(margin(signatures, more, cause, nullptr), margin(signatures, few, cause, nullptr) * (1 - 1e-9));
 }
 
 // y = s x + n with n rows: the standard error of x is σ/√(Σ s²).
-TEST_F(Separations, AConstantIsSeenAsAMeanIs) {
+TEST_F(Separations, ConstantHasErrorOfMean) {
   const Information known = after(1);
   const Cause& zero = named("zero_offset");
   const double rows = known.rows;
@@ -176,7 +176,7 @@ TEST_F(Separations, AConstantIsSeenAsAMeanIs) {
   EXPECT_NEAR(margin(signatures, known, zero, nullptr), alone, 0.05 * alone);
 }
 
-TEST_F(Separations, ACaliperTellsWhatRunsCannot) {
+TEST_F(Separations, CaliperResolvesScaleFromOffset) {
   const Cause& scale = named("pulley_scale");
   const Cause& offset = named("radius_offset");
   const Information runs = after(4);

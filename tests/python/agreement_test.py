@@ -1,4 +1,4 @@
-"""What the module answers is what the program prints and writes: the same figures, the same bytes."""
+"""The module's results equal those of the program: the same figures and bytes."""
 
 import csv
 import json
@@ -26,7 +26,7 @@ upper = [-35]
 class Agreement(harness.Scratch):
     def setUp(self):
         super().setUp()
-        # The path stands in manifest.json.
+        # manifest.json contains the path.
         before = os.getcwd()
         os.chdir(self.folder)
         self.addCleanup(os.chdir, before)
@@ -64,7 +64,7 @@ class Agreement(harness.Scratch):
         self.expect('build arm.toml -o theirs --set pulley.r1_mm=15 --set print.parts=one --set "joint.range_deg=[-25, 25]" --dxf r12', 0)
         self.same_files(fusee.build(arm, dxf="r12").files, "theirs")
 
-    def test_what_cannot_be_built(self):
+    def test_infeasible_mechanism(self):
         said = self.expect_json("build arm.toml --set pulley.r1_mm=25", 4)
         refused = fusee.build(self.arm.with_({"pulley.r1_mm": 25}))
         self.assertEqual([condition["name"] for condition in said["conditions"]], [condition.name for condition in refused.conditions])
@@ -78,7 +78,7 @@ class Agreement(harness.Scratch):
         mine = [{key: getattr(diagnostic, key) for key in ("file", "line", "column", "message", "hint")} for diagnostic in caught.exception.diagnostics]
         self.assertEqual(mine, said)
 
-    def test_synthesise_is_the_table_of_build(self):
+    def test_synthesise_matches_build(self):
         curves = fusee.synthesise(self.arm)
         table = np.genfromtxt(self.build()["transmission.csv"].decode().splitlines(), delimiter=",", names=True)
         for column, mine in (("alpha_deg", np.degrees(curves.stroke.alpha_rad)), ("theta_deg", np.degrees(curves.stroke.theta_rad)),
@@ -93,7 +93,7 @@ class Agreement(harness.Scratch):
             self.assertEqual([math.degrees(theta) for theta in wound.theta_rad], [point["theta_deg"] for point in said["points"]])
             self.assertEqual(list(wound.slack_mm), [point["slack_mm"] for point in said["points"]])
             self.assertTrue(wound.ok)
-        # Curves never written wind alike, but for the arcs of a drawing, which lie within 0.0005 mm of them.
+        # Curves in memory and in the drawing differ by its arcs, which are within 0.0005 mm.
         curves = fusee.rewind(self.arm, fusee.synthesise(self.arm))
         self.assertLess(abs(curves.max_theta_error_rad - wound.max_theta_error_rad), 5e-5)
         self.assertEqual([check["value"] for check in self.expect_json("check out/pulley.stl", 0)["checks"]],
@@ -155,7 +155,7 @@ class Agreement(harness.Scratch):
             self.assertGreater(number.ci95[1], number.change)
 
     def test_calibrate_from_columns(self):
-        """Columns read as the file that holds them."""
+        """Columns give the same result as a file with them."""
         with open(RUNS[0]) as lines:
             rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
         columns = {name: [float(row[name]) for row in rows] for name in rows[0]}

@@ -1,4 +1,4 @@
-"""Bad input of every kind is an InputError that says where and what; never a crash, never another exception."""
+"""Bad input of every kind is an InputError with place and reason; never a crash or another exception."""
 
 import math
 import os
@@ -34,7 +34,7 @@ class Input(unittest.TestCase):
         self.assertTrue(str(caught.exception))
         return caught.exception
 
-    def test_says_all_faults_with_their_places(self):
+    def test_reports_all_faults(self):
         error = self.refused(fusee.read, ARM.replace("EB_mm = 50.0", "EB_mm = 'x'").replace("r1_mm", "r9_mm"), name="b.toml")
         places = [(diagnostic.file, diagnostic.line, diagnostic.severity) for diagnostic in error.diagnostics]
         self.assertEqual(len({place for place in places if place[1] > 0}), len(places))
@@ -45,7 +45,7 @@ class Input(unittest.TestCase):
         again = pickle.loads(pickle.dumps(error))
         self.assertEqual((again.diagnostics, str(again)), (error.diagnostics, str(error)))
 
-    def test_files_that_are_none(self):
+    def test_rejects_bad_files(self):
         (self.folder / "binary.toml").write_bytes(bytes(range(256)) * 10)
         (self.folder / "large.toml").write_bytes(b"# " + b"x" * 2000000)
         os.mkfifo(self.folder / "pipe.toml")
@@ -57,7 +57,7 @@ class Input(unittest.TestCase):
                 self.refused(fusee.read, wrong)
         self.refused(fusee.read, ARM, name="a\0")
 
-    def test_changes_that_cannot_be(self):
+    def test_rejects_bad_changes(self):
         wrong = [math.nan, math.inf, -1e300, 10**400, "sixteen", "", [], [1, 2], {}, None, object(), 1j, b"15", True, "\ud800", "\0", np.zeros((2, 2))]
         for value in wrong:
             with self.subTest(repr(value)[:30]):
@@ -72,7 +72,7 @@ class Input(unittest.TestCase):
             self.arm["\ud800"]
         self.assertNotIn(3, self.arm)
 
-    def test_arguments_that_cannot_be(self):
+    def test_rejects_bad_arguments(self):
         verbs = {
             fusee.synthesise: {"tolerance_mm": (0, -1, math.nan, 2, "x", None, True, 1j), "steps": (0, 1.5, 10**9, 10**30, "x")},
             fusee.build: {"tolerance_mm": (0, math.inf), "dxf": ("r13", 3, None, []), "max_slack_mm": (-1, "x"), "step": ("no", 1, None), "folder": (3, "a\0", "", b"\0", [])},
@@ -89,7 +89,7 @@ class Input(unittest.TestCase):
             for wrong in ("arm.toml", None, 3):
                 self.refused(verb, wrong)
 
-    def test_joints_that_a_verb_is_not_for(self):
+    def test_rejects_unsuitable_joints(self):
         jaw = fusee.read("schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = 2.0\n")
         for verb in (fusee.synthesise, fusee.build, fusee.analyze, fusee.kit):
             self.refused(verb, jaw)
@@ -100,7 +100,7 @@ class Input(unittest.TestCase):
         self.refused(fusee.optimize, searched, method="pareto")
         self.assertTrue(fusee.simulate(jaw, {"alpha_deg": [0.0, 1.0, 2.0]}).exists)
 
-    def test_parts_that_are_none(self):
+    def test_rejects_bad_parts(self):
         (self.folder / "empty.stl").write_bytes(b"")
         (self.folder / "junk.stl").write_bytes(random.Random(1).randbytes(5000))
         (self.folder / "cube.off").write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
@@ -114,7 +114,7 @@ class Input(unittest.TestCase):
         for part in (3, None, b"\0"):
             self.refused(fusee.rewind, self.arm, part)
 
-    def test_logs_that_are_none(self):
+    def test_rejects_bad_logs(self):
         (self.folder / "run.csv").write_text("alpha_deg,theta_deg\n1,x\n")
         logs = [{}, {"alpha_deg": []}, {"alpha_deg": [1, 2], "theta_deg": [1]}, {"alpha_deg": "abc"}, {"alpha_deg": [[1, 2]]},
                 {"a,b": [1], "alpha_deg": [1]}, {"theta_deg": [1.0, 2.0]}, {"alpha_deg": [math.nan] * 9}, self.folder / "none.csv", self.folder, 3, None,
@@ -136,7 +136,7 @@ class Input(unittest.TestCase):
         self.refused(fusee.calibrate, self.arm, [LOG], ticks_per_turn={"load": 4096})
         self.refused(fusee.simulate, self.arm, LOG, zero_ticks={"alpha": 4096})
 
-    def test_places_that_cannot_be_written(self):
+    def test_reports_unwritable_places(self):
         (self.folder / "taken").mkdir()
         (self.folder / "taken/pulley.stl").write_text("mine")
         (self.folder / "file").write_text("")
@@ -147,7 +147,7 @@ class Input(unittest.TestCase):
         self.assertEqual((self.folder / "taken/pulley.stl").read_text(), "mine")
         self.assertTrue(fusee.build(self.arm, self.folder / "taken", force=True).published)
 
-    def test_any_edit_of_a_file_is_read_or_refused(self):
+    def test_survives_any_edit(self):
         chance = random.Random(13)
         words = ["=", "[", "]", "\n", '"', "1e400", "-", "nan", "[joint]", "\0", "é", "\u2028", "'''", "0x", ",", "1979-05-27", "law", "true", "\ud800"]
         outcomes = {True: 0, False: 0}
@@ -164,7 +164,7 @@ class Input(unittest.TestCase):
                 outcomes[False] += 1
         self.assertTrue(all(count > 100 for count in outcomes.values()), outcomes)
 
-    def test_any_number_is_made_refused_or_advised_against(self):
+    def test_survives_any_number(self):
         chance = random.Random(13)
         keys = [key for key, value in self.arm.items() if isinstance(value, float) and key.split(".")[0] in ("joint", "guides", "pulley", "tendon")]
         made = 0
@@ -180,7 +180,7 @@ class Input(unittest.TestCase):
 
 
 class Infeasible(unittest.TestCase):
-    """What cannot be made is a value, with reasons and advice that does."""
+    """An infeasible joint is a value with reasons and advice that builds."""
 
     def test_advice_builds(self):
         refused = fusee.build(fusee.read(ARM).with_({"pulley.r1_mm": 25}))
@@ -191,7 +191,7 @@ class Infeasible(unittest.TestCase):
             with self.subTest(change.text):
                 self.assertTrue(fusee.build(fusee.read(ARM).with_({"pulley.r1_mm": 25}).with_(change.settings)).ok)
 
-    def test_every_verb_says_so(self):
+    def test_is_reported_by_every_verb(self):
         beyond = fusee.read(ARM).with_({"joint.range_deg": (-170, 170)})
         for verb in (fusee.synthesise, fusee.analyze, fusee.build, fusee.plan, fusee.kit, lambda joint: fusee.simulate(joint, {"alpha_deg": [0.0, 1.0]})):
             answer = verb(beyond)

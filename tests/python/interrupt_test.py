@@ -1,4 +1,4 @@
-"""Ctrl-C in the middle of a verb is heard at once, and leaves nothing half done; other threads go on while a verb works."""
+"""Ctrl-C during a verb takes effect at once and leaves no partial output; other threads run while a verb works."""
 
 import signal
 import subprocess
@@ -75,15 +75,15 @@ class Interrupt(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         return {name: float(seconds) for name, seconds in (line.split() for line in done.stdout.splitlines())}
 
-    def test_is_heard_at_once(self):
+    def test_takes_effect_at_once(self):
         for name, work in WORK.items():
             with self.subTest(name):
                 said = self.run_program(work, 0.3, self.folder / "out")
                 self.assertLess(said["heard"], LONGEST)
-                # Nobody waits for what goes on unheard, but it takes a processor.
+                # The work may continue in the background, but it uses a processor.
                 self.assertLess(said["ended"], 5)
 
-    def test_leaves_a_folder_whole_or_none(self):
+    def test_leaves_complete_folder_or_none(self):
         whole = set(fusee.build(fusee.read(ARM)).files)
         for i in range(5):
             out = self.folder / f"out_{i}"
@@ -93,7 +93,7 @@ class Interrupt(unittest.TestCase):
         left = {path.name for path in self.folder.iterdir() if not path.name.startswith("out_")}
         self.assertEqual(left, set())
 
-    def test_ends_a_script_that_does_not_catch_it(self):
+    def test_ends_script(self):
         text = f"import fusee, os, signal, threading\narm = fusee.read({ARM!r})\n" \
                "threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()\nwhile True: fusee.analyze(arm, samples=20000)"
         done = subprocess.run([sys.executable, "-c", text], env=setting.ENVIRONMENT, capture_output=True, text=True, timeout=60)
@@ -102,8 +102,8 @@ class Interrupt(unittest.TestCase):
 
 
 class Lock(unittest.TestCase):
-    def test_is_given_back_in_every_verb(self):
-        """A thread that only counts time goes on while each verb works."""
+    def test_is_released_by_every_verb(self):
+        """A thread that counts time runs while each verb works."""
         arm = fusee.read(ARM)
         curves = fusee.synthesise(arm)
         refused = arm.with_({"pulley.r1_mm": 25})
@@ -119,14 +119,14 @@ class Lock(unittest.TestCase):
         }
         for name, verb in verbs.items():
             with self.subTest(name):
-                # A busy machine may stop the counter for a while, but not each time.
+                # A busy machine may stop the counter sometimes, but not each time.
                 shares = []
                 while len(shares) < 6 and min(shares, default=1) > 0.5:
                     shares.append(self.longest_pause(verb))
                 self.assertLess(min(shares), 0.5)
 
     def longest_pause(self, verb):
-        """Of a thread that counts beside a verb: the share of the time that the verb took."""
+        """Share of the verb's duration in which a parallel thread runs."""
         ticks = []
         stop = threading.Event()
 
@@ -144,9 +144,9 @@ class Lock(unittest.TestCase):
         within = [tick for tick in ticks if start < tick < end]
         return max(b - a for a, b in zip([start, *within], [*within, end])) / (end - start)
 
-    def test_is_seen_when_it_is_kept(self):
+    def test_detects_kept_lock(self):
         before = sys.getswitchinterval()
-        sys.setswitchinterval(100)  # as good as a verb that keeps the lock
+        sys.setswitchinterval(100)  # like a verb that keeps the lock
         try:
             self.assertGreater(self.longest_pause(lambda: [i * i for i in range(2000000)]), 0.5)
         finally:

@@ -1,4 +1,4 @@
-"""The package as a whole: its examples run, its types hold, its names say their units."""
+"""The package as a whole: examples, types, and units in names."""
 
 import dataclasses
 import doctest
@@ -26,11 +26,11 @@ def has(module):
 
 
 class Package(unittest.TestCase):
-    def test_is_the_programs_version(self):
+    def test_has_version_of_program(self):
         said = harness.fusee("--version", "/").stdout.decode().split()[-1]
         self.assertEqual(fusee.__version__, said)
 
-    def test_has_the_verbs_with_examples(self):
+    def test_verbs_have_examples(self):
         for verb in VERBS:
             with self.subTest(verb):
                 words = inspect.getdoc(getattr(fusee, verb))
@@ -46,11 +46,11 @@ class Package(unittest.TestCase):
             attempted += result.attempted
         self.assertGreater(attempted, 50)
 
-    def test_all_is_what_is_public(self):
+    def test_all_lists_public_names(self):
         public = {name for name, value in vars(fusee).items() if not name.startswith("_") and not inspect.ismodule(value)}
         self.assertEqual(public | {"__version__"}, set(fusee.__all__))
 
-    def test_numbers_have_their_unit_in_the_name(self):
+    def test_names_have_units(self):
         for kind in (value for value in vars(fusee).values() if dataclasses.is_dataclass(value)):
             for part in dataclasses.fields(kind):
                 if re.search("Numbers|float", str(part.type)) and not re.search("Table", str(part.type)):
@@ -66,15 +66,15 @@ class Package(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     @unittest.skipUnless(has("mypy"), "mypy is not installed")
-    def test_types_hold_strictly(self):
+    def test_types_are_strict(self):
         self.run_judge(["mypy", "--strict", "--cache-dir=/dev/null", "-p", "fusee"])
 
     @unittest.skipUnless(has("mypy"), "mypy is not installed")
-    def test_stubs_are_what_runs(self):
+    def test_stubs_match_module(self):
         self.run_judge(["mypy.stubtest", "fusee"])
 
     @unittest.skipUnless(has("mypy"), "mypy is not installed")
-    def test_a_persons_script_is_checked_and_a_wrong_one_refused(self):
+    def test_types_detect_wrong_script(self):
         right = "import fusee\nm = fusee.read('arm.toml')\nx: float = fusee.build(m).as_built.max_slack_mm + m.number('pulley.r1_mm')\n"
         self.run_judge(["mypy", "--strict", "--cache-dir=/dev/null", "-c", right])
         wrong = ["fusee.build('arm.toml')", "fusee.build(m).status = 'done'", "fusee.analyze(m, stepz=3)", "len(fusee.analyze(m).exists)"]

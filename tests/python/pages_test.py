@@ -1,4 +1,5 @@
-"""Each line of Python that README.md and docs/reference/python.md show runs as written. So does the sweep, here and on Dask."""
+"""Each line of Python in README.md and docs/reference/python.md runs as printed. So does the sweep, in processes and on
+Dask."""
 
 import contextlib
 import importlib.util
@@ -49,7 +50,7 @@ class Pages(harness.Scratch):
                         self.assertIn(words, printed.getvalue())
 
     def test_commands_run(self):
-        """Those of docs/reference/python.md that install nothing."""
+        """The commands of docs/reference/python.md, except installations."""
         lines = [line for block in re.findall(r"^```sh\n(.*?)^```", (harness.SOURCE / "docs/reference/python.md").read_text(), re.M | re.S) for line in block.splitlines()]
         ran = 0
         for line in lines:
@@ -61,19 +62,19 @@ class Pages(harness.Scratch):
             ran += 1
         self.assertGreater(ran, 0)
 
-    def test_pages_name_what_exists(self):
+    def test_pages_name_existing_members(self):
         for name in re.findall(r"\bfusee\.(\w+)", (harness.SOURCE / "docs/reference/python.md").read_text()):
             self.assertTrue(hasattr(fusee, name) or name in ("toml", "sh"), name)
 
 
 class Sweep(unittest.TestCase):
-    """Small: what it is to show in large is measured by hand, and said in docs/reference/python.md."""
+    """A small sweep; docs/reference/python.md has the figures of a large one."""
 
     @classmethod
     def setUpClass(cls):
         spec = importlib.util.spec_from_file_location("python_sweep", SWEEP)
         cls.sweep = importlib.util.module_from_spec(spec)
-        sys.modules["python_sweep"] = cls.sweep  # for workers, by name
+        sys.modules["python_sweep"] = cls.sweep  # workers import it by name
         spec.loader.exec_module(cls.sweep)
         cls.base = fusee.read(fusee.new("forearm"))
         cls.designs = cls.sweep.designs(300)
@@ -82,7 +83,7 @@ class Sweep(unittest.TestCase):
     def same(self, figures):
         self.assertEqual(repr(figures), repr(self.here))
 
-    def test_here(self):
+    def test_in_process(self):
         self.assertGreater(sum(figure[0] is None for figure in self.here), 200)
         self.assertGreater(len({figure[0] for figure in self.here}), 1)
 

@@ -1,4 +1,4 @@
-"""Where the package under test is: beside the program, as the build leaves it. Called as: SCRIPT PROGRAM SOURCE_FOLDER."""
+"""Finds the package under test next to the program. Called as: SCRIPT PROGRAM SOURCE_FOLDER."""
 
 import os
 import sys

@@ -1,4 +1,4 @@
-"""What the verbs answer: frozen, shown and not copied, equal by what it holds, the same after a journey through pickle."""
+"""Results of the verbs: frozen, views instead of copies, equal by content, unchanged by pickle."""
 
 import dataclasses
 import gc
@@ -18,7 +18,7 @@ ARM = (harness.SOURCE / "tests/cli/arm.toml").read_text()
 
 
 def values_of(arm):
-    """One answer of each kind."""
+    """One result of each kind."""
     log = {"alpha_deg": np.linspace(-40, 40, 81), "load_N": np.full(81, 5.0)}
     curves = fusee.synthesise(arm)
     return {
@@ -36,7 +36,7 @@ def values_of(arm):
 
 
 def arrays_in(value):
-    """All of them, however deep."""
+    """All nested values."""
     if isinstance(value, np.ndarray):
         yield value
     parts = value.values() if isinstance(value, fusee.Table) else value if isinstance(value, tuple) else ()
@@ -59,7 +59,7 @@ class Values(unittest.TestCase):
             with self.subTest(name):
                 yield value
 
-    def test_do_not_change(self):
+    def test_are_immutable(self):
         for value in self.each():
             for name in [part.name for part in dataclasses.fields(value)] + ["novel"]:
                 with self.assertRaises((AttributeError, TypeError)):
@@ -69,7 +69,7 @@ class Values(unittest.TestCase):
         with self.assertRaises(TypeError):
             self.values["built"].files["pulley.stl"] = b""
 
-    def test_arrays_cannot_be_written(self):
+    def test_arrays_are_read_only(self):
         count = 0
         for value in self.each():
             for array in arrays_in(value):
@@ -81,15 +81,15 @@ class Values(unittest.TestCase):
                         array[0] = 1
         self.assertGreater(count, 100)
 
-    def test_arrays_are_views_of_one_value(self):
+    def test_arrays_are_views(self):
         stroke = self.values["synthesis"].stroke
         self.assertIs(stroke.alpha_rad.base, stroke.r2_mm.base)
-        # A row holds many numbers: a copy would lie tight.
+        # Rows have many numbers; the strides of a copy would be smaller.
         self.assertGreater(stroke.alpha_rad.strides[0], 8)
         self.assertFalse(stroke.alpha_rad.flags.owndata)
         self.assertFalse(self.values["built"].mesh.triangles.flags.owndata)
 
-    def test_arrays_outlive_what_they_were_part_of(self):
+    def test_arrays_outlive_their_value(self):
         expected = fusee.synthesise(self.arm).p2.position_mm.copy()
         kept = fusee.synthesise(self.arm).p2.position_mm[5:50, 1]
         gc.collect()
@@ -97,7 +97,7 @@ class Values(unittest.TestCase):
         self.assertTrue(np.array_equal(kept, expected[5:50, 1]))
         del trash
 
-    def test_are_equal_and_hash_by_what_they_hold(self):
+    def test_compare_by_content(self):
         again = values_of(self.arm)
         for name, value in self.values.items():
             with self.subTest(name):
@@ -107,7 +107,7 @@ class Values(unittest.TestCase):
         self.assertNotEqual(self.values["synthesis"], self.values["refused"])
         self.assertNotEqual(fusee.synthesise(self.arm), fusee.synthesise(self.arm.with_({"pulley.r1_mm": 16.0000001})))
 
-    def test_are_shown_in_few_words(self):
+    def test_have_short_repr(self):
         for value in self.each():
             self.assertLess(len(repr(value)), 3000)
             self.assertTrue(repr(value).startswith(type(value).__name__ + "("))
@@ -121,13 +121,13 @@ class Values(unittest.TestCase):
                 self.assertEqual(repr(back), repr(value))
                 self.assertTrue(all(not array.flags.writeable for array in arrays_in(back)))
 
-    def test_pickle_with_their_arrays_apart(self):
+    def test_pickle_arrays_separately(self):
         buffers = []
         packed = pickle.dumps(self.values["built"], protocol=5, buffer_callback=buffers.append)
         self.assertGreater(len(buffers), 10)
         self.assertEqual(pickle.loads(packed, buffers=buffers), self.values["built"])
 
-    def test_a_copy_is_as_frozen(self):
+    def test_copies_are_frozen(self):
         import copy
 
         for value in self.each():
@@ -140,24 +140,24 @@ class Mechanisms(unittest.TestCase):
     def setUp(self):
         self.arm = fusee.read(ARM, name="arm.toml")
 
-    def test_every_key_says_what_it_holds(self):
-        """Each key of the field table, written back as it is read, changes nothing."""
+    def test_every_key_round_trips(self):
+        """Each key of the field table, written back with its value, changes nothing."""
         names = [field["name"] for field in fusee.explain()["fields"]]
         self.assertEqual(names, list(self.arm))
         for key, value in self.arm.items():
             explained = fusee.explain(key)["fields"][0]
             if value is None or (value in ("", 0, ()) and explained["default"] == ""):
-                continue  # not in this file, and nothing that could be written
+                continue  # the file lacks this key's table
             with self.subTest(key):
                 self.assertEqual(self.arm.with_({key: value}), self.arm)
 
-    def test_numbers_are_those_of_the_file(self):
+    def test_numbers_match_file(self):
         turned = self.arm.with_({"joint.range_deg": (-29.9, 17.3), "load.tip_force_N": 0.1})
         self.assertEqual(turned["joint.range_deg"], (-29.9, 17.3))
         self.assertEqual(turned["load.tip_force_N"], 0.1)
         self.assertEqual(turned.with_({"joint.range_deg[0]": -20, "joint.range_deg[1]": 21})["joint.range_deg"], (-20.0, 21.0))
 
-    def test_take_what_python_has_for_numbers(self):
+    def test_accept_python_numbers(self):
         import decimal
         import fractions
 
@@ -167,19 +167,19 @@ class Mechanisms(unittest.TestCase):
             self.arm.with_({"pulley.r1_mm": decimal.Decimal(15)})
         self.assertEqual(self.arm.with_({"joint.range_deg": np.array([-20, 20])})["joint.range_deg"], (-20.0, 20.0))
 
-    def test_whole_file_comes_back(self):
+    def test_file_round_trips(self):
         for name in fusee.templates():
             mechanism = fusee.read(harness.SOURCE / f"profiles/{name}.toml")
             self.assertEqual(fusee.read(mechanism.toml, name=mechanism.path), mechanism, name)
 
-    def test_equal_ones_hash_alike(self):
+    def test_equal_values_have_equal_hashes(self):
         same = fusee.read(ARM + "# another comment\n", name="other.toml")
         self.assertEqual(same, self.arm)
         self.assertEqual(hash(same), hash(self.arm))
         self.assertEqual(self.arm.with_({"load.tip_force_N": -0.0}), self.arm.with_({"load.tip_force_N": 0}))
         self.assertEqual(len({self.arm, same, self.arm.with_({"pulley.r1_mm": 15})}), 2)
 
-    def test_optimized_keep_what_was_set(self):
+    def test_optimized_keep_settings(self):
         text = ARM + "[optimize]\nobjective = 'max_tension'\nvariables = ['guides.OE_mm']\nlower = [-45]\nupper = [-35]\n"
         arm = fusee.read(text).with_({"print.parts": "one", "guides.OE_mm": -38, "load.tip_force_N": 3, "joint.range_deg": (-20, 20)})
         best = fusee.optimize(arm)
@@ -203,7 +203,7 @@ class Mechanisms(unittest.TestCase):
 
 
 class Anywhere(unittest.TestCase):
-    """Results do not depend on where they ran."""
+    """Results do not depend on thread or process."""
 
     def setUp(self):
         arm = fusee.read(ARM, name="arm.toml")
@@ -218,7 +218,7 @@ class Anywhere(unittest.TestCase):
         with ProcessPoolExecutor(2) as pool:
             self.assertTrue(list(pool.map(written, self.arms)) == self.alone)
 
-    def test_different_verbs_beside_each_other(self):
+    def test_different_verbs_in_parallel(self):
         verbs = [fusee.synthesise, lambda arm: fusee.analyze(arm, samples=50), lambda arm: fusee.plan(arm, minutes=2), fusee.build] * 2
         alone = [verb(self.arms[0]) for verb in verbs]
         with ThreadPoolExecutor(4) as pool:

@@ -1,4 +1,4 @@
-"""pip makes a wheel of what stands compiled, and a fresh environment uses it; cmake --install puts the package where Python looks."""
+"""pip packs an existing build as a wheel for a fresh environment; cmake --install puts the package where Python looks."""
 
 import re
 import subprocess
@@ -14,7 +14,7 @@ from setting import harness
 import fusee
 
 USE = "import fusee; print(fusee.__file__, fusee.__version__, fusee.build(fusee.read(fusee.new('finger'))).status)"
-# A wheel brings the module for STEP along, where there is one.
+# A wheel includes the module for STEP, if it was built.
 HAS_STEP = any(harness.PROGRAM.parent.glob("lib/**/fusee/modules/fusee-step.so"))
 USE_FOR_CAD = f"import fusee; print(fusee.build(fusee.read(fusee.new('finger')), step={HAS_STEP}).status)"
 
@@ -37,7 +37,7 @@ class Installed(unittest.TestCase):
         return done.stdout.split()
 
     @unittest.skipUnless(can("-m", "pip", "--version") and can("-c", "import ensurepip"), "pip or venv is not installed")
-    def test_by_pip_in_a_fresh_environment(self):
+    def test_pip_installs_wheel(self):
         build = harness.PROGRAM.parent
         pip = [sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "--no-index", "-w", self.folder]
         self.run_all([*pip, "--config-settings", f"build-dir={build}", harness.SOURCE], cwd=self.folder)
@@ -54,14 +54,14 @@ class Installed(unittest.TestCase):
         self.assertEqual(self.run_all([python, "-m", "pip", "show", "fusee"])[:4], ["Name:", "fusee", "Version:", fusee.__version__])
         self.run_all([python, "-m", "pip", "uninstall", "-y", "fusee"])
 
-    def test_by_cmake(self):
+    def test_cmake_installs(self):
         self.run_all(["cmake", "--install", harness.PROGRAM.parent, "--component", "python", "--prefix", self.folder])
         (package,) = self.folder.glob("lib/python3*/dist-packages")
         self.assertEqual({path.name for path in (package / "fusee").iterdir()}, {path.name for path in setting.PACKAGE.joinpath("fusee").iterdir()} - {"__pycache__"})
         self.environment["PYTHONPATH"] = str(package)
         self.assertEqual(self.run_all([sys.executable, "-c", USE], cwd=self.folder)[1:], [fusee.__version__, "done"])
 
-    def test_where_a_package_for_debian_has_it(self):
+    def test_debian_package_path(self):
         self.environment["DESTDIR"] = str(self.folder)
         self.run_all(["cmake", "--install", harness.PROGRAM.parent, "--component", "python", "--prefix", "/usr"])
         self.assertTrue((self.folder / "usr/lib/python3/dist-packages/fusee/__init__.py").exists())

@@ -1,5 +1,5 @@
 /// \file
-/// What was identified, turned into a pulley that takes it out and into a table for what no pulley can.
+/// Corrections from the identified effects: a pulley, and a motor table for the errors that no pulley corrects.
 #pragma once
 
 #include <string>
@@ -12,44 +12,44 @@
 
 namespace fusee {
 
-/// Where the motor must stand for the joint to be at `theta`, on its way up (α grows) and on its way down. rad.
+/// Motor angles, rad, at which the joint is at `theta`: alpha_up while α grows, alpha_down while it falls.
 struct CompensationRow {
   double theta = 0;
   double alpha_up = 0;
   double alpha_down = 0;
-  double curve_up = 0;  ///< part of alpha_up that comes from the empirical curve of what has no name
+  double curve_up = 0;  ///< part of alpha_up from the empirical curve of the unmodelled error
   double curve_down = 0;
 };
 
 struct Correction {
-  Imperfections identified;  ///< of the file and of this calibration together
-  bool has_pulley = false;   ///< something identified that another pulley takes out, and it can be made
-  std::string infeasible;    ///< why it cannot; empty when it can or none is needed
+  Imperfections identified;  ///< the file's and this calibration's imperfections, combined
+  bool has_pulley = false;   ///< an identified effect is corrected by another pulley, and that pulley is feasible
+  std::string infeasible;    ///< why it is infeasible; empty if it is feasible or not needed
   RoundChoice round;
-  double tied_at = 0;  ///< of the corrected pulley, rad
-  // By how much the joint as found misses the declared law over the measured strokes, rms, rad, by simulation; of a
-  // joint declared by a ratio its zero, which is found, is no part of it …
+  double tied_at = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
+  // Rms error of the identified joint from the declared law over the measured strokes, rad, by simulation. For a joint
+  // declared by a ratio without the identified zero.
   double error_now = 0;
-  double error_with_pulley = 0;  ///< … with the corrected pulley, tendons tied at α = 0
-  double error_with_table = 0;   ///< … and the motor where the table says
-  // By how much less rows that were left out miss the declared law, rms, rad: the difference of the squares is the
-  // square of what is taken away. 0: they do not get better, and the file is not to be used.
-  double by_pulley = 0;  ///< by what the corrected pulley changes of the joint …
-  double by_table = 0;   ///< … and by the table beyond that, the empirical curve in it included …
-  double by_curve = 0;   ///< … which alone takes away so much of data that it was not made from; 0: not in it
-  std::string why_no_pulley_file;      ///< why corrected.toml is not to be used; "" where it is
-  std::string why_no_table;            ///< the same of compensation.csv
-  std::vector<CompensationRow> table;  ///< for the corrected pulley where there is one, within the range seen
+  double error_with_pulley = 0;  ///< with the corrected pulley, tendons tied at α = 0
+  double error_with_table = 0;   ///< with the corrected pulley and the table
+  // Reduction of the rms error on held-out rows, rad: the square root of the difference of mean squares. 0: no
+  // reduction, and the file is not written.
+  double by_pulley = 0;            ///< by the corrected pulley
+  double by_table = 0;             ///< by the table beyond the pulley, including the empirical curve
+  double by_curve = 0;             ///< by the empirical curve alone, on data that it was not made from; 0: not included
+  std::string why_no_pulley_file;  ///< why corrected.toml is not written; "" if it is
+  std::string why_no_table;        ///< why compensation.csv is not written; "" if it is
+  std::vector<CompensationRow> table;  ///< for the corrected pulley if there is one, within the measured range
 };
 
-/// `declared` as the file says, with the [identified] of earlier calibrations still apart.
+/// Computes both corrections. `declared`: the file, with [identified] of earlier calibrations kept apart.
 Correction correct(const DeclaredMechanism& declared, const Measurement& measurement, const Calibration& calibration);
 
-/// The declared file with the [identified] table, its comments kept; what was found stands above it in words.
+/// The declared file with comments, plus the table [identified] and the effects in words.
 std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared,
                            const Calibration& calibration, const Correction& correction);
-/// Columns theta_deg, alpha_up_deg, alpha_down_deg. With an empirical curve two more, empirical_up_deg and
-/// empirical_down_deg, have the curve's part of both angles.
+/// Columns theta_deg, alpha_up_deg, alpha_down_deg. With an empirical curve also empirical_up_deg and
+/// empirical_down_deg, the curve's part of both angles.
 std::string compensation_csv(const Correction& correction);
 
 }  // namespace fusee

@@ -1,6 +1,6 @@
 /// \file
-/// What each effect that was found does to the joint, by how much of it there is and under which load: simulated, so
-/// that a person can turn it up and down.
+/// Simulated influence of each identified effect on the joint, by size of the effect and load: data of the sliders in
+/// the report.
 #pragma once
 
 #include <array>
@@ -13,34 +13,35 @@
 
 namespace fusee {
 
-/// The joint as it was expected, under one load.
+/// Stroke of the expected joint under one load.
 struct LoadedStroke {
-  double load = 0;                  ///< tip force, positive against +θ, N
-  std::vector<StrokePoint> points;  ///< at each place of the stroke
+  double load = 0;                  ///< tip force, N, positive against +θ
+  std::vector<StrokePoint> points;  ///< along the stroke
 };
 
-/// How much of an effect: of what was found.
+/// Sizes of an effect, as multiples of the identified size.
 inline constexpr std::array k_rehearsed_shares{0.0, 0.5, 1.0, 1.5, 2.0};
 
-/// By how much the joint's sensor shows another angle with the effect alone, rad.
+/// Change of the sensed joint angle by the effect alone, rad.
 struct RehearsedShare {
-  std::vector<FittedParameter> parameters;           ///< the numbers of that share
-  std::vector<std::vector<double>> rising, falling;  ///< by load, by place
+  std::vector<FittedParameter> parameters;           ///< the effect's parameters at that share
+  std::vector<std::vector<double>> rising, falling;  ///< by load and place
 };
 
 struct RehearsedEffect {
   std::string name;
-  std::vector<RehearsedShare> shares;  ///< of k_rehearsed_shares
+  std::vector<RehearsedShare> shares;  ///< one for each of k_rehearsed_shares
 };
 
 struct Rehearsal {
-  Mechanism mechanism;        ///< the joint as it was expected
-  SynthesisResult synthesis;  ///< of the pulley that is mounted
+  Mechanism mechanism;        ///< the expected joint
+  SynthesisResult synthesis;  ///< of the mounted pulley
   std::vector<LoadedStroke> strokes;
-  std::vector<RehearsedEffect> effects;  ///< those of which a slow stroke back and forth shows anything
+  std::vector<RehearsedEffect> effects;  ///< effects with an influence on a slow stroke there and back
 };
 
-/// Empty for a joint that is declared by a ratio, or whose pulley cannot be drawn. `expected`: expected_joint().
+/// Simulates all effects. Empty for a joint declared by a ratio, or without a feasible pulley. `expected`: from
+/// expected_joint().
 Rehearsal rehearse(const DeclaredMechanism& expected, const Measurement& measurement, const Calibration& calibration);
 
 }  // namespace fusee

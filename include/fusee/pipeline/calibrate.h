@@ -1,5 +1,5 @@
 /// \file
-/// Measured runs of a joint → what is off, why, and the file of a better pulley.
+/// Calibration: measured runs → causes of the error, and the file of a better pulley.
 #pragma once
 
 #include <filesystem>
@@ -14,14 +14,14 @@ namespace fusee {
 
 struct CalibrateOptions {
   MeasurementOptions columns;
-  std::vector<std::filesystem::path> hold_out;  ///< runs to validate with only
-  std::filesystem::path folder;                 ///< where the files go
+  std::vector<std::filesystem::path> hold_out;  ///< runs for validation only
+  std::filesystem::path folder;                 ///< folder of the output files
   bool force = false;
-  bool dry_run = false;  ///< everything but writing
+  bool dry_run = false;  ///< everything except writing
   bool audit = true;     ///< CalibrationOptions::audit
-  /// What is done now and, where that is known, how much of it. What it throws stops the work.
+  /// Called with the present task and its share, if known. An exception from it stops the work.
   std::function<void(const std::string& what, std::optional<double> share)> progress;
-  /// Called before each file is staged. What it throws leaves nothing behind.
+  /// Called before each file is staged. An exception from it leaves no files.
   std::function<void()> before_writing;
 };
 
@@ -29,14 +29,15 @@ struct CalibrateResult {
   CalibrationProduct product;
   std::vector<OutputFile> outputs;  ///< manifest.json last
   bool published = false;
-  bool rewritten = false;  ///< corrected.toml has every key: the text of `file.path` says something else (--set)
+  /// corrected.toml has every key, because the text of `file.path` differs from the mechanism (--set)
+  bool rewritten = false;
 };
 
-/// Reads the runs, holds them against the joint as `file` describes it, and leaves calibration.json, corrected.toml
-/// (with the table of law = "table" beside it), compensation.csv, report.html and manifest.json. Data that decide
-/// nothing are a verdict; InputError for what cannot be read, OutputError where it may not be written, before the work.
-/// A run that is both fitted and held out is held out. corrected.toml keeps the text of `file.path`, comments and
-/// all, where that says what `file.mechanism` is.
+/// Reads the runs, compares them with the joint of `file`, and writes calibration.json, corrected.toml (with the CSV of
+/// a law table), compensation.csv, report.html and manifest.json. Inconclusive data give a verdict. Throws InputError
+/// for unreadable input, and OutputError before the work if the output may not be written. A run that is both fitted
+/// and held out is held out. corrected.toml keeps the text of `file.path` with comments if it describes
+/// `file.mechanism`.
 CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::filesystem::path>& runs,
                           const CalibrateOptions& options);
 

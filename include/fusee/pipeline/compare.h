@@ -1,5 +1,5 @@
 /// \file
-/// Measured runs of two states of one joint → what changed between them.
+/// Comparison: measured runs of two states of one joint → the changes between them.
 #pragma once
 
 #include <filesystem>
@@ -14,24 +14,24 @@ namespace fusee {
 
 struct CompareOptions {
   MeasurementOptions columns;
-  std::filesystem::path folder;  ///< where the files go; empty: none are written
+  std::filesystem::path folder;  ///< folder of the output files; empty: no files
   bool force = false;
-  bool dry_run = false;  ///< everything but writing
-  /// Called with the present step and, where that is known, its share. An exception of it stops the work.
+  bool dry_run = false;  ///< everything except writing
+  /// Called with the present task and its share, if known. An exception from it stops the work.
   std::function<void(const std::string& what, std::optional<double> share)> progress;
-  /// Called before each file is staged. What it throws leaves nothing behind.
+  /// Called before each file is staged. An exception from it leaves no files.
   std::function<void()> before_writing;
 };
 
 struct CompareResult {
   ComparisonProduct product;
-  std::vector<OutputFile> outputs;  ///< manifest.json last; none without a folder
+  std::vector<OutputFile> outputs;  ///< manifest.json last; empty without a folder
   bool published = false;
 };
 
-/// Reads the runs of both states, held against the joint that `file` describes, and leaves comparison.json, report.html
-/// and manifest.json. Files that are no two states of one joint are a verdict, and leave the same files. InputError for
-/// what cannot be read and for a run that is given twice, OutputError where it may not be written, before the work.
+/// Reads the runs of both states, compares them with the joint of `file`, and writes comparison.json, report.html and
+/// manifest.json. Files that are not two states of one joint give a verdict and the same files. Throws InputError for
+/// unreadable input and for a repeated run, and OutputError before the work if the output may not be written.
 CompareResult compare(const MechanismFile& file, const std::vector<std::filesystem::path>& before,
                       const std::vector<std::filesystem::path>& after, const CompareOptions& options);
 

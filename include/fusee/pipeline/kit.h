@@ -1,5 +1,5 @@
 /// \file
-/// The rest of the test model → parts to print and to cut, and a page that says how they go together.
+/// Test rig: parts to print and to cut, and a page with the assembly.
 #pragma once
 
 #include <filesystem>
@@ -13,14 +13,14 @@
 namespace fusee {
 
 struct KitOptions {
-  double tolerance = 0.01;  ///< sagitta of the pulley's curves, mm
+  double tolerance = 0.01;  ///< sagitta of the pulley's curves (chord error), mm
   DxfVersion dxf = DxfVersion::ac1015;
-  std::filesystem::path folder;  ///< where the files go
+  std::filesystem::path folder;  ///< folder of the output files
   bool force = false;
-  bool dry_run = false;  ///< everything but publishing
-  /// Called once, before anything stands on the disk.
+  bool dry_run = false;  ///< everything except publishing
+  /// Called once, before the first file is written.
   std::function<void()> before_writing;
-  /// Called before each step with what it does. What it throws stops the work, and nothing is left behind.
+  /// Called before each step with its name. An exception from it stops the work and leaves no files.
   std::function<void(std::string_view step)> before_step;
 };
 
@@ -29,17 +29,17 @@ enum class KitEnding { done, no_pulley, no_kit, check_failed };
 struct KitResult {
   KitEnding ending = KitEnding::done;
   KitProduct product;
-  Advice advice;                    ///< where parts would meet: what was seen to make room
-  std::vector<OutputFile> outputs;  ///< manifest.json last; none where there is no pulley or no kit
+  Advice advice;                    ///< if parts would collide: changes that make room
+  std::vector<OutputFile> outputs;  ///< manifest.json last; empty without a pulley or a rig
   bool published = false;
 };
 
-/// A pulley that cannot be made, a model whose parts would meet, and failed checks are values; InputError and
-/// OutputError as their names say. Every mesh and drawing is checked as it was written. Failed checks are published
-/// only where there is no earlier run to lose, or with `force`.
+/// Designs the test rig. Every mesh and drawing is read back and checked. An infeasible pulley, colliding parts and
+/// failed checks are values; throws InputError and OutputError. Failed checks are published only if they replace no
+/// earlier run, or with `force`.
 KitResult kit(const MechanismFile& file, const KitOptions& options);
 
-/// Distances as checks: what the assembled parts, as meshes, keep from each other over the range.
+/// Smallest distances between the assembled parts over the range, measured on their meshes, as checks.
 std::vector<Check> kit_fit_checks(const KitPlan& plan);
 
 }  // namespace fusee

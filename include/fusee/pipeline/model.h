@@ -14,57 +14,57 @@
 
 namespace fusee {
 
-/// Of what may be asked for, deg.
+/// Largest accepted --max-error-deg, deg.
 constexpr double k_largest_limit_deg = 45;
 
 struct ModelOptions {
-  /// Of θ in joint.xml, rad. 0.1°: the paper's mechanism leaves 0.064°, and a printed pulley is checked to 0.05°; what
-  /// is coarser is no model of this joint.
+  /// Largest error of θ in joint.xml, rad. The paper's mechanism leaves 0.064° and a printed pulley is checked to
+  /// 0.05°, so a coarser polynomial does not describe the joint.
   double most_error = radians(0.1);
-  /// Of θ in the tables, both ways round, rad. A twentieth of a step of a 14-bit encoder.
+  /// Largest error of θ in the tables, in both directions, rad: 1/20 of a step of a 14-bit encoder.
   double most_table_error = radians(0.001);
   MotorUnit unit;
-  bool declared = false;        ///< whatever was identified
+  bool declared = false;        ///< ignore identified effects
   bool with_polynomial = true;  ///< false: no joint.xml
-  /// compensation.csv; none: the one that lies beside the file and was left with it. Empty: none at all.
+  /// compensation.csv. Not set: the file next to the mechanism that calibrate() wrote with it. Empty: none.
   std::optional<std::filesystem::path> compensation;
-  std::string prefix;  ///< of the names in joint_table.h; empty: from the joint's name
+  std::string prefix;  ///< of the names in joint_table.h; empty: derived from the joint's name
   std::filesystem::path folder;
   bool force = false;
-  bool dry_run = false;  ///< everything but publishing
-  /// Called before each step with what it does. What it throws stops the work, and nothing is left behind.
+  bool dry_run = false;  ///< everything except publishing
+  /// Called before each step with its name. An exception from it stops the work and leaves no files.
   std::function<void(std::string_view step)> before_step;
-  /// Called once, before anything stands on the disk.
+  /// Called once, before the first file is written.
   std::function<void()> before_writing;
 };
 
 enum class ModelEnding {
   done,
-  no_law,          ///< θ(α) does not exist or does not grow: `without_law` says why
-  no_equilibrium,  ///< the identified joint holds its declared load nowhere
-  polynomial_off,  ///< joint.xml would miss more than most_error
-  table_off,       ///< k_most_pieces pieces miss more than most_table_error
+  no_law,          ///< θ(α) does not exist or does not grow; see `without_law`
+  no_equilibrium,  ///< the identified joint has no equilibrium under its declared load
+  polynomial_off,  ///< the error of joint.xml would exceed most_error
+  table_off,       ///< the error of k_most_pieces pieces exceeds most_table_error
   check_failed,
 };
 
-/// A change with which a refused model would do.
+/// A change that makes a refused model possible.
 struct ModelChange {
   std::string words;       ///< "--max-error-deg 0.13"
-  std::string key = {};    ///< of the mechanism file; empty: an option
-  std::string value = {};  ///< of that key, as TOML
+  std::string key = {};    ///< of the mechanism file; empty for an option
+  std::string value = {};  ///< value of that key, as TOML
 };
 
 struct ModelResult {
   ModelEnding ending = ModelEnding::done;
   ModelProduct product;
   std::optional<SynthesisResult> without_law;
-  std::vector<ModelChange> changes;  ///< tried
-  std::vector<OutputFile> outputs;   ///< manifest.json last; none where refused
+  std::vector<ModelChange> changes;  ///< tested changes
+  std::vector<OutputFile> outputs;   ///< manifest.json last; empty if refused
   bool published = false;
 };
 
-/// A joint without a law, one that no polynomial or table comes near enough to, and failed checks are values;
-/// InputError and OutputError as their names say.
+/// Writes the models. A missing law, an insufficient polynomial or table, and failed checks are values; throws
+/// InputError and OutputError.
 ModelResult model(const MechanismFile& file, const ModelOptions& options);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// What fusee optimize is asked, and what it answers.
+/// Options and result of fusee optimize.
 #pragma once
 
 #include <filesystem>
@@ -15,22 +15,23 @@
 
 namespace fusee {
 
-/// In the order of OptimizeResult::search.
+/// Search methods, in the order of OptimizeResult::search.
 enum class SearchMethod { certified, genetic, pareto };
 
-/// Of those that can do what [optimize] asks for, the one that can prove most.
+/// The most rigorous method that supports the objectives and variables of [optimize].
 SearchMethod strongest_method(const MechanismFile& file);
 
 struct OptimizeOptions {
-  std::optional<SearchMethod> method;  ///< left out: strongest_method()
-  std::optional<Objective> then;       ///< certified: the best by this among the designs that tie
-  GeneticOptions genetic;              ///< of genetic and pareto, but for its keep_going
-  KeepGoing keep_going;                ///< of every method; a search that it stops answers with the best so far
-  std::vector<Setting> settings;       ///< that the file was read with: the numbers among them go into the new files
-  std::filesystem::path new_file;      ///< where the mechanism with its new numbers goes; empty: nowhere
-  std::filesystem::path front_folder;  ///< where each point of a front goes as a mechanism; empty: nowhere
+  std::optional<SearchMethod> method;  ///< default: strongest_method()
+  std::optional<Objective> then;       ///< certified: second objective that selects among tied designs
+  GeneticOptions genetic;              ///< for genetic and pareto, except keep_going
+  KeepGoing keep_going;                ///< for every method; a stopped search returns the best design so far
+  /// settings with which the file was read; numbers among them go into the new files
+  std::vector<Setting> settings;
+  std::filesystem::path new_file;      ///< path of the mechanism with the new numbers; empty: none
+  std::filesystem::path front_folder;  ///< folder of the front's mechanisms; empty: none
   bool force = false;
-  bool dry_run = false;  ///< everything but publishing
+  bool dry_run = false;  ///< everything except publishing
 };
 
 struct OptimizeResult {
@@ -39,14 +40,14 @@ struct OptimizeResult {
   std::optional<CertifiedResult> then;  ///< the second search of OptimizeOptions::then
   bool found = false;
   bool stopped = false;  ///< by keep_going
-  std::string reason;    ///< when nothing was found: the commonest cause
-  Design design;         ///< the best, in the file's declared numbers; of a front the point that is best balanced
+  std::string reason;    ///< if nothing was found: the most frequent cause
+  Design design;         ///< best design, in the file's declared numbers; for a front its most balanced point
   double value = 0;      ///< of the first objective
-  double theta = 0;      ///< where in the range it is taken, rad; not of a front
-  Evaluation before;     ///< of the first objective, by the file as it is
-  std::string new_text;  ///< the person's file with the design's numbers; empty when none was asked for
+  double theta = 0;      ///< θ at which the objective takes its value, rad; not for a front
+  Evaluation before;     ///< first objective of the unchanged file
+  std::string new_text;  ///< text of the file with the design's numbers; empty if not requested
   std::vector<OutputFile> front_files;
-  std::vector<Diagnostic> warnings;  ///< doubts about the file as it is, and what the new files could not keep
+  std::vector<Diagnostic> warnings;  ///< plausibility warnings about the file, and settings that the new files omit
   bool published = false;
 
   SearchMethod method() const { return static_cast<SearchMethod>(search.index()); }

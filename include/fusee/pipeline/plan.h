@@ -1,5 +1,5 @@
 /// \file
-/// What to measure before measuring → plan.json, a page for the bench and empty run files.
+/// Experiment design: plan.json, a page for the bench and empty run files.
 #pragma once
 
 #include <filesystem>
@@ -13,22 +13,22 @@ namespace fusee {
 
 struct PlanFilesOptions {
   PlanOptions plan;
-  std::filesystem::path folder;  ///< where the files go
+  std::filesystem::path folder;  ///< folder of the output files
   bool force = false;
-  bool dry_run = false;  ///< everything but writing
+  bool dry_run = false;  ///< everything except writing
 };
 
 struct PlanResult {
-  /// Why there is nothing to plan: the law does not exist over the range; null when it does.
+  /// Reason why there is nothing to plan: the law does not exist over the range. Empty if it does.
   std::optional<SynthesisResult> without_law;
   PlanProduct product;
-  std::vector<OutputFile> outputs;  ///< manifest.json last; none where there is no time for any run
+  std::vector<OutputFile> outputs;  ///< manifest.json last; empty if no run fits into the minutes
   bool published = false;
 };
 
-/// The shortest set of runs for the joint of `file`, beginning from what [prior] says of it: plan.json, plan.html,
-/// run_1.csv … as `fusee calibrate` reads them, without θ. A plan that cannot be done in the minutes given is a value:
-/// it has no steps, and says what minutes would buy. InputError and OutputError as their names say.
+/// Plans the shortest set of runs for the joint of `file`, given the values in [prior]: plan.json, plan.html, and
+/// run_1.csv … in the format of `fusee calibrate`, without θ. If no run fits into the minutes, the plan has no steps
+/// and lists what more minutes would add. Throws InputError and OutputError.
 PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options);
 
 }  // namespace fusee

@@ -1,5 +1,5 @@
 /// \file
-/// Logged motor angles, loads and times → the joint's angle, its tendons' tensions and the motor's torque.
+/// Simulation: logged motor angles, loads and times → joint angle, tendon tensions and motor torque.
 #pragma once
 
 #include <cstdint>
@@ -13,21 +13,21 @@ namespace fusee {
 
 struct SimulateOptions {
   MeasurementOptions columns;
-  /// With the pulley that build() makes of this file, which undoes what a pulley can; else with that of the declared
-  /// mechanism, the one on which [identified] was found.
+  /// true: simulates the corrected pulley that build() makes of this file; false: the pulley of the declared mechanism,
+  /// on which [identified] was measured.
   bool corrected = false;
-  double noise = 0;        ///< added to what the joint's sensor shows, standard deviation, rad
+  double noise = 0;        ///< standard deviation of noise added to the joint sensor, rad
   std::uint64_t seed = 1;  ///< of that noise
 };
 
 struct SimulateResult {
-  /// Why there is nothing to simulate: the law does not exist over the range; null when it does.
+  /// Reason why there is nothing to simulate: the law does not exist over the range. Empty if it does.
   std::optional<SynthesisResult> without_law;
   Simulation simulation;
 };
 
-/// The joint of `file`, with what was identified, at its bench: a log, or a run of plan(), row by row. Rows where
-/// nothing holds the joint say so. InputError for what cannot be read.
+/// Simulates the identified joint of `file` row by row, for a log or a run of plan(). Rows without an equilibrium are
+/// marked. Throws InputError for unreadable input.
 SimulateResult simulate(const MechanismFile& file, const std::filesystem::path& log,
                         const SimulateOptions& options = {});
 

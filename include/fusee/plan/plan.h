@@ -1,11 +1,11 @@
 /// \file
-/// What to measure before measuring: the shortest set of runs with which the causes that matter for this joint can be
-/// told apart, what they can show, and how often they would blame falsely.
+/// Experiment design: the shortest set of runs that distinguishes the causes which matter for this joint, the smallest
+/// size of each cause that these runs detect, and the expected false-positive rate.
 ///
-/// Every run that could be made is simulated with every cause of the catalogue at its usual size
-/// (EffectParameter::prior); what two causes make of the same runs, beyond noise and beyond what the model itself is
-/// trusted to, says whether these runs tell them apart. Runs are then chosen one by one: that which tells most for its
-/// minutes. Linear in the causes: sizes are right to some tens of per cent.
+/// Each candidate run is simulated with each cause of the catalogue at its usual size (EffectParameter::prior). Two
+/// causes are resolved if their responses differ by more than the noise and by more than the accuracy of the model.
+/// Runs are chosen greedily by gain per minute. The model is linear in the causes, so sizes are right to some tens of
+/// per cent.
 #pragma once
 
 #include <cstdint>
@@ -20,65 +20,65 @@
 namespace fusee {
 
 struct PlanOptions {
-  double noise = radians(0.02);  ///< of the joint's sensor, standard deviation, rad
-  double minutes = 15;           ///< at the bench
-  std::vector<double> loads;     ///< tip forces that can be hung on, N; empty: chosen
-  std::vector<double> speeds;    ///< of the motor, rad/s; empty: chosen. The slowest is "slow"
-  /// Of the motor, rad; none: the range of the joint, or of a joint declared by a ratio one turn.
+  double noise = radians(0.02);  ///< standard deviation of the joint's sensor, rad
+  double minutes = 15;           ///< time at the bench
+  std::vector<double> loads;     ///< tip forces to hang on, N; empty: chosen by the planner
+  std::vector<double> speeds;    ///< motor speeds, rad/s; empty: chosen by the planner. The lowest is called "slow"
+  /// Motor range, rad. Default: the joint's range, or one turn for a joint declared by a ratio.
   std::optional<std::pair<double, double>> range;
-  std::uint64_t seed = 1;                            ///< of the worlds in which blame is tried
-  std::function<void(const std::string&)> progress;  ///< what is done now; what it throws stops the work
+  std::uint64_t seed = 1;  ///< seed of the synthetic data sets
+  /// called with the current task; an exception from it stops the work
+  std::function<void(const std::string&)> progress;
 };
 
-/// A run, or a number to read by hand.
+/// A run, or a dimension to read by hand.
 struct PlanStep {
   std::optional<PlannedRun> run;
   const EffectParameter* reading = nullptr;
   std::string words;
-  double minutes = 0;              ///< with what has to be changed on the bench for it
-  double setup = 0;                ///< of these
-  double by = 0;                   ///< minutes since the beginning, when it is done
-  std::vector<std::string> sees;   ///< causes that the steps before it would not have shown
-  std::vector<std::string> tells;  ///< what they did not tell apart: "backlash from capstan_friction, creep"
+  double minutes = 0;              ///< including the changes on the bench
+  double setup = 0;                ///< part of `minutes` that the changes take
+  double by = 0;                   ///< minutes from the beginning to the end of this step
+  std::vector<std::string> sees;   ///< causes that this step detects first
+  std::vector<std::string> tells;  ///< pairs that this step resolves first: "backlash from capstan_friction, creep"
 };
 
-/// A cause, and what the planned runs can say of it.
+/// A cause, and how well the planned runs detect it.
 struct PlannedCause {
   std::string name;
-  double usual = 0;     ///< what it moves the joint by at its usual size, rms over these runs, rad
-  double smallest = 0;  ///< the least of it that would be seen at all, the same
-  /// The least of it that could be named alone; none where something else does the same whatever the size.
+  double usual = 0;     ///< response of the joint at the cause's usual size, rms over these runs, rad
+  double smallest = 0;  ///< smallest detectable response, same measure
+  /// Smallest response that identifies this cause alone; empty if another cause mimics it at every size.
   std::optional<double> smallest_alone;
-  /// That smallest in the unit of its key of [identified], of its first number: {"backlash_deg", 0.03}.
+  /// `smallest` as a value of the cause's first key of [identified]: {"backlash_deg", 0.03}.
   std::string key;
   double smallest_key = 0;
-  std::vector<std::string> rivals;  ///< that these runs do not tell from it at its usual size
+  std::vector<std::string> rivals;  ///< causes that these runs do not distinguish from it at its usual size
 };
 
-/// How often a name would be false, of so many simulated joints.
-struct FalseBlame {
-  int worlds = 0;
-  int blamed = 0;  ///< something was named that is not there
-  int alone = 0;   ///< the cause was named, alone
-  int group = 0;   ///< the cause was named, with others
+/// Outcomes over synthetic data sets whose cause is known.
+struct FalsePositives {
+  int samples = 0;
+  int wrong = 0;  ///< only causes that are not present were named
+  int alone = 0;  ///< the true cause was named alone
+  int group = 0;  ///< the true cause was named in a group
 };
 
 struct Plan {
-  std::vector<PlanStep>
-      steps;  ///< in the order of what they buy for their minutes; empty where there is no time for any
-  std::vector<PlanStep> beyond;                               ///< what more minutes would buy
+  std::vector<PlanStep> steps;                                ///< by gain per minute; empty if no run fits
+  std::vector<PlanStep> beyond;                               ///< steps that more minutes would add
   double minutes = 0;                                         ///< of all steps
-  std::vector<PlannedCause> causes;                           ///< in the order of the chain
-  std::vector<std::pair<std::string, std::string>> left_out;  ///< effects that were not planned for, and why
-  std::vector<std::vector<std::string>> groups;               ///< causes that stay together
-  FalseBlame nothing, one, unknown;  ///< joints as declared; with one cause; with one that the catalogue is without
-  double slow = 0;                   ///< rad/s
-  double from = 0, to = 0;           ///< of the motor, rad
+  std::vector<PlannedCause> causes;                           ///< in the order of the drive chain
+  std::vector<std::pair<std::string, std::string>> left_out;  ///< effects without a plan, and the reason
+  std::vector<std::vector<std::string>> groups;               ///< causes that the runs do not resolve
+  FalsePositives nothing, one, unmodelled;  ///< without cause; with one cause; with one that is not in the catalogue
+  double slow = 0;                          ///< rad/s
+  double from = 0, to = 0;                  ///< motor range, rad
   std::string load_unit = "N";
   int first_run = 1;  ///< number of the first run's file
 };
 
-/// The joint's law must exist over its range. What cannot be done in the minutes given is a plan without steps.
+/// Plans the runs. The joint's law must exist over its range. If no run fits into the minutes, `steps` is empty.
 Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options = {});
 
 }  // namespace fusee

@@ -7,9 +7,8 @@
     'done'
 
 The verbs are functions: ``read``, ``synthesise``, ``build``, ``rewind``, ``check``, ``analyze``, ``optimize``, ``calibrate``, ``compare``,
-``simulate``, ``plan``, ``kit``. What they answer are frozen values: arrays are read-only views, units stand in the names, angles are in radians inside
-and in degrees where the file has them. A joint that cannot be made is a value that says why and what would do; what cannot be used is an
-``InputError`` with all its diagnostics.
+``simulate``, ``plan``, ``kit``. Their results are frozen values with read-only arrays and units in the names. Angles are in radians, but in degrees
+for keys of the file. An infeasible joint is a value with reasons and advice; invalid input is an ``InputError`` with all its diagnostics.
 """
 
 from ._core import version as __version__

@@ -1,4 +1,4 @@
-"""The compiled part: the verbs on C++ values. What stands here may change; the package's own names do not."""
+"""The compiled part: the verbs on C++ values. Names here may change; those of the package do not."""
 
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 

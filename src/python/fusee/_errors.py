@@ -1,4 +1,4 @@
-"""What can go wrong with what a person gave us, said so that they can mend it."""
+"""Errors in the user's input, with what to change."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ __all__ = ["Bug", "Diagnostic", "InputError", "OutputError"]
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """One thing to say about the input: what is wrong, where, and what to change. Lines and columns count from 1; 0 is the whole file."""
+    """A finding about the input: what is wrong, where, and what to change. Lines and columns count from 1; 0 is the
+    whole file."""
 
     severity: str  #: "error", "warning" or "note"
     file: str
@@ -32,7 +33,7 @@ def diagnostics_from(rows: abc.Iterable[abc.Mapping[str, Any]]) -> Tuple[Diagnos
 
 
 class InputError(ValueError):
-    """What was given cannot be used. All its faults at once: ``diagnostics``.
+    """The input is invalid. ``diagnostics`` has all its faults.
 
     >>> import fusee
     >>> try:
@@ -55,12 +56,12 @@ class InputError(ValueError):
 
 
 def input_error(what: str, message: str, hint: str = "") -> InputError:
-    """Of an argument: its name stands in for the file's."""
+    """An error in an argument, whose name takes the place of the file name."""
     return InputError((Diagnostic("error", what, 0, 0, message, hint),))
 
 
 class OutputError(OSError):
-    """A place that outputs should go to exists, is not ours, or cannot be written."""
+    """The output exists and was not written by fusee, or it cannot be written."""
 
     hint: str
 
@@ -73,4 +74,4 @@ class OutputError(OSError):
 
 
 class Bug(RuntimeError):
-    """fusee itself is wrong."""
+    """A bug in fusee."""

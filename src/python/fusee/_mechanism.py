@@ -1,4 +1,4 @@
-"""The mechanism: what a joint is meant to be, as a value with the keys of its file."""
+"""The mechanism: the declared joint, as a value with the keys of its file."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from ._run import PathLike, path_bytes, text_bytes
 
 __all__ = ["Mechanism", "Held", "explain", "new", "read", "templates"]
 
-#: What a key holds: a number, a range, a word or text, a switch, a list; None where the file has no such table.
+#: The value of a key: number, range, word or text, switch, list; None if the file lacks its table.
 Held = Union[float, int, str, bool, Tuple[float, ...], Tuple[str, ...], None]
 
 
 class Mechanism(abc.Mapping[str, Held]):
-    """A mechanism file as a value: read once, never changed, equal to another that declares the same numbers.
+    """A mechanism file as an immutable value; equal to another one with the same numbers.
 
-    Keys are those of the file, with the unit in the name; ``explain(key)`` says what each is.
+    Keys are those of the file, with the unit in the name; ``explain(key)`` describes each.
 
     >>> import fusee
     >>> arm = fusee.read(fusee.new("forearm"))
@@ -33,7 +33,7 @@ class Mechanism(abc.Mapping[str, Held]):
     >>> longer.number("joint.length_mm"), longer == arm
     (110.0, False)
 
-    It pickles with the text that it was read from and the table of ``law = "table"``: another machine needs no file.
+    It pickles with its text and the table of ``law = "table"``, so another machine needs no file.
     """
 
     __slots__ = ("_core", "_hash")
@@ -49,12 +49,12 @@ class Mechanism(abc.Mapping[str, Held]):
 
     @property
     def path(self) -> str:
-        """Where it was read from, or the name that was given to a text."""
+        """Path of the file, or the name that was given to a text."""
         return self._core.path()
 
     @property
     def text(self) -> str:
-        """What was read, as it was written; what ``with_`` changed is not in it."""
+        """The text as it was read, without later changes by ``with_``."""
         return self._core.text()
 
     @property
@@ -64,11 +64,11 @@ class Mechanism(abc.Mapping[str, Held]):
 
     @property
     def warnings(self) -> Tuple[Diagnostic, ...]:
-        """What can be used, and may not be what was meant."""
+        """Findings about valid input that may not be intended."""
         return diagnostics_from(self._core.warnings())
 
     def with_(self, changes: Optional[abc.Mapping[str, Any]] = None, /, **more: Any) -> Mechanism:
-        """The same mechanism with other numbers: ``m.with_({"pulley.r1_mm": 15})`` or ``m.with_(**{"pulley.r1_mm": 15})``.
+        """The mechanism with other numbers: ``m.with_({"pulley.r1_mm": 15})`` or ``m.with_(**{"pulley.r1_mm": 15})``.
 
         One end of a range is ``"joint.range_deg[0]"``. InputError for an unknown key, a wrong type, a value out of range.
 
@@ -82,10 +82,10 @@ class Mechanism(abc.Mapping[str, Held]):
         return _made(self._core.with_(pairs))
 
     def number(self, key: str) -> float:
-        """The value of a key that holds one number. TypeError for another."""
+        """The value of a key that has one number. TypeError for other keys."""
         value = self[key]
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise TypeError(f"{key} holds {value!r}, which is no number")
+            raise TypeError(f"{key} is {value!r}, which is not a number")
         return float(value)
 
     def __getitem__(self, key: str) -> Held:
@@ -110,16 +110,16 @@ class Mechanism(abc.Mapping[str, Held]):
 
     def __hash__(self) -> int:
         if self._hash is None:
-            # Numbers by value: 0 and -0 are the same mechanism.
+            # Numbers by value: 0 and -0 are equal.
             object.__setattr__(self, "_hash", hash(tuple(self.values())))
         assert self._hash is not None
         return self._hash
 
     def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a Mechanism does not change: with_() makes another one (setting {name!r})")
+        raise AttributeError(f"a Mechanism is immutable: use with_() (setting {name!r})")
 
     def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a Mechanism does not change (deleting {name!r})")
+        raise AttributeError(f"a Mechanism is immutable (deleting {name!r})")
 
     def __repr__(self) -> str:
         return f"<Mechanism {self.name!r} from {self.path!r}>"
@@ -151,13 +151,13 @@ def _end_of_range(mechanism: Mechanism, key: str, value: object, every: abc.Mapp
     name = key[:-3]
     ends = mechanism[name]
     if not isinstance(ends, tuple) or len(ends) != 2:
-        raise input_error(key, f"{name} is no range")
+        raise input_error(key, f"{name} is not a range")
     both = [every.get(f"{name}[{end}]", ends[end]) for end in (0, 1)]
     return text_bytes(name, name), text_bytes(key, _toml(key, both))
 
 
 def _toml(key: str, value: object) -> str:
-    """A value as it would stand in the file. Whether it is one of that key's, the reader says."""
+    """A value in TOML. The reader checks if it is valid for the key."""
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, bool):
@@ -176,8 +176,8 @@ def _toml(key: str, value: object) -> str:
 def read(source: PathLike, *, name: str = "text.toml") -> Mechanism:
     """A mechanism from a file, or from the text of one (anything with a line break in it).
 
-    Of a text `name` stands in the messages; the table of ``law = "table"`` is looked for beside it. InputError with all errors of the
-    file at once.
+    For a text, `name` appears in messages, and the table of ``law = "table"`` is searched in its folder. InputError with all errors of the
+    file.
 
     >>> import fusee
     >>> fusee.read(fusee.new("forearm"), name="arm.toml")
@@ -192,7 +192,7 @@ def read(source: PathLike, *, name: str = "text.toml") -> Mechanism:
 
 
 def templates() -> Tuple[str, ...]:
-    """Names that ``new`` knows."""
+    """The names that ``new`` accepts."""
     return _core.templates()
 
 

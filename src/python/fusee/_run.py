@@ -1,4 +1,4 @@
-"""Ctrl-C while C++ works, and numbers that were given as arguments."""
+"""Ctrl-C during C++ code, and checks of numeric arguments."""
 
 from __future__ import annotations
 
@@ -15,12 +15,14 @@ from ._errors import input_error
 T = TypeVar("T")
 PathLike = Union[str, "os.PathLike[str]"]
 
-#: How long a verb that was asked to stop is waited for, s: most have cleaned up by then. The others go on to do so by themselves.
+# Time to wait for a verb that was asked to stop, s. Most have cleaned up by then; the others continue in the
+# background.
 _PATIENCE = 0.1
 
 
 def heard(work: abc.Callable[[_core.Stop], T]) -> T:
-    """`work` on a thread of its own, so that Ctrl-C is heard at once. Signals come to the main thread alone: others just work."""
+    """Runs `work` on a thread, so that Ctrl-C takes effect at once. Only the main thread receives signals; others just
+    run it."""
     stop = _core.Stop()
     if threading.current_thread() is not threading.main_thread():
         return work(stop)
@@ -37,7 +39,7 @@ def heard(work: abc.Callable[[_core.Stop], T]) -> T:
             done.set()
 
     try:
-        # Waited for at the end of the program, should it be stopped: nothing half done is left behind.
+        # The program waits for the thread at its end, so no partial output remains.
         threading.Thread(target=run, name="fusee", daemon=False).start()
         done.wait()
     except BaseException:
@@ -53,7 +55,7 @@ def heard(work: abc.Callable[[_core.Stop], T]) -> T:
 
 
 def number(name: str, value: Any, least: float, most: float, unit: str = "") -> float:
-    """An argument that is a number between both bounds. InputError."""
+    """An argument that is a number within both bounds. InputError otherwise."""
     if isinstance(value, bool) or not isinstance(value, Real):
         raise input_error(name, f"must be a number, not {type(value).__name__}")
     result = float(value)
@@ -81,13 +83,13 @@ def choice(name: str, value: Any, choices: List[str]) -> str:
 
 
 def path_bytes(name: str, path: PathLike) -> bytes:
-    """A path as the system has it. InputError for one that cannot be."""
+    """The path in the system's encoding. InputError if it is invalid."""
     try:
         result = os.fsencode(path)
     except (TypeError, UnicodeEncodeError):
         raise input_error(name, f"must be a path, not {type(path).__name__}") from None
     if b"\0" in result:
-        raise input_error(name, "a path holds no zero byte")
+        raise input_error(name, "a path must not contain a zero byte")
     return result
 
 
@@ -95,4 +97,4 @@ def text_bytes(name: str, text: str) -> bytes:
     try:
         return text.encode()
     except UnicodeEncodeError:
-        raise input_error(name, "the text holds half of a surrogate pair, which is no character") from None
+        raise input_error(name, "the text has half of a surrogate pair, which is not a character") from None

@@ -1,4 +1,4 @@
-"""What the verbs answer: frozen values, numbers in arrays that nobody can write to, the unit in every name."""
+"""The results of the verbs: frozen values with read-only arrays. Every name has the unit."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def _same(a: object, b: object) -> bool:
         if not isinstance(a, np.ndarray) or not isinstance(b, np.ndarray) or a.shape != b.shape:
             return False
         return bool(np.array_equal(a, b, equal_nan=a.dtype.kind == "f"))
-    # NaN where nothing is known: as good as itself.
+    # NaN marks unknown values and equals itself here.
     return bool(a == b) or (isinstance(a, float) and isinstance(b, float) and a != a and b != b)
 
 
@@ -53,7 +53,7 @@ def _shown(value: object) -> str:
 
 
 class Value:
-    """Equal by what it holds, also where that are arrays; pickles, and what comes back is as frozen."""
+    """Compares by content, arrays included. Unpickled values are frozen, too."""
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -79,7 +79,7 @@ def _parts(value: Any) -> Tuple[Any, ...]:
 
 
 class Table(abc.Mapping[K, V]):
-    """A dictionary that does not change."""
+    """An immutable dictionary."""
 
     __slots__ = ("_items",)
     _items: Dict[K, V]
@@ -105,7 +105,7 @@ class Table(abc.Mapping[K, V]):
         return hash(tuple((key, _hashed(value)) for key, value in self._items.items()))
 
     def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError("a Table does not change")
+        raise AttributeError("a Table is immutable")
 
     def __repr__(self) -> str:
         return "{" + ", ".join(f"{key!r}: {_shown(value)}" for key, value in self._items.items()) + "}"
@@ -118,12 +118,12 @@ def _table(items: Dict[Any, Any]) -> Table[Any, Any]:
     return Table({key: _frozen(value) if isinstance(value, np.ndarray) else value for key, value in items.items()})
 
 
-# ---- small ones -------------------------------------------------------------------------------------------------------
+# ---- small values -----------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Change(Value):
-    """The nearest value of one key with which all would hold: ``mechanism.with_(change.settings)``."""
+    """The nearest value of one key with which all conditions hold: ``mechanism.with_(change.settings)``."""
 
     key: str
     value: Union[float, str]
@@ -133,7 +133,7 @@ class Change(Value):
 
     @property
     def settings(self) -> Dict[str, Any]:
-        """What ``Mechanism.with_`` takes. Of both ends of a range together the value is its half."""
+        """The argument for ``Mechanism.with_``. For a symmetric range the value is half of it."""
         if self.key.endswith("range_deg") and isinstance(self.value, float):
             return {self.key: (-self.value, self.value)}
         return {self.key: self.value}
@@ -154,7 +154,7 @@ class Condition(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Check(Value):
-    """A measured value beside its limit."""
+    """A measured value and its limit."""
 
     name: str
     value: float
@@ -169,7 +169,7 @@ class Check(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Outline(Value):
-    """A closed convex pitch curve about the pulley's axis, counter-clockwise, at home: one row a point. Empty where none was made.
+    """A closed convex pitch curve about the pulley's axis, counter-clockwise, at home: one row a point. Empty if infeasible.
 
     Tendons leave it between the points ``active_first`` and ``active_last`` (counter-clockwise); the rest closes the curve.
     """
@@ -183,7 +183,7 @@ class Outline(Value):
     active_last: int
 
     def parallel_mm(self, distance_mm: float) -> Numbers:
-        """The parallel curve, outward positive, (n, 2). A groove's floor lies half a tendon's thickness further in."""
+        """The parallel curve, outward positive, (n, 2). A groove's floor is offset inwards by half a tendon's diameter."""
         curve: Numbers = self.position_mm + float(distance_mm) * self.normal
         return curve
 
@@ -207,21 +207,21 @@ class Stroke(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Synthesis(Value):
-    """Both pitch curves, or why there are none and what would do. A joint that cannot be is a value: look at ``made``."""
+    """Both pitch curves, or the reasons and advice for an infeasible joint, for which ``made`` is false."""
 
     made: bool
     p1: Outline
     p2: Outline
     stroke: Stroke
-    conditions: Tuple[Condition, ...]  #: all of them, those that hold too
-    advice: Tuple[Change, ...]  #: each does alone; empty when made
+    conditions: Tuple[Condition, ...]  #: all conditions, fulfilled ones included
+    advice: Tuple[Change, ...]  #: each change suffices alone; empty when made
     warnings: Tuple[str, ...]
     brief: str = dataclasses.field(repr=False)  #: one paragraph
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Placement(Value):
-    """Where a part that was moved was found."""
+    """Position of a part that was moved."""
 
     axis_mm: Tuple[float, float]
     turned_rad: float
@@ -231,7 +231,7 @@ class Placement(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Winding(Value):
-    """The joint angle that tendons wound on two groove floors give, one row a place."""
+    """Joint angle from tendons wound on two groove floors, one row a place."""
 
     alpha_rad: Numbers
     theta_declared_rad: Numbers
@@ -245,10 +245,10 @@ class Winding(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Rewound(Winding):
-    """The same of a part from anywhere."""
+    """Result of rewinding a part from a file."""
 
-    place: str  #: "as_made", "found" (it was moved) or "not_recognised" (wound where it lies)
-    alone: Optional[str]  #: "left" or "right": the file holds one pulley, and no slack is known
+    place: str  #: "as_made", "found" (it was moved) or "not_recognised" (wound in its present position)
+    alone: Optional[str]  #: "left" or "right" if the file has only that pulley; slack is unknown then
     placements: Tuple[Placement, ...]
     checks: Tuple[Check, ...]
 
@@ -267,34 +267,34 @@ class Mesh(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Knot(Value):
-    """The knot of one tendon on its pulley, where it bears most."""
+    """The knot of one tendon on its pulley, at its largest tension."""
 
     side: str
     alpha_rad: float
     wrap_left_rad: float
     tension_N: float
     at_knot_N: float
-    share: Optional[float]  #: of what it bears; None where the tendon's strength is not known
+    share: Optional[float]  #: of its strength; None if the tendon's strength is unknown
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Built(Value):
-    """The pulley in every format, checked; or why there is none and what would do."""
+    """The checked pulley in every format, or the reasons and advice for an infeasible one."""
 
     status: str  #: "done", "infeasible" or "check_failed"
     synthesis: Synthesis
     mesh: Mesh
-    as_built: Winding  #: found by winding tendons on the mesh as it was written
+    as_built: Winding  #: from tendons wound on the written mesh
     checks: Tuple[Check, ...]
     conditions: Tuple[Condition, ...]
-    advice: Tuple[Change, ...]  #: each does alone
-    advice_together: Tuple[Change, ...]  #: two that do together
+    advice: Tuple[Change, ...]  #: each change suffices alone
+    advice_together: Tuple[Change, ...]  #: two changes that suffice together
     knots: Tuple[Knot, ...]
-    files: Table[str, bytes]  #: what each file holds, by name
+    files: Table[str, bytes]  #: content of each file by name
     warnings: Tuple[Diagnostic, ...]
     holding_warnings: Tuple[str, ...]
     notes: Tuple[str, ...]
-    published: bool  #: the files stand in the folder that was asked for
+    published: bool  #: true if the files are in the given folder
 
     @property
     def ok(self) -> bool:
@@ -335,7 +335,7 @@ class Forces(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Extreme(Value):
-    """A largest value, in the unit that its name in Analysis says, and where it is."""
+    """A largest value, in the unit of its name in Analysis, and its place."""
 
     value: float
     alpha_rad: float
@@ -352,7 +352,7 @@ class LargestTension(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ErrorSource(Value):
-    """By how much one cause moves the joint from its law, over the range."""
+    """Error of the joint angle by one cause, over the range."""
 
     name: str
     meaning: str
@@ -363,7 +363,7 @@ class ErrorSource(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ToleranceEffect(Value):
-    """What a dimension's tolerance does: half the range that holds 95 %, by derivatives and by chance."""
+    """Influence of a dimension's tolerance: half width of the 95 % range, by derivatives and by Monte Carlo."""
 
     key: str  #: a key of the file; "print_offset"; "all"
     theta_by_derivative_rad: float
@@ -383,14 +383,14 @@ class Strength(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Analysis(Value):
-    """The transmission and its forces over the range. Where the law does not exist, ``exists`` is false and the tables are empty."""
+    """The transmission and its forces over the range. If the law does not exist, ``exists`` is false and the tables are empty."""
 
     exists: bool
     declared: Stroke
     paper: PaperForces
     rising: Forces  #: α growing
     falling: Forces
-    conditions: Tuple[Condition, ...]  #: of a pulley, that do not hold
+    conditions: Tuple[Condition, ...]  #: failed conditions of a pulley
     advice: Tuple[Change, ...]
     largest_tension: LargestTension
     largest_at_joint_N: Extreme
@@ -399,7 +399,7 @@ class Analysis(Value):
     hysteresis_rad: Extreme
     slack1_rad: Tuple[Tuple[float, float], ...]  #: parts of α
     slack2_rad: Tuple[Tuple[float, float], ...]
-    untensioned_rad: Tuple[Tuple[float, float], ...]  #: where nothing holds the joint
+    untensioned_rad: Tuple[Tuple[float, float], ...]  #: parts of α where both tendons are slack
     taut_pretension_N: Optional[float]
     lost_at_rad: Optional[float]
     strength: Optional[Strength]
@@ -414,27 +414,27 @@ class Analysis(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FrontPoint(Value):
-    numbers: Table[str, float]  #: what it changes in the file
+    numbers: Table[str, float]  #: key → value
     values: Tuple[float, ...]  #: of the objectives, in their order and units
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Optimum(Value):
-    """Better numbers, or why there are none."""
+    """The best design, or the reason why there is none."""
 
     method: str  #: "certified", "genetic" or "pareto"
     objectives: Tuple[Tuple[str, str], ...]  #: name and unit
     found: bool
     stopped: bool
-    reason: str  #: when nothing was found: the commonest cause
-    numbers: Table[str, float]  #: what the best design changes in the file
+    reason: str  #: if nothing was found: the most frequent cause
+    numbers: Table[str, float]  #: of the best design: key → value
     value: Optional[float]  #: of the first objective
-    before: Optional[float]  #: the same by the file as it is
+    before: Optional[float]  #: that of the unchanged file
     proven: bool
     lower_bound: Optional[float]
     relative_gap: Optional[float]
     front: Tuple[FrontPoint, ...]  #: of method "pareto"
-    mechanism: Optional[Mechanism]  #: with the better numbers, the file's comments kept
+    mechanism: Optional[Mechanism]  #: with the new numbers and the file's comments
     warnings: Tuple[Diagnostic, ...]
 
 
@@ -442,19 +442,19 @@ class Optimum(Value):
 
 
 class Documented(Value):
-    """A value that is a document too, as the program writes it with --json."""
+    """A value with the JSON document that the program prints with --json."""
 
     json: str
 
     def document(self) -> Dict[str, Any]:
-        """The whole document, as docs/reference/json.md has it: a new dictionary."""
+        """The document of docs/reference/json.md, as a new dictionary."""
         read: Dict[str, Any] = json.loads(self.json) if self.json else {}
         return read
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Parameter(Value):
-    """A number that was found; its unit stands in the name under which it is listed."""
+    """An identified parameter; the unit is in the name under which it is listed."""
 
     value: float
     ci95: Tuple[float, float]
@@ -462,7 +462,7 @@ class Parameter(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Effect(Value):
-    """A cause that the data ask for, with all that would do as well."""
+    """An identified cause, with all equally likely ones."""
 
     name: str
     group: Tuple[str, ...]
@@ -473,13 +473,13 @@ class Effect(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Residual(Value):
-    """One run, row by row: what was measured, and what is left of it."""
+    """Measured angles and residuals of one run, row by row."""
 
     name: str
     alpha_rad: Numbers
     theta_rad: Numbers
     before_rad: Numbers  #: measured − declared model
-    after_rad: Numbers  #: measured − model with what was found
+    after_rad: Numbers  #: measured − model with identified effects
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -495,15 +495,15 @@ class NextMeasurement(Value):
 
     kind: str  #: "run", "turn_sensor", the tool of a reading as "caliper", or "inspect"
     text: str
-    separates: Tuple[str, ...]  #: names of effects, "unmodelled" among them
+    separates: Tuple[str, ...]  #: names of effects; may include "unmodelled"
     minutes: float
-    file: str  #: of `files`: rows to drive and to fill in; "" for what is no run
-    keys: Tuple[str, ...]  #: of the mechanism file: where what was read by hand is written
+    file: str  #: name in `files` with the rows to drive; "" unless it is a run
+    keys: Tuple[str, ...]  #: keys of the mechanism file for the hand measurements
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Calibration(Documented):
-    """What is off, why, and a better file. Data that decide nothing are a verdict."""
+    """Errors, causes, and a better file. Inconclusive data are a verdict."""
 
     verdict: str
     summary: str
@@ -514,7 +514,7 @@ class Calibration(Documented):
     unexplained_rms_deg: float
     next: Tuple[NextMeasurement, ...]  #: the most decisive first
     residuals: Tuple[Residual, ...]
-    corrected: Optional[Mechanism]  #: the declared one with what was found, for build(); None where nothing was found that rows left out confirm
+    corrected: Optional[Mechanism]  #: for build(): the declared mechanism with identified effects; None if held-out rows confirm none
     json: str = dataclasses.field(repr=False)
     files: Table[str, bytes] = dataclasses.field(repr=False)
     notes: Tuple[str, ...] = dataclasses.field(repr=False)
@@ -524,7 +524,7 @@ class Calibration(Documented):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ChangedParameter(Value):
-    """A number of the joint in both states; its unit stands in the name under which it is listed."""
+    """A parameter of the joint in both states; the unit is in the name under which it is listed."""
 
     before: float
     after: float
@@ -534,7 +534,7 @@ class ChangedParameter(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StateChange(Value):
-    """A change between two states, with all that would explain it as well."""
+    """A change between two states, with all equally likely ones."""
 
     name: str
     group: Tuple[str, ...]
@@ -545,13 +545,13 @@ class StateChange(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Comparison(Documented):
-    """What changed between two measured states of one joint. Runs that are no two states of one joint are a verdict."""
+    """Changes between two measured states of one joint. Runs that are not of one joint are a verdict."""
 
     verdict: str  #: "changed", "no_change", "not_testable" or "not_comparable"
     summary: str
     changes: Tuple[StateChange, ...]  #: the largest first
     difference_rms_deg: float  #: of the later state from the earlier one
-    unexplained_rms_deg: float  #: the same beside the changes
+    unexplained_rms_deg: float  #: that difference with the changes applied
     noise_floor_deg: float
     json: str = dataclasses.field(repr=False)
     files: Table[str, bytes] = dataclasses.field(repr=False)
@@ -562,27 +562,27 @@ class Comparison(Documented):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PlanStep(Value):
-    """A run to measure, or a number to read by hand."""
+    """A run to measure, or a dimension to read by hand."""
 
     words: str
     minutes: float
-    by_minutes: float  #: since the beginning, when it is done
+    by_minutes: float  #: from the beginning to the end of this step
     sees: Tuple[str, ...]
     tells: Tuple[str, ...]
-    file: str  #: of its rows; "" for a step that is no run
+    file: str  #: name of its run file; "" unless it is a run
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Plan(Documented):
-    """Which runs to measure and what they can show. Without a law over the range, or without time, it has no steps."""
+    """Runs to measure, with their detection limits. Without a law over the range, or without time, it has no steps."""
 
     exists: bool
     conditions: Tuple[Condition, ...]
     advice: Tuple[Change, ...]
     steps: Tuple[PlanStep, ...]
-    beyond: Tuple[PlanStep, ...]  #: what more minutes would buy
+    beyond: Tuple[PlanStep, ...]  #: steps that more minutes would add
     minutes: float
-    groups: Tuple[Tuple[str, ...], ...]  #: causes that stay together
+    groups: Tuple[Tuple[str, ...], ...]  #: causes that the runs do not resolve
     json: str = dataclasses.field(repr=False)
     files: Table[str, bytes] = dataclasses.field(repr=False)
     warnings: Tuple[Diagnostic, ...]
@@ -591,16 +591,16 @@ class Plan(Documented):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Simulation(Value):
-    """A joint moved through a log: columns by name, one row a row of the log."""
+    """A simulated log: columns by name, one row for each row of the log."""
 
     exists: bool
     conditions: Tuple[Condition, ...]
     advice: Tuple[Change, ...]
-    columns: Table[str, Numbers]  #: the name ends in the unit; NaN where there is no such number
+    columns: Table[str, Numbers]  #: the name ends in the unit; NaN for missing values
     status: Tuple[str, ...]  #: "held", "loose" or "no_equilibrium"
     notes: Tuple[str, ...]
     warnings: Tuple[Diagnostic, ...]
-    csv: str = dataclasses.field(repr=False)  #: as `fusee simulate` writes it, and calibrate() reads it
+    csv: str = dataclasses.field(repr=False)  #: as `fusee simulate` writes it and calibrate() reads it
 
     def __getitem__(self, column: str) -> Numbers:
         return self.columns[column]
@@ -608,7 +608,7 @@ class Simulation(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Kit(Value):
-    """The rest of the test model: parts, plates, a page."""
+    """The test rig: parts, plates, a page."""
 
     status: str  #: "done", "no_pulley", "no_kit" or "check_failed"
     conditions: Tuple[Condition, ...]

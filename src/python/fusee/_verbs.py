@@ -1,7 +1,7 @@
-"""The verbs: a mechanism in, a frozen value out.
+"""The verbs: each takes a mechanism and returns a frozen value.
 
-Options have the names, ranges and defaults of the program's own (``fusee COMMAND --help``). Without `folder` nothing is written, and what
-would have been is in ``files``. An argument that cannot be used is an InputError; a joint that cannot be made is a value.
+Options have the names, ranges and defaults of the program's own (``fusee COMMAND --help``). Without `folder` nothing is written, and
+``files`` has the content. An invalid argument is an InputError; an infeasible joint is a value.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def _each(kind: Type[T], rows: abc.Iterable[Row]) -> Tuple[T, ...]:
 
 
 def _with_values(made: Row) -> Row:
-    """What answers hold under the same names, made values of rows."""
+    """Converts the rows of a result that all verbs share into values."""
     kinds: Dict[str, Type[_values.Value]] = {
         "conditions": _values.Condition, "advice": _values.Change, "advice_together": _values.Change, "checks": _values.Check,
         "knots": _values.Knot, "sources": _values.ErrorSource, "tolerances": _values.ToleranceEffect, "placements": _values.Placement,
@@ -71,17 +71,17 @@ def _of(mechanism: Mechanism) -> _core.CarriedMechanism:
 
 def _target(folder: Optional[PathLike], force: bool) -> _core.Target:
     if folder is None:
-        # A name that nobody has: nothing is written there, and nothing of an earlier run is found.
+        # An unused name: nothing is written there, and there is no earlier run.
         nowhere = os.path.join(tempfile.gettempdir(), f"fusee-nowhere-{os.getpid()}")
         return _core.Target(os.fsencode(nowhere), True, True)
     path = path_bytes("folder", folder)
     if not path:
-        raise input_error("folder", "is empty", "'.' is this one")
+        raise input_error("folder", "is empty", "use '.' for the working folder")
     return _core.Target(path, bool(force), False)
 
 
 def synthesise(mechanism: Mechanism, *, tolerance_mm: float = 0.01, advice: bool = True, steps: int = 180) -> _values.Synthesis:
-    """θ(α) and both pitch curves of the joint as it is, without a body. Milliseconds.
+    """θ(α) and both pitch curves of the identified joint, without a body. Takes milliseconds.
 
     >>> import fusee
     >>> arm = fusee.read(fusee.new("forearm"))
@@ -108,9 +108,9 @@ def rewind(
     max_theta_error_deg: float = 0.05,
     max_slack_mm: float = 0.05,
 ) -> _values.Rewound:
-    """The joint angle that tendons wound on a part give: a mesh, a drawing with floors, or the curves of ``synthesise``.
+    """Joint angle from tendons wound on a part: a mesh, a drawing with groove floors, or the curves of ``synthesise``.
 
-    A mesh that was moved or turned is found, unless `as_is`. InputError where no groove is.
+    A mesh that was moved or turned is moved back, unless `as_is`. InputError if there is no groove.
 
     >>> import fusee
     >>> arm = fusee.read(fusee.new("forearm"))
@@ -125,7 +125,7 @@ def rewind(
     )
     if isinstance(part, _values.Synthesis):
         if not part.made:
-            raise input_error("part", "there are no curves: the synthesis was not made", "look at its conditions and advice")
+            raise input_error("part", "there are no curves: the synthesis is infeasible", "see its conditions and advice")
         inset = -0.5 * mechanism.number("tendon.diameter_mm")
         floors = (part.p1.parallel_mm(inset), part.p2.parallel_mm(inset))
         made = heard(lambda stop: _core.rewind_floors(joint, floors[0], floors[1], *limits))
@@ -136,7 +136,7 @@ def rewind(
 
 
 def check(part: PathLike) -> Tuple[_values.Check, ...]:
-    """A mesh or a drawing: valid, or what is wrong and where. InputError for what cannot be read."""
+    """Checks a mesh or a drawing; failed checks state the place. InputError for unreadable files."""
     path = path_bytes("part", part)
     return _each(_values.Check, heard(lambda stop: _core.check(path))["checks"])
 
@@ -152,9 +152,9 @@ def build(
     max_theta_error_deg: float = 0.05,
     max_slack_mm: float = 0.05,
 ) -> _values.Built:
-    """The pulley in every format, checked as it was written. OutputError where `folder` holds what fusee did not write.
+    """Builds the pulley in every format and checks the written files. OutputError if `folder` has files that fusee did not write.
 
-    `step`: the part for CAD too, pulley.step, which takes some seconds. InputError where it is too large for one, or where fusee was built
+    `step`: also write pulley.step for CAD, which takes some seconds. InputError if the part is too large for it, or if fusee was built
     without OpenCASCADE.
 
     >>> import fusee
@@ -181,7 +181,7 @@ def build(
 
 
 def analyze(mechanism: Mechanism, *, steps: int = 60, tolerance_mm: float = 0.1, samples: int = 1000, seed: int = 1) -> _values.Analysis:
-    """Radii, tensions, stretch, error and stiffness over the stroke, and what limits the joint.
+    """Radii, tensions, stretch, error and stiffness over the stroke, and the limits of the joint.
 
     >>> import fusee
     >>> loaded = fusee.read(fusee.new("forearm")).with_({"load.tip_force_N": 10})
@@ -219,8 +219,7 @@ def optimize(
 ) -> _values.Optimum:
     """Better numbers within the bounds of the file's [optimize]: by proof ("certified"), by evolution ("genetic"), or a front ("pareto").
 
-    `then`: of the designs that tie in a proof, the best by another objective. The answer is the same on any number of threads (0: as many as
-    there are).
+    `then`: second objective, among the designs that tie in a proof. The result does not depend on the number of threads (0: one a core).
 
     >>> import fusee
     >>> arm = fusee.read(fusee.new("forearm") + '''
@@ -254,13 +253,13 @@ def optimize(
 
 
 def _reread(mechanism: Mechanism, text: str, settings: Settings = ()) -> Mechanism:
-    """Another text in the place of a mechanism's, its table beside it."""
+    """Reads another text in place of a mechanism's, with its table next to it."""
     path = mechanism._core.path_bytes()
     return _made(_core.read(path, settings, {**mechanism._core.files(), path: text.encode()}))
 
 
 def _better(mechanism: Mechanism, text: str, numbers: Dict[str, float]) -> Mechanism:
-    """The text with a design's numbers, and what ``with_`` had changed that is none of them."""
+    """The text with a design's numbers, and with the other changes by ``with_``."""
     settings = mechanism._core.settings()
     return _reread(mechanism, text, settings).with_(numbers) if settings else _reread(mechanism, text)
 
@@ -269,17 +268,17 @@ def _better(mechanism: Mechanism, text: str, numbers: Dict[str, float]) -> Mecha
 
 
 def _csv(name: str, columns: abc.Mapping[str, ArrayLike]) -> bytes:
-    """Columns as a file that reads as the same numbers; what is not known (NaN) stays empty."""
+    """A CSV file that reads as the same numbers; NaN becomes an empty cell."""
     arrays: Dict[str, Any] = {}
     for key, values in columns.items():
         try:
             arrays[str(key)] = np.atleast_1d(np.asarray(values, dtype=np.float64))
         except (TypeError, ValueError):
-            raise input_error(name, f"column {key!r} holds no numbers") from None
+            raise input_error(name, f"column {key!r} is not numeric") from None
     if not arrays or len({array.shape for array in arrays.values()}) != 1 or any(array.ndim != 1 for array in arrays.values()):
         raise input_error(name, "takes columns of one length", '{"alpha_deg": […], "theta_deg": […]}')
     if any(set(key) & set(',;\t\r\n"#') or not key.strip() for key in arrays):
-        raise input_error(name, "a column's name holds no separator")
+        raise input_error(name, "a column's name must not contain a separator")
     lines = [",".join(arrays)]
     for row in zip(*(array.tolist() for array in arrays.values())):
         lines.append(",".join("" if math.isnan(value) else repr(value) for value in row))
@@ -287,7 +286,7 @@ def _csv(name: str, columns: abc.Mapping[str, ArrayLike]) -> bytes:
 
 
 def _logs(argument: str, logs: abc.Sequence[Log], prefix: str) -> Tuple[List[bytes], Dict[bytes, bytes]]:
-    """Names of files, and what those hold that are none."""
+    """File names, and the content of logs that are columns."""
     names: List[bytes] = []
     held: Dict[bytes, bytes] = {}
     for at, log in enumerate(logs, 1):
@@ -308,7 +307,7 @@ _Counts = Optional[abc.Mapping[str, float]]
 
 
 def _reading(columns: _Words, units: _Words, ticks_per_turn: _Counts, zero_ticks: _Counts) -> Tuple[Any, ...]:
-    """How logs are read: columns, units and counts, each by its role."""
+    """Options for reading logs: columns, units and counts, by role."""
 
     def words(name: str, given: _Words) -> Dict[bytes, bytes]:
         return {choice(name, role, _ROLES).encode(): text_bytes(name, str(word)) for role, word in (given or {}).items()}
@@ -338,11 +337,11 @@ def calibrate(
     force: bool = False,
     audit: bool = True,
 ) -> _values.Calibration:
-    """Measured runs held against the mechanism: what is off, why, and a better file.
+    """Compares measured runs with the mechanism: errors, causes, and a better file.
 
     A run is a CSV file or its columns (``alpha_deg``, ``theta_deg``, and if logged ``time_s``, ``load_N``, ``temperature_C`` …). `columns`
-    gives other names their role: ``{"load": "tau_out_Nm"}``; `units` says what a name does not: ``{"time": "ms"}``; `ticks_per_turn` and
-    `zero_ticks` are of angles in counts of an encoder: ``{"alpha": 4096}``. Whole searches take seconds to a minute.
+    assigns roles to other names: ``{"load": "tau_out_Nm"}``; `units` states units that names omit: ``{"time": "ms"}``; `ticks_per_turn`
+    and `zero_ticks` are for angles in encoder counts: ``{"alpha": 4096}``. Takes seconds to a minute.
 
     >>> import fusee, numpy
     >>> arm = fusee.read(fusee.new("forearm"))
@@ -356,7 +355,7 @@ def calibrate(
     if not fitted:
         raise input_error("runs", "there is no run")
     if {os.path.normpath(name) for name in fitted} <= {os.path.normpath(name) for name in kept}:
-        raise input_error("hold_out", "every run is held out: none is left to fit")
+        raise input_error("hold_out", "every run is held out: no run remains for the fit")
     target = _target(folder, force)
     reading = _reading(columns, units, ticks_per_turn, zero_ticks)
     made = heard(lambda stop: _core.calibrate(joint, fitted, kept, {**held, **more}, reading, target, bool(audit), stop))
@@ -408,9 +407,9 @@ def compare(
     zero_ticks: _Counts = None,
     force: bool = False,
 ) -> _values.Comparison:
-    """What changed between two measured states of one joint: retensioned, reprinted, warm, worn.
+    """Identifies changes between two measured states of one joint: retensioned, reprinted, warm, worn.
 
-    Runs are files or columns as in `calibrate`, those of the earlier state before and those of the later state after. Seconds to minutes.
+    Runs are files or columns as in `calibrate`: `before` of the earlier state, `after` of the later one. Takes seconds to minutes.
 
     >>> import fusee, numpy
     >>> arm = fusee.read(fusee.new("forearm"))
@@ -454,7 +453,9 @@ def plan(
     range_deg: Optional[Tuple[float, float]] = None,
     seed: int = 1,
 ) -> _values.Plan:
-    """Which runs to measure in so many minutes, and what they can show; run files without θ, as ``simulate`` and ``calibrate`` read them.
+    """Plans the runs to measure in the given minutes, with their detection limits.
+
+    Its run files, without θ, are for ``simulate`` and ``calibrate``.
 
     >>> import fusee
     >>> bench = fusee.plan(fusee.read(fusee.new("forearm")), minutes=1)
@@ -478,7 +479,7 @@ def _levels(name: str, values: abc.Sequence[float]) -> List[Any]:
         raise input_error(name, "takes a list of numbers")
     listed = list(values)
     if len(listed) > 12:
-        raise input_error(name, f"{len(listed)} are more than the 12 that a plan weighs")
+        raise input_error(name, f"{len(listed)} values are more than the limit of 12")
     return listed
 
 
@@ -501,7 +502,7 @@ def simulate(
     noise_deg: float = 0,
     seed: int = 1,
 ) -> _values.Simulation:
-    """The joint moved through logged motor angles and loads: its angle, its tendons' tensions, the motor's torque.
+    """Simulates the joint for logged motor angles and loads: joint angle, tendon tensions and motor torque.
 
     >>> import fusee, numpy
     >>> arm = fusee.read(fusee.new("forearm"))
@@ -522,7 +523,7 @@ def simulate(
 def kit(
     mechanism: Mechanism, folder: Optional[PathLike] = None, *, force: bool = False, tolerance_mm: float = 0.01, dxf: str = "ac1015"
 ) -> _values.Kit:
-    """The rest of the test model: plate, link, pins, encoder mount, coupon, and a page that says how they go together."""
+    """The test rig: plate, link, pins, encoder mount, coupon, and a page with the assembly."""
     joint = _of(mechanism)
     target = _target(folder, force)
     tolerance = number("tolerance_mm", tolerance_mm, 0.0005, _MOST_TOLERANCE_MM, "mm")

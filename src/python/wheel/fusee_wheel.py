@@ -1,6 +1,7 @@
-"""What pip asks for (PEP 517): CMake compiles the module, and the package is packed as a wheel. Nothing but Python's own library is needed.
+"""The build backend for pip (PEP 517): CMake compiles the module, and the package is packed as a wheel. It needs only
+the standard library.
 
-`pip install --no-build-isolation --config-settings build-dir=build/release .` takes what stands compiled there.
+`pip install --no-build-isolation --config-settings build-dir=build/release .` uses an existing build.
 """
 
 import base64
@@ -17,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 
 def version():
-    """The program's, from the one place where it stands."""
+    """The program's version, from the top CMakeLists.txt."""
     return re.search(r"^project\(fusee VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.M)[1]
 
 
@@ -26,14 +27,14 @@ def about(key):
 
 
 def configure(build):
-    """For the Python that asks: the one of an earlier time may be gone."""
+    """Configures for the Python that runs this; the one of an earlier build may be gone."""
     generator = ["-G", "Ninja"] if shutil.which("ninja") and not (build / "CMakeCache.txt").exists() else []
     options = ["-DCMAKE_BUILD_TYPE=Release", "-DFUSEE_TESTS=OFF", "-DFUSEE_PYTHON=REQUIRED", f"-DPython_EXECUTABLE={sys.executable}"]
     subprocess.run(["cmake", "-S", ROOT, "-B", build, *generator, *options], check=True)
 
 
 def compiled(given):
-    """The package's folder in a build that was named, or in one of its own; compiled by now."""
+    """The package's folder in the given build, or in a new one; compiled on return."""
     build = ROOT / (given or "build/wheel")
     if not given:
         configure(build)
@@ -42,7 +43,8 @@ def compiled(given):
 
 
 def step_module(package):
-    """What step=True loads, where it was built: in the wheel it lies below the package as it does below the build."""
+    """The module for step=True, if it was built: in the wheel it has the same place below the package as below the
+    build."""
     build = package.parents[1]
     return {f"fusee/{path.relative_to(build)}": path.read_bytes() for path in sorted(build.glob("lib/**/fusee/modules/fusee-step.so"))}
 
@@ -58,14 +60,14 @@ def metadata():
 
 
 def about_wheel():
-    """What a wheel says of itself: name → bytes."""
+    """The metadata files of the wheel: name → bytes."""
     info = f"fusee-{version()}.dist-info"
     wheel = f"Wheel-Version: 1.0\nGenerator: fusee_wheel\nRoot-Is-Purelib: false\nTag: {tag()}\n"
     return {f"{info}/METADATA": metadata().encode(), f"{info}/WHEEL": wheel.encode(), f"{info}/LICENSE": (ROOT / "LICENSE").read_bytes()}
 
 
 def contents(package):
-    """Name in the wheel → bytes, but for the record of them."""
+    """Name in the wheel → bytes, without RECORD."""
     library = "_core" + sysconfig.get_config_var("EXT_SUFFIX")
     if not (package / library).exists():
         raise SystemExit(f"fusee: {package} was compiled for another Python: {library} is missing")
@@ -81,7 +83,7 @@ def record(held, name):
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
-    """Said before anything is compiled."""
+    """Called before anything is compiled."""
     for name, data in about_wheel().items():
         path = Path(metadata_directory) / name
         path.parent.mkdir(exist_ok=True)
@@ -96,7 +98,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     wheel = f"fusee-{version()}-{tag()}.whl"
     with zipfile.ZipFile(Path(wheel_directory) / wheel, "w", zipfile.ZIP_DEFLATED) as packed:
         for path, data in held.items():
-            entry = zipfile.ZipInfo(path)  # of 1980: the same input gives the same bytes
+            entry = zipfile.ZipInfo(path)  # dated 1980, so that equal input gives equal bytes
             entry.external_attr = (0o755 if path.endswith(".so") else 0o644) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             packed.writestr(entry, data)
@@ -104,7 +106,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_sdist(sdist_directory, config_settings=None):
-    """The tree as git has it."""
+    """The files that git tracks."""
     name = f"fusee-{version()}"
     target = Path(sdist_directory) / f"{name}.tar.gz"
     subprocess.run(["git", "-C", ROOT, "archive", "--format=tar.gz", f"--prefix={name}/", "-o", target.resolve(), "HEAD"], check=True)

@@ -1,4 +1,4 @@
-// What somebody else's program does with fusee: read a mechanism, find the pulley, print how its second radius varies.
+// A program of another project: reads a mechanism, finds the pulley and prints how its second radius varies.
 #include <algorithm>
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-// Logs of held angles and of loads that change within a run: what of a run stands or falls together.
+// Segments of logs with dwells and with loads that change within a run.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct Row {
   double load = 0;   ///< N
 };
 
-/// `rows` rows at each angle, and `between` on the way to the next.
+/// `rows` rows at each angle, and `between` on the way to the next one.
 std::vector<Row> held_at(const std::vector<double>& angles, int rows, int between = 0, double load = 0) {
   std::vector<Row> log;
   for (std::size_t i = 0; i < angles.size(); ++i) {
@@ -34,7 +34,7 @@ std::vector<Row> held_at(const std::vector<double>& angles, int rows, int betwee
   return log;
 }
 
-/// θ is a quarter of α, less .05° a newton, up to `stop`; both sensors scatter.
+/// θ is a quarter of α minus .05° per newton, up to `stop`; both sensors scatter.
 Measurement read(const std::vector<Row>& log, double noise = 0.01, double alpha_quantum = 0, bool has_load = true,
                  double stop = 90) {
   std::mt19937 random(3);
@@ -58,16 +58,16 @@ std::string reasons_of(const Measurement& measurement) {
   return all;
 }
 
-/// "+40 -40 …": from which side each held angle was come to; "·" between them.
+/// Directions from which each dwell is approached: "+40 -40 …", with "·" between strokes.
 std::string stands_of(const fusee::Run& run) {
   std::string words;
-  for (const Stretch& stretch : run.stretches) {
-    const int direction = run.strokes[stretch.stroke].direction;
+  for (const Segment& segment : run.segments) {
+    const int direction = run.strokes[segment.stroke].direction;
     words += (words.empty() ? "" : " ") +
-             (stretch.held ? (direction > 0   ? "+"
+             (segment.held ? (direction > 0   ? "+"
                               : direction < 0 ? "-"
                                               : "") +
-                                 rounded(std::round(degrees(run.samples[(stretch.first + stretch.last) / 2].alpha)))
+                                 rounded(std::round(degrees(run.samples[(segment.first + segment.last) / 2].alpha)))
                            : std::string("·"));
   }
   return words;
@@ -84,7 +84,7 @@ std::vector<double> triangle(double size, int per_stroke, int strokes) {
 
 // ---- held angles ----------------------------------------------------------------------------------------------------
 
-TEST(Stretches, HeldAnglesKnowFromWhichSideTheyWereComeTo) {
+TEST(Segments, RecordDirectionOfApproach) {
   for (const double noise : {0.0, 0.01, 0.05}) {
     for (const int between : {0, 2}) {
       const Measurement m = read(held_at({-40, 0, 40, 10, -40, 0, 40, 10, -40}, 12, between), noise);
@@ -97,44 +97,44 @@ TEST(Stretches, HeldAnglesKnowFromWhichSideTheyWereComeTo) {
   }
 }
 
-TEST(Stretches, EndsInTurnAreStrokesOfOneStandEach) {
+TEST(Segments, AlternatingEndsAreOneDwellStrokes) {
   const Measurement m = read(held_at({-40, 40, -40, 40, -40, 40}, 20));
   EXPECT_EQ(reasons_of(m), "");
   EXPECT_EQ(stands_of(m.runs[0]), "+-40 +40 --40 +40 --40 +40");
   EXPECT_EQ(m.runs[0].speed, 0);
-  EXPECT_EQ(m.alpha_quantum, 0) << "held angles are no steps of a sensor";
+  EXPECT_EQ(m.alpha_quantum, 0) << "dwell angles are not sensor steps";
   EXPECT_THAT(m.notes, ElementsAre(HasSubstr("alpha is held 6 times")));
 }
 
-/// Three rows an end scatter about one place as jitter does, and a joint that stops early does not follow.
-TEST(Stretches, EndsInTurnAreAMotionThoughTheJointStopsEarly) {
+/// Three rows an end scatter like jitter, and a joint that stops early does not follow.
+TEST(Segments, JointMayStopEarly) {
   const std::vector<double> ends = {-95, 94, -72, 70, -48, 46, -24, 23};
   const Measurement stopped = read(held_at(ends, 3), 0.002, 0, true, -10);
   EXPECT_THAT(reasons_of(stopped), IsEmpty());
   EXPECT_EQ(stands_of(stopped.runs.front()), "+-95 +94 --72 +70 --48 +46 --24 +23");
 }
 
-TEST(Stretches, OneRowAtEachEndIsAMotionToo) {
+TEST(Segments, OneRowAtEachEndIsMotion) {
   std::vector<double> ends;
   for (int i = 0; i < 30; ++i) ends.push_back(i % 2 == 0 ? -40.0 : 40.0);
   const Measurement m = read(held_at(ends, 1));
   EXPECT_EQ(reasons_of(m), "");
-  EXPECT_THAT(m.runs[0].stretches, SizeIs(30));
+  EXPECT_THAT(m.runs[0].segments, SizeIs(30));
 }
 
-TEST(Stretches, AFarStepIsNoTurnOfTheSensor) {
+TEST(Segments, LargeStepIsNotUnwrapped) {
   const Measurement m = read(held_at({-150, 150, -150, 150}, 10));
   EXPECT_EQ(stands_of(m.runs[0]), "+-150 +150 --150 +150");
 }
 
-TEST(Stretches, ASensorThatFlickersBetweenTwoStepsIsHeld) {
+TEST(Segments, FlickeringSensorIsDwell) {
   const Measurement m = read(held_at({-40, 0, 40, 0, -40, 0, 40}, 30), 0.05, 0.1);
   EXPECT_EQ(stands_of(m.runs[0]), "+-40 +0 +40 -0 --40 +0 +40");
   EXPECT_NEAR(degrees(m.alpha_quantum), 0.1, 1e-6);
 }
 
-// Sweeps, slow or coarse, with dwells or round ends, hold no angle: their strokes are whole.
-TEST(Stretches, OfASweepAreItsStrokes) {
+// Sweeps, slow or coarse, with dwells or round ends, have no segments below a stroke.
+TEST(Segments, SweepHasWholeStrokes) {
   std::vector<double> sine, dwells;
   for (int i = 0; i < 1200; ++i) sine.push_back(40 * std::sin(k_two_pi * i / 300.0));
   for (const double alpha : triangle(40, 100, 6)) dwells.insert(dwells.end(), std::abs(alpha) == 40 ? 30 : 1, alpha);
@@ -144,40 +144,40 @@ TEST(Stretches, OfASweepAreItsStrokes) {
       for (const double alpha : alphas) log.push_back({alpha, 0});
       const Measurement m = read(log, 0.01, quantum, false);
       EXPECT_FALSE(is_from_point_to_point(m.runs[0])) << alphas.size() << " " << quantum;
-      EXPECT_EQ(m.runs[0].stretches.size(), m.runs[0].strokes.size());
+      EXPECT_EQ(m.runs[0].segments.size(), m.runs[0].strokes.size());
     }
   }
 }
 
 // ---- loads ----------------------------------------------------------------------------------------------------------
 
-TEST(Stretches, LoadsPutOnAndTakenOffAtAnAngleAreApart) {
+TEST(Segments, SeparateLoadingAndUnloading) {
   std::vector<Row> log;
   for (const double alpha : {-40.0, 0.0, 40.0, 0.0, -40.0}) {
     for (const double load : {0.0, 5.0, 10.0, 5.0, 0.0}) log.insert(log.end(), 8, {alpha, load});
   }
   const Measurement m = read(log);
   EXPECT_EQ(reasons_of(m), "");
-  ASSERT_THAT(m.runs[0].stretches, SizeIs(25));
+  ASSERT_THAT(m.runs[0].segments, SizeIs(25));
   std::vector<int> pulls;
-  for (std::size_t i = 5; i < 10; ++i) pulls.push_back(m.runs[0].stretches[i].pull);
+  for (std::size_t i = 5; i < 10; ++i) pulls.push_back(m.runs[0].segments[i].pull);
   EXPECT_THAT(pulls, ElementsAre(0, 1, 1, -1, -1));
 }
 
-TEST(Stretches, AMotorHeldForTheWholeRunIsMovedByItsLoad) {
+TEST(Segments, ConstantMotorIsOneStroke) {
   std::vector<Row> log;
   for (const double load : {0.0, 5.0, 10.0, 5.0, 0.0}) log.insert(log.end(), 10, {20.0, load});
   for (const double noise : {0.0, 0.01}) {
     const Measurement m = read(log, noise);
     EXPECT_EQ(reasons_of(m), "") << noise;
-    EXPECT_THAT(m.runs[0].stretches, SizeIs(5));
+    EXPECT_THAT(m.runs[0].segments, SizeIs(5));
     ASSERT_THAT(m.runs[0].strokes, SizeIs(1));
     EXPECT_EQ(m.runs[0].strokes[0].direction, 0);
   }
 }
 
-TEST(Stretches, LevelsOfLoadCutAStroke) {
-  // A load that is put on in the middle of strokes: at other places each time.
+TEST(Segments, LoadLevelsCutStroke) {
+  // Loads applied in the middle of strokes, at different places each time.
   std::vector<Row> stepped, ramped, bound;
   const std::vector<double> alphas = triangle(40, 60, 6);
   for (std::size_t i = 0; i < alphas.size(); ++i) {
@@ -187,21 +187,21 @@ TEST(Stretches, LevelsOfLoadCutAStroke) {
   }
   const fusee::Run run = read(stepped).runs[0];
   EXPECT_EQ(run.strokes.size(), 6u);
-  EXPECT_GT(run.stretches.size(), 9u);
-  for (const Stretch& stretch : run.stretches) {
+  EXPECT_GT(run.segments.size(), 9u);
+  for (const Segment& segment : run.segments) {
     double least = 1e9, most = -1e9;
-    for (std::size_t i = stretch.first; i <= stretch.last; ++i) {
+    for (std::size_t i = segment.first; i <= segment.last; ++i) {
       least = std::min(least, run.samples[i].load);
       most = std::max(most, run.samples[i].load);
     }
-    EXPECT_LT(stretch.last - stretch.first < 12 ? 0 : most - least, 1) << stretch.first;
+    EXPECT_LT(segment.last - segment.first < 12 ? 0 : most - least, 1) << segment.first;
   }
-  EXPECT_EQ(read(bound).runs[0].stretches.size(), 6u) << "a spring's load belongs to the place";
-  EXPECT_EQ(read(ramped).runs[0].stretches.size(), 6u) << "within a stroke it hardly changes";
+  EXPECT_EQ(read(bound).runs[0].segments.size(), 6u) << "a spring's load is a function of place";
+  EXPECT_EQ(read(ramped).runs[0].segments.size(), 6u) << "it hardly changes within a stroke";
   std::vector<Row> waves;
   for (std::size_t i = 0; i < alphas.size(); ++i)
     waves.push_back({alphas[i], 5 + 5 * std::sin(0.05 * static_cast<double>(i))});
-  EXPECT_GT(read(waves).runs[0].stretches.size(), 12u);
+  EXPECT_GT(read(waves).runs[0].segments.size(), 12u);
 }
 
 }  // namespace

@@ -1,0 +1,202 @@
+"""Refuses words that make comments, test titles and pages hard to read. words_test.py SOURCE_FOLDER [PATH...] prints every place."""
+
+import re
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+# Modules whose words are not revised yet, and pages that the program writes.
+PENDING = ("src/calibration/", "include/fusee/calibration/", "tests/calibration/", "tests/rig/", "profiles/calibration.md", "profiles/physics.md")
+GENERATED = ("docs/reference/commands.md", "docs/reference/keys.md", "docs/reference/catalogue.md", "docs/reference/columns.md",
+             "docs/reference/json.md", "docs/background/paper.md")
+# This file and its neighbour quote what they refuse; a corpus, data and pictures have no comments of ours.
+EXEMPT = ("tests/pipeline/words_test.py", "tests/cli/docs_test.py", "tests/fuzz/corpus/", "tests/data/", "docs/pictures/", "profiles/pictures/")
+
+MOST_WORDS_IN_SENTENCE = 30
+MOST_WORDS_IN_TITLE = 8
+MOST_COLUMNS = 120
+
+FIRST = re.compile(r"(What|Of|The same|Where|Whether)\b|…|\.\.\.")
+#: Expression → what to write instead.
+REPLACED = {
+    r"nameless|without a name|ha(?:s|ve) no name": "unmodelled",
+    r"what is left|what stays": "residual, remainder",
+    r"gives? way": "compliance, is compliant",
+    r"foretold|foretells?": "predicted",
+    r"culprits?|blame[ds]?|falsely blamed": "attributed cause, false positive",
+    r"how sure|surer": "uncertainty",
+    r"may as well be": "equally likely",
+    r"tells? \w+ from|told apart|tells? apart": "distinguishes, resolved",
+    r"would be possible with": "try KEY = VALUE or less (now VALUE)",
+    r"it takes \d": "at least … is required",
+    r"as it lies|as they lie": "print orientation, present position",
+    r"makings": "full builds",
+    r"test model": "test rig",
+    r"nobody|somebody": "name the person or the thing",
+    r"mouths?|gables?|keels?": "channel entry, overhang support cone",
+}
+WORDS = {re.compile(rf"\b(?:{expression})\b", re.I): instead for expression, instead in REPLACED.items()}
+ANY_WORD = re.compile("|".join(rf"\b(?:{expression})\b" for expression in REPLACED), re.I)
+
+CPP_COMMENT = re.compile(r"\s*//[/!]?(?!<)\s?(.*)")
+CPP_TEXT = re.compile(r'//.*|"(?:[^"\\]|\\.)*"')
+SCRIPT_COMMENT = re.compile(r"\s*#(?!!)\s?(.*)")
+CPP_TITLE = re.compile(r"TEST(?:_F|_P)?\((\w+), (\w+)\)")
+PY_TITLE = re.compile(r"\s*def test_(\w+)\(")
+DOCSTRING = re.compile(r'\s*[rf]?"""(.*)')
+
+
+def words_in(text):
+    """(rule, instead) of each refused expression in a text."""
+    if not ANY_WORD.search(text):
+        return
+    for pattern, instead in WORDS.items():
+        for match in pattern.finditer(text):
+            yield f"'{match[0]}'", instead
+
+
+def first_word_of(text):
+    match = FIRST.match(text)
+    if match:
+        yield f"begins with '{match[0]}'", "a complete sentence with the subject first"
+
+
+def title_faults(title, words):
+    if words[0] in ("What", "Where", "Whether", "Of", "That", "what", "where", "whether", "of", "that"):
+        yield f"title {title} begins with '{words[0]}'", "what fails when the test fails, subject or verb first"
+    if len(words) > MOST_WORDS_IN_TITLE:
+        yield f"title {title} has {len(words)} words", f"at most {MOST_WORDS_IN_TITLE}"
+
+
+def cpp_faults(lines):
+    was_comment = False
+    for number, line in enumerate(lines, 1):
+        comment = CPP_COMMENT.match(line) if "//" in line else None
+        if comment and not was_comment:
+            yield from ((number, *fault) for fault in first_word_of(comment[1]))
+        was_comment = comment is not None
+        if comment:
+            yield from ((number, *fault) for fault in words_in(comment[1]))
+        elif ANY_WORD.search(line):
+            yield from ((number, *fault) for text in CPP_TEXT.findall(line) for fault in words_in(text))
+        title = CPP_TITLE.match(line)
+        if title:
+            words = re.findall(r"[A-Z][a-z0-9]*|[A-Z]+(?![a-z])", title[2])
+            yield from ((number, *fault) for fault in title_faults(title[2], words or [title[2]]))
+
+
+def script_faults(lines):
+    was_comment = False
+    for number, line in enumerate(lines, 1):
+        comment = SCRIPT_COMMENT.match(line)
+        if comment and not was_comment:
+            yield from ((number, *fault) for fault in first_word_of(comment[1].lstrip(": ")))
+        was_comment = comment is not None
+        docstring = DOCSTRING.match(line)
+        if docstring:
+            yield from ((number, *fault) for fault in first_word_of(docstring[1]))
+        if ANY_WORD.search(line):
+            yield from ((number, *fault) for fault in words_in(line))
+        title = PY_TITLE.match(line)
+        if title:
+            yield from ((number, *fault) for fault in title_faults("test_" + title[1], title[1].split("_")))
+
+
+def page_faults(lines):
+    """Rules of Markdown: line length, words, and sentences of paragraphs, items and cells."""
+    sentence, start, is_code = "", 1, False
+
+    def ended():
+        words = len(sentence.split())
+        if words > MOST_WORDS_IN_SENTENCE:
+            yield start, f"sentence of {words} words: {sentence.strip()[:60]} …", f"at most {MOST_WORDS_IN_SENTENCE}; split it"
+
+    for number, line in enumerate(lines, 1):
+        if line.startswith("```"):
+            is_code = not is_code
+        if is_code or line.startswith(("```", "<!--", "![")):
+            yield from ended()
+            sentence, start = "", number + 1
+            continue
+        if len(line) > MOST_COLUMNS and not line.startswith("|") and "](" not in line:
+            yield number, f"line of {len(line)} columns", f"at most {MOST_COLUMNS}"
+        text = re.sub(r"\]\([^)]*\)", "]", re.sub(r"`[^`]*`", "x", line))
+        yield from ((number, *fault) for fault in words_in(text))
+        if not text.strip() or re.match(r"\s*(\||#|-|\*|\d+\.|>)", text):
+            yield from ended()
+            sentence, start = "", number
+        for part in re.split(r"((?<=[.!?:;])\s|\|)", text + " "):
+            if part.strip() and part != "|":
+                if not sentence.strip():
+                    start = number
+                sentence += " " + part
+            elif part:
+                yield from ended()
+                sentence = ""
+        if re.search(r"[.!?:;]$", text):
+            yield from ended()
+            sentence = ""
+    yield from ended()
+
+
+KINDS = {".cpp": cpp_faults, ".h": cpp_faults, ".py": script_faults, ".pyi": script_faults, ".txt": script_faults, ".cmake": script_faults,
+         "": script_faults, ".md": page_faults}
+
+
+def files(root, under=()):
+    listed = subprocess.run(["git", "-C", root, "ls-files", *under], capture_output=True, text=True)
+    names = listed.stdout.splitlines() if listed.returncode == 0 else [str(path.relative_to(root)) for path in root.rglob("*") if path.is_file()]
+    for name in names:
+        path = Path(name)
+        if name.startswith((*PENDING, *EXEMPT)) or name in GENERATED or path.suffix not in KINDS:
+            continue
+        if path.suffix == ".txt" and path.name != "CMakeLists.txt" or path.suffix == "" and path.parent.name != ".ci":
+            continue
+        yield name
+
+
+def faults(root, under=()):
+    """A line for each refused place: file, line, rule, and what to write instead."""
+    found = []
+    for name in files(root, under):
+        lines = (root / name).read_text(errors="replace").splitlines()
+        found += [f"{name}:{number}: {rule}; write: {instead}" for number, rule, instead in KINDS[Path(name).suffix](lines)]
+    return found
+
+
+class Words(unittest.TestCase):
+    ROOT = Path(__file__).resolve().parents[2]
+
+    def test_sources_and_pages_follow_the_rules(self):
+        found = faults(self.ROOT)
+        self.assertEqual(found, [], f"{len(found)} places:\n" + "\n".join(found[:100]))
+
+    def refused(self, kind, text):
+        return [(number, rule) for number, rule, _ in KINDS[kind](text.splitlines())]
+
+    def test_detects_comments(self):
+        self.assertEqual(self.refused(".h", "int a;\n/// What is left of it.\nint b;\n"), [(2, "begins with 'What'"), (2, "'What is left'")])
+        self.assertEqual(self.refused(".cpp", "// A fact.\n// Of two lines.\nf();  // it gives way\n"), [(3, "'gives way'")])
+        self.assertEqual(self.refused(".cpp", 'throw Error("nobody knows");  // fine\n'), [(1, "'nobody'")])
+        self.assertEqual(self.refused(".py", "# Where it is\n"), [(1, "begins with 'Where'")])
+        self.assertEqual(self.refused(".py", 'def f():\n    """Whether it is."""\n'), [(2, "begins with 'Whether'")])
+
+    def test_detects_titles(self):
+        self.assertEqual(len(self.refused(".cpp", "TEST(Part, WhatIsMade) {\n")), 1)
+        self.assertEqual(len(self.refused(".cpp", "TEST(Part, IsMadeOfOneTwoThreeFourFiveSixSeven) {\n")), 1)
+        self.assertEqual(self.refused(".cpp", "TEST(Part, PassesChecks) {\n"), [])
+        self.assertEqual(len(self.refused(".py", "    def test_what_is_made(self):\n")), 1)
+
+    def test_detects_long_sentences(self):
+        self.assertEqual([number for number, _ in self.refused(".md", "Short.\n\n" + "word " * 15 + "\n" + "word " * 16 + "\n")], [3])
+        self.assertEqual([number for number, _ in self.refused(".md", "| x | " + "word " * 31 + "|\n")], [1])
+        self.assertEqual(self.refused(".md", "```\n" + "word " * 31 + "\n```\n- " + "word " * 20 + ".\n- " + "word " * 20 + ".\n"), [])
+        self.assertEqual(len(self.refused(".md", "x" * 121 + "\n")), 1)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        print("\n".join(faults(Path(sys.argv[1]).resolve(), sys.argv[2:])))
+    else:
+        unittest.main()
