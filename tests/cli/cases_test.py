@@ -114,7 +114,7 @@ CASES = [
     # Designs that cannot be made: exit 4, where, why, and which number to change.
     ("build arm.toml --set pulley.r1_mm=60", 4, "^$", "error: .*it would be possible with "),
     ("build arm.toml --set pulley.law=torque --set pulley.motor_torque_Nmm=-300 --set load.torque_Nmm=900", 4, "^$",
-     r"error: .*900 N·mm against \+θ at θ = .*wanted to hold -300 N·mm.*it would be possible with pulley\.motor_torque_Nmm"),
+     r"error: .*900 N·mm against \+θ at θ = .*the wanted torque of the motor is -300 N·mm.*it would be possible with pulley\.motor_torque_Nmm"),
     ("build arm.toml --set joint.range_deg=[-80,80]", 4, "^$", "error: "),
     ("build arm.toml --set body.bore_diameter_mm=60", 4, "^$", "error: .*bore"),
     # Forces.
