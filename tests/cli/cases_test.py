@@ -146,7 +146,7 @@ CASES = [
     ("rewind arm.toml missing.stl", 3, "^$", "missing.stl"),
     ("replay missing.zip", 3, "^$", "missing.zip"),
     ("replay arm.toml", 3, "^$", "arm.toml: error: expected a bundle of fusee"),
-    ("replay empty.stl", 3, "^$", "empty.stl: error: .*it is no bundle of fusee"),
+    ("replay empty.stl", 3, "^$", "empty.stl: error: .*this is not a bundle of fusee"),
     ("replay arm.toml -o .", 3, "^$", "expected a bundle"),
     # Templates and keys.
     ("new", 0, "paper_optimum", "^$"),
