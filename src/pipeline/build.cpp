@@ -499,7 +499,7 @@ const std::vector<std::string>& output_names() {
 BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   BuildResult result;
   result.product.file = file;
-  auto warned = run_async([&file] { return doubts(file); });
+  auto warned = run_async([&file] { return plausibility_warnings(file); });
   result.product.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   if (const auto why = options.step ? step_missing() : std::nullopt)

@@ -105,7 +105,7 @@ TEST(Bundles, RejectMalformedIndex) {
     EXPECT_THAT(refusal(zip_bytes(entries.all)), HasSubstr("bug.zip: error: bundle.json: "));
   }
   EXPECT_THAT(refusal("PK"), HasSubstr("expected a bundle of fusee, which is a zip archive"));
-  EXPECT_THAT(refusal(zip_bytes({{"a", "b"}})), HasSubstr("it is no bundle of fusee"));
+  EXPECT_THAT(refusal(zip_bytes({{"a", "b"}})), HasSubstr("this is not a bundle of fusee"));
 }
 
 Bundle read_again(const Bundle& bundle) { return read_bundle(bundle_bytes(bundle), "bug.zip"); }

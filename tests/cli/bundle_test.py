@@ -324,7 +324,7 @@ class Hostile(Packed):
         self.refuse(3, "expected a bundle of fusee")
         with zipfile.ZipFile(self.folder / "bug.zip", "w") as archive:
             archive.writestr("3D/model", "x")
-        self.refuse(3, "it is no bundle of fusee")
+        self.refuse(3, "this is not a bundle of fusee")
         self.setUp()
         self.edit("bug.zip", lambda index: index.update(schema=2))
         self.refuse(3, "schema is not 1")

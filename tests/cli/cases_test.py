@@ -114,7 +114,7 @@ CASES = [
     # Infeasible designs: exit 4, place, reason and advice.
     ("build arm.toml --set pulley.r1_mm=60", 4, "^$", "error: .*try "),
     ("build arm.toml --set pulley.law=torque --set pulley.motor_torque_Nmm=-300 --set load.torque_Nmm=900", 4, "^$",
-     r"error: .*900 N·mm against \+θ at θ = .*wanted to hold -300 N·mm.*try pulley\.motor_torque_Nmm"),
+     r"error: .*900 N·mm against \+θ at θ = .*the wanted torque of the motor is -300 N·mm.*try pulley\.motor_torque_Nmm"),
     ("build arm.toml --set joint.range_deg=[-80,80]", 4, "^$", "error: "),
     ("build arm.toml --set body.bore_diameter_mm=60", 4, "^$", "error: .*bore"),
     # Forces.
@@ -146,7 +146,7 @@ CASES = [
     ("rewind arm.toml missing.stl", 3, "^$", "missing.stl"),
     ("replay missing.zip", 3, "^$", "missing.zip"),
     ("replay arm.toml", 3, "^$", "arm.toml: error: expected a bundle of fusee"),
-    ("replay empty.stl", 3, "^$", "empty.stl: error: .*it is no bundle of fusee"),
+    ("replay empty.stl", 3, "^$", "empty.stl: error: .*this is not a bundle of fusee"),
     ("replay arm.toml -o .", 3, "^$", "expected a bundle"),
     # Templates and keys.
     ("new", 0, "paper_optimum", "^$"),
