@@ -50,7 +50,7 @@ def commands_of(kind, lines):
 
 
 def shortened(printed, shown):
-    """What is printed, without the lines for which "…" stands in what is shown."""
+    """The printed text, without the lines that "…" replaces in the shown text."""
     if LEFT_OUT not in shown:
         return printed
     before = shown.index(LEFT_OUT)
@@ -86,7 +86,7 @@ class Bench:
 
 
 def runnable(command):
-    """Of a command that installs packages or compiles, what `fusee` does; nothing of one that needs data which are not ours."""
+    """The part of a command that `fusee` does: not installing, not compiling. Empty if it needs data outside the repository."""
     if "$FUSEE_DAVINCI_JAW" in command and "FUSEE_DAVINCI_JAW" not in os.environ:
         return None
     if ".ci/setup" in command or "cmake" in command:
@@ -147,7 +147,7 @@ def commands_page(program):
 
 
 def listed(program, fields):
-    """What `fusee explain` lists: the meaning of each table, and what stands in each key's last parentheses."""
+    """Output of `fusee explain`: the meaning of each table, and the last parentheses of each key."""
     names = {(field["table"], field["key"]) for field in fields}
     tables, endings, table = {}, {}, ""
     for line in re.sub(r"\n {28,}", " ", output(program, "explain")).splitlines():

@@ -63,7 +63,7 @@ def on_futures(base: fusee.Mechanism, all_designs: Sequence[Design], workers: in
 
 
 def on_dask(base: fusee.Mechanism, all_designs: Sequence[Design], workers: int) -> List[Figures]:
-    """The same sweep: only the pool is another. `Client("tcp://scheduler:8786")` is a cluster's."""
+    """This sweep differs only in its pool. `Client("tcp://scheduler:8786")` is a cluster's."""
     from distributed import Client
 
     with Client(n_workers=workers, threads_per_worker=1, dashboard_address=None) as client, client.get_executor() as pool:

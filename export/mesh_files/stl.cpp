@@ -19,7 +19,7 @@
 namespace fusee {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "STL floats are copied as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "STL floats are copied from memory without a change");
 
 constexpr std::size_t k_header_size = 80;
 constexpr std::size_t k_facets_start = 84;

@@ -183,7 +183,7 @@ TendonText text_of(const WrappedTendon& tendon, bool ends_in_C) {
   text.through("anchor_" + n);
   if (tendon.sheath_exit) {
     text.world += "    <" + site("sheath_exit_" + n, *tendon.sheath_exit, z);
-    text.through("mouth_" + n);
+    text.through("sheath_exit_" + n);
   }
   return text;
 }

@@ -39,7 +39,7 @@ Json effect_json(const FoundEffect& effect) {
                {"evidence", nine_digits(effect.evidence)},
                {"audit", audit_json(effect.audit)},
                {"correctable_by", word(effect.correctable_by)}};
-  // What is ahead of everything without a name keeps the keys it had.
+  // Only a group that may be unmodelled has this key.
   if (effect.group.back() == k_unmodelled) {
     json["unmodelled"] = {{"behind", nine_digits(effect.unmodelled.behind)}, {"words", unmodelled_words(effect)}};
   }
@@ -50,7 +50,7 @@ Json effect_json(const FoundEffect& effect) {
   return json;
 }
 
-/// What the discrepancy holds beside the effects.
+/// Parts of the discrepancy beside the effects.
 Json unknown_json(const std::vector<Unknown>& unknown) {
   Json list = Json::array();
   for (const Unknown& part : unknown) {
@@ -70,7 +70,7 @@ Json angles_json(const std::vector<double>& angles) {
   return list;
 }
 
-/// Null where nothing is without a name.
+/// Null if the effects explain the data.
 Json covered_json(const CalibrationProduct& product) {
   const EmpiricalCurve& curve = product.calibration.curve;
   if (!curve.used && curve.why.empty()) return {};

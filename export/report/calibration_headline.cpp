@@ -106,7 +106,7 @@ struct CandidateWords {
 };
 
 /// "both pulleys too small" and "scale −1.2 %"; by its name where the words of the sign stand for a part that they do
-/// not name ("it shows too little").
+/// not name ("the sensor reads too little").
 CandidateWords candidate_words(const std::string& name, const std::vector<FittedParameter>& numbers,
                                const std::string& load_unit) {
   if (numbers.empty()) return {open_words(name), {}};
@@ -174,7 +174,7 @@ std::string cause_words(const CalibrationProduct& product) {
 
 // ---- what to do -----------------------------------------------------------------------------------------------------
 
-/// Up to where a person knows what to do: what it tells apart, and what to write, stands below.
+/// The instruction alone. What it distinguishes, and the key to write, are shown below.
 std::string first_clause(const std::string& sentence) {
   std::string clause = sentence.substr(0, std::min(sentence.find(": "), sentence.find(" and write")));
   if (!clause.empty() && clause.back() == ',') clause.pop_back();

@@ -140,7 +140,7 @@ PlotSeries stroke_series(const Run& run, int direction, const std::function<doub
 
 std::string single(const Plot& plot) { return "<div class=\"single\">" + inline_svg(plot_figure(plot)) + "</div>\n"; }
 
-/// Of all residuals, zero included: the same axis for every plot of the page.
+/// Range of all residuals, zero included: the same axis for every plot of the page.
 Extent residual_extent(const CalibrationProduct& product) {
   Extent extent{0, 0};
   for (std::size_t r = 0; r < judged_runs(product); ++r) {
@@ -413,7 +413,7 @@ std::string rest_html(const CalibrationProduct& product) {
   const std::size_t judged = judged_runs(product);
   if (judged == 0 || !alpha.any()) return "";
   const double floor = degrees(product.calibration.noise.rms);
-  Plot plot{"What is left, all runs together",
+  Plot plot{"Residual of all runs",
             {"motor angle α", "°", alpha.low, alpha.high, 1e-6},
             {"mean residual after", "°", {}, {}, 1e-3},
             {},
@@ -436,7 +436,7 @@ std::string unknown_html(const Unknown& unknown) {
   PlotSeries course{"", Ink::third, {}};
   for (std::size_t i = 0; i < unknown.alpha.size(); ++i)
     course.points.emplace_back(degrees(unknown.alpha[i]), degrees(unknown.theta[i]));
-  Plot plot{"Without a name, by " + unknown.factor,
+  Plot plot{"Unmodelled, by " + unknown.factor,
             {"motor angle α", "°", {}, {}, 1e-6},
             {"largest there", "°", {}, {}, 1e-3},
             {course},
@@ -481,7 +481,7 @@ std::string compensation_html(const CalibrationProduct& product) {
     down.points.emplace_back(degrees(row.theta), degrees(row.alpha_down - declared));
     constant += (up.points.back().y() + down.points.back().y()) / (2.0 * static_cast<double>(table.size()));
   }
-  // Where the joint's zero is free the declared law leaves a constant open, which would dwarf everything else.
+  // A free zero of the joint leaves a constant undetermined, which would dwarf everything else.
   for (PlotSeries* series : {&up, &down}) {
     for (Vec2& point : series->points) point.y() -= law ? 0 : constant;
   }

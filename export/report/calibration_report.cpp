@@ -61,8 +61,9 @@ std::string cause_table_section(const CalibrationProduct& product) {
     rows += "<tr>" + html_cell(first_upper(row.cause)) + html_cell(row.size) + html_cell(row.interval) +
             html_number_cell(row.share) + html_cell(row.corrected_by) + "</tr>";
   if (rows.empty()) return "";
-  return html_section("causes", "Causes",
-                      html_table({"cause", "size", "95 % if it is the only cause", "#share of the error", "corrected by"}, rows));
+  return html_section(
+      "causes", "Causes",
+      html_table({"cause", "size", "95 % if it is the only cause", "#share of the error", "corrected by"}, rows));
 }
 
 /// A section that opens where it is asked for.
@@ -94,7 +95,7 @@ std::string key_numbers(const CalibrationProduct& product) {
               degree_words(c.before.held_out_rms) + " → " + degree_words(c.after.held_out_rms));
   numbers.add("Largest error", degree_words(c.before.max) + " → " + degree_words(c.after.max));
   numbers.add("Noise floor", degree_words(c.noise.rms), c.noise.from_repeats ? "from repeats" : "at least: no repeats");
-  if (c.noise.rms > 0) numbers.add("What is left, per noise floor", readable(c.after.rms / c.noise.rms, 2));
+  if (c.noise.rms > 0) numbers.add("Residual, per noise floor", readable(c.after.rms / c.noise.rms, 2));
   numbers.add("Unexplained beyond the noise, RMS", degree_words(c.unexplained_rms));
   numbers.add("Reversal error (ISO 230-2 B)", degree_words(c.iso_before.B) + " → " + degree_words(c.iso_after.B));
   if (product.correction.has_pulley)
@@ -239,7 +240,8 @@ std::string effects_section(const CalibrationProduct& product) {
   if (html.empty()) html = "<p>None was accepted.</p>";
   if (!calibration.null_combinations.empty()) {
     html +=
-        "<h3>What these data cannot tell apart</h3><p class=\"lead\">In these runs the one looks like the other, with "
+        "<h3>Causes that these data do not distinguish</h3><p class=\"lead\">In these runs the one looks like the "
+        "other, with "
         "these numbers and but for this difference at the joint.</p>" +
         html_list(calibration.null_combinations);
   }
@@ -323,7 +325,7 @@ std::string rest_section(const CalibrationProduct& product) {
   const std::string plot = rest_html(product);
   if (plot.empty()) return "";
   const std::string words = calibration.unexplained_where.empty()
-                                ? "What is left is at the noise floor."
+                                ? "The residual is at the noise floor."
                                 : "Unexplained beyond the noise: " + degree_words(calibration.unexplained_rms) +
                                       " rms, " + calibration.unexplained_where + ".";
   const std::string colour = " Neighbouring rows of it are correlated by " +
@@ -332,13 +334,12 @@ std::string rest_section(const CalibrationProduct& product) {
   const std::string unknown = described_html("Unmodelled, by what it depends on", calibration.unknown) +
                               described_html("As likely as what was named: an unmodelled cause", calibration.instead) +
                               covered_html(product);
-  return html_section("rest", "What is left",
-                      "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot + unknown);
+  return html_section("rest", "Residual", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot + unknown);
 }
 
 // ---- evidence -------------------------------------------------------------------------------------------------------
 
-/// Whether `name` stands in the group of an effect that another names.
+/// True if `name` is in the group of an effect that another names.
 bool is_as_good(const Calibration& calibration, const std::string& name) {
   return std::any_of(calibration.effects.begin(), calibration.effects.end(), [&](const FoundEffect& effect) {
     return name != effect.name && std::find(effect.group.begin(), effect.group.end(), name) != effect.group.end();

@@ -33,7 +33,7 @@ bool ends_with(std::string_view text, std::string_view ending) {
   return text.size() > ending.size() && text.substr(text.size() - ending.size()) == ending;
 }
 
-/// What is the same in notes about different files: no name before the first ": ", no digits.
+/// The part that notes about different files share: no name before the first ": ", no digits.
 std::string gist(const std::string& note) {
   const std::size_t colon = note.find(": ");
   std::string text = colon == std::string::npos ? note : note.substr(colon);
@@ -79,7 +79,7 @@ std::string beside_words(const FoundEffect& effect, const std::string& load_unit
   if (members.empty()) return "";
   return "Perhaps " + joined(members, " and ") +
          " beside it: with both, as they are in corrected.toml and compensation.csv, runs that were left out are "
-         "foretold best.";
+         "predicted best.";
 }
 
 std::string unknown_words(const Unknown& unknown) {
@@ -184,9 +184,11 @@ std::string where_seen(const CalibrationProduct& product) {
 std::string curve_words(const CalibrationProduct& product) {
   const EmpiricalCurve& curve = product.calibration.curve;
   if (product.calibration.identified.ratio_joint.curve != RatioCurve{})
-    return "compensation.csv also takes out a smooth curve of the angle, the same both ways, whose part under load grows "
+    return "compensation.csv also takes out a smooth curve of the angle, the same both ways, whose part under load "
+           "grows "
            "with the load: the ratio changes with the angle, or an unmodelled cause does the same";
-  if (!curve.used) return curve.why.empty() ? "" : "compensation.csv does not cover what has no name: " + curve.why;
+  if (!curve.used)
+    return curve.why.empty() ? "" : "compensation.csv does not cover the unmodelled residual: " + curve.why;
   return "an empirical curve in compensation.csv covers what depends on place and direction alone: it takes " +
          rounded(degrees(curve.gain), 3) + "° rms off data that it was not made from (" +
          rounded(degrees(curve.held_out_effects), 3) + "° → " + rounded(degrees(curve.held_out_rms), 3) +

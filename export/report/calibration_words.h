@@ -20,10 +20,10 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
 
 /// "In 200 simulated joints without backlash, these runs would have named it in 1."; "" where none were simulated.
 std::string audit_words(const FoundEffect& effect);
-/// "Or something without a name: a wave of 1.9 times a turn of the motor is 4.6 nats behind."; "" where the group holds
+/// "Or an unmodelled cause: a wave of 1.9 times a turn of the motor is 4.6 nats behind."; "" where the group holds
 /// names alone.
 std::string unmodelled_words(const FoundEffect& effect);
-/// "Perhaps joint sensor gain (gain = 1.26 % …) beside it: with both … runs that were left out are foretold best."; ""
+/// "Perhaps joint sensor gain (gain = 1.26 % …) beside it: with both … runs that were left out are predicted best."; ""
 /// where no member of its group is handed over beside it.
 std::string beside_words(const FoundEffect& effect, const std::string& load_unit);
 /// "0.021° rms, place: the same at a place whichever way …"

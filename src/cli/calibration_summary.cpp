@@ -46,8 +46,7 @@ std::string causes_table(const CalibrationProduct& product) {
   for (const CauseRow& row : cause_rows(product))
     rows.push_back({row.cause, row.size, row.interval, row.share, row.corrected_by});
   if (rows.empty()) return "";
-  return "\n" +
-         table({{"cause"}, {"size"}, {"95 % if alone"}, {"share", Align::right}, {"corrected by"}}, rows);
+  return "\n" + table({{"cause"}, {"size"}, {"95 % if alone"}, {"share", Align::right}, {"corrected by"}}, rows);
 }
 
 std::string noise_text(const Calibration& c) {
@@ -132,7 +131,7 @@ std::string calibration_summary(const CalibrationProduct& product, bool verbose)
   text += items("A slip of the file or of the log?", slips_words(product));
   if (c.verdict == CalibrationVerdict::not_testable) return text + items("Measure next", next_texts(c));
   text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
-  text += items("Cannot be told apart by these data", c.null_combinations) +
+  text += items("Not distinguished by these data", c.null_combinations) +
           items("Correction", correction_texts(product)) + items("Measure next", next_texts(c));
   if (verbose || c.verdict == CalibrationVerdict::no_effect)
     text += items("Would have been seen, at the joint, rms", detectable_texts(c));

@@ -188,19 +188,19 @@ TEST_F(Files, OverwritesOwnFiles) {
 
 TEST_F(Files, RejectsForeignFiles) {
   fs::create_directory(root_ / "out");
-  put(root_ / "out" / "x.stl", "somebody's");
-  put(root_ / "out" / "notes.txt", "somebody's");
+  put(root_ / "out" / "x.stl", "theirs");
+  put(root_ / "out" / "notes.txt", "theirs");
   EXPECT_THAT(
       output_error([&] {
         publish(root_ / "out", {{"x.stl", "new"}});
       }),
       HasSubstr(
           "files that fusee did not write: x.stl | choose another folder with -o, or overwrite them with --force"));
-  EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "somebody's");
+  EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "theirs");
   EXPECT_THAT(names_in(root_ / "out"), ElementsAre("notes.txt", "x.stl"));
   publish(root_ / "out", {{"x.stl", "new"}}, /*force=*/true);
   EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "new");
-  EXPECT_EQ(bytes_of(root_ / "out" / "notes.txt"), "somebody's");
+  EXPECT_EQ(bytes_of(root_ / "out" / "notes.txt"), "theirs");
 }
 
 TEST_F(Files, RejectsChangedFiles) {

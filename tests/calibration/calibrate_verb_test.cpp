@@ -66,7 +66,7 @@ TEST(CalibrateVerb, LeavesEveryFile) {
   EXPECT_TRUE(result.published);
   EXPECT_FALSE(result.rewritten);
   EXPECT_EQ(result.product.calibration.verdict, CalibrationVerdict::explained);
-  EXPECT_THAT(steps, ElementsAre("reading the runs", "looking for slips of the file", "working out the correction"));
+  EXPECT_THAT(steps, ElementsAre("reading the runs", "checking for input errors", "computing the correction"));
   for (const OutputFile& one : result.outputs) EXPECT_EQ(read_file(folder / one.name, 1 << 22), one.bytes);
 }
 
@@ -265,7 +265,7 @@ TEST(CalibrateVerb, ATorqueIsWorthItsTipForce) {
   columns.columns = {{"load", "tau_Nmm"}};
   const Measurement converted = read_measurement(torques, file.mechanism, columns);
   EXPECT_EQ(converted.load_unit, "N");
-  EXPECT_THAT(converted.notes, testing::Contains(HasSubstr("holds a torque in Nmm: taken as a tip force")));
+  EXPECT_THAT(converted.notes, testing::Contains(HasSubstr("is a torque in Nmm: taken as a tip force")));
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
     EXPECT_NEAR(converted.runs[r].mean_load, measurement.runs[r].mean_load / file.mechanism.joint.R, 1e-12);
     EXPECT_NEAR(converted.runs[r].samples[9].load, measurement.runs[r].samples[9].load / file.mechanism.joint.R, 1e-12);

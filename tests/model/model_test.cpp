@@ -200,7 +200,7 @@ TEST(Tendons, OmitsTendonLeavingDrumWithReason) {
   ASSERT_TRUE(pip.product.tendons);
   EXPECT_EQ(pip.product.tendons->constrained, Side::right);
   EXPECT_THAT(pip.product.tendons->omission[0], ::testing::HasSubstr("leaves the drum within the range"));
-  EXPECT_THAT(pip.product.notes, ::testing::Contains(::testing::HasSubstr("without tendon 1")));
+  EXPECT_THAT(pip.product.notes, ::testing::Contains(::testing::HasSubstr("omits tendon 1")));
   const ModelResult elbow = dry(profile("elbow_idlers"));
   EXPECT_FALSE(elbow.product.tendons);
   EXPECT_THAT(elbow.product.without_tendons, ::testing::HasSubstr("leaves the drum within the range"));

@@ -129,7 +129,7 @@ diameter_mm = 0.2
   EXPECT_EQ(failed(check_pulley(pulley.mesh, mechanism, shape, pulley, options.tolerance)), "");
 }
 
-TEST(TieOffs, FaceSlotIsRoundAtFloorAndOpenAtRim) {
+TEST(TieOffs, FaceSlotIsRoundBelowOpenAbove) {
   Mechanism mechanism = plain_mechanism();
   mechanism.tendon.diameter = 0.5;
   mechanism.body.min_wall = 0.5;

@@ -65,23 +65,23 @@ std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
 std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit);
 /// The group without the effect itself.
 std::vector<std::string> rivals_of(const FoundEffect& effect);
-/// Whether P1 stays round, and by how much it would miss its law.
+/// Says that P1 stays round, and by how much it misses its law.
 std::string round_words(const Correction& correction);
 /// Why no corrected pulley can be made, of a correction that says so.
 std::string infeasible_words(const Correction& correction);
-/// Where to tie the tendons of a corrected pulley, of a correction that asks for another place than 0.
+/// The assembly angle of a corrected pulley, if the correction requires another than 0.
 std::string tied_words(const Correction& correction);
 /// Effects that were not found by the smallest size that would have shown, rad; what is equal to two digits stands
 /// together. Smallest first.
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration);
-/// What the table covers of what has no name and where that holds, or why it does not; "" where nothing is without a
-/// name.
+/// The part of the unmodelled residual that the table covers, and where that holds; or why it covers none. "" if
+/// nothing is unmodelled.
 std::string curve_words(const CalibrationProduct& product);
 /// All measurements to make next, the most decisive first.
 std::vector<std::string> next_texts(const Calibration& calibration);
-/// Of every slip that would explain the data, slip_words().
+/// slip_words() of every input error that would explain the data.
 std::vector<std::string> slips_words(const CalibrationProduct& product);
-/// Of notes that say the same of many files, two and how many more.
+/// Two of the notes that say the same of many files, and the number of others.
 std::vector<std::string> shortened_notes(const std::vector<std::string>& notes);
 
 }  // namespace fusee

@@ -95,7 +95,7 @@ TEST(ProfileDxf, BoreHasShaftDiameter) {
   for (const Vec2& p : bore[0].points) EXPECT_NEAR(p.norm(), 3, 1e-6);
 }
 
-TEST_P(BothVersions, ARoundBoreIsACircleOfTheShaft) {
+TEST_P(BothVersions, RoundBoreIsCircleOfShaft) {
   const auto bore = on_layer(drawn(egg()), "BORE");
   ASSERT_EQ(bore.size(), 1u);
   EXPECT_EQ(bore[0].entity, "CIRCLE");
@@ -103,7 +103,7 @@ TEST_P(BothVersions, ARoundBoreIsACircleOfTheShaft) {
   EXPECT_THAT(profile_dxf(egg(), GetParam()), HasSubstr(" 10\n0.0\n 20\n0.0\n 30\n0.0\n 40\n3.0\n"));
 }
 
-TEST_P(BothVersions, ADBoreIsAnArcAndAFlat) {
+TEST_P(BothVersions, DBoreIsArcAndFlat) {
   Product product = egg();
   product.joint.mechanism.body.bore = Bore::d;
   product.joint.mechanism.body.bore_flat = 5;

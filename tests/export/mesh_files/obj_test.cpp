@@ -73,7 +73,7 @@ TEST(Obj, BoundsFacetsByFileSize) {
   EXPECT_THAT(error_of(vertices + faces, "x.obj"), HasSubstr("expected no more than 1"));
 }
 
-TEST(ObjReader, FansPolygonsAndCountsNegativeIndicesFromTheEnd) {
+TEST(ObjReader, FansPolygonsAndCountsNegativeIndices) {
   EXPECT_THAT(read_mesh(std::string(k_square) + "f 1 2 3 4\n", "x.obj").triangles,
               ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
   EXPECT_THAT(read_mesh(std::string(k_square) + "f -4 -3 -2\n", "x.obj").triangles, ElementsAre(Triangle{0, 1, 2}));

@@ -16,7 +16,7 @@ Product made_product() {
   Product product;
   product.file.mechanism = testing::plain_mechanism();
   product.joint.mechanism = product.file.mechanism;
-  product.file.path = "/home/somebody/joints/finger.toml";
+  product.file.path = "/home/maker/joints/finger.toml";
   product.file.sha256 = sha256("finger");
   product.synthesis = testing::pulley_of(testing::circle(20), testing::circle(20));
   product.pulley.layout.z_p1 = 3.0;
@@ -64,7 +64,7 @@ TEST(Manifest, ExcludesMachineAndInvalidText) {
   Product product = made_product();
   product.joint.mechanism.name = "\xFF\"quoted\"";
   const std::string text = manifest_json(product, {});
-  EXPECT_EQ(text.find("somebody"), std::string::npos);
+  EXPECT_EQ(text.find("maker"), std::string::npos);
   EXPECT_TRUE(Json::accept(text));
 }
 

@@ -114,7 +114,7 @@ class ClimbingStep : public Step {
   }
 };
 
-TEST_F(ClimbingStep, IsOneSolidThatPassesItsChecksAndWindsAsItShould) {
+TEST_F(ClimbingStep, IsSoundSolidAndWinds) {
   ASSERT_TRUE(climbing().pulley.made());
   ASSERT_EQ(file().complaint, "");
   const StepInspection look = look_at(file().bytes);
