@@ -54,7 +54,7 @@ CASES = [
     (OPTIMIZE_OTHER % "guides.EDD_mm", 3, "^$", "did you mean guides.ED_mm"),
     (OPTIMIZE_OTHER % "cut.kerf_mm", 3, "^$", "cut.kerf_mm has no effect on max_tension"),
     (f'''optimize {OPTIMIZE} --set optimize.constraints='["guides.ED_mm < 3"]' ''', 3, "^$", "character 14.*write <= or >="),
-    (f'''optimize {OPTIMIZE} --set optimize.constraints='["guides.ED_mm >= 300"]' ''', 4, "^$", "no design of the box is feasible.*a constraint is not kept.*widen"),
+    (f'''optimize {OPTIMIZE} --set optimize.constraints='["guides.ED_mm >= 300"]' ''', 4, "^$", "no design of the box is feasible.*a constraint is violated.*widen"),
     (f"optimize {OPTIMIZE} --set optimize.objective=min_bend --method certified", 3, "^$", "cannot be certified.*certified: max_tension"),
     # Wrong usage.
     ("bild arm.toml", 2, "^$", "unknown command 'bild'.*fusee build"),

@@ -122,7 +122,7 @@ class Model(harness.Scratch):
 
     def test_reports_lines_of_bad_compensation(self):
         for text, said in (("", "fewer than two rows"), ("a,b,c\n1,2,3\n", "c.csv:1:1.*theta_deg"), (COMPENSATION + "26,x,3\n", "c.csv:13:1.*'x'"),
-                           (COMPENSATION + "20,90,90\n", "must grow"), (COMPENSATION + "27\n", "is no angle"), ("\0" * 50, "c.csv:1"), (COMPENSATION + "nan,1,2\n", "c.csv:13")):
+                           (COMPENSATION + "20,90,90\n", "must increase"), (COMPENSATION + "27\n", "is not an angle"), ("\0" * 50, "c.csv:1"), (COMPENSATION + "nan,1,2\n", "c.csv:13")):
             (self.folder / "c.csv").write_text(text)
             self.expect("model arm.toml -o m --compensation c.csv", 3, "^$", said)
         self.expect("model arm.toml -o m --compensation nowhere.csv", 3, "^$", "nowhere.csv")

@@ -107,7 +107,7 @@ class Optimize(harness.Scratch):
         self.assertEqual(self.answer("--set pulley.method=exact")["pins"], {"points": False, "pitch_radius_mm": 0.5})
         for command in ["analyze", "build --dry-run"]:
             said = self.fusee(f"{command} problem.toml").stderr.decode()
-            self.assertIn("pins are seen as points", said)
+            self.assertIn("pins are modelled as points", said)
             said = self.fusee(f"{command} problem.toml --set pulley.method=exact").stderr.decode()
             self.assertIn("centre line runs 0.5 mm from a pin's centre", said)
 
