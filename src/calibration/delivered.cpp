@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "calibration/held_out.h"
@@ -49,7 +50,7 @@ EffectSet perhaps_beside(const Selection& selection) {
   return all;
 }
 
-/// `set`, or one with one of the effects more, whichever predicts best. Numbers of least squares.
+/// The best predicting of `set` and its extensions by one of the effects. Numbers of least squares.
 Fit or_with_one_more(Workers& workers, Fit set, const EffectSet& effects) {
   std::vector<Fit> wider(effects.size());
   workers.each(effects.size(), [&](const Fitter& fitter, std::size_t i) {
@@ -64,7 +65,7 @@ Fit or_with_one_more(Workers& workers, Fit set, const EffectSet& effects) {
   return set;
 }
 
-/// Stands for an unmodelled cause: of a joint declared by a ratio, a curve of its angle.
+/// Curves that stand for an unmodelled cause: for a joint declared by a ratio, one of its angle.
 EffectSet unmodelled_curves(const Evidence& evidence) {
   const Effect* curve = find_effect("ratio_curve", kind_of(*evidence.declared));
   return curve == nullptr ? EffectSet{} : EffectSet{curve};
@@ -82,11 +83,30 @@ BySquares best_by_squares(const Evidence& evidence, Workers& workers, const Sele
   return {std::move(named), std::move(with_curve)};
 }
 
+/// Numbers of least squares of the selected set, fitted when they are first needed.
+class SquaresOfSelection {
+ public:
+  /// All must outlive this; the selection must not change.
+  SquaresOfSelection(const Evidence& evidence, Workers& workers, const Selection& selection)
+      : evidence_(evidence), workers_(workers), selection_(selection) {}
+
+  const BySquares& fitted() {
+    if (!fitted_) fitted_ = best_by_squares(evidence_, workers_, selection_);
+    return *fitted_;
+  }
+
+ private:
+  const Evidence& evidence_;
+  Workers& workers_;
+  const Selection& selection_;
+  std::optional<BySquares> fitted_;
+};
+
 /// Numbers of least squares go without an empirical curve.
-Delivered by_squares(const Evidence& evidence, BySquares squares, const Unnamed& unnamed) {
-  Delivered made{{std::move(squares.handed_over), {}}, std::move(squares.reported), {}};
+Delivered by_squares(const Evidence& evidence, const BySquares& squares, const Unnamed& unnamed) {
+  Delivered made{{squares.handed_over, {}}, squares.reported, {}};
   if (made.estimate.fit.at.ratio_joint.curve != RatioCurve{})
-    made.curve.why = "what depends on the angle is in the joint that was identified, as a curve of its ratio";
+    made.curve.why = "the identified joint contains the dependence on the angle, as a curve of its ratio";
   else if (is_unexplained(unnamed, evidence.floor))
     made.curve.why = "the effects' numbers take away more than it would of runs that they were not fitted to";
   return made;
@@ -115,19 +135,25 @@ std::size_t least_needed(const Selection& selection) {
   return least;
 }
 
-}  // namespace
-
-Delivered delivered(const Evidence& evidence, Workers& workers, const Selection& selection, const Unnamed& unnamed) {
+/// `squares`: of the same selection.
+Delivered best_answer(const Evidence& evidence, const Selection& selection, const Unnamed& unnamed,
+                      SquaresOfSelection& squares) {
   Delivered all{{selection.best, amplitudes_beside(evidence, selection.best, unnamed)}, selection.best, {}};
   if (!is_unexplained(unnamed, evidence.floor) || is_walking(stroke_scatter(evidence, selection.best))) return all;
   all.curve = empirical_curve(evidence, selection.best, unnamed);
   if (selection.best.effects.empty()) return all;
-  BySquares squares = best_by_squares(evidence, workers, selection);
-  const Fit& handed_over = squares.handed_over;
+  const Fit& handed_over = squares.fitted().handed_over;
   if (!handed_over.usable ||
       !is_better(foretold(handed_over), foretold_by_summit(evidence, all.estimate, all.curve.used)))
     return all;
-  return by_squares(evidence, std::move(squares), unnamed);
+  return by_squares(evidence, squares.fitted(), unnamed);
+}
+
+}  // namespace
+
+Delivered delivered(const Evidence& evidence, Workers& workers, const Selection& selection, const Unnamed& unnamed) {
+  SquaresOfSelection squares(evidence, workers, selection);
+  return best_answer(evidence, selection, unnamed, squares);
 }
 
 Validated validated(const Evidence& evidence, Workers& workers, const Measurement& kept, Selection& selection) {
@@ -136,7 +162,8 @@ Validated validated(const Evidence& evidence, Workers& workers, const Measuremen
   const HeldOutRows rows(evidence, answer.declared, kept);
   for (;;) {
     answer.unnamed = unnamed_beside(evidence, selection.best);
-    answer.made = delivered(evidence, workers, selection, answer.unnamed);
+    SquaresOfSelection squares(evidence, workers, selection);
+    answer.made = best_answer(evidence, selection, answer.unnamed, squares);
     if (selection.best.effects.empty()) {
       answer.made = as_declared(answer.declared, std::move(answer.made));
       return answer;
@@ -144,7 +171,7 @@ Validated validated(const Evidence& evidence, Workers& workers, const Measuremen
     if (rows.worse_at(answer.made.estimate).empty()) return answer;
     // The part that the discrepancy had taken from the numbers, or given to them, is theirs where nothing stands beside
     // them.
-    Delivered alone = by_squares(evidence, best_by_squares(evidence, workers, selection), answer.unnamed);
+    Delivered alone = by_squares(evidence, squares.fitted(), answer.unnamed);
     const std::string where = alone.estimate.fit.usable ? rows.worse_at(alone.estimate) : "all rows";
     if (where.empty()) {
       answer.made = std::move(alone);
