@@ -95,8 +95,7 @@ std::string svg_words(std::string_view classes, const Vec2& at, std::string_view
 }
 
 double words_width(std::string_view words, double font_size) {
-  const auto characters = std::count_if(words.begin(), words.end(), [](char c) { return (c & 0xC0) != 0x80; });
-  return 0.56 * font_size * static_cast<double>(characters);
+  return 0.56 * font_size * static_cast<double>(characters(words));
 }
 
 std::vector<Vec2> thinned(const std::vector<Vec2>& points, double tolerance) {

@@ -178,14 +178,13 @@ std::size_t characters(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-std::string wrapped(std::string_view words, std::string_view first, std::string_view indent) {
-  constexpr std::size_t k_width = 78;
+std::string wrapped(std::string_view words, std::string_view first, std::string_view indent, std::size_t width) {
   std::string text, line(first);
   bool has_word = false;
   for (std::size_t at = 0; at < words.size();) {
     const std::size_t end = std::min(words.find(' ', at), words.size());
     const std::string_view word = words.substr(at, end - at);
-    if (has_word && characters(line) + 1 + characters(word) > k_width) {
+    if (has_word && characters(line) + 1 + characters(word) > width) {
       text += line + "\n";
       line = indent;
       has_word = false;

@@ -4,30 +4,21 @@
 #include <numeric>
 #include <sstream>
 
+#include "fusee/base/text.h"
+
 namespace fusee::cli {
 namespace {
 
-/// Number of characters of UTF-8 text: bytes that are no continuation bytes.
-std::size_t width(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 std::string padded(std::string_view text, std::size_t to, Align align) {
-  const std::string blanks(to - std::min(to, width(text)), ' ');
+  const std::string blanks(to - std::min(to, characters(text)), ' ');
   return align == Align::left ? std::string(text) + blanks : blanks + std::string(text);
 }
 
-/// The words of `cell` in lines of at most `most` characters; a longer word has a line of its own.
+/// The words of `cell` in lines of at most `most` characters.
 std::vector<std::string> lines_of(std::string_view cell, std::size_t most) {
-  if (width(cell) <= most) return {std::string(cell)};
   std::vector<std::string> lines;
-  std::istringstream words{std::string(cell)};
-  for (std::string word; words >> word;) {
-    if (lines.empty() || width(lines.back()) + 1 + width(word) > most)
-      lines.push_back(word);
-    else
-      lines.back() += " " + word;
-  }
+  std::istringstream text(wrapped(cell, "", "", most));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
   return lines;
 }
 
@@ -46,8 +37,8 @@ void fit_terminal(std::vector<std::size_t>& widths) {
 std::string table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    std::size_t widest = width(columns[i].title);
-    for (const auto& row : rows) widest = std::max(widest, width(row[i]));
+    std::size_t widest = characters(columns[i].title);
+    for (const auto& row : rows) widest = std::max(widest, characters(row[i]));
     widths.push_back(widest);
   }
   fit_terminal(widths);
