@@ -122,7 +122,7 @@ def part_faults(folder, scratch):
 
 
 # For a pulley in two parts: faults, and the words by which they must be detected.
-BROKEN = (("a roof of another slope", "slope = supports ? 0 : overhang_deg + 2.5", "slope = overhang_deg - 10", "assembled"),
+BROKEN = (("a ceiling of another slope", "slope = supports ? 0 : overhang_deg + 2.5", "slope = overhang_deg - 10", "assembled"),
           ("P1 not turned over", "rotate([piece == 1 ? 180 : 0, 0, 0])", "", "P1"),
           ("a part without its pockets", "if (knot_pocket > 0) pocket(t)", "", "P2"),
           ("no place for P2 to lie", "near_side(p2_rings) + 5", "near_side(p2_rings)", "print"))

@@ -246,7 +246,7 @@ TEST(SeveralTurnsFiles, ScadHasBothGrooves) {
   for (const char* none : {"module channel", "//= ", "face_holes"}) EXPECT_THAT(program, Not(HasSubstr(none)));
 }
 
-// The channels' roofs slope by 57.5° at least: flatter ones would be impossible on printers with steeper overhang
+// The ceilings of channels slope by 57.5° at least: flatter ones would be impossible on printers with steeper overhang
 // limits.
 TEST(SeveralTurnsPrint, FitEveryPrinter) {
   for (const char* profile : {"wrist_turns", "elbow_capstan"}) {
