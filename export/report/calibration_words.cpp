@@ -184,9 +184,8 @@ std::string where_seen(const CalibrationProduct& product) {
 std::string curve_words(const CalibrationProduct& product) {
   const EmpiricalCurve& curve = product.calibration.curve;
   if (product.calibration.identified.ratio_joint.curve != RatioCurve{})
-    return "compensation.csv also takes out a smooth curve of the angle, the same both ways, whose part under load "
-           "grows "
-           "with the load: the ratio changes with the angle, or an unmodelled cause does the same";
+    return "compensation.csv also removes a smooth curve of the angle, with a part proportional to the load: the ratio "
+           "changes with the angle, or an unmodelled cause has the same effect";
   if (!curve.used)
     return curve.why.empty() ? "" : "compensation.csv does not cover the unmodelled residual: " + curve.why;
   return "an empirical curve in compensation.csv covers what depends on place and direction alone: it takes " +

@@ -14,8 +14,8 @@ namespace fusee {
 struct Delivered {
   /// The set that was found, perhaps with a member of a group more; of no effect the declared joint.
   Estimate estimate;
-  /// Numbers that are reported: those of the estimate. Where a curve of the ratio stands beside them there, those
-  /// without it: a gain or a compliance that varies with the angle takes from them what it likes.
+  /// The reported numbers: those of the estimate. If it has a curve of the ratio, they are fitted without it, since the
+  /// curve can trade any part of a gain or a compliance with them.
   Fit reported;
   EmpiricalCurve curve;  ///< as the verdict unexplained has it
 };

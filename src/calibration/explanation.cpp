@@ -78,7 +78,7 @@ double share(const Selection& selection, std::size_t place) {
   return all > 0 ? std::clamp((without_it - best) / all, 0.0, 1.0) : 0.0;
 }
 
-/// Whether `effect` moves the rows in use, in that fit, by less than noise hides of as many numbers.
+/// True if `effect`, as fitted, moves the rows in use by less than noise would, fitted with as many numbers.
 bool moves_nothing(const Evidence& evidence, const Fit& fit, const Effect& effect) {
   const std::vector<Eigen::Index> places = places_of(fit, effect);
   const Eigen::VectorXd moved = fit.J(evidence.rows(), places) * fit.x(places);
@@ -86,7 +86,7 @@ bool moves_nothing(const Evidence& evidence, const Fit& fit, const Effect& effec
   return seen < static_cast<double>(places.size()) * evidence.floor * evidence.floor;
 }
 
-/// Takes out of the group of `found` the rivals that do nothing in its place.
+/// Removes rivals that do nothing in the place of `effect` from the group of `found`.
 void drop_idle_members(const Evidence& evidence, const Selection& selection, const Effect& effect, FoundEffect& found) {
   for (const Rival& rival : selection.rivals) {
     if (rival.accepted != &effect || !moves_nothing(evidence, rival.fit, *rival.rival)) continue;

@@ -506,7 +506,8 @@ void take_unmodelled(const Left& left, const Selection& selection, std::vector<F
     const double least =
         beside_unmodelled ? k_thresholds.ahead_beside_rest : least_ahead(found, group, selection.catalogue);
     if (left.anything && effects[i].unmodelled.behind >= least) doubt_beside_rest(effects[i]);
-    if (is_doubtful || effects[i].idle_did_as_well || effects[i].unmodelled.behind < least || !effects[i].unmodelled.doubt.empty())
+    if (is_doubtful || effects[i].idle_did_as_well || effects[i].unmodelled.behind < least ||
+        !effects[i].unmodelled.doubt.empty())
       group.emplace_back(k_unmodelled);
   }
 }

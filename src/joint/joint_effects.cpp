@@ -30,7 +30,8 @@ bool has_part(const Mechanism& mechanism, const Needs& needs) {
   if (mechanism.transmission)
     return !(needs.tendons || needs.drum || needs.end1 || needs.end2 || needs.pins || needs.idlers || needs.sheath);
   const bool is_idler = mechanism.guides.kind == GuideKind::idler;
-  return !needs.ratio && !(needs.pins && is_idler) && !(needs.idlers && !is_idler) && !(needs.sheath && !mechanism.sheath.is_there()) &&
+  return !needs.ratio && !(needs.pins && is_idler) && !(needs.idlers && !is_idler) &&
+         !(needs.sheath && !mechanism.sheath.is_there()) &&
          !(needs.drum && !on_drum(mechanism, Side::left).somewhere && !on_drum(mechanism, Side::right).somewhere) &&
          !(needs.end1 && !has_free_end(mechanism, Side::left)) &&
          !(needs.end2 && !has_free_end(mechanism, Side::right));

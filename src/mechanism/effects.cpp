@@ -9,9 +9,8 @@ namespace {
 
 std::vector<Effect> in_order(JointKind kind) {
   std::vector<Effect> all = effect_list(kind);
-  std::erase_if(all, [&](const Effect& effect) {
-    return kind == JointKind::ratio ? effect.needs.tendons : effect.needs.ratio;
-  });
+  std::erase_if(
+      all, [&](const Effect& effect) { return kind == JointKind::ratio ? effect.needs.tendons : effect.needs.ratio; });
   std::stable_sort(all.begin(), all.end(), [](const Effect& a, const Effect& b) {
     return std::tie(a.place, a.rank) < std::tie(b.place, b.rank);
   });

@@ -188,8 +188,8 @@ void begin_mesh_checks(PendingChecks& pending, const BuildContext& context) {
     return check_pulley(mesh.get(), product.joint.mechanism, product.synthesis, product.pulley,
                         context.options.tolerance);
   });
-  pending.as_built =
-      run_async([&product, mesh = pending.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh.get()); });
+  pending.as_built = run_async(
+      [&product, mesh = pending.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh.get()); });
   if (product.pulley.parts.empty())
     pending.printed_checks.push_back(
         run_async([&mechanism, mesh = pending.mesh] { return print_checks(mechanism.print, mesh.get()); }));
@@ -458,12 +458,12 @@ Advice advice_for(const Product& product, const BuildOptions& options) {
   const FeasibilityCheck check(product, options);
   std::atomic<int> begun = 0;
   const FeasibilityOracle judge{.obstacles = [&](const Mechanism& changed) { return check(changed); },
-                    .made =
-                        [&](const Mechanism& changed) {
-                          ++begun;
-                          return is_made(with_declared(file, changed), options);
-                        },
-                    .builds_left = [&] { return check.max_builds() - begun; }};
+                                .made =
+                                    [&](const Mechanism& changed) {
+                                      ++begun;
+                                      return is_made(with_declared(file, changed), options);
+                                    },
+                                .builds_left = [&] { return check.max_builds() - begun; }};
   return body_advice(file.mechanism, judge, product.pulley.layout.parts);
 }
 

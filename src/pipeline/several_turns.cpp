@@ -25,7 +25,8 @@ HelixGroove groove_of(const Mechanism& mechanism) {
   const HelicalSection section = helical_section(mechanism);
   const double d = mechanism.tendon.diameter;
   // A later turn lies below the one before.
-  return {section.depth, std::min(room_at_groove_edge(section.walls.below, d), room_at_groove_edge(section.walls.above, d)),
+  return {section.depth,
+          std::min(room_at_groove_edge(section.walls.below, d), room_at_groove_edge(section.walls.above, d)),
           [section](double step) { return least_lead(section, -step); }};
 }
 
@@ -363,9 +364,9 @@ class MultiTurnCheck {
 Advice advice_for_several_turns(const Product& product, const MultiTurnTrial& trial) {
   MultiTurnCheck check(product.file.mechanism, trial);
   const FeasibilityOracle judge{.obstacles = [&check](const Mechanism& changed) { return check.obstacles(changed); },
-                    .made = [&check](const Mechanism& changed) { return check.make(changed); },
-                    .is_expensive = true,
-                    .builds_left = [&check] { return check.builds_left(); }};
+                                .made = [&check](const Mechanism& changed) { return check.make(changed); },
+                                .is_expensive = true,
+                                .builds_left = [&check] { return check.builds_left(); }};
   DeclaredMechanism in_one = product.file.mechanism;
   const Field& parts = *find_field("print.parts");
   if (const std::string from = parts.get_text(in_one); from == "two") {

@@ -34,8 +34,8 @@ double through_slot(double u, double offset) {
 
 /// Three cycles of ±60° of α under one load, five rows to the second.
 std::filesystem::path written(const HiddenCable& hidden, double load, std::mt19937& random) {
-  const std::string name =
-      "cable_" + std::to_string(hidden.waves) + "_" + std::to_string(hidden.linkage) + "_" + std::to_string(load) + ".csv";
+  const std::string name = "cable_" + std::to_string(hidden.waves) + "_" + std::to_string(hidden.linkage) + "_" +
+                           std::to_string(load) + ".csv";
   const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / name;
   std::ofstream file(path);
   file << "time_s,alpha_deg,theta_deg,load_N\n";

@@ -377,8 +377,8 @@ TEST(FoundEffects, SayWhatTheirSignMeans) {
   selection.catalogue = catalogue(joint(), evidence.measurement);
   selection.none = workers.one().fit({}, {});
   selection.without = {selection.none};
-  for (const auto& [gain, words] :
-       {std::pair(-0.01, "the sensor reads too little"), std::pair(0.01, "the sensor reads too much"), std::pair(0.0, "")}) {
+  for (const auto& [gain, words] : {std::pair(-0.01, "the sensor reads too little"),
+                                    std::pair(0.01, "the sensor reads too much"), std::pair(0.0, "")}) {
     selection.best = workers.one().fit({&named("joint_sensor_gain")}, {});
     selection.groups = {{{&named("joint_sensor_gain")}, 0.0}};
     selection.best.at.sensor.gain = gain;

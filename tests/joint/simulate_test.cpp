@@ -125,20 +125,18 @@ TEST(Simulate, SlackExcludesPretension) {
   EXPECT_NE(predict(joint, at, swept(10)), predict(joint, {}, swept(10))) << "taut, 7 N more";
 }
 
-TEST(Simulate, RatioJointHasAnglesOnly) {
-  DeclaredMechanism joint;
-  joint.transmission = RatioTransmission{4.0};
-  const auto states = simulate(joint, {}, swept(0));
-  for (const JointState& state : states.front()) {
-    EXPECT_TRUE(std::isfinite(state.theta));
-    EXPECT_TRUE(std::isnan(state.motor_torque));
-  }
-}
-
 DeclaredMechanism geared(double ratio) {
   DeclaredMechanism joint;
   joint.transmission = RatioTransmission{ratio};
   return joint;
+}
+
+TEST(Simulate, RatioJointHasAnglesOnly) {
+  const auto states = simulate(geared(4), {}, swept(0));
+  for (const JointState& state : states.front()) {
+    EXPECT_TRUE(std::isfinite(state.theta));
+    EXPECT_TRUE(std::isnan(state.motor_torque));
+  }
 }
 
 TEST(Simulate, RatioCurveIsSeriesOfAngleAndLoad) {

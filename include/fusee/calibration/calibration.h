@@ -90,7 +90,7 @@ struct FoundEffect {
   /// Members of `group` that would do in its place, each with the numbers that it would have there.
   std::vector<MemberBeside> instead;
   double rms_drop = 0;  ///< of the held-out residual, rad; never below 0
-  /// Whether effects did as well in its place that do nothing there: then an unmodelled cause does as well.
+  /// True if effects that do nothing explained the data as well in its place. An unmodelled cause then does, too.
   bool idle_did_as_well = false;
   double share = 0;     ///< part of the declared joint's held-out mean square that goes with it, 0 … 1
   double evidence = 0;  ///< log of how many times less likely the data are without it

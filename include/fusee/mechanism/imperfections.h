@@ -195,15 +195,15 @@ struct CableFriction {
   bool operator==(const CableFriction&) const = default;
 };
 
-/// A transmission whose ratio and compliance change with the angle, as a linkage behind the cable makes them. u: what
-/// the declared ratio turns the joint by from home, rad.
+/// A ratio and a compliance that change with the angle, for example through a linkage behind the cable. u: rotation of
+/// the joint from home by the declared ratio, rad.
 struct RatioCurve {
-  double square = 0;       ///< turned by square · u² beside u, 1/rad
-  double cube = 0;         ///< and by cube · u³, 1/rad²
-  double give_slope = 0;   ///< compliance added in proportion to u, 1 per unit of load
-  double give_square = 0;  ///< and to u², 1/rad per unit of load
+  double square = 0;       ///< coefficient of u² in the rotation, 1/rad
+  double cube = 0;         ///< coefficient of u³, 1/rad²
+  double give_slope = 0;   ///< compliance per u, 1 per unit of load
+  double give_square = 0;  ///< compliance per u², 1/rad per unit of load
 
-  /// Turned beside u under `load`, rad.
+  /// Rotation beyond u under `load`, rad.
   double added(double u, double load) const {
     return u * (u * (square + u * cube) - load * (give_slope + u * give_square));
   }

@@ -115,7 +115,8 @@ bool is_written(const Mechanism& mechanism, std::string_view key);
 /// Changes that would make a rejected mechanism possible: numbers of the joint or the body, another screw size, or a
 /// written value left automatic. `judge` tries each. Printing in `refused` parts is excluded, because it was tried
 /// already.
-Advice body_advice(const Mechanism& mechanism, const FeasibilityOracle& judge = {obstacles}, Parts refused = Parts::automatic);
+Advice body_advice(const Mechanism& mechanism, const FeasibilityOracle& judge = {obstacles},
+                   Parts refused = Parts::automatic);
 
 /// Checks of a mesh of this pulley (usually one read back from a file): check_mesh, then Euler number, volume,
 /// deviation from the analytic surface within `tolerance`, thinnest wall, groove depth and width.

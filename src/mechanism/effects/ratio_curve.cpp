@@ -13,7 +13,6 @@ EffectParameter number_of(std::string_view name, double& (*number)(Imperfections
   parameter.prior = 0.05;  // a linkage over 60°: three degrees
   parameter.prior_unit = unit;
   parameter.shown = shown::as_is;
-  parameter.merge_rule = MergeRule::replace;
   parameter.name = name;
   parameter.key = key::plain(name, "", -1e6, 1e6, meaning);
   return parameter;
@@ -21,31 +20,31 @@ EffectParameter number_of(std::string_view name, double& (*number)(Imperfections
 
 }  // namespace
 
-/// Taylor series to the third power in the angle: a straight line is what the ratio declares.
+/// Taylor series to the third power in the angle. The declared ratio is its linear term.
 Effect ratio_curve(JointKind) {
   Effect effect;
   effect.name = "ratio_curve";
   effect.place = ChainPlace::joint;
   effect.rank = 9;
-  effect.signature = "a smooth curve of the angle, the same both ways; its part under load grows in proportion to it";
+  effect.signature = "a smooth curve of the angle, independent of direction, with a part proportional to the load";
   effect.separating_run = "re-clock each sensor by a quarter of a turn: the curve of the transmission stays";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.ratio = true};
-  // A sensor off centre, or a profile, makes the same curve: it stands for an unmodelled cause, and is no name.
+  // An eccentric sensor makes the same curve, so this effect stands for an unmodelled cause and is never reported.
   effect.is_tested = false;
   effect.parameters = {
       number_of(
           "ratio_square_per_rad", [](Imperfections& at) -> double& { return at.ratio_joint.curve.square; },
-          PriorUnit::own, "of a joint declared by a ratio: turned beside it with the angle squared"),
+          PriorUnit::own, "joint declared by a ratio: coefficient of the squared angle"),
       number_of(
           "ratio_cube_per_rad2", [](Imperfections& at) -> double& { return at.ratio_joint.curve.cube; }, PriorUnit::own,
-          "and with its third power"),
+          "joint declared by a ratio: coefficient of the cubed angle"),
       number_of(
           "ratio_give_slope_per_load", [](Imperfections& at) -> double& { return at.ratio_joint.curve.give_slope; },
-          PriorUnit::at_largest_load, "compliance that grows in proportion to the angle"),
+          PriorUnit::at_largest_load, "joint declared by a ratio: compliance per angle"),
       number_of(
           "ratio_give_square_per_load", [](Imperfections& at) -> double& { return at.ratio_joint.curve.give_square; },
-          PriorUnit::at_largest_load, "and to its square")};
+          PriorUnit::at_largest_load, "joint declared by a ratio: compliance per squared angle")};
   effect.starts = {{0, 0, 0, 0}};
   return effect;
 }
