@@ -8,6 +8,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <new>
 #include <pugixml.hpp>
 #include <vector>
 
@@ -176,6 +177,7 @@ std::string ThreemfReader::unpacked(const std::string& path) {
 
 void ThreemfReader::parse(const std::string& path, std::string& text, pugi::xml_document& xml) const {
   const pugi::xml_parse_result result = xml.load_buffer_inplace(text.data(), text.size());
+  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   if (!result) fail_in_entry(source_.name, path, result.offset, std::string("expected XML: ") + result.description());
 }
 

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <pugixml.hpp>
 
 #include "base/json.h"
@@ -26,6 +27,7 @@ pugi::xml_document xml_of(const std::vector<OutputFile>& outputs, const std::str
   pugi::xml_document document;
   const std::string& bytes = bytes_of(outputs, name);
   const pugi::xml_parse_result parsed = document.load_buffer(bytes.data(), bytes.size());
+  if (parsed.status == pugi::status_out_of_memory) throw std::bad_alloc();
   demand(bool(parsed), name + " cannot be read back: " + parsed.description());
   return document;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <ctime>
+#include <new>
 #include <pugixml.hpp>
 #include <utility>
 
@@ -115,6 +116,15 @@ TEST(ThreemfReader, ConvertsEveryUnit) {
   }
   EXPECT_THAT(error_of(package(model(object, "<item objectid='1'/>", "unit='parsec'")), "x.3mf"),
               HasSubstr("found 'parsec'"));
+}
+
+TEST(ThreemfReader, LackOfMemoryIsNoFaultOfFile) {
+  const std::string bytes = threemf_bytes(testing::torus(), "torus");
+  const auto allocate = pugi::get_memory_allocation_function();
+  const auto release = pugi::get_memory_deallocation_function();
+  pugi::set_memory_management_functions([](std::size_t) -> void* { return nullptr; }, release);
+  EXPECT_THROW(read_mesh(bytes, "torus.3mf"), std::bad_alloc);
+  pugi::set_memory_management_functions(allocate, release);
 }
 
 TEST(ThreemfReader, PlacesItemsAndComponents) {
