@@ -61,9 +61,9 @@ std::string cause_table_section(const CalibrationProduct& product) {
     rows += "<tr>" + html_cell(first_upper(row.cause)) + html_cell(row.size) + html_cell(row.interval) +
             html_number_cell(row.share) + html_cell(row.corrected_by) + "</tr>";
   if (rows.empty()) return "";
-  return html_section(
-      "causes", "Causes",
-      html_table({"cause", "size", "95 % if it is the only cause", "#share of the error", "corrected by"}, rows));
+  const auto& titles = CauseRow::k_titles;
+  return html_section("causes", "Causes",
+                      html_table({titles[0], titles[1], titles[2], std::string("#") + titles[3], titles[4]}, rows));
 }
 
 /// A section that opens where it is asked for.

@@ -46,7 +46,8 @@ std::string causes_table(const CalibrationProduct& product) {
   for (const CauseRow& row : cause_rows(product))
     rows.push_back({row.cause, row.size, row.interval, row.share, row.corrected_by});
   if (rows.empty()) return "";
-  return "\n" + table({{"cause"}, {"size"}, {"95 % if alone"}, {"share", Align::right}, {"corrected by"}}, rows);
+  const auto& titles = CauseRow::k_titles;
+  return "\n" + table({{titles[0]}, {titles[1]}, {titles[2]}, {titles[3], Align::right}, {titles[4]}}, rows);
 }
 
 std::string noise_text(const Calibration& c) {

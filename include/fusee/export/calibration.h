@@ -2,6 +2,7 @@
 /// Outputs of `fusee calibrate`, as bytes.
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,13 +49,16 @@ struct Headline {
 };
 Headline headline(const CalibrationProduct& product);
 
-/// A number of a cause; of a further number, and of what may be there in the cause's place, share and remedy are empty.
+/// A number of a cause. Share and remedy are empty for its further numbers, and for causes that may be in its place.
 struct CauseRow {
   std::string cause;
   std::string size;
   std::string interval;      ///< 95 %, if this is the only cause
   std::string share;         ///< of the error on rows that were not fitted
   std::string corrected_by;  ///< "pulley", "table" or "–"
+
+  /// Titles of the columns, in the order of the members.
+  static constexpr std::array<const char*, 5> k_titles = {"cause", "size", "95 % if alone", "share", "corrected by"};
 };
 std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
 
