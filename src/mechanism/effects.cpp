@@ -20,7 +20,7 @@ std::vector<Effect> in_order(JointKind kind) {
 double unconverted(double value) { return value; }
 double percent(double fraction) { return 100.0 * fraction; }
 double fraction(double percent) { return percent / 100.0; }
-double to_ppm(double fraction) { return 1e6 * fraction; }
+double to_ppm(double fraction) { return fraction / 1e-6; }  // 1e6 * fraction would not read back exactly
 double from_ppm(double ppm) { return 1e-6 * ppm; }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <random>
 #include <set>
 
 #include "fusee/mechanism/file.h"
@@ -69,6 +70,22 @@ TEST(Fields, DefaultsAreWithinBounds) {
     if (field.kind != FieldKind::number || field.fallback.empty()) continue;
     EXPECT_GE(field.get(defaults, 0), field.least) << field.name();
     EXPECT_LE(field.get(defaults, 0), field.most) << field.name();
+  }
+}
+
+TEST(NumberKeys, ReadBackTheNumberThatTheyReport) {
+  std::mt19937_64 random(1);
+  DeclaredMechanism mechanism = default_mechanism();
+  for (const std::string& name : number_key_names()) {
+    const NumberKey key = *find_number_key(name);
+    if (key.field->whole) continue;
+    std::uniform_real_distribution<double> inside(std::max(key.field->least, -100.0), std::min(key.field->most, 100.0));
+    for (int i = 0; i < 1000; ++i) {
+      key.set(mechanism, inside(random));
+      const DeclaredMechanism once = mechanism;
+      key.set(mechanism, key.get(mechanism));
+      ASSERT_EQ(mechanism, once) << name << " = " << key.get(once);
+    }
   }
 }
 
