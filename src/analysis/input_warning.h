@@ -1,5 +1,5 @@
+/// \file
 /// Internal: likely input errors, before they are assigned a place in a file.
-/// Internal: what looks like a slip, before it has a place in a file.
 #pragma once
 
 #include <string>

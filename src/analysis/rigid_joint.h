@@ -1,3 +1,4 @@
+/// \file
 /// Pulleys made for one mechanism in another one, with inextensible tendons: joint angle, slack, and the derivatives of
 /// both.
 #pragma once

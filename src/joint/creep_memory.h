@@ -1,3 +1,4 @@
+/// \file
 /// Memory of a creeping material.
 #pragma once
 

@@ -1,3 +1,4 @@
+/// \file
 /// Forward model: predicts the sensor log of a joint from its deviations.
 #pragma once
 

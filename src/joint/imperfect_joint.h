@@ -1,5 +1,5 @@
+/// \file
 /// Statics of an imperfect joint: imperfect pulleys made for the declaration, in the mechanism as mounted.
-/// mechanism as mounted.
 #pragma once
 
 #include "fusee/joint/as_it_is.h"

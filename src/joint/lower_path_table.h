@@ -1,3 +1,4 @@
+/// \file
 /// Lookup table of both tendon paths between pin and pulley, since a fit evaluates one geometry at thousands of angles.
 #pragma once
 

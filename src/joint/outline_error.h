@@ -1,3 +1,4 @@
+/// \file
 /// Pitch curves that deviate from their drawing by a wave along their normals: effect on tendons, and correction in the
 /// drawing.
 #pragma once

@@ -1,3 +1,4 @@
+/// \file
 /// Sensors at both ends of the chain, and the play behind the motor's sensor.
 #pragma once
 

@@ -1,3 +1,4 @@
+/// \file
 /// Balance of one tendon over its pin and through its sheath for given lengths: the tensions of its spans, where each
 /// bend of the sheath has its own friction.
 ///

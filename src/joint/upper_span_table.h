@@ -1,3 +1,4 @@
+/// \file
 /// Lookup table of a tendon's upper span over the joint angle, which an equilibrium evaluates many times per step.
 #pragma once
 

@@ -1,3 +1,4 @@
+/// \file
 /// The tendon on a pulley, from its knot to the take-off: the material (unstretched length) that it holds, and its
 /// sliding in the groove.
 ///

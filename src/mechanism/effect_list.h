@@ -1,5 +1,5 @@
+/// \file
 /// Internal: the list of effects that list_effects.cmake generates from effects/.
-/// Internal: what list_effects.cmake makes of the files in effects/.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
+/// \file
 /// Internal: rejects deep nesting, because toml++ destroys tables recursively.
-/// Internal: keeps deep nesting away from toml++, whose tables are destroyed recursively.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
+/// \file
 /// Internal: checks [optimize] against the field table; errors carry columns.
-/// Internal: [optimize] held against the field table, each text with its column.
 #pragma once
 
 #include <functional>

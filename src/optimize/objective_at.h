@@ -1,3 +1,4 @@
+/// \file
 /// Internal: objectives at one point of the stroke, by the paper's equations (transmission/equations.h), for numbers
 /// and for intervals with derivatives, so that the proven formulas are the evaluated ones.
 #pragma once

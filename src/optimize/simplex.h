@@ -1,3 +1,4 @@
+/// \file
 /// Internal: small linear programs in floating-point numbers. The result is an estimate, from which relaxation.cpp
 /// makes proofs.
 #pragma once

@@ -1,3 +1,4 @@
+/// \file
 /// Internal: the upper path of a tendon of a joint that is not the paper's, from a separate attachment and possibly
 /// over a drum on the joint. For numbers and for intervals with derivatives; equivalent to upper_span() of
 /// transmission/tendon_path.h, which has the derivation.

@@ -1,3 +1,4 @@
+/// \file
 /// The closing arc of a pitch curve, from the end of the active arc to its beginning: convex, with continuous
 /// curvature.
 #pragma once

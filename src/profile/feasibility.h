@@ -1,3 +1,4 @@
+/// \file
 /// Feasibility of both pitch curves: all conditions on the law, the tendon paths and the curves, each with its tightest
 /// place.
 #pragma once

@@ -1,3 +1,4 @@
+/// \file
 /// Additional conditions for drums and separate attachments. None for a plain joint.
 #pragma once
 

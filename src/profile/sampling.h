@@ -1,3 +1,4 @@
+/// \file
 /// Sampling of both pitch curves at common normal directions, with bounded sagitta of the chords.
 #pragma once
 

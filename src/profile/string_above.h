@@ -1,3 +1,4 @@
+/// \file
 /// The part of a wound string above the pulley: from the guide up to the joint. Uses only geometry of discs and points.
 #pragma once
 

@@ -88,6 +88,12 @@ def cpp_faults(lines):
             yield from ((number, *fault) for fault in title_faults(title[2], words or [title[2]]))
 
 
+def header_faults(lines):
+    if lines and not lines[0].startswith("/// \\file"):
+        yield 1, "begins without '/// \\file'", "'/// \\file' and what the header is for"
+    yield from cpp_faults(lines)
+
+
 def script_faults(lines):
     was_comment = False
     for number, line in enumerate(lines, 1):
@@ -142,7 +148,7 @@ def page_faults(lines):
     yield from ended()
 
 
-KINDS = {".cpp": cpp_faults, ".h": cpp_faults, ".py": script_faults, ".pyi": script_faults, ".txt": script_faults, ".cmake": script_faults,
+KINDS = {".cpp": cpp_faults, ".h": header_faults, ".py": script_faults, ".pyi": script_faults, ".txt": script_faults, ".cmake": script_faults,
          "": script_faults, ".md": page_faults}
 
 
@@ -178,7 +184,8 @@ class Words(unittest.TestCase):
         return [(number, rule) for number, rule, _ in KINDS[kind](text.splitlines())]
 
     def test_detects_comments(self):
-        self.assertEqual(self.refused(".h", "int a;\n/// What is left of it.\nint b;\n"), [(2, "begins with 'What'"), (2, "'What is left'")])
+        self.assertEqual(self.refused(".h", "/// \\file A.\n/// What is left of it.\nint b;\n"), [(2, "'What is left'")])
+        self.assertEqual(self.refused(".h", "#pragma once\n// What is left of it.\n"), [(1, "begins without '/// \\file'"), (2, "begins with 'What'"), (2, "'What is left'")])
         self.assertEqual(self.refused(".cpp", "// A fact.\n// Of two lines.\nf();  // it gives way\n"), [(3, "'gives way'")])
         self.assertEqual(self.refused(".cpp", 'throw Error("nobody knows");  // fine\n'), [(1, "'nobody'")])
         self.assertEqual(self.refused(".py", "# Where it is\n"), [(1, "begins with 'Where'")])

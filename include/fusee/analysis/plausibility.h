@@ -1,3 +1,4 @@
+/// \file
 /// Plausibility checks: numbers of a mechanism file that are likely input errors. Nothing is rejected; a warning names
 /// the key, the oddity and the likely intention.
 #pragma once

@@ -1,3 +1,4 @@
+/// \file
 /// The full model over a cycle of the declared load, after settling.
 #pragma once
 

@@ -1,3 +1,4 @@
+/// \file
 /// Inputs to a joint on its bench: logged motor angles, loads and temperatures of each run.
 #pragma once
 

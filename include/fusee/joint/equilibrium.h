@@ -1,3 +1,4 @@
+/// \file
 /// The joint in quasi-static equilibrium along any sequence of pulley angles and loads, with history.
 ///
 /// Model: two elastic tendons that cannot push. Each has two spans with stick-slip capstan friction at the pin between

@@ -1,3 +1,4 @@
+/// \file
 /// Selection of the effects that a joint can have: its parts must exist and touch a tendon.
 #pragma once
 

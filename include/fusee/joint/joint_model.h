@@ -1,8 +1,8 @@
+/// \file
 /// Static model of a joint: both tendon paths as mounted, their stiffness, friction and load.
 ///
 /// A tendon's path splits at a fixed point of the pin's rim: the part above depends only on θ, the part below only on
 /// α. A pulley made for one mechanism and mounted in another is therefore no special case.
-/// what lies below it on α alone. So a pulley made for one mechanism and mounted in another needs no further case.
 #pragma once
 
 #include <array>

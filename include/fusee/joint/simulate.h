@@ -1,3 +1,4 @@
+/// \file
 /// Simulation of a joint along logged motor angles, including its sensor.
 #pragma once
 

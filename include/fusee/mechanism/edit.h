@@ -1,5 +1,5 @@
+/// \file
 /// Edits of values in a user's file that keep its comments, order and layout.
-/// New values in a person's own file: its comments, its order and its layout stay.
 #pragma once
 
 #include <string>

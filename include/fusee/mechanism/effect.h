@@ -1,3 +1,4 @@
+/// \file
 /// An effect: a physical way in which a joint can differ from its mechanism file. It has a place, parameters, a
 /// signature in data and a correction.
 ///

@@ -1,3 +1,4 @@
+/// \file
 /// Deviations of a joint from its declaration, in the order of the chain: motor sensor → shaft → pulley → tendon →
 /// sheath → pins → joint → joint sensor. All zero: as declared. rad, mm, N, s.
 ///

@@ -1,3 +1,4 @@
+/// \file
 /// A joint as declared: plain values, in the paper's symbols. Angles in rad, lengths in mm, forces in N, stresses in
 /// MPa.
 ///

@@ -1,3 +1,4 @@
+/// \file
 /// Evolutionary search (pagmo): the paper's genetic algorithm, and NSGA-II for two or three objectives. Seeded: every
 /// run gives the same bytes.
 #pragma once

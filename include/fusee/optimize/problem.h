@@ -1,3 +1,4 @@
+/// \file
 /// The optimization problem of [optimize] as numbers: variables with bounds, tied keys, linear constraints and
 /// objectives.
 #pragma once

@@ -1,6 +1,6 @@
+/// \file
 /// A sampled, closed, convex pitch curve: the tendon's centre line on the pulley, in the pulley's frame at home with
 /// the axis at the origin.
-/// the origin.
 #pragma once
 
 #include <cstddef>

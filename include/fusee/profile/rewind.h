@@ -1,3 +1,4 @@
+/// \file
 /// Independent verification: winds two inextensible strings on a pair of groove floors and finds the resulting joint
 /// angle. Polygon geometry only (arc lengths, tangents to discs, root finding); no equation is shared with the
 /// synthesis.

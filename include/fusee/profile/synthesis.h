@@ -1,5 +1,5 @@
+/// \file
 /// Synthesis of both pitch curves from a mechanism, or the failed conditions and advice.
-/// Mechanism → both pitch curves, or the reasons why there are none and the nearest numbers with which there would be.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
+/// \file
 /// Length change of tendons wound over several turns, whose paths slope in the third dimension. It is a smooth function
 /// of α per tendon, and the planar formulas treat it as a change of tendon length.
-/// tendon, which planar formulas take in as if their tendon grew by it.
 #pragma once
 
 #include <array>

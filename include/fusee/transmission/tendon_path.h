@@ -1,3 +1,4 @@
+/// \file
 /// The upper half of a tendon: from its attachment over the joint's drum, if any, and over its guide pin. Moment arm,
 /// lengths and their derivatives in closed form.
 ///

@@ -1,5 +1,5 @@
+/// \file
 /// θ(α) of the target motion, both moment arms and both pulleys' support functions, with derivatives in closed form.
-/// θ(α) of the declared law, both moment arms and both pulleys' support functions, with derivatives in closed form.
 #pragma once
 
 #include <memory>

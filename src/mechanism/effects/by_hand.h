@@ -1,5 +1,5 @@
+/// \file
 /// Internal: common parts of effects whose parameters are measured by caliper.
-/// Internal: what effects whose numbers a caliper reads have in common.
 #pragma once
 
 #include <vector>
