@@ -32,7 +32,7 @@ Figure drawn(const PaperFigure& figure) {
 
 std::string unit_in_name(const std::string& unit) { return unit.empty() ? "" : unit == "°" ? "_deg" : "_" + unit; }
 
-std::string column_name(std::string name) {
+std::string column_name(const std::string& name) {
   std::string plain;
   for (const char c : name) {
     if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_')

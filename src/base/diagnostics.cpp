@@ -63,8 +63,8 @@ InputError::InputError(Diagnostic diagnostic) : InputError(std::vector<Diagnosti
 InputError::InputError(std::string file, std::string message, std::string hint)
     : InputError(Diagnostic{Severity::error, {std::move(file), 0, 0}, std::move(message), std::move(hint)}) {}
 
-OutputError::OutputError(std::string message, std::string hint)
-    : std::runtime_error(std::move(message)), hint_(std::move(hint)) {}
+OutputError::OutputError(const std::string& message, std::string hint)
+    : std::runtime_error(message), hint_(std::move(hint)) {}
 
 void demand(bool holds, const std::string& what) {
   if (!holds) throw Bug(what);

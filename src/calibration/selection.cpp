@@ -118,7 +118,7 @@ class Selector {
   Key key_of(const EffectSet& effects) const;
   void take_in(Fit fit);
   void keep(Fit fit);
-  Fit likeliest_of_its_set(Fit fit) const;
+  Fit likeliest_of_its_set(const Fit& fit) const;
   bool is_tried(const Key& key) const { return tried_.count(key) > 0; }
   std::vector<const Fit*> ranked() const;
   double promised(const Fit& base, const EffectSet& added, const std::vector<const Look*>& looks,
@@ -219,7 +219,7 @@ void Selector::take_in(Fit fit) {
 /// Itself, or one that was seen: where a joint sticks and slips a fit from elsewhere may end on a lower summit, and
 /// what was left out would seem to matter more, or the others less, than they do (reserved split, seed 192006: by 36
 /// nats).
-Fit Selector::likeliest_of_its_set(Fit fit) const {
+Fit Selector::likeliest_of_its_set(const Fit& fit) const {
   const auto seen = seen_.find(key_of(fit.effects));
   const bool is_seen = seen != seen_.end() && !(fit.usable && score(fit) >= score(seen->second));
   return is_seen ? seen->second : fit;
@@ -561,8 +561,8 @@ void Selector::settle_best() {
   all.resize(std::min(all.size(), k_thresholds.beam));
   for (Fit& fit : settled(all)) keep(std::move(fit));
   const Fit* likeliest = ranked().front();
-  Fit best = workers_.one().fit(likeliest->effects, likeliest->at);
-  take_best(best.usable && best.log_evidence >= likeliest->log_evidence ? std::move(best) : *likeliest);
+  const Fit best = workers_.one().fit(likeliest->effects, likeliest->at);
+  take_best(best.usable && best.log_evidence >= likeliest->log_evidence ? best : *likeliest);
 }
 
 /// The best, made wider as long as that gains.

@@ -37,8 +37,8 @@ double mean_square(const Run& run, const Stroke& stroke, const std::vector<doubl
 
 Estimate declared_estimate(Workers& workers, const Selection& selection) {
   if (selection.none.x.size() == 0) return {selection.none, {}};
-  Fit fit = workers.one().by_squares(selection.none);
-  return {fit.usable ? std::move(fit) : selection.none, {}};
+  const Fit fit = workers.one().by_squares(selection.none);
+  return {fit.usable ? fit : selection.none, {}};
 }
 
 HeldOut hold_out(const Evidence& evidence, const Estimate& estimate, const std::vector<Fold>& folds) {

@@ -111,8 +111,8 @@ std::vector<Option> options_of(const Command& command) {
   return options;
 }
 
-UsageError::UsageError(std::string message, std::string hint)
-    : std::runtime_error(std::move(message)), hint_(std::move(hint)) {}
+UsageError::UsageError(const std::string& message, std::string hint)
+    : std::runtime_error(message), hint_(std::move(hint)) {}
 
 const std::vector<Option>& common_options() {
   static const std::vector<Option> options = {

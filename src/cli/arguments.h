@@ -18,7 +18,7 @@ struct Command;
 /// The command line cannot be understood. Exit code 2.
 class UsageError : public std::runtime_error {
  public:
-  explicit UsageError(std::string message, std::string hint = {});
+  explicit UsageError(const std::string& message, std::string hint = {});
   const std::string& hint() const { return hint_; }
 
  private:

@@ -175,7 +175,7 @@ void add_not_packed(const OutputError& error, Reply& reply) {
   if (reply.exit == Exit::done) reply.exit = Exit::cannot_write;
 }
 
-Ending recorded_ending(std::vector<std::string> words, const std::string& bundle, Console& console) {
+Ending recorded_ending(const std::vector<std::string>& words, const std::string& bundle, Console& console) {
   Ending ending;
   ending.json = has_switch(words, "--json");
   try {

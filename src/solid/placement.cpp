@@ -173,7 +173,7 @@ std::optional<Vec2> centre_of_round(const Polygon& hole) {
   const auto rows = static_cast<Eigen::Index>(corners.size());
   Eigen::MatrixXd lines(rows, 3);
   Eigen::VectorXd squares(rows);
-  const Vec2 near = corners.front();
+  const Vec2& near = corners.front();
   for (Eigen::Index i = 0; i < rows; ++i) {
     const Vec2 point = corners[static_cast<std::size_t>(i)] - near;
     lines.row(i) << 2 * point.x(), 2 * point.y(), 1;

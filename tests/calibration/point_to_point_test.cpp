@@ -234,7 +234,8 @@ TEST(PointToPoint, points_from_one_side_are_asked_for_from_both) {
   EXPECT_THAT(next_words(calibrated({log_of(up, {}, 5)})), Contains(StartsWith(k_both_sides)));
   EXPECT_THAT(next_words(calibrated({log_of(up, {}, 5), log_of(sweep(0.95), {}, 6)})),
               Not(Contains(StartsWith(k_both_sides))));
-  EXPECT_THAT(next_words(calibrated({log_of(up, {}, 5), log_of(sweep(0.2), {}, 6)})), Contains(StartsWith(k_both_sides)));
+  EXPECT_THAT(next_words(calibrated({log_of(up, {}, 5), log_of(sweep(0.2), {}, 6)})),
+              Contains(StartsWith(k_both_sides)));
   Stops few = alternating_ends(1);
   few.resize(8);
   const Calibration too_few = calibrated({log_of(few, {}, 5)});

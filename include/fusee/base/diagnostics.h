@@ -51,7 +51,7 @@ class InputError : public std::runtime_error {
 /// An output place exists and was not written by fusee, or cannot be written. Exit code 6.
 class OutputError : public std::runtime_error {
  public:
-  explicit OutputError(std::string message, std::string hint = {});
+  explicit OutputError(const std::string& message, std::string hint = {});
   const std::string& hint() const { return hint_; }
 
  private:
