@@ -220,8 +220,9 @@ void write_case_data(const Case& made, const std::string& kind, const TimedAnswe
                      const std::filesystem::path& folder) {
   Json json = truth_of(made, kind);
   json["answer"] = answer != nullptr ? answer_of(*answer) : Json();
-  write(folder / "case.json", json_text(json, 1));
   write(folder / "slopes.csv", slopes_csv(read_case(made, folder)));
+  // Last: a folder with case.json is complete.
+  write(folder / "case.json", json_text(json, 1));
 }
 
 }  // namespace fusee::rig

@@ -17,7 +17,7 @@ struct CaseInput {
 /// Reads the files of write_case() back.
 CaseInput read_case(const Case& made, const std::filesystem::path& folder);
 
-/// The answer of calibrate() with the wall time that it took.
+/// The answer of calibrate() with its processor time. Calibrations that run at the same time count together.
 struct TimedAnswer {
   Calibration found;
   double seconds = 0;

@@ -6,9 +6,9 @@
 #include <array>
 #include <atomic>
 #include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -253,9 +253,9 @@ struct Followed {
 /// The answer about the files in `folder`, its judgement, and the files for other methods if they were requested.
 TimedAnswer answered(const Case& made, const Job& job, const Request& request, const std::filesystem::path& folder,
                      Followed& all) {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   Answer answer = calibrate_case(made, folder, job.without);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   const TimedAnswer timed{answer.found, seconds};
   if (!job.row.empty()) answer.judgement.truth = job.row;
   all.judgements.push_back(answer.judgement);
