@@ -45,7 +45,7 @@ constexpr const char* k_usage =
   --follow N        then makes what is asked for first, and calibrates again, up to N times: how many faults stand
                     alone before and after
   --data-to DIR     leaves each joint's files in a folder there: spec.toml, runs, case.json with truth and answer, and
-                    slopes.csv, the catalogue's slopes (tests/bench/baselines.py reads them)
+                    slopes.csv, the catalogue's slopes (tests/bench/baselines.py reads them); not with --leave-out
   --no-calibration  makes the data alone
   --jobs N          joints at work at once (2)
   --most-missed P   exit code 4 when more than P % of the named faults are missed
@@ -184,6 +184,8 @@ std::optional<Request> read_request(const std::vector<std::string>& words) {
     const auto option = k_options.find(words[i]);
     if (option == k_options.end() || ++i == words.size() || !option->second(request, words[i])) return std::nullopt;
   }
+  // Truth and slopes are those of the whole catalogue.
+  if (!request.data_to.empty() && !request.leave_out.empty()) return std::nullopt;
   return request;
 }
 
@@ -251,17 +253,19 @@ struct Followed {
 };
 
 /// The answer about the files in `folder`, its judgement, and the files for other methods if they were requested.
-TimedAnswer answered(const Case& made, const Job& job, const Request& request, const std::filesystem::path& folder,
-                     Followed& all) {
+Answer answered(const Case& made, const Job& job, const Request& request, const std::filesystem::path& folder,
+                Followed& all) {
   const std::clock_t start = std::clock();
   Answer answer = calibrate_case(made, folder, job.without);
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  const TimedAnswer timed{answer.found, seconds};
   if (!job.row.empty()) answer.judgement.truth = job.row;
   all.judgements.push_back(answer.judgement);
-  all.sharpness = sharpness_of(made, read_case(made, folder), timed.found);
-  if (!request.data_to.empty()) write_case_data(made, answer.judgement.truth, &timed, folder);
-  return timed;
+  all.sharpness = sharpness_of(made, read_case(made, folder), answer);
+  if (!request.data_to.empty()) {
+    const TimedAnswer timed{answer.found, seconds};
+    write_case_data(made, answer.judgement.truth, &timed, folder);
+  }
+  return answer;
 }
 
 /// The first measurement that the rig can make, made. False where it can make none.
@@ -277,7 +281,7 @@ bool perform_first(const std::vector<NextMeasurement>& asked, Case& made, std::s
 Followed followed(Case made, const Job& job, const Request& request, const std::filesystem::path& folder,
                   std::string& words) {
   Followed all;
-  TimedAnswer answer = answered(made, job, request, folder, all);
+  Answer answer = answered(made, job, request, folder, all);
   words = all.judgements.back().words;
   while (all.judgements.size() <= request.follow && perform_first(answer.found.next, made, words)) {
     answer = answered(made, job, request, folder, all);

@@ -143,10 +143,10 @@ double unmodelled_log_odds(const Calibration& found) {
   return std::min(odds, k_certain);
 }
 
-Sharpness sharpness_of(const Case& made, const CaseInput& input, const Calibration& found) {
+Sharpness sharpness_of(const Case& made, const CaseInput& input, const Answer& answer) {
+  const Calibration& found = answer.found;
   Sharpness one;
-  one.has_unmodelled =
-      std::any_of(made.faults.begin(), made.faults.end(), [](const std::string& fault) { return !has_name(fault); });
+  one.has_unmodelled = !answer.judgement.outside.empty();
   one.unmodelled_log_odds = unmodelled_log_odds(found);
   for (const FoundEffect& effect : found.effects) one.group_sizes.push_back(effect.group.size());
   const std::vector<Reported> numbers = true_numbers(made, input, found);

@@ -28,7 +28,7 @@ double unmodelled_log_odds(const Calibration& found);
 
 /// The Cramér-Rao bound takes all rows, the sensor's true noise, and the reported effects that are faults of the joint
 /// as the only unknown ones. `input`: the files of the case.
-Sharpness sharpness_of(const Case& made, const CaseInput& input, const Calibration& found);
+Sharpness sharpness_of(const Case& made, const CaseInput& input, const Answer& answer);
 
 /// Probability that a score of `positive` exceeds one of `negative`; equal scores count half. NaN if either is empty.
 double area_under_roc(const std::vector<double>& positive, const std::vector<double>& negative);

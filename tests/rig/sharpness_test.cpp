@@ -55,7 +55,7 @@ TEST(Sharpness, BoundOfOffsetIsNoiseOverRootOfRows) {
   number.high_if_only = 1.959964 * bound;
   effect.parameters = {number};
   found.effects = {effect};
-  const Sharpness one = sharpness_of(made, input, found);
+  const Sharpness one = sharpness_of(made, input, {found, judge(made, found)});
   EXPECT_FALSE(one.has_unmodelled);
   EXPECT_THAT(one.group_sizes, testing::ElementsAre(2u));
   ASSERT_EQ(one.widths.size(), 1u);
