@@ -39,7 +39,7 @@ TEST(Sharpness, BoundOfOffsetIsNoiseOverRootOfRows) {
   const CaseInput input = read_case(made, folder);
   std::filesystem::remove_all(folder);
   std::size_t rows = 0;
-  for (const Run& run : input.measurement.runs) rows += run.samples.size();
+  for (const auto& run : input.measurement.runs) rows += run.samples.size();
   const double variance = made.sensors.noise * made.sensors.noise + made.sensors.quantum * made.sensors.quantum / 12;
   const double fewer = (1 - made.sensors.colour) / (1 + made.sensors.colour);
   const double bound = degrees(std::sqrt(variance / (fewer * static_cast<double>(rows))));
