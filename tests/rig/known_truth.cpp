@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -22,12 +23,13 @@
 #include "fusee/mechanism/file.h"
 #include "rig/follow.h"
 #include "rig/judge.h"
+#include "rig/sharpness.h"
 
 namespace fusee::rig {
 namespace {
 
 constexpr const char* k_usage =
-    R"(usage: known_truth [--seeds N] [--only NAME]... [--protocol full|single|random] [--csv DIR] ...
+    R"(usage: known_truth [--seeds N] [--only NAME]... [--protocol full|single|random] [--data-to DIR] ...
        known_truth --joints N [--split NAME] [--kinds NAME]... [--protocol full|single|random] ...
        known_truth --leave-out NAME|all [--seeds N] ...
   --seeds N         joints per truth (3)
@@ -42,7 +44,8 @@ constexpr const char* k_usage =
   --any-groove      the groove's friction is drawn from 0.05 to 0.5 while the file says 0.2 (always with --joints)
   --follow N        then makes what is asked for first, and calibrates again, up to N times: how many faults stand
                     alone before and after
-  --csv DIR         leaves spec.toml, runs and truth.json of each joint there
+  --data-to DIR     leaves each joint's files in a folder there: spec.toml, runs, case.json with truth and answer, and
+                    slopes.csv, the catalogue's slopes (tests/bench/baselines.py reads them); not with --leave-out
   --no-calibration  makes the data alone
   --jobs N          joints at work at once (2)
   --most-missed P   exit code 4 when more than P % of the named faults are missed
@@ -77,7 +80,7 @@ struct Request {
   std::optional<Protocol> protocol;
   bool any_groove = false;
   std::size_t follow = 0;
-  std::string csv;
+  std::string data_to;
   bool no_calibration = false;
   bool list = false;
   std::size_t jobs = 2;
@@ -166,7 +169,7 @@ const std::map<std::string, Reader> k_options = {{"--seeds", number_into(&Reques
                                                  {"--only", texts_into(&Request::only)},
                                                  {"--split", text_into(&Request::split)},
                                                  {"--leave-out", text_into(&Request::leave_out)},
-                                                 {"--csv", text_into(&Request::csv)},
+                                                 {"--data-to", text_into(&Request::data_to)},
                                                  {"--kinds", read_kind},
                                                  {"--protocol", read_protocol},
                                                  {"--joint", read_joint}};
@@ -181,6 +184,8 @@ std::optional<Request> read_request(const std::vector<std::string>& words) {
     const auto option = k_options.find(words[i]);
     if (option == k_options.end() || ++i == words.size() || !option->second(request, words[i])) return std::nullopt;
   }
+  // Truth and slopes are those of the whole catalogue.
+  if (!request.data_to.empty() && !request.leave_out.empty()) return std::nullopt;
   return request;
 }
 
@@ -242,7 +247,26 @@ std::string folder_name(const Job& job) {
 }
 
 /// A job's judgements: before anything that was asked for was made, and after each that was.
-using Followed = std::vector<Judgement>;
+struct Followed {
+  std::vector<Judgement> judgements;
+  Sharpness sharpness;  ///< of the last answer
+};
+
+/// The answer about the files in `folder`, its judgement, and the files for other methods if they were requested.
+Answer answered(const Case& made, const Job& job, const Request& request, const std::filesystem::path& folder,
+                Followed& all) {
+  const std::clock_t start = std::clock();
+  Answer answer = calibrate_case(made, folder, job.without);
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  if (!job.row.empty()) answer.judgement.truth = job.row;
+  all.judgements.push_back(answer.judgement);
+  all.sharpness = sharpness_of(made, read_case(made, folder), answer);
+  if (!request.data_to.empty()) {
+    const TimedAnswer timed{answer.found, seconds};
+    write_case_data(made, answer.judgement.truth, &timed, folder);
+  }
+  return answer;
+}
 
 /// The first measurement that the rig can make, made. False where it can make none.
 bool perform_first(const std::vector<NextMeasurement>& asked, Case& made, std::string& words) {
@@ -256,16 +280,12 @@ bool perform_first(const std::vector<NextMeasurement>& asked, Case& made, std::s
 
 Followed followed(Case made, const Job& job, const Request& request, const std::filesystem::path& folder,
                   std::string& words) {
-  Answer answer = calibrate_case(made, folder, job.without);
-  Followed all = {answer.judgement};
-  words = answer.judgement.words;
-  while (all.size() <= request.follow && perform_first(answer.found.next, made, words)) {
-    answer = calibrate_case(made, folder, job.without);
-    all.push_back(answer.judgement);
-    words += "\n    " + answer.judgement.words;
-  }
-  if (!job.row.empty()) {
-    for (Judgement& one : all) one.truth = job.row;
+  Followed all;
+  Answer answer = answered(made, job, request, folder, all);
+  words = all.judgements.back().words;
+  while (all.judgements.size() <= request.follow && perform_first(answer.found.next, made, words)) {
+    answer = answered(made, job, request, folder, all);
+    words += "\n    " + all.judgements.back().words;
   }
   return all;
 }
@@ -286,6 +306,8 @@ std::vector<Followed> work(const std::vector<Job>& jobs, const Request& request,
         answers[i] = followed(made, jobs[i], request, folder / folder_name(jobs[i]), words);
       } else {
         write_case(made, folder / folder_name(jobs[i]));
+        write_case_data(made, jobs[i].row.empty() ? jobs[i].truth.name : jobs[i].row, nullptr,
+                        folder / folder_name(jobs[i]));
         words = folder_name(jobs[i]);
       }
     } catch (const std::exception& error) {
@@ -301,7 +323,7 @@ std::vector<Followed> work(const std::vector<Job>& jobs, const Request& request,
   for (std::size_t i = 1; i < request.jobs; ++i) others.emplace_back(worker);
   worker();
   for (std::thread& other : others) other.join();
-  std::erase_if(answers, [](const Followed& answer) { return answer.empty(); });
+  std::erase_if(answers, [](const Followed& answer) { return answer.judgements.empty(); });
   return answers;
 }
 
@@ -334,7 +356,8 @@ int list(const Request& request) {
 /// As they were after so many measurements, or after their last.
 std::vector<Judgement> judged_after(const std::vector<Followed>& all, std::size_t measurements) {
   std::vector<Judgement> judgements;
-  for (const Followed& one : all) judgements.push_back(one[std::min(measurements, one.size() - 1)]);
+  for (const Followed& one : all)
+    judgements.push_back(one.judgements[std::min(measurements, one.judgements.size() - 1)]);
   return judgements;
 }
 
@@ -344,7 +367,7 @@ std::string followed_table(const std::vector<Followed>& all, std::size_t follow)
       "|--:|--:|--:|--:|--:|--:|\n";
   for (std::size_t n = 0; n <= follow; ++n) {
     std::size_t made = 0, alone = 0, named = 0, held = 0, wrong = 0;
-    for (const Followed& one : all) made += one.size() > n ? 1 : 0;
+    for (const Followed& one : all) made += one.judgements.size() > n ? 1 : 0;
     for (const Judgement& one : judged_after(all, n)) {
       alone += one.alone;
       named += one.named;
@@ -384,13 +407,16 @@ int run(const std::vector<std::string>& words) {
   if (request->list) return list(*request);
   const std::vector<Job> jobs = jobs_of(*request);
   std::optional<ScratchFolder> scratch;
-  if (request->csv.empty()) scratch.emplace();
+  if (request->data_to.empty()) scratch.emplace();
   const std::vector<Followed> answers =
-      work(jobs, *request, scratch ? scratch->path() : std::filesystem::path(request->csv));
+      work(jobs, *request, scratch ? scratch->path() : std::filesystem::path(request->data_to));
   if (request->no_calibration) return 0;
   if (request->follow > 0) std::fputs(followed_table(answers, request->follow).c_str(), stdout);
   const std::vector<Judgement> all = judged_after(answers, request->follow);
   const bool fine = report(all, *request);
+  std::vector<Sharpness> sharpness;
+  for (const Followed& one : answers) sharpness.push_back(one.sharpness);
+  std::fputs(sharpness_table(sharpness).c_str(), stdout);
   // Not every protocol shows every fault: those are left out.
   if (all.empty() || (protocol_of(*request) == Protocol::full && all.size() < jobs.size())) return 1;
   return fine ? 0 : 4;
