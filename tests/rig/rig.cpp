@@ -291,6 +291,17 @@ std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const st
   return logs;
 }
 
+SensorPlan noiseless() { return {.noise = 0}; }
+
+double rms_difference(const std::vector<Log>& one, const std::vector<Log>& other) {
+  double squares = 0, rows = 0;
+  for (std::size_t run = 0; run < one.size(); ++run) {
+    for (std::size_t row = 0; row < one[run].size(); ++row, ++rows)
+      squares += std::pow(one[run][row].theta - other[run][row].theta, 2);
+  }
+  return std::isfinite(squares) ? std::sqrt(squares / rows) : 0;
+}
+
 std::string csv_text(const Log& log, bool temperature, const RunPlan& plan) {
   std::string header = "time_s,alpha_deg,theta_deg,load_N", mounting;
   if (temperature) header += ",temperature_C";

@@ -127,6 +127,8 @@ struct SensorPlan {
   std::uint64_t seed = 1;
 };
 
+SensorPlan noiseless();
+
 struct Row {
   double time = 0;
   double alpha = 0;  ///< as the motor's sensor shows it
@@ -160,6 +162,9 @@ MadeJoint make_joint(const DeclaredMechanism& declared);
 /// of the sweep, where it is loaded.
 std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs,
                           const SensorPlan& sensors = {}, const MotionPlan& motion = {});
+
+/// Rms of the differences of θ over all rows, rad. 0 where a joint has no equilibrium.
+double rms_difference(const std::vector<Log>& one, const std::vector<Log>& other);
 
 /// As a bench would have written it: time_s, alpha_deg, theta_deg, load_N, if asked for temperature_C, and how far the
 /// sensors were turned, where they were.

@@ -29,7 +29,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// One unloaded run.
-Log run_of(const MadeJoint& joint, const Hidden& hidden, const SensorPlan& sensors = no_noise()) {
+Log run_of(const MadeJoint& joint, const Hidden& hidden, const SensorPlan& sensors = noiseless()) {
   return log_runs(joint, hidden, single_protocol(), sensors).front();
 }
 
@@ -120,7 +120,7 @@ Logged read_log(const std::filesystem::path& path) {
 double difference(const std::string& name, const Hidden& hidden, const std::vector<RunPlan>& plans) {
   const std::filesystem::path folder = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/rig" / name;
   const std::vector<Log> logs =
-      log_runs(make_joint(read_mechanism(folder / "spec.toml").mechanism), hidden, plans, no_noise());
+      log_runs(make_joint(read_mechanism(folder / "spec.toml").mechanism), hidden, plans, noiseless());
   double squares = 0;
   double rows = 0;
   for (std::size_t run = 0; run < logs.size(); ++run) {
@@ -449,7 +449,7 @@ TEST(Rig, IsRepeatable) {
 }
 
 TEST(Rig, RunFollowsPlan) {
-  const Log log = log_runs(stiff(), {}, {{0.0, radians(30.0), 2, 4.0}}, no_noise())[0];
+  const Log log = log_runs(stiff(), {}, {{0.0, radians(30.0), 2, 4.0}}, noiseless())[0];
   ASSERT_EQ(log.size(), 1u + 4 * (80 + 10));
   EXPECT_NEAR((log[1].alpha - log[0].alpha) / (log[1].time - log[0].time), radians(30.0), 1e-9);
   EXPECT_EQ(log[80].alpha, log[90].alpha);
