@@ -13,24 +13,18 @@ void Fault::apply(Hidden& hidden, double size, const Character& character, const
   if (set != nullptr) return set(hidden, size, character, joint);
   const Action action{name, parameters != nullptr ? parameters({character, size, joint}) : std::vector{size}, act};
   const auto add = [&action](std::vector<Action>& list) { list.push_back(action); };
+  // clang-format off
   switch (place) {
-    case Place::shaft:
-      return add(hidden.shaft);
-    case Place::one_tendon:
-      return add(hidden.longer[character.sign > 0 ? 1 : 0]);
-    case Place::tendon_2:
-      return add(hidden.longer[1]);
-    case Place::both_tendons:
-      return add(hidden.longer[0]), add(hidden.longer[1]);
-    case Place::joint_torque:
-      return add(hidden.torque);
-    case Place::dry_friction:
-      return add(hidden.dry);
-    case Place::load:
-      return add(hidden.load);
-    case Place::reading:
-      return add(hidden.reading);
+    case Place::shaft: return add(hidden.shaft);
+    case Place::one_tendon: return add(hidden.longer[character.sign > 0 ? 1 : 0]);
+    case Place::tendon_2: return add(hidden.longer[1]);
+    case Place::both_tendons: return add(hidden.longer[0]), add(hidden.longer[1]);
+    case Place::joint_torque: return add(hidden.torque);
+    case Place::dry_friction: return add(hidden.dry);
+    case Place::load: return add(hidden.load);
+    case Place::reading: return add(hidden.reading);
   }
+  // clang-format on
 }
 
 const std::vector<Fault>& all_faults() {

@@ -229,9 +229,7 @@ TEST(Displaced, LinkEndMoves) {
 
 TEST(Displaced, LooseAxisShortensLink) {
   // Forces at the link's end that balance about its axis pull along the link.
-  Hidden shorter;
-  shorter.joint_length = -0.4;
-  shorter.guide_down = 0.4;
+  const Hidden shorter{.guide_down = 0.4, .joint_length = -0.4};
   Bench loose(soft(), with("loose_axis", 0.4)), short_link(soft(), shorter), plain(soft(), {});
   Conditions at;
   double most_moved = 0;

@@ -7,8 +7,8 @@
 
 #include "fusee/mechanism/file.h"
 #include "rig/command.h"
-#include "rig/follow.h"
 #include "rig/judge.h"
+#include "rig/truths.h"
 
 namespace fusee::rig {
 namespace {
@@ -117,22 +117,16 @@ bool read_joint(Request& request, const std::string& text) {
 
 const std::map<std::string, bool Request::*> k_flags = {
     {"--any-groove", &Request::any_groove}, {"--no-calibration", &Request::no_calibration}, {"--list", &Request::list}};
-const std::map<std::string, Reader<Request>> k_options = {{"--seeds", number_into(&Request::seeds, 1)},
-                                                          {"--first", number_into(&Request::first)},
-                                                          {"--joints", number_into(&Request::joints)},
-                                                          {"--jobs", number_into(&Request::jobs, 1)},
-                                                          {"--follow", number_into(&Request::follow)},
-                                                          {"--most-missed", number_into(&Request::most_missed)},
-                                                          {"--most-lost", number_into(&Request::most_lost)},
-                                                          {"--most-blamed", number_into(&Request::most_blamed)},
-                                                          {"--most-empty", number_into(&Request::most_empty)},
-                                                          {"--only", texts_into(&Request::only)},
-                                                          {"--split", text_into(&Request::split)},
-                                                          {"--leave-out", text_into(&Request::leave_out)},
-                                                          {"--csv", text_into(&Request::csv)},
-                                                          {"--kinds", read_kind},
-                                                          {"--protocol", read_protocol},
-                                                          {"--joint", read_joint}};
+// clang-format off
+const std::map<std::string, Reader<Request>> k_options = {
+    {"--seeds", number_into(&Request::seeds, 1)}, {"--first", number_into(&Request::first)},
+    {"--joints", number_into(&Request::joints)}, {"--jobs", number_into(&Request::jobs, 1)},
+    {"--follow", number_into(&Request::follow)}, {"--most-missed", number_into(&Request::most_missed)},
+    {"--most-lost", number_into(&Request::most_lost)}, {"--most-blamed", number_into(&Request::most_blamed)},
+    {"--most-empty", number_into(&Request::most_empty)}, {"--only", texts_into(&Request::only)},
+    {"--split", text_into(&Request::split)}, {"--leave-out", text_into(&Request::leave_out)},
+    {"--csv", text_into(&Request::csv)}, {"--kinds", read_kind}, {"--protocol", read_protocol}, {"--joint", read_joint}};
+// clang-format on
 
 /// InputError for an unknown fault.
 std::vector<Truth> truths_of(const Request& request) {

@@ -8,12 +8,23 @@
 #include <utility>
 #include <vector>
 
+#include "fusee/plan/bench_run.h"
 #include "rig/faults.h"
-#include "rig/protocols.h"
 #include "rig/random.h"
 #include "rig/rig.h"
 
 namespace fusee::rig {
+
+/// Runs, motion and sensors of a session.
+struct Programme {
+  std::vector<RunPlan> runs;
+  MotionPlan motion;
+  SensorPlan sensors;  ///< the caller sets its seed
+};
+
+/// Good and bad practice: 2 … 7 runs with their own loads, speeds, cycles and dwells, strokes or point to
+/// point, some with loads that change within a run; noise 0.005 … 0.05°, coloured or coarse or neither.
+Programme random_programme(Random& random, const MadeJoint& joint);
 
 /// The faults of a joint.
 struct Truth {
@@ -89,5 +100,12 @@ MadeJoint random_joint(Random& random);
 
 /// truth.json, spec.toml and run_1.csv … of a case, as (name, text).
 std::vector<std::pair<std::string, std::string>> files_of(const Case& made);
+
+/// Manual reading of a parameter on the rig's joint without error, in the unit of the fit.
+double read_by_hand(const EffectParameter& number, const Case& made);
+
+/// Adds a run to the case, or writes readings with their usual error into [prior] of its file. False and no change if
+/// the rig cannot make the measurement.
+bool perform(const NextMeasurement& next, Case& made);
 
 }  // namespace fusee::rig
