@@ -1,6 +1,5 @@
 /// \file
-/// What can act at a place of the joint's chain without a name of its own: a function of the moment, with numbers and,
-/// where it needs one, a memory. rad, mm, N, s.
+/// Actions of unmodelled faults: functions of the joint's state with numbers and, if needed, a memory. rad, mm, N, s.
 #pragma once
 
 #include <array>
@@ -12,8 +11,8 @@
 
 namespace fusee::rig {
 
-/// How the joint stands. What follows from the solution is that of the step itself where a tendon gets longer by it,
-/// and θ where a torque acts; all else is that of the step before.
+/// State of the joint at an instant. Results of the equilibrium are those of the current iteration for elongations, as
+/// is θ for torques. All others are of the step before.
 struct Moment {
   double time = 0;      ///< on the session's clock
   double run_time = 0;  ///< since the first row of the run
@@ -41,7 +40,7 @@ struct Action {
   bool operator==(const Action&) const = default;
 };
 
-/// Actions at one place, each with what it remembers.
+/// The actions at one place with their memories.
 class Actors {
  public:
   Actors() = default;
@@ -49,10 +48,10 @@ class Actors {
       : actions_(actions), memories_(actions.size()), side_(side) {}
 
   bool empty() const { return actions_.empty(); }
-  /// Their sum; they remember it.
+  /// Sum of the actions; updates their memories.
   double operator()(const Moment& now) { return sum(now, memories_); }
-  /// Their sum if it came to that.
-  double tried(const Moment& now) const {
+  /// Sum of the actions; memories unchanged.
+  double preview(const Moment& now) const {
     std::vector<std::vector<double>> scratch = memories_;
     return sum(now, scratch);
   }

@@ -9,21 +9,21 @@
 namespace fusee::rig {
 namespace {
 
-/// Tendon that moves over a pin by this much has the friction of its new direction, but for 1/e. mm
+/// Constant of the Dahl bristle at a pin: after this sliding, 1/e of the change of direction remains, mm.
 constexpr double k_bristle = 2e-4;
 constexpr double k_furthest = radians(85.0);  // of a joint that is not declared to go further
 constexpr double k_beyond_range = radians(25.0);
-/// The knot lies this much further along the groove than the tendon leaves it anywhere in the range. mm
+/// Distance of the knot along the groove beyond the last take-off of the range, mm.
 constexpr double k_arc_to_knot = 5.0;
-/// Of the quickest part of creep: the middle of the first decade. s
+/// Time constant of the fastest creep element, √10 s.
 constexpr double k_first_decade = 3.16;
 
-/// Of a tendon's image and back: tendon 1 is seen in the mirror.
+/// To a tendon's image and back: tendon 1 is mirrored.
 Vec2 in_image(std::size_t side, const Vec2& point) { return side == 0 ? Vec2(-point.x(), point.y()) : point; }
 
-/// Where a falling function that is positive at `low` first is not: false position with the Illinois rule.
+/// Root of a decreasing function in (low, high): false position with the Illinois rule.
 template <typename Function>
-double crossing(double low, double at_low, double high, double at_high, double tolerance, Function function) {
+double find_root_between(double low, double at_low, double high, double at_high, double tolerance, Function function) {
   int side = 0;
   for (int i = 0; i < 200 && high - low > tolerance; ++i) {
     double middle = (low * at_high - high * at_low) / (at_high - at_low);
@@ -45,9 +45,9 @@ double crossing(double low, double at_low, double high, double at_high, double t
   return high;
 }
 
-/// Where a falling function that is positive at 0, by `at_zero`, comes down to nothing; near `guess`, probably.
+/// Root of a decreasing function with value `at_zero` > 0 at 0, bracketed from `guess`.
 template <typename Function>
-double solved(double guess, double at_zero, Function function) {
+double find_root(double guess, double at_zero, Function function) {
   constexpr double k_tension = 1e-10;  // N
   double low = 0, at_low = at_zero;
   double high = guess > 0 ? guess : 1.0;
@@ -56,11 +56,11 @@ double solved(double guess, double at_zero, Function function) {
   if (at_high <= 0) {
     while (high - step > 0) {
       const double value = function(high - step);
-      if (value > 0) return crossing(high - step, value, high, at_high, k_tension, function);
+      if (value > 0) return find_root_between(high - step, value, high, at_high, k_tension, function);
       high -= step, at_high = value;
       step *= 4.0;
     }
-    return crossing(low, at_low, high, at_high, k_tension, function);
+    return find_root_between(low, at_low, high, at_high, k_tension, function);
   }
   for (int i = 0; i < 60 && at_high > 0; ++i) {
     low = high, at_low = at_high;
@@ -68,30 +68,30 @@ double solved(double guess, double at_zero, Function function) {
     step *= 4.0;
     at_high = function(high);
   }
-  return crossing(low, at_low, high, at_high, k_tension, function);
+  return find_root_between(low, at_low, high, at_high, k_tension, function);
 }
 
-/// A point of the curve with all that is wrong with its print, as the right-hand image sees it.
-Vec2 printed_at(const OutlinePoint& point, std::size_t side, const Hidden& hidden) {
+/// A point of the printed curve with all errors of the print, in the right-hand image.
+Vec2 print_point(const OutlinePoint& point, std::size_t side, const Hidden& hidden) {
   const double wave = hidden.profile_error * std::cos(hidden.profile_harmonic * point.psi + hidden.profile_phase);
   const Vec2 moved = (1.0 + hidden.pulley_scale) * point.position + (hidden.radius_offset + wave) * point.normal +
                      Vec2(hidden.runout_x, hidden.runout_y);
   return in_image(side, moved);
 }
 
-Hull printed(const Outline& outline, std::size_t side, const Hidden& hidden) {
+Hull print_outline(const Outline& outline, std::size_t side, const Hidden& hidden) {
   Polygon corners;
   corners.reserve(outline.points.size());
-  for (const OutlinePoint& point : outline.points) corners.push_back(printed_at(point, side, hidden));
+  for (const OutlinePoint& point : outline.points) corners.push_back(print_point(point, side, hidden));
   return hull_of(corners);
 }
 
-/// The groove that climbs, with the same wrong with it.
-Hull printed_spiral(const MadeSpiral& made, std::size_t side, const Hidden& hidden) {
+/// A printed helical groove with the same errors.
+Hull print_spiral(const MadeSpiral& made, std::size_t side, const Hidden& hidden) {
   Polygon corners;
   std::vector<double> heights;
   for (const SpiralRow& row : made.rows) {
-    corners.push_back(printed_at({row.turn, {row.x, row.y}, {std::cos(row.turn), std::sin(row.turn)}}, side, hidden));
+    corners.push_back(print_point({row.turn, {row.x, row.y}, {std::cos(row.turn), std::sin(row.turn)}}, side, hidden));
     heights.push_back(row.z);
   }
   auto home = static_cast<std::ptrdiff_t>(made.home);
@@ -104,14 +104,14 @@ Hull printed_spiral(const MadeSpiral& made, std::size_t side, const Hidden& hidd
 }
 
 /// A hardening tendon follows T = E' ε (1 + ε/h): E' such that dT/dε is as declared at the declared pretension.
-double softer_at_rest(double EA, double pretension, double hardening) {
+double initial_stiffness(double EA, double pretension, double hardening) {
   // x = ε/h there: EA = E' (1 + 2x), pretension = E' h x (1 + x).
   const double c = pretension / (EA * hardening);
   const double x = 0.5 * (2.0 * c - 1.0 + std::sqrt((1.0 - 2.0 * c) * (1.0 - 2.0 * c) + 4.0 * c));
   return EA / (1.0 + 2.0 * x);
 }
 
-/// Seen upside down the drum is a pulley below its pin.
+/// Upside down, the drum is a pulley below its pin.
 Vec2 flipped(const Vec2& point) { return {point.x(), -point.y()}; }
 
 constexpr int k_drum_corners = 2048;
@@ -119,23 +119,23 @@ constexpr int k_sheath_bends = 16;
 
 double direction(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 
-/// Share of its friction that a bristle has in use after so much slid: > 0 towards the pulley.
-double bent(double bristle, double slipped) {
+/// Used share of the friction after sliding by `slipped` (Dahl 1968), > 0 towards the pulley.
+double bend_bristle(double bristle, double slipped) {
   const double towards = slipped > 0 ? 1.0 : -1.0;
   return towards + (bristle - towards) * std::exp(-std::abs(slipped) / k_bristle);
 }
 
-Vec2 turned(const Vec2& v, double angle) {
+Vec2 rotate(const Vec2& v, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
-/// The string from where a link holds it, over its drum, down to the pin. The link stands still and the pin goes round
-/// it, which `over` follows.
-UpperString string_up(const BenchTendon& tendon, const Circle& pin, double theta, std::ptrdiff_t& over) {
-  if (tendon.drum.corners.empty()) return upper_string(turned(tendon.end, -theta), pin);
-  const LowerString string = lower_string(tendon.drum, {flipped(turned(pin.centre, theta)), pin.radius}, over);
+/// The string from its attachment over the drum to the pin. Computed in the frame of the link: the pin moves around it,
+/// and `over` follows.
+UpperString find_upper_string(const BenchTendon& tendon, const Circle& pin, double theta, std::ptrdiff_t& over) {
+  if (tendon.drum.corners.empty()) return upper_string(rotate(tendon.end, -theta), pin);
+  const LowerString string = lower_string(tendon.drum, {flipped(rotate(pin.centre, theta)), pin.radius}, over);
   const auto count = static_cast<std::ptrdiff_t>(tendon.drum.corners.size());
   over = string.corner;
   const auto turns = static_cast<double>((string.corner - tendon.tied) / count);
@@ -143,7 +143,7 @@ UpperString string_up(const BenchTendon& tendon, const Circle& pin, double theta
   double on_drum = tendon.drum.arc[at] - tendon.drum.arc[static_cast<std::size_t>(tendon.tied)];
   on_drum += tendon.drum.around * std::max(0.0, turns);
   if (string.corner >= tendon.tied && on_drum < 0) on_drum += tendon.drum.around;
-  return {string.length + on_drum, turned(flipped(string.normal), -theta), string.arm};
+  return {string.length + on_drum, rotate(flipped(string.normal), -theta), string.arm};
 }
 
 }  // namespace
@@ -174,13 +174,13 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
   spring_ = declared.spring;
   const double modulus = hidden.modulus > 0 ? hidden.modulus : declared.tendon.modulus;
   EA_ = modulus * k_pi * declared.tendon.diameter * declared.tendon.diameter / 4.0;
-  if (hidden.hardening > 0) EA_ = softer_at_rest(EA_, declared.tendon.pretension, hidden.hardening);
+  if (hidden.hardening > 0) EA_ = initial_stiffness(EA_, declared.tendon.pretension, hidden.hardening);
   double arm = 0;
   for (std::size_t side = 0; side < 2; ++side) {
     BenchTendon& tendon = tendons_[side];
     const MadeSpiral& spiral = joint.spirals[side];
-    tendon.hull = spiral.rows.empty() ? printed(side == 0 ? joint.p1 : joint.p2, side, hidden)
-                                      : printed_spiral(spiral, side, hidden);
+    tendon.hull = spiral.rows.empty() ? print_outline(side == 0 ? joint.p1 : joint.p2, side, hidden)
+                                      : print_spiral(spiral, side, hidden);
     tendon.held_at = spiral.held_at;
     tendon.sign = side == 0 ? -1.0 : 1.0;
     const double outward =
@@ -189,16 +189,16 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
                   declared.guides.radius + hidden.guide_radius + 0.5 * declared.tendon.diameter};
     build_link(tendon, side, declared);
     tendon.axis = {0.0, -declared.guides.OE - declared.pulley.EF};
-    if (declared.sheath.is_there()) thread(tendon, declared);
+    if (declared.sheath.is_there()) add_sheath(tendon, declared);
     const double own_arm = level_arm_at_home(tendon);
     const double pretension = hidden.slack > 0 ? 0.0 : declared.tendon.pretension;
-    const Vec2 pull = hang(tendon, side == 0 ? pretension : pretension * arm / own_arm, hidden.slack,
-                           side == 0 ? -joint.alpha_max : joint.alpha_min);
+    const Vec2 pull = cut_to_length(tendon, side == 0 ? pretension : pretension * arm / own_arm, hidden.slack,
+                                    side == 0 ? -joint.alpha_max : joint.alpha_min);
     now_.tension[side] = tendon.upper_tension;
     now_.pull[side] = in_image(side, pull);
     arm = own_arm;
   }
-  // What acts remembers home.
+  // Actions start at home.
   Moment home = now_;
   home.seconds = 1e-9;
   for (Actors& actors : longer_) actors(home);
@@ -213,7 +213,7 @@ void Bench::build_link(BenchTendon& tendon, std::size_t side, const DeclaredMech
   const double radius = joint.drum_radius + hidden_.drum_radius + 0.5 * declared.tendon.diameter;
   const Vec2 centre =
       seen(hidden_.drum_runout * Vec2(std::cos(hidden_.drum_runout_phase), std::sin(hidden_.drum_runout_phase)));
-  // What is tied in the drum comes out of it at the cord's own height.
+  // An attachment inside the drum is moved to the radius of the tendon's axis.
   const Vec2 from_centre = tendon.end - centre;
   if (from_centre.norm() < radius) tendon.end = centre + radius / from_centre.norm() * from_centre;
   Polygon corners = {flipped(tendon.end)};
@@ -227,8 +227,8 @@ void Bench::build_link(BenchTendon& tendon, std::size_t side, const DeclaredMech
   tendon.over = tendon.tied = std::min_element(hull.begin(), hull.end(), nearer) - hull.begin();
 }
 
-// Bends all along, each with friction of its own and as much tendon before it as behind it.
-void Bench::thread(BenchTendon& tendon, const DeclaredMechanism& declared) const {
+// Equally spaced bends share length, compliance and friction of the sheath.
+void Bench::add_sheath(BenchTendon& tendon, const DeclaredMechanism& declared) const {
   const Sheath& sheath = declared.sheath;
   tendon.guide = {tendon.axis + Vec2(sheath.exit_across, sheath.exit_above), 0.0};
   const double give = std::max(0.0, (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + hidden_.sheath_give);
@@ -244,10 +244,10 @@ Circle Bench::seen_guide(const BenchTendon& tendon, const Circle& pin) const {
   return {guide.centre - tendon.axis, guide.radius};
 }
 
-double Bench::through(std::vector<SheathPiece>& sheath, const Cord& cord, double home, double tension,
-                      double& slipped) {
+double Bench::pull_through(std::vector<SheathPiece>& sheath, const Cord& cord, double home, double tension,
+                           double& slipped) {
   for (SheathPiece& piece : sheath) {
-    piece.bristle = bent(piece.bristle, slipped);
+    piece.bristle = bend_bristle(piece.bristle, slipped);
     tension *= std::exp(-piece.holds * piece.bristle);
     const double material = cord.material(piece.length - piece.give * (tension - home), tension);
     slipped += material - piece.material;
@@ -256,10 +256,10 @@ double Bench::through(std::vector<SheathPiece>& sheath, const Cord& cord, double
   return tension;
 }
 
-/// How much longer a way is than it looks from above, rising all along.
+/// Length of an evenly rising path per its length in the plane.
 double Bench::slant(double level, double rise) { return std::hypot(1.0, rise / level); }
 
-/// Of a straight that begins in a collar.
+/// Additional length of the straight span of a tendon with a collar.
 double Bench::sloping_more(const BenchTendon& tendon, const LowerString& string) {
   return std::hypot(string.length, rise_of(tendon, string)) - string.length;
 }
@@ -268,9 +268,9 @@ double Bench::rise_of(const BenchTendon& tendon, const LowerString& string) {
   return tendon.hull.climbs() ? string.height - tendon.held_at : 0.0;
 }
 
-/// Of what a tendon that rises turns the joint with, per newton.
+/// Torque on the joint per tension, of a tendon that may rise.
 double Bench::level_arm_at_home(BenchTendon& tendon) const {
-  const UpperString up = string_up(tendon, tendon.pin, 0.0, tendon.over);
+  const UpperString up = find_upper_string(tendon, tendon.pin, 0.0, tendon.over);
   if (collar_ || !tendon.hull.climbs()) return up.arm;
   const Circle seen = seen_guide(tendon, tendon.pin);
   const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
@@ -278,7 +278,7 @@ double Bench::level_arm_at_home(BenchTendon& tendon) const {
   return up.arm / slant(level, rise_of(tendon, low));
 }
 
-/// Lower per upper tension at this share of the friction. An idler's bearing is pressed by both as vectors.
+/// Lower per upper tension at this share of the friction. The load on an idler's bearing is the vector sum of both.
 double Bench::ratio(double wrap, double bristle) const {
   if (turning_ == 0) return std::exp(friction_ * wrap * bristle);
   double lower = 1.0;
@@ -291,25 +291,25 @@ double Bench::ratio(double wrap, double bristle) const {
   return lower;
 }
 
-/// A groove that climbs goes on to its knot by its spare turns.
+/// Arc of the knot. A helical groove begins at its knot, behind its spare turns.
 double Bench::knot_of(const BenchTendon& tendon, const Circle& seen, const LowerString& at_home, double unwound) {
   if (tendon.hull.climbs()) return 0.0;
-  // By steps: past half a turn a string would be looked for the other way round.
+  // In steps of less than half a turn, within which the search is unambiguous.
   LowerString at_end = at_home;
   const int steps = 1 + static_cast<int>(std::abs(unwound));
   for (int i = 1; i <= steps; ++i)
-    at_end = lower_string(tendon.hull, {turned(seen.centre, unwound * i / steps), seen.radius}, at_end.corner);
+    at_end = lower_string(tendon.hull, {rotate(seen.centre, unwound * i / steps), seen.radius}, at_end.corner);
   return at_end.arc - k_arc_to_knot;
 }
 
-/// Cut to length so that it carries `tension` at home; no friction is in use. The knot is met at the image's angle
-/// `unwound`. Its unit pull on the link's end, in the image.
-Vec2 Bench::hang(BenchTendon& tendon, double tension, double slack, double unwound) {
-  const UpperString up = string_up(tendon, tendon.pin, 0.0, tendon.over);
+/// Cuts the tendon to the length at which it has `tension` at home without friction. `unwound`: angle of the image at
+/// which the knot is reached. Returns the unit force on the link's end, in the image.
+Vec2 Bench::cut_to_length(BenchTendon& tendon, double tension, double slack, double unwound) {
+  const UpperString up = find_upper_string(tendon, tendon.pin, 0.0, tendon.over);
   const Circle seen = seen_guide(tendon, tendon.pin);
   const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
   const Cord cord{EA_, hidden_.hardening, 1.0};
-  // Into a sheath it goes straight down.
+  // A sheath starts vertically.
   const double off_pin = tendon.sheath.empty() ? direction(low.normal) : 0.0;
   tendon.mark = tendon.sheath.empty() ? 0.5 * (direction(up.normal) + off_pin) : off_pin;
   double above = up.length + tendon.pin.radius * (direction(up.normal) - tendon.mark);
@@ -328,8 +328,8 @@ Vec2 Bench::hang(BenchTendon& tendon, double tension, double slack, double unwou
   tendon.laid =
       GrooveChain(tendon.hull, knot_of(tendon, seen, low, unwound), low.arc, tension, hidden_.groove_friction, cord);
   tendon.upper_tension = tendon.lower_tension = tendon.home_tension = tension;
-  const Vec2 down = turned(Vec2(std::cos(off_pin), std::sin(off_pin)), -0.5 * k_pi);
-  const Vec2 pull = turned(up.normal, -0.5 * k_pi);
+  const Vec2 down = rotate(Vec2(std::cos(off_pin), std::sin(off_pin)), -0.5 * k_pi);
+  const Vec2 pull = rotate(up.normal, -0.5 * k_pi);
   tendon.push = tendon.home_push = tension * (down - pull);
   return pull;
 }
@@ -361,16 +361,17 @@ double Bench::lump(double alpha) const {
   return hidden_.lump * std::exp(-0.5 * x * x);
 }
 
-Bench::Below Bench::below(std::size_t side, const Conditions& at, double longer, const Vec2& moved) const {
+Bench::LowerSpan Bench::place_lower_span(std::size_t side, const Conditions& at, double longer,
+                                         const Vec2& moved) const {
   const BenchTendon& tendon = tendons_[side];
   const double image_angle = tendon.sign * at.pulley;
-  Below below;
+  LowerSpan below;
   below.pin = {tendon.pin.centre + moved, tendon.pin.radius};
-  // The pulley stands still and the pin goes round it.
+  // In the frame of the pulley the pin moves around it.
   const Circle guide = seen_guide(tendon, below.pin);
-  const Circle seen{turned(guide.centre, image_angle), guide.radius};
+  const Circle seen{rotate(guide.centre, image_angle), guide.radius};
   const LowerString string = lower_string(tendon.hull, seen, tendon.corner);
-  below.normal = tendon.sheath.empty() ? direction(turned(string.normal, -image_angle)) : 0.0;
+  below.normal = tendon.sheath.empty() ? direction(rotate(string.normal, -image_angle)) : 0.0;
   below.corner = string.corner;
   below.over = tendon.over;
   below.wound = string.arc;
@@ -389,12 +390,12 @@ Bench::Below Bench::below(std::size_t side, const Conditions& at, double longer,
   return below;
 }
 
-// With the tension below the pin all else is known: what the groove takes, what must have slipped over the pin, how
-// far its bristle has bent, the tension above. Too much tension below is more than the bristle holds.
-Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
+// The tension below the pin determines the exchange with the groove, the slip over the pin, the bristle and the tension
+// above the pin. It is the root of: upper tension × friction ratio − lower tension.
+Bench::Trial Bench::evaluate(std::size_t side, LowerSpan& below, double theta) const {
   const BenchTendon& tendon = tendons_[side];
   const double image_theta = tendon.sign * theta;
-  const UpperString up = string_up(tendon, below.pin, image_theta, below.over);
+  const UpperString up = find_upper_string(tendon, below.pin, image_theta, below.over);
   const double normal = direction(up.normal);
   const double level = up.length + below.pin.radius * (normal - tendon.mark);
   const double longer = slant(level + below.length, below.rise);
@@ -403,7 +404,7 @@ Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
   Trial trial;
   const auto slip = [&](double slipped) {
     trial.slipped = slipped;
-    trial.bristle = bent(tendon.bristle, slipped);
+    trial.bristle = bend_bristle(tendon.bristle, slipped);
     trial.upper_tension = below.cord.tension(length, tendon.upper - slipped);
   };
   const auto too_little = [&](double tension) {
@@ -411,37 +412,37 @@ Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
     trial.pulley_tension = tension;
     trial.to_span = slipped;
     trial.sheath = tendon.sheath;
-    trial.lower_tension = through(trial.sheath, below.cord, tendon.home_tension, tension, slipped);
+    trial.lower_tension = pull_through(trial.sheath, below.cord, tendon.home_tension, tension, slipped);
     slip(slipped);
     return trial.upper_tension * ratio(wrap, trial.bristle) - trial.lower_tension;
   };
   const double loose = too_little(0.0);
   if (loose > 0) {
-    below.guess = solved(below.guess, loose, too_little);
+    below.guess = find_root(below.guess, loose, too_little);
     too_little(below.guess);
   } else {
-    // Both ends hang: no more slips than has to.
+    // Both parts are slack: the smallest possible slip.
     const double least = trial.slipped;
     slip(std::clamp(0.0, least, std::max(least, tendon.upper - length / below.cord.natural)));
     trial.to_span += trial.slipped - least;
   }
   trial.torque = trial.upper_tension * up.arm / longer;
-  trial.pull = turned(up.normal, -0.5 * k_pi);
-  const Vec2 down = turned(Vec2(std::cos(below.normal), std::sin(below.normal)), -0.5 * k_pi);
+  trial.pull = rotate(up.normal, -0.5 * k_pi);
+  const Vec2 down = rotate(Vec2(std::cos(below.normal), std::sin(below.normal)), -0.5 * k_pi);
   trial.push = trial.lower_tension * down - trial.upper_tension * trial.pull;
   return trial;
 }
 
-double Bench::excess(std::array<Below, 2>& below, double theta, const Conditions& at) const {
+double Bench::excess_torque(std::array<LowerSpan, 2>& below, double theta, const Conditions& at) const {
   const double weight = hidden_.gravity * std::sin(theta - hidden_.gravity_direction);
-  double all = tried(1, below[1], theta).torque - tried(0, below[0], theta).torque - at.load * R_ + weight;
+  double all = evaluate(1, below[1], theta).torque - evaluate(0, below[0], theta).torque - at.load * R_ + weight;
   all -= torque_declared_ + weight_ * std::sin(tilt_ - theta);
   all -= spring_.preload + spring_.stiffness * (theta - spring_.free);
   if (!torque_.empty()) {
     Moment then = at;
     then.theta_speed = (theta - theta_) / std::max(1e-9, at.seconds);
     then.theta = theta;
-    all += torque_.tried(then);
+    all += torque_.preview(then);
   }
   return all;
 }
@@ -452,13 +453,13 @@ double Bench::dry_friction(const Conditions& at) {
   return std::max(0.0, hidden_.bearing + stick + dry_(at));
 }
 
-// From where it stands the joint goes towards what pulls harder, until the pull is used up.
-double Bench::balanced(std::array<Below, 2>& below, const Conditions& at, double dry) const {
-  const double now = excess(below, theta_, at);
+// From θ the joint moves in the direction of the excess torque until dry friction balances it.
+double Bench::solve_balance(std::array<LowerSpan, 2>& below, const Conditions& at, double dry) const {
+  const double now = excess_torque(below, theta_, at);
   if (std::isnan(now)) return now;
   if (std::abs(now) <= dry) return theta_;
   const double towards = now > 0 ? 1.0 : -1.0;
-  const auto left = [&](double way) { return towards * excess(below, theta_ + towards * way, at) - dry; };
+  const auto left = [&](double way) { return towards * excess_torque(below, theta_ + towards * way, at) - dry; };
   double low = 0;
   double at_low = std::abs(now) - dry;
   double high = std::max(1e-6, 1.2 * std::abs(step_));
@@ -470,32 +471,33 @@ double Bench::balanced(std::array<Below, 2>& below, const Conditions& at, double
     if (!(std::abs(theta_ + towards * high) < furthest_)) return std::numeric_limits<double>::quiet_NaN();
     at_high = left(high);
   }
-  return theta_ + towards * crossing(low, at_low, high, at_high, 1e-12, left);
+  return theta_ + towards * find_root_between(low, at_low, high, at_high, 1e-12, left);
 }
 
-/// Pins that give way, and what makes a tendon longer by its tension, change the push and the tension: where the frame
-/// is softer than the tendons by more than it was. From what `there` was a step ago by Broyden's method, whose slopes
-/// are looked for anew where it goes astray; whether it ends where both agree.
+/// Fixed point of displacements that depend on the forces: compliant pins, and elongations that depend on tension.
+/// Broyden's method from the last displacements `there`; the Jacobian is recomputed if it does not converge. False
+/// without convergence.
 template <typename Answer>
-bool Bench::come_to_rest(Answer answer, Ways there) {
+bool Bench::solve_displacements(Answer answer, Displacements there) {
   constexpr double k_way = 1e-7, k_look = 1e-5;  // mm
   constexpr int k_astray = 15, k_most = 60;
-  const auto apart_at = [&](const Ways& ways) -> Ways { return answer(ways) - ways; };
-  Ways apart = apart_at(there);
+  const auto apart_at = [&](const Displacements& ways) -> Displacements { return answer(ways) - ways; };
+  Displacements apart = apart_at(there);
   for (int i = 1; i <= k_most && apart.allFinite(); ++i) {
     if (apart.norm() < k_way) return true;
     if (i % k_astray == 0) {
       Eigen::Matrix<double, 6, 6> slopes;
-      for (Eigen::Index k = 0; k < 6; ++k) slopes.col(k) = (apart - apart_at(there + k_look * Ways::Unit(k))) / k_look;
+      for (Eigen::Index k = 0; k < 6; ++k)
+        slopes.col(k) = (apart - apart_at(there + k_look * Displacements::Unit(k))) / k_look;
       towards_rest_ = slopes.inverse();
       if (!towards_rest_.allFinite()) break;
     }
-    const Ways step = towards_rest_ * apart;
+    const Displacements step = towards_rest_ * apart;
     there += step;
-    const Ways now_apart = apart_at(there);
-    const Ways along = towards_rest_ * (now_apart - apart);
+    const Displacements now_apart = apart_at(there);
+    const Displacements along = towards_rest_ * (now_apart - apart);
     const double share = step.dot(along);
-    // Of less the next step would be anything.
+    // A smaller denominator makes the update singular.
     if (std::abs(share) > 1e-3 * step.squaredNorm())
       towards_rest_ -= (step + along) * (step.transpose() * towards_rest_) / share;
     else
@@ -515,18 +517,18 @@ double Bench::to(double pulley, double alpha, const Conditions& conditions) {
   at.tension = now_.tension;
   at.pull = now_.pull;
   const double dry = dry_friction(at);
-  std::array<Below, 2> lower;
+  std::array<LowerSpan, 2> lower;
   std::array<Trial, 2> now;
   double theta = theta_;
-  const auto stand = [&](const Ways& ways) {
+  const auto stand = [&](const Displacements& ways) {
     for (std::size_t side = 0; side < 2; ++side) {
       const auto own = static_cast<Eigen::Index>(3 * side);
-      lower[side] = below(side, at, ways[own], ways.segment<2>(own + 1));
+      lower[side] = place_lower_span(side, at, ways[own], ways.segment<2>(own + 1));
     }
-    theta = balanced(lower, at, dry);
+    theta = solve_balance(lower, at, dry);
     if (!std::isfinite(theta)) return;
     for (std::size_t side = 0; side < 2; ++side) {
-      now[side] = tried(side, lower[side], theta);
+      now[side] = evaluate(side, lower[side], theta);
       at.tension[side] = now[side].upper_tension;
       at.pull[side] = in_image(side, now[side].pull);
     }
@@ -534,19 +536,19 @@ double Bench::to(double pulley, double alpha, const Conditions& conditions) {
     at.theta_speed = (theta - theta_) / std::max(1e-9, at.seconds);
   };
   const auto ways = [&](const std::array<Vec2, 2>& push) {
-    Ways all;
+    Displacements all;
     for (std::size_t side = 0; side < 2; ++side) {
       const auto own = static_cast<Eigen::Index>(3 * side);
-      all[own] = longer_[side].tried(at);
+      all[own] = longer_[side].preview(at);
       all.segment<2>(own + 1) = hidden_.frame_give * (push[side] - tendons_[side].home_push);
     }
     return all;
   };
-  const auto answer = [&](const Ways& before) -> Ways {
+  const auto answer = [&](const Displacements& before) -> Displacements {
     stand(before);
-    return std::isfinite(theta) ? ways({now[0].push, now[1].push}) : Ways::Constant(theta);
+    return std::isfinite(theta) ? ways({now[0].push, now[1].push}) : Displacements::Constant(theta);
   };
-  if (!come_to_rest(answer, ways({tendons_[0].push, tendons_[1].push})))
+  if (!solve_displacements(answer, ways({tendons_[0].push, tendons_[1].push})))
     return std::numeric_limits<double>::quiet_NaN();
   for (std::size_t side = 0; side < 2; ++side) {
     BenchTendon& tendon = tendons_[side];

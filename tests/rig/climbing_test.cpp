@@ -1,4 +1,4 @@
-// A bench whose pulleys are wound several times: its strings rise from the pin, or from where they end, to the groove.
+// Helical grooves: strings rise from the pin, or from their end, to the groove.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ DeclaredMechanism wrist_turns() {
   return declared;
 }
 
-/// Tendons that do not give way, and pins that do not rub.
+/// Rigid tendons and frictionless pins.
 DeclaredMechanism stiff(DeclaredMechanism declared) {
   declared.tendon.modulus = 1e9;
   declared.guides.mu = 0;
@@ -40,7 +40,7 @@ double furthest_off(const DeclaredMechanism& declared) {
   return degrees(off);
 }
 
-// The curves are those that build draws, from paths unrolled; here strings are laid on them in space.
+// Curves of `build` come from unrolled paths; here strings are laid on them in space.
 TEST(Climbing, FollowsDeclaredLaw) { EXPECT_LT(furthest_off(stiff(wrist_turns())), 5e-4); }
 
 TEST(Climbing, FollowsDeclaredLawWithCollars) {
@@ -49,7 +49,7 @@ TEST(Climbing, FollowsDeclaredLawWithCollars) {
   EXPECT_LT(furthest_off(declared), 5e-4);
 }
 
-// Else the groove would end where the knot of a pulley of one turn lies.
+// Otherwise the groove would end at the knot of a pulley of one turn.
 TEST(Climbing, TiesTendonsBehindSpareTurns) {
   const MadeJoint joint = make_joint(wrist_turns());
   const Bench bench(joint, {});

@@ -1,8 +1,13 @@
 /// \file
-/// Kinds of faults, in lists: effects of the catalogue, unmodelled faults, and held-out sets of the latter. rad, mm, N,
-/// s.
+/// Table of the faults that the rig can simulate. rad, mm, N, s.
 ///
-/// A new held-out set is a file heldout_NN.cpp with one function, declared here, and a line in fault_lists().
+/// Rows stand by their place in the chain: motor_faults.cpp, tendon_faults.cpp, joint_faults.cpp, sensor_faults.cpp.
+/// A split is the purpose of a row:
+/// - `named`: an effect of the catalogue that every joint with tendons has;
+/// - `wide`: an effect of a part that some joints have: drum, attachments, idlers, sheaths. Random joints draw none;
+/// - `tuning`: unmodelled; thresholds may be tuned on it;
+/// - `regression`: unmodelled, from a used-up held-out set, for the joints listed in CMakeLists.txt;
+/// - `heldout_13`: unmodelled, written without knowledge of the inference. Run once, never tuned on.
 #pragma once
 
 #include <string>
@@ -13,20 +18,20 @@
 
 namespace fusee::rig {
 
-/// What a fault is like but for its size: fixed for a case.
+/// The random properties of a fault other than its size. Constant within a case.
 struct Character {
   double sign = 1;
-  double angle = 0;  ///< within a turn
-  double share = 0;  ///< within 0 … 1
+  double angle = 0;  ///< 0 … 2π
+  double share = 0;  ///< 0 … 1
 };
 
-/// Everything that the numbers of an action depend on.
+/// Arguments from which the numbers of an action are computed.
 struct Draw : Character {
   double size = 0;
   const MadeJoint& joint;
 
   double pretension() const { return joint.declared.tendon.pretension; }
-  /// A place within the middle 60 % of the declared stroke, and of the declared range.
+  /// An angle in the middle 60 % of the declared range, by `share`.
   double alpha_within() const { return within(joint.alpha_min, joint.alpha_max); }
   double theta_within() const { return within(joint.declared.joint.theta_min, joint.declared.joint.theta_max); }
 
@@ -34,80 +39,46 @@ struct Draw : Character {
   double within(double low, double high) const { return low + (0.2 + 0.6 * share) * (high - low); }
 };
 
-/// The place in the joint's chain at which an action acts: a list of Hidden.
+/// The list of Hidden to which an action belongs.
 enum class Place {
   shaft,
-  one_tendon,  ///< tendon 2, or tendon 1 where the character's sign is negative
+  one_tendon,  ///< tendon 2; tendon 1 if the character's sign is negative
   tendon_2,
-  both_tendons,  ///< the action asks Moment::side which one
+  both_tendons,  ///< the action reads Moment::side
   joint_torque,
   dry_friction,
   load,
   reading,
 };
 
-/// Numbers of a report by their names there, in its units.
+/// Reported parameters, (name, value in its unit).
 using Numbers = std::vector<std::pair<std::string, double>>;
 
+/// Either sets members of Hidden (`set`) or adds an action (`act`) at `place`.
 struct Fault {
+  std::string split;
   std::string name;
-  double first = 0;  ///< a size to begin the search with, in a unit of the fault's own
-  double most = 0;   ///< nobody would build worse
-  /// Null: `act` acts at `place` instead, with the numbers that `parameters` makes.
+  double first = 0;  ///< initial size of the search, in the fault's own unit
+  double most = 0;   ///< largest plausible size
   void (*set)(Hidden&, double size, const Character&, const MadeJoint&) = nullptr;
-  /// Effects that are, physically, nearly the same: to report one of them is no false positive where the fault is
-  /// unmodelled, or left out of the catalogue.
+  /// Catalogue effects that are physically almost the same. If the fault is unmodelled or left out of the catalogue, a
+  /// report of one of them is no false positive.
   std::vector<std::string> kin = {};
-  Numbers (*numbers)(const Hidden&, const MadeJoint&) = nullptr;  ///< what a report should say; null: not a number
-  double least_seen = 3;                                          ///< in the noise's rms
+  Numbers (*numbers)(const Hidden&, const MadeJoint&) = nullptr;  ///< true values of the report; null: none
+  double least_seen = 3;                                          ///< smallest change of the reading, rms per noise rms
   Place place = Place::shaft;
+  std::vector<double> (*parameters)(const Draw&) = nullptr;  ///< numbers of the action; null: the size
   double (*act)(const Moment&, const std::vector<double>& numbers, std::vector<double>& memory) = nullptr;
-  std::vector<double> (*parameters)(const Draw&) = nullptr;
 
   void apply(Hidden& hidden, double size, const Character& character, const MadeJoint& joint) const;
 };
 
-/// Short names for the lists of faults, which are tables.
-namespace short_names {
-using H = Hidden;
-using C = Character;
-using D = Draw;
-using J = MadeJoint;
-using N = std::vector<double>;
-}  // namespace short_names
-
-/// A row of a table: an action at a place.
-Fault acting(const char* name, double first, double most, Place place, decltype(Fault::act) act,
-             decltype(Fault::parameters) parameters, std::vector<std::string> kin = {});
-
-struct FaultList {
-  std::string split;  ///< "named", "wide", or a split of unmodelled faults
-  std::vector<Fault> faults;
-  std::string seed_word = split;  ///< random_truth() draws by it: a split that is renamed keeps its joints
-};
-
-/// Every effect of the catalogue by its name, in the order of the chain.
-std::vector<Fault> named_faults();
-/// Effects of parts that only joints of the wider class have: drum, attachments, idlers, sheaths. A list of its own,
-/// since random joints draw their faults from the other one.
-std::vector<Fault> wide_faults();
-/// Unmodelled faults that thresholds may be tuned on.
-std::vector<Fault> tuning_faults();
-/// Unmodelled faults of used-up held-out sets, on joints that calibration once got wrong.
-std::vector<Fault> regression_faults();
-/// Unmodelled faults, written by someone who knew neither the inference nor its results: run once, never tuned on.
-std::vector<Fault> heldout_13_faults();
-
-/// The faults of several lists as one, in their order.
-std::vector<Fault> joined(const std::vector<std::vector<Fault>>& lists);
-
-/// All lists, the named one first.
-const std::vector<FaultList>& fault_lists();
-/// InputError, with the nearest name, where there is none.
+/// All rows in the order of the chain, names being unique.
+const std::vector<Fault>& all_faults();
+/// InputError with the nearest name for an unknown fault.
 const Fault& find_fault(const std::string& name);
-/// InputError for a split that there is not.
-const FaultList& find_split(const std::string& split);
-/// Names in a list. InputError for a split that there is not.
+/// Rows of a split in their order. InputError for an unknown split.
+std::vector<Fault> faults_in(const std::string& split);
 std::vector<std::string> names_in(const std::string& split);
 
 }  // namespace fusee::rig

@@ -1,18 +1,17 @@
-#include "rig/follow.h"
-
 #include <algorithm>
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/mechanism/fields.h"
+#include "rig/truths.h"
 
 namespace fusee::rig {
 namespace {
 
 constexpr double k_quarter = 0.25 * k_two_pi;
 
-/// The x at which `value`, in proportion to x but for a constant, is `target`.
+/// The x at which the affine function `value` is `target`.
 template <typename Value>
-double solved_for(double target, Value value) {
+double solve_linear(double target, Value value) {
   return (target - value(0.0)) / (value(1.0) - value(0.0));
 }
 
@@ -24,7 +23,7 @@ const Effect& effect_of(const EffectParameter& number) {
   throw InputError("rig", "no effect has the number " + number.name);
 }
 
-void drive(const PlannedRun& run, Case& made) {
+void make_run(const PlannedRun& run, Case& made) {
   RunPlan plan;
   plan.load = run.load;
   plan.speed = run.speed;
@@ -36,12 +35,12 @@ void drive(const PlannedRun& run, Case& made) {
   made.logs = log_runs(made.joint, made.hidden, made.plans, made.sensors, made.motion);
 }
 
-/// As calibrate reads it back from the file.
+/// Writes a reading into [prior], in the form that calibrate reads.
 void write_reading(const EffectParameter& number, double value, DeclaredMechanism& declared) {
   const Field* field = find_field(number.by_hand.key);
   if (field == nullptr) throw InputError("rig", "no key " + std::string(number.by_hand.key));
   std::vector<double>& prior = field->numbers(declared);
-  if (&prior == &declared.prior.modulus) {  // in proportion to what a tendon is not longer by
+  if (&prior == &declared.prior.modulus) {  // modulus is proportional to 1 / (1 + stretch)
     prior = {declared.tendon.modulus / (1.0 + value), 0.0};
     prior[1] = prior[0] * number.by_hand.uncertainty / (1.0 + value);
     return;
@@ -51,7 +50,7 @@ void write_reading(const EffectParameter& number, double value, DeclaredMechanis
     return number.by_hand.readings(declared).back().value;
   };
   const double per_unit = std::abs(read(1.0) - read(0.0));
-  const double written = solved_for(value, read);
+  const double written = solve_linear(value, read);
   prior = {written, number.by_hand.uncertainty / per_unit};
 }
 
@@ -60,7 +59,7 @@ void write_reading(const EffectParameter& number, double value, DeclaredMechanis
 double read_by_hand(const EffectParameter& number, const Case& made) {
   const Joint& range = made.joint.declared.joint;
   if (number.by_hand.tool == HandTool::protractor) {
-    const auto shown = [&](double theta) { return shown_by_joint_sensor(made.hidden, theta); };
+    const auto shown = [&](double theta) { return joint_sensor_reading(made.hidden, theta); };
     return (shown(range.theta_max) - shown(range.theta_min)) / (range.theta_max - range.theta_min) - 1.0;
   }
   const Effect& effect = effect_of(number);
@@ -68,14 +67,14 @@ double read_by_hand(const EffectParameter& number, const Case& made) {
     return made.hidden.modulus > 0 ? made.joint.declared.tendon.modulus / made.hidden.modulus - 1.0 : 0.0;
   const Fault& fault = find_fault(effect.name);
   for (const auto& [name, value] : fault.numbers(made.hidden, made.joint)) {
-    if (name == number.name) return solved_for(value, [&](double x) { return number.shown(x, made.joint.declared); });
+    if (name == number.name) return solve_linear(value, [&](double x) { return number.shown(x, made.joint.declared); });
   }
   throw InputError("rig", "the rig knows no " + number.name);
 }
 
 bool perform(const NextMeasurement& next, Case& made) {
   if (next.run) {
-    drive(*next.run, made);
+    make_run(*next.run, made);
     return true;
   }
   for (std::size_t i = 0; i < next.readings.size(); ++i) {

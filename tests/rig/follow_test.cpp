@@ -1,11 +1,10 @@
-// The next measurements, made on the rig.
-#include "rig/follow.h"
-
+// Further measurements on the rig.
 #include <gmock/gmock.h>
 
 #include "fusee/mechanism/fields.h"
 #include "rig/judge.h"
 #include "rig/test_joints.h"
+#include "rig/truths.h"
 
 namespace fusee::rig {
 namespace {
@@ -24,34 +23,22 @@ const EffectParameter& number(const std::string& effect, std::size_t i = 0) {
   return find_effect(effect, JointKind::tendons)->parameters[i];
 }
 
-TEST(Follow, ReadsByHandWhatIsHidden) {
-  Hidden hidden;
-  hidden.guide_radius = 0.7;
-  hidden.pulley_scale = -0.02;
-  hidden.radius_offset = 0.3;
-  hidden.backlash = 0.03;
-  hidden.pin_down[1] = 1.5;
-  hidden.gain = 0.04;
-  hidden.zero = -0.02;
+TEST(Follow, ManualReadingEqualsHiddenValue) {
   Case made = case_of({});
-  hidden.modulus = made.joint.declared.tendon.modulus / 3.0;
-  made.hidden = hidden;
-  EXPECT_NEAR(read_by_hand(number("guide_radius"), made), 0.7, 1e-12);
-  EXPECT_NEAR(read_by_hand(number("pulley_scale"), made), -0.02, 1e-12);
-  EXPECT_NEAR(read_by_hand(number("radius_offset"), made), 0.3, 1e-12);
-  EXPECT_NEAR(read_by_hand(number("backlash"), made), 0.03, 1e-12);
-  EXPECT_NEAR(read_by_hand(number("guide_position", 3), made), 1.5, 1e-12);
-  EXPECT_NEAR(read_by_hand(number("joint_sensor_gain"), made), 0.04, 1e-12);
-  EXPECT_NEAR(read_by_hand(number("zero_offset"), made), -0.02, 1e-12);
-  EXPECT_NEAR(read_by_hand(number("tendon_stretch"), made), 2.0, 1e-12);
+  made.hidden = {.radius_offset = 0.3, .pulley_scale = -0.02, .modulus = made.joint.declared.tendon.modulus / 3.0};
+  made.hidden.backlash = 0.03, made.hidden.guide_radius = 0.7, made.hidden.pin_down[1] = 1.5;
+  made.hidden.zero = -0.02, made.hidden.gain = 0.04;
+  const std::pair<const EffectParameter*, double> expected[] = {
+      {&number("guide_radius"), 0.7},  {&number("pulley_scale"), -0.02},    {&number("radius_offset"), 0.3},
+      {&number("backlash"), 0.03},     {&number("guide_position", 3), 1.5}, {&number("joint_sensor_gain"), 0.04},
+      {&number("zero_offset"), -0.02}, {&number("tendon_stretch"), 2.0},
+  };
+  for (const auto& [parameter, value] : expected)
+    EXPECT_NEAR(read_by_hand(*parameter, made), value, 1e-12) << parameter->name;
 }
 
-// A protractor sees the sensor's waves too.
-TEST(Follow, ProtractorReadsAllThatTheSensorShowsTooMuch) {
-  Hidden hidden;
-  hidden.joint_eccentricity = 0.05;
-  hidden.joint_eccentricity_phase = 0.4;
-  const Case made = case_of(hidden);
+TEST(Follow, ProtractorReadingIncludesSensorWaves) {
+  const Case made = case_of({.joint_eccentricity = 0.05, .joint_eccentricity_phase = 0.4});
   Imperfections same;
   same.sensor.eccentricity_sin = 0.05 * std::cos(0.4);
   same.sensor.eccentricity_cos = 0.05 * std::sin(0.4);
@@ -73,9 +60,7 @@ TEST(Follow, WritesReadingsIntoTheFile) {
 }
 
 TEST(Follow, DrivesRunsAfterThoseThatWereMade) {
-  Hidden hidden;
-  hidden.joint_eccentricity = 0.02;
-  Case made = case_of(hidden);
+  Case made = case_of({.joint_eccentricity = 0.02});
   const Log first = made.logs.front();
   PlannedRun run{.from = first.front().alpha, .to = -first.front().alpha, .cycles = 1, .speed = radians(30.0)};
   run.change = BenchChange::joint_sensor_turned;
@@ -90,7 +75,7 @@ TEST(Follow, DrivesRunsAfterThoseThatWereMade) {
   EXPECT_THAT(csv_text(made.logs[1], false, made.plans[1]), ::testing::HasSubstr("load_N,joint_sensor_turned_deg\n"));
 }
 
-TEST(Follow, DoesNothingThatItCannotMake) {
+TEST(Follow, RejectsInspections) {
   Case made = case_of({});
   EXPECT_FALSE(perform(next_inspection("mark the tendon"), made));
   EXPECT_EQ(made.plans.size(), 1u);

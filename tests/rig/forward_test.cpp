@@ -1,5 +1,4 @@
-// What faults do on the rig and in fusee's forward model, which share no equation: each fault's own part of the
-// reading, with the truth's numbers in both.
+// The rig and fusee's forward model, which share no equation, agree on the effect of each fault on the reading.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,8 +16,8 @@ namespace {
 struct SameFault {
   const char* name;
   void (*hide)(Hidden&);
-  void (*say)(Imperfections&);
-  double share;  ///< of the action that may be missed, rms: what was measured, and a little room
+  void (*imitate)(Imperfections&);
+  double share;  ///< largest difference per effect, rms: the measured one with a margin
 };
 
 void PrintTo(const SameFault& fault, std::ostream* out) { *out << fault.name; }
@@ -63,7 +62,7 @@ const std::vector<SameFault> k_faults{
 };
 // clang-format on
 
-class Same : public ::testing::TestWithParam<SameFault> {};
+class SameModel : public ::testing::TestWithParam<SameFault> {};
 
 std::vector<double> flat(const std::vector<Log>& logs) {
   std::vector<double> theta;
@@ -90,7 +89,7 @@ std::vector<double> less(std::vector<double> one, const std::vector<double>& oth
   return one;
 }
 
-/// Holds a fault's part of the reading, and the whole reading, by the rig against the model's.
+/// Compares a fault's effect on the reading, and the whole reading, of rig and model.
 void expect_same(const DeclaredMechanism& declared, const SameFault& fault, double load) {
   const MadeJoint joint = make_joint(declared);
   Hidden hidden;
@@ -99,7 +98,7 @@ void expect_same(const DeclaredMechanism& declared, const SameFault& fault, doub
   silent.noise = 0;
   MotionPlan motion;
   motion.rows_per_stroke = 60;
-  motion.loaded_first = true;  // as the model, which does not know what happened before a run, comes to its first row
+  motion.loaded_first = true;  // as in the model, which knows no history before a run
   const std::vector<RunPlan> runs = full_protocol(load);
   const std::vector<Log> faulty = log_runs(joint, hidden, runs, silent, motion);
   BenchLog log;
@@ -109,23 +108,23 @@ void expect_same(const DeclaredMechanism& declared, const SameFault& fault, doub
     for (const Row& row : run) bench.rows.push_back({row.time, row.alpha, row.load, row.temperature});
   }
   Imperfections at;
-  fault.say(at);
-  const std::vector<double> shown = less(flat(faulty), flat(log_runs(joint, {}, runs, silent, motion)));
-  const std::vector<double> said = less(flat(predict(declared, at, log)), flat(predict(declared, {}, log)));
-  const double size = rms(shown, std::vector<double>(shown.size(), 0.0));
-  const double miss = rms(shown, said);
+  fault.imitate(at);
+  const std::vector<double> simulated = less(flat(faulty), flat(log_runs(joint, {}, runs, silent, motion)));
+  const std::vector<double> predicted = less(flat(predict(declared, at, log)), flat(predict(declared, {}, log)));
+  const double size = rms(simulated, std::vector<double>(simulated.size(), 0.0));
+  const double miss = rms(simulated, predicted);
   EXPECT_GT(degrees(size), 0.01);
   EXPECT_LT(miss, fault.share * size) << degrees(size) << " deg, missed " << degrees(miss);
   EXPECT_LT(degrees(rms(flat(faulty), flat(predict(declared, at, log)))), 0.005);
 }
 
-TEST_P(Same, FaultActsAlike) {
+TEST_P(SameModel, FaultActsAlike) {
   DeclaredMechanism declared = testing::forearm();
   declared.tendon.modulus = 8000;
   expect_same(declared, GetParam(), 10);
 }
 
-/// Of the joints that people build, each with a load that its tendons bear beside their pretension.
+/// A fault on a joint of profiles/, with a load that its tendons bear.
 struct WideFault {
   const char* profile;
   double load;
@@ -155,20 +154,20 @@ const std::vector<WideFault> k_wide_faults{
 };
 // clang-format on
 
-class SameWide : public ::testing::TestWithParam<WideFault> {};
+class WideJoints : public ::testing::TestWithParam<WideFault> {};
 
-TEST_P(SameWide, FaultActsAlike) {
+TEST_P(WideJoints, FaultActsAlike) {
   const std::string file = std::string(FUSEE_SOURCE_DIR) + "/profiles/" + GetParam().profile + ".toml";
   DeclaredMechanism declared = read_mechanism(file).mechanism;
   declared.load = {};
   expect_same(declared, GetParam().fault, GetParam().load);
 }
 
-INSTANTIATE_TEST_SUITE_P(Fault, SameWide, ::testing::ValuesIn(k_wide_faults), [](const auto& fault) {
+INSTANTIATE_TEST_SUITE_P(Fault, WideJoints, ::testing::ValuesIn(k_wide_faults), [](const auto& fault) {
   return std::string(fault.param.profile) + "_" + fault.param.fault.name;
 });
 
-INSTANTIATE_TEST_SUITE_P(Fault, Same, ::testing::ValuesIn(k_faults),
+INSTANTIATE_TEST_SUITE_P(Fault, SameModel, ::testing::ValuesIn(k_faults),
                          [](const auto& fault) { return std::string(fault.param.name); });
 
 }  // namespace

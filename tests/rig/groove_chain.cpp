@@ -12,7 +12,7 @@ constexpr std::size_t k_table = 4096;
 /// Springs turn by about this much. Half of it moves no reading of the cases by 1e-4°.
 constexpr double k_spring_turn = radians(2.0);
 constexpr double k_short = 0.25;  // of that: melted into the next one
-/// Springs in a row that did not slide: none behind them does. One may have lost half its hold when it was cut.
+/// After this many springs without sliding, the inner ones do not slide. One may have lost half its hold when cut.
 constexpr int k_held = 2;
 constexpr double k_most_hold = 100;  // μφ: e^100 holds everything
 
@@ -115,8 +115,8 @@ void GrooveChain::reach(double take_off, double before, const Cord& cord) {
   measure();
 }
 
-// What comes loose at the knot slides outwards: each spring keeps as much as friction holds against its inner
-// neighbour, and all together are as long as before.
+// Released tendon slides outwards: each tension falls to the most that friction holds against its inner neighbour, while
+// the total length is constant.
 void GrooveChain::let_go(double material) {
   if (springs_.empty() || material == 0) return;
   double whole = 0;
@@ -150,7 +150,7 @@ void GrooveChain::let_go(double material) {
   springs_.front().length -= outer - whole;  // shorter than its material where all hangs loose
 }
 
-// Spring after spring: none is further from its outer neighbour than friction holds it.
+// From the take-off inwards, each tension is clamped to the friction limits of its outer neighbour.
 double GrooveChain::slid_out(double tension, std::vector<double>* after) const {
   double outer = tension;
   double longer = 0;
@@ -193,7 +193,7 @@ double GrooveChain::settle(double tension) {
     spring->length = cord_.length(spring->material, *now);
     spring->tension = *now;
   }
-  // What stands over the take-off goes; where the chain shrank, as much comes.
+  // Material beyond the take-off leaves the groove; if the chain has shrunk, the same amount enters.
   const auto melt = [&] {
     const Spring last = springs_.back();
     springs_.pop_back();

@@ -2,16 +2,37 @@
 /// Tendon that lies in its groove, from the knot to the take-off: a chain of springs whose nodes rub. N, mm, rad.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <vector>
 
-#include "rig/cord.h"
 #include "rig/string_geometry.h"
 
 namespace fusee::rig {
 
-/// By how much a convex polygon has turned at an arc along it, counted on through turns.
+/// T = EA ε (1 + ε/h). The unloaded length is material × `natural`.
+struct Cord {
+  double EA = 0;
+  double hardening = 0;  ///< h; 0: T = EA ε
+  double natural = 1;    ///< grows with warmth and creep
+
+  double strain_at(double tension) const {
+    if (hardening <= 0) return tension / EA;
+    return 0.5 * hardening * (std::sqrt(1.0 + 4.0 * tension / (EA * hardening)) - 1.0);
+  }
+  /// 0 when slack.
+  double tension(double length, double material) const {
+    const double strain = length / (material * natural) - 1.0;
+    if (!(strain > 0)) return 0.0;
+    return EA * strain * (hardening > 0 ? 1.0 + strain / hardening : 1.0);
+  }
+  bool operator==(const Cord&) const = default;
+  double length(double material, double tension) const { return material * natural * (1.0 + strain_at(tension)); }
+  double material(double length, double tension) const { return length / (natural * (1.0 + strain_at(tension))); }
+};
+
+/// Direction of a convex polygon at an arc along it, continuous over turns.
 class Turning {
  public:
   explicit Turning(const Hull& hull);
@@ -23,9 +44,9 @@ class Turning {
   std::vector<double> angle_;  ///< at even steps of arc
 };
 
-/// Each spring keeps its material for as long as it lies on the pulley; between two of them the tensions may differ by
-/// e^(μφ), φ being the turn of the groove from the middle of one to the middle of the other. What differs by more
-/// slides, spring after spring, from the take-off inwards.
+/// Each spring keeps its material while it is on the pulley. The tensions of neighbours differ by a factor of at most
+/// e^(μφ), where φ is the angle between their middles (capstan equation). Beyond, springs slide one by one, from the
+/// take-off inwards.
 class GrooveChain {
  public:
   GrooveChain() = default;
@@ -34,21 +55,20 @@ class GrooveChain {
 
   /// The groove leaves the tendon at this arc from now on. `before`: tension at the take-off up to now.
   void reach(double take_off, double before, const Cord& cord);
-  /// After reach(): the knot gives way by this much material.
+  /// After reach(): the knot releases this length of tendon.
   void let_go(double material);
-  /// Material that the groove takes from the free tendon since reach(), with this tension at the take-off; less than
-  /// nothing: gives. Grows with the tension where the groove grows, falls where springs slide out.
+  /// Material that the groove takes from the free tendon since reach() at this tension of the take-off; < 0: releases.
   double taken(double tension) const;
-  /// So be it. Returns what was taken.
+  /// Applies this tension. Returns the material taken.
   double settle(double tension);
 
   /// From the knot to the take-off, mm.
   double length() const { return take_off_ - knot_; }
-  /// Of all springs, mm.
+  /// Material of all springs, mm.
   double material() const;
-  /// Of the spring nearest to the knot; 0 when there is none.
+  /// Tension of the spring at the knot; 0 without springs.
   double knot_tension() const;
-  /// Stretched energy of all springs, N·mm; of T = EA ε alone.
+  /// Elastic energy of all springs for T = EA ε, N·mm.
   double stored() const;
   std::size_t springs() const { return springs_.size(); }
 
@@ -57,7 +77,7 @@ class GrooveChain {
     double length = 0;
     double material = 0;
     double tension = 0;
-    double hold = 1;  ///< most that the tension may be of its outer neighbour's
+    double hold = 1;  ///< largest ratio to the tension of its outer neighbour
   };
   void measure();
   double slid_out(double tension, std::vector<double>* after) const;
@@ -72,10 +92,10 @@ class GrooveChain {
   double take_off_ = 0;
   std::vector<Spring> springs_;  ///< the first at the knot
   double before_ = 0;
-  double cut_ = 0;    ///< material that came off with the groove
+  double cut_ = 0;    ///< material that left with the groove
   double fresh_ = 0;  ///< length wound since
   double fresh_hold_ = 1;
-  bool calm_ = false;  ///< nothing but the take-off can have made a spring slide
+  bool calm_ = false;  ///< only the take-off can have changed a tension
 };
 
 }  // namespace fusee::rig

@@ -1,4 +1,4 @@
-// Tendon in a round groove, where everything is known by hand: the capstan, slide by slide.
+// Tendon in a circular groove against the capstan equation.
 #include "rig/groove_chain.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST(Turning, IsArcOverRadius) {
     EXPECT_NEAR(turning.at(k_radius * angle) - turning.at(0.0), angle, 2e-6) << angle;
 }
 
-/// A pull slides a full wrap as far as e^(μφ) lets it: ∫ (T e^(−μφ) − T₀) r dφ / EA, up to where both are alike.
+/// Material released by a pull: ∫ (T e^(−μφ) − T₀) r dφ / EA up to the angle of equal tensions.
 TEST(Groove, PullSlidesByCapstanLaw) {
   for (const double friction : {0.1, 0.2, 0.5}) {
     GrooveChain chain = wound(k_two_pi, 10.0, friction);
@@ -53,7 +53,7 @@ TEST(Groove, PullSlidesByCapstanLaw) {
   }
 }
 
-/// Let down again only the near part slides back, at twice the friction.
+/// On unloading only the near part slides back, with twice the friction angle.
 TEST(Groove, RemembersLargestPull) {
   const double friction = 0.2;
   GrooveChain chain = wound(k_two_pi, 10.0, friction);
@@ -63,7 +63,7 @@ TEST(Groove, RemembersLargestPull) {
                          (14.0 * (1.0 - std::exp(-friction * front)) - 11.0 * (std::exp(friction * front) - 1.0)) /
                          (1 + 11.0 / k_EA);
   EXPECT_NEAR(-given(chain, k_two_pi, 14.0, 11.0), by_hand, 0.01 * by_hand);
-  EXPECT_NEAR(given(chain, k_two_pi, 11.0, 11.0), 0.0, 1e-6) << "and then nothing moves";
+  EXPECT_NEAR(given(chain, k_two_pi, 11.0, 11.0), 0.0, 1e-6) << "no change of tension";
 }
 
 TEST(Groove, WithoutFrictionIsFreeSpan) {
@@ -73,7 +73,7 @@ TEST(Groove, WithoutFrictionIsFreeSpan) {
   EXPECT_NEAR(chain.knot_tension(), 25.0, 1e-9);
 }
 
-/// Held fast it gives back what was laid, at the strain it was laid at: last on, first off.
+/// Without slip the groove returns material at the strain of winding: last on, first off.
 TEST(Groove, WithLargeFrictionKeepsWindingStrain) {
   GrooveChain chain = wound(2.0, 10.0, 1e6);
   chain.reach(k_radius * 2.5, 30.0, k_cord);
@@ -84,7 +84,7 @@ TEST(Groove, WithLargeFrictionKeepsWindingStrain) {
   EXPECT_NEAR(-chain.settle(3.0), 0.5 * k_radius / (1.0 + 10.0 / k_EA), 1e-9);
 }
 
-/// Wound and unwound under a pull that changes, round and round: the same loop again, and work is lost, never won.
+/// Cyclic winding under varying tension: a closed hysteresis that dissipates work.
 TEST(Groove, CycleGivesNoWork) {
   for (const double friction : {0.02, 0.2, 1.0, 20.0}) {
     GrooveChain chain = wound(2.0, 10.0, friction);
@@ -101,10 +101,10 @@ TEST(Groove, CycleGivesNoWork) {
         chain.reach(k_radius * next, before, k_cord);
         const double taken = chain.settle(tension);
         free_material += taken;
-        // The tendon is drawn in by `length` under the tension, and brings the energy of its stretch with it.
+        // The tendon moves in by `length` under tension and brings its elastic energy.
         const double middle = 0.5 * (before + tension);
         const double length = taken * (1.0 + middle / k_EA);
-        // The groove itself moves towards the free tendon by what is wound: that work is the motor's.
+        // The motor does the work of moving the groove by the wound length.
         const double motor = middle * k_radius * (next - turn);
         work[cycle] += motor - middle * length + 0.5 * middle * middle / k_EA * taken;
         before = tension;
@@ -113,11 +113,11 @@ TEST(Groove, CycleGivesNoWork) {
       work[cycle] -= chain.stored() - stored;
       if (cycle == 2) first_material = free_material;
     }
-    EXPECT_NEAR(free_material, first_material, 1e-5) << friction << ": it creeps from cycle to cycle";
+    EXPECT_NEAR(free_material, first_material, 1e-5) << friction << ": not periodic";
     EXPECT_NEAR(work[3], work[2], 1e-3) << friction;
     EXPECT_GT(work[3], -2e-4) << friction;
     if (friction == 0.2) {
-      EXPECT_GT(work[3], 0.01) << "sliding rubs";
+      EXPECT_GT(work[3], 0.01) << "sliding dissipates";
     }
   }
 }
@@ -128,7 +128,7 @@ double given_letting_go(GrooveChain& chain, double material) {
   return -chain.settle(10.0);
 }
 
-/// ∫ T (1 − e^(−μφ)) r dφ / EA stays behind: by so much less pulls the tendon towards its knot now.
+/// Retained material: ∫ T (1 − e^(−μφ)) r dφ / EA.
 TEST(Groove, KnotSlipComesOutLessFriction) {
   GrooveChain chain = wound(2.0, 10.0, 0.0);
   EXPECT_NEAR(given_letting_go(chain, 0.2), 0.2, 1e-9);
@@ -138,7 +138,7 @@ TEST(Groove, KnotSlipComesOutLessFriction) {
   EXPECT_NEAR(0.2 - given, kept, 0.03 * kept);
   EXPECT_NEAR(rubbing.knot_tension(), 10.0 * std::exp(-0.4), 0.05);
   GrooveChain little = wound(2.0, 10.0, 0.2);
-  EXPECT_NEAR(given_letting_go(little, 0.2 * kept), 0.0, 1e-6) << "and a little of it stays at the knot";
+  EXPECT_NEAR(given_letting_go(little, 0.2 * kept), 0.0, 1e-6) << "a small slip stays at the knot";
 }
 
 }  // namespace

@@ -29,26 +29,25 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Well enough that not to name it is to miss it.
-constexpr double k_well_seen = 2.5;  // noise rms
+constexpr double k_visible = 2.5;  // noise rms from which a fault is counted
 
 bool is_outside(const std::string& fault, const std::vector<std::string>& without) {
   return !has_name(fault) || holds(without, fault);
 }
 
-/// The groove rubs otherwise than the file says, whatever other faults there are.
+/// The friction of the groove differs from the file.
 bool has_other_groove(const Case& made) { return made.hidden.groove_friction != Hidden{}.groove_friction; }
 
 bool holds_truth(const std::vector<std::string>& group, const Case& made, const std::vector<std::string>& without) {
   if (has_other_groove(made) && holds(group, "groove_friction")) return true;
   return std::any_of(made.faults.begin(), made.faults.end(), [&](const std::string& fault) {
     if (!is_outside(fault, without)) return holds(group, fault);
-    const std::vector<std::string> kin = kin_of(fault);
+    const std::vector<std::string> kin = find_fault(fault).kin;
     return std::any_of(kin.begin(), kin.end(), [&](const std::string& name) { return holds(group, name); });
   });
 }
 
-/// How large a fault must be to show, rad at the joint, as the answer has it; 0 where it does not say.
+/// The reported detectable size of a fault, rad at the joint; 0: none reported.
 double detectable_size(const Calibration& found, const std::string& fault) {
   for (const Detectable& one : found.detectable) {
     if (one.name == fault) return one.smallest;
@@ -56,13 +55,14 @@ double detectable_size(const Calibration& found, const std::string& fault) {
   return 0;
 }
 
-/// The numbers of `fault` that `effect` reports.
-void add_covered(const std::string& fault, const FoundEffect& effect, const Case& made, std::vector<Covered>& all) {
+/// Checks the intervals that `effect` reports for `fault`.
+void check_intervals(const std::string& fault, const FoundEffect& effect, const Case& made,
+                     std::vector<IntervalCheck>& all) {
   const auto numbers = find_fault(fault).numbers;
   if (effect.name != fault || numbers == nullptr) return;
   for (const auto& [name, value] : numbers(made.hidden, made.joint)) {
     for (const FittedParameter& found : effect.parameters) {
-      // What is searched among whole numbers has no interval.
+      // Integers, such as the order of a wave, have no interval.
       if (found.name != name || !(found.high > found.low)) continue;
       const double away = (value - 0.5 * (found.low + found.high)) / (0.5 * (found.high - found.low));
       all.push_back({fault + " " + name, found.low <= value && value <= found.high, away});
@@ -78,39 +78,38 @@ void write(const std::filesystem::path& path, const std::string& text) {
 
 std::string percent(double value) { return fixed(100.0 * value, 1) + " %"; }
 
-/// Sums of one row of the matrix.
-struct Sums {
+/// Counts of one truth.
+struct MatrixRow {
   std::string truth;
-  std::size_t joints = 0, named = 0, held = 0, alone = 0, blamed = 0, wrong_alone = 0;
+  std::size_t joints = 0, named = 0, held = 0, alone = 0, empty = 0, wrong_alone = 0;
   std::array<std::size_t, k_verdicts.size()> verdicts{};
 };
 
-void add(Sums& sums, const Judgement& one) {
-  ++sums.joints;
-  sums.named += one.named;
-  sums.held += one.held;
-  sums.alone += one.alone;
-  sums.blamed += one.false_groups > 0 ? 1 : 0;
-  sums.wrong_alone += one.wrong_alone > 0 ? 1 : 0;
-  for (std::size_t i = 0; i < k_verdicts.size(); ++i) sums.verdicts[i] += one.verdict == k_verdicts[i] ? 1 : 0;
+void add(MatrixRow& row, const Judgement& one) {
+  ++row.joints;
+  row.named += one.named;
+  row.held += one.held;
+  row.alone += one.alone;
+  row.empty += one.false_groups > 0 ? 1 : 0;
+  row.wrong_alone += one.wrong_alone > 0 ? 1 : 0;
+  for (std::size_t i = 0; i < k_verdicts.size(); ++i) row.verdicts[i] += one.verdict == k_verdicts[i] ? 1 : 0;
 }
 
-std::string row_text(const Sums& sums) {
+std::string row_text(const MatrixRow& row) {
   const auto count = [](std::size_t value) { return value == 0 ? std::string("·") : std::to_string(value); };
-  std::string text = "| " + sums.truth + " | " + std::to_string(sums.joints) + " | ";
-  text += sums.named == 0
-              ? "– | – | – | "
-              : count(sums.held) + " | " + count(sums.alone) + " | " + count(sums.named - sums.held) + " | ";
-  text += count(sums.blamed) + " | " + count(sums.wrong_alone);
-  for (const std::size_t verdict : sums.verdicts) text += " | " + count(verdict);
+  std::string text = "| " + row.truth + " | " + std::to_string(row.joints) + " | ";
+  text += row.named == 0 ? "– | – | – | "
+                         : count(row.held) + " | " + count(row.alone) + " | " + count(row.named - row.held) + " | ";
+  text += count(row.empty) + " | " + count(row.wrong_alone);
+  for (const std::size_t verdict : row.verdicts) text += " | " + count(verdict);
   return text + " |\n";
 }
 
-/// Each number by itself, in the order of its first case.
+/// Coverage of each parameter, in the order of first occurrence.
 std::string coverage_table(const std::vector<Judgement>& judgements) {
   std::vector<std::pair<std::string, Rate>> rows;
   for (const Judgement& one : judgements) {
-    for (const Covered& number : one.numbers) {
+    for (const IntervalCheck& number : one.numbers) {
       auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& known) { return known.first == number.name; });
       if (row == rows.end()) row = rows.insert(rows.end(), {number.name, {}});
       row->second.part += number.within ? 1 : 0;
@@ -118,7 +117,7 @@ std::string coverage_table(const std::vector<Judgement>& judgements) {
     }
   }
   if (rows.empty()) return "";
-  std::string text = "\n| number | within its 95 % interval | of |\n|---|--:|--:|\n";
+  std::string text = "\n| parameter | within its 95 % interval | of |\n|---|--:|--:|\n";
   for (const auto& [name, rate] : rows)
     text += "| " + name + " | " + std::to_string(rate.part) + " | " + std::to_string(rate.all) + " |\n";
   return text;
@@ -138,31 +137,29 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
       one.outside.push_back(fault);
       continue;
     }
-    for (const FoundEffect& effect : found.effects) add_covered(fault, effect, made, one.numbers);
-    if (i < made.seen.size() && made.seen[i] < k_well_seen) continue;
+    for (const FoundEffect& effect : found.effects) check_intervals(fault, effect, made, one.numbers);
+    if (i < made.seen.size() && made.seen[i] < k_visible) continue;
     ++one.named;
-    const auto in = [&](const FoundEffect& effect) { return holds(effect.group, fault); };
-    const bool is_held = std::any_of(found.effects.begin(), found.effects.end(), in);
+    const auto is_in_group = [&](const auto& accepts) {
+      return std::any_of(found.effects.begin(), found.effects.end(), [&](const FoundEffect& effect) {
+        return holds(effect.group, fault) && accepts(effect.group);
+      });
+    };
+    using Group = std::vector<std::string>;
+    const bool is_held = is_in_group([](const Group&) { return true; });
     one.held += is_held ? 1 : 0;
-    if (!is_held) {
-      const double size = i < made.seen.size() ? made.seen[i] * made.sensors.noise : 0;
-      const double least = detectable_size(found, fault);
-      one.beyond += size >= least ? 1 : 0;
-      lost += "  (" + fault + " " + (least > 0 ? rounded(size / least, 2) : "?") + ")";
-    }
-    one.held_by_names += std::any_of(found.effects.begin(), found.effects.end(),
-                                     [&](const FoundEffect& e) { return in(e) && !holds(e.group, k_unmodelled); })
-                             ? 1
-                             : 0;
-    one.alone += std::any_of(found.effects.begin(), found.effects.end(),
-                             [&](const FoundEffect& e) { return in(e) && e.group.size() == 1; })
-                     ? 1
-                     : 0;
+    one.held_by_names += is_in_group([](const Group& group) { return !holds(group, k_unmodelled); }) ? 1 : 0;
+    one.alone += is_in_group([](const Group& group) { return group.size() == 1; }) ? 1 : 0;
+    if (is_held) continue;
+    const double size = i < made.seen.size() ? made.seen[i] * made.sensors.noise : 0;
+    const double least = detectable_size(found, fault);
+    one.beyond += size >= least ? 1 : 0;
+    lost += "  (" + fault + " " + (least > 0 ? rounded(size / least, 2) : "?") + ")";
   }
   std::string groups;
   for (const FoundEffect& effect : found.effects) {
     if (has_other_groove(made) && !holds(made.faults, "groove_friction"))
-      add_covered("groove_friction", effect, made, one.numbers);
+      check_intervals("groove_friction", effect, made, one.numbers);
     const bool wrong = !holds_truth(effect.group, made, without);
     one.false_groups += wrong ? 1 : 0;
     one.false_names += wrong && !holds(effect.group, k_unmodelled) ? 1 : 0;
@@ -174,9 +171,10 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
   for (const double times : made.seen) seen += (seen.empty() ? "" : ", ") + rounded(times, 3);
   one.words = made.truth + " #" + std::to_string(made.seed) + " (" + (seen.empty() ? "-" : seen) +
               " x noise): " + std::string(word(one.verdict)) + groups;
-  for (const Covered& number : one.numbers) one.words += "  <" + number.name + " " + rounded(number.away, 2) + ">";
+  for (const IntervalCheck& number : one.numbers)
+    one.words += "  <" + number.name + " " + rounded(number.away, 2) + ">";
   one.words += lost;
-  if (found.unexplained_rms > 0) one.words += "  left " + rounded(found.unexplained_rms / found.noise.rms, 2);
+  if (found.unexplained_rms > 0) one.words += "  residual " + rounded(found.unexplained_rms / found.noise.rms, 2);
   return one;
 }
 
@@ -205,7 +203,7 @@ Answer calibrate_case(const Case& made, const std::filesystem::path& folder, con
 
 Bounds wilson(const Rate& rate) {
   if (rate.all == 0) return {};
-  constexpr double z = 1.959963984540054;  // of 97.5 % of a normal distribution
+  constexpr double z = 1.959963984540054;  // 97.5 % quantile of the normal distribution
   const auto n = static_cast<double>(rate.all);
   const double middle = rate.share() + z * z / (2 * n);
   const double half = z * std::sqrt(rate.share() * (1 - rate.share()) / n + z * z / (4 * n * n));
@@ -215,96 +213,91 @@ Bounds wilson(const Rate& rate) {
 
 Rates rates(const std::vector<Judgement>& judgements) {
   Rates all;
-  const auto count = [](Rate& rate, bool is) {
-    rate.part += is ? 1 : 0;
-    ++rate.all;
-  };
+  const auto add_to = [](Rate& rate, std::size_t part, std::size_t of) { rate.part += part, rate.all += of; };
+  const auto count = [&](Rate& rate, bool is) { add_to(rate, is ? 1 : 0, 1); };
   for (const Judgement& one : judgements) {
-    const bool blamed = one.false_groups > 0;
-    count(!one.outside.empty() ? all.false_blame_outside : all.false_blame, blamed);
-    count(!one.outside.empty() ? all.false_names_outside : all.false_names, one.false_names > 0);
-    all.held_by_names.part += one.held_by_names;
-    all.held_by_names.all += one.named;
-    all.alone.part += one.alone;
-    all.alone.all += one.named;
+    const bool is_modelled = one.outside.empty();
+    count(is_modelled ? all.empty_groups : all.empty_groups_outside, one.false_groups > 0);
+    count(is_modelled ? all.false_names : all.false_names_outside, one.false_names > 0);
+    add_to(all.held_by_names, one.held_by_names, one.named);
+    add_to(all.alone, one.alone, one.named);
     count(all.wrong_alone, one.wrong_alone > 0);
     count(all.untestable, one.verdict == CalibrationVerdict::not_testable);
-    if (!one.outside.empty()) {
-      all.kept.part += one.held;
-      all.kept.all += one.named;
+    if (is_modelled) {
+      add_to(all.miss, one.named - one.held, one.named);
+      all.beyond += one.beyond;
+    } else {
+      add_to(all.kept, one.held, one.named);
       count(all.unexplained_outside,
             one.verdict == CalibrationVerdict::unexplained || one.verdict == CalibrationVerdict::not_repeatable);
-    } else {
-      all.miss.part += one.named - one.held;
-      all.miss.all += one.named;
-      all.beyond += one.beyond;
     }
     if (one.nothing) {
-      count(all.false_blame_nothing, blamed);
+      count(all.empty_groups_nothing, one.false_groups > 0);
       count(all.quiet, one.verdict == CalibrationVerdict::no_effect);
     }
-    for (const Covered& number : one.numbers) count(all.covered, number.within);
+    for (const IntervalCheck& number : one.numbers) count(all.covered, number.within);
   }
   return all;
 }
 
+namespace {
+
 std::string rate_table(const std::vector<Judgement>& judgements) {
+  const Rates found = rates(judgements);
+  const std::size_t held = found.miss.all - found.miss.part;
+  const std::pair<const char*, Rate> rows[] = {
+      {"false positive: a false group without `unmodelled`, per modelled joint", found.false_names},
+      {"false positive, per joint with an unmodelled fault", found.false_names_outside},
+      {"false group, with or without `unmodelled`, per modelled joint", found.empty_groups},
+      {"false group, per joint as declared", found.empty_groups_nothing},
+      {"false group, per joint with an unmodelled fault", found.empty_groups_outside},
+      {"false group of one member, per joint", found.wrong_alone},
+      {"alone: named fault alone in a group, all joints", found.alone},
+      {"named fault in a group without `unmodelled`, all joints", found.held_by_names},
+      {"held: named fault in a group, modelled joints", {held, found.miss.all}},
+      {"held, omitting missed faults smaller than `detectable`", {held, held + found.beyond}},
+      {"kept: named fault in a group, beside an unmodelled fault", found.kept},
+      {"unexplained or not repeatable, per joint with an unmodelled fault", found.unexplained_outside},
+      {"no effect, per joint as declared", found.quiet},
+      {"not testable, per joint (its faults count as missed)", found.untestable},
+      {"true value within its 95 % interval, per reported parameter of a true fault", found.covered},
+  };
   std::string text = "| rate | | of | 95 % bounds (Wilson) |\n|---|--:|--:|---|\n";
-  const auto row = [&](const char* words, const Rate& rate) {
+  for (const auto& [words, rate] : rows) {
     const Bounds bounds = wilson(rate);
     text += std::string("| ") + words + " | " + (rate.all == 0 ? "–" : percent(rate.share())) + " | " +
             std::to_string(rate.all) + " | " +
             (rate.all == 0 ? "–" : percent(bounds.low) + " … " + percent(bounds.high)) + " |\n";
-  };
-  const Rates found = rates(judgements);
-  row("false blame: a reported group that names nothing of what is there and does not say that it may be something "
-      "without a name, per joint whose faults all have names, or that has none",
-      found.false_names);
-  row("the same, per joint with a fault without a name (its kin among the named do not count)",
-      found.false_names_outside);
-  row("a reported group that names nothing of what is there, whatever else it says, per joint whose faults all have "
-      "names, or that has none",
-      found.false_blame);
-  row("the same, per joint as declared", found.false_blame_nothing);
-  row("the same, per joint with a fault without a name (its kin among the named do not count)",
-      found.false_blame_outside);
-  row("named alone and not there, per joint", found.wrong_alone);
-  row("named alone and there, per fault with a name, on all joints", found.alone);
-  row("in a reported group that does not say that it may be something without a name, the same", found.held_by_names);
-  row("held: in a reported group, per fault with a name, where all have one",
-      {found.miss.all - found.miss.part, found.miss.all});
-  row("the same, of those that are held or larger than what `detectable` says would have shown",
-      {found.miss.all - found.miss.part, found.miss.all - found.miss.part + found.beyond});
-  row("kept: in a reported group, per fault with a name beside one without", found.kept);
-  row("unexplained or not repeatable, per joint with a fault without a name", found.unexplained_outside);
-  row("no effect, per joint as declared", found.quiet);
-  row("not testable, per joint (what such a joint has counts as not held)", found.untestable);
-  row("true number within its 95 % interval, per number of a fault that is named", found.covered);
-  return text;
+  }
+  return text +
+         "\nmodelled: a joint with named faults only, or none. false group: neither a fault of the joint nor a "
+         "kin of an unmodelled one.\n";
 }
 
+}  // namespace
+
 std::string matrix(const std::vector<Judgement>& judgements) {
-  std::string text = "| truth | joints | held | alone | missed | false blame | wrong alone";
+  std::string text = "| truth | joints | held | alone | missed | false group | false and alone";
   for (const CalibrationVerdict verdict : k_verdicts) text += " | " + std::string(word(verdict));
   text += " |\n|---|";
   for (std::size_t i = 0; i < 6 + k_verdicts.size(); ++i) text += "--:|";
   text += "\n";
-  std::vector<Sums> rows;
+  std::vector<MatrixRow> rows;
   for (const Judgement& one : judgements) {
-    auto row = std::find_if(rows.begin(), rows.end(), [&](const Sums& sums) { return sums.truth == one.truth; });
-    if (row == rows.end()) row = rows.insert(rows.end(), Sums{one.truth});
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const MatrixRow& known) { return known.truth == one.truth; });
+    if (row == rows.end()) row = rows.insert(rows.end(), MatrixRow{one.truth});
     add(*row, one);
   }
-  for (const Sums& row : rows) text += row_text(row);
+  for (const MatrixRow& row : rows) text += row_text(row);
   text += "\n" + rate_table(judgements) + coverage_table(judgements);
-  text += "\nheld: in a reported group; alone: the group has no other member.\n";
   std::set<std::string> outside;
   for (const Judgement& one : judgements) outside.insert(one.outside.begin(), one.outside.end());
   std::string kin;
   for (const std::string& fault : outside) {
-    if (!kin_of(fault).empty()) kin += (kin.empty() ? "" : "; ") + fault + " is like " + joined(kin_of(fault));
+    const std::string names = joined(find_fault(fault).kin);
+    if (!names.empty()) kin += (kin.empty() ? "" : "; ") + fault + " is like " + names;
   }
-  if (!kin.empty()) text += "Kin, of faults without a name or whose name is left out: " + kin + ".\n";
+  if (!kin.empty()) text += "\nKin of faults that are unmodelled or left out: " + kin + ".\n";
   return text;
 }
 

@@ -1,5 +1,7 @@
 /// \file
-/// What calibration made of a case, held against the truth.
+/// Comparison of a calibration with the truth of its case, and rates over many cases.
+///
+/// A group is *false* if it holds neither a fault of the joint nor a kin of an unmodelled one.
 #pragma once
 
 #include <cstddef>
@@ -12,83 +14,81 @@
 
 namespace fusee::rig {
 
-/// A number that was reported with an interval, of a fault that is there.
-struct Covered {
-  std::string name;  ///< "backlash width_deg"
-  bool within = false;
-  double away = 0;  ///< of the truth from the interval's middle, in its half width
+/// A reported interval of a parameter of a true fault.
+struct IntervalCheck {
+  std::string name;     ///< "backlash width_deg"
+  bool within = false;  ///< the true value lies in the 95 % interval
+  double away = 0;      ///< true value − centre, per half width
 };
 
-/// One joint's answer.
+/// Counts for one joint. Faults that are hardly visible are not counted.
 struct Judgement {
   std::string truth;
   CalibrationVerdict verdict = CalibrationVerdict::not_testable;
-  std::size_t named = 0;          ///< faults that have a name and are well seen
-  std::size_t held = 0;           ///< of these, in a reported group
-  std::size_t held_by_names = 0;  ///< of these, in a group that does not say that it may be nothing with a name
-  std::size_t beyond = 0;         ///< of `named`, not held though more than `detectable` says would have shown
-  std::size_t alone = 0;          ///< of these, named alone
-  std::size_t false_groups = 0;   ///< reported groups whose names are neither a fault nor the kin of one without a name
-  std::size_t false_names = 0;    ///< of these, that do not say that it may be nothing with a name
-  std::size_t wrong_alone = 0;    ///< of these, with a single member
-  std::vector<std::string> outside;  ///< faults without a name that are there
-  bool nothing = false;              ///< a joint as declared, but perhaps for its groove's friction
-  std::vector<Covered> numbers;
-  /// One line for a person: !false {groups}evidence~nats ahead of [what has no name], <numbers, by half their
-  /// intervals>.
+  std::size_t named = 0;             ///< named faults
+  std::size_t held = 0;              ///< of `named`: in a reported group
+  std::size_t held_by_names = 0;     ///< of `named`: in a group without `unmodelled`
+  std::size_t beyond = 0;            ///< of `named`: not held, although larger than `detectable`
+  std::size_t alone = 0;             ///< of `named`: alone in a group
+  std::size_t false_groups = 0;      ///< false groups
+  std::size_t false_names = 0;       ///< false groups without `unmodelled`
+  std::size_t wrong_alone = 0;       ///< false groups of one member
+  std::vector<std::string> outside;  ///< unmodelled faults of the joint
+  bool nothing = false;              ///< a joint as declared, except perhaps for the friction of its groove
+  std::vector<IntervalCheck> numbers;
+  /// One line: !false {groups}evidence~lead over the unmodelled alternative[its words], <away of each number>, (missed
+  /// faults, size per detectable size).
   std::string words;
 };
 
-/// `without`: effects that were left out of the catalogue; a fault of that name is one without a name then.
+/// `without`: effects that were left out of the catalogue. A fault of that name counts as unmodelled.
 Judgement judge(const Case& made, const Calibration& found, const std::vector<std::string>& without = {});
 
-/// Its files; returns the runs.
+/// Writes the files of a case. Returns the paths of the runs.
 std::vector<std::filesystem::path> write_case(const Case& made, const std::filesystem::path& folder);
-/// The calibration of a case.
 struct Answer {
   Calibration found;
   Judgement judgement;
 };
-/// Writes its files, and calibrates what is read back.
+/// Writes the files of a case, reads them and calibrates.
 Answer calibrate_case(const Case& made, const std::filesystem::path& folder,
                       const std::vector<std::string>& without = {});
 
-/// A share that was counted.
+/// A counted share.
 struct Rate {
   std::size_t part = 0;
   std::size_t all = 0;
 
   double share() const { return all == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(all); }
 };
-/// 95 % of the shares that such a count may come from (Wilson 1927).
 struct Bounds {
   double low = 0;
   double high = 1;
 };
+/// 95 % score interval of a binomial proportion (Wilson 1927).
 Bounds wilson(const Rate& rate);
 
+/// *Modelled* joints have named faults only, or none. `_outside`: the rate over joints with an unmodelled fault.
 struct Rates {
-  Rate miss;                 ///< faults with a name that stand in no reported group, where all faults have names
-  Rate kept;                 ///< faults with a name that stand in a reported group, beside one without
-  std::size_t beyond = 0;    ///< of `miss`, more than `detectable` says would have shown
-  Rate held_by_names;        ///< faults with a name that stand in a group of names alone, on all joints
-  Rate alone;                ///< … and of these alone
-  Rate false_blame;          ///< joints with a false group, all faults named or nothing there
-  Rate false_blame_outside;  ///< the same of joints with a fault without a name
-  Rate false_blame_nothing;  ///< the same of joints as declared
-  Rate false_names;          ///< as false_blame, of groups that do not say that it may be nothing with a name …
-  Rate false_names_outside;  ///< … and as false_blame_outside
-  Rate wrong_alone;          ///< joints in which something was named alone that is not there
-  Rate unexplained_outside;  ///< joints with a fault without a name that were called unexplained or not_repeatable
-  Rate quiet;                ///< joints as declared that were called no_effect
-  Rate untestable;           ///< joints that were called not_testable: nothing of theirs can be held
-  Rate covered;              ///< numbers of named faults within their 95 % intervals
+  Rate miss;               ///< named faults in no group, modelled joints
+  Rate kept;               ///< named faults in a group, joints with an unmodelled fault
+  std::size_t beyond = 0;  ///< of `miss`: larger than `detectable`
+  Rate held_by_names;      ///< named faults in a group without `unmodelled`, all joints
+  Rate alone;              ///< named faults alone in a group, all joints
+  Rate empty_groups;       ///< modelled joints with a false group
+  Rate empty_groups_outside;
+  Rate empty_groups_nothing;  ///< joints as declared with a false group
+  Rate false_names;           ///< modelled joints with a false group without `unmodelled`
+  Rate false_names_outside;
+  Rate wrong_alone;          ///< joints with a false group of one member
+  Rate unexplained_outside;  ///< joints with an unmodelled fault called unexplained or not_repeatable
+  Rate quiet;                ///< joints as declared called no_effect
+  Rate untestable;           ///< joints called not_testable; their faults count as missed
+  Rate covered;              ///< parameters of true faults within their 95 % intervals
 };
 Rates rates(const std::vector<Judgement>& judgements);
 
-/// Rows = truths, columns = counts; the rates with their bounds and definitions, and each number's coverage, below.
+/// Counts of each truth, the rates with their bounds, and the coverage of each parameter. Markdown.
 std::string matrix(const std::vector<Judgement>& judgements);
-/// The rates alone.
-std::string rate_table(const std::vector<Judgement>& judgements);
 
 }  // namespace fusee::rig

@@ -1,12 +1,12 @@
-#include "rig/protocols.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "rig/truths.h"
 
 namespace fusee::rig {
 namespace {
 
-constexpr std::size_t k_most_rows = 1200;  // of a run: nobody who tries many joints waits for more
+constexpr std::size_t k_most_rows = 1200;  // of a run, to limit the time of many joints
 
 double even_ratio(Random& random, double low, double high) {
   return std::exp(random.between(std::log(low), std::log(high)));
@@ -63,7 +63,7 @@ Programme random_programme(Random& random, const MadeJoint& joint) {
   programme.motion.loaded_first = random.share() < 0.5;
   const double most_load = std::round(joint.declared.tendon.pretension * random.between(0.8, 1.8));
   const int runs = whole(random, 2, 7);
-  // Nobody begins with a staircase.
+  // The first run is strokes.
   programme.runs.push_back({0.0, even_ratio(random, radians(8.0), radians(25.0)), whole(random, 2, 4), 0.0});
   while (programme.runs.size() < static_cast<std::size_t>(runs)) {
     RunPlan run = any_run(random, most_load);

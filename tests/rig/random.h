@@ -1,5 +1,5 @@
 /// \file
-/// Random numbers that are the same on every machine: splitmix64 (Steele, Lea, Flood 2014) and Box-Muller.
+/// Random numbers, the same on every machine: splitmix64 (Steele, Lea, Flood 2014) and Box-Muller.
 #pragma once
 
 #include <cmath>
@@ -33,7 +33,7 @@ class Random {
   std::uint64_t state_;
 };
 
-/// What is drawn anew with every number; each `stream` by itself.
+/// An independent generator for each pair of `number` and `stream`.
 inline Random numbered(double number, std::uint64_t stream) {
   return Random(static_cast<std::uint64_t>(number) * 1000003ULL + stream);
 }

@@ -22,12 +22,12 @@ constexpr double k_cooling_time = 150.0;     // s
 
 double temperature_at(double time) { return k_warm - k_cooling * (1.0 - std::exp(-time / k_cooling_time)); }
 
-/// A wave that is nothing at 0.
+/// A wave that is zero at angle 0.
 double wave(double amplitude, int order, double angle, double phase) {
   return amplitude * (std::sin(order * angle + phase) - std::sin(phase));
 }
 
-/// From the motor's sensor to the pulley, with the play's memory.
+/// From the motor's sensor to the pulley, including play.
 class Drive {
  public:
   Drive(const Hidden& hidden, double stroke)
@@ -40,7 +40,7 @@ class Drive {
     pulley_ = std::clamp(pulley_, shaft_ - 0.5 * hidden_.backlash, shaft_ + 0.5 * hidden_.backlash);
     return pulley_ + (hidden_.bedding != 0 ? hidden_.bedding * std::exp(-travel_ / seat_) : 0.0) + added_(now);
   }
-  /// The pulley goes back off its seat.
+  /// The pulley leaves its seat.
   void begin_run() { travel_ = 0; }
 
  private:
@@ -58,12 +58,12 @@ class Drive {
   double travel_ = 0;
 };
 
-/// The joint at moments a little closer than the rows.
+/// θ at times closer than the rows.
 struct Track {
   std::vector<double> time;
   std::vector<double> theta;
 
-  /// Straight between moments; before the first one the joint stood still.
+  /// Linear interpolation; constant before the first time.
   double at(double moment) const {
     const auto after = std::upper_bound(time.begin(), time.end(), moment);
     if (after == time.begin()) return theta.front();
@@ -74,8 +74,8 @@ struct Track {
   }
 };
 
-/// What follows θ with a time constant: exact for a θ that goes straight from moment to moment.
-Track filtered(const Track& track, double constant) {
+/// First-order lag of θ, exact for piecewise linear θ.
+Track filter(const Track& track, double constant) {
   Track late = track;
   for (std::size_t i = 1; i < track.time.size(); ++i) {
     const double step = track.time[i] - track.time[i - 1];
@@ -87,7 +87,7 @@ Track filtered(const Track& track, double constant) {
   return late;
 }
 
-/// White noise with a memory.
+/// Autoregressive noise of order 1.
 class Noise {
  public:
   Noise(const SensorPlan& plan, std::size_t run) : plan_(plan), random_(plan.seed * 1000003 + run) {}
@@ -105,7 +105,7 @@ class Noise {
   bool first_ = true;
 };
 
-/// The joint and all that remembers, through the runs.
+/// The state of joint, drive and sensors over all runs.
 class Session {
  public:
   Session(const MadeJoint& joint, const Hidden& hidden, const SensorPlan& sensors, const MotionPlan& motion)
@@ -121,10 +121,10 @@ class Session {
         load_(hidden.load) {}
 
   Log run(const RunPlan& plan) {
-    const Way way = planned_way(plan, motion_, low_, high_);
+    const Way way = plan_way(plan, motion_, low_, high_);
     hidden_ = with_turned_sensors(as_mounted_, plan);
     begin(first_load(plan));
-    Log log = sensed(way, follow(way));
+    Log log = read_sensors(way, follow(way));
     time_ += way.back().time + motion_.pause;
     ++at_.run;
     return log;
@@ -169,15 +169,15 @@ class Session {
     go(low_, load, quarter);
   }
 
-  struct Followed {
+  struct TrackedRun {
     Track track;
     std::vector<Moment> rows;
   };
-  Followed follow(const Way& way) {
+  TrackedRun follow(const Way& way) {
     const bool slips = hidden_.slip != 0 && at_.run == hidden_.slip_run;
     const double slip_time = hidden_.slip_at * way.back().time;
     const double let_go = at_.let_go[hidden_.slip_side];
-    Followed done{{{0.0}, {move(way.front().alpha, 0.0, 1e-3)}}, {at_}};
+    TrackedRun done{{{0.0}, {move(way.front().alpha, 0.0, 1e-3)}}, {at_}};
     for (std::size_t row = 1; row < way.size(); ++row) {
       const WayPoint& from = way[row - 1];
       const WayPoint& to = way[row];
@@ -198,9 +198,11 @@ class Session {
   }
 
   /// The joint's sensor, but for noise.
-  double shown(double theta, const Moment& now) { return shown_by_joint_sensor(hidden_, theta) + reading_(now); }
-  Log sensed(const Way& way, const Followed& followed) {
-    const Track late = hidden_.lag_filter > 0 ? filtered(followed.track, hidden_.lag_filter) : followed.track;
+  double read_joint_sensor(double theta, const Moment& now) {
+    return joint_sensor_reading(hidden_, theta) + reading_(now);
+  }
+  Log read_sensors(const Way& way, const TrackedRun& followed) {
+    const Track late = hidden_.lag_filter > 0 ? filter(followed.track, hidden_.lag_filter) : followed.track;
     Noise noise(sensors_, at_.run);
     Random walk(sensors_.seed * 7919 + 31 * at_.run + 1);
     Log log;
@@ -208,7 +210,7 @@ class Session {
     for (std::size_t row = 0; row < way.size(); ++row) {
       if (way[row].reversal || row == 0) zero_walk_ += hidden_.zero_walk * walk.normal();
       const Moment& now = followed.rows[row];
-      double theta = shown(late.at(way[row].time - hidden_.lag), now) + zero_walk_;
+      double theta = read_joint_sensor(late.at(way[row].time - hidden_.lag), now) + zero_walk_;
       if (!way[row].logged) continue;
       theta += noise.next();
       if (sensors_.quantum > 0) theta = sensors_.quantum * std::round(theta / sensors_.quantum);
@@ -232,16 +234,16 @@ class Session {
   double zero_walk_ = 0;
 };
 
-/// A groove a little wider than its tendon, as any would do.
-HelixGroove plain_groove(const Mechanism& mechanism) {
+/// A groove slightly wider than its tendon.
+HelixGroove groove_of(const Mechanism& mechanism) {
   const double depth = mechanism.groove_depth(), d = mechanism.tendon.diameter;
   return {depth, d, [depth, d](double step) { return d + 2.0 * depth + std::max(1.0, std::abs(step)); }};
 }
 
-MadeJoint made_of_several_turns(const DeclaredMechanism& declared) {
+MadeJoint make_helical_joint(const DeclaredMechanism& declared) {
   SynthesisOptions options;
   options.tolerance = 2e-4;
-  const HelixSynthesis made = synthesise_helix(declared, plain_groove(declared), options);
+  const HelixSynthesis made = synthesise_helix(declared, groove_of(declared), options);
   if (!made.made()) throw InputError("rig", "no helical grooves for " + declared.name);
   MadeJoint joint{declared, {}, {}, made.stroke.front().alpha, made.stroke.back().alpha};
   const auto home = std::min_element(made.stroke.begin(), made.stroke.end(), [](const auto& a, const auto& b) {
@@ -266,7 +268,7 @@ Hidden with_turned_sensors(Hidden hidden, const RunPlan& plan) {
   return hidden;
 }
 
-double shown_by_joint_sensor(const Hidden& hidden, double theta) {
+double joint_sensor_reading(const Hidden& hidden, double theta) {
   return hidden.zero + (1.0 + hidden.gain) * theta +
          wave(hidden.joint_eccentricity, 1, theta, hidden.joint_eccentricity_phase) +
          wave(hidden.joint_harmonic, hidden.joint_harmonic_order, theta, hidden.joint_harmonic_phase) +
@@ -278,7 +280,7 @@ MadeJoint make_joint(const DeclaredMechanism& declared) {
   options.tolerance = 2e-5;
   options.advice = false;
   const SynthesisResult made = synthesise(declared, options);
-  if (need_several_turns(made)) return made_of_several_turns(declared);
+  if (need_several_turns(made)) return make_helical_joint(declared);
   if (!made.made()) throw InputError("rig", made.brief());
   return {declared, made.p1, made.p2, made.stroke.front().alpha, made.stroke.back().alpha};
 }
@@ -289,6 +291,17 @@ std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const st
   std::vector<Log> logs;
   for (const RunPlan& plan : runs) logs.push_back(session.run(plan));
   return logs;
+}
+
+SensorPlan noiseless() { return {.noise = 0}; }
+
+double rms_difference(const std::vector<Log>& one, const std::vector<Log>& other) {
+  double squares = 0, rows = 0;
+  for (std::size_t run = 0; run < one.size(); ++run) {
+    for (std::size_t row = 0; row < one[run].size(); ++row, ++rows)
+      squares += std::pow(one[run][row].theta - other[run][row].theta, 2);
+  }
+  return std::isfinite(squares) ? std::sqrt(squares / rows) : 0;
 }
 
 std::string csv_text(const Log& log, bool temperature, const RunPlan& plan) {

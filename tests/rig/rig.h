@@ -1,11 +1,10 @@
 /// \file
-/// A joint on a bench whose faults are known: what calibration is judged by.
+/// A simulated joint on a bench with known faults, by which calibration is judged.
 ///
 /// It shares no equation with the fit. Strings are wound on the polygon of the pulley that was made, or on the spiral
-/// (string_geometry.h); tendons are elastic between C, pin and pulley (bench.h); a tendon slips over its pin against a
-/// bristle that gives way (Dahl 1968), not by stick and slip; the joint stands where the torques balance, found by
-/// bracketing. Only the declared numbers and the outlines come from fusee. rad, mm, N, s unless the name says
-/// otherwise.
+/// (string_geometry.h). Tendons are elastic between C, pin and pulley (bench.h). Friction at a pin follows a bristle
+/// (Dahl 1968). θ is the root of the torque balance, found by bracketing. Only the declared numbers and the outlines
+/// come from fusee. rad, mm, N, s unless the name says otherwise.
 #pragma once
 
 #include <array>
@@ -22,7 +21,7 @@
 
 namespace fusee::rig {
 
-/// How a joint differs from what was declared. All zero: in nothing.
+/// Differences of a joint from its declaration. All zero: none.
 struct Hidden {
   // Motor sensor: the shaft stands at α + offset + amplitude (sin(n α + phase) − sin phase).
   double motor_offset = 0;
@@ -91,7 +90,7 @@ struct Hidden {
   double lag = 0;         ///< what is shown is this old, s
   double lag_filter = 0;  ///< what is shown follows with this time constant, s
 
-  // What no catalogue holds.
+  // Unmodelled.
   double lump = 0;        ///< both pulleys wrong at one place: tendon 2 wound, tendon 1 let out by this much more, mm
   double lump_at = 0;     ///< α
   double lump_width = 0;  ///< standard deviation, of α
@@ -105,7 +104,7 @@ struct Hidden {
   double zero_walk = 0;  ///< step of the joint sensor's zero at every reversal, standard deviation
   double bedding = 0;    ///< pulley still off its seat at the start of every run, of α
 
-  // Whatever else acts, by its place in the chain.
+  // Actions, by their place in the chain.
   std::vector<Action> shaft = {};                  ///< added to the pulley's angle, after the play, rad
   std::array<std::vector<Action>, 2> longer = {};  ///< the tendon's way below its pin is longer by this, mm
   std::vector<Action> torque = {};                 ///< on the joint, towards +θ, N·mm
@@ -116,7 +115,7 @@ struct Hidden {
   bool operator==(const Hidden&) const = default;
 };
 
-/// With its sensors turned as in `plan`, their zeros set again.
+/// Sensors turned as in `plan`, with new zeros.
 Hidden with_turned_sensors(Hidden hidden, const RunPlan& plan);
 
 struct SensorPlan {
@@ -127,6 +126,8 @@ struct SensorPlan {
   std::uint64_t seed = 1;
 };
 
+SensorPlan noiseless();
+
 struct Row {
   double time = 0;
   double alpha = 0;  ///< as the motor's sensor shows it
@@ -136,7 +137,7 @@ struct Row {
 };
 using Log = std::vector<Row>;
 
-/// A groove that climbs, as it was made.
+/// A helical groove as made.
 struct MadeSpiral {
   std::vector<SpiralRow> rows;  ///< none: the pulley has an outline
   double held_at = 0;           ///< height of the tendon's end on the joint, or of the collar that holds it at its pin
@@ -153,7 +154,7 @@ struct MadeJoint {
 
   bool climbs() const { return !spirals[0].rows.empty(); }
 };
-/// InputError when there is no pulley for it.
+/// InputError if no pulley exists.
 MadeJoint make_joint(const DeclaredMechanism& declared);
 
 /// The runs one after another on one clock and one joint. Before each the motor goes home, unloaded, and to the start
@@ -161,11 +162,14 @@ MadeJoint make_joint(const DeclaredMechanism& declared);
 std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs,
                           const SensorPlan& sensors = {}, const MotionPlan& motion = {});
 
-/// As a bench would have written it: time_s, alpha_deg, theta_deg, load_N, if asked for temperature_C, and how far the
+/// Rms of the differences of θ over all rows, rad. 0 where a joint has no equilibrium.
+double rms_difference(const std::vector<Log>& one, const std::vector<Log>& other);
+
+/// A log file: time_s, alpha_deg, theta_deg, load_N, if asked for temperature_C, and how far the
 /// sensors were turned, where they were.
 std::string csv_text(const Log& log, bool temperature = false, const RunPlan& plan = {});
 
 /// Reading of the joint's sensor at `theta`, but for its delay, noise and actions.
-double shown_by_joint_sensor(const Hidden& hidden, double theta);
+double joint_sensor_reading(const Hidden& hidden, double theta);
 
 }  // namespace fusee::rig

@@ -13,24 +13,23 @@ namespace {
 constexpr double k_noise = radians(0.02);
 constexpr double k_least_seen = 3.0;  // noise rms
 constexpr double k_most_seen = 15.0;
-constexpr int k_rows_per_stroke = 30;  // and two cycles a run: nobody who tries many pairs waits for more
+constexpr int k_rows_per_stroke = 30;  // few, and two cycles a run, so that many pairs can be tried
 constexpr int k_attempts = 40;         // joints drawn
-constexpr int k_looks = 8;             // for a size
+constexpr int k_iterations = 8;        // of a size
 
-/// A joint in one state.
 struct BenchState {
   MadeJoint joint;
   Hidden hidden;
 };
 
-/// The change, by a size that grows with it.
+/// A change whose effect grows with `size`.
 struct SizedChange {
   double first = 0;
   double most = 0;
   std::function<void(BenchState&, double size)> apply;
 };
 
-SizedChange change_named(const std::string& name, Random& random) {
+SizedChange find_change(const std::string& name, Random& random) {
   const Character character{random.sign(), random.between(0.0, k_two_pi), random.share()};
   if (name == "pretension") {
     return {0.3, 0.9, [character](BenchState& state, double size) {
@@ -49,53 +48,21 @@ std::vector<Log> logs_of(const BenchState& state, const std::vector<RunPlan>& pl
   return log_runs(state.joint, state.hidden, plans, sensors, motion);
 }
 
-/// Rms in rad; 0 where a joint would not hold.
-double apart(const std::vector<Log>& one, const std::vector<Log>& other) {
-  double squares = 0, rows = 0;
-  for (std::size_t run = 0; run < one.size(); ++run) {
-    for (std::size_t row = 0; row < one[run].size(); ++row) {
-      const double difference = one[run][row].theta - other[run][row].theta;
-      if (!std::isfinite(difference)) return 0;
-      squares += difference * difference;
-      rows += 1;
-    }
-  }
-  return std::sqrt(squares / rows);
-}
-
-std::vector<Log> silent_logs(const BenchState& state, const std::vector<RunPlan>& plans) {
-  SensorPlan silent;
-  silent.noise = 0;
-  return logs_of(state, plans, silent);
-}
-
-/// `from` with the change at the size at which it moves the reading by about `target`; returns by how much it does.
+/// Applies the change at the size that moves the reading by about `target`. Returns that movement, rms, rad; 0: none.
 double apply_sized(const SizedChange& change, double target, const std::vector<RunPlan>& plans, BenchState& state) {
   const BenchState from = state;
-  const std::vector<Log> without = silent_logs(from, plans);
-  double size = change.first;
-  for (int look = 0; look < k_looks; ++look) {
+  const std::vector<Log> without = logs_of(from, plans, noiseless());
+  const SizedFault found = find_size(change.first, change.most, target, k_iterations, [&](double size) {
     state = from;
     change.apply(state, size);
-    double moved = 0;
-    try {
-      moved = apart(silent_logs(state, plans), without);
-    } catch (const InputError&) {
-      moved = 0;
-    }
-    if (moved == 0) {
-      size *= 0.4;
-      continue;
-    }
-    if (std::abs(moved - target) < 0.15 * target || (size >= change.most && moved < target)) return moved;
-    size = std::min(change.most, size * std::clamp(target / moved, 0.1, 10.0));
-  }
-  return 0;
+    return rms_difference(logs_of(state, plans, noiseless()), without);
+  });
+  return found.is_met ? found.moved : 0;
 }
 
 using Paths = std::vector<std::filesystem::path>;
 
-Paths written(const std::vector<Log>& logs, const std::filesystem::path& folder) {
+Paths write_runs(const std::vector<Log>& logs, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   Paths files;
   for (std::size_t run = 0; run < logs.size(); ++run) {
@@ -115,31 +82,28 @@ bool try_pair(StatePair& pair, Random& random, std::uint64_t seed, const std::fi
   const auto target = [&] { return k_noise * std::exp(random.between(std::log(k_least_seen), std::log(k_most_seen))); };
   pair.common.clear();
   if (random.share() < 0.5) {
-    const std::vector<std::string> all = changes_drawn();
+    const std::vector<std::string> all = changes_to_draw();
     pair.common = all[static_cast<std::size_t>(random.share() * static_cast<double>(all.size()))];
     if (pair.common == pair.change) return false;
-    if (apply_sized(change_named(pair.common, random), target(), plans, state) == 0) return false;
+    if (apply_sized(find_change(pair.common, random), target(), plans, state) == 0) return false;
   }
   BenchState after = state;
   pair.seen = 0;
   if (pair.change != "nothing") {
-    pair.seen = apply_sized(change_named(pair.change, random), target(), plans, after) / k_noise;
+    pair.seen = apply_sized(find_change(pair.change, random), target(), plans, after) / k_noise;
     if (pair.seen < 0.85 * k_least_seen || pair.seen > 1.3 * k_most_seen) return false;
-    // Half of the causes go away.
+    // In half of the pairs the cause disappears.
     if (random.share() < 0.5) std::swap(state, after);
   }
-  SensorPlan sensors;
-  sensors.noise = k_noise;
-  if (seed % 4 == 3) sensors.colour = 0.6;
-  if (seed % 4 == 0) sensors.quantum = radians(0.04);
+  SensorPlan sensors = usual_sensors(seed);
   sensors.seed = 2 * seed;
   const std::vector<Log> first = logs_of(state, plans, sensors);
   sensors.seed = 2 * seed + 1;
   const std::vector<Log> second = logs_of(after, plans, sensors);
-  if (!std::isfinite(apart(first, second)) || apart(first, second) == 0) return false;
-  Paths files = written(first, folder / "before");
+  if (rms_difference(first, second) == 0) return false;
+  Paths files = write_runs(first, folder / "before");
   pair.runs.before = read_measurement(files, pair.joint.declared);
-  const Paths later = written(second, folder / "after");
+  const Paths later = write_runs(second, folder / "after");
   pair.runs.after = read_measurement(later, pair.joint.declared);
   files.insert(files.end(), later.begin(), later.end());
   pair.runs.both = read_measurement(files, pair.joint.declared);
@@ -148,7 +112,7 @@ bool try_pair(StatePair& pair, Random& random, std::uint64_t seed, const std::fi
 
 }  // namespace
 
-std::vector<std::string> changes_drawn() {
+std::vector<std::string> changes_to_draw() {
   return {"pretension",   "slack",        "tendon_stretch",  "capstan_friction", "backlash",       "zero_offset",
           "motor_offset", "pulley_scale", "radius_offset",   "pulley_runout",    "joint_friction", "joint_sensor_gain",
           "gravity",      "sensor_lag",   "groove_friction", "guide_position"};

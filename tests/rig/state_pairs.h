@@ -1,5 +1,5 @@
 /// \file
-/// Pairs of states of one joint: a session at the bench before and one after a single cause changed, or none did.
+/// Pairs of sessions with one joint, between which one cause changed, or none.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ namespace fusee::rig {
 struct StatePair {
   std::string change;  ///< a fault's name, "pretension" or "nothing"
   std::string effect;  ///< its name in the catalogue
-  std::string common;  ///< a fault that both states have; "": none
+  std::string common;  ///< a fault of both states; "": none
   MadeJoint joint;
   ComparedRuns runs;
-  double seen = 0;  ///< by how much the change moves the reading, rms in units of the sensor's noise
+  double seen = 0;  ///< movement of the reading by the change, rms per noise rms
 };
 
-/// Causes that pairs are drawn from: what a joint does when it is retensioned, reprinted, reassembled, warm or worn.
-std::vector<std::string> changes_drawn();
+/// Causes of the drawn changes: retensioned, reprinted, reassembled, warm, worn.
+std::vector<std::string> changes_to_draw();
 
-/// Drawn by the seed: joint, protocol of five runs, what both states have, size and direction of the change. The runs
-/// are written to `folder` and read again.
+/// Draws joint, five runs, common fault, size and direction of the change by the seed. The runs are written to `folder`
+/// and read again.
 StatePair make_pair(const std::string& change, std::uint64_t seed, const std::filesystem::path& folder);
 
 }  // namespace fusee::rig

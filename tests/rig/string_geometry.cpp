@@ -20,7 +20,7 @@ std::size_t wrapped(std::ptrdiff_t corner, std::size_t count) {
   return static_cast<std::size_t>(((corner % n) + n) % n);
 }
 
-/// Where a string goes on beyond it: around a polygon without end, along a spiral up to its ends.
+/// True for all corners of a closed polygon, and for the corners of a spiral.
 bool has_corner(const Hull& hull, std::ptrdiff_t corner) {
   return !hull.climbs() || (corner >= 0 && corner < std::ssize(hull.corners));
 }
@@ -60,7 +60,7 @@ Hull spiral_of(Polygon corners, std::vector<double> height, std::ptrdiff_t home)
 UpperString upper_string(const Vec2& from, const Circle& pin) {
   const Vec2 span = pin.centre - from;
   const double straight = std::sqrt(span.squaredNorm() - pin.radius * pin.radius);
-  // Seen from its end the pin lies to the right: the circle is the far end here, which mirrors the offset.
+  // The circle is at the far end of the span, which mirrors the offset.
   const Vec2 along = (straight * span + pin.radius * turned_left(span)) / span.squaredNorm();
   return {straight, turned_left(along), cross(along, from)};
 }

@@ -1,17 +1,11 @@
 /// \file
-/// Joints and runs that tests of the rig share.
+/// Joints and runs shared by tests of the rig.
 #pragma once
 
 #include "rig/rig.h"
 #include "support/mechanisms.h"
 
 namespace fusee::rig {
-
-inline SensorPlan no_noise() {
-  SensorPlan sensors;
-  sensors.noise = 0;
-  return sensors;
-}
 
 inline MadeJoint forearm_with(double modulus, double friction) {
   DeclaredMechanism mechanism = testing::forearm();
@@ -20,7 +14,7 @@ inline MadeJoint forearm_with(double modulus, double friction) {
   mechanism.tendon.pretension = 20;
   return make_joint(mechanism);
 }
-/// Without friction at its pins, and so stiff that θ follows the law under any load.
+/// Frictionless pins and tendons so stiff that θ follows the law under any load.
 inline const MadeJoint& stiff() {
   static const MadeJoint joint = forearm_with(1e8, 0.0);
   return joint;
@@ -31,7 +25,7 @@ inline const MadeJoint& soft() {
 }
 
 inline Log run_of(const Hidden& hidden, const RunPlan& plan, const MadeJoint& joint) {
-  return log_runs(joint, hidden, {plan}, no_noise()).front();
+  return log_runs(joint, hidden, {plan}, noiseless()).front();
 }
 
 }  // namespace fusee::rig

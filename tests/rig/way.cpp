@@ -55,7 +55,7 @@ Way strokes(const RunPlan& plan, const MotionPlan& motion, double low, double hi
   return way.done();
 }
 
-void up_and_down(Builder& way, const std::vector<double>& levels) {
+void hold_levels(Builder& way, const std::vector<double>& levels) {
   for (const double load : levels) way.hold(load);
   for (auto load = std::next(levels.rbegin()); load != levels.rend(); ++load) way.hold(*load);
 }
@@ -67,7 +67,7 @@ Way staircase(const RunPlan& plan, double low, double high) {
   for (int cycle = 0; cycle < plan.cycles; ++cycle) {
     for (int i = cycle == 0 ? 0 : 1; i <= 2 * last; ++i) {
       way.go(low + (high - low) * (i <= last ? i : 2 * last - i) / last, plan.speed);
-      up_and_down(way, levels);
+      hold_levels(way, levels);
     }
   }
   return way.done();
@@ -92,7 +92,7 @@ Way ends(const RunPlan& plan, double low, double high) {
 
 double first_load(const RunPlan& plan) { return plan.levels.empty() ? plan.load : plan.levels.front(); }
 
-Way planned_way(const RunPlan& plan, const MotionPlan& motion, double low, double high) {
+Way plan_way(const RunPlan& plan, const MotionPlan& motion, double low, double high) {
   switch (plan.manner) {
     case Manner::strokes:
       return strokes(plan, motion, low, high);

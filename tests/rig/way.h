@@ -1,5 +1,5 @@
 /// \file
-/// How a motor is moved and a load hung on: from the plan of a run to its rows. rad, N, s.
+/// Motion and load of a run: from its plan to its rows. rad, N, s.
 #pragma once
 
 #include <vector>
@@ -27,7 +27,7 @@ struct RunPlan {
   double joint_turned = 0;          ///< the joint's sensor on its axis, the same
 };
 
-/// How all runs are made.
+/// Motion common to all runs.
 struct MotionPlan {
   int rows_per_stroke = 80;
   double reach = 0.93;        ///< share of the declared range of α that is swept
@@ -35,21 +35,21 @@ struct MotionPlan {
   bool loaded_first = false;  ///< the load is hung on at home, and not where the sweep begins
 };
 
-/// Where the motor's sensor is taken to, by increasing time.
+/// A commanded row, in increasing time.
 struct WayPoint {
   double time = 0;
   double alpha = 0;
   double load = 0;
   bool logged = true;
-  double direction = 0;   ///< of the last movement: ±1
-  bool reversal = false;  ///< it moves the other way from here on
+  double direction = 0;   ///< of the last motion: ±1
+  bool reversal = false;  ///< the direction changes here
 };
 using Way = std::vector<WayPoint>;
 
 /// Between α = `low` and `high`; the first point is the first row.
-Way planned_way(const RunPlan& plan, const MotionPlan& motion, double low, double high);
+Way plan_way(const RunPlan& plan, const MotionPlan& motion, double low, double high);
 
-/// The load that the first row is taken under.
+/// Load of the first row.
 double first_load(const RunPlan& plan);
 
 /// Load 0 slow, `load` slow, 0 fast, half slow, reversed slow.
