@@ -147,6 +147,11 @@ struct Thresholds {
   /// would see that it is there.
   double least_shared = 1.5;
 
+  /// Nats that an effect without a shape of its own must be ahead of an unmodelled cause.
+  double ahead_without_shape = 40.0;
+  /// Effects beside the best set that are tried as members of its groups.
+  std::size_t most_companions = 10;
+
   // ---- what is handed over ----
 
   /// Of the mean square that numbers beside something without a name leave of whole runs left out, with their curve,
