@@ -5,7 +5,6 @@
 #include "calibration/catalogue.h"
 #include "calibration/changes.h"
 #include "calibration/delivered.h"
-#include "calibration/evenness.h"
 #include "calibration/expected_sizes.h"
 #include "calibration/explanation.h"
 #include "calibration/next_measurements.h"
@@ -211,11 +210,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
   if (options.audit) {
     take_audit(audit(evidence, workers, selection), calibration);
     const std::vector<Unmodelled> unmodelled = unmodelled_rivals(evidence, workers, selection);
-    const std::vector<Evenness> even = evenness(evidence, workers, selection);
-    for (std::size_t i = 0; i < unmodelled.size(); ++i) {
-      calibration.effects[i].unmodelled = unmodelled[i];
-      calibration.effects[i].evenness = even[i];
-    }
+    for (std::size_t i = 0; i < unmodelled.size(); ++i) calibration.effects[i].unmodelled = unmodelled[i];
   }
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.tried = selection.tried;

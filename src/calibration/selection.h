@@ -35,8 +35,6 @@ struct Selection {
     double overall = 0;  ///< over all sets that hold it by their weight, and with whatever may be there beside it
   };
   std::map<const EffectParameter*, Variance> variance;
-  /// What has no name and is as likely as names of `best` that took its place.
-  std::optional<std::vector<Unknown>> instead;
   std::vector<Candidate> tried;
 };
 

@@ -78,25 +78,24 @@ Stakes stakes_of(const Calibration& found) {
   return {found.before.held_out_rms, found.after.held_out_rms, is_explained(found)};
 }
 
-/// Several effects at their largest may stand for a slip, or nearly; the slip needs none.
+/// True if the corrected file alone explains what several effects at their largest explain as well.
 bool is_simpler(const Trial& trial, const Stakes& stakes) {
-  const double noise = stakes.explained ? std::sqrt(k_thresholds.at_floor) : k_thresholds.slip_alone;
-  return is_within(trial, noise) && stakes.declared > k_thresholds.slip_large * trial.floor;
+  return is_within(trial, k_thresholds.slip_alone) && stakes.declared > k_thresholds.slip_large * trial.floor;
 }
 
-/// Whether the joint as meant is so much nearer to the data that something else beside the slip may stay unexplained.
+/// True if the corrected file is so much nearer to the data that another cause beside the slip may stay unexplained.
 bool is_clear(const Trial& trial, const Stakes& stakes) {
   return std::isfinite(stakes.by_effects) ? trial.left * k_thresholds.slip_clear < stakes.by_effects
-                                          : is_within(trial, k_thresholds.slip_near);
+                                          : is_within(trial, k_thresholds.slip_large);
 }
 
-/// Whether the joint as meant explains the data, at once or with effects beside it: by the rule of every calibration.
+/// True if the corrected file explains the data, alone or with effects beside it, by the rule of every calibration.
 bool explains(Trial& trial, const Measurement& read, const Stakes& stakes) {
   UndoneSlip& slip = trial.suspect.slip;
   slip.rms = trial.left;
   if (is_simpler(trial, stakes)) return true;
   if (stakes.explained || k_thresholds.slip_gain * trial.left > stakes.by_effects) return false;
-  if (slip.pulley_as_declared || !is_within(trial, k_thresholds.slip_far)) return is_clear(trial, stakes);
+  if (slip.pulley_as_declared || !is_within(trial, k_thresholds.slip_large)) return is_clear(trial, stakes);
   const Calibration found = calibrate(trial.suspect.joint, as_meant(read, trial.suspect));
   if (!is_explained(found)) return is_clear(trial, stakes);
   for (const FoundEffect& effect : found.effects) slip.beside.push_back(effect.name);
@@ -132,10 +131,9 @@ bool is_plainly_a_slip(const DeclaredMechanism& declared, const Measurement& as_
   const std::vector<Trial> all = trials(declared, data, floor);
   if (all.empty()) return false;
   const Stakes stakes{as_it_stands.left, as_it_stands.left, false};
-  // Beside the slip there may be a fault as large as any; and none that is known brings a right file as far off.
-  const bool is_far = !is_within(as_it_stands, k_thresholds.slip_far);
+  // A fault of any known size may stand beside the slip.
   return is_simpler(all.front(), stakes) ||
-         (is_far && is_within(all.front(), k_thresholds.slip_large) && is_clear(all.front(), stakes));
+         (is_within(all.front(), k_thresholds.slip_large) && is_clear(all.front(), stakes));
 }
 
 std::vector<UndoneSlip> slips_that_explain(const DeclaredMechanism& declared, const Measurement& as_read,

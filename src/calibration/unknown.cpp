@@ -245,14 +245,6 @@ double noise_beyond_floor(const Evidence& evidence, double noise) {
 
 }  // namespace
 
-bool goes_with_time(const Unnamed& unnamed) {
-  return std::any_of(std::begin(k_words), std::end(k_words), [&](const FactorWords& words) {
-    const bool of_time = words.factor == Factor::run || words.factor == Factor::drift || words.factor == Factor::stroke;
-    return of_time && std::any_of(unnamed.parts.begin(), unnamed.parts.end(),
-                                  [&](const Unknown& part) { return part.factor == words.name; });
-  });
-}
-
 bool is_of_place(Factor factor) { return factor == Factor::place || factor == Factor::direction; }
 
 Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
@@ -276,7 +268,7 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
     unknown.words = factor->words;
     unknown.rms = rms_of(part);
     unknown.evidence = gain;
-    if (unknown.rms < k_thresholds.least_seen * evidence.floor) continue;
+    if (unknown.rms < k_thresholds.least_left * evidence.floor) continue;
     if (has_course(factor->factor)) draw(angles, turned_over(angles, part, factor->factor), unknown);
     unnamed.parts.push_back(std::move(unknown));
   }
@@ -292,18 +284,6 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
 
 bool is_unexplained(const Unnamed& unnamed, double floor) {
   return unnamed.evidence > k_thresholds.unexplained && unnamed.rms > k_thresholds.least_left * floor;
-}
-
-bool is_without_a_part(const Unnamed& unnamed, const Unnamed& beside_others, double floor) {
-  const auto rms_here = [&](const std::string& factor) {
-    const auto same = std::find_if(unnamed.parts.begin(), unnamed.parts.end(),
-                                   [&](const Unknown& part) { return part.factor == factor; });
-    return same == unnamed.parts.end() ? 0.0 : same->rms;
-  };
-  return std::any_of(beside_others.parts.begin(), beside_others.parts.end(), [&](const Unknown& part) {
-    return part.rms >= k_thresholds.least_part_taken * floor &&
-           rms_here(part.factor) < k_thresholds.part_of_a_part_left * part.rms;
-  });
 }
 
 }  // namespace fusee

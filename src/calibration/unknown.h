@@ -19,16 +19,10 @@ struct Unnamed {
 /// Whether nothing but where the motor is and which way it came matters.
 bool is_of_place(Factor factor);
 
-/// Whether a part of it differs from run to run or from stroke to stroke, or goes on in time.
-bool goes_with_time(const Unnamed& unnamed);
-
 /// Parts that the data hardly need are not among them.
 Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit);
 
 /// Whether what is left is more than noise and the model's own error.
 bool is_unexplained(const Unnamed& unnamed, double floor);
-
-/// Whether a part that stays beside others is gone here, or nearly so, whatever else may stay.
-bool is_without_a_part(const Unnamed& unnamed, const Unnamed& beside_others, double floor);
 
 }  // namespace fusee

@@ -417,11 +417,10 @@ bool may_be_loose(const std::vector<std::string>& group, const EffectSet& catalo
   });
 }
 
-/// Nats by which a name must be ahead of what has none, where nothing stays unexplained.
+/// Nats by which an effect must exceed the best unmodelled cause in its place, where no other stays beside it.
 double least_ahead(const Effect& effect, const std::vector<std::string>& group, const EffectSet& catalogue) {
-  if (is_told_by_time(effect)) return k_thresholds.ahead_by_time;
-  if (may_be_loose(group, catalogue)) return k_thresholds.ahead_with_play;
-  return group.size() == 1 ? k_thresholds.ahead_of_unmodelled : k_thresholds.ahead_in_a_group;
+  const bool has_no_shape = is_told_by_time(effect) || may_be_loose(group, catalogue);
+  return has_no_shape ? k_thresholds.ahead_without_shape : k_thresholds.ahead_of_unmodelled;
 }
 
 /// Of names that are ahead of all else: `with`, the score with all of them.
@@ -436,19 +435,6 @@ void look_at_unnamed_effects(const Evidence& evidence, Workers& workers, const S
     rivals[i].behind = with - unnamed[i].score;
     rivals[i].words = std::move(unnamed[i].words);
     rivals[i].separating_run = std::move(unnamed[i].separating_run);
-  }
-}
-
-/// Says why the effect may be of what stays beside it, however far it is ahead.
-void doubt_beside_rest(FoundEffect& effect) {
-  const Evenness& even = effect.evenness;
-  Unmodelled& unmodelled = effect.unmodelled;
-  if (even.uneven > k_thresholds.most_uneven) {
-    unmodelled.doubt = "it would be of another size " + even.words + ", odds " + odds(even.uneven) +
-                       ", and something stays unexplained beside it";
-    unmodelled.separating_run = even.separating_run;
-  } else if (even.part < k_thresholds.least_part) {
-    unmodelled.doubt = "it does " + rounded(even.part, 2) + " times as much as what stays unexplained beside it";
   }
 }
 
@@ -494,20 +480,16 @@ std::vector<Unmodelled> unmodelled_rivals(const Evidence& evidence, Workers& wor
   return rivals;
 }
 
-void take_unmodelled(const Left& left, const Selection& selection, std::vector<FoundEffect>& effects) {
-  const bool beside_unmodelled =
-      left.anything || std::any_of(effects.begin(), effects.end(),
-                                   [](const FoundEffect& effect) { return effect.unmodelled.behind < 0; });
+void take_unmodelled(bool beside_unmodelled, const Selection& selection, std::vector<FoundEffect>& effects) {
+  const bool is_sure =
+      !beside_unmodelled && std::none_of(effects.begin(), effects.end(),
+                                         [](const FoundEffect& effect) { return effect.unmodelled.behind < 0; });
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    const Effect& found = *selection.best.effects[i];
     std::vector<std::string>& group = effects[i].group;
-    const bool is_doubtful =
-        selection.groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && is_told_by_time(found));
-    const double least =
-        beside_unmodelled ? k_thresholds.ahead_beside_rest : least_ahead(found, group, selection.catalogue);
-    if (left.anything && effects[i].unmodelled.behind >= least) doubt_beside_rest(effects[i]);
-    if (is_doubtful || effects[i].idle_did_as_well || effects[i].unmodelled.behind < least ||
-        !effects[i].unmodelled.doubt.empty())
+    const double least = is_sure ? least_ahead(*selection.best.effects[i], group, selection.catalogue)
+                                 : std::numeric_limits<double>::infinity();
+    if (selection.groups[i].doubt > k_thresholds.most_mistaken || effects[i].idle_did_as_well ||
+        effects[i].unmodelled.behind < least)
       group.emplace_back(k_unmodelled);
   }
 }

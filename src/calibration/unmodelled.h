@@ -14,13 +14,8 @@ namespace fusee {
 /// Of every accepted effect, in their order.
 std::vector<Unmodelled> unmodelled_rivals(const Evidence& evidence, Workers& workers, const Selection& selection);
 
-/// What stays beside all effects.
-struct Left {
-  bool anything = false;
-  bool in_time = false;  ///< and it walks, or differs from run to run
-};
-
-/// Groups that may hold nothing with a name say so. `effects`: what was found of the selection's best, in its order.
-void take_unmodelled(const Left& left, const Selection& selection, std::vector<FoundEffect>& effects);
+/// Adds k_unmodelled to each group whose cause may be unmodelled. `effects`: in the order of the best set.
+/// `beside_unmodelled`: an unmodelled cause remains beside all effects. Then it may be the cause of any of them.
+void take_unmodelled(bool beside_unmodelled, const Selection& selection, std::vector<FoundEffect>& effects);
 
 }  // namespace fusee

@@ -189,9 +189,7 @@ void conclude(const Evidence& evidence, const Selection& selection, const Unname
   const bool walks = is_walking(scatter) || is_scattering(calibration.noise);
   const std::string& load_unit = evidence.measurement.load_unit;
   calibration.noise_varies = noise_words(calibration.noise, load_unit);
-  if (selection.instead) calibration.instead = *selection.instead;
-  const bool in_time = walks || (unexplained && goes_with_time(unnamed));
-  take_unmodelled({unexplained || walks || selection.instead, in_time}, selection, calibration.effects);
+  take_unmodelled(unexplained || walks, selection, calibration.effects);
   calibration.verdict = verdict_of(walks, unexplained, calibration.effects);
 }
 

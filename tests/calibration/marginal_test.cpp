@@ -189,26 +189,6 @@ TEST(Unnamed, AWaveOfTheMotorsShaftIsSaidWithItsOrder) {
   EXPECT_THAT(wave->words, testing::HasSubstr("of the motor's shaft"));
 }
 
-// What is gone of one part may be made up for in the whole by another.
-TEST(Unnamed, IsWithoutAPartWhateverElseStays) {
-  const auto of = [](double place, double run) {
-    Unnamed unnamed;
-    for (const auto& [factor, rms] : {std::pair("run", run), std::pair("place", place)}) {
-      if (rms == 0) continue;
-      Unknown& part = unnamed.parts.emplace_back();
-      part.factor = factor;
-      part.rms = rms;
-    }
-    return unnamed;
-  };
-  constexpr double floor = 0.1;
-  EXPECT_TRUE(is_without_a_part(of(0, 0.5), of(0.3, 0.4), floor));
-  EXPECT_TRUE(is_without_a_part(of(0.14, 0.5), of(0.3, 0.4), floor));
-  EXPECT_FALSE(is_without_a_part(of(0.16, 0.5), of(0.3, 0.4), floor)) << "half of it stays";
-  EXPECT_FALSE(is_without_a_part(of(0, 0.5), of(0.09, 0.5), floor)) << "it is less than noise";
-  EXPECT_FALSE(is_without_a_part(of(0.3, 0), of(0.3, 0), floor));
-}
-
 TEST(Unnamed, NoiseIsNotDescribed) {
   const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 6)));
   Forward forward(joint(), evidence.log);

@@ -290,33 +290,6 @@ TEST(Selection, FrictionByAnotherLawIsNotNamedForSure) {
   EXPECT_THAT(named.effects.front().group, testing::ElementsAre("joint_friction"));
 }
 
-/// Of two joints, run by run in turn.
-Measurement in_turn(Measurement one, const Measurement& other) {
-  for (std::size_t i = 1; i < one.runs.size(); i += 2) one.runs[i] = other.runs[i];
-  return one;
-}
-
-TEST(Selection, AnEffectIsOfOneSize) {
-  const DeclaredMechanism declared = bench_joint();
-  const auto play_of = [&](double degrees) {
-    Imperfections at;
-    at.shaft.backlash = radians(degrees);
-    return logged(declared, at, {{0, 1}, {0, 1}, {3, 8}, {3, 8}});
-  };
-  const Calibration even = calibrate(declared, play_of(2));
-  ASSERT_EQ(even.effects.size(), 1u) << why(even);
-  EXPECT_LT(even.effects.front().evenness.uneven, 1);
-  EXPECT_GT(even.effects.front().evenness.part, 5);
-
-  const Calibration uneven = calibrate(declared, in_turn(play_of(1.5), play_of(2.5)));
-  const auto play = std::find_if(uneven.effects.begin(), uneven.effects.end(),
-                                 [](const FoundEffect& effect) { return effect.name == "backlash"; });
-  ASSERT_NE(play, uneven.effects.end()) << why(uneven);
-  EXPECT_GT(play->evenness.uneven, 30);
-  EXPECT_EQ(play->evenness.words, "from run to run");
-  EXPECT_EQ(play->group.back(), "unmodelled");
-}
-
 TEST(Selection, AWalkingZeroIsNoEffectOfTheCatalogue) {
   const DeclaredMechanism declared = bench_joint();
   Measurement measurement = logged(declared, {}, k_full);

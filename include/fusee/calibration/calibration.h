@@ -59,16 +59,6 @@ struct Unmodelled {
   double behind = std::numeric_limits<double>::infinity();
   std::string words;           ///< what it would be: "a wave of 5.2 times a turn of the motor"; "" where nothing is
   std::string separating_run;  ///< what would tell it from the effect
-  std::string doubt;           ///< why it may be that whatever the data say of it in the effect's place, or ""
-};
-
-/// Whether an effect is one thing: as large in every run, either way, everywhere and under any load.
-struct Evenness {
-  double uneven = 0;           ///< nats by which the data are likelier where it may be of another size …
-  std::string words;           ///< … "from run to run"
-  std::string separating_run;  ///< what would show whether it is
-  /// What it does, rms, by what is left beside all that was found; infinite: not asked.
-  double part = std::numeric_limits<double>::infinity();
 };
 
 /// A member of a group with its numbers.
@@ -96,7 +86,6 @@ struct FoundEffect {
   double evidence = 0;  ///< log of how many times less likely the data are without it
   Audit audit;
   Unmodelled unmodelled;
-  Evenness evenness;
   CorrectableBy correctable_by = CorrectableBy::nothing;
   /// A change's size by the standard error that the scatter from run to run gives it; infinite: not asked.
   double by_runs = std::numeric_limits<double>::infinity();
@@ -187,7 +176,6 @@ struct Calibration {
   double rest_autocorrelation = 0;  ///< of the residual after all effects, row to row; 0: white
   double unexplained_rms = 0;
   std::vector<Unknown> unknown;   ///< the largest first
-  std::vector<Unknown> instead;   ///< without a name, and as likely as names that were taken in its place
   EmpiricalCurve curve;           ///< of what of it depends on place and direction alone
   std::string unexplained_where;  ///< where in α, which direction, load, harmonic
   std::vector<Detectable> detectable;
