@@ -6,11 +6,11 @@
 
 #include "calibration/thresholds.h"
 
-// The joint of the file with all that was found but one effect, logged as these runs were, with this noise. In its
-// place stands nothing, or another effect of the catalogue, known to the search or not, or a shape without a name, as
-// large as the effect was found. Everything is linear about the fit: chords of each effect over its size in practice,
-// so that a joint is a vector of sums and a search costs milliseconds. The search is a plain one, the best addition
-// first, and a name costs what it needs to stand; what would stand in its group is no mistake.
+// Synthetic data: the declared joint with all found effects but one, logged as these runs were, with their noise. One
+// of four replaces the effect: nothing, an effect of the catalogue, an effect that the search does not know, or a
+// smooth discrepancy of its size. The model is linear about the fit, by chords of each effect over its expected sizes,
+// so a data set is a vector of sums and a search takes milliseconds. The search adds the best effect, at the penalty of
+// a reported effect. A true cause that would join the group is no false positive.
 
 namespace fusee {
 namespace {
@@ -18,17 +18,17 @@ namespace {
 constexpr int k_rounds = 4;
 constexpr int k_most_added = 3;
 constexpr std::size_t k_tries = 3;
-/// Of what was found: an effect that is smaller in practice cannot stand for it.
+/// Share of the size of the found effect: smaller effects cannot cause it.
 constexpr double k_as_large = 0.5;
 
-/// Chords of an effect over the rows in use, as columns of one matrix.
+/// Columns of an effect's chords over the rows in use.
 struct ChordColumns {
   const Effect* effect = nullptr;
   Eigen::Index first = 0;
   Eigen::Index count = 0;
 };
 
-/// Of a number, from practice and from a caliper.
+/// Prior size of a number, with caliper readings.
 double known_size(const Tangent& tangent, Eigen::Index k) {
   return 1.0 / std::sqrt(1.0 / (tangent.prior[k] * tangent.prior[k]) + tangent.read(k, k));
 }
@@ -52,8 +52,8 @@ class Auditor {
   struct World {
     Eigen::VectorXd pull;  ///< Aᵀ z
     double rr = 0;
-    const Effect* there = nullptr;    ///< what stands in the place
-    const Effect* unknown = nullptr;  ///< what the search does not know
+    const Effect* there = nullptr;    ///< true cause in the place of the found effect
+    const Effect* unknown = nullptr;  ///< effect that the search does not know
     Amplitudes start;
   };
   using Set = std::vector<std::size_t>;
@@ -68,11 +68,11 @@ class Auditor {
   const Selection& selection_;
   const Marginal& marginal_;
   std::vector<ChordColumns> chords_;
-  Eigen::VectorXd x_;  ///< as found; zero of what was not
+  Eigen::VectorXd x_;  ///< numbers as found; zero for other effects
   Eigen::VectorXd prior_;
-  Eigen::MatrixXd all_;  ///< chords, then the discrepancy's columns
+  Eigen::MatrixXd all_;  ///< chords, then columns of the discrepancy
   Eigen::MatrixXd gram_;
-  Eigen::Index own_ = 0;  ///< columns of chords
+  Eigen::Index own_ = 0;  ///< number of chord columns
   double give_ = 1;
 };
 
@@ -122,7 +122,7 @@ Auditor::Auditor(const Evidence& evidence, Workers& workers, const Selection& se
   prior_ = Eigen::Map<const Eigen::VectorXd>(prior.data(), own_);
 }
 
-/// As large and as coloured as that of these runs.
+/// Noise of the size and autocorrelation of these runs.
 Eigen::VectorXd Auditor::noise(std::mt19937_64& dice) const {
   std::normal_distribution<double> normal;
   const double colour = (1.0 - marginal_.worth()) / (1.0 + marginal_.worth());
@@ -145,7 +145,7 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
   const std::vector<Family>& families = marginal_.discrepancy().families;
   World made;
   made.start = marginal_.first_guess();
-  // What wriggles, and constants of strokes, cost most of the time: looked at where they are known to be.
+  // Families of many columns cost most of the time: used only if the data required them.
   const auto keep = [&](std::size_t f) {
     const Family& family = families[f];
     return family.count <= 12 || selection_.best.explained.amplitudes.families[static_cast<Eigen::Index>(f)] > 0;
@@ -178,7 +178,7 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
   size *= std::exp(0.5 * normal(dice));
   std::vector<std::size_t> others, shapes;
   for (std::size_t i = 0; i < chords_.size(); ++i) {
-    // What does as well stands in the group already.
+    // Equally likely rivals are members of the group already.
     const bool in_group = std::any_of(selection_.rivals.begin(), selection_.rivals.end(), [&](const Rival& rival) {
       return rival.accepted == selection_.best.effects[found] && rival.rival == chords_[i].effect &&
              as_good(evidence_, rival.fit, selection_.best);
@@ -189,7 +189,7 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
   for (std::size_t f = 0; f < families.size(); ++f) {
     if (!(families[f].fixed > 0) && families[f].factor != Factor::stroke) shapes.push_back(f);
   }
-  const std::size_t kind = number % 4;  // nothing, an effect that is known, one that is not, a shape
+  const std::size_t kind = number % 4;  // nothing, an effect, an effect that is not in the search, a discrepancy
   if ((kind == 1 || kind == 2) && !others.empty()) {
     const ChordColumns& other = chords_[others[(number / 4) % others.size()]];
     Eigen::VectorXd part = Eigen::VectorXd::Zero(all_.rows());
@@ -239,7 +239,7 @@ double Auditor::score_of(const Explained& explained, const Set& set) const {
   return score;
 }
 
-/// Adds what betters the score, the best first.
+/// Greedy search: adds the effect that improves the score most.
 Auditor::Set Auditor::search(const World& world, Set set) const {
   Explained here = marginal_.best(sums(world, set), world.start, k_rounds + 2);
   for (int step = 0; step < k_most_added; ++step) {
@@ -274,7 +274,7 @@ Auditor::Set Auditor::search(const World& world, Set set) const {
   return set;
 }
 
-/// Whether what is there stands in the group of what was named.
+/// True if the true cause would be a member of the group of the reported effect.
 bool Auditor::could_be(const World& world, const Set& found, std::size_t named) const {
   if (world.there == nullptr || world.there == world.unknown) return false;
   Set instead;

@@ -27,7 +27,7 @@ std::vector<std::vector<double>> residuals(const Measurement& measurement, const
   return all;
 }
 
-/// Of whole strokes.
+/// Figures over whole strokes.
 ErrorFigures figures(const Measurement& measurement, const std::vector<std::vector<double>>& all, double held_out) {
   ErrorFigures error;
   double squares = 0;
@@ -73,14 +73,14 @@ bool is_named(const Run& run, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), run.name) != names.end();
 }
 
-/// The runs that may be learnt from, or those kept for validation.
+/// The runs to fit, or those kept for validation.
 Measurement part(const Measurement& measurement, const std::vector<std::string>& hold_out, bool held) {
   Measurement chosen = measurement;
   std::erase_if(chosen.runs, [&](const Run& run) { return is_named(run, hold_out) != held; });
   return chosen;
 }
 
-/// Where runs were named, theirs are the held-out figures.
+/// Replaces the held-out figures by those of the runs kept for validation.
 void validate(const Mechanism& declared, const Measurement& kept, const Validated& answer, Calibration& calibration) {
   if (kept.runs.empty()) return;
   const auto rms = [&](const Imperfections& at) {
@@ -92,7 +92,8 @@ void validate(const Mechanism& declared, const Measurement& kept, const Validate
   for (const Run& run : kept.runs) calibration.held_out_runs.push_back(run.name);
 }
 
-/// The tendons' elastic model takes N across OC; read_measurement() and compare_with_declared() see to it.
+/// The elastic model of tendons requires a force in N across OC; read_measurement() and compare_with_declared() convert
+/// it.
 bool is_torque(const Mechanism& declared, const Measurement& measurement) {
   return !declared.transmission && (measurement.load_unit == "Nm" || measurement.load_unit == "Nmm");
 }
@@ -124,8 +125,8 @@ void describe_errors(const Evidence& evidence, const Measurement& measurement, c
   calibration.iso_after = iso230(measurement, calibration.residuals_after);
 }
 
-/// Of what the declared joint leaves: between rows that stand far apart θ(α) bends by more than noise. As logged where
-/// the declared joint has no place.
+/// Measurement minus the declared joint: between sparse rows θ(α) bends by more than noise. As logged if the declared
+/// joint has no equilibrium.
 Measurement about_declared(const Mechanism& declared, const Measurement& measurement,
                            const std::optional<EarlierState>& earlier) {
   const Readings model = predict(declared, {}, bench_log(measurement), earlier);
@@ -139,7 +140,7 @@ Measurement about_declared(const Mechanism& declared, const Measurement& measure
   return about;
 }
 
-/// A number that does nothing is as declared.
+/// Numbers that have no effect are reset to the declared value.
 Imperfections without_idle_numbers(const Fit& fit, const Imperfections& numbers) {
   Imperfections at = numbers;
   for (const EffectParameter* parameter : fit.parameters) {
@@ -154,8 +155,8 @@ void describe_changes(const Evidence& evidence, const Selection& selection, Cali
   for (std::size_t i = 0; i < sizes.size(); ++i) calibration.effects[i].by_runs = sizes[i];
 }
 
-/// Rows that a correction is measured by: the runs that were kept for validation, or whole runs left out in turn. A lone
-/// run is judged by the numbers that its strokes were validated with.
+/// Held-out rows for the validation of a correction: the runs kept for validation, or whole runs left out in turn. A
+/// single run is validated with the numbers of all its strokes.
 std::vector<LeftOut> left_out(const Evidence& evidence, const Estimate& estimate, const std::vector<std::string>& kept,
                               const Imperfections& identified) {
   if (!kept.empty()) return {{kept, identified}};
@@ -167,7 +168,7 @@ std::vector<LeftOut> left_out(const Evidence& evidence, const Estimate& estimate
   return all;
 }
 
-/// A name that simulated joints without it bear too often is none to stand alone: what was read as it joins the group.
+/// Adds the true causes of an effect's false positives to its group.
 void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
   for (std::size_t i = 0; i < audited.size(); ++i) {
     FoundEffect& effect = calibration.effects[i];

@@ -8,16 +8,15 @@
 #include "calibration/held_out.h"
 #include "calibration/thresholds.h"
 
-// Beside an unmodelled cause the likeliest numbers leave to it all that it may explain as well. A file is to predict:
-// where runs that were left out are predicted better by numbers of least squares, nothing speaks for the others, nor
-// for an interval that does not hold them. One member of a group is there, and perhaps another beside it: where both
-// predict better still, both are handed over, and the group stays a group. A correction that a pulley would make is not
-// handed over so: metal is not cut for a perhaps.
+// Beside a significant discrepancy the MAP estimate may attribute a part of an effect to the discrepancy. Least squares
+// are reported if they predict held-out rows better. A group may have two members present: a second member is included
+// if the prediction improves further, and the group stays. Effects that the pulley corrects are never included that
+// way, since a part is made from them.
 
 namespace fusee {
 namespace {
 
-/// Mean squares of what was left out, rad²: whole runs, and levels of load or speed.
+/// Held-out mean squares, rad²: by whole runs, and by levels of load or speed.
 struct Foretold {
   double runs = 0;
   double levels = 0;
@@ -37,7 +36,7 @@ Foretold foretold_by_summit(const Evidence& evidence, const Estimate& summit, bo
   return {left(evidence.run_folds), left(evidence.factor_folds)};
 }
 
-/// Effects that groups say may be there beside the set that was found, and that a table takes out.
+/// Members of groups beside the found set that a table can correct.
 EffectSet perhaps_beside(const Selection& selection) {
   EffectSet all;
   for (const CredibleGroup& group : selection.groups) {
@@ -50,7 +49,7 @@ EffectSet perhaps_beside(const Selection& selection) {
   return all;
 }
 
-/// The best predicting of `set` and its extensions by one of the effects. Numbers of least squares.
+/// The best predicting of `set` and its extensions by one of the effects, by least squares.
 Fit or_with_one_more(Workers& workers, Fit set, const EffectSet& effects) {
   std::vector<Fit> wider(effects.size());
   workers.each(effects.size(), [&](const Fitter& fitter, std::size_t i) {
@@ -71,7 +70,7 @@ EffectSet unmodelled_curves(const Evidence& evidence) {
   return curve == nullptr ? EffectSet{} : EffectSet{curve};
 }
 
-/// Numbers of least squares, of the set or with a member of a group more, and perhaps beside a curve.
+/// Least-squares fits of the set, perhaps with another member of a group, without and with a curve.
 struct BySquares {
   Fit reported;
   Fit handed_over;
@@ -83,7 +82,7 @@ BySquares best_by_squares(const Evidence& evidence, Workers& workers, const Sele
   return {std::move(named), std::move(with_curve)};
 }
 
-/// Numbers of least squares of the selected set, fitted when they are first needed.
+/// Least-squares fits of the selected set, computed on first use.
 class SquaresOfSelection {
  public:
   /// All must outlive this; the selection must not change.
@@ -102,7 +101,7 @@ class SquaresOfSelection {
   std::optional<BySquares> fitted_;
 };
 
-/// Numbers of least squares go without an empirical curve.
+/// Least-squares parameters have no empirical curve.
 Delivered by_squares(const Evidence& evidence, const BySquares& squares, const Unnamed& unnamed) {
   Delivered made{{squares.handed_over, {}}, squares.reported, {}};
   if (made.estimate.fit.at.ratio_joint.curve != RatioCurve{})
@@ -112,7 +111,7 @@ Delivered by_squares(const Evidence& evidence, const BySquares& squares, const U
   return made;
 }
 
-/// The declared joint, and the curve that was made beside its free offset where that stood elsewhere.
+/// The declared joint, and the curve relative to its free offset.
 Delivered as_declared(const Estimate& declared, Delivered made) {
   const double moved = made.estimate.fit.at.sensor.zero - declared.fit.at.sensor.zero;
   for (std::vector<double>* curve : {&made.curve.up, &made.curve.down}) {
@@ -123,7 +122,7 @@ Delivered as_declared(const Estimate& declared, Delivered made) {
   return made;
 }
 
-/// The member without which the others predict best what they were not fitted to.
+/// Index of the member without which the others predict held-out rows best.
 std::size_t least_needed(const Selection& selection) {
   std::size_t least = 0;
   double least_left = std::numeric_limits<double>::infinity();
@@ -135,7 +134,7 @@ std::size_t least_needed(const Selection& selection) {
   return least;
 }
 
-/// `squares`: of the same selection.
+/// `squares`: least-squares fits of the same selection.
 Delivered best_answer(const Evidence& evidence, const Selection& selection, const Unnamed& unnamed,
                       SquaresOfSelection& squares) {
   Delivered all{{selection.best, amplitudes_beside(evidence, selection.best, unnamed)}, selection.best, {}};
@@ -169,8 +168,7 @@ Validated validated(const Evidence& evidence, Workers& workers, const Measuremen
       return answer;
     }
     if (rows.worse_at(answer.made.estimate).empty()) return answer;
-    // The part that the discrepancy had taken from the numbers, or given to them, is theirs where nothing stands beside
-    // them.
+    // Without discrepancy the effects keep their whole share of the error.
     Delivered alone = by_squares(evidence, squares.fitted(), answer.unnamed);
     const std::string where = alone.estimate.fit.usable ? rows.worse_at(alone.estimate) : "all rows";
     if (where.empty()) {

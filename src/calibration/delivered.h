@@ -1,6 +1,6 @@
 /// \file
-/// The numbers that are handed over, and the empirical curve beside them: those that predict best what they were not
-/// fitted to, and never worse than the declared joint.
+/// Choice of the reported parameters and the empirical curve: those that predict held-out rows best, and never worse
+/// than the declared joint.
 #pragma once
 
 #include <string>
@@ -12,31 +12,32 @@
 namespace fusee {
 
 struct Delivered {
-  /// The set that was found, perhaps with a member of a group more; of no effect the declared joint.
+  /// The found set, perhaps with another member of a group; without effects the declared joint.
   Estimate estimate;
-  /// The reported numbers: those of the estimate. If it has a curve of the ratio, they are fitted without it, since the
-  /// curve can trade any part of a gain or a compliance with them.
+  /// Parameters in the report. If the estimate contains a curve of the ratio, they are fitted without it, since the
+  /// curve is collinear with gain and compliance.
   Fit reported;
-  EmpiricalCurve curve;  ///< as the verdict unexplained has it
+  EmpiricalCurve curve;  ///< curve of the remaining discrepancy
 };
 
-/// `unnamed`: beside selection.best.
+/// `unmodelled`: description of the discrepancy beside selection.best.
 Delivered delivered(const Evidence& evidence, Workers& workers, const Selection& selection, const Unnamed& unnamed);
 
-/// The answer that is reported.
+/// Answer that is reported.
 struct Validated {
-  Estimate declared;  ///< before
+  Estimate declared;  ///< declared joint
   Delivered made;
-  Unnamed unnamed;                   ///< beside selection.best
-  std::vector<std::string> dropped;  ///< effects that fit the runs and do not predict others, in the order they went
+  Unnamed unnamed;  ///< discrepancy beside selection.best
+  /// effects that fit the runs and do not predict held-out rows, in the order of their removal
+  std::vector<std::string> dropped;
 };
 
-/// Removes effects from `selection`, the one that predicts least first, until the answer predicts rows that were not
-/// fitted no worse than the declared joint, over all and at each level of load and speed. `kept`: runs for validation.
+/// Removes effects from `selection`, the least predictive first, until held-out rows are predicted no worse than by the
+/// declared joint, over all and at each level of load and speed. `kept`: runs for validation.
 Validated validated(const Evidence& evidence, Workers& workers, const Measurement& kept, Selection& selection);
 
-/// Changes between two states, as selected, beside the discrepancy that both states share. They predict nothing by
-/// themselves: every run has the discrepancy of the earlier state.
+/// Changes between two states, as selected, beside the discrepancy that both states share. They are not validated by
+/// prediction: every run has the discrepancy of the earlier state.
 Validated changes_beside(const Evidence& evidence, const Selection& selection);
 
 }  // namespace fusee

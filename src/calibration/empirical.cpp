@@ -7,26 +7,25 @@
 #include "calibration/thresholds.h"
 #include "measurement/seen_span.h"
 
-// The curve is the mean of what the discrepancy can be, given the data, in its families of place and direction, beside
-// all others that a description needs: what grows with a load or walks with time is theirs. Whether it holds is asked
-// of data that it was not made from, run by run and level by level.
+// The curve is the posterior mean of the discrepancy's families of place and direction, beside all other factors of its
+// description. It is validated on held-out data, run by run and level by level.
 
 namespace fusee {
 namespace {
 
 constexpr int k_pieces = 60;
-/// Share of the seen span in which no row may be missing: twice what the discrepancy bends over.
+/// Largest gap between rows as a share of the measured range: twice the discrepancy's short length scale.
 constexpr double k_widest_gap = 0.12;
-/// Standard errors by which the gain must be above nothing.
+/// Standard errors that the gain must exceed.
 constexpr double k_sure = 3.0;
-/// Of the mean square that effects leave at a level: by more than that no level may become worse. A stroke of 60 rows
-/// that are noise alone moves its mean square by as much now and then.
+/// Share of a level's mean square by which the curve may raise it by chance. The mean square of a stroke of 60 rows of
+/// noise varies by as much.
 constexpr double k_worse = 0.05;
 
-/// Of the gain, what all rows together must show of it.
+/// Share of the gain that all rows together must show.
 constexpr double k_kept_between = 0.5;
 
-/// Rows in use on their way up or down, by growing α: α and curve. Behind a reversal the curve may be several at a
+/// Rows in use of one direction, by rising α: α and curve. Behind a reversal the curve may have several values at a
 /// place.
 using Way = std::vector<std::pair<double, double>>;
 
@@ -36,7 +35,7 @@ double widest_gap(const Way& way) {
   return gap;
 }
 
-/// Means of half a piece each: the curve bends over much more.
+/// Means over half a segment of the curve, far below its length scale.
 Way smoothed(const Way& way, const SeenSpan& seen) {
   const Bins bins{seen, 2 * k_pieces};
   Way means;
@@ -57,7 +56,7 @@ Way smoothed(const Way& way, const SeenSpan& seen) {
   return means;
 }
 
-/// By straight pieces.
+/// Linear interpolation.
 double value_at(const Way& way, double alpha) {
   const auto above = std::lower_bound(way.begin() + 1, way.end() - 1, alpha,
                                       [](const auto& row, double value) { return row.first < value; });
@@ -67,7 +66,7 @@ double value_at(const Way& way, double alpha) {
   return low.second + share * (above->second - low.second);
 }
 
-/// What the discrepancy's families of place and direction add, rows in use.
+/// Sum of the discrepancy's families of place and direction, rows in use.
 Eigen::VectorXd of_place(const Discrepancy& discrepancy, const Eigen::VectorXd& unnamed) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
   for (const Family& family : discrepancy.families) {
@@ -97,7 +96,7 @@ BothWays ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
   return ways;
 }
 
-/// Places that were seen both ways.
+/// Range measured in both directions.
 SeenSpan seen_both_ways(const BothWays& ways) {
   SeenSpan span;
   if (ways.up.size() < 2 || ways.down.size() < 2) return span;
@@ -117,14 +116,14 @@ void draw(const BothWays& ways, const SeenSpan& seen, EmpiricalCurve& curve) {
   }
 }
 
-/// Mean squares of blocks of a fold that neither effects nor curve were made from.
+/// Mean squares of held-out blocks of a fold.
 struct Gain {
   double before = 0;
-  double mean = 0;  ///< what the curve takes off it
+  double mean = 0;  ///< reduction by the curve
   double rows = 0;
 };
 
-/// Of a fold of several blocks: of one alone it is a matter of chance.
+/// Gain over a fold of several blocks; that of a single block is chance.
 Gain gain_in(const Evidence& evidence, const HeldOutBeside& held, const Fold& fold) {
   Gain gain;
   for (const std::size_t block : fold) {
@@ -147,7 +146,7 @@ Fold all_blocks(const Evidence& evidence) {
   return all;
 }
 
-/// Whether it makes something worse that differs from the rest in its run, load or speed.
+/// True if the curve worsens a fold: its run, load or speed differs from the others.
 bool harms(const Evidence& evidence, const HeldOutBeside& held, const std::vector<Fold>& folds) {
   return std::any_of(folds.begin(), folds.end(), [&](const Fold& fold) {
     const Gain gain = gain_in(evidence, held, fold);
@@ -155,7 +154,7 @@ bool harms(const Evidence& evidence, const HeldOutBeside& held, const std::vecto
   });
 }
 
-/// Standard error of the gain: what is left, as if it were noise, times twice the curve.
+/// Standard error of the gain: 2 rms(curve) rms(residual) / √(independent rows).
 double error_of(const Evidence& evidence, const Gain& gain, double curve_rms) {
   const double left = std::sqrt(std::max(0.0, gain.before - gain.mean));
   return 2.0 * curve_rms * left / std::sqrt(std::max(1.0, gain.rows * evidence.marginal->worth()));
@@ -172,7 +171,7 @@ std::string why_not(const Evidence& evidence, const HeldOutBeside& by_run, const
   return "";
 }
 
-/// Mean squares of rows where the curve is known.
+/// Squares over rows within the range of the curve.
 struct Squares {
   double without = 0;
   double with = 0;
@@ -194,7 +193,7 @@ void add(const Run& run, const std::vector<double>& residuals, const EmpiricalCu
   }
 }
 
-/// Behind a reversal the discrepancy is more than a curve can be: no more than the curve itself takes off.
+/// Limits the gain to that of the curve itself: behind a reversal the discrepancy is no curve.
 void promise(EmpiricalCurve& curve, double gain) {
   curve.gain = std::sqrt(gain);
   curve.held_out_rms = std::sqrt(std::max(0.0, curve.held_out_effects * curve.held_out_effects - gain));
@@ -270,7 +269,7 @@ void hold_against(const Measurement& measurement, const std::vector<std::vector<
     const bool is_kept = std::find(kept.begin(), kept.end(), run.name) != kept.end();
     add(run, residuals[r], curve, is_kept ? validated : learnt);
   }
-  // A wave finer than the rows in use looks like a slow one in them.
+  // A wave shorter than the spacing of the rows in use appears as a slow one in them.
   if (learnt.gain() < k_kept_between * curve.gain * curve.gain)
     return give_up(curve, "it does not hold in the rows between those that it was made from: what is there is finer");
   promise(curve, std::min(curve.gain * curve.gain, learnt.gain()));

@@ -15,21 +15,20 @@
 namespace fusee {
 namespace {
 
-/// Rows of a run that a fit looks at: enough for every stroke's shape, and few enough for hundreds of fits.
+/// Rows of a run in a fit: enough for the shape of every stroke, few enough for hundreds of fits.
 constexpr std::size_t k_rows_a_run = 170;
 constexpr std::size_t k_most_rows = 1500;
-/// A joint declared by a ratio costs next to nothing to simulate.
+/// Factor on the rows of a joint declared by its ratio, which costs next to nothing to simulate.
 constexpr std::size_t k_cheaper = 5;
 constexpr std::size_t k_least_rows_a_block = 6;
-/// Of a held point, where a run holds so many that there is not enough for all.
+/// Least rows of a dwell in a run of many dwells.
 constexpr std::size_t k_rows_a_stand = 3;
-/// Ways whose ends are within this part of what α spans repeat one another. Levels of a load that goes with the motion
-/// cut strokes into pieces, two of one level at two places: what differs between these is the joint's law, and no
-/// scatter (the jaw of docs/background/real-joint.md).
+/// Segments repeat one another only if their α end points agree within this share of the range of α. Levels of a load
+/// that varies with the motion divide strokes into segments at different places, whose difference is θ(α) and no noise
+/// (the jaw of docs/background/real-joint.md).
 constexpr double k_one_way = 0.1;
 
-/// Whole cycles, evenly spread, of so many strokes that enough rows of each are left; the ends of the others are
-/// history.
+/// Selects whole cycles, evenly spread, so that each keeps enough rows; of other strokes the ends are kept as history.
 std::vector<bool> looked_at(const Run& run, std::size_t most_pairs) {
   const std::size_t pairs = (run.strokes.size() + 1) / 2;
   std::vector<bool> chosen(run.strokes.size(), true);
@@ -38,16 +37,16 @@ std::vector<bool> looked_at(const Run& run, std::size_t most_pairs) {
   return chosen;
 }
 
-/// What a fit does with each row of a run.
+/// Use of each row of a run in a fit.
 struct Taken {
-  std::vector<bool> counted;  ///< judged by
-  std::vector<bool> kept;     ///< judged by, or history
+  std::vector<bool> counted;  ///< rows in the residual
+  std::vector<bool> kept;     ///< rows in the residual or the history of the motion
 };
 
-/// Every n-th row of the strokes looked at.
+/// Every n-th row of the selected strokes.
 Taken every_nth(const Run& run, std::size_t most) {
   const std::vector<bool> chosen = looked_at(run, std::max<std::size_t>(1, most / (4 * k_least_rows_a_block)));
-  // Rows before, between and after strokes are history where all strokes are looked at.
+  // Rows before, between and after strokes are history if all strokes are selected.
   std::vector<bool> inside(run.samples.size(), std::find(chosen.begin(), chosen.end(), false) == chosen.end());
   for (std::size_t s = 0; s < run.strokes.size(); ++s) {
     for (std::size_t i = run.strokes[s].first; chosen[s] && i <= run.strokes[s].last; ++i) inside[i] = true;
@@ -61,7 +60,7 @@ Taken every_nth(const Run& run, std::size_t most) {
   return taken;
 }
 
-/// As many rows of each stand, however long it is; a few of it tell what all of it tells.
+/// Equally many rows of each dwell, however long it is.
 Taken of_each_stand(const Run& run, std::size_t most) {
   const auto stands = static_cast<std::size_t>(
       std::count_if(run.segments.begin(), run.segments.end(), [](const Segment& s) { return s.held; }));
@@ -78,7 +77,7 @@ Taken of_each_stand(const Run& run, std::size_t most) {
   return taken;
 }
 
-/// Strokes without which play and friction would begin anew: all, or of very many those looked at and two before each.
+/// Strokes whose history play and friction require: all, or, of very many, the selected ones and two before each.
 std::vector<bool> strokes_kept(const Run& run, const Taken& taken, std::size_t most) {
   std::vector<bool> kept(run.strokes.size(), 2 * run.segments.size() <= 10 * most);
   for (std::size_t s = 0; s < run.strokes.size(); ++s) {
@@ -90,7 +89,7 @@ std::vector<bool> strokes_kept(const Run& run, const Taken& taken, std::size_t m
   return kept;
 }
 
-/// Fewer rows, and both ends of each stretch, which the motion's history needs. `counted`: those to judge by, lest ends
+/// Thins a run, and keeps both ends of each segment as history. `counted`: rows in the residual, in which ends would
 /// weigh too much.
 Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
   if (run.samples.size() <= most) {
@@ -133,7 +132,7 @@ Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
   return thin;
 }
 
-/// A level of load: the mean, or where it changes sign within the rows, its size.
+/// Load level: the mean, or its size if the sign changes within the rows.
 class Level {
  public:
   void take(double load) {
@@ -158,7 +157,7 @@ Level level_of(const Run& run, std::size_t first, std::size_t last) {
   return level;
 }
 
-/// Items of about the same value, by their places in `values`.
+/// Groups of about equal values, as indices into `values`.
 std::vector<std::vector<std::size_t>> levels(const std::vector<double>& values, double tolerance) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), 0);
@@ -177,8 +176,8 @@ double load_tolerance(const std::vector<double>& loads) {
   return std::max(1e-9, 0.08 * (*most - *least));
 }
 
-/// Blocks of which the load is a level of its own: where those of one direction differ within a run. A load that turns
-/// with the motion is the run's.
+/// Blocks with a load level of their own: loads of one direction differ within the run. A load that changes sign with
+/// the motion is a level of the run.
 std::vector<bool> have_their_own_load(const Evidence& evidence) {
   std::vector<double> loads;
   for (const Block& block : evidence.blocks) loads.push_back(block.load);
@@ -197,7 +196,7 @@ std::vector<bool> have_their_own_load(const Evidence& evidence) {
   return own;
 }
 
-/// Of blocks.
+/// Load levels, as folds of blocks.
 std::vector<Fold> load_levels(const Evidence& evidence) {
   const std::vector<bool> own = have_their_own_load(evidence);
   std::vector<double> runs, loads;
@@ -209,7 +208,7 @@ std::vector<Fold> load_levels(const Evidence& evidence) {
 }
 
 std::vector<Fold> speed_levels(const Evidence& evidence) {
-  // A held motor has none: slower than any sweep.
+  // Dwells have no speed: slower than any sweep.
   constexpr double held = -20;
   std::vector<double> speeds;
   for (const Block& block : evidence.blocks) {
@@ -230,7 +229,7 @@ std::vector<std::size_t> blocks_of(const Evidence& evidence, const std::vector<s
   return found;
 }
 
-/// Whole runs in turn; of a lone run its blocks.
+/// Whole runs in turn, or the blocks of a single run.
 std::vector<Fold> run_folds(const Evidence& evidence) {
   std::vector<Fold> folds;
   if (evidence.measurement.runs.size() == 1) {
@@ -244,7 +243,7 @@ std::vector<Fold> run_folds(const Evidence& evidence) {
   return folds;
 }
 
-/// Whole levels of load and speed, where enough is left to learn from; what no level holds as in run_folds().
+/// Whole levels of load and speed if enough data remain to fit; blocks in no such level as in run_folds().
 void choose_factor_folds(Evidence& evidence) {
   std::set<std::size_t> held;
   const auto hold = [&](const std::string& factor, std::vector<Fold> all) {
@@ -270,7 +269,7 @@ void choose_factor_folds(Evidence& evidence) {
   }
 }
 
-/// Rows of a stroke that lie with their neighbours: none of the effects makes a single row jump.
+/// Rows of a stroke near their neighbours: no effect moves a single row.
 std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::size_t first, std::size_t last,
                                           double floor) {
   std::vector<std::size_t> rows;
@@ -287,7 +286,8 @@ std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::
   return rows;
 }
 
-// ---- what was measured by hand --------------------------------------------------------------------------------------
+// ---- caliper readings
+// ------------------------------------------------------------------------------------------------
 
 std::vector<HandReading> hand_readings(const DeclaredMechanism& declared) {
   std::vector<HandReading> readings;
@@ -339,7 +339,7 @@ std::size_t Evidence::rows_used() const {
 
 namespace {
 
-/// As many rows of each run as many fits can bear.
+/// Thins all runs to the rows that many fits can afford.
 Measurement thinned(const Mechanism& declared, Measurement measurement, std::vector<bool>& counted) {
   const std::size_t runs = std::max<std::size_t>(1, measurement.runs.size());
   const std::size_t cheaper = declared.transmission ? k_cheaper : 1;
@@ -357,13 +357,13 @@ Eigen::VectorXd measured_theta(const Measurement& measurement) {
   return flat(theta);
 }
 
-/// What makes two stretches of a run repeat each other.
+/// Properties by which two segments of a run repeat each other.
 struct Kind {
   int direction = 0;
   bool held = false;
   int pull = 0;
   double load = 0;
-  double from = 0, to = 0;  ///< α at its ends; of stands that were joined those of the first
+  double from = 0, to = 0;  ///< α at its ends; for joined dwells those of the first
 };
 
 class BlockMaker {
@@ -385,7 +385,7 @@ class BlockMaker {
   }
 
  private:
-  /// Stands of too few rows, waiting for more of their kind.
+  /// Dwells of too few rows, to be joined with others of their kind.
   struct Waiting {
     Kind kind;
     Block block;
@@ -414,14 +414,15 @@ class BlockMaker {
         wait(kind, std::move(block));
       }
     }
-    // Their last ones are few.
+    // The last joined dwells may have half the rows.
     for (Waiting& left : waiting_) {
       if (2 * left.block.rows.size() >= k_least_rows_a_block) add(left.kind, std::move(left.block));
     }
     offset_ += run.samples.size();
   }
 
-  /// Where the play stood when the log began is not known: the first stroke finds out, or the way to the second hold.
+  /// The state of the play at the beginning of the log is unknown. The first stroke determines it, or the move to the
+  /// second dwell.
   static bool is_settling(const Run& run, const Segment& stretch) {
     if (run.strokes[stretch.stroke].partial) return true;
     if (is_from_point_to_point(run)) return stretch.first == run.segments.front().first && run.segments.size() > 2;
@@ -465,9 +466,9 @@ class BlockMaker {
   const std::vector<bool>& counted_;
   SeenSpan alphas_;
   double load_tolerance_ = 0;
-  Eigen::VectorXd residual_;  ///< of the declared joint
+  Eigen::VectorXd residual_;  ///< residual of the declared joint
   std::size_t offset_ = 0;
-  std::vector<Kind> kinds_;  ///< of this run
+  std::vector<Kind> kinds_;  ///< kinds of this run
   std::vector<Waiting> waiting_;
   std::vector<Block> blocks_;
 };
@@ -476,8 +477,7 @@ class BlockMaker {
 
 namespace {
 
-/// By how much the declared joint gives way, all rows, rad; of a joint declared by a ratio, which gives way by nothing,
-/// the load.
+/// Deflection of the declared joint, all rows, rad. For a joint declared by its ratio, which is rigid, the load.
 Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& declared) {
   const DeclaredLaw law(*evidence.declared);
   Eigen::VectorXd given = declared;
@@ -497,7 +497,7 @@ Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& decl
   return given;
 }
 
-/// From row to row within blocks, 0 … 1.
+/// Lag-1 autocorrelation within blocks, 0 … 1.
 double colour_of(const Evidence& evidence, const Eigen::VectorXd& rest) {
   double products = 0;
   double squares = 0;
@@ -546,7 +546,7 @@ Evidence gather(const DeclaredMechanism& declared, const Measurement& measuremen
   evidence.blocks = BlockMaker(evidence, counted).made();
   evidence.run_folds = run_folds(evidence);
   choose_factor_folds(evidence);
-  if (!earlier) evidence.readings = hand_readings(declared);  // they are of a joint, and not of what changed
+  if (!earlier) evidence.readings = hand_readings(declared);  // calipers measure a joint and no change
   weigh(evidence);
   return evidence;
 }

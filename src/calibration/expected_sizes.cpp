@@ -6,13 +6,13 @@
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 
-// The size in practice alone would charge an effect of four numbers for all the joints on which it is large, and it
-// would lose against one of a single number on a joint where both are small.
+// With known sizes alone an effect of four numbers would be penalised for all joints on which it is large, and lose to
+// an effect of one number on a joint where both are small.
 
 namespace fusee {
 namespace {
 
-/// Chords over the sizes in practice; empty where the joint cannot be simulated.
+/// Chords over the known sizes; empty if the joint cannot be simulated.
 struct Chords {
   Parameters parameters;
   Tangent tangent;

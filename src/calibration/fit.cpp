@@ -7,31 +7,30 @@
 #include "calibration/starts.h"
 #include "calibration/thresholds.h"
 
-// Gauss and Newton's steps towards the summit of the posterior, with the discrepancy integrated out: what a smooth
-// curve without a name explains as well does not bend the numbers of an effect. A candidate takes its steps by chords:
-// the slopes of the parameters that the base has are its own, those of the effect are found anew at every step. So it
-// costs a dozen simulations, whatever stands beside it. Where another of its starts explains more as if nothing stayed
-// without a name, it is fitted from there too, with all slopes.
+// Gauss-Newton steps to the posterior mode, with the discrepancy marginalised: parameters are not biased by what the
+// discrepancy explains equally well. A candidate is stepped by chords: the slopes of the base's parameters stay, those
+// of the effect are computed at every step. It costs a dozen simulations, whatever the size of the base. If another
+// start explains more without discrepancy, the candidate is fitted from there too, with all slopes.
 
 namespace fusee {
 namespace {
 
 constexpr int k_most_steps_down = 8;
 constexpr int k_chords = 3;
-/// With the amplitudes that the place before had.
+/// Passes by the amplitudes of the place before.
 constexpr int k_passes = 3;
-/// Of amplitudes, on the way.
+/// Rounds of amplitudes during the descent.
 constexpr int k_few_rounds = 3;
-/// Of a step that made things worse.
+/// Factor on a step that lowered the density.
 constexpr double k_shorter = 0.3;
-/// Nats: a step that gains less is the last …
+/// Nats: a step that gains less is the last.
 constexpr double k_least_gain = 0.05;
-/// … and one that promises less, a seventieth of a standard error, is not simulated. Matrix, random joints: at 2e-3 a
-/// group of one joint in six that were looked at took in four members more.
+/// Nats: a step that predicts less, a seventieth of a standard error, is not simulated. At 2e-3 a group of one joint in
+/// six takes in four members more (random joints of tests/rig).
 constexpr double k_worth_a_step = 1e-4;
-/// Of the squares: a step that takes no more away is the last.
+/// Relative reduction of the squares below which a step is the last.
 constexpr double k_least_of_squares = 1e-4;
-/// Of a number that no practice is known of, in its steps.
+/// Prior size of a number without known sizes, in its steps.
 constexpr double k_steps_in_practice = 100.0;
 
 double largest_load(const Measurement& measurement) {
@@ -42,7 +41,7 @@ double largest_load(const Measurement& measurement) {
   return most;
 }
 
-/// In steps of the parameter.
+/// Prior size, in steps of the parameter.
 double size_in_practice(const Evidence& evidence, const EffectParameter& parameter) {
   if (&parameter == free_offset(*evidence.declared)) return std::numeric_limits<double>::infinity();
   if (const auto known = evidence.sizes.find(&parameter); known != evidence.sizes.end()) return known->second;
@@ -50,8 +49,7 @@ double size_in_practice(const Evidence& evidence, const EffectParameter& paramet
   return prior_of(parameter, largest_load(evidence.measurement)) / parameter.step;
 }
 
-/// A step of the fit, kept within bounds: what would leave them stays there, and the others go where they are best
-/// with it.
+/// Numbers after a step, clamped to their bounds.
 Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
   Imperfections at = fit.at;
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
@@ -62,7 +60,7 @@ Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
   return at;
 }
 
-/// `step` without what is held.
+/// `step` without the parameters that are fixed at a bound.
 Eigen::VectorXd of_free_numbers(const Fit& fit, Eigen::VectorXd step) {
   for (Eigen::Index k = 0; k < step.size(); ++k) {
     if (fit.J.col(k).isZero(0)) step[k] = 0;
@@ -70,7 +68,7 @@ Eigen::VectorXd of_free_numbers(const Fit& fit, Eigen::VectorXd step) {
   return step;
 }
 
-/// Each by its step.
+/// Values, each divided by its step.
 Eigen::VectorXd numbers_of(const Parameters& parameters, const Imperfections& at) {
   Eigen::VectorXd x(static_cast<Eigen::Index>(parameters.size()));
   for (Eigen::Index k = 0; k < x.size(); ++k) {
@@ -80,7 +78,7 @@ Eigen::VectorXd numbers_of(const Parameters& parameters, const Imperfections& at
   return x;
 }
 
-/// What loose rows leave less than noise does, nats.
+/// Nats by which loose rows are penalised less than noise.
 double price_of(const Evidence& evidence, const Fit& fit) {
   double squares = 0;
   for (const Block& block : evidence.blocks) {
@@ -90,9 +88,9 @@ double price_of(const Evidence& evidence, const Fit& fit) {
   return 0.5 * evidence.marginal->worth() * squares / (evidence.floor * evidence.floor);
 }
 
-/// What they cost in evidence, nats: by their residuals, and because those that rest where they were pushed say more of
-/// the numbers than their weights do (the posterior is as much narrower). The summit is sought without it: between two
-/// places that explain a loose row lie others that do not.
+/// Evidence that loose rows cost, nats: by their residuals, and by the information of rows at the last pushed position,
+/// which narrows the posterior. The mode is sought without it, since places that explain a loose row alternate with
+/// places that do not.
 double cost_of_play(const Evidence& evidence, const Fit& fit) {
   const Marginal& marginal = *evidence.marginal;
   const std::vector<Eigen::Index> rows = evidence.rows();
@@ -108,7 +106,7 @@ double cost_of_play(const Evidence& evidence, const Fit& fit) {
   return nats + Cholesky(gained).half_log_determinant();
 }
 
-/// Whether something larger than noise is left to what has no name.
+/// True if a family of the discrepancy is larger than the noise.
 bool leaves_much(const Evidence& evidence, const Fit& fit) {
   const std::vector<Family>& families = evidence.marginal->discrepancy().families;
   for (std::size_t f = 0; f < families.size(); ++f) {
@@ -118,7 +116,7 @@ bool leaves_much(const Evidence& evidence, const Fit& fit) {
   return false;
 }
 
-/// A discrepancy by the amplitudes that were asked for last: on the way down the same are asked for several times.
+/// Cache of the last scaled discrepancy: a descent requires the same amplitudes several times.
 class LastSized {
  public:
   explicit LastSized(const Marginal& marginal) : marginal_(marginal) {}
@@ -135,13 +133,13 @@ class LastSized {
   std::optional<SizedDiscrepancy> last_;
 };
 
-/// Of two the likelier that can be used; the first where neither is.
+/// The likelier of two that are usable; the first if neither is.
 Fit likelier(Fit one, Fit other) {
   const bool is_other = other.usable && (!one.usable || other.log_evidence > one.log_evidence);
   return is_other ? std::move(other) : std::move(one);
 }
 
-/// Whether the slopes promise a better place than this.
+/// True if the slopes predict a likelier place.
 bool is_promising(const Fit& fit) { return fit.explained.log_evidence > fit.explained.log_evidence_here + 0.5; }
 
 }  // namespace
@@ -202,7 +200,7 @@ Fit Fitter::placed(const EffectSet& effects, const Imperfections& at, LooseRow r
   return fit;
 }
 
-/// With the slopes of all its numbers.
+/// Linearization with the slopes of all parameters.
 Fit Fitter::started(const EffectSet& effects, const Imperfections& at, LooseRow rest) const {
   Fit fit = placed(effects, at, rest);
   take_slopes(fit, 0);
@@ -216,7 +214,7 @@ void Fitter::take_slopes(Fit& fit, Eigen::Index from) const {
     fit.J.col(k) = model_.slope(fit.at, *fit.parameters[static_cast<std::size_t>(k)], fit.residual, fit.rest);
 }
 
-/// At `at`, with the slopes that `base` knows and new ones of what it does not have.
+/// Evaluation at `at`, with the slopes of `base`, and new ones of the parameters that it lacks.
 Fit Fitter::at(const Fit& base, const EffectSet& effects, const Imperfections& at) const {
   Fit fit = placed(effects, at, base.rest);
   fit.J = base.J;
@@ -225,7 +223,7 @@ Fit Fitter::at(const Fit& base, const EffectSet& effects, const Imperfections& a
   return fit;
 }
 
-/// Steps while they gain, or promise to; slopes before `from` stay what they are.
+/// Steps as long as they gain or predict a gain; slopes before `from` are kept.
 Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const {
   const Marginal& marginal = *evidence().marginal;
   LastSized sized(marginal);
@@ -235,7 +233,7 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
   Tangent here = tangent_of(evidence(), fit);
   const bool stated = rounds == 1;
   Explained known = marginal.best(here, amplitudes, rounds);
-  bool estimated = true;  // the amplitudes, where it stands
+  bool estimated = true;  // amplitudes are those of this place
   double share = 1.0;
   for (int i = 0; i < steps; ++i) {
     Imperfections there;
@@ -260,7 +258,7 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
     const double reached = next.usable
                                ? summit(tangent_of(evidence(), next), known.amplitudes) - price_of(evidence(), next)
                                : -std::numeric_limits<double>::infinity();
-    // Slopes cost most: a step that is not taken needs none, and one that gained what they promised has left them.
+    // Slopes cost most. A rejected step needs none, and a step that gained as predicted keeps them.
     const bool straight = std::abs(reached - height - promise) < k_least_gain;
     if (reached > height && !straight) {
       take_slopes(next, from);
@@ -285,7 +283,7 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
 Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   Fit beside = or_pushed(fitted(effects, from, LooseRow::anywhere));
   if (!beside.usable || beside.x.size() == 0 || !leaves_much(evidence(), beside)) return beside;
-  // What has no name took it before the effects could: they are let go first.
+  // The discrepancy may have taken the effects' share: fit without discrepancy first.
   Fit start = started(effects, from, LooseRow::anywhere);
   if (!start.usable) return beside;
   return likelier(std::move(beside), settled(named_first(start)));
@@ -334,7 +332,8 @@ Fit Fitter::settled(Fit fit) const {
   return fit;
 }
 
-/// As if all of the error were its effects': where a discrepancy explains as much, small steps end too soon.
+/// Amplitudes of no discrepancy, with all of the error as noise. Where a discrepancy explains as much, small steps end
+/// too soon.
 Amplitudes Fitter::all_error_named(const Fit& fit) const {
   Amplitudes alone = evidence().marginal->nothing_unnamed();
   const Eigen::VectorXd left = tangent_of(evidence(), fit).residual;
@@ -342,13 +341,13 @@ Amplitudes Fitter::all_error_named(const Fit& fit) const {
   return alone;
 }
 
-/// A few steps with all slopes, as if all of the error were its effects'.
+/// A few steps with all slopes and no discrepancy.
 Fit Fitter::named_first(const Fit& start) const {
   return judged(descended(start, 0, k_chords, all_error_named(start), 1));
 }
 
-/// The looser the joint, the less the rows say that rest anywhere, and steps lead to more play than there is. Rows that
-/// rest where they were pushed lead to as much as there is, and then say as much as any.
+/// The looser the joint, the less information rows have that rest anywhere, so steps lead to too much play. Rows that
+/// rest at the last pushed position lead to the right play.
 Fit Fitter::or_pushed(Fit fit) const {
   if (!fit.usable || fit.x.size() == 0 || !(fit.loose(evidence().rows()).maxCoeff() > 0)) return fit;
   Fit start = started(fit.effects, fit.at, LooseRow::pushed);
@@ -358,7 +357,7 @@ Fit Fitter::or_pushed(Fit fit) const {
   return likelier(std::move(fit), fitted(near.effects, near.at, LooseRow::pushed));
 }
 
-/// Of each of the starts of `effect` beside `base`, what cannot be simulated left out.
+/// Evaluation at each start of `effect` beside `base`, without those that cannot be simulated.
 std::vector<Fit> Fitter::started_beside(const Fit& base, const Effect& effect) const {
   EffectSet effects = base.effects;
   effects.push_back(&effect);
@@ -399,14 +398,14 @@ Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
   return alone == beside.place ? fit : likelier(std::move(fit), settled(named_first(starts[alone])));
 }
 
-/// With one effect more from `start`, by the slopes that the base has; `promise`: of the start, beside what the base
-/// leaves without a name.
+/// Fit with one effect more from `start`, by the slopes of the base. `promise`: predicted evidence of the start, with
+/// the amplitudes of the base.
 Fit Fitter::by_chords(const Fit& base, const Fit& start, double promise) const {
   const auto ended = [&](Fit from) {
     return judged(descended(std::move(from), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds));
   };
   Fit first = ended(descended(start, base.x.size(), k_chords, all_error_named(start), 1));
-  // What the start promised is reached: small steps from there would not find more.
+  // The prediction is reached: small steps would not find more.
   if (first.usable && first.log_evidence >= promise) return or_pushed(std::move(first));
   return or_pushed(likelier(std::move(first), ended(start)));
 }
@@ -417,8 +416,8 @@ Fit Fitter::judged(Fit fit) const {
   return fit;
 }
 
-/// Two states are predicted with the discrepancy: runs of the other state at the same load and speed show it. A whole
-/// level left out would leave none of them, so runs are left out one by one.
+/// Two states are predicted with the discrepancy, which other runs at the same load and speed show. A whole level left
+/// out would leave none of them, so runs are left out one by one.
 void Fitter::hold_out_of(Fit& fit) const {
   if (evidence().earlier) {
     fit.by_run = hold_out_beside(evidence(), fit, fit.explained.amplitudes, evidence().run_folds).with_all;
@@ -436,7 +435,7 @@ void Fitter::judge(Fit& fit) const {
   fit.explained = marginal.best(tangent_of(evidence(), fit), marginal.first_guess());
   fit.log_evidence = fit.explained.log_evidence_here - cost_of_play(evidence(), fit);
   fit.rareness_of_rest = marginal.rareness_of_rest(fit.explained);
-  // Two waves of one order are one column twice: a set that cannot be weighed would take all others' weight with it.
+  // Two waves of one order are equal columns: a set without a finite evidence must not enter the weights.
   fit.usable = std::isfinite(fit.log_evidence);
   if (!fit.usable) return;
   fit.readings = sums_of_readings(evidence(), fit);
@@ -457,7 +456,7 @@ void Fitter::judge(Fit& fit) const {
   hold_out_of(fit);
 }
 
-/// `fit` with the numbers of `effect` at zero, of what is searched where it begins.
+/// `fit` with the numbers of `effect` at zero, searched ones at the start.
 Fit Fitter::beside(const Fit& fit, const Effect& effect, const std::vector<double>& start) const {
   Fit wider = fit;
   wider.effects.push_back(&effect);
@@ -470,7 +469,7 @@ Fit Fitter::beside(const Fit& fit, const Effect& effect, const std::vector<doubl
   return wider;
 }
 
-/// At its first start.
+/// `fit` with `effect` at its first start.
 Fit Fitter::beside(const Fit& fit, const Effect& effect) const {
   const std::vector<std::vector<double>> starts = starts_of(evidence(), fit, effect);
   return beside(fit, effect, starts.empty() ? std::vector<double>() : starts.front());
@@ -487,7 +486,7 @@ Fit Fitter::with_direction(const Fit& fit, const Effect& effect) const {
   return wider;
 }
 
-/// Over `size` in the number's own unit, or as much less where its upper bound is in the way.
+/// Chord over `size` in the number's own unit, shorter at its upper bound.
 void Fitter::take_chord(Fit& wider, Eigen::Index k, double size) const {
   const EffectParameter& parameter = *wider.parameters[static_cast<std::size_t>(k)];
   const double value = value_of(wider.at, parameter);

@@ -6,7 +6,7 @@ namespace fusee {
 
 namespace {
 
-/// In steps of the number, squared.
+/// Variance in steps of the number, squared.
 double variance_of(const Fit& fit, std::size_t k) {
   const auto i = static_cast<Eigen::Index>(k);
   return std::max(0.0, fit.explained.covariance(i, i));

@@ -13,18 +13,18 @@ namespace fusee {
 namespace {
 
 constexpr double k_settled = 0.02;  // nats
-/// Of the floor: below it a family is nothing.
+/// Share of the floor below which a family's amplitude is set to 0.
 constexpr double k_nothing = 0.03;
 /// Degrees of freedom of Student's t.
 constexpr double k_tail = 2.0;
 
 double square(double x) { return x * x; }
 
-/// Logarithm of the density of Student's t at 0. Computed once, before any thread begins: lgamma writes a global sign.
+/// Log density of Student's t at 0. Computed once, before any thread begins: lgamma writes a global sign.
 const double k_log_density_at_0 =
     std::lgamma(0.5 * (k_tail + 1.0)) - std::lgamma(0.5 * k_tail) - 0.5 * std::log(k_tail * k_pi);
 
-/// Information that the prior gives near x.
+/// Information of the prior near x: −d²/dx² of its log density, without the negative part.
 double information(double x, double prior) {
   return std::isfinite(prior) ? (k_tail + 1.0) / (k_tail * prior * prior + x * x) : 1e-12;
 }
@@ -50,15 +50,15 @@ void add_numbers(const Eigen::VectorXd& prior, Tangent& tangent) {
   tangent.pull.tail(prior.size()).setZero();
 }
 
-/// Of a tangent beside a discrepancy of given size.
+/// Solution of the discrepancy's columns at a tangent: A = I + λ DᵀD λ β.
 struct Marginal::Solved {
   Eigen::MatrixXd B;      ///< λ DᵀJ β
   Eigen::MatrixXd AB;     ///< A⁻¹ B
   Eigen::VectorXd t, At;  ///< λ Dᵀr β, A⁻¹ t
-  Eigen::MatrixXd JJ;     ///< with the discrepancy integrated out
+  Eigen::MatrixXd JJ;     ///< information with the discrepancy integrated out
   Eigen::VectorXd Jr;
   double rr = 0;
-  double constant = 0;  ///< log of the likelihood without its squares
+  double constant = 0;  ///< log likelihood without its squares
 };
 
 Marginal::Marginal(Discrepancy discrepancy, double floor, double worth)
@@ -120,7 +120,7 @@ SizedDiscrepancy Marginal::sized(const Amplitudes& amplitudes, double give) cons
   return u;
 }
 
-/// Cauchy's: what has no name is the rarer the larger it is, and may be as large as it is.
+/// Half-Cauchy-type prior on each family's amplitude: −log(1 + (λ / 0.5 σ)²), σ the noise floor.
 double Marginal::log_prior_of(const Amplitudes& amplitudes) const {
   double sum = 0;
   for (std::size_t f = 0; f < discrepancy_.families.size(); ++f) {
@@ -134,7 +134,7 @@ double Marginal::log_prior_of(const Amplitudes& amplitudes) const {
 Marginal::Solved Marginal::solved(const TangentSums& sums, const SizedDiscrepancy& u) const {
   Solved s;
   s.B = u.beta * (u.size.asDiagonal() * sums.JD(Eigen::all, u.columns).transpose());
-  // Where there is no effect there is nothing to solve: Eigen looks at the first number even of none.
+  // Eigen reads the first element even of an empty matrix.
   s.AB = s.B.size() > 0 ? u.A.solve(s.B) : s.B;
   s.t = u.beta * u.size.cwiseProduct(sums.Dr(u.columns));
   s.At = u.A.solve(s.t);
@@ -231,11 +231,11 @@ Amplitudes Marginal::reestimated(const TangentSums& sums, const Explained& now, 
     determined += known;
     if (family.fixed > 0) continue;
     const double rarer = square(amplitude / (k_thresholds.usual_unknown * floor_));
-    const double against = 2.0 * rarer / (1.0 + rarer);  // the prior's slope over log amplitude
+    const double against = 2.0 * rarer / (1.0 + rarer);  // slope of the log prior over log amplitude
     amplitude = std::sqrt(now.unnamed.segment(family.first, family.count).squaredNorm() / (known + against));
     if (amplitude < k_nothing * floor_) amplitude = 0;
   }
-  // Σ (r − J step − D a)², by what the sums know.
+  // Σ (r − J step − D a)² from the sums.
   const Eigen::VectorXd& a = now.unnamed;
   double squares = sums.rr - 2.0 * a.dot(sums.Dr) + a.dot(gram_ * a);
   if (now.step.size() > 0)
@@ -258,7 +258,7 @@ Explained Marginal::best(const TangentSums& sums, Amplitudes from, int rounds) c
     const SizedDiscrepancy u = sized(from, sums.give);
     const Solved s = solved(sums, u);
     Explained now = explained(sums, u, s);
-    const bool settled = std::abs(now.log_evidence - last) < k_settled;  // on the way it may fall
+    const bool settled = std::abs(now.log_evidence - last) < k_settled;  // may fall during the iteration
     last = now.log_evidence;
     if (round == 0 || now.log_evidence > best.log_evidence) best = now;
     if (settled || round + 1 == rounds) break;

@@ -1,5 +1,5 @@
 /// \file
-/// The evidence of a set of effects: how likely the data are with it, numbers and discrepancy integrated out.
+/// Evidence of a set of effects: p(data | set), parameters and discrepancy integrated out.
 #pragma once
 
 #include <Eigen/Dense>
@@ -10,7 +10,7 @@
 
 namespace fusee {
 
-/// How large the families of the discrepancy and the noise are, rad.
+/// Amplitudes of the discrepancy's families and of the noise, rad.
 struct Amplitudes {
   Eigen::VectorXd families;
   double noise = 0;
@@ -18,22 +18,22 @@ struct Amplitudes {
   bool operator==(const Amplitudes& other) const { return noise == other.noise && families == other.families; }
 };
 
-/// A place in the space of the parameters and what is known there: rows in use alone.
+/// Linearization of the model at x: rows in use alone.
 struct Tangent {
   Eigen::MatrixXd J;         ///< dθ/dx
   Eigen::VectorXd residual;  ///< measured − model, rad
   Eigen::VectorXd x;
-  Eigen::VectorXd prior;  ///< size of each x in practice; infinite: not known
-  Eigen::MatrixXd read;   ///< of what was measured by hand: information about x …
-  Eigen::VectorXd pull;   ///< … and its gradient
-  double against = 0;     ///< … and squares at x
-  double give = 1;        ///< deflection there by the declared joint's: what the model is trusted to grows with it
+  Eigen::VectorXd prior;  ///< prior size of each x; infinite: no prior
+  Eigen::MatrixXd read;   ///< information of caliper readings about x
+  Eigen::VectorXd pull;   ///< gradient of caliper readings
+  double against = 0;     ///< χ² of caliper readings at x
+  double give = 1;        ///< deflection by that of the declared joint: scales the error of the model itself
 };
 
-/// With numbers more, of which nothing was read, where they do nothing; its slopes are the caller's.
+/// Appends parameters at zero without caliper readings; the caller sets their slopes.
 void add_numbers(const Eigen::VectorXd& prior, Tangent& tangent);
 
-/// A tangent's sums over rows, not weighted: all that its evidence needs.
+/// Unweighted sums over rows of a tangent: sufficient for its evidence.
 struct TangentSums {
   Eigen::MatrixXd JJ, JD;
   Eigen::VectorXd Jr, Dr;
@@ -46,83 +46,84 @@ struct TangentSums {
   double give = 1;
 };
 
-/// What the data say at a tangent.
+/// Laplace approximation of the posterior at a tangent.
 struct Explained {
-  double log_evidence = 0;       ///< at the summit that the tangent promises
-  double log_evidence_here = 0;  ///< at x itself: a promise that a bend does not keep counts for nothing
-  Eigen::VectorXd step;          ///< of x to the posterior's summit
-  Eigen::MatrixXd covariance;    ///< of x
-  Eigen::VectorXd unnamed;       ///< what the discrepancy's columns add at the summit, rad each
+  double log_evidence = 0;       ///< log evidence at the mode that the tangent predicts
+  double log_evidence_here = 0;  ///< log evidence at x itself: counts nothing that the linearization only predicts
+  Eigen::VectorXd step;          ///< step from x to the mode
+  Eigen::MatrixXd covariance;    ///< covariance of x
+  Eigen::VectorXd unnamed;       ///< coefficients of the discrepancy's columns at the mode, rad each
   Amplitudes amplitudes;
-  double height = 0;        ///< log of the posterior's density at x, as Marginal::summit()
-  double height_ahead = 0;  ///< … and what the tangent promises of it at x + step
+  double height = 0;        ///< log posterior density at x, up to a constant
+  double height_ahead = 0;  ///< predicted log posterior density at x + step
 };
 
-/// A discrepancy of amplitudes that are given: what all tangents beside it share. Columns in use alone, each scaled by
-/// its amplitude.
+/// Discrepancy of given amplitudes, shared by all tangents: columns of non-zero amplitude, each scaled by it.
 struct SizedDiscrepancy {
   Amplitudes amplitudes;
-  double beta = 0;  ///< of a row's square, 1/rad²
+  double beta = 0;  ///< weight of a row's square, 1/rad²
   std::vector<Eigen::Index> columns;
   Eigen::VectorXd size;
   Cholesky A;  ///< I + λ DᵀD λ β
 };
 
-/// A tangent with noise and discrepancy integrated out: any choice of its columns is weighed by a small matrix.
+/// Tangent with noise and discrepancy integrated out: the evidence of any subset of its columns needs a small matrix
+/// only.
 struct ReducedTangent {
-  Eigen::MatrixXd JJ;  ///< information about x that the data give …
-  Eigen::VectorXd Jr;  ///< … and its gradient
+  Eigen::MatrixXd JJ;  ///< information of the data about x
+  Eigen::VectorXd Jr;  ///< gradient of the data
   double rr = 0;
-  double constant = 0;  ///< log of the likelihood without its squares
+  double constant = 0;  ///< log likelihood without its squares
   Eigen::VectorXd x, prior;
   Eigen::MatrixXd read;
   Eigen::VectorXd pull;
   double against = 0;
 };
 
-/// As Explained, with some of its columns, the others staying where they are.
+/// Log evidence with some of its columns, the others fixed at x.
 double log_evidence_of(const ReducedTangent& tangent, const std::vector<Eigen::Index>& columns);
 
-/// Sums over the rows in use that every set of effects shares.
+/// Evidence model that all sets of effects share: discrepancy, noise and their priors.
 class Marginal {
  public:
   static constexpr int k_rounds = 12;
 
-  /// `worth`: independent rows in each row; `floor`: rms noise, rad. The first guess: every family of the floor's size.
+  /// `independent_share`: independent rows in each row; `floor`: rms noise, rad. First guess: every family of the size
+  /// of the floor.
   Marginal(Discrepancy discrepancy, double floor, double worth);
-  /// Of another worth, and with another first guess.
+  /// Copies the model with another independent share and first guess.
   Marginal(const Marginal& other, double worth, Amplitudes first_guess);
 
   const Discrepancy& discrepancy() const { return discrepancy_; }
   double floor() const { return floor_; }
   double worth() const { return worth_; }
   const Amplitudes& first_guess() const { return first_guess_; }
-  /// Of the noise and what is stated alone.
+  /// Amplitudes of noise and of the families with a fixed amplitude alone.
   Amplitudes nothing_unnamed() const;
 
   TangentSums sums_of(const Tangent& tangent) const;
   /// DᵀD
   const Eigen::MatrixXd& gram() const { return gram_; }
 
-  /// `give`: as TangentSums.
+  /// `deflection_ratio`: as TangentSums.
   SizedDiscrepancy sized(const Amplitudes& amplitudes, double give) const;
 
   ReducedTangent reduced(const TangentSums& sums, const SizedDiscrepancy& beside) const;
-  /// With amplitudes as they are given.
+  /// Posterior with given amplitudes.
   Explained at(const TangentSums& sums, const SizedDiscrepancy& beside) const;
   Explained at(const TangentSums& sums, const Amplitudes& amplitudes) const {
     return at(sums, sized(amplitudes, sums.give));
   }
   Explained at(const Tangent& tangent, const Amplitudes& amplitudes) const { return at(sums_of(tangent), amplitudes); }
   Explained at(const Tangent& tangent, const SizedDiscrepancy& beside) const { return at(sums_of(tangent), beside); }
-  /// With those that make the data likeliest, sought from there; a family of none there has none.
+  /// Posterior with the likeliest amplitudes, iterated from `from`; a family that begins at 0 stays 0.
   Explained best(const TangentSums& sums, Amplitudes from, int rounds = k_rounds) const;
   Explained best(const Tangent& tangent, Amplitudes from, int rounds = k_rounds) const {
     return best(sums_of(tangent), std::move(from), rounds);
   }
-  /// By how much what has no name is rarer than none, nats.
+  /// Negative log prior odds of the discrepancy against none, nats.
   double rareness_of_rest(const Explained& explained) const;
-  /// Log of posterior density at x itself but for a constant.
+  /// Log posterior density at x, up to a constant.
   double summit(const Tangent& tangent, const SizedDiscrepancy& beside) const;
 
  private:
@@ -140,8 +141,8 @@ class Marginal {
   Amplitudes first_guess_;
 };
 
-/// Log of the density of a number of this size in practice at `x`: bounded tails, since some joints are worse than any
-/// practice, and no pair of giants that cancel is cheap.
+/// Log prior density at `x` of a parameter of this size: Student's t with 2 degrees of freedom. Its heavy tails allow
+/// rare large faults, and keep pairs of large numbers that cancel from being cheap.
 double log_prior(double x, double prior);
 
 }  // namespace fusee

@@ -8,7 +8,7 @@
 namespace fusee {
 namespace {
 
-/// dθ/dx of a row. Of a fit without parameters J holds nothing, not even a place to point at.
+/// dθ/dx of a row. J of a fit without parameters has no storage.
 Eigen::VectorXd slopes_of(const Fit& fit, Eigen::Index row) {
   return fit.x.size() > 0 ? Eigen::VectorXd(fit.J.row(row).transpose()) : Eigen::VectorXd();
 }
@@ -17,7 +17,7 @@ double reading_of(const HandReading& reading, const Evidence& evidence, const Im
   return reading_by_hand(*reading.parameter, at, *evidence.declared);
 }
 
-/// d(reading)/dx: a step of each number.
+/// d(reading)/dx, by a step of each number.
 Eigen::VectorXd slopes_of(const HandReading& reading, const Evidence& evidence, const Fit& fit) {
   Eigen::VectorXd slopes(fit.x.size());
   const double here = reading_of(reading, evidence, fit.at);

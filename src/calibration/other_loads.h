@@ -1,6 +1,7 @@
 /// \file
-/// Loads that are not as logged, all by the same share: a cell out of calibration, a lever of another length. They act
-/// through the joint's own elasticity and are the log's fault, not the joint's: no effect has their name.
+/// Wrong loads as an alternative to an effect: all loads scaled by one factor, by a cell out of calibration or a lever
+/// of another length. They act through the joint's compliance; no effect describes them, since they are an error of the
+/// log.
 #pragma once
 
 #include <vector>
@@ -10,13 +11,13 @@
 
 namespace fusee {
 
-/// The best set without an effect, on runs whose loads are so many times what was logged.
+/// Best set without an effect, on runs with all loads scaled.
 struct UnderOtherLoads {
   double times = 1;
-  double score = 0;  ///< the price of one more number in it; −infinity: not to be had, or the effect in other words
+  double score = 0;  ///< with the penalty of one searched number; −infinity: no solution, or the effect is equivalent
 };
 
-/// Of every accepted effect, in their order.
+/// Result for every accepted effect, in their order.
 std::vector<UnderOtherLoads> under_other_loads(const Evidence& evidence, Workers& workers, const Selection& selection);
 
 }  // namespace fusee

@@ -9,12 +9,12 @@
 namespace fusee {
 namespace {
 
-/// What went on by a row.
+/// Time, travel and load changes before a row.
 struct GoneOn {
   double time = 0, way = 0, loading = 0;
 };
 
-/// Of each row of each run, in shares of what the whole session has.
+/// Progress at each row of each run, as shares of the session's totals.
 std::vector<std::vector<GoneOn>> gone_on(const Evidence& evidence) {
   const std::vector<double> clock = bench_clock(evidence.log);
   std::vector<std::vector<GoneOn>> all;

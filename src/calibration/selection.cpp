@@ -16,43 +16,43 @@
 #include "fusee/calibration/words.h"
 
 // Bayesian model selection over subsets of the effect catalogue: score(S) = log p(data | S) + log p(S), the discrepancy
-// marginalised (Kennedy and O'Hagan 2001). Search: (1) each effect alone; (2) beam search without discrepancy: several
-// effects that explain all together are no likelier than the discrepancy as long as one of them is missing; (3) beam
-// search by score; (4) each member left out, and held against every effect in its place; (5) one or two effects in the
-// place of none, one or two members. (3) to (5) are repeated until nothing is gained. A wider set is fitted only if a
-// linearised candidate predicts a gain. All sets that were seen are then weighed, each by its likeliest fit: an effect is
-// reported if it, or what stands in its place elsewhere, is in nearly all of the weight.
+// marginalised (Kennedy and O'Hagan 2001). Search: (1) each effect alone; (2) beam search without discrepancy, since
+// several effects that explain the data together are no likelier than the discrepancy until the last of them is added;
+// (3) beam search on score; (4) each member left out, and tested against every effect in its place; (5) one or two
+// effects in the place of none, one or two members. (3) to (5) repeat until the score no longer improves. A wider set
+// is fitted only if a linearized candidate predicts a gain. All visited sets are then weighed, each by its likeliest
+// fit. An effect is reported if sets that contain it, or a member of its group, hold nearly all of the weight.
 
 namespace fusee {
 namespace {
 
-/// score(), what stays without a name for nothing.
+/// score() without the penalty of the discrepancy.
 double score_of_names(const Fit& fit) { return fit.log_evidence - rareness_of(fit.effects); }
 
-/// Of amplitudes, in a linear look.
+/// Rounds of amplitudes in a linearization.
 constexpr int k_look_rounds = 4;
 
-/// What an effect adds to a linear look: slopes over the rows in use.
+/// Columns that an effect adds to a linearization, over the rows in use.
 struct Look {
   Eigen::MatrixXd J;
   Eigen::VectorXd prior;
 };
 
-/// A set as it is without discrepancy.
+/// Fit of a set without discrepancy, with its score.
 struct Plain {
   double score = 0;
   Fit fit;
 };
 
-/// A fit that is there, and what is tried beside it.
+/// Effect that may be added to a fit, with its predicted score.
 struct Addition {
   const Fit* base = nullptr;
   const Effect* effect = nullptr;
   double promise = -std::numeric_limits<double>::infinity();
-  Look look = {};  ///< by which it is promised
+  Look look = {};  ///< columns by which the score was predicted
 };
 
-/// Two linearised candidates beside a base.
+/// Two linearized candidates beside a base.
 struct PairBeside {
   const Fit* base = nullptr;
   const Addition* one = nullptr;
@@ -60,7 +60,7 @@ struct PairBeside {
   double promise = 0;
 };
 
-/// Linearised candidates beside a base: sums over rows that all of them share are computed once.
+/// Linearized candidates beside a base: sums over rows that they share are computed once.
 class SharedLooks {
  public:
   SharedLooks(const Evidence& evidence, const Fit& base, const Amplitudes& unnamed,
@@ -77,7 +77,7 @@ class SharedLooks {
     beside_ = marginal.reduced(sums, marginal.sized(unnamed, sums.give));
   }
 
-  /// With these of them, and the discrepancy as large as it was given.
+  /// Log evidence with the chosen candidates, by the given amplitudes.
   double log_evidence(const std::vector<std::size_t>& chosen) const {
     std::vector<Eigen::Index> columns(static_cast<std::size_t>(own_));
     std::iota(columns.begin(), columns.end(), 0);
@@ -97,7 +97,7 @@ class SharedLooks {
  private:
   ReducedTangent beside_;
   Eigen::Index own_ = 0;
-  std::vector<Eigen::Index> first_;  ///< column of each look, and the end
+  std::vector<Eigen::Index> first_;  ///< first column of each candidate, and the end
 };
 
 class Selector {
@@ -173,11 +173,11 @@ class Selector {
   Workers& workers_;
   const CalibrationOptions& options_;
   Selection selection_;
-  std::vector<Look> looks_;  ///< of each effect of the catalogue; empty where it cannot be simulated
+  std::vector<Look> looks_;  ///< linearization of each effect of the catalogue alone; empty if it cannot be simulated
   std::map<Key, Fit> seen_;
-  std::optional<std::vector<Addition>> beside_best_;  ///< until there is another best
-  std::vector<Fit> companions_;                       ///< the best with one effect more that may be there
-  std::set<Key> tried_;                               ///< sets that were reached beside what has no name
+  std::optional<std::vector<Addition>> beside_best_;  ///< valid until `best` changes
+  std::vector<Fit> companions_;                       ///< `best` with one effect more that may be present too
+  std::set<Key> tried_;                               ///< sets that were fitted beside the discrepancy
 };
 
 Selector::Key Selector::key_of(const EffectSet& effects) const {
@@ -187,7 +187,7 @@ Selector::Key Selector::key_of(const EffectSet& effects) const {
   return key;
 }
 
-/// Its set is not tried again.
+/// Records a fit; its set is not fitted again.
 void Selector::keep(Fit fit) {
   if (fit.usable) tried_.insert(key_of(fit.effects));
   take_in(std::move(fit));
@@ -199,9 +199,8 @@ void Selector::take_in(Fit fit) {
   if (!added && fit.log_evidence > place->second.log_evidence) place->second = std::move(fit);
 }
 
-/// Itself, or one that was seen: where a joint sticks and slips a fit from elsewhere may end on a lower summit, and
-/// what was left out would seem to matter more, or the others less, than they do (reserved split, seed 192006: by 36
-/// nats).
+/// The likeliest known fit of its set. If a joint sticks and slips, a fit from elsewhere may end at a lower mode, and
+/// the left-out effect would seem to matter more than it does (held-out seed 192006: by 36 nats).
 Fit Selector::likeliest_of_its_set(Fit fit) const {
   const auto seen = seen_.find(key_of(fit.effects));
   const bool is_seen = seen != seen_.end() && !(fit.usable && score(fit) >= score(seen->second));
@@ -225,24 +224,24 @@ std::vector<Fit> Selector::fitted(const std::string& what, const std::vector<Add
   return fits;
 }
 
-/// Whether a look promised more than a short fit reached: the slopes that the base had are no longer its own, and the
-/// end is elsewhere (unread split, seed 211303: an offset beside an encoder's eccentricity, 200 nats).
+/// True if a short fit stayed below the prediction: the slopes of the base have changed, and the mode is elsewhere
+/// (held-out seed 211303: an offset beside an encoder's eccentricity, 200 nats).
 bool ended_early(const Fit& fit, const Addition& added) { return score(fit) < added.promise - k_thresholds.as_good; }
 
-/// Closely enough to compare by.
+/// Fit to within the accuracy of a comparison.
 Fit Selector::fitted_a_little(const Fitter& fitter, const Addition& added) const {
   Fit fit = fitter.with_effect(*added.base, *added.effect);
   return fit.usable && ended_early(fit, added) ? fitter.fit(fit.effects, fit.at) : fit;
 }
 
-/// To the end unless it is far behind the best.
+/// Full fit, unless it is far below the best.
 Fit Selector::fitted_to_the_end(const Fitter& fitter, const Addition& added) const {
   Fit fit = fitter.with_effect(*added.base, *added.effect);
   const bool is_near = fit.usable && score(fit) > score(selection_.best) - k_thresholds.hopeless;
   return is_near || (fit.usable && ended_early(fit, added)) ? fitter.fit(fit.effects, fit.at) : fit;
 }
 
-/// Of the catalogue, beside nothing.
+/// Every effect of the catalogue, beside none.
 std::vector<Addition> Selector::each_alone() const {
   std::vector<Addition> all;
   for (const Effect* effect : selection_.catalogue) all.push_back({&selection_.none, effect});
@@ -259,7 +258,7 @@ void Selector::try_singles() {
       const Eigen::Index more = fit.x.size() - own;
       look.J = tangent.J.rightCols(more);
       look.prior = tangent.prior.tail(more);
-      // Of a single number the chord from nothing says more than the slope at its end.
+      // For a single number the chord from zero predicts better than the slope at its end.
       if (more == 1 && fit.x[own] != 0)
         look.J.col(0) = (tangent_of(evidence_, selection_.none).residual - tangent.residual) / fit.x[own];
     }
@@ -284,7 +283,7 @@ double Selector::promised(const Fit& base, const EffectSet& added, const std::ve
   return std::isfinite(promise) ? promise : -std::numeric_limits<double>::infinity();
 }
 
-/// By chords over the effect's size in practice, and to each of its starts.
+/// Linearizations of an effect, by chords over its expected sizes, one for each start.
 std::vector<Look> Selector::looks_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const {
   std::vector<Look> looks;
   for (const Fit& wider : fitter.with_chords_of_starts(base, effect)) {
@@ -296,7 +295,7 @@ std::vector<Look> Selector::looks_beside(const Fitter& fitter, const Fit& base, 
   return looks;
 }
 
-/// Effects beside `base`, by a linear look the best first.
+/// Effects beside `base`, ranked by their linearizations.
 std::vector<Addition> Selector::promising(const Fitter& fitter, const Fit& base, const Amplitudes& unnamed,
                                           std::size_t most) const {
   EffectSet effects = selection_.catalogue;
@@ -328,7 +327,7 @@ std::vector<Addition> Selector::promising(const Fitter& fitter, const Fit& base,
   return all;
 }
 
-/// Of the whole catalogue.
+/// Candidates beside `best`, of the whole catalogue.
 const std::vector<Addition>& Selector::beside_best() {
   const Fit& best = selection_.best;
   if (!beside_best_)
@@ -342,7 +341,7 @@ void Selector::take_best(Fit best) {
   beside_best_.reset();
 }
 
-/// Where nothing stays without a name but noise, as much as it takes.
+/// Posterior without discrepancy, with as much noise as required.
 Explained Selector::plainly(const Fit& fit) const {
   return evidence_.marginal->best(tangent_of(evidence_, fit), evidence_.marginal->nothing_unnamed());
 }
@@ -376,8 +375,8 @@ std::vector<Fit> Selector::wider_plainly(const std::vector<Plain>& beam) {
   return wider;
 }
 
-/// Where it explains most if nothing stays without a name: beside what has none, friction that holds a joint fast ends
-/// as none at all (unopened split, seed 201021).
+/// The likelier fit without discrepancy. Beside the discrepancy, friction that holds a joint fast ends at zero
+/// (held-out seed 201021).
 Fit Selector::fitted_plainly(const Fitter& fitter, const Addition& added) const {
   Fit fit = fitter.with_effect_alone(*added.base, *added.effect);
   const auto seen = seen_.find(key_of({added.effect}));
@@ -385,7 +384,7 @@ Fit Selector::fitted_plainly(const Fitter& fitter, const Addition& added) const 
   return is_better ? fit : seen->second;
 }
 
-/// No effect and each by itself.
+/// No effect, and each effect alone.
 std::vector<Fit> Selector::singles_plainly() {
   std::vector<Fit> singles = fitted("trying effects one by one", each_alone(), &Selector::fitted_plainly);
   std::erase_if(singles, [](const Fit& fit) { return !fit.usable; });
@@ -393,7 +392,7 @@ std::vector<Fit> Selector::singles_plainly() {
   return singles;
 }
 
-/// The first few of them by their scores without discrepancy.
+/// The beam: the first few by their scores without discrepancy.
 std::vector<Plain> Selector::likeliest_plainly(std::vector<Fit> fits) {
   std::vector<Plain> all(fits.size());
   workers_.each(fits.size(), [&](const Fitter&, std::size_t i) {
@@ -405,8 +404,8 @@ std::vector<Plain> Selector::likeliest_plainly(std::vector<Fit> fits) {
   return all;
 }
 
-/// Beam search without discrepancy, until hardly more is left than the noise. A fit without discrepancy may end on
-/// another summit than one beside it, so its set stays to be tried by score.
+/// Beam search without discrepancy, until the residual hardly exceeds the noise. A fit without discrepancy may end at
+/// another mode than one beside it, so its set is fitted again by score.
 void Selector::explain_plainly() {
   std::vector<Plain> beam = likeliest_plainly(singles_plainly());
   while (beam.front().score < score_of_names(beam.front().fit) - k_thresholds.least_unnamed &&
@@ -423,7 +422,7 @@ void Selector::explain_plainly() {
   for (Fit& fit : settled(fits)) take_in(std::move(fit));
 }
 
-/// Whether a wider set than those of the beam does better than the best so far.
+/// Fits wider sets than those of the beam. True if one has a better score than the best so far.
 bool Selector::widen() {
   std::vector<const Fit*> beam = ranked();
   beam.resize(std::min(beam.size(), k_thresholds.beam));
@@ -454,7 +453,7 @@ std::vector<Fit> Selector::settled(const std::vector<const Fit*>& fits) {
   return to_the_end;
 }
 
-/// The best few are fitted to the end.
+/// Full fits of the best few.
 void Selector::settle_best() {
   std::vector<const Fit*> all = ranked();
   all.resize(std::min(all.size(), k_thresholds.beam));
@@ -464,14 +463,14 @@ void Selector::settle_best() {
   take_best(best.usable && best.log_evidence >= likeliest->log_evidence ? std::move(best) : *likeliest);
 }
 
-/// The best, made wider as long as that gains.
+/// Widens the best set as long as that improves the score.
 void Selector::take_widest() {
   while (widen()) {
   }
   settle_best();
 }
 
-/// The best without each of its members, the others fitted anew, once.
+/// Refits `best` without each of its members, once.
 void Selector::leave_each_out() {
   const Fit& best = selection_.best;
   if (selection_.without.size() == best.effects.size()) return;
@@ -482,11 +481,11 @@ void Selector::leave_each_out() {
   });
 }
 
-/// Every member is left out, and held against every effect in its place that a look does not give up, and against those
-/// whose place is searched for, or that hold the joint fast: of a profile's wave in the place of a runout a look
-/// promised nothing, and it was 13 nats likelier (matrix, seed 41022), of a joint's friction in the place of play 35
-/// (unopened split, seed 202192). A look that would give up the member itself gives up nothing that promises as much
-/// (202208: a runout in the place of pins, 4 nats likelier). Whether a better set was found.
+/// Leaves each member out, and fits every effect in its place whose linearization is not hopeless. Effects that are
+/// searched for or make the joint stick are always fitted, since linearizations predict them badly: a profile's wave in
+/// the place of a runout was 13 nats likelier (seed 41022), joint friction in the place of play 35 (held-out seed
+/// 202192). No rival is skipped that predicts as much as the member itself (202208: 4 nats). True if a better set was
+/// found.
 bool Selector::challenge() {
   const Fit& best = selection_.best;
   leave_each_out();
@@ -518,7 +517,7 @@ bool Selector::challenge() {
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
-/// The best without one or two of its members, the likeliest first.
+/// `best` without one or two of its members, likeliest first.
 std::vector<Fit> Selector::reduced() const {
   const Fit& best = selection_.best;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -540,8 +539,8 @@ std::vector<Fit> Selector::reduced() const {
   return all;
 }
 
-/// The best pairs, none of whose effects is in more than a few: a candidate of slack predicts much beside any other effect
-/// and keeps nothing of it.
+/// The best pairs, each effect in a few of them only: a candidate of slack predicts a gain beside any other effect and
+/// keeps none of it.
 std::vector<PairBeside> best_of_each(std::vector<PairBeside> pairs, std::size_t most) {
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const PairBeside& a, const PairBeside& b) { return a.promise > b.promise; });
@@ -557,7 +556,7 @@ std::vector<PairBeside> best_of_each(std::vector<PairBeside> pairs, std::size_t 
   return best;
 }
 
-/// The best pairs of linearised candidates whose sets were not tried, beside so much discrepancy.
+/// The best pairs of linearized candidates whose sets were not fitted, beside a discrepancy of these amplitudes.
 std::vector<PairBeside> Selector::pairs_beside(const Fit& base, const Amplitudes& unnamed,
                                                const std::vector<Addition>& looks) const {
   std::vector<const Look*> usable;
@@ -585,7 +584,7 @@ std::vector<PairBeside> Selector::pairs_beside(const Fit& base, const Amplitudes
   return pairs;
 }
 
-/// The same with the discrepancy of the base and without any: two effects that explain all together predict little as
+/// Pairs with the discrepancy of the base and without any: two effects that explain the data together predict little as
 /// long as the discrepancy explains as much.
 std::vector<PairBeside> Selector::pairs_beside(const Fit& base, const std::vector<Addition>& looks) const {
   std::vector<PairBeside> pairs = pairs_beside(base, base.explained.amplitudes, looks);
@@ -602,9 +601,9 @@ std::vector<PairBeside> Selector::pairs_beside(const Fit& base, const std::vecto
   return best_of_each(std::move(pairs), k_thresholds.most_looks);
 }
 
-/// Puts one or two other effects in the place of none, one or two members: either exchange alone may be worse. Whether a
-/// better set was found. Without this and four searches behind it 19 of 21 effects are held in place of 21 (18 joints
-/// from seed 950001).
+/// Exchanges none, one or two members for one or two other effects, since either exchange alone may lower the score.
+/// True if a better set was found. Without this step and four searches that followed it 19 of 21 effects are held in
+/// place of 21 (18 joints from seed 950001).
 bool Selector::exchange() {
   const double before = score(selection_.best);
   const std::vector<Fit> bases = reduced();
@@ -641,8 +640,8 @@ bool Selector::exchange() {
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
-/// True if one of its numbers stands at the end of its range: the data ask for more of it than any joint has, and so
-/// for something else. Where it is searched for the end may be where it is, and what is nothing has no end.
+/// True if one of its numbers is at a bound: the data require more of it than any joint has, so another cause. Searched
+/// numbers may end at a bound, and zero is none.
 bool is_at_bound(const Fit& fit, const Effect& effect) {
   return std::any_of(effect.parameters.begin(), effect.parameters.end(), [&](const EffectParameter& parameter) {
     return !parameter.searched && value_of(fit.at, parameter) != 0 && !is_idle(parameter, fit.at) &&
@@ -650,8 +649,8 @@ bool is_at_bound(const Fit& fit, const Effect& effect) {
   });
 }
 
-/// True if the fits differ by as much as can be seen beside the noise that is left, and rows that were not fitted, whole
-/// runs and whole levels of load and speed, are predicted worse without the effect, the others fitted anew.
+/// True if the fits differ by more than the remaining noise hides, and held-out rows, whole runs and whole levels of
+/// load and speed, are predicted worse without the effect, the others refitted.
 bool predicts(const Evidence& evidence, const Fit& with, const Fit& without) {
   const double noise = std::max(evidence.floor, with.explained.amplitudes.noise);
   return rms_apart(evidence, with.residual, without.residual) > k_thresholds.least_left * noise &&
@@ -659,9 +658,8 @@ bool predicts(const Evidence& evidence, const Fit& with, const Fit& without) {
              with.by_run.mean_square + with.by_factor.mean_square;
 }
 
-/// All sets that were looked at: of the declared joint's with one effect all were fitted, of the best's those that
-/// promised something, and the others count by what they promise. Where more than noise is left that nothing describes,
-/// the model is wrong by more, and evidence is worth less.
+/// All visited sets, each by its score over the temperature. Wider sets of `best` that were not fitted count by their
+/// predicted score. If the noise exceeds the floor, the model is wrong by as much, and the temperature rises.
 std::vector<Weighed> Selector::weighed() {
   const Fit& best = selection_.best;
   const double misfit = std::max(1.0, best.explained.amplitudes.noise / evidence_.floor);
@@ -678,21 +676,20 @@ std::vector<Weighed> Selector::weighed() {
   return sets;
 }
 
-/// Whether the joint is likelier without it: two groups of which each holds what stands in the other's place may be
-/// sure of both. Or whether it predicts nothing, or only by more than any joint has of it.
+/// True if the set is likelier without it, or it predicts nothing, or only at a bound. Two groups that each contain the
+/// other's effect may both seem certain.
 bool Selector::is_for_nothing(const Effect& effect, const Fit& others) const {
   const Fit& best = selection_.best;
   if (!others.usable) return false;
   return score(others) > score(best) || !predicts(evidence_, best, others) || is_at_bound(best, effect);
 }
 
-/// Where nothing in its place may be there as well, each of all others takes a little of the doubt away, and says
-/// nothing.
+/// Credible group of an effect. Members that remove hardly any doubt are left out.
 CredibleGroup Selector::group_of(const std::vector<Weighed>& sets, const Effect& effect) const {
   return credible_group(sets, selection_.best.effects, effect, k_thresholds.least_of_a_group, k_thresholds.least_gain);
 }
 
-/// Whether it, or any effect of the catalogue in its place, is as sure as a name is: which it is may be less so.
+/// True if it, or any effect of the catalogue in its place, is as certain as a reported effect must be.
 bool Selector::is_some_name(const std::vector<Weighed>& sets, const Effect& effect) const {
   return credible_group(sets, selection_.best.effects, effect, k_thresholds.most_mistaken).doubt <=
          k_thresholds.most_mistaken;
@@ -702,7 +699,7 @@ bool Selector::leaves_unexplained(const Fit& fit) const {
   return is_unexplained(unnamed_beside(evidence_, fit), evidence_.floor);
 }
 
-/// Whether the best set explains all, or clearly more, and these of its members do not.
+/// True if the best set explains all of the residual, or clearly more of it than `others` do.
 bool Selector::is_completed_beside(const Fit& others) const {
   const Unnamed beside_others = unnamed_beside(evidence_, others);
   if (!is_unexplained(beside_others, evidence_.floor)) return false;
@@ -710,8 +707,7 @@ bool Selector::is_completed_beside(const Fit& others) const {
   return beside_best.rms < k_thresholds.part_left * beside_others.rms || !is_unexplained(beside_best, evidence_.floor);
 }
 
-/// Drops the most doubtful effect: neither it nor what could stand in its place is sure enough, or it predicts nothing.
-/// Whether one was dropped.
+/// Drops the most doubtful effect that is not certain with its group or predicts nothing. True if one was dropped.
 bool Selector::drop_doubtful() {
   const std::vector<Weighed> sets = weighed();
   leave_each_out();
@@ -737,14 +733,14 @@ bool Selector::drop_doubtful() {
   return false;
 }
 
-/// Drops all doubtful effects, and finds what could stand in the place of those that remain.
+/// Drops all doubtful effects, and tests rivals of the others.
 void Selector::drop_all_doubtful() {
   bool dropped = false;
   while (drop_doubtful()) dropped = true;
   if (dropped) challenge();
 }
 
-/// Drops effects without which rows that were not fitted are predicted no worse.
+/// Drops effects without which held-out rows are predicted no worse.
 void Selector::drop_what_predicts_nothing() {
   for (std::size_t i = 0; i < selection_.best.effects.size();) {
     leave_each_out();
@@ -760,14 +756,14 @@ void Selector::drop_what_predicts_nothing() {
   }
 }
 
-/// Root mean square over the rows of what a Gaussian of covariance `C` does by the slopes `J`, rad.
+/// Root mean square over the rows, rad, of J x for x of covariance `C`.
 double rms_by(const Eigen::MatrixXd& J, const Eigen::MatrixXd& C) {
   return std::sqrt(std::max(0.0, (J * C).cwiseProduct(J).sum()) /
                    static_cast<double>(std::max<Eigen::Index>(1, J.rows())));
 }
 
-/// The place of the member that shares what `wider`, the best with one effect more, gives its last, or none where they
-/// share little: as much as it may be larger, the member is smaller, and the data do not say how much.
+/// Index of the member that is correlated most with the last effect of `wider`, by the amount that they trade: the
+/// regression of the member's contribution on the effect's. None if that is small.
 std::optional<std::size_t> Selector::shares_with(const Fit& wider) const {
   const Fit& best = selection_.best;
   const Tangent tangent = tangent_of(evidence_, wider);
@@ -787,8 +783,8 @@ std::optional<std::size_t> Selector::shares_with(const Fit& wider) const {
   return most;
 }
 
-/// Effects that the data do not ask for, and that may be there all the same by as much as a member is smaller then,
-/// join that member's group: one of them is there, and perhaps both.
+/// Adds effects to the group of the member with which they trade: the data do not require them, but allow them with a
+/// smaller member.
 void Selector::join_companions() {
   const Fit& best = selection_.best;
   if (best.effects.empty() || best.effects.size() >= k_thresholds.most_effects) return;
@@ -810,7 +806,7 @@ void Selector::join_companions() {
   }
 }
 
-/// Mean square of a number of the best about its value there, by another fit that holds it, in its steps.
+/// Mean square deviation of a number from its value in `best`, by another fit with that number, in its steps².
 std::optional<double> Selector::square_about_best(const Fit& fit, Eigen::Index place) const {
   const Fit& best = selection_.best;
   const auto own =
@@ -821,9 +817,8 @@ std::optional<double> Selector::square_about_best(const Fit& fit, Eigen::Index p
   return apart * apart + selection_.temperature * std::max(0.0, fit.explained.covariance(k, k));
 }
 
-/// What a number is depends on what else is there: over all sets that hold it by their weight, and as far as any
-/// companion would move it, since nobody knows whether it is there. Beside what stays unexplained it is known less
-/// well.
+/// Variance of each number over all sets that contain it by their weight, at least that with any companion, and larger
+/// beside an unexplained residual.
 void Selector::look_at_variance() {
   const Fit& best = selection_.best;
   const double wider = leaves_unexplained(best) ? std::pow(k_thresholds.wider_beside_rest, 2) : 1.0;
@@ -844,7 +839,7 @@ void Selector::look_at_variance() {
   }
 }
 
-/// What the data say of every effect: of those that were accepted what is lost without, of the others what is gained.
+/// Records the evidence of every effect: accepted ones against `best` without them, others by their predicted score.
 void Selector::write_down() {
   const Fit& best = selection_.best;
   for (std::size_t i = 0; i < best.effects.size(); ++i) {

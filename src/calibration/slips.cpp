@@ -13,7 +13,7 @@
 namespace fusee {
 namespace {
 
-/// Ten times as many as a fit looks at.
+/// Rows of a run: ten times those of a fit.
 constexpr std::size_t k_rows_a_slip = 2000;
 
 Measurement as_meant(Measurement data, const Suspect& suspect) {
@@ -29,7 +29,7 @@ Measurement as_meant(Measurement data, const Suspect& suspect) {
   return data;
 }
 
-/// A suspect held against the data.
+/// Hypothesis compared with the data.
 struct Trial {
   Suspect suspect;
   double left = std::numeric_limits<double>::infinity();  ///< held-out rms with nothing fitted, rad
@@ -64,32 +64,32 @@ bool is_explained(const Calibration& found) {
 
 bool is_within(const Trial& trial, double floors) { return trial.left <= floors * trial.floor; }
 
-/// What a slip has to beat, rad.
+/// Errors that a hypothesis must reduce, rad.
 struct Stakes {
-  double declared = 0;    ///< left by the file as it stands
-  double by_effects = 0;  ///< left by the effects that were found in it
+  double declared = 0;    ///< held-out rms of the file as it is
+  double by_effects = 0;  ///< held-out rms of the effects found in it
   bool explained = false;
 };
 
-/// Where nothing could be tested, anything is better.
+/// If nothing could be tested, any error is an improvement.
 Stakes stakes_of(const Calibration& found) {
   constexpr double nothing = std::numeric_limits<double>::infinity();
   if (found.verdict == CalibrationVerdict::not_testable) return {nothing, nothing};
   return {found.before.held_out_rms, found.after.held_out_rms, is_explained(found)};
 }
 
-/// True if the corrected file alone explains what several effects at their largest explain as well.
+/// True if the corrected file alone explains data that several large effects explain equally well.
 bool is_simpler(const Trial& trial, const Stakes& stakes) {
   return is_within(trial, k_thresholds.slip_alone) && stakes.declared > k_thresholds.slip_large * trial.floor;
 }
 
-/// True if the corrected file is so much nearer to the data that another cause beside the slip may stay unexplained.
+/// True if the corrected file is so much nearer to the data that another cause beside the error may stay unexplained.
 bool is_clear(const Trial& trial, const Stakes& stakes) {
   return std::isfinite(stakes.by_effects) ? trial.left * k_thresholds.slip_clear < stakes.by_effects
                                           : is_within(trial, k_thresholds.slip_large);
 }
 
-/// True if the corrected file explains the data, alone or with effects beside it, by the rule of every calibration.
+/// True if the corrected file explains the data, alone or with effects, by the rules of every calibration.
 bool explains(Trial& trial, const Measurement& read, const Stakes& stakes) {
   UndoneSlip& slip = trial.suspect.slip;
   slip.rms = trial.left;
@@ -115,7 +115,7 @@ std::string beside_text(const std::vector<std::string>& effects) {
   return text.empty() ? text : text + " beside it";
 }
 
-/// A file that was corrected has been held against data before.
+/// False for a file that contains identified effects: it was compared with data before.
 bool can_have_slips(const DeclaredMechanism& declared, const Measurement& as_read) {
   return as_read.not_testable.empty() && declared.identified == Imperfections{};
 }
@@ -131,7 +131,7 @@ bool is_plainly_a_slip(const DeclaredMechanism& declared, const Measurement& as_
   const std::vector<Trial> all = trials(declared, data, floor);
   if (all.empty()) return false;
   const Stakes stakes{as_it_stands.left, as_it_stands.left, false};
-  // A fault of any known size may stand beside the slip.
+  // A fault of any known size may be present beside the error.
   return is_simpler(all.front(), stakes) ||
          (is_within(all.front(), k_thresholds.slip_large) && is_clear(all.front(), stakes));
 }
@@ -145,7 +145,7 @@ std::vector<UndoneSlip> slips_that_explain(const DeclaredMechanism& declared, co
   const double floor = std::max(noise_floor(as_read).rms, 1e-9);
   const Measurement data = with_fewer_rows(as_read, k_rows_a_slip);
   std::vector<UndoneSlip> slips;
-  double best = 0;  // held-out rms of the first
+  double best = 0;  // held-out rms of the best
   for (Trial& trial : trials(declared, data, floor)) {
     const bool ties = slips.empty() || trial.left <= k_thresholds.slip_tie * best;
     if (!ties || !explains(trial, data, stakes)) break;

@@ -8,10 +8,10 @@
 namespace fusee {
 namespace {
 
-/// Numbers that differ by less than this part are no slip of each other.
+/// Relative difference below which values are equal.
 constexpr double k_alike = 0.01;
 
-/// `would_be` in place of what is declared; nothing where that is the same or no file may hold it.
+/// Hypothesis that the keys should have the values `would_be`; none if they are equal or invalid in a file.
 std::optional<Suspect> instead(const DeclaredMechanism& declared, const std::string& name,
                                const std::vector<std::string>& keys, const std::vector<double>& would_be,
                                const char* question) {
@@ -50,7 +50,7 @@ std::optional<Suspect> range_in_radians(const DeclaredMechanism& declared) {
                  {degrees(degrees(joint.theta_min)), degrees(degrees(joint.theta_max))}, "is it in radians?");
 }
 
-/// The pulley that was made from the file as it stands, in the joint that was meant.
+/// The corrected joint with the pulley of the uncorrected file.
 std::optional<Suspect> with_pulley_as_declared(std::optional<Suspect> suspect, const DeclaredMechanism& declared) {
   if (!suspect) return suspect;
   suspect->drawn = declared;

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: what may have been written wrongly, and the joint and data that were meant.
+/// Likely input errors of file and data, and the joint and data after their correction.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,16 @@
 
 namespace fusee {
 
-/// A slip undone, before it was held against data.
+/// Corrected input error, before it is compared with data.
 struct Suspect {
-  UndoneSlip slip;          ///< without its rms
-  DeclaredMechanism joint;  ///< as meant
-  DeclaredMechanism drawn;  ///< what its pulley was made for
-  double alpha = 1;         ///< the logged angles times this
+  UndoneSlip slip;          ///< the error, without its rms
+  DeclaredMechanism joint;  ///< corrected joint
+  DeclaredMechanism drawn;  ///< joint for which its pulley was made
+  double alpha = 1;         ///< factor on the logged angles
   double theta = 1;
 };
 
-/// The likeliest slips that `declared` and its data can have, one at a time.
+/// Likely input errors of `declared` and its data, one at a time.
 std::vector<Suspect> suspects(const DeclaredMechanism& declared);
 
 }  // namespace fusee

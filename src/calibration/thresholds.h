@@ -1,8 +1,8 @@
 /// \file
-/// Every number by which a calibration decides, with its reason and the figure that it stands on.
+/// Thresholds of the decisions of a calibration, each with its reason and the figure that supports it.
 ///
-/// docs/development/calibration-ablation.md says which of them were switched off on joints that nothing was tuned on, and
-/// what that cost. *Rig data* are the six joints of tests/data/rig. "Joints" without a place are joints of
+/// docs/development/calibration-ablation.md reports which of them were switched off on joints that nothing was tuned
+/// on, and the cost. *Rig data* are the six joints of tests/data/rig. "Joints" without a place are joints of
 /// tests/rig/known_truth. A false positive is a group without a true cause. Evidence is in natural logarithms (nats).
 #pragma once
 
@@ -13,117 +13,118 @@ namespace fusee {
 struct Thresholds {
   // ---- residual: noise, or an unmodelled cause ----
 
-  /// Nats by which the data must ask for a discrepancy, and its rms in noise floors, before a residual is unexplained.
+  /// Log Bayes factor of a discrepancy, and its rms in noise floors, above which a residual is unexplained.
   double unexplained = 8.0;
   double least_left = 0.35;
-  /// Nats that each part of a discrepancy must add to be described.
+  /// Nats that each component of a discrepancy must add to be described.
   double least_unnamed = 3.0;
 
   // ---- evidence of a set of effects ----
 
-  /// Share of the declared joint's deflection to which the model is trusted. Smaller errors are no evidence, however
-  /// long the log is.
+  /// Relative error of the model itself, as a share of the declared joint's deflection. Smaller errors are no evidence,
+  /// however long the log is.
   double trusted = 0.03;
-  /// Log prior odds against an effect: of 26 effects a joint has two or three. A discrepancy of one noise floor rms and
-  /// more is charged the same, a smaller one less.
+  /// Negative log prior odds of an effect: of 26 effects a joint has two or three. A discrepancy of one noise floor rms
+  /// and more has the same penalty, a smaller one less.
   double rareness = 2.3;
-  /// Added for an effect with a number that is searched for (an order, a time).
+  /// Penalty of a searched number (an order, a time), added to the prior odds.
   double price_of_a_search = 3.0;
-  /// Noise floors: one family of the discrepancy in two is larger. 150 joints: without this prior 50 % of the effects
-  /// are held, with it 75 %; false positives beside an unmodelled cause are 18 % and 25 %.
+  /// Prior scale of a discrepancy's family, in noise floors: one in two is larger. 150 joints: without this prior 50 %
+  /// of the effects are held, with it 75 %; false positives beside an unmodelled cause are 18 % and 25 %.
   double usual_unknown = 0.5;
-  /// The prior of a number is narrowed until it moves the reading by at most so many times the error that is seen, or so
-  /// many noise floors where little is seen.
+  /// The prior size of a number is narrowed until it moves the reading by at most so many times the observed error, or
+  /// so many noise floors if the error is small.
   double most_expected = 2.0;
   double least_expected = 10.0;
-  /// Log odds are divided by this, since evidence is overstated where the model is a little wrong. 296 joints: at 1.0,
-  /// 1.5, 2.2 and 3.2 false positives are 54, 46, 39 and 31 of 160 joints with an unmodelled cause; 229, 229, 228 and
-  /// 235 effects are held; from 2.0 on stretch is no longer found from seven held angles.
+  /// Divisor of log odds, since evidence is overstated if the model is slightly wrong. 296 joints: at 1.0, 1.5, 2.2 and
+  /// 3.2 false positives are 54, 46, 39 and 31 of 160 joints with an unmodelled cause; 229, 229, 228 and 235 effects
+  /// are held; from 2.0 on stretch is no longer found from seven dwells.
   double temperature = 1.75;
-  /// Nats that one effect needs by itself (audit, detectable sizes): odds of 400, "decisive" (Kass and Raftery 1995).
+  /// Nats that one effect requires by itself (audit, detectable sizes): odds of 400, "decisive" (Kass and Raftery
+  /// 1995).
   double price_of_a_name = 6.0;
-  /// Sets within so many nats of the best one are equally likely.
+  /// Difference in nats up to which two sets are equally likely.
   double as_good = 4.0;
-  /// Degrees of freedom that the noise floor is taken to have.
+  /// Degrees of freedom of the noise floor.
   double noise_freedom = 30.0;
 
   // ---- what is reported ----
 
-  /// Synthetic data sets without an effect, and the largest share of them in which it may be found: the false-positive
-  /// rate that an effect may have to stand alone.
+  /// Synthetic data sets without an effect, and the largest false-positive rate of an effect that is reported alone.
   int worlds = 200;
   double most_mistaken = 0.02;
-  /// Members that an audit adds to a group: the most frequent causes of its false positives.
+  /// Members that an audit adds to a group: the most frequent true causes of its false positives.
   std::size_t most_culprits = 6;
-  /// Doubt above which an effect is not reported. Between most_mistaken and this its group says `unmodelled`. 48 joints:
-  /// of 10 effects that were lost 6 stood in the likeliest set.
+  /// Doubt above which an effect is not reported. Between the false-positive rate and this its group contains
+  /// `unmodelled`. 48 joints: of 10 effects that were lost 6 were in the likeliest set.
   double most_doubtful = 0.3;
-  /// An effect that is as doubtful is also kept where it lowers the unexplained residual to less than this share. Joint
-  /// 950018: without this rule an offset is dropped, 4.4 noise floors are left in place of 2, and the held-out error is
+  /// Share to which an effect as doubtful must lower the unexplained residual to be reported all the same. Joint
+  /// 950018: without this rule an offset is dropped, 4.4 noise floors remain in place of 2, and the held-out error is
   /// 2.0 times as large.
   double part_left = 0.8;
-  /// Share of the remaining doubt that each further member of a group must take away. Without it groups of 9 joints from
+  /// Share of the remaining doubt that each further member of a group must remove. Without it groups of 9 joints from
   /// seed 950001 have 7.2 members in place of 5.7.
   double least_gain = 0.1;
   /// Doubt at which a group is complete.
   double least_of_a_group = 0.005;
-  /// Noise floors rms that an effect beside the best set may take from a member to join its group, and the most effects
-  /// that are tried. Without this step 8 of 10 effects of the same joints are held in place of 10; without the limit
-  /// groups of the first six grow from 7.1 to 7.7.
+  /// Noise floors rms that an effect beside the best set must trade with a member to join its group, and the number of
+  /// effects that are tested. Without this step 8 of 10 effects of the same joints are held in place of 10; without the
+  /// limit groups of the first six grow from 7.1 to 7.7.
   double least_shared = 1.5;
   std::size_t most_companions = 10;
-  /// Nats by which the data must prefer an effect to the best unmodelled cause in its place (unmodelled.h). Otherwise its
-  /// group says `unmodelled`.
+  /// Log odds of an effect against the best unmodelled cause in its place (unmodelled.h) below which its group contains
+  /// `unmodelled`.
   double ahead_of_unmodelled = 10.0;
-  /// The same of an effect without a shape of its own. It follows temperature or sets in at some time, as wear, settling
-  /// and jumps do; or it leaves the joint free within a play. 670 joints: of six thermal expansions at 15 to 40 nats
-  /// three were false positives, of eight above 40 one; of six slacks below 40 three, above none.
+  /// Log odds that are required of an effect without a shape of its own. It follows temperature or begins at some time,
+  /// as wear, settling and jumps do; or it leaves the joint free within a play. 670 joints: of six thermal expansions
+  /// at 15 to 40 nats three were false positives, of eight above 40 one; of six slacks below 40 three, above none.
   double ahead_without_shape = 40.0;
-  /// Factor on intervals beside an unexplained residual. 204 joints: 88 % of 95 numbers were within intervals without it.
+  /// Factor on intervals beside an unexplained residual. 204 joints: 88 % of 95 numbers were within intervals without
+  /// it.
   double wider_beside_rest = 1.5;
 
   // ---- what is handed over ----
 
-  /// Beside an unmodelled cause, the largest ratio of held-out mean squares, least squares to posterior, at which
-  /// numbers by least squares are handed over. Set on the real jaw: 0.93 by runs, 0.91 by levels.
+  /// Beside an unmodelled cause, largest ratio of held-out mean squares, least squares to MAP, at which least squares
+  /// are reported. Set on the real jaw: 0.93 by runs, 0.91 by levels.
   double least_squares_left = 0.95;
 
   // ---- joints that do not repeat ----
 
-  /// Scatter between strokes that should be alike, in noise within a stroke.
+  /// Scatter between repeated strokes, by the noise within a stroke.
   double walks = 0.7;
-  /// Scatter of repeats, in scatter of neighbouring rows. Noise with a memory of 0.95 from row to row reaches 6, of
+  /// Scatter of repeats, by the scatter of neighbouring rows. Noise with a memory of 0.95 from row to row reaches 6, of
   /// 0.98 reaches 9.
   double scatters = 10.0;
 
   // ---- extent of the search ----
 
   std::size_t most_effects = 5;
-  /// Sets that are made wider, and linearised candidates of each that are fitted.
+  /// Sets that are widened, and linearized candidates of each that are fitted.
   std::size_t beam = 4;
   std::size_t most_looks = 6;
-  /// Pairs of linearised candidates that one effect may be in.
+  /// Pairs of linearized candidates that one effect may be in.
   std::size_t most_of_each = 2;
-  /// Nats below the best set from which a linearised candidate is not fitted, and a fit is not continued.
+  /// Nats below the best set from which a linearized candidate is not fitted, and a fit is not continued.
   double hopeless = 15.0;
-  /// Nats by which a set must exceed the best to take its place: fits end within so much of the summit.
+  /// Nats by which a set must exceed the best to replace it: accuracy of a fit.
   double better = 0.1;
-  /// Above so many strokes the discrepancy holds no constant for each.
+  /// Number of strokes up to which the discrepancy has a constant for each.
   std::size_t most_strokes = 48;
 
   // ---- two states of one joint ----
 
-  /// Share of the shorter range of α that both states must have shown.
+  /// Share of the shorter range of α that both states must cover.
   double least_shared_way = 0.3;
-  /// Standard errors by the scatter from run to run that a change must be large. Jaw, state Pitch_1, its runs taken in
-  /// turn as before and after: without it tendon_stretch and tendon_slip are reported.
+  /// Size of a change in standard errors, by the scatter from run to run. Jaw, state Pitch_1, its runs taken in turn as
+  /// before and after: without it tendon_stretch and tendon_slip are reported.
   double least_by_runs = 5.0;
   /// Share of the joint's motion, rms, by which two states of one joint may differ. Half the ratio gives 0.5.
   double most_changed_part = 0.3;
 
   // ---- likely input errors ----
 
-  /// Noise floors that the file as it stands must leave for an input error to be likely before any search. Known faults
+  /// Noise floors that the file as it is must leave for an input error to be likely before any search. Known faults
   /// leave 15, one of them 27. The corrected file must leave less, if effects are sought beside the error.
   double slip_large = 15.0;
   /// Noise floors that the corrected file may leave to explain the data alone. A pulley made for the other sign of OE
@@ -135,14 +136,14 @@ struct Thresholds {
   /// Ratio from which an input error is reported although another cause stays unexplained beside it. Rig data
   /// f_not_in_any_catalogue with the sign of OE turned: 26.
   double slip_clear = 10.0;
-  /// Input errors that leave at most this many times what the best one leaves are equally likely.
+  /// Ratio to the residual of the best input error up to which others are equally likely.
   double slip_tie = 1.25;
 
   // ---- sizes that would have been found, and proposed runs ----
 
-  /// Standard errors beyond what an effect needs at which it is found in four cases of five.
+  /// Standard errors beyond the required size at which an effect is found in four cases of five.
   double power = 0.84;
-  /// A proposed run distinguishes two explanations that differ in it by this many times the noise.
+  /// Difference in noise at which a proposed run distinguishes two explanations.
   double told_apart = 3.0;
 };
 

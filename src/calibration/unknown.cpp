@@ -14,13 +14,13 @@
 namespace fusee {
 namespace {
 
-/// Places of a drawn course.
+/// Nodes of a drawn component.
 constexpr int k_places = 61;
-/// Orders of a harmonic, times a turn: the least, the most that rows can show, and how finely they are looked through.
+/// Harmonics: the least order in periods a turn, the largest, and the rows that a period requires.
 constexpr double k_least_order = 1.0;
 constexpr double k_most_order = 400.0;
 constexpr double k_rows_a_period = 2.5;
-/// Of a description.
+/// Components of a description.
 constexpr std::size_t k_most_parts = 4;
 
 struct FactorWords {
@@ -55,15 +55,15 @@ constexpr FactorWords k_words[] = {
     {Factor::stroke, "stroke", "differs from stroke to stroke: something is loose or walks"},
 };
 
-/// Rows in use: the angle of the motor and of the joint, and which way the motor moves and the load pulls, ±1.
+/// Rows in use: motor and joint angle, direction of the motor and sign of the load, ±1.
 struct Angles {
   Eigen::VectorXd motor, joint;
   Eigen::VectorXd direction, pull;
-  double motor_step = 0;  ///< median from row to row, of those between which the motor moved
+  double motor_step = 0;  ///< median step from row to row while the motor moved
   double joint_step = 0;
 };
 
-/// Of rows at one held angle noise alone moves the joint's: they show no order.
+/// Median step. Between rows of one dwell noise alone moves the joint's angle.
 double median_step(const Eigen::VectorXd& angle, const Eigen::VectorXd& motor) {
   std::vector<double> steps;
   for (Eigen::Index i = 1; i < angle.size(); ++i) {
@@ -94,7 +94,7 @@ Angles angles_of(const Evidence& evidence) {
   return angles;
 }
 
-/// What the families of a factor add, rows in use.
+/// Sum of the families of a factor, rows in use.
 Eigen::VectorXd part_of(const Discrepancy& discrepancy, const Eigen::VectorXd& unnamed, Factor factor) {
   Eigen::VectorXd part = Eigen::VectorXd::Zero(discrepancy.columns.rows());
   for (const Family& family : discrepancy.families) {
@@ -104,7 +104,7 @@ Eigen::VectorXd part_of(const Discrepancy& discrepancy, const Eigen::VectorXd& u
   return part;
 }
 
-/// A part as it would be with the motor on its way up and the load positive.
+/// Component for rising motor angle and positive load.
 Eigen::VectorXd turned_over(const Angles& angles, const Eigen::VectorXd& part, Factor factor) {
   switch (factor) {
     case Factor::direction:
@@ -118,12 +118,12 @@ Eigen::VectorXd turned_over(const Angles& angles, const Eigen::VectorXd& part, F
   }
 }
 
-/// Whether a part is a function of place, times something.
+/// True if a component is a function of place, times a factor.
 bool has_course(Factor factor) {
   return factor != Factor::reversal && factor != Factor::run && factor != Factor::drift && factor != Factor::stroke;
 }
 
-/// The largest of a part at each place.
+/// Draws the largest value of a component at each place.
 void draw(const Angles& angles, const Eigen::VectorXd& part, Unknown& unknown) {
   SeenSpan span;
   for (const double alpha : angles.motor) span.take(alpha);
@@ -140,10 +140,10 @@ void draw(const Angles& angles, const Eigen::VectorXd& part, Unknown& unknown) {
   }
 }
 
-/// The order whose sine and cosine take most of `left`, and by how much they lower its squares.
+/// Harmonic whose sine and cosine reduce the squares of the residual most.
 struct Harmonic {
   double order = 0;
-  double taken = 0;  ///< share of the squares
+  double taken = 0;  ///< share of the squares that it removes
   Eigen::VectorXd part;
 };
 
@@ -165,7 +165,7 @@ Harmonic strongest(const Eigen::VectorXd& angle, double row_step, const Eigen::V
   return best;
 }
 
-/// Of the motor or of the joint, if a single harmonic is more than half of what is left, or of what noise leaves of it.
+/// Adds a harmonic of motor or joint if it is more than half of the residual beyond noise.
 void find_harmonic(const Angles& angles, const Eigen::VectorXd& left, double noise, std::vector<Unknown>& parts) {
   const Harmonic motor = strongest(angles.motor, angles.motor_step, left);
   const Harmonic joint = strongest(angles.joint, angles.joint_step, left);
@@ -193,11 +193,11 @@ void find_harmonic(const Angles& angles, const Eigen::VectorXd& left, double noi
 
 namespace {
 
-/// The data explained by so many factors, each taken while it is needed beside those before it: several would do for
-/// one another, and a description names the one that does most.
+/// Discrepancy of a few factors, added one by one while the data require them: several can replace one another, and the
+/// description contains the one that explains most.
 struct Described {
   Explained explained;
-  std::vector<std::pair<const FactorWords*, double>> factors;  ///< with what each added, nats
+  std::vector<std::pair<const FactorWords*, double>> factors;  ///< with the evidence that each added, nats
 };
 
 Described described(const Marginal& marginal, const TangentSums& sums, double size) {
@@ -234,7 +234,7 @@ Described described(const Marginal& marginal, const TangentSums& sums, double si
 
 namespace {
 
-/// What noise is more than the floor, rad². A floor that few repeats know is exceeded by chance.
+/// Excess of the noise over the floor, rad². A floor from few repeats is exceeded by chance.
 double noise_beyond_floor(const Evidence& evidence, double noise) {
   const double ratio = std::pow(noise / evidence.floor, 2);
   const double rows = evidence.marginal->worth() * static_cast<double>(evidence.rows_used());

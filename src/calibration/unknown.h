@@ -1,5 +1,5 @@
 /// \file
-/// What stays without a name beside a set of effects: on what it depends, how large it is, where such a thing can sit.
+/// Description of the discrepancy beside a set of effects: its components, their sizes and possible places.
 #pragma once
 
 #include <vector>
@@ -10,19 +10,19 @@
 namespace fusee {
 
 struct Unnamed {
-  double evidence = 0;  ///< nats by which the data are likelier with it than with noise and the model's own error alone
-  double rms = 0;       ///< of all of it, rad
-  std::vector<Unknown> parts;  ///< the largest first
-  Explained explained;         ///< by the factors that are described, each with its amplitude
+  double evidence = 0;         ///< log Bayes factor of the discrepancy to noise and the model's own error alone
+  double rms = 0;              ///< rms of the discrepancy, rad
+  std::vector<Unknown> parts;  ///< components, largest first
+  Explained explained;         ///< posterior with the described factors, each with its amplitude
 };
 
-/// Whether nothing but where the motor is and which way it came matters.
+/// True for factors of motor angle and direction alone.
 bool is_of_place(Factor factor);
 
-/// Parts that the data hardly need are not among them.
+/// Describes the discrepancy beside `fit`. Components that the data hardly require are omitted.
 Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit);
 
-/// Whether what is left is more than noise and the model's own error.
+/// True if the residual exceeds noise and the model's own error.
 bool is_unexplained(const Unnamed& unnamed, double floor);
 
 }  // namespace fusee

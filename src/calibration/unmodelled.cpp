@@ -16,12 +16,11 @@
 #include "fusee/base/text.h"
 #include "fusee/calibration/words.h"
 
-// The discrepancy is smooth: a kink, a jump, a lump or a wave of many periods costs it many columns, and a name that
-// bends at about the same place is cheaper though it is not there. So shapes with few numbers stand here beside the
-// catalogue, each as rare as an effect whose number is searched for. The joint is read twice, once with the effect and
-// once without, and either reading may take what has no name as long as that pays for itself. What the effect is ahead
-// by then is what the data say for its name, and not merely for something of its kind. A load that is not as logged is
-// no shape, and is held against each name by fits of its own (other_loads.h).
+// The discrepancy is smooth: a kink, a step, a bump or a short wave requires many of its columns, so that an absent
+// effect with a bend at about that place would be likelier. Shapes of few parameters complete it here, each with the
+// prior of an effect with a searched number. The data are explained with and without the effect, and both models may
+// add shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each
+// effect is tested against them by refits (other_loads.h).
 
 namespace fusee {
 namespace {
@@ -29,22 +28,21 @@ namespace {
 constexpr int k_most_taken = 3;
 constexpr std::size_t k_shape_tries = 3;
 constexpr int k_reading_rounds = 4;
-/// Waves: the least in periods over the span, steps between orders in the same, the most by rows and by cost.
+/// Waves: least periods over the span, step in periods, largest by cost, and rows that a period requires.
 constexpr double k_least_periods = 0.75;
 constexpr double k_period_step = 0.25;
 constexpr double k_most_periods = 24.0;
 constexpr double k_rows_a_wave = 4.0;
-/// Of jumps, kinks and lumps over the span, and how wide the latter are.
+/// Places of steps, kinks and bumps over the span, and widths of bumps.
 constexpr int k_shape_places = 13;
 constexpr std::array k_widths = {0.04, 0.10};
-/// Times of a jump, over all runs.
+/// Times of a step, over all runs.
 constexpr int k_times = 24;
-/// Of the session: in how much of it a drift dies away, from what settles in the first run to what hardly slows down,
-/// and how many times at which one sets in.
+/// Shares of the session: decay times of a drift, and number of times at which one begins.
 constexpr std::array k_settling = {0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 4.0};
 constexpr int k_late = 6;
 
-/// Ways over which what a reversal leaves is gone, of the span.
+/// Decay lengths behind a reversal, as shares of the span.
 constexpr std::array k_shape_ways = {0.01, 0.02, 0.04, 0.08, 0.15, 0.3};
 
 enum class Dependence {
@@ -61,10 +59,10 @@ enum class Dependence {
   drift
 };
 
-/// A family of shapes of which one is chosen by a searched number or two.
+/// Shape with one or two searched parameters.
 struct Shape {
   Dependence dependence = Dependence::place;
-  Eigen::Index first = 0, count = 0;  ///< columns
+  Eigen::Index first = 0, count = 0;  ///< first column and number of columns
   int searched = 0;
   std::string words;
 };
@@ -102,7 +100,7 @@ const char* separating_run(Dependence dependence) {
 
 using Part = std::function<double(const RowFacts&)>;
 
-/// Shapes over the rows in use, columns of rms 1.
+/// Shapes over the rows in use, as columns of rms 1.
 class Shapes {
  public:
   explicit Shapes(const Evidence& evidence)
@@ -141,7 +139,7 @@ class Shapes {
  private:
   static double clock(const RowFacts& r) { return static_cast<double>(r.run) + 0.5 * (r.time + 1.0); }
 
-  /// Nothing of one that is nothing, or alike in all rows.
+  /// Adds a shape, unless a column is zero or constant.
   void add(Dependence dependence, int searched, std::string words, const std::vector<Part>& parts, bool centred) {
     const auto rows = static_cast<Eigen::Index>(facts_.size());
     const auto count = static_cast<Eigen::Index>(parts.size());
@@ -194,7 +192,7 @@ class Shapes {
     }
   }
 
-  /// What dies away behind a reversal, unlike at the two ends: at once or at last.
+  /// Decays behind a reversal, different at the two ends: exponential, or linear to zero.
   void add_ways(const Part& times, const std::string& how) {
     for (const double way : k_shape_ways) {
       const auto fading = [=](const RowFacts& r) { return times(r) * std::exp(-r.since / way); };
@@ -212,7 +210,7 @@ class Shapes {
     }
   }
 
-  /// What gives way from some load on, alike everywhere or more to one end.
+  /// Compliance from a load threshold on, uniform or growing to one end.
   void add_thresholds() {
     for (const double from : {-0.5, -0.25, 0.0, 0.25, 0.5, 0.75}) {
       const auto beyond = [=](const RowFacts& r) { return std::max(0.0, r.load - from); };
@@ -231,7 +229,7 @@ class Shapes {
     }
   }
 
-  /// What ages with time, wears with the way or sets with each load, ever slower or from some time on.
+  /// Drifts with time, travel or load changes, decaying or from some moment on.
   void add_drifts(double RowFacts::*by, const std::string& what) {
     for (const double settling : k_settling) {
       add_drift("a drift that dies away in " + rounded(100 * settling, 2) + " % of the session, by " + what,
@@ -244,8 +242,8 @@ class Shapes {
     }
   }
 
-  /// Alike at all places, or more to one end, or where there is load: a longer tendon turns the joint by its arm, and
-  /// lets go of its pretension.
+  /// Drift that is uniform, grows to one end, or scales with the load: a longer tendon turns the joint by its moment
+  /// arm, and loses pretension.
   void add_drift(std::string words, const Part& drift) {
     std::vector<Part> parts = {drift, [=](const RowFacts& r) { return drift(r) * (2 * r.place - 1); }};
     if (has_loads_) parts.push_back([=](const RowFacts& r) { return drift(r) * r.load; });
@@ -259,10 +257,10 @@ class Shapes {
   std::vector<Shape> shapes_;
 };
 
-/// What a joint without names was read as.
+/// Score of a base with the shapes that were added.
 struct Reading {
   double score = 0;
-  std::vector<std::size_t> taken;  ///< shapes
+  std::vector<std::size_t> taken;  ///< indices of shapes
 };
 
 class Reader {
@@ -275,7 +273,8 @@ class Reader {
         CD_(shapes_.columns().transpose() * marginal_.discrepancy().columns),
         size_(std::max(evidence.floor, rms_of(tangent_of(evidence, selection.none).residual))) {}
 
-  /// `base` with what has no name beside it, as long as that pays. `open`: amplitudes of the discrepancy to begin with.
+  /// `base` with shapes, added as long as they improve the score. `open`: amplitudes of the discrepancy from which a
+  /// second search begins.
   Reading read(const Fit& base, const Amplitudes& open) const {
     const Beside beside(*this, base);
     const double loose = base.explained.log_evidence - base.log_evidence;
@@ -297,7 +296,7 @@ class Reader {
   const Shape& shape(std::size_t i) const { return shapes_.all()[i]; }
 
  private:
-  /// A base, and what the shapes are to it.
+  /// Sums of a base with the shapes.
   struct Beside {
     Beside(const Reader& reader, const Fit& base) {
       const Tangent tangent = tangent_of(reader.evidence_, base);
@@ -316,7 +315,7 @@ class Reader {
     return sum;
   }
 
-  /// The shape that betters the score most. Whether there is one.
+  /// Adds the shape that improves the score most. True if there is one.
   bool take_one(const Beside& beside, std::vector<std::size_t>& taken, Amplitudes& from, double& reached) const {
     const SizedDiscrepancy sized = marginal_.sized(from, beside.own.give);
     std::vector<std::pair<double, std::size_t>> looks;
@@ -346,7 +345,7 @@ class Reader {
     return true;
   }
 
-  /// The base's, with these shapes where they do nothing.
+  /// Sums of the base with these shapes at zero.
   TangentSums sums(const Beside& beside, const std::vector<std::size_t>& chosen) const {
     std::vector<Eigen::Index> columns;
     for (const std::size_t i : chosen) {
@@ -384,8 +383,8 @@ class Reader {
   double size_ = 0;
 };
 
-/// `fit` without one of its effects: the others are where they were. Where a fit of them had to do its part as well,
-/// they have gone from where what has no name would leave them.
+/// `fit` without one of its effects, the others unchanged. A refit of the others would move them from the values beside
+/// the discrepancy.
 Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
   Fit others = fit;
   others.effects = without(fit.effects, effect);
@@ -405,25 +404,24 @@ Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
   return others;
 }
 
-/// By what the joint does while the bench warms up, or from some moment on. Something without a name that walks beside
-/// it walks as it likes: sealed split, seeds 131078 and 131119: thermal_expansion by 101 and 71 nats, beside a rest
-/// that differed from run to run, where a press fit slipped and a pin wore.
+/// True for effects that follow temperature or begin at some time: a drift beside them may follow any course (held-out
+/// seeds 131078 and 131119: thermal_expansion by 101 and 71 nats beside a slipping press fit and a worn pin).
 bool is_told_by_time(const Effect& effect) { return effect.needs.temperature || effect.starts_in_time; }
 
-/// Whether the group holds what leaves the joint free within a play: it takes what it meets.
+/// True if the group contains an effect that leaves the joint free within a play, which can absorb any residual.
 bool may_be_loose(const std::vector<std::string>& group, const EffectSet& catalogue) {
   return std::any_of(catalogue.begin(), catalogue.end(), [&](const Effect* effect) {
     return effect->loosens && std::count(group.begin(), group.end(), effect->name) > 0;
   });
 }
 
-/// Nats by which an effect must exceed the best unmodelled cause in its place, where no other stays beside it.
+/// Log odds that an effect requires against the best unmodelled alternative, if no other cause is unexplained.
 double least_ahead(const Effect& effect, const std::vector<std::string>& group, const EffectSet& catalogue) {
   const bool has_no_shape = is_told_by_time(effect) || may_be_loose(group, catalogue);
   return has_no_shape ? k_thresholds.ahead_without_shape : k_thresholds.ahead_of_unmodelled;
 }
 
-/// Of names that are ahead of all else: `with`, the score with all of them.
+/// Tests effects that exceed all other alternatives against unmodelled effects. `with`: score with all effects.
 void look_at_unnamed_effects(const Evidence& evidence, Workers& workers, const Selection& selection, double with,
                              std::vector<Unmodelled>& rivals) {
   std::vector<bool> asked;
@@ -459,7 +457,7 @@ std::vector<Unmodelled> unmodelled_rivals(const Evidence& evidence, Workers& wor
   const std::vector<UnderOtherLoads> loads = under_other_loads(evidence, workers, selection);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     if (!selection.without[i].usable) {
-      rivals[i].behind = 0;  // Nothing says that it is more than what has no name.
+      rivals[i].behind = 0;  // The effect cannot be distinguished from an unmodelled cause.
       continue;
     }
     const Reading& instead = readings[i + 1];

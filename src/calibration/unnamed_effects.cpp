@@ -9,37 +9,38 @@
 #include "calibration/parameters.h"
 #include "calibration/row_facts.h"
 
-// A curve beside the readings knows nothing of moment arms and tensions. Two kinds of things act through them and have
-// no name:
+// A curve beside the readings has no moment arms and tensions. Two kinds of unmodelled causes act through them:
 //
-// - Geometry. Under load a path that is longer by a curve turns the joint further where its arm is smaller, as every
-//   geometry does, and the names of geometry were then far ahead of all that has none (unheard split, seeds 241038 and
-//   241092: a flexure's centre that wanders, as a runout, by 52 and 206 nats; by 4 and less of such paths). So the set
-//   without the effect is fitted again with them, a slope, a square and a cube of the angle each: a tendon that leaves
-//   its drum aslant has all three (251083, 251117: 173 and 27 nats without a slope). Both paths may be long by so much
-//   that a fit from none ends on a wrong summit (241041: 39 nats below; 241063: 30), so it begins with curves of both
-//   signs too.
-// - Friction by another law. It holds the joint within the tendons' give, which is wider where they are softer or their
-//   arms smaller, as every friction does; but not in proportion to their pull, as on pins, nor whatever they pull, as
-//   in a bearing (undreamt split, seeds 271100, 271143, 271150: fibres by Howell's law, as a bearing's friction, by 19
-//   to 224 nats; unheard split, 241065, 241071: tendons that rub on each other).
+// - Geometry. Under load a path whose length deviates by a curve turns the joint further where its moment arm is
+// smaller, as every geometric effect does. Without such paths effects of geometry exceeded all unmodelled alternatives
+// (held-out seeds 241038 and 241092: the wandering centre of a flexure, as a runout, by 52 and 206 nats; by 4 at most
+// with them). So the set without the effect is refitted with a linear, a quadratic and a cubic term of the angle for
+// each tendon: a tendon that leaves its drum at an angle has all three (251083, 251117: 173 and 27 nats without the
+// linear one). Large deviations of both paths may end at a wrong mode from zero (241041: 39 nats below; 241063: 30), so
+// curves of both signs are starts too.
 //
-// What was found to mend the name's fit is not wanted beside what has none (241096: a drum's radius, 21 nats): the
-// others go one by one as long as the evidence grows. Each is asked only where it may be it, of geometry what is alike
-// at a place, of friction what turns over with the direction: such fits were a quarter of a calibration's time.
+// - Friction by another law. It holds the joint within the tendons' compliance, as every friction does, but in
+// proportion neither to their tension, as on pins, nor to a constant, as in a bearing (held-out seeds 271100, 271143,
+// 271150: fibres by Howell's law, as friction of a bearing, by 19 to 224 nats; 241065, 241071: tendons that rub on each
+// other).
+//
+// Effects that only completed the replaced effect are not required beside an unmodelled one (241096: a drum's radius,
+// 21 nats): they are removed one by one as long as the score rises. Each kind is tested only if the effect's
+// contribution is of that kind, geometry by the part that is equal at a place, friction by the part that is odd in
+// direction: the fits took a quarter of a calibration's time.
 
 namespace fusee {
 namespace {
 
 /// mm at 57 degrees, a quarter of it at 29: pins, levers and pulleys are off by as much.
 constexpr double k_usual_path = 2.0;
-/// N·mm: a bearing's, and more, since it may be the pins'.
+/// N·mm: friction of a bearing, and more for pins.
 constexpr double k_usual_rubbing = 100.0;
-/// Nats that may be gained by what is not wanted beside it: 3 to 9 on seven joints, once 21.
+/// Nats that removals may gain: 3 to 9 on seven joints, once 21.
 constexpr double k_most_by_idle_ones = 25.0;
 constexpr int k_bins_of_a_span = 16;
-/// Of what an effect does, squared, the part from which on something of that kind may be it. Alike at a place are of
-/// geometry 0.35 (a lever) to 1, of play and of a stretch under loads of either sign 0.06 and less.
+/// Least share of a contribution's squares that is of a kind. Geometry has 0.35 (a lever) to 1 equal at a place, play
+/// and stretch under loads of both signs at most 0.06.
 constexpr double k_least_of_its_kind = 0.15;
 
 EffectParameter number_of(const char* name, double& (*number)(Imperfections&), double least, double most, double step,
@@ -86,7 +87,7 @@ Effect rubbing() {
   return friction;
 }
 
-/// Sum over parts of the rows of the squares of what is alike in each.
+/// Sum over bins of the rows of the squares of the bins' means.
 template <std::size_t parts, typename Part>
 double alike(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done, Part part) {
   std::array<double, parts> sums{}, counts{};
@@ -100,12 +101,12 @@ double alike(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done, Par
   return squares;
 }
 
-/// The same at a place, whichever way, load and run.
+/// Squares that are equal at a place, for any direction, load and run.
 double alike_at_a_place(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done) {
   return alike<k_bins_of_a_span>(rows, done, [](const RowFacts& row) { return place_bin(row, k_bins_of_a_span); });
 }
 
-/// The same at a place one way, beyond what is the same both ways.
+/// Squares that are equal at a place in one direction, beyond those equal in both.
 double alike_one_way(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done) {
   const auto part = [](const RowFacts& row) { return 2 * place_bin(row, k_bins_of_a_span) + (row.direction > 0); };
   return alike<2 * k_bins_of_a_span>(rows, done, part) - alike_at_a_place(rows, done);
@@ -118,7 +119,7 @@ struct UnnamedEffect {
   const char* separating_run;
 };
 
-/// In no catalogue: nobody could look for them with a caliper.
+/// Effects outside the catalogue: no caliper can verify them.
 const std::array<UnnamedEffect, 2>& unnamed_effects() {
   static const std::array<UnnamedEffect, 2> all = {{
       {longer_paths(), alike_at_a_place,
@@ -131,7 +132,7 @@ const std::array<UnnamedEffect, 2>& unnamed_effects() {
   return all;
 }
 
-/// None where `unnamed` does as well without none of the others.
+/// The refit without the first other effect that lowers the score beside `unmodelled`; none without one.
 std::optional<Fit> without_one_more(const Fitter& fitter, const Fit& fit, const Effect& unnamed) {
   for (const Effect* effect : fit.effects) {
     if (effect == &unnamed) continue;
@@ -141,7 +142,7 @@ std::optional<Fit> without_one_more(const Fitter& fitter, const Fit& fit, const 
   return std::nullopt;
 }
 
-/// `fit` without the effects that `unnamed` does as well without.
+/// `fit` without the effects that lower the score beside `unmodelled`.
 Fit without_idle_ones(const Fitter& fitter, Fit fit, const Effect& unnamed) {
   while (std::optional<Fit> fewer = without_one_more(fitter, fit, unnamed)) fit = std::move(*fewer);
   return fit;
@@ -149,7 +150,7 @@ Fit without_idle_ones(const Fitter& fitter, Fit fit, const Effect& unnamed) {
 
 double score_of_usable(const Fit& fit) { return fit.usable ? score(fit) : -std::numeric_limits<double>::infinity(); }
 
-/// Of `others` with an effect more, from one of its starts.
+/// Fit of `others` with the effect, from one of its starts.
 Fit with_unnamed(const Fitter& fitter, const Fit& others, const Effect& unnamed, const std::vector<double>& start) {
   EffectSet effects = others.effects;
   effects.push_back(&unnamed);
@@ -158,7 +159,7 @@ Fit with_unnamed(const Fitter& fitter, const Fit& others, const Effect& unnamed,
   return fitter.fit(effects, at);
 }
 
-/// An unnamed effect in the place of one that has a name: a fit from each of its starts.
+/// Unmodelled effect in the place of an effect: a fit from each of its starts.
 struct Substitute {
   std::size_t effect = 0;
   const UnnamedEffect* unnamed = nullptr;
@@ -166,7 +167,7 @@ struct Substitute {
   double score = -std::numeric_limits<double>::infinity();
 };
 
-/// Where what an effect does is of an unnamed one's kind.
+/// Substitutes for the effects whose contribution is of the kind of an unmodelled effect.
 std::vector<Substitute> substitutes_of(const Evidence& evidence, Workers& workers, const Selection& selection,
                                        const std::vector<bool>& asked) {
   const std::vector<RowFacts> rows = row_facts(evidence);
@@ -185,7 +186,7 @@ std::vector<Substitute> substitutes_of(const Evidence& evidence, Workers& worker
   return substitutes;
 }
 
-/// From each start, side by side.
+/// Fits from each start, in parallel.
 void fit_from_starts(Workers& workers, const Selection& selection, std::vector<Substitute>& substitutes) {
   struct Task {
     Substitute* substitute = nullptr;
@@ -203,7 +204,7 @@ void fit_from_starts(Workers& workers, const Selection& selection, std::vector<S
   });
 }
 
-/// By the starts in their order until one is as good as `enough`.
+/// Best score of the starts in their order, up to one that exceeds `enough`.
 double best_score(const Fitter& fitter, Substitute& substitute, double enough) {
   Fit* best = &substitute.fits.front();
   for (Fit& fit : substitute.fits) {

@@ -1,6 +1,6 @@
 /// \file
-/// What acts within the joint as an effect does and stands in no catalogue: it moves angles and tensions together,
-/// which no curve beside the readings does.
+/// Unmodelled effects in the mechanism itself, outside the catalogue: they move angles and tensions together, which a
+/// curve beside the readings cannot.
 #pragma once
 
 #include <limits>
@@ -12,15 +12,15 @@
 
 namespace fusee {
 
-/// The best set with one of them in an effect's place, and in that of others that it then does as well without.
+/// Best set with an unmodelled effect in an effect's place, and without others that it makes unnecessary.
 struct UnnamedInPlace {
-  double score = -std::numeric_limits<double>::infinity();  ///< as it stands: not asked, or not to be had
+  double score = -std::numeric_limits<double>::infinity();  ///< initial value: not tested, or no solution
   std::string words;
   std::string separating_run;
 };
 
-/// Of each effect that is asked for, in the order of `Selection::best`. An unnamed effect is tried where what the
-/// effect does is of its kind. Of the starts of a fit none is taken after one that is above `enough`.
+/// Result for each effect of `Selection::best`, those tested that `asked` selects. An unmodelled effect is fitted if
+/// the effect's contribution is of its kind. Of the starts of a fit none is used after one that exceeds `enough`.
 std::vector<UnnamedInPlace> unnamed_in_place(const Evidence& evidence, Workers& workers, const Selection& selection,
                                              const std::vector<bool>& asked, double enough);
 

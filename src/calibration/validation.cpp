@@ -12,7 +12,7 @@ namespace {
 
 /// Standard errors over strokes by which a level may get worse by chance.
 constexpr double k_errors_by_chance = 2.0;
-/// Rows of a run that was kept for validation: enough to judge by.
+/// Rows of a run that was kept for validation.
 constexpr std::size_t k_rows_a_kept_run = 400;
 
 std::string names_of(const Evidence& evidence, const Fold& fold) {
@@ -83,7 +83,7 @@ std::vector<HeldOutRows::Level> HeldOutRows::left_out(const std::vector<Fold>& f
   return levels;
 }
 
-/// Run by run: each has its load and speed.
+/// Levels of the kept runs: each run has its load and speed.
 std::vector<HeldOutRows::Level> HeldOutRows::kept_apart(const Estimate& answer) const {
   const BenchLog log = bench_log(kept_);
   const Readings before = predict(*evidence_.declared, declared_.fit.at, log),
@@ -113,7 +113,7 @@ HeldOutRows::Block HeldOutRows::sum_of(const std::vector<Block>& blocks) {
   return sum;
 }
 
-/// Standard error of the mean of what the squares of blocks gained, by how they differ in it, rad².
+/// Standard error of the mean change of the squares, by its scatter between blocks, rad².
 double HeldOutRows::standard_error(const std::vector<Block>& blocks) {
   const Block sum = sum_of(blocks);
   const double more = (sum.after - sum.before) / sum.rows;
@@ -123,7 +123,8 @@ double HeldOutRows::standard_error(const std::vector<Block>& blocks) {
   return std::sqrt(squares * count / (count - 1.0));
 }
 
-/// By more than can be seen, and by more than strokes differ in that: a single one as those of `all` levels do.
+/// True if the squares rise by more than is visible and by more than strokes scatter; a single stroke is compared with
+/// the scatter of `all` levels.
 bool HeldOutRows::gets_worse(const Level& level, const Level& all) const {
   const Block sum = sum_of(level.blocks);
   if (sum.rows == 0) return false;

@@ -40,7 +40,7 @@ class Places {
     mean.count += 1;
   }
 
-  /// Where the mean is largest, in words; "" without a row.
+  /// Place of the largest mean, in words; "" without a row.
   std::string largest() const {
     const auto found = std::max_element(means_.begin(), means_.end(), [](const auto& a, const auto& b) {
       return std::abs(a.second.value()) < std::abs(b.second.value());
@@ -54,9 +54,9 @@ class Places {
   }
 
  private:
-  Eigen::VectorXd alpha_;  ///< of every row
+  Eigen::VectorXd alpha_;  ///< α of every row
   Bins bins_;
-  std::map<std::pair<int, int>, Mean> means_;  ///< by place and direction
+  std::map<std::pair<int, int>, Mean> means_;  ///< means by place and direction
 };
 
 std::string group_words(const FoundEffect& effect) {
@@ -72,7 +72,7 @@ std::string effects_words(const std::vector<FoundEffect>& effects) {
   return list(names);
 }
 
-/// Whether more is handed over than is named.
+/// True if an effect beside the found set is reported.
 bool any_beside(const std::vector<FoundEffect>& effects) {
   return std::any_of(effects.begin(), effects.end(), [](const FoundEffect& effect) { return !effect.beside.empty(); });
 }
@@ -95,7 +95,7 @@ std::string level_words(const NoiseLevel& level, const std::string& load_unit) {
 
 bool is_quieter(const NoiseLevel& one, const NoiseLevel& other) { return one.rms < other.rms; }
 
-/// Repeats that no sensor's noise makes differ, and where they do most.
+/// Sentence on scatter between repeats that far exceeds a sensor's noise, with its largest place.
 std::string scatter_words(const Calibration& calibration, const std::string& load_unit) {
   const NoiseFloor& noise = calibration.noise;
   std::string words = "The same angle, direction and load give joint angles that differ by " + in_degrees(noise.rms) +
@@ -109,7 +109,7 @@ std::string scatter_words(const Calibration& calibration, const std::string& loa
   return words + ": look for something loose, or a sensor that holds its reading, before any correction.";
 }
 
-/// Noise that is another at another load or speed by more than chance makes it, and by more than half.
+/// Sentence on noise that differs between loads or speeds by more than chance, and by more than half; "" otherwise.
 std::string noise_words(const NoiseFloor& noise, const std::string& load_unit) {
   if (noise.levels.size() < 2) return "";
   const auto [least, most] = std::minmax_element(noise.levels.begin(), noise.levels.end(), is_quieter);
@@ -121,7 +121,7 @@ std::string noise_words(const NoiseFloor& noise, const std::string& load_unit) {
          in_degrees(most->rms) + " at " + level_words(*most, load_unit) + ".";
 }
 
-/// What a person can act on.
+/// Finding in a sentence that the user can act on.
 std::string finding(const Calibration& calibration, const Rest& rest, const StrokeScatter& scatter, double floor,
                     const std::string& load_unit) {
   const std::string names = effects_words(calibration.effects);
@@ -149,7 +149,7 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
     case CalibrationVerdict::no_effect:
       return "The joint does what its file declares, as far as the data can tell.";
     case CalibrationVerdict::not_testable:
-      break;  // concluded before anything is fitted
+      break;  // decided before any fit
   }
   return "";
 }
