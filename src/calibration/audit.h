@@ -9,13 +9,13 @@
 namespace fusee {
 
 /// False positives of an effect on synthetic data sets without it.
-struct Audited {
+struct AuditResult {
   Audit counts;
   /// True causes of the false positives, most frequent first, until the rate without them is acceptable.
-  EffectSet mistaken;
+  EffectSet true_causes;
 };
 
 /// Audit of each effect of selection.best, in their order.
-std::vector<Audited> audit(const Evidence& evidence, Workers& workers, const Selection& selection);
+std::vector<AuditResult> audit(const Evidence& evidence, FitterPool& pool, const Selection& selection);
 
 }  // namespace fusee

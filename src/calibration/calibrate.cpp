@@ -4,12 +4,12 @@
 #include "calibration/audit.h"
 #include "calibration/catalogue.h"
 #include "calibration/changes.h"
-#include "calibration/delivered.h"
 #include "calibration/expected_sizes.h"
 #include "calibration/explanation.h"
 #include "calibration/next_measurements.h"
+#include "calibration/reported_parameters.h"
 #include "calibration/thresholds.h"
-#include "calibration/unmodelled.h"
+#include "calibration/unmodelled_alternatives.h"
 #include "calibration/verdict.h"
 #include "fusee/calibration/calibration.h"
 #include "fusee/joint/simulate.h"
@@ -81,13 +81,14 @@ Measurement part(const Measurement& measurement, const std::vector<std::string>&
 }
 
 /// Replaces the held-out figures by those of the runs kept for validation.
-void validate(const Mechanism& declared, const Measurement& kept, const Validated& answer, Calibration& calibration) {
+void validate(const Mechanism& declared, const Measurement& kept, const ValidatedAnswer& answer,
+              Calibration& calibration) {
   if (kept.runs.empty()) return;
   const auto rms = [&](const Imperfections& at) {
     return figures(kept, residuals(kept, predict(declared, at, bench_log(kept))), 0).rms;
   };
   calibration.before.held_out_rms = rms(answer.declared.fit.at);
-  calibration.after.held_out_rms = rms(answer.made.estimate.fit.at);
+  calibration.after.held_out_rms = rms(answer.reported.estimate.fit.at);
   calibration.held_out_runs.clear();
   for (const Run& run : kept.runs) calibration.held_out_runs.push_back(run.name);
 }
@@ -105,18 +106,18 @@ std::vector<std::string> why_not_testable(const Mechanism& declared, const Measu
   return measurement.not_testable;
 }
 
-void describe_errors(const Evidence& evidence, const Measurement& measurement, const Validated& answer,
+void describe_errors(const Evidence& evidence, const Measurement& measurement, const ValidatedAnswer& answer,
                      Calibration& calibration) {
   const BenchLog log = bench_log(measurement);
   const auto residuals_of = [&](const Estimate& estimate) {
     return residuals(measurement, predict(*evidence.declared, estimate.fit.at, log, evidence.earlier));
   };
   const auto held_out_rms = [&](const Estimate& estimate) {
-    if (evidence.earlier) return std::sqrt(std::max(0.0, estimate.fit.by_run.mean_square - estimate.fit.price));
+    if (evidence.earlier) return std::sqrt(std::max(0.0, estimate.fit.by_run.mean_square - estimate.fit.play_square));
     const double square = hold_out(evidence, estimate, evidence.run_folds).mean_square;
-    return std::sqrt(std::max(0.0, square - estimate.fit.price));
+    return std::sqrt(std::max(0.0, square - estimate.fit.play_square));
   };
-  const Estimate &before = answer.declared, &after = answer.made.estimate;
+  const Estimate &before = answer.declared, &after = answer.reported.estimate;
   calibration.residuals_before = residuals_of(before);
   calibration.residuals_after = residuals_of(after);
   calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(before));
@@ -169,11 +170,11 @@ std::vector<LeftOut> left_out(const Evidence& evidence, const Estimate& estimate
 }
 
 /// Adds the true causes of an effect's false positives to its group.
-void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
+void take_audit(const std::vector<AuditResult>& audited, Calibration& calibration) {
   for (std::size_t i = 0; i < audited.size(); ++i) {
     FoundEffect& effect = calibration.effects[i];
     effect.audit = audited[i].counts;
-    for (const Effect* other : audited[i].mistaken) {
+    for (const Effect* other : audited[i].true_causes) {
       if (std::find(effect.group.begin(), effect.group.end(), other->name) == effect.group.end())
         effect.group.push_back(other->name);
     }
@@ -191,10 +192,10 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
   if (evidence.blocks.size() < 2)
     return not_testable(declared, measurement,
                         {"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
-  Workers workers(evidence);
+  FitterPool pool(evidence);
   evidence.sizes =
-      expected_sizes(catalogue(declared, measurement, options.more_effects, options.without), evidence, workers);
-  Selection selection = select_effects(evidence, workers, options);
+      expected_sizes(catalogue(declared, measurement, options.more_effects, options.without), evidence, pool);
+  Selection selection = select_effects(evidence, pool, options);
   if (!selection.none.usable)
     return not_testable(
         declared, measurement,
@@ -203,33 +204,33 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
   Calibration calibration;
   calibration.noise = noise;
   const Measurement kept = part(measurement, options.hold_out, true);
-  const Validated answer =
-      options.earlier ? changes_beside(evidence, selection) : validated(evidence, workers, kept, selection);
-  const Fit& numbers = answer.made.estimate.fit;
+  const ValidatedAnswer answer =
+      options.earlier ? changes_beside(evidence, selection) : validate_answer(evidence, pool, kept, selection);
+  const Fit& numbers = answer.reported.estimate.fit;
   calibration.dropped = answer.dropped;
-  calibration.effects = found_effects(evidence, selection, answer.made.reported);
+  calibration.effects = found_effects(evidence, selection, answer.reported.reported);
   if (options.audit) {
-    take_audit(audit(evidence, workers, selection), calibration);
-    const std::vector<Unmodelled> unmodelled = unmodelled_rivals(evidence, workers, selection);
+    take_audit(audit(evidence, pool, selection), calibration);
+    const std::vector<UnmodelledAlternative> unmodelled = find_unmodelled_alternatives(evidence, pool, selection);
     for (std::size_t i = 0; i < unmodelled.size(); ++i) calibration.effects[i].unmodelled = unmodelled[i];
   }
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.tried = selection.tried;
-  calibration.detectable = detectable_sizes(evidence, workers, selection);
+  calibration.detectable = detectable_sizes(evidence, pool, selection);
   calibration.identified = without_idle_numbers(numbers, numbers.at);
-  calibration.left_out = left_out(evidence, answer.made.estimate, options.hold_out, calibration.identified);
+  calibration.left_out = left_out(evidence, answer.reported.estimate, options.hold_out, calibration.identified);
   for (LeftOut& left : calibration.left_out) left.identified = without_idle_numbers(numbers, left.identified);
   describe_errors(evidence, measurement, answer, calibration);
   name_held_out(evidence, calibration);
   validate(declared, kept, answer, calibration);
-  calibration.curve = answer.made.curve;
-  conclude(evidence, selection, answer.unnamed, calibration);
+  calibration.curve = answer.reported.curve;
+  conclude(evidence, selection, answer.unmodelled, calibration);
   if (!options.earlier) {
     calibration.next = next_measurements(evidence, selection, calibration);
     ask_for_both_sides(learnt_from, calibration.next);
   }
   summarize(evidence, selection, calibration);
-  hold_against(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
+  validate_curve(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
   if (options.earlier) describe_changes(evidence, selection, calibration);
   return calibration;
 }

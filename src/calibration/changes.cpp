@@ -73,12 +73,12 @@ namespace {
 
 /// Discrepancy beside `fit` without its families of single runs and strokes, rows in use.
 Eigen::VectorXd shared_discrepancy(const Evidence& evidence, const Fit& fit) {
-  const Discrepancy& discrepancy = evidence.marginal->discrepancy();
+  const Discrepancy& discrepancy = evidence.evidence_model->discrepancy();
   Eigen::VectorXd shared = Eigen::VectorXd::Zero(discrepancy.columns.rows());
   for (const Family& family : discrepancy.families) {
     if (family.factor == Factor::run || family.factor == Factor::drift || family.factor == Factor::stroke) continue;
     shared += discrepancy.columns.middleCols(family.first, family.count) *
-              fit.explained.unnamed.segment(family.first, family.count);
+              fit.posterior.coefficients.segment(family.first, family.count);
   }
   return shared;
 }

@@ -186,8 +186,8 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
     const Eigen::VectorXd yielding = deflection(rows);
     const Eigen::MatrixXd even = yielding.asDiagonal() * smooth;
     const Eigen::MatrixXd odd = column(facts, [](const RowFacts& r) { return r.direction; }).asDiagonal() * even;
-    builder.add(Factor::model_error, even, k_thresholds.trusted);
-    builder.add(Factor::model_error, odd, k_thresholds.trusted);
+    builder.add(Factor::model_error, even, k_thresholds.model_error);
+    builder.add(Factor::model_error, odd, k_thresholds.model_error);
   }
   return std::move(builder).made();
 }

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "calibration/marginal.h"
+#include "calibration/evidence_model.h"
 #include "calibration/thresholds.h"
 #include "measurement/seen_span.h"
 #include "measurement/strokes.h"
@@ -22,14 +22,14 @@ constexpr std::size_t k_most_rows = 1500;
 constexpr std::size_t k_cheaper = 5;
 constexpr std::size_t k_least_rows_a_block = 6;
 /// Least rows of a dwell in a run of many dwells.
-constexpr std::size_t k_rows_a_stand = 3;
+constexpr std::size_t k_rows_a_dwell = 3;
 /// Segments repeat one another only if their α end points agree within this share of the range of α. Levels of a load
 /// that varies with the motion divide strokes into segments at different places, whose difference is θ(α) and no noise
 /// (the jaw of docs/background/real-joint.md).
 constexpr double k_one_way = 0.1;
 
 /// Selects whole cycles, evenly spread, so that each keeps enough rows; of other strokes the ends are kept as history.
-std::vector<bool> looked_at(const Run& run, std::size_t most_pairs) {
+std::vector<bool> select_strokes(const Run& run, std::size_t most_pairs) {
   const std::size_t pairs = (run.strokes.size() + 1) / 2;
   std::vector<bool> chosen(run.strokes.size(), true);
   for (std::size_t i = 0; pairs > most_pairs && i < chosen.size(); ++i)
@@ -38,14 +38,14 @@ std::vector<bool> looked_at(const Run& run, std::size_t most_pairs) {
 }
 
 /// Use of each row of a run in a fit.
-struct Taken {
+struct RowSelection {
   std::vector<bool> counted;  ///< rows in the residual
   std::vector<bool> kept;     ///< rows in the residual or the history of the motion
 };
 
 /// Every n-th row of the selected strokes.
-Taken every_nth(const Run& run, std::size_t most) {
-  const std::vector<bool> chosen = looked_at(run, std::max<std::size_t>(1, most / (4 * k_least_rows_a_block)));
+RowSelection sample_every_nth(const Run& run, std::size_t most) {
+  const std::vector<bool> chosen = select_strokes(run, std::max<std::size_t>(1, most / (4 * k_least_rows_a_block)));
   // Rows before, between and after strokes are history if all strokes are selected.
   std::vector<bool> inside(run.samples.size(), std::find(chosen.begin(), chosen.end(), false) == chosen.end());
   for (std::size_t s = 0; s < run.strokes.size(); ++s) {
@@ -53,36 +53,36 @@ Taken every_nth(const Run& run, std::size_t most) {
   }
   const auto rows = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), true));
   const std::size_t every = (rows + most - 1) / std::max<std::size_t>(1, most);
-  Taken taken{std::vector<bool>(run.samples.size(), false), {}};
+  RowSelection selected{std::vector<bool>(run.samples.size(), false), {}};
   std::size_t seen = 0;
-  for (std::size_t i = 0; i < run.samples.size(); ++i) taken.counted[i] = inside[i] && seen++ % every == 0;
-  taken.kept = taken.counted;
-  return taken;
+  for (std::size_t i = 0; i < run.samples.size(); ++i) selected.counted[i] = inside[i] && seen++ % every == 0;
+  selected.kept = selected.counted;
+  return selected;
 }
 
 /// Equally many rows of each dwell, however long it is.
-Taken of_each_stand(const Run& run, std::size_t most) {
-  const auto stands = static_cast<std::size_t>(
+RowSelection sample_each_dwell(const Run& run, std::size_t most) {
+  const auto dwells = static_cast<std::size_t>(
       std::count_if(run.segments.begin(), run.segments.end(), [](const Segment& s) { return s.held; }));
-  const std::size_t most_pairs = std::max<std::size_t>(1, most * ((run.strokes.size() + 1) / 2) / stands);
-  const std::vector<bool> chosen = looked_at(run, most_pairs);
-  const std::size_t rows = std::max(most / stands, k_rows_a_stand);
-  Taken taken{std::vector<bool>(run.samples.size(), false), {}};
-  for (const Segment& stretch : run.segments) {
-    if (!chosen[stretch.stroke]) continue;
-    const std::size_t count = stretch.last - stretch.first + 1, used = std::min(count, rows);
-    for (std::size_t i = 0; i < used; ++i) taken.counted[stretch.first + (2 * i + 1) * count / (2 * used)] = true;
+  const std::size_t most_pairs = std::max<std::size_t>(1, most * ((run.strokes.size() + 1) / 2) / dwells);
+  const std::vector<bool> chosen = select_strokes(run, most_pairs);
+  const std::size_t rows = std::max(most / dwells, k_rows_a_dwell);
+  RowSelection selected{std::vector<bool>(run.samples.size(), false), {}};
+  for (const Segment& segment : run.segments) {
+    if (!chosen[segment.stroke]) continue;
+    const std::size_t count = segment.last - segment.first + 1, used = std::min(count, rows);
+    for (std::size_t i = 0; i < used; ++i) selected.counted[segment.first + (2 * i + 1) * count / (2 * used)] = true;
   }
-  taken.kept = taken.counted;
-  return taken;
+  selected.kept = selected.counted;
+  return selected;
 }
 
 /// Strokes whose history play and friction require: all, or, of very many, the selected ones and two before each.
-std::vector<bool> strokes_kept(const Run& run, const Taken& taken, std::size_t most) {
+std::vector<bool> strokes_kept(const Run& run, const RowSelection& selected, std::size_t most) {
   std::vector<bool> kept(run.strokes.size(), 2 * run.segments.size() <= 10 * most);
   for (std::size_t s = 0; s < run.strokes.size(); ++s) {
-    const auto first = taken.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].first),
-               end = taken.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].last) + 1;
+    const auto first = selected.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].first),
+               end = selected.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].last) + 1;
     if (std::find(first, end, true) == end) continue;
     for (std::size_t before = 0; before <= std::min<std::size_t>(2, s); ++before) kept[s - before] = true;
   }
@@ -96,11 +96,11 @@ Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
     counted.insert(counted.end(), run.samples.size(), true);
     return run;
   }
-  Taken taken = is_from_point_to_point(run) ? of_each_stand(run, most) : every_nth(run, most);
-  const std::vector<bool> strokes = strokes_kept(run, taken, most);
-  const std::vector<Segment> stretches = segments_of(run);
-  for (const Segment& stretch : stretches) {
-    if (strokes[stretch.stroke]) taken.kept[stretch.first] = taken.kept[stretch.last] = true;
+  RowSelection selected = is_from_point_to_point(run) ? sample_each_dwell(run, most) : sample_every_nth(run, most);
+  const std::vector<bool> strokes = strokes_kept(run, selected, most);
+  const std::vector<Segment> segments = segments_of(run);
+  for (const Segment& segment : segments) {
+    if (strokes[segment.stroke]) selected.kept[segment.first] = selected.kept[segment.last] = true;
   }
   Run thin = run;
   thin.samples.clear();
@@ -109,9 +109,9 @@ Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
   std::vector<std::size_t> place(run.samples.size());
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     place[i] = thin.samples.size();
-    if (!taken.kept[i]) continue;
+    if (!selected.kept[i]) continue;
     thin.samples.push_back(run.samples[i]);
-    counted.push_back(taken.counted[i]);
+    counted.push_back(selected.counted[i]);
   }
   std::vector<std::size_t> stroke_place(run.strokes.size());
   for (std::size_t s = 0; s < run.strokes.size(); ++s) {
@@ -122,18 +122,18 @@ Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
     stroke.last = place[stroke.last];
     thin.strokes.push_back(stroke);
   }
-  for (Segment stretch : stretches) {
-    if (!strokes[stretch.stroke]) continue;
-    stretch.first = place[stretch.first];
-    stretch.last = place[stretch.last];
-    stretch.stroke = stroke_place[stretch.stroke];
-    thin.segments.push_back(stretch);
+  for (Segment segment : segments) {
+    if (!strokes[segment.stroke]) continue;
+    segment.first = place[segment.first];
+    segment.last = place[segment.last];
+    segment.stroke = stroke_place[segment.stroke];
+    thin.segments.push_back(segment);
   }
   return thin;
 }
 
 /// Load level: the mean, or its size if the sign changes within the rows.
-class Level {
+class LoadLevel {
  public:
   void take(double load) {
     sum_ += load;
@@ -151,8 +151,8 @@ class Level {
   std::size_t count_ = 0;
 };
 
-Level level_of(const Run& run, std::size_t first, std::size_t last) {
-  Level level;
+LoadLevel level_of(const Run& run, std::size_t first, std::size_t last) {
+  LoadLevel level;
   for (std::size_t i = first; run.has_load && i <= last; ++i) level.take(run.samples[i].load);
   return level;
 }
@@ -358,7 +358,7 @@ Eigen::VectorXd measured_theta(const Measurement& measurement) {
 }
 
 /// Properties by which two segments of a run repeat each other.
-struct Kind {
+struct SegmentKind {
   int direction = 0;
   bool held = false;
   int pull = 0;
@@ -386,36 +386,36 @@ class BlockMaker {
 
  private:
   /// Dwells of too few rows, to be joined with others of their kind.
-  struct Waiting {
-    Kind kind;
+  struct PendingBlock {
+    SegmentKind kind;
     Block block;
   };
 
   void add_run(std::size_t i) {
     const Run& run = evidence_.measurement.runs[i];
     kinds_.clear();
-    waiting_.clear();
-    for (const Segment& stretch : segments_of(run)) {
-      if (is_settling(run, stretch)) continue;
-      const std::size_t first = offset_ + stretch.first, last = offset_ + stretch.last;
-      Block block{i, stretch.stroke, without_outliers(residual_, first, last, evidence_.floor)};
+    pending_.clear();
+    for (const Segment& segment : segments_of(run)) {
+      if (is_settling(run, segment)) continue;
+      const std::size_t first = offset_ + segment.first, last = offset_ + segment.last;
+      Block block{i, segment.stroke, without_outliers(residual_, first, last, evidence_.floor)};
       std::erase_if(block.rows, [&](std::size_t row) { return !counted_[row]; });
       if (block.rows.empty()) continue;
-      block.load = level_of(run, stretch.first, stretch.last).mean();
-      const Kind kind{run.strokes[stretch.stroke].direction,
-                      stretch.held,
-                      stretch.pull,
-                      block.load,
-                      run.samples[stretch.first].alpha,
-                      run.samples[stretch.last].alpha};
+      block.load = level_of(run, segment.first, segment.last).mean();
+      const SegmentKind kind{run.strokes[segment.stroke].direction,
+                             segment.held,
+                             segment.pull,
+                             block.load,
+                             run.samples[segment.first].alpha,
+                             run.samples[segment.last].alpha};
       if (block.rows.size() >= k_least_rows_a_block) {
         add(kind, std::move(block));
-      } else if (stretch.held) {
-        wait(kind, std::move(block));
+      } else if (segment.held) {
+        join(kind, std::move(block));
       }
     }
     // The last joined dwells may have half the rows.
-    for (Waiting& left : waiting_) {
+    for (PendingBlock& left : pending_) {
       if (2 * left.block.rows.size() >= k_least_rows_a_block) add(left.kind, std::move(left.block));
     }
     offset_ += run.samples.size();
@@ -423,34 +423,35 @@ class BlockMaker {
 
   /// The state of the play at the beginning of the log is unknown. The first stroke determines it, or the move to the
   /// second dwell.
-  static bool is_settling(const Run& run, const Segment& stretch) {
-    if (run.strokes[stretch.stroke].partial) return true;
-    if (is_from_point_to_point(run)) return stretch.first == run.segments.front().first && run.segments.size() > 2;
-    return stretch.stroke == 0 && run.strokes.size() > 2;
+  static bool is_settling(const Run& run, const Segment& segment) {
+    if (run.strokes[segment.stroke].partial) return true;
+    if (is_from_point_to_point(run)) return segment.first == run.segments.front().first && run.segments.size() > 2;
+    return segment.stroke == 0 && run.strokes.size() > 2;
   }
 
-  bool in_one_place(const Kind& a, const Kind& b) const {
-    const double apart = (a.held ? k_one_stand : k_one_way) * (alphas_.any() ? alphas_.size() : 0.0);
+  bool in_one_place(const SegmentKind& a, const SegmentKind& b) const {
+    const double apart = (a.held ? k_dwell_tolerance : k_one_way) * (alphas_.any() ? alphas_.size() : 0.0);
     return std::abs(a.from - b.from) <= apart && std::abs(a.to - b.to) <= apart;
   }
 
-  bool are_alike(const Kind& a, const Kind& b, bool anywhere) const {
+  bool are_alike(const SegmentKind& a, const SegmentKind& b, bool anywhere) const {
     return a.direction == b.direction && a.held == b.held && a.pull == b.pull && (anywhere || in_one_place(a, b)) &&
            std::abs(a.load - b.load) <= load_tolerance_;
   }
 
-  void add(const Kind& kind, Block block) {
-    auto found = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& k) { return are_alike(k, kind, false); });
+  void add(const SegmentKind& kind, Block block) {
+    auto found =
+        std::find_if(kinds_.begin(), kinds_.end(), [&](const SegmentKind& k) { return are_alike(k, kind, false); });
     if (found == kinds_.end()) found = kinds_.insert(kinds_.end(), kind);
     block.alike = static_cast<std::size_t>(found - kinds_.begin());
     blocks_.push_back(std::move(block));
   }
 
-  void wait(const Kind& kind, Block block) {
-    const auto found = std::find_if(waiting_.begin(), waiting_.end(),
-                                    [&](const Waiting& other) { return are_alike(other.kind, kind, true); });
-    if (found == waiting_.end()) {
-      waiting_.push_back({kind, std::move(block)});
+  void join(const SegmentKind& kind, Block block) {
+    const auto found = std::find_if(pending_.begin(), pending_.end(),
+                                    [&](const PendingBlock& other) { return are_alike(other.kind, kind, true); });
+    if (found == pending_.end()) {
+      pending_.push_back({kind, std::move(block)});
       return;
     }
     Block& joined = found->block;
@@ -459,7 +460,7 @@ class BlockMaker {
     joined.rows.insert(joined.rows.end(), block.rows.begin(), block.rows.end());
     if (joined.rows.size() < k_least_rows_a_block) return;
     add(found->kind, std::move(joined));
-    waiting_.erase(found);
+    pending_.erase(found);
   }
 
   const Evidence& evidence_;
@@ -468,8 +469,8 @@ class BlockMaker {
   double load_tolerance_ = 0;
   Eigen::VectorXd residual_;  ///< residual of the declared joint
   std::size_t offset_ = 0;
-  std::vector<Kind> kinds_;  ///< kinds of this run
-  std::vector<Waiting> waiting_;
+  std::vector<SegmentKind> kinds_;  ///< kinds of this run
+  std::vector<PendingBlock> pending_;
   std::vector<Block> blocks_;
 };
 
@@ -480,32 +481,32 @@ namespace {
 /// Deflection of the declared joint, all rows, rad. For a joint declared by its ratio, which is rigid, the load.
 Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& declared) {
   const DeclaredLaw law(*evidence.declared);
-  Eigen::VectorXd given = declared;
+  Eigen::VectorXd deflection = declared;
   if (evidence.declared->transmission) {
     Eigen::Index at = 0;
     for (const Run& run : evidence.measurement.runs) {
-      for (const Sample& sample : run.samples) given[at++] = run.has_load ? sample.load : 0.0;
+      for (const Sample& sample : run.samples) deflection[at++] = run.has_load ? sample.load : 0.0;
     }
-    return given;
+    return deflection;
   }
   if (!law.exists()) return {};
   Eigen::Index row = 0;
   for (const Run& run : evidence.measurement.runs) {
-    for (const Sample& sample : run.samples) given[row++] -= law.theta_extrapolated(sample.alpha);
+    for (const Sample& sample : run.samples) deflection[row++] -= law.theta_extrapolated(sample.alpha);
   }
-  for (double& angle : given) angle = std::isfinite(angle) ? angle : 0.0;
-  return given;
+  for (double& angle : deflection) angle = std::isfinite(angle) ? angle : 0.0;
+  return deflection;
 }
 
 /// Lag-1 autocorrelation within blocks, 0 … 1.
-double colour_of(const Evidence& evidence, const Eigen::VectorXd& rest) {
+double autocorrelation_of(const Evidence& evidence, const Eigen::VectorXd& residual) {
   double products = 0;
   double squares = 0;
   Eigen::Index row = 0;
   for (const Block& block : evidence.blocks) {
     for (std::size_t i = 0; i < block.rows.size(); ++i, ++row) {
-      squares += rest[row] * rest[row];
-      if (i > 0) products += rest[row] * rest[row - 1];
+      squares += residual[row] * residual[row];
+      if (i > 0) products += residual[row] * residual[row - 1];
     }
   }
   return squares > 0 ? std::clamp(products / squares, 0.0, 0.95) : 0.0;
@@ -516,15 +517,17 @@ double colour_of(const Evidence& evidence, const Eigen::VectorXd& rest) {
 void weigh(Evidence& evidence) {
   Forward forward(*evidence.declared, evidence.log, evidence.earlier);
   const Eigen::VectorXd declared = flat(forward({}));
-  Discrepancy unnamed = discrepancy_of(evidence, deflection(evidence, declared));
+  Discrepancy discrepancy = discrepancy_of(evidence, deflection(evidence, declared));
   const Eigen::VectorXd left = (evidence.theta - declared)(evidence.rows());
   Tangent nothing;
   nothing.residual = left.unaryExpr([](double angle) { return std::isfinite(angle) ? angle : 0.0; });
   nothing.J.resize(left.size(), 0);
-  const Marginal blind(std::move(unnamed), evidence.floor, 1.0);
-  const Explained blindly = blind.best(nothing, blind.first_guess());
-  const double colour = colour_of(evidence, nothing.residual - blind.discrepancy().columns * blindly.unnamed);
-  evidence.marginal = std::make_shared<const Marginal>(blind, (1.0 - colour) / (1.0 + colour), blindly.amplitudes);
+  const EvidenceModel white(std::move(discrepancy), evidence.floor, 1.0);
+  const Posterior explained = white.best(nothing, white.first_guess());
+  const double autocorrelation =
+      autocorrelation_of(evidence, nothing.residual - white.discrepancy().columns * explained.coefficients);
+  evidence.evidence_model = std::make_shared<const EvidenceModel>(
+      white, (1.0 - autocorrelation) / (1.0 + autocorrelation), explained.amplitudes);
 }
 
 Measurement with_fewer_rows(Measurement measurement, std::size_t most_a_run) {

@@ -16,7 +16,7 @@
 namespace fusee {
 
 /// Dwells within this share of the range of α are at one place.
-inline constexpr double k_one_stand = 0.02;
+inline constexpr double k_dwell_tolerance = 0.02;
 
 /// Rows that are held out together: a stroke, one level of load in it, a dwell of the motor, or several short dwells
 /// from one side under one load.
@@ -38,7 +38,7 @@ struct HandReading {
   double uncertainty = 0;  ///< standard uncertainty
 };
 
-class Marginal;
+class EvidenceModel;
 
 struct Evidence {
   const DeclaredMechanism* declared = nullptr;
@@ -51,10 +51,10 @@ struct Evidence {
   std::vector<Fold> factor_folds;    ///< whole levels of load and speed if the data vary them, otherwise as run_folds
   std::vector<std::string> factors;  ///< factors of which whole levels are held out
   std::vector<HandReading> readings;
-  double floor = 0;                                ///< rms noise, rad
-  double floor_freedom = 1e9;                      ///< degrees of freedom of the floor
-  std::shared_ptr<const Marginal> marginal;        ///< evidence model, filled by weigh()
-  std::map<const EffectParameter*, double> sizes;  ///< prior sizes of numbers that these data narrow, in steps
+  double floor = 0;                                     ///< rms noise, rad
+  double floor_freedom = 1e9;                           ///< degrees of freedom of the floor
+  std::shared_ptr<const EvidenceModel> evidence_model;  ///< evidence model, filled by weigh()
+  std::map<const EffectParameter*, double> sizes;       ///< prior sizes of numbers that these data narrow, in steps
 
   /// Indices of the rows in use, block by block.
   std::vector<Eigen::Index> rows() const;

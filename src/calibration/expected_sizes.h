@@ -5,13 +5,13 @@
 
 #include <map>
 
-#include "calibration/workers.h"
+#include "calibration/fitter_pool.h"
 
 namespace fusee {
 
 /// For numbers whose known size would move the reading by more than that, the size that would not, in steps of the
 /// parameter (Evidence::sizes).
 std::map<const EffectParameter*, double> expected_sizes(const EffectSet& catalogue, const Evidence& evidence,
-                                                        Workers& workers);
+                                                        FitterPool& pool);
 
 }  // namespace fusee

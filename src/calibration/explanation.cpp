@@ -81,7 +81,7 @@ double share(const Selection& selection, std::size_t place) {
 bool moves_nothing(const Evidence& evidence, const Fit& fit, const Effect& effect) {
   const std::vector<Eigen::Index> places = places_of(fit, effect);
   const Eigen::VectorXd moved = fit.J(evidence.rows(), places) * fit.x(places);
-  const double seen = moved.squaredNorm() * evidence.marginal->worth();
+  const double seen = moved.squaredNorm() * evidence.evidence_model->independent_share();
   return seen < static_cast<double>(places.size()) * evidence.floor * evidence.floor;
 }
 
@@ -166,13 +166,13 @@ std::vector<std::string> null_combinations(const Evidence& evidence, const Selec
   return all;
 }
 
-std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& workers, const Selection& selection) {
+std::vector<Detectable> detectable_sizes(const Evidence& evidence, FitterPool& pool, const Selection& selection) {
   const Fit& best = selection.best;
   EffectSet others = selection.catalogue;
   std::erase_if(others, [&](const Effect* effect) { return contains(best.effects, *effect); });
   std::vector<double> sizes(others.size(), -1);
-  workers.each(others.size(), [&](const Fitter& fitter, std::size_t i) {
-    const Fit wider = fitter.with_direction(best, *others[i]);
+  pool.each(others.size(), [&](const Fitter& fitter, std::size_t i) {
+    const Fit wider = fitter.add_slopes(best, *others[i]);
     if (!wider.usable) return;
     const std::vector<ConfidenceInterval> ranges = intervals(wider);
     sizes[i] = 0;
@@ -180,7 +180,7 @@ std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& work
       const double sensitivity = wider.J.col(k).norm() / std::sqrt(static_cast<double>(wider.J.rows()));
       const double deviation = ranges[static_cast<std::size_t>(k)].deviation;
       const double width = std::log(std::max(1.0, tangent_of(evidence, wider).prior[k] / deviation));
-      const double named = std::sqrt(2.0 * (cost_of(*others[i]) + width)) + k_thresholds.power;
+      const double named = std::sqrt(2.0 * (reporting_penalty(*others[i]) + width)) + k_thresholds.power;
       sizes[i] = std::max(sizes[i], named * deviation * sensitivity);
     }
   });

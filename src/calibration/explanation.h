@@ -20,6 +20,6 @@ std::vector<const Rival*> rivals_as_good(const Evidence& evidence, const Selecti
 std::vector<std::string> null_combinations(const Evidence& evidence, const Selection& selection);
 
 /// Smallest detectable error of every effect that was not found, at the joint.
-std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& workers, const Selection& selection);
+std::vector<Detectable> detectable_sizes(const Evidence& evidence, FitterPool& pool, const Selection& selection);
 
 }  // namespace fusee

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/decompositions.h"
+#include "calibration/discrepancy_fit.h"
 #include "calibration/fit.h"
-#include "calibration/unknown.h"
 
 namespace fusee {
 namespace {
@@ -17,11 +17,11 @@ constexpr double k_least_known = 0.03;
 
 /// True if the blocks outside a fold determine every direction that all of them determine: rest − k all is positive
 /// definite, scaled to unit diagonal.
-bool can_do_without(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& all) {
+bool can_do_without(const Eigen::MatrixXd& remaining, const Eigen::MatrixXd& all) {
   if (all.rows() == 0) return true;
   const Eigen::VectorXd size = all.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = size.asDiagonal() * all * size.asDiagonal();
-  const Eigen::MatrixXd part = size.asDiagonal() * rest * size.asDiagonal();
+  const Eigen::MatrixXd part = size.asDiagonal() * remaining * size.asDiagonal();
   const Eigen::MatrixXd ridge = 1e-9 * Eigen::MatrixXd::Identity(all.rows(), all.cols());
   return is_positive_definite(part + ridge - k_least_known * (scaled + ridge));
 }
@@ -48,16 +48,16 @@ class Folds {
         times_(fitted.sums.size(), 0) {}
 
   void leave_out(const Fold& fold) {
-    const NormalEquations rest = without(fold);
-    if (is_enough(rest)) return judge(fold, rest);
-    for (const std::size_t block : fold) judge({block}, without({block}));
+    const NormalEquations remaining = without(fold);
+    if (is_enough(remaining)) return add_errors(fold, remaining);
+    for (const std::size_t block : fold) add_errors({block}, without({block}));
   }
 
   /// Step of the effects' parameters to the fit of the other blocks; zero if these do not determine them.
   Eigen::VectorXd step_without(const Fold& fold) const {
-    const NormalEquations rest = without(fold);
-    if (!is_enough(rest)) return Eigen::VectorXd::Zero(fitted_.named);
-    return least_squares_step(rest, fitted_.x, ridge_).head(fitted_.named);
+    const NormalEquations remaining = without(fold);
+    if (!is_enough(remaining)) return Eigen::VectorXd::Zero(fitted_.named);
+    return least_squares_step(remaining, fitted_.x, ridge_).head(fitted_.named);
   }
 
   /// `else_square`: the result if nothing is held out.
@@ -77,20 +77,20 @@ class Folds {
 
  private:
   NormalEquations without(const Fold& fold) const {
-    NormalEquations rest = fitted_.all;
-    for (const std::size_t block : fold) rest -= fitted_.sums[block];
-    return rest;
+    NormalEquations remaining = fitted_.all;
+    for (const std::size_t block : fold) remaining -= fitted_.sums[block];
+    return remaining;
   }
 
-  bool is_enough(const NormalEquations& rest) const {
+  bool is_enough(const NormalEquations& remaining) const {
     const auto known = [this](const NormalEquations& sums) {
       return sums.JJ.topLeftCorner(fitted_.named, fitted_.named);
     };
-    return can_do_without(known(rest), known(fitted_.all));
+    return can_do_without(known(remaining), known(fitted_.all));
   }
 
-  void judge(const Fold& fold, const NormalEquations& rest) {
-    const Eigen::VectorXd step = least_squares_step(rest, fitted_.x, ridge_);
+  void add_errors(const Fold& fold, const NormalEquations& remaining) {
+    const Eigen::VectorXd step = least_squares_step(remaining, fitted_.x, ridge_);
     for (const std::size_t block : fold) {
       const NormalEquations& sums = fitted_.sums[block];
       for (std::size_t mask = 0; mask < masks_.size(); ++mask)
@@ -123,10 +123,10 @@ struct Scaled {
 };
 
 Scaled scaled(const Evidence& evidence, const Amplitudes& amplitudes) {
-  const Marginal& marginal = *evidence.marginal;
-  const double unit = std::sqrt(wide_prior(evidence.floor) * marginal.worth()) / amplitudes.noise;
+  const EvidenceModel& evidence_model = *evidence.evidence_model;
+  const double unit = std::sqrt(wide_prior(evidence.floor) * evidence_model.independent_share()) / amplitudes.noise;
   Scaled used;
-  const std::vector<Family>& families = marginal.discrepancy().families;
+  const std::vector<Family>& families = evidence_model.discrepancy().families;
   for (std::size_t f = 0; f < families.size(); ++f) {
     const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
     for (Eigen::Index k = 0; amplitude > 0 && k < families[f].count; ++k) {
@@ -148,7 +148,7 @@ Fitted effects_beside(const Evidence& evidence, const Fit& fit, const Scaled& us
   fitted.all = NormalEquations::none(fitted.x.size());
   fitted.all.JJ.topLeftCorner(fitted.named, fitted.named) = fit.readings.JJ;
   fitted.all.Jr.head(fitted.named) = fit.readings.Jr;
-  const Eigen::MatrixXd& columns = evidence.marginal->discrepancy().columns;
+  const Eigen::MatrixXd& columns = evidence.evidence_model->discrepancy().columns;
   const Eigen::Map<const Eigen::VectorXd> size(used.size.data(), more);
   Eigen::Index first = 0;  // row among the rows in use
   for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {

@@ -16,26 +16,26 @@ double weight_of(double loose, double floor) {
 
 }  // namespace
 
-Said Model::said(const Imperfections& at, LooseRow rest) const {
+Evaluation Model::evaluate(const Imperfections& at, LooseRow loose_row) const {
   const Eigen::VectorXd theta = flat(forward_(at));
-  if (rest == LooseRow::pushed) return {evidence_.theta - theta, Eigen::VectorXd::Zero(theta.size())};
-  Said words{evidence_.theta - theta, flat(forward_.looseness(at))};
-  for (Eigen::Index i = 0; i < words.residual.size(); ++i) {
-    if (words.loose[i] > 0) words.residual[i] *= weight_of(words.loose[i], evidence_.floor);
+  if (loose_row == LooseRow::pushed) return {evidence_.theta - theta, Eigen::VectorXd::Zero(theta.size())};
+  Evaluation evaluation{evidence_.theta - theta, flat(forward_.looseness(at))};
+  for (Eigen::Index i = 0; i < evaluation.residual.size(); ++i) {
+    if (evaluation.loose[i] > 0) evaluation.residual[i] *= weight_of(evaluation.loose[i], evidence_.floor);
   }
-  return words;
+  return evaluation;
 }
 
 Eigen::VectorXd Model::slope(const Imperfections& at, const EffectParameter& parameter, const Eigen::VectorXd& residual,
-                             LooseRow rest) const {
+                             LooseRow loose_row) const {
   Imperfections moved = at;
   const double value = value_of(at, parameter);
   const double step = value + parameter.step <= parameter.most ? 1.0 : -1.0;
   set_value(moved, parameter, value + step * parameter.step);
-  return (residual - said(moved, rest).residual) / step;
+  return (residual - evaluate(moved, loose_row).residual) / step;
 }
 
-double price_of_play(double loose, double floor) {
+double play_correction(double loose, double floor) {
   const double weight = weight_of(loose, floor);
   return floor * floor * (1.0 - weight * weight);
 }
@@ -70,7 +70,7 @@ LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loo
     if (!(loose[i] > 0)) continue;
     const double squares = residual[i] * residual[i] / (floor * floor);
     result.nats -= std::log((1.0 - share) * pushed[i] + share * anywhere[i]) + 0.5 * squares;
-    result.unheard[i] = surely_pushed(i, share) * (1.0 / (weight[i] * weight[i]) - 1.0);
+    result.extra_information[i] = surely_pushed(i, share) * (1.0 / (weight[i] * weight[i]) - 1.0);
   }
   return result;
 }

@@ -16,7 +16,7 @@ enum class LooseRow {
 };
 
 /// Residual of the model over all runs, one after another.
-struct Said {
+struct Evaluation {
   Eigen::VectorXd residual;  ///< measured − model, rad; weighted where the joint is loose and rests anywhere
   Eigen::VectorXd loose;     ///< play at each row, rad
 };
@@ -31,10 +31,10 @@ class Model {
   Parameters varied(const EffectSet& effects) const {
     return evidence_.earlier ? parameters_of(effects) : fusee::varied(*evidence_.declared, effects);
   }
-  Said said(const Imperfections& at, LooseRow rest) const;
+  Evaluation evaluate(const Imperfections& at, LooseRow loose_row) const;
   /// dθ/dx of one parameter by a step of its own size, away from its upper bound; `residual` is that at `at`.
   Eigen::VectorXd slope(const Imperfections& at, const EffectParameter& parameter, const Eigen::VectorXd& residual,
-                        LooseRow rest) const;
+                        LooseRow loose_row) const;
 
  private:
   const Evidence& evidence_;
@@ -43,7 +43,7 @@ class Model {
 
 /// Correction of the square of a loose row's residual, rad²: floor² (1 − w²) for weight w. Makes mean squares of loose
 /// and taut joints comparable.
-double price_of_play(double loose, double floor);
+double play_correction(double loose, double floor);
 
 /// Likelihood of loose rows: a mixture of rest at the last pushed position (full residual) and rest anywhere in the
 /// play (weighted residual), its share fitted by expectation maximisation. Without it a joint would be made loose to
@@ -51,7 +51,7 @@ double price_of_play(double loose, double floor);
 struct LooseRows {
   double nats = 0;  ///< evidence that the mixture loses against half the weighted squares in floors
   /// information of each row beyond that of the weighted one, as a factor; 0 for a taut row
-  Eigen::VectorXd unheard;
+  Eigen::VectorXd extra_information;
 };
 LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loose, double floor);
 

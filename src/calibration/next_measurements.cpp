@@ -151,7 +151,7 @@ class Proposals {
       const auto next = std::max_element(all_.begin(), all_.end(), [&](const Proposal& one, const Proposal& other) {
         return is_worse(one, other, left);
       });
-      if (next == all_.end() || told(*next, left) == 0) break;
+      if (next == all_.end() || distinguished(*next, left) == 0) break;
       describe(*next);
       for (std::size_t i = 0; i < left.size(); ++i) left[i] = left[i] && next->margins[i] < 1;
       chosen.push_back(next->next);
@@ -190,7 +190,7 @@ class Proposals {
     const std::string unit = evidence_.declared->transmission ? evidence_.measurement.load_unit : "N";
     Proposal proposal{next_run(run, as_before(evidence_.measurement).speed, unit), {}};
     for (const Alternative& other : others_)
-      proposal.margins.push_back(rms_from(other, run) / noise / k_thresholds.told_apart);
+      proposal.margins.push_back(rms_from(other, run) / noise / k_thresholds.distinguished);
     all_.push_back(std::move(proposal));
   }
 
@@ -204,13 +204,13 @@ class Proposals {
                              reading_by_hand(*number, *other.at, *evidence_.declared);
         squares += std::pow(apart / number->by_hand.uncertainty, 2);
       }
-      proposal.margins.push_back(std::sqrt(squares) / k_thresholds.told_apart);
+      proposal.margins.push_back(std::sqrt(squares) / k_thresholds.distinguished);
     }
     all_.push_back(std::move(proposal));
   }
 
   /// Number of the remaining alternatives that it distinguishes; half distinguished ones count in part.
-  static double told(const Proposal& proposal, const std::vector<bool>& left) {
+  static double distinguished(const Proposal& proposal, const std::vector<bool>& left) {
     double sum = 0;
     for (std::size_t i = 0; i < left.size(); ++i) {
       if (left[i] && proposal.margins[i] >= k_least_told) sum += std::min(1.0, proposal.margins[i]);
@@ -220,7 +220,7 @@ class Proposals {
 
   /// Order by the number of alternatives, then by the least of their margins, then by duration.
   static bool is_worse(const Proposal& one, const Proposal& other, const std::vector<bool>& left) {
-    const double sum = told(one, left), other_sum = told(other, left);
+    const double sum = distinguished(one, left), other_sum = distinguished(other, left);
     if (sum != other_sum) return sum < other_sum;
     const auto narrowest = [&](const Proposal& proposal) {
       double least = k_wide;
@@ -235,24 +235,24 @@ class Proposals {
 
   void describe(Proposal& proposal) const {
     const Effect* named = nullptr;
-    std::string told;
+    std::string distinguished;
     const auto separate = [&](const std::string& name) {
       std::vector<std::string>& names = proposal.next.separates;
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     };
     for (std::size_t i = 0; i < others_.size(); ++i) {
       if (proposal.margins[i] < k_least_told) continue;
-      const double apart = proposal.margins[i] * k_thresholds.told_apart;
-      const std::string unit = told.empty() ? " × the uncertainty)" : " ×)";
-      told += told.empty() ? "" : ", ";
-      if (others_[i].found != named) told += others_[i].found->name + " from ";
+      const double apart = proposal.margins[i] * k_thresholds.distinguished;
+      const std::string unit = distinguished.empty() ? " × the uncertainty)" : " ×)";
+      distinguished += distinguished.empty() ? "" : ", ";
+      if (others_[i].found != named) distinguished += others_[i].found->name + " from ";
       named = others_[i].found;
-      told += (others_[i].name == k_unmodelled ? "an unmodelled cause" : others_[i].name) + " (" +
-              rounded(std::min(apart, 999.0), 2) + unit;
+      distinguished += (others_[i].name == k_unmodelled ? "an unmodelled cause" : others_[i].name) + " (" +
+                       rounded(std::min(apart, 999.0), 2) + unit;
       separate(others_[i].found->name);
       separate(others_[i].name);
     }
-    proposal.next.gain = told;
+    proposal.next.gain = distinguished;
   }
 
   const Evidence& evidence_;
@@ -272,15 +272,15 @@ std::vector<Sides> held_points(const Measurement& measurement) {
   std::vector<Sides> points;
   for (const Run& run : measurement.runs) {
     if (!is_from_point_to_point(run)) continue;
-    for (const Segment& stretch : run.segments) {
-      const bool is_first = &stretch == &run.segments.front();  // its approach was not logged
-      if (!stretch.held || is_first) continue;
-      const double alpha = run.samples[stretch.first].alpha;
+    for (const Segment& segment : run.segments) {
+      const bool is_first = &segment == &run.segments.front();  // its approach was not logged
+      if (!segment.held || is_first) continue;
+      const double alpha = run.samples[segment.first].alpha;
       auto point = std::find_if(points.begin(), points.end(), [&](const Sides& known) {
-        return std::abs(known.alpha - alpha) <= k_one_stand * seen.size();
+        return std::abs(known.alpha - alpha) <= k_dwell_tolerance * seen.size();
       });
       if (point == points.end()) point = points.insert(points.end(), {alpha});
-      const int direction = run.strokes[stretch.stroke].direction;
+      const int direction = run.strokes[segment.stroke].direction;
       point->rising = point->rising || direction > 0;
       point->falling = point->falling || direction < 0;
     }

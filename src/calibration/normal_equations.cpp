@@ -33,7 +33,7 @@ void add_row(const Fit& fit, Eigen::Index row, double floor, NormalEquations& no
   const Eigen::VectorXd J = slopes_of(fit, row);
   normal.JJ.noalias() += J * J.transpose();
   normal.Jr.noalias() += J * fit.residual[row];
-  normal.rr += fit.residual[row] * fit.residual[row] + price_of_play(fit.loose[row], floor);
+  normal.rr += fit.residual[row] * fit.residual[row] + play_correction(fit.loose[row], floor);
   normal.rows += 1;
 }
 
@@ -78,7 +78,7 @@ NormalEquations sums_of_readings(const Evidence& evidence, const Fit& fit) {
   return sums;
 }
 
-double against_readings(const Evidence& evidence, const Imperfections& at) {
+double caliper_chi2(const Evidence& evidence, const Imperfections& at) {
   double squares = 0;
   for (const HandReading& reading : evidence.readings)
     squares += std::pow((reading.value - reading_of(reading, evidence, at)) / reading.uncertainty, 2);

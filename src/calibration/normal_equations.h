@@ -37,7 +37,7 @@ NormalEquations sums_of(const Block& block, const Fit& fit, double floor);
 /// Sums over caliper readings: each is a row with noise of the floor.
 NormalEquations sums_of_readings(const Evidence& evidence, const Fit& fit);
 /// χ² of the caliper readings.
-double against_readings(const Evidence& evidence, const Imperfections& at);
+double caliper_chi2(const Evidence& evidence, const Imperfections& at);
 /// Sums over all rows in use, with JJ and Jr of caliper readings.
 NormalEquations sums_of_all(const Evidence& evidence, const Fit& fit);
 

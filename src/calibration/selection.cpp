@@ -10,8 +10,8 @@
 
 #include "base/decompositions.h"
 #include "calibration/catalogue.h"
+#include "calibration/discrepancy_fit.h"
 #include "calibration/thresholds.h"
-#include "calibration/unknown.h"
 #include "calibration/validation.h"
 #include "fusee/calibration/words.h"
 
@@ -27,54 +27,54 @@ namespace fusee {
 namespace {
 
 /// score() without the penalty of the discrepancy.
-double score_of_names(const Fit& fit) { return fit.log_evidence - rareness_of(fit.effects); }
+double score_of_names(const Fit& fit) { return fit.log_evidence - neg_log_prior_odds(fit.effects); }
 
 /// Rounds of amplitudes in a linearization.
-constexpr int k_look_rounds = 4;
+constexpr int k_linearized_rounds = 4;
 
 /// Columns that an effect adds to a linearization, over the rows in use.
-struct Look {
+struct LinearizedEffect {
   Eigen::MatrixXd J;
   Eigen::VectorXd prior;
 };
 
 /// Fit of a set without discrepancy, with its score.
-struct Plain {
+struct FitWithoutDiscrepancy {
   double score = 0;
   Fit fit;
 };
 
 /// Effect that may be added to a fit, with its predicted score.
-struct Addition {
+struct LinearizedCandidate {
   const Fit* base = nullptr;
   const Effect* effect = nullptr;
-  double promise = -std::numeric_limits<double>::infinity();
-  Look look = {};  ///< columns by which the score was predicted
+  double predicted_score = -std::numeric_limits<double>::infinity();
+  LinearizedEffect linearized = {};  ///< columns by which the score was predicted
 };
 
 /// Two linearized candidates beside a base.
-struct PairBeside {
+struct CandidatePair {
   const Fit* base = nullptr;
-  const Addition* one = nullptr;
-  const Addition* other = nullptr;
-  double promise = 0;
+  const LinearizedCandidate* one = nullptr;
+  const LinearizedCandidate* other = nullptr;
+  double predicted_score = 0;
 };
 
 /// Linearized candidates beside a base: sums over rows that they share are computed once.
-class SharedLooks {
+class SharedLinearization {
  public:
-  SharedLooks(const Evidence& evidence, const Fit& base, const Amplitudes& unnamed,
-              const std::vector<const Look*>& looks) {
-    const Marginal& marginal = *evidence.marginal;
+  SharedLinearization(const Evidence& evidence, const Fit& base, const Amplitudes& amplitudes,
+                      const std::vector<const LinearizedEffect*>& candidates) {
+    const EvidenceModel& evidence_model = *evidence.evidence_model;
     Tangent tangent = tangent_of(evidence, base);
     own_ = tangent.x.size();
-    for (const Look* look : looks) {
+    for (const LinearizedEffect* linearized : candidates) {
       first_.push_back(tangent.J.cols());
-      add(*look, tangent);
+      add(*linearized, tangent);
     }
     first_.push_back(tangent.J.cols());
-    const TangentSums sums = marginal.sums_of(tangent);
-    beside_ = marginal.reduced(sums, marginal.sized(unnamed, sums.give));
+    const TangentSums sums = evidence_model.sums_of(tangent);
+    beside_ = evidence_model.reduced(sums, evidence_model.sized(amplitudes, sums.deflection_ratio));
   }
 
   /// Log evidence with the chosen candidates, by the given amplitudes.
@@ -88,10 +88,10 @@ class SharedLooks {
   }
 
   /// Appends the columns of a candidate, its numbers at zero.
-  static void add(const Look& look, Tangent& tangent) {
-    tangent.J.conservativeResize(Eigen::NoChange, tangent.J.cols() + look.J.cols());
-    tangent.J.rightCols(look.J.cols()) = look.J;
-    add_numbers(look.prior, tangent);
+  static void add(const LinearizedEffect& linearized, Tangent& tangent) {
+    tangent.J.conservativeResize(Eigen::NoChange, tangent.J.cols() + linearized.J.cols());
+    tangent.J.rightCols(linearized.J.cols()) = linearized.J;
+    add_numbers(linearized.prior, tangent);
   }
 
  private:
@@ -102,64 +102,65 @@ class SharedLooks {
 
 class Selector {
  public:
-  Selector(const Evidence& evidence, Workers& workers, const CalibrationOptions& options)
-      : evidence_(evidence), workers_(workers), options_(options) {}
+  Selector(const Evidence& evidence, FitterPool& pool, const CalibrationOptions& options)
+      : evidence_(evidence), pool_(pool), options_(options) {}
 
   Selection run();
 
  private:
   using Key = std::vector<std::size_t>;
   Key key_of(const EffectSet& effects) const;
-  void take_in(Fit fit);
-  void keep(Fit fit);
-  Fit likeliest_of_its_set(Fit fit) const;
+  void record(Fit fit);
+  void record_tried(Fit fit);
+  Fit likeliest_known(Fit fit) const;
   bool is_tried(const Key& key) const { return tried_.count(key) > 0; }
   std::vector<const Fit*> ranked() const;
-  double promised(const Fit& base, const EffectSet& added, const std::vector<const Look*>& looks,
-                  const Amplitudes& unnamed) const;
-  std::vector<Look> looks_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const;
-  using FitOne = Fit (Selector::*)(const Fitter&, const Addition&) const;
-  std::vector<Fit> fitted(const std::string& what, const std::vector<Addition>& added, FitOne fit_one);
-  Fit fitted_a_little(const Fitter& fitter, const Addition& added) const;
-  Fit fitted_to_the_end(const Fitter& fitter, const Addition& added) const;
-  Fit fitted_plainly(const Fitter& fitter, const Addition& added) const;
-  std::vector<Addition> each_alone() const;
+  double predict_score(const Fit& base, const EffectSet& added, const std::vector<const LinearizedEffect*>& candidates,
+                       const Amplitudes& amplitudes) const;
+  std::vector<LinearizedEffect> linearize_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const;
+  using FitOne = Fit (Selector::*)(const Fitter&, const LinearizedCandidate&) const;
+  std::vector<Fit> fit_candidates(const std::string& what, const std::vector<LinearizedCandidate>& added,
+                                  FitOne fit_one);
+  Fit fit_briefly(const Fitter& fitter, const LinearizedCandidate& added) const;
+  Fit fit_fully(const Fitter& fitter, const LinearizedCandidate& added) const;
+  Fit fit_without_discrepancy(const Fitter& fitter, const LinearizedCandidate& added) const;
+  std::vector<LinearizedCandidate> each_alone() const;
   void try_singles();
-  Explained plainly(const Fit& fit) const;
-  double plain_score(const Fit& fit) const;
-  std::vector<Fit> singles_plainly();
-  std::vector<Fit> wider_plainly(const std::vector<Plain>& beam);
-  std::vector<Plain> likeliest_plainly(std::vector<Fit> fits);
-  void explain_plainly();
-  void take_widest();
+  Posterior explain_without_discrepancy(const Fit& fit) const;
+  double score_without_discrepancy(const Fit& fit) const;
+  std::vector<Fit> fit_singles_without_discrepancy();
+  std::vector<Fit> widen_without_discrepancy(const std::vector<FitWithoutDiscrepancy>& beam);
+  std::vector<FitWithoutDiscrepancy> select_beam(std::vector<Fit> fits);
+  void search_without_discrepancy();
+  void widen_fully();
   bool widen();
-  void take_best(Fit best);
-  std::vector<Fit> settled(const std::vector<const Fit*>& fits);
-  void settle_best();
-  std::vector<Addition> promising(const Fitter& fitter, const Fit& base, const Amplitudes& unnamed,
-                                  std::size_t most) const;
-  const std::vector<Addition>& beside_best();
-  bool challenge();
-  std::vector<Weighed> weighed();
-  std::optional<std::size_t> shares_with(const Fit& wider) const;
-  void join_companions();
-  std::optional<double> square_about_best(const Fit& fit, Eigen::Index place) const;
-  void look_at_variance();
-  bool is_for_nothing(const Effect& effect, const Fit& others) const;
+  void set_best(Fit best);
+  std::vector<Fit> refit(const std::vector<const Fit*>& fits);
+  void refit_best();
+  std::vector<LinearizedCandidate> rank_by_linearization(const Fitter& fitter, const Fit& base,
+                                                         const Amplitudes& amplitudes, std::size_t most) const;
+  const std::vector<LinearizedCandidate>& candidates_beside_best();
+  bool test_rivals();
+  std::vector<Weighed> weigh_sets();
+  std::optional<std::size_t> find_trading_member(const Fit& wider) const;
+  void add_companions();
+  std::optional<double> square_deviation(const Fit& fit, Eigen::Index place) const;
+  void estimate_variance();
+  bool is_unsupported(const Effect& effect, const Fit& others) const;
   CredibleGroup group_of(const std::vector<Weighed>& sets, const Effect& effect) const;
-  bool is_some_name(const std::vector<Weighed>& sets, const Effect& effect) const;
-  std::vector<Fit> reduced() const;
-  std::vector<PairBeside> pairs_beside(const Fit& base, const Amplitudes& unnamed,
-                                       const std::vector<Addition>& looks) const;
-  std::vector<PairBeside> pairs_beside(const Fit& base, const std::vector<Addition>& looks) const;
-  bool exchange();
-  void leave_each_out();
+  bool is_certain_with_group(const std::vector<Weighed>& sets, const Effect& effect) const;
+  std::vector<Fit> reduce_best() const;
+  std::vector<CandidatePair> pairs_beside(const Fit& base, const Amplitudes& amplitudes,
+                                          const std::vector<LinearizedCandidate>& candidates) const;
+  std::vector<CandidatePair> pairs_beside(const Fit& base, const std::vector<LinearizedCandidate>& candidates) const;
+  bool exchange_members();
+  void refit_without_each();
   bool leaves_unexplained(const Fit& fit) const;
   bool is_completed_beside(const Fit& others) const;
   bool drop_doubtful();
   void drop_all_doubtful();
-  void drop_what_predicts_nothing();
-  void write_down();
+  void drop_unpredictive();
+  void record_candidates();
 
   void report(const std::string& what, double share) const {
     if (options_.progress) options_.progress(what, share);
@@ -170,14 +171,15 @@ class Selector {
   }
 
   const Evidence& evidence_;
-  Workers& workers_;
+  FitterPool& pool_;
   const CalibrationOptions& options_;
   Selection selection_;
-  std::vector<Look> looks_;  ///< linearization of each effect of the catalogue alone; empty if it cannot be simulated
+  std::vector<LinearizedEffect>
+      linearized_;  ///< linearization of each effect of the catalogue alone; empty if it cannot be simulated
   std::map<Key, Fit> seen_;
-  std::optional<std::vector<Addition>> beside_best_;  ///< valid until `best` changes
-  std::vector<Fit> companions_;                       ///< `best` with one effect more that may be present too
-  std::set<Key> tried_;                               ///< sets that were fitted beside the discrepancy
+  std::optional<std::vector<LinearizedCandidate>> candidates_beside_best_;  ///< valid until `best` changes
+  std::vector<Fit> companions_;  ///< `best` with one effect more that may be present too
+  std::set<Key> tried_;          ///< sets that were fitted beside the discrepancy
 };
 
 Selector::Key Selector::key_of(const EffectSet& effects) const {
@@ -188,12 +190,12 @@ Selector::Key Selector::key_of(const EffectSet& effects) const {
 }
 
 /// Records a fit; its set is not fitted again.
-void Selector::keep(Fit fit) {
+void Selector::record_tried(Fit fit) {
   if (fit.usable) tried_.insert(key_of(fit.effects));
-  take_in(std::move(fit));
+  record(std::move(fit));
 }
 
-void Selector::take_in(Fit fit) {
+void Selector::record(Fit fit) {
   if (!fit.usable) return;
   const auto [place, added] = seen_.try_emplace(key_of(fit.effects), fit);
   if (!added && fit.log_evidence > place->second.log_evidence) place->second = std::move(fit);
@@ -201,7 +203,7 @@ void Selector::take_in(Fit fit) {
 
 /// The likeliest known fit of its set. If a joint sticks and slips, a fit from elsewhere may end at a lower mode, and
 /// the left-out effect would seem to matter more than it does (held-out seed 192006: by 36 nats).
-Fit Selector::likeliest_of_its_set(Fit fit) const {
+Fit Selector::likeliest_known(Fit fit) const {
   const auto seen = seen_.find(key_of(fit.effects));
   const bool is_seen = seen != seen_.end() && !(fit.usable && score(fit) >= score(seen->second));
   return is_seen ? seen->second : fit;
@@ -214,11 +216,12 @@ std::vector<const Fit*> Selector::ranked() const {
   return all;
 }
 
-std::vector<Fit> Selector::fitted(const std::string& what, const std::vector<Addition>& added, FitOne fit_one) {
+std::vector<Fit> Selector::fit_candidates(const std::string& what, const std::vector<LinearizedCandidate>& added,
+                                          FitOne fit_one) {
   std::vector<Fit> fits(added.size());
   const double count = static_cast<double>(std::max<std::size_t>(1, added.size()));
   report(what, 0);
-  workers_.each(
+  pool_.each(
       added.size(), [&](const Fitter& fitter, std::size_t i) { fits[i] = (this->*fit_one)(fitter, added[i]); },
       [&](std::size_t done) { report(what, static_cast<double>(done) / count); });
   return fits;
@@ -226,150 +229,159 @@ std::vector<Fit> Selector::fitted(const std::string& what, const std::vector<Add
 
 /// True if a short fit stayed below the prediction: the slopes of the base have changed, and the mode is elsewhere
 /// (held-out seed 211303: an offset beside an encoder's eccentricity, 200 nats).
-bool ended_early(const Fit& fit, const Addition& added) { return score(fit) < added.promise - k_thresholds.as_good; }
+bool ended_early(const Fit& fit, const LinearizedCandidate& added) {
+  return score(fit) < added.predicted_score - k_thresholds.as_good;
+}
 
 /// Fit to within the accuracy of a comparison.
-Fit Selector::fitted_a_little(const Fitter& fitter, const Addition& added) const {
-  Fit fit = fitter.with_effect(*added.base, *added.effect);
+Fit Selector::fit_briefly(const Fitter& fitter, const LinearizedCandidate& added) const {
+  Fit fit = fitter.add_effect(*added.base, *added.effect);
   return fit.usable && ended_early(fit, added) ? fitter.fit(fit.effects, fit.at) : fit;
 }
 
 /// Full fit, unless it is far below the best.
-Fit Selector::fitted_to_the_end(const Fitter& fitter, const Addition& added) const {
-  Fit fit = fitter.with_effect(*added.base, *added.effect);
+Fit Selector::fit_fully(const Fitter& fitter, const LinearizedCandidate& added) const {
+  Fit fit = fitter.add_effect(*added.base, *added.effect);
   const bool is_near = fit.usable && score(fit) > score(selection_.best) - k_thresholds.hopeless;
   return is_near || (fit.usable && ended_early(fit, added)) ? fitter.fit(fit.effects, fit.at) : fit;
 }
 
 /// Every effect of the catalogue, beside none.
-std::vector<Addition> Selector::each_alone() const {
-  std::vector<Addition> all;
+std::vector<LinearizedCandidate> Selector::each_alone() const {
+  std::vector<LinearizedCandidate> all;
   for (const Effect* effect : selection_.catalogue) all.push_back({&selection_.none, effect});
   return all;
 }
 
 void Selector::try_singles() {
-  std::vector<Fit> fits = fitted("trying effects one by one", each_alone(), &Selector::fitted_to_the_end);
+  std::vector<Fit> fits = fit_candidates("trying effects one by one", each_alone(), &Selector::fit_fully);
   const Eigen::Index own = selection_.none.x.size();
   for (Fit& fit : fits) {
-    Look look;
+    LinearizedEffect linearized;
     if (fit.usable) {
       const Tangent tangent = tangent_of(evidence_, fit);
       const Eigen::Index more = fit.x.size() - own;
-      look.J = tangent.J.rightCols(more);
-      look.prior = tangent.prior.tail(more);
+      linearized.J = tangent.J.rightCols(more);
+      linearized.prior = tangent.prior.tail(more);
       // For a single number the chord from zero predicts better than the slope at its end.
       if (more == 1 && fit.x[own] != 0)
-        look.J.col(0) = (tangent_of(evidence_, selection_.none).residual - tangent.residual) / fit.x[own];
+        linearized.J.col(0) = (tangent_of(evidence_, selection_.none).residual - tangent.residual) / fit.x[own];
     }
-    looks_.push_back(std::move(look));
-    keep(std::move(fit));
+    linearized_.push_back(std::move(linearized));
+    record_tried(std::move(fit));
   }
 }
 
 /// Predicted score of `base` with these effects.
-double Selector::promised(const Fit& base, const EffectSet& added, const std::vector<const Look*>& looks,
-                          const Amplitudes& unnamed) const {
+double Selector::predict_score(const Fit& base, const EffectSet& added,
+                               const std::vector<const LinearizedEffect*>& candidates,
+                               const Amplitudes& amplitudes) const {
   Tangent tangent = tangent_of(evidence_, base);
-  const double cost = rareness_of(base.effects) + rareness_of(added);
-  for (const Look* of_one : looks) {
+  const double cost = neg_log_prior_odds(base.effects) + neg_log_prior_odds(added);
+  for (const LinearizedEffect* of_one : candidates) {
     if (of_one->J.size() == 0) return -std::numeric_limits<double>::infinity();
-    SharedLooks::add(*of_one, tangent);
+    SharedLinearization::add(*of_one, tangent);
   }
-  const double loose = base.explained.log_evidence - base.log_evidence;
-  const Marginal& marginal = *evidence_.marginal;
-  const Explained explained = marginal.best(tangent, unnamed, k_look_rounds);
-  const double promise = explained.log_evidence - marginal.rareness_of_rest(explained) - loose - cost;
-  return std::isfinite(promise) ? promise : -std::numeric_limits<double>::infinity();
+  const double loose = base.posterior.log_evidence - base.log_evidence;
+  const EvidenceModel& evidence_model = *evidence_.evidence_model;
+  const Posterior posterior = evidence_model.best(tangent, amplitudes, k_linearized_rounds);
+  const double predicted_score = posterior.log_evidence - evidence_model.discrepancy_penalty(posterior) - loose - cost;
+  return std::isfinite(predicted_score) ? predicted_score : -std::numeric_limits<double>::infinity();
 }
 
 /// Linearizations of an effect, by chords over its expected sizes, one for each start.
-std::vector<Look> Selector::looks_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const {
-  std::vector<Look> looks;
-  for (const Fit& wider : fitter.with_chords_of_starts(base, effect)) {
+std::vector<LinearizedEffect> Selector::linearize_beside(const Fitter& fitter, const Fit& base,
+                                                         const Effect& effect) const {
+  std::vector<LinearizedEffect> candidates;
+  for (const Fit& wider : fitter.add_chords_of_starts(base, effect)) {
     if (!wider.usable) continue;
     const Tangent tangent = tangent_of(evidence_, wider);
     const Eigen::Index more = wider.x.size() - base.x.size();
-    looks.push_back({tangent.J.rightCols(more), tangent.prior.tail(more)});
+    candidates.push_back({tangent.J.rightCols(more), tangent.prior.tail(more)});
   }
-  return looks;
+  return candidates;
 }
 
 /// Effects beside `base`, ranked by their linearizations.
-std::vector<Addition> Selector::promising(const Fitter& fitter, const Fit& base, const Amplitudes& unnamed,
-                                          std::size_t most) const {
+std::vector<LinearizedCandidate> Selector::rank_by_linearization(const Fitter& fitter, const Fit& base,
+                                                                 const Amplitudes& amplitudes, std::size_t most) const {
   EffectSet effects = selection_.catalogue;
   std::erase_if(effects, [&](const Effect* effect) { return contains(base.effects, *effect); });
-  std::vector<std::vector<Look>> looks(effects.size());
-  std::vector<const Look*> flat;
+  std::vector<std::vector<LinearizedEffect>> candidates(effects.size());
+  std::vector<const LinearizedEffect*> flat;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    looks[i] = looks_beside(fitter, base, *effects[i]);
-    for (const Look& look : looks[i]) flat.push_back(&look);
+    candidates[i] = linearize_beside(fitter, base, *effects[i]);
+    for (const LinearizedEffect& linearized : candidates[i]) flat.push_back(&linearized);
   }
-  const SharedLooks shared(evidence_, base, unnamed, flat);
-  std::vector<Addition> all;
+  const SharedLinearization shared(evidence_, base, amplitudes, flat);
+  std::vector<LinearizedCandidate> all;
   std::size_t place = 0;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    const Look& alone = looks_[place_of(*effects[i])];
-    Addition best{&base, effects[i], promised(base, {effects[i]}, {&alone}, unnamed), alone};
+    const LinearizedEffect& alone = linearized_[place_of(*effects[i])];
+    LinearizedCandidate best{&base, effects[i], predict_score(base, {effects[i]}, {&alone}, amplitudes), alone};
     double most_likely = -std::numeric_limits<double>::infinity();
-    const Look* likeliest = nullptr;
-    for (const Look& look : looks[i]) {
+    const LinearizedEffect* likeliest = nullptr;
+    for (const LinearizedEffect& linearized : candidates[i]) {
       const double likely = shared.log_evidence({place++});
-      if (likely > most_likely) most_likely = likely, likeliest = &look;
+      if (likely > most_likely) most_likely = likely, likeliest = &linearized;
     }
-    const double promise = likeliest == nullptr ? most_likely : promised(base, {effects[i]}, {likeliest}, unnamed);
-    if (promise > best.promise) best.promise = promise, best.look = *likeliest;
+    const double predicted_score =
+        likeliest == nullptr ? most_likely : predict_score(base, {effects[i]}, {likeliest}, amplitudes);
+    if (predicted_score > best.predicted_score) best.predicted_score = predicted_score, best.linearized = *likeliest;
     all.push_back(std::move(best));
   }
-  std::stable_sort(all.begin(), all.end(), [](const Addition& a, const Addition& b) { return a.promise > b.promise; });
+  std::stable_sort(all.begin(), all.end(), [](const LinearizedCandidate& a, const LinearizedCandidate& b) {
+    return a.predicted_score > b.predicted_score;
+  });
   all.resize(std::min(all.size(), most));
   return all;
 }
 
 /// Candidates beside `best`, of the whole catalogue.
-const std::vector<Addition>& Selector::beside_best() {
+const std::vector<LinearizedCandidate>& Selector::candidates_beside_best() {
   const Fit& best = selection_.best;
-  if (!beside_best_)
-    beside_best_ = promising(workers_.one(), best, best.explained.amplitudes, selection_.catalogue.size());
-  return *beside_best_;
+  if (!candidates_beside_best_)
+    candidates_beside_best_ =
+        rank_by_linearization(pool_.one(), best, best.posterior.amplitudes, selection_.catalogue.size());
+  return *candidates_beside_best_;
 }
 
-void Selector::take_best(Fit best) {
+void Selector::set_best(Fit best) {
   selection_.best = std::move(best);
   selection_.without.clear();
-  beside_best_.reset();
+  candidates_beside_best_.reset();
 }
 
 /// Posterior without discrepancy, with as much noise as required.
-Explained Selector::plainly(const Fit& fit) const {
-  return evidence_.marginal->best(tangent_of(evidence_, fit), evidence_.marginal->nothing_unnamed());
+Posterior Selector::explain_without_discrepancy(const Fit& fit) const {
+  return evidence_.evidence_model->best(tangent_of(evidence_, fit), evidence_.evidence_model->without_discrepancy());
 }
 
-double Selector::plain_score(const Fit& fit) const {
-  return score_of_names(fit) - fit.explained.log_evidence + plainly(fit).log_evidence;
+double Selector::score_without_discrepancy(const Fit& fit) const {
+  return score_of_names(fit) - fit.posterior.log_evidence + explain_without_discrepancy(fit).log_evidence;
 }
 
 /// Each set of the beam with one effect more, fitted without discrepancy.
-std::vector<Fit> Selector::wider_plainly(const std::vector<Plain>& beam) {
-  std::vector<std::vector<Addition>> looks(beam.size());
-  workers_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
+std::vector<Fit> Selector::widen_without_discrepancy(const std::vector<FitWithoutDiscrepancy>& beam) {
+  std::vector<std::vector<LinearizedCandidate>> candidates(beam.size());
+  pool_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit& base = beam[i].fit;
-    looks[i] = promising(fitter, base, plainly(base).amplitudes, k_thresholds.most_looks);
+    candidates[i] =
+        rank_by_linearization(fitter, base, explain_without_discrepancy(base).amplitudes, k_thresholds.most_candidates);
   });
-  std::map<Key, Addition> added;
-  for (const std::vector<Addition>& look : looks) {
-    for (const Addition& addition : look) {
-      EffectSet effects = addition.base->effects;
-      effects.push_back(addition.effect);
-      added.try_emplace(key_of(effects), addition);
+  std::map<Key, LinearizedCandidate> added;
+  for (const std::vector<LinearizedCandidate>& linearized : candidates) {
+    for (const LinearizedCandidate& candidate : linearized) {
+      EffectSet effects = candidate.base->effects;
+      effects.push_back(candidate.effect);
+      added.try_emplace(key_of(effects), candidate);
     }
   }
-  std::vector<Addition> each;
-  for (const auto& [key, addition] : added) each.push_back(addition);
+  std::vector<LinearizedCandidate> each;
+  for (const auto& [key, candidate] : added) each.push_back(candidate);
   std::vector<Fit> wider(each.size());
-  workers_.each(each.size(), [&](const Fitter& fitter, std::size_t i) {
-    wider[i] = fitter.with_effect_alone(*each[i].base, *each[i].effect);
+  pool_.each(each.size(), [&](const Fitter& fitter, std::size_t i) {
+    wider[i] = fitter.add_effect_without_discrepancy(*each[i].base, *each[i].effect);
   });
   std::erase_if(wider, [](const Fit& fit) { return !fit.usable; });
   return wider;
@@ -377,49 +389,52 @@ std::vector<Fit> Selector::wider_plainly(const std::vector<Plain>& beam) {
 
 /// The likelier fit without discrepancy. Beside the discrepancy, friction that holds a joint fast ends at zero
 /// (held-out seed 201021).
-Fit Selector::fitted_plainly(const Fitter& fitter, const Addition& added) const {
-  Fit fit = fitter.with_effect_alone(*added.base, *added.effect);
+Fit Selector::fit_without_discrepancy(const Fitter& fitter, const LinearizedCandidate& added) const {
+  Fit fit = fitter.add_effect_without_discrepancy(*added.base, *added.effect);
   const auto seen = seen_.find(key_of({added.effect}));
-  const bool is_better = seen == seen_.end() || (fit.usable && plain_score(fit) > plain_score(seen->second));
+  const bool is_better =
+      seen == seen_.end() || (fit.usable && score_without_discrepancy(fit) > score_without_discrepancy(seen->second));
   return is_better ? fit : seen->second;
 }
 
 /// No effect, and each effect alone.
-std::vector<Fit> Selector::singles_plainly() {
-  std::vector<Fit> singles = fitted("trying effects one by one", each_alone(), &Selector::fitted_plainly);
+std::vector<Fit> Selector::fit_singles_without_discrepancy() {
+  std::vector<Fit> singles =
+      fit_candidates("trying effects one by one", each_alone(), &Selector::fit_without_discrepancy);
   std::erase_if(singles, [](const Fit& fit) { return !fit.usable; });
   singles.insert(singles.begin(), selection_.none);
   return singles;
 }
 
 /// The beam: the first few by their scores without discrepancy.
-std::vector<Plain> Selector::likeliest_plainly(std::vector<Fit> fits) {
-  std::vector<Plain> all(fits.size());
-  workers_.each(fits.size(), [&](const Fitter&, std::size_t i) {
-    all[i].score = plain_score(fits[i]);
+std::vector<FitWithoutDiscrepancy> Selector::select_beam(std::vector<Fit> fits) {
+  std::vector<FitWithoutDiscrepancy> all(fits.size());
+  pool_.each(fits.size(), [&](const Fitter&, std::size_t i) {
+    all[i].score = score_without_discrepancy(fits[i]);
     all[i].fit = std::move(fits[i]);
   });
-  std::stable_sort(all.begin(), all.end(), [](const Plain& a, const Plain& b) { return a.score > b.score; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const FitWithoutDiscrepancy& a, const FitWithoutDiscrepancy& b) { return a.score > b.score; });
   all.resize(std::min(all.size(), k_thresholds.beam));
   return all;
 }
 
 /// Beam search without discrepancy, until the residual hardly exceeds the noise. A fit without discrepancy may end at
 /// another mode than one beside it, so its set is fitted again by score.
-void Selector::explain_plainly() {
-  std::vector<Plain> beam = likeliest_plainly(singles_plainly());
-  while (beam.front().score < score_of_names(beam.front().fit) - k_thresholds.least_unnamed &&
+void Selector::search_without_discrepancy() {
+  std::vector<FitWithoutDiscrepancy> beam = select_beam(fit_singles_without_discrepancy());
+  while (beam.front().score < score_of_names(beam.front().fit) - k_thresholds.least_component &&
          beam.front().fit.effects.size() < k_thresholds.most_effects) {
-    std::vector<Fit> wider = wider_plainly(beam);
+    std::vector<Fit> wider = widen_without_discrepancy(beam);
     if (wider.empty()) break;
-    for (const Fit& fit : wider) take_in(fit);
+    for (const Fit& fit : wider) record(fit);
     const double before = beam.front().score;
-    beam = likeliest_plainly(std::move(wider));
+    beam = select_beam(std::move(wider));
     if (beam.front().score <= before) break;
   }
   std::vector<const Fit*> fits;
-  for (const Plain& plain : beam) fits.push_back(&plain.fit);
-  for (Fit& fit : settled(fits)) take_in(std::move(fit));
+  for (const FitWithoutDiscrepancy& entry : beam) fits.push_back(&entry.fit);
+  for (Fit& fit : refit(fits)) record(std::move(fit));
 }
 
 /// Fits wider sets than those of the beam. True if one has a better score than the best so far.
@@ -427,57 +442,58 @@ bool Selector::widen() {
   std::vector<const Fit*> beam = ranked();
   beam.resize(std::min(beam.size(), k_thresholds.beam));
   const double before = score(*beam.front());
-  std::vector<std::vector<Addition>> looks(beam.size());
-  workers_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
+  std::vector<std::vector<LinearizedCandidate>> candidates(beam.size());
+  pool_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
     if (beam[i]->effects.size() < k_thresholds.most_effects)
-      looks[i] = promising(fitter, *beam[i], beam[i]->explained.amplitudes, k_thresholds.most_looks);
+      candidates[i] =
+          rank_by_linearization(fitter, *beam[i], beam[i]->posterior.amplitudes, k_thresholds.most_candidates);
   });
-  std::vector<Addition> added;
-  for (const std::vector<Addition>& look : looks) {
-    for (const Addition& addition : look) {
-      EffectSet effects = addition.base->effects;
-      effects.push_back(addition.effect);
-      if (addition.promise > before - k_thresholds.hopeless && !is_tried(key_of(effects))) added.push_back(addition);
+  std::vector<LinearizedCandidate> added;
+  for (const std::vector<LinearizedCandidate>& linearized : candidates) {
+    for (const LinearizedCandidate& candidate : linearized) {
+      EffectSet effects = candidate.base->effects;
+      effects.push_back(candidate.effect);
+      if (candidate.predicted_score > before - k_thresholds.hopeless && !is_tried(key_of(effects)))
+        added.push_back(candidate);
     }
   }
-  std::vector<Fit> fits = fitted("trying wider sets of effects", added, &Selector::fitted_a_little);
-  for (Fit& fit : fits) keep(std::move(fit));
+  std::vector<Fit> fits = fit_candidates("trying wider sets of effects", added, &Selector::fit_briefly);
+  for (Fit& fit : fits) record_tried(std::move(fit));
   return score(*ranked().front()) > before;
 }
 
-std::vector<Fit> Selector::settled(const std::vector<const Fit*>& fits) {
+std::vector<Fit> Selector::refit(const std::vector<const Fit*>& fits) {
   std::vector<Fit> to_the_end(fits.size());
-  workers_.each(fits.size(), [&](const Fitter& fitter, std::size_t i) {
-    to_the_end[i] = fitter.fit(fits[i]->effects, fits[i]->at);
-  });
+  pool_.each(fits.size(),
+             [&](const Fitter& fitter, std::size_t i) { to_the_end[i] = fitter.fit(fits[i]->effects, fits[i]->at); });
   return to_the_end;
 }
 
 /// Full fits of the best few.
-void Selector::settle_best() {
+void Selector::refit_best() {
   std::vector<const Fit*> all = ranked();
   all.resize(std::min(all.size(), k_thresholds.beam));
-  for (Fit& fit : settled(all)) keep(std::move(fit));
+  for (Fit& fit : refit(all)) record_tried(std::move(fit));
   const Fit* likeliest = ranked().front();
-  Fit best = workers_.one().fit(likeliest->effects, likeliest->at);
-  take_best(best.usable && best.log_evidence >= likeliest->log_evidence ? std::move(best) : *likeliest);
+  Fit best = pool_.one().fit(likeliest->effects, likeliest->at);
+  set_best(best.usable && best.log_evidence >= likeliest->log_evidence ? std::move(best) : *likeliest);
 }
 
 /// Widens the best set as long as that improves the score.
-void Selector::take_widest() {
+void Selector::widen_fully() {
   while (widen()) {
   }
-  settle_best();
+  refit_best();
 }
 
 /// Refits `best` without each of its members, once.
-void Selector::leave_each_out() {
+void Selector::refit_without_each() {
   const Fit& best = selection_.best;
   if (selection_.without.size() == best.effects.size()) return;
   selection_.without.assign(best.effects.size(), {});
-  workers_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
+  pool_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
     const Effect& effect = *best.effects[i];
-    selection_.without[i] = likeliest_of_its_set(fitter.fit(without(best.effects, effect), without(best.at, effect)));
+    selection_.without[i] = likeliest_known(fitter.fit(without(best.effects, effect), without(best.at, effect)));
   });
 }
 
@@ -486,67 +502,71 @@ void Selector::leave_each_out() {
 /// the place of a runout was 13 nats likelier (seed 41022), joint friction in the place of play 35 (held-out seed
 /// 202192). No rival is skipped that predicts as much as the member itself (202208: 4 nats). True if a better set was
 /// found.
-bool Selector::challenge() {
+bool Selector::test_rivals() {
   const Fit& best = selection_.best;
-  leave_each_out();
-  std::vector<std::vector<Addition>> looks(best.effects.size());
-  workers_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
+  refit_without_each();
+  std::vector<std::vector<LinearizedCandidate>> candidates(best.effects.size());
+  pool_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit& less = selection_.without[i];
-    if (less.usable) looks[i] = promising(fitter, less, less.explained.amplitudes, selection_.catalogue.size());
+    if (less.usable)
+      candidates[i] = rank_by_linearization(fitter, less, less.posterior.amplitudes, selection_.catalogue.size());
   });
   selection_.rivals.clear();
-  std::vector<Addition> added;
-  for (std::size_t i = 0; i < looks.size(); ++i) {
-    const auto own = std::find_if(looks[i].begin(), looks[i].end(),
-                                  [&](const Addition& addition) { return addition.effect == best.effects[i]; });
-    for (const Addition& addition : looks[i]) {
-      const bool says_little = is_searched(*addition.effect) || addition.effect->sticks;
-      const bool is_worse = addition.promise < std::min(own->promise, score(best) - k_thresholds.hopeless);
-      const bool given_up = is_worse && !says_little;
-      if (given_up || contains(best.effects, *addition.effect)) continue;
-      selection_.rivals.push_back({best.effects[i], addition.effect, {}});
-      added.push_back(addition);
+  std::vector<LinearizedCandidate> added;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const auto own =
+        std::find_if(candidates[i].begin(), candidates[i].end(),
+                     [&](const LinearizedCandidate& candidate) { return candidate.effect == best.effects[i]; });
+    for (const LinearizedCandidate& candidate : candidates[i]) {
+      const bool is_unpredictable = is_searched(*candidate.effect) || candidate.effect->sticks;
+      const bool is_worse =
+          candidate.predicted_score < std::min(own->predicted_score, score(best) - k_thresholds.hopeless);
+      const bool given_up = is_worse && !is_unpredictable;
+      if (given_up || contains(best.effects, *candidate.effect)) continue;
+      selection_.rivals.push_back({best.effects[i], candidate.effect, {}});
+      added.push_back(candidate);
     }
   }
-  std::vector<Fit> fits = fitted("holding rivals against what was found", added, &Selector::fitted_to_the_end);
+  std::vector<Fit> fits = fit_candidates("holding rivals against what was found", added, &Selector::fit_fully);
   for (std::size_t i = 0; i < fits.size(); ++i) selection_.rivals[i].fit = std::move(fits[i]);
   std::erase_if(selection_.rivals, [](const Rival& rival) { return !rival.fit.usable; });
   const double before = score(best);
-  for (const Fit& fit : selection_.without) keep(fit);
-  for (const Rival& rival : selection_.rivals) keep(rival.fit);
-  return score(*ranked().front()) > before + k_thresholds.better;
+  for (const Fit& fit : selection_.without) record_tried(fit);
+  for (const Rival& rival : selection_.rivals) record_tried(rival.fit);
+  return score(*ranked().front()) > before + k_thresholds.least_improvement;
 }
 
 /// `best` without one or two of its members, likeliest first.
-std::vector<Fit> Selector::reduced() const {
+std::vector<Fit> Selector::reduce_best() const {
   const Fit& best = selection_.best;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
     for (std::size_t j = i + 1; j < best.effects.size(); ++j) pairs.emplace_back(i, j);
   }
   std::vector<Fit> all(pairs.size());
-  workers_.each(pairs.size(), [&](const Fitter& fitter, std::size_t k) {
+  pool_.each(pairs.size(), [&](const Fitter& fitter, std::size_t k) {
     const Effect& one = *best.effects[pairs[k].first];
     const Effect& other = *best.effects[pairs[k].second];
-    all[k] = likeliest_of_its_set(
-        fitter.fit(without(without(best.effects, one), other), without(without(best.at, one), other)));
+    all[k] =
+        likeliest_known(fitter.fit(without(without(best.effects, one), other), without(without(best.at, one), other)));
   });
   all.insert(all.end(), selection_.without.begin(), selection_.without.end());
   all.push_back(best);
   std::erase_if(all, [](const Fit& fit) { return !fit.usable; });
   std::stable_sort(all.begin(), all.end(), [](const Fit& a, const Fit& b) { return score(a) > score(b); });
-  all.resize(std::min(all.size(), k_thresholds.most_looks));
+  all.resize(std::min(all.size(), k_thresholds.most_candidates));
   return all;
 }
 
 /// The best pairs, each effect in a few of them only: a candidate of slack predicts a gain beside any other effect and
 /// keeps none of it.
-std::vector<PairBeside> best_of_each(std::vector<PairBeside> pairs, std::size_t most) {
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const PairBeside& a, const PairBeside& b) { return a.promise > b.promise; });
-  std::vector<PairBeside> best;
+std::vector<CandidatePair> best_of_each(std::vector<CandidatePair> pairs, std::size_t most) {
+  std::stable_sort(pairs.begin(), pairs.end(), [](const CandidatePair& a, const CandidatePair& b) {
+    return a.predicted_score > b.predicted_score;
+  });
+  std::vector<CandidatePair> best;
   std::map<const Effect*, std::size_t> times;
-  for (const PairBeside& pair : pairs) {
+  for (const CandidatePair& pair : pairs) {
     if (best.size() == most) break;
     std::size_t &one = times[pair.one->effect], &other = times[pair.other->effect];
     if (std::max(one, other) >= k_thresholds.most_of_each) continue;
@@ -557,87 +577,89 @@ std::vector<PairBeside> best_of_each(std::vector<PairBeside> pairs, std::size_t 
 }
 
 /// The best pairs of linearized candidates whose sets were not fitted, beside a discrepancy of these amplitudes.
-std::vector<PairBeside> Selector::pairs_beside(const Fit& base, const Amplitudes& unnamed,
-                                               const std::vector<Addition>& looks) const {
-  std::vector<const Look*> usable;
-  std::vector<const Addition*> owners;
-  for (const Addition& addition : looks) {
-    if (addition.look.J.size() == 0) continue;
-    usable.push_back(&addition.look);
-    owners.push_back(&addition);
+std::vector<CandidatePair> Selector::pairs_beside(const Fit& base, const Amplitudes& amplitudes,
+                                                  const std::vector<LinearizedCandidate>& candidates) const {
+  std::vector<const LinearizedEffect*> usable;
+  std::vector<const LinearizedCandidate*> owners;
+  for (const LinearizedCandidate& candidate : candidates) {
+    if (candidate.linearized.J.size() == 0) continue;
+    usable.push_back(&candidate.linearized);
+    owners.push_back(&candidate);
   }
-  const SharedLooks shared(evidence_, base, unnamed, usable);
-  std::vector<PairBeside> pairs;
+  const SharedLinearization shared(evidence_, base, amplitudes, usable);
+  std::vector<CandidatePair> pairs;
   for (std::size_t i = 0; i < owners.size(); ++i) {
     for (std::size_t j = i + 1; j < owners.size(); ++j) {
       EffectSet effects = base.effects;
       effects.insert(effects.end(), {owners[i]->effect, owners[j]->effect});
       if (is_tried(key_of(effects))) continue;
-      const double cost = rareness_of(*owners[i]->effect) + rareness_of(*owners[j]->effect);
+      const double cost = neg_log_prior_odds(*owners[i]->effect) + neg_log_prior_odds(*owners[j]->effect);
       pairs.push_back({&base, owners[i], owners[j], shared.log_evidence({i, j}) - cost});
     }
   }
-  pairs = best_of_each(std::move(pairs), 2 * k_thresholds.most_looks);
-  for (PairBeside& pair : pairs)
-    pair.promise =
-        promised(base, {pair.one->effect, pair.other->effect}, {&pair.one->look, &pair.other->look}, unnamed);
+  pairs = best_of_each(std::move(pairs), 2 * k_thresholds.most_candidates);
+  for (CandidatePair& pair : pairs)
+    pair.predicted_score = predict_score(base, {pair.one->effect, pair.other->effect},
+                                         {&pair.one->linearized, &pair.other->linearized}, amplitudes);
   return pairs;
 }
 
 /// Pairs with the discrepancy of the base and without any: two effects that explain the data together predict little as
 /// long as the discrepancy explains as much.
-std::vector<PairBeside> Selector::pairs_beside(const Fit& base, const std::vector<Addition>& looks) const {
-  std::vector<PairBeside> pairs = pairs_beside(base, base.explained.amplitudes, looks);
-  for (const PairBeside& pair : pairs_beside(base, plainly(base).amplitudes, looks)) {
-    const auto known = std::find_if(pairs.begin(), pairs.end(), [&](const PairBeside& other) {
+std::vector<CandidatePair> Selector::pairs_beside(const Fit& base,
+                                                  const std::vector<LinearizedCandidate>& candidates) const {
+  std::vector<CandidatePair> pairs = pairs_beside(base, base.posterior.amplitudes, candidates);
+  for (const CandidatePair& pair : pairs_beside(base, explain_without_discrepancy(base).amplitudes, candidates)) {
+    const auto known = std::find_if(pairs.begin(), pairs.end(), [&](const CandidatePair& other) {
       return other.one == pair.one && other.other == pair.other;
     });
     if (known == pairs.end()) {
       pairs.push_back(pair);
     } else {
-      known->promise = std::max(known->promise, pair.promise);
+      known->predicted_score = std::max(known->predicted_score, pair.predicted_score);
     }
   }
-  return best_of_each(std::move(pairs), k_thresholds.most_looks);
+  return best_of_each(std::move(pairs), k_thresholds.most_candidates);
 }
 
 /// Exchanges none, one or two members for one or two other effects, since either exchange alone may lower the score.
 /// True if a better set was found. Without this step and four searches that followed it 19 of 21 effects are held in
 /// place of 21 (18 joints from seed 950001).
-bool Selector::exchange() {
+bool Selector::exchange_members() {
   const double before = score(selection_.best);
-  const std::vector<Fit> bases = reduced();
-  std::vector<std::vector<Addition>> looks(bases.size());
-  workers_.each(bases.size(), [&](const Fitter& fitter, std::size_t i) {
+  const std::vector<Fit> bases = reduce_best();
+  std::vector<std::vector<LinearizedCandidate>> candidates(bases.size());
+  pool_.each(bases.size(), [&](const Fitter& fitter, std::size_t i) {
     if (bases[i].effects.size() < k_thresholds.most_effects)
-      looks[i] = promising(fitter, bases[i], bases[i].explained.amplitudes, selection_.catalogue.size());
+      candidates[i] =
+          rank_by_linearization(fitter, bases[i], bases[i].posterior.amplitudes, selection_.catalogue.size());
   });
-  std::vector<std::vector<PairBeside>> pairs(bases.size());
-  workers_.each(bases.size(), [&](const Fitter&, std::size_t i) {
-    if (bases[i].effects.size() + 2 <= k_thresholds.most_effects) pairs[i] = pairs_beside(bases[i], looks[i]);
+  std::vector<std::vector<CandidatePair>> pairs(bases.size());
+  pool_.each(bases.size(), [&](const Fitter&, std::size_t i) {
+    if (bases[i].effects.size() + 2 <= k_thresholds.most_effects) pairs[i] = pairs_beside(bases[i], candidates[i]);
   });
-  std::vector<Addition> singles;
-  std::vector<PairBeside> both;
+  std::vector<LinearizedCandidate> singles;
+  std::vector<CandidatePair> both;
   for (std::size_t i = 0; i < bases.size(); ++i) {
-    for (std::size_t k = 0; k < std::min(looks[i].size(), k_thresholds.most_looks); ++k) {
+    for (std::size_t k = 0; k < std::min(candidates[i].size(), k_thresholds.most_candidates); ++k) {
       EffectSet effects = bases[i].effects;
-      effects.push_back(looks[i][k].effect);
-      if (looks[i][k].promise > before - k_thresholds.hopeless && !is_tried(key_of(effects)))
-        singles.push_back(looks[i][k]);
+      effects.push_back(candidates[i][k].effect);
+      if (candidates[i][k].predicted_score > before - k_thresholds.hopeless && !is_tried(key_of(effects)))
+        singles.push_back(candidates[i][k]);
     }
-    for (const PairBeside& pair : pairs[i]) {
-      if (pair.promise > before - k_thresholds.hopeless) both.push_back(pair);
+    for (const CandidatePair& pair : pairs[i]) {
+      if (pair.predicted_score > before - k_thresholds.hopeless) both.push_back(pair);
     }
   }
-  std::vector<Fit> fits = fitted("exchanging effects", singles, &Selector::fitted_a_little);
+  std::vector<Fit> fits = fit_candidates("exchanging effects", singles, &Selector::fit_briefly);
   std::vector<Fit> wider(both.size());
-  workers_.each(both.size(), [&](const Fitter& fitter, std::size_t k) {
-    const Fit one = fitter.with_effect(*both[k].base, *both[k].one->effect);
-    if (one.usable) wider[k] = fitted_to_the_end(fitter, {&one, both[k].other->effect});
+  pool_.each(both.size(), [&](const Fitter& fitter, std::size_t k) {
+    const Fit one = fitter.add_effect(*both[k].base, *both[k].one->effect);
+    if (one.usable) wider[k] = fit_fully(fitter, {&one, both[k].other->effect});
   });
-  for (Fit& fit : fits) keep(std::move(fit));
-  for (Fit& fit : wider) keep(std::move(fit));
-  return score(*ranked().front()) > before + k_thresholds.better;
+  for (Fit& fit : fits) record_tried(std::move(fit));
+  for (Fit& fit : wider) record_tried(std::move(fit));
+  return score(*ranked().front()) > before + k_thresholds.least_improvement;
 }
 
 /// True if one of its numbers is at a bound: the data require more of it than any joint has, so another cause. Searched
@@ -652,33 +674,33 @@ bool is_at_bound(const Fit& fit, const Effect& effect) {
 /// True if the fits differ by more than the remaining noise hides, and held-out rows, whole runs and whole levels of
 /// load and speed, are predicted worse without the effect, the others refitted.
 bool predicts(const Evidence& evidence, const Fit& with, const Fit& without) {
-  const double noise = std::max(evidence.floor, with.explained.amplitudes.noise);
-  return rms_apart(evidence, with.residual, without.residual) > k_thresholds.least_left * noise &&
+  const double noise = std::max(evidence.floor, with.posterior.amplitudes.noise);
+  return rms_apart(evidence, with.residual, without.residual) > k_thresholds.least_residual * noise &&
          without.by_run.mean_square + without.by_factor.mean_square >
              with.by_run.mean_square + with.by_factor.mean_square;
 }
 
 /// All visited sets, each by its score over the temperature. Wider sets of `best` that were not fitted count by their
 /// predicted score. If the noise exceeds the floor, the model is wrong by as much, and the temperature rises.
-std::vector<Weighed> Selector::weighed() {
+std::vector<Weighed> Selector::weigh_sets() {
   const Fit& best = selection_.best;
-  const double misfit = std::max(1.0, best.explained.amplitudes.noise / evidence_.floor);
+  const double misfit = std::max(1.0, best.posterior.amplitudes.noise / evidence_.floor);
   selection_.temperature = k_thresholds.temperature * misfit;
   std::vector<Weighed> sets;
   for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / selection_.temperature});
   if (best.effects.empty()) return sets;
-  for (const Addition& look : beside_best()) {
+  for (const LinearizedCandidate& linearized : candidates_beside_best()) {
     EffectSet effects = best.effects;
-    effects.push_back(look.effect);
-    if (!seen_.count(key_of(effects)) && look.promise < score(best))
-      sets.push_back({std::move(effects), look.promise / selection_.temperature});
+    effects.push_back(linearized.effect);
+    if (!seen_.count(key_of(effects)) && linearized.predicted_score < score(best))
+      sets.push_back({std::move(effects), linearized.predicted_score / selection_.temperature});
   }
   return sets;
 }
 
 /// True if the set is likelier without it, or it predicts nothing, or only at a bound. Two groups that each contain the
 /// other's effect may both seem certain.
-bool Selector::is_for_nothing(const Effect& effect, const Fit& others) const {
+bool Selector::is_unsupported(const Effect& effect, const Fit& others) const {
   const Fit& best = selection_.best;
   if (!others.usable) return false;
   return score(others) > score(best) || !predicts(evidence_, best, others) || is_at_bound(best, effect);
@@ -686,38 +708,40 @@ bool Selector::is_for_nothing(const Effect& effect, const Fit& others) const {
 
 /// Credible group of an effect. Members that remove hardly any doubt are left out.
 CredibleGroup Selector::group_of(const std::vector<Weighed>& sets, const Effect& effect) const {
-  return credible_group(sets, selection_.best.effects, effect, k_thresholds.least_of_a_group, k_thresholds.least_gain);
+  return credible_group(sets, selection_.best.effects, effect, k_thresholds.complete_group_doubt,
+                        k_thresholds.least_gain);
 }
 
 /// True if it, or any effect of the catalogue in its place, is as certain as a reported effect must be.
-bool Selector::is_some_name(const std::vector<Weighed>& sets, const Effect& effect) const {
-  return credible_group(sets, selection_.best.effects, effect, k_thresholds.most_mistaken).doubt <=
-         k_thresholds.most_mistaken;
+bool Selector::is_certain_with_group(const std::vector<Weighed>& sets, const Effect& effect) const {
+  return credible_group(sets, selection_.best.effects, effect, k_thresholds.most_false_positives).doubt <=
+         k_thresholds.most_false_positives;
 }
 
 bool Selector::leaves_unexplained(const Fit& fit) const {
-  return is_unexplained(unnamed_beside(evidence_, fit), evidence_.floor);
+  return is_unexplained(describe_discrepancy(evidence_, fit), evidence_.floor);
 }
 
 /// True if the best set explains all of the residual, or clearly more of it than `others` do.
 bool Selector::is_completed_beside(const Fit& others) const {
-  const Unnamed beside_others = unnamed_beside(evidence_, others);
+  const DiscrepancyFit beside_others = describe_discrepancy(evidence_, others);
   if (!is_unexplained(beside_others, evidence_.floor)) return false;
-  const Unnamed beside_best = unnamed_beside(evidence_, selection_.best);
-  return beside_best.rms < k_thresholds.part_left * beside_others.rms || !is_unexplained(beside_best, evidence_.floor);
+  const DiscrepancyFit candidates_beside_best = describe_discrepancy(evidence_, selection_.best);
+  return candidates_beside_best.rms < k_thresholds.residual_share * beside_others.rms ||
+         !is_unexplained(candidates_beside_best, evidence_.floor);
 }
 
 /// Drops the most doubtful effect that is not certain with its group or predicts nothing. True if one was dropped.
 bool Selector::drop_doubtful() {
-  const std::vector<Weighed> sets = weighed();
-  leave_each_out();
+  const std::vector<Weighed> sets = weigh_sets();
+  refit_without_each();
   selection_.groups.clear();
   std::vector<std::size_t> doubtful;
   for (const Effect* effect : selection_.best.effects) {
     const std::size_t place = selection_.groups.size();
     CredibleGroup& group = selection_.groups.emplace_back(group_of(sets, *effect));
-    if (is_for_nothing(*effect, selection_.without[place])) group.doubt = 1;
-    if (group.doubt > k_thresholds.most_mistaken) doubtful.push_back(place);
+    if (is_unsupported(*effect, selection_.without[place])) group.doubt = 1;
+    if (group.doubt > k_thresholds.most_false_positives) doubtful.push_back(place);
   }
   std::stable_sort(doubtful.begin(), doubtful.end(), [&](std::size_t a, std::size_t b) {
     return selection_.groups[a].doubt > selection_.groups[b].doubt;
@@ -726,8 +750,9 @@ bool Selector::drop_doubtful() {
     const Effect& effect = *selection_.best.effects[place];
     const Fit& others = selection_.without[place];
     const double doubt = others.usable ? selection_.groups[place].doubt : 1.0;
-    if (doubt < k_thresholds.most_doubtful && (is_some_name(sets, effect) || is_completed_beside(others))) continue;
-    take_best(others);
+    if (doubt < k_thresholds.most_doubtful && (is_certain_with_group(sets, effect) || is_completed_beside(others)))
+      continue;
+    set_best(others);
     return true;
   }
   return false;
@@ -737,21 +762,21 @@ bool Selector::drop_doubtful() {
 void Selector::drop_all_doubtful() {
   bool dropped = false;
   while (drop_doubtful()) dropped = true;
-  if (dropped) challenge();
+  if (dropped) test_rivals();
 }
 
 /// Drops effects without which held-out rows are predicted no worse.
-void Selector::drop_what_predicts_nothing() {
+void Selector::drop_unpredictive() {
   for (std::size_t i = 0; i < selection_.best.effects.size();) {
-    leave_each_out();
+    refit_without_each();
     const Fit& others = selection_.without[i];
     if (!others.usable ||
         (predicts(evidence_, selection_.best, others) && !is_at_bound(selection_.best, *selection_.best.effects[i]))) {
       ++i;
       continue;
     }
-    drop_effect(workers_, i, "", selection_);
-    beside_best_.reset();
+    drop_effect(pool_, i, "", selection_);
+    candidates_beside_best_.reset();
     i = 0;
   }
 }
@@ -764,10 +789,10 @@ double rms_by(const Eigen::MatrixXd& J, const Eigen::MatrixXd& C) {
 
 /// Index of the member that is correlated most with the last effect of `wider`, by the amount that they trade: the
 /// regression of the member's contribution on the effect's. None if that is small.
-std::optional<std::size_t> Selector::shares_with(const Fit& wider) const {
+std::optional<std::size_t> Selector::find_trading_member(const Fit& wider) const {
   const Fit& best = selection_.best;
   const Tangent tangent = tangent_of(evidence_, wider);
-  const Eigen::MatrixXd C = selection_.temperature * wider.explained.covariance;
+  const Eigen::MatrixXd C = selection_.temperature * wider.posterior.covariance;
   const std::vector<Eigen::Index> own = places_of(wider, *wider.effects.back());
   const double least = k_thresholds.least_shared * evidence_.floor;
   if (own.empty() || rms_by(tangent.J(Eigen::all, own), C(own, own)) < least) return {};
@@ -785,62 +810,62 @@ std::optional<std::size_t> Selector::shares_with(const Fit& wider) const {
 
 /// Adds effects to the group of the member with which they trade: the data do not require them, but allow them with a
 /// smaller member.
-void Selector::join_companions() {
+void Selector::add_companions() {
   const Fit& best = selection_.best;
   if (best.effects.empty() || best.effects.size() >= k_thresholds.most_effects) return;
   const double least = score(best) - k_thresholds.as_good * selection_.temperature;
-  std::vector<Addition> likely;
-  for (const Addition& addition : beside_best()) {
-    if (addition.promise > least && likely.size() < k_thresholds.most_companions) likely.push_back(addition);
+  std::vector<LinearizedCandidate> likely;
+  for (const LinearizedCandidate& candidate : candidates_beside_best()) {
+    if (candidate.predicted_score > least && likely.size() < k_thresholds.most_companions) likely.push_back(candidate);
   }
-  std::vector<Fit> fits = fitted("looking at what may be there beside it", likely, &Selector::fitted_a_little);
+  std::vector<Fit> fits = fit_candidates("looking at what may be there beside it", likely, &Selector::fit_briefly);
   for (Fit& fit : fits) {
     if (!fit.usable || !(score(fit) > least)) continue;
     const Effect* effect = fit.effects.back();
-    if (const std::optional<std::size_t> place = shares_with(fit)) {
+    if (const std::optional<std::size_t> place = find_trading_member(fit)) {
       EffectSet& members = selection_.groups[*place].members;
       if (!contains(members, *effect)) members.push_back(effect);
       companions_.push_back(fit);
     }
-    keep(std::move(fit));
+    record_tried(std::move(fit));
   }
 }
 
 /// Mean square deviation of a number from its value in `best`, by another fit with that number, in its steps².
-std::optional<double> Selector::square_about_best(const Fit& fit, Eigen::Index place) const {
+std::optional<double> Selector::square_deviation(const Fit& fit, Eigen::Index place) const {
   const Fit& best = selection_.best;
   const auto own =
       std::find(fit.parameters.begin(), fit.parameters.end(), best.parameters[static_cast<std::size_t>(place)]);
   if (own == fit.parameters.end()) return {};
   const Eigen::Index k = own - fit.parameters.begin();
   const double apart = fit.x[k] - best.x[place];
-  return apart * apart + selection_.temperature * std::max(0.0, fit.explained.covariance(k, k));
+  return apart * apart + selection_.temperature * std::max(0.0, fit.posterior.covariance(k, k));
 }
 
 /// Variance of each number over all sets that contain it by their weight, at least that with any companion, and larger
 /// beside an unexplained residual.
-void Selector::look_at_variance() {
+void Selector::estimate_variance() {
   const Fit& best = selection_.best;
-  const double wider = leaves_unexplained(best) ? std::pow(k_thresholds.wider_beside_rest, 2) : 1.0;
+  const double wider = leaves_unexplained(best) ? std::pow(k_thresholds.interval_factor, 2) : 1.0;
   for (std::size_t k = 0; k < best.parameters.size(); ++k) {
     const auto place = static_cast<Eigen::Index>(k);
     double squares = 0, weights = 0;
     for (const auto& [key, fit] : seen_) {
-      const std::optional<double> square = square_about_best(fit, place);
+      const std::optional<double> square = square_deviation(fit, place);
       if (!square) continue;
       const double weight = std::exp((score(fit) - score(best)) / selection_.temperature);
       squares += weight * *square;
       weights += weight;
     }
-    const double alone = *square_about_best(best, place);
+    const double alone = *square_deviation(best, place);
     double variance = std::max(alone, weights > 0 ? squares / weights : alone);
-    for (const Fit& companion : companions_) variance = std::max(variance, *square_about_best(companion, place));
+    for (const Fit& companion : companions_) variance = std::max(variance, *square_deviation(companion, place));
     selection_.variance[best.parameters[k]] = {wider * alone, wider * variance};
   }
 }
 
 /// Records the evidence of every effect: accepted ones against `best` without them, others by their predicted score.
-void Selector::write_down() {
+void Selector::record_candidates() {
   const Fit& best = selection_.best;
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
     Candidate candidate;
@@ -853,10 +878,10 @@ void Selector::write_down() {
     }
     selection_.tried.push_back(candidate);
   }
-  for (const Addition& look : beside_best()) {
+  for (const LinearizedCandidate& linearized : candidates_beside_best()) {
     Candidate candidate;
-    candidate.name = look.effect->name;
-    candidate.evidence = look.promise + rareness_of(*look.effect) - score(best);
+    candidate.name = linearized.effect->name;
+    candidate.evidence = linearized.predicted_score + neg_log_prior_odds(*linearized.effect) - score(best);
     candidate.why = candidate.evidence < 0 ? "the data are likelier without it" : "it adds less than a name needs";
     if (!std::isfinite(candidate.evidence)) candidate.why = "the joint could not be simulated with it";
     selection_.tried.push_back(candidate);
@@ -865,41 +890,41 @@ void Selector::write_down() {
 
 Selection Selector::run() {
   selection_.catalogue = catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects, options_.without);
-  selection_.none = workers_.one().fit({}, {});
+  selection_.none = pool_.one().fit({}, {});
   selection_.best = selection_.none;
   if (!selection_.none.usable || !options_.look_for_effects) return std::move(selection_);
-  keep(selection_.none);
+  record_tried(selection_.none);
   try_singles();
-  explain_plainly();
+  search_without_discrepancy();
   do {
-    take_widest();
-  } while (challenge() || exchange());
+    widen_fully();
+  } while (test_rivals() || exchange_members());
   drop_all_doubtful();
-  drop_what_predicts_nothing();
-  join_companions();
-  look_at_variance();
-  write_down();
+  drop_unpredictive();
+  add_companions();
+  estimate_variance();
+  record_candidates();
   return std::move(selection_);
 }
 
 }  // namespace
 
-double price_of_search(const Effect& effect) { return is_searched(effect) ? k_thresholds.price_of_a_search : 0.0; }
+double search_penalty(const Effect& effect) { return is_searched(effect) ? k_thresholds.search_penalty : 0.0; }
 
-double rareness_of(const Effect& effect) { return k_thresholds.rareness + price_of_search(effect); }
+double neg_log_prior_odds(const Effect& effect) { return k_thresholds.neg_log_prior_odds + search_penalty(effect); }
 
-double cost_of(const Effect& effect) { return k_thresholds.price_of_a_name + price_of_search(effect); }
+double reporting_penalty(const Effect& effect) { return k_thresholds.reporting_penalty + search_penalty(effect); }
 
-double rareness_of(const EffectSet& effects) {
+double neg_log_prior_odds(const EffectSet& effects) {
   double sum = 0;
-  for (const Effect* effect : effects) sum += rareness_of(*effect);
+  for (const Effect* effect : effects) sum += neg_log_prior_odds(*effect);
   return sum;
 }
 
-double score(const Fit& fit) { return score_of_names(fit) - fit.rareness_of_rest; }
+double score(const Fit& fit) { return score_of_names(fit) - fit.discrepancy_penalty; }
 
-Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options) {
-  return Selector(evidence, workers, options).run();
+Selection select_effects(const Evidence& evidence, FitterPool& pool, const CalibrationOptions& options) {
+  return Selector(evidence, pool, options).run();
 }
 
 }  // namespace fusee

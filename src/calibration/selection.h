@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "calibration/fitter_pool.h"
 #include "calibration/posterior.h"
 #include "calibration/statistics.h"
-#include "calibration/workers.h"
 #include "fusee/calibration/calibration.h"
 
 namespace fusee {
@@ -40,15 +40,15 @@ struct Selection {
 };
 
 /// Negative log prior odds of an effect, nats.
-double rareness_of(const Effect& effect);
-double rareness_of(const EffectSet& effects);
+double neg_log_prior_odds(const Effect& effect);
+double neg_log_prior_odds(const EffectSet& effects);
 /// Penalty of a reported effect, nats.
-double cost_of(const Effect& effect);
+double reporting_penalty(const Effect& effect);
 
 /// Log posterior of a set up to a constant: log evidence, and log prior odds of effects and discrepancy.
 double score(const Fit& fit);
 
 /// Searches the catalogue. The result has an unusable `none` if the declared joint has no equilibrium.
-Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options);
+Selection select_effects(const Evidence& evidence, FitterPool& pool, const CalibrationOptions& options);
 
 }  // namespace fusee

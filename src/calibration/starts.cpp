@@ -47,9 +47,10 @@ std::vector<double> by_evidence(const Evidence& evidence, const Fit& base, const
       tangent.J(i, own + k) = rows[static_cast<std::size_t>(i)] > times[static_cast<std::size_t>(k)] ? 1.0 : 0.0;
   }
   add_numbers(Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity()), tangent);
-  const TangentSums sums = evidence.marginal->sums_of(tangent);
-  const Amplitudes& unnamed = base.explained.amplitudes;
-  const ReducedTangent beside = evidence.marginal->reduced(sums, evidence.marginal->sized(unnamed, sums.give));
+  const TangentSums sums = evidence.evidence_model->sums_of(tangent);
+  const Amplitudes& amplitudes = base.posterior.amplitudes;
+  const ReducedTangent beside =
+      evidence.evidence_model->reduced(sums, evidence.evidence_model->sized(amplitudes, sums.deflection_ratio));
   std::vector<Eigen::Index> columns(static_cast<std::size_t>(own) + 1);
   std::iota(columns.begin(), columns.end(), 0);
   std::vector<std::pair<double, double>> likely;

@@ -144,12 +144,13 @@ StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
 }
 
 bool is_scattering(const NoiseFloor& noise) {
-  return noise.from_repeats && noise.within_stroke > 0 && noise.rms > k_thresholds.scatters * noise.within_stroke;
+  return noise.from_repeats && noise.within_stroke > 0 &&
+         noise.rms > k_thresholds.most_repeat_scatter * noise.within_stroke;
 }
 
 bool is_walking(const StrokeScatter& scatter) {
-  return scatter.between > k_thresholds.walks * scatter.within ||
-         scatter.tilts > k_thresholds.walks * scatter.about_tilts;
+  return scatter.between > k_thresholds.most_stroke_scatter * scatter.within ||
+         scatter.tilts > k_thresholds.most_stroke_scatter * scatter.about_tilts;
 }
 
 }  // namespace fusee

@@ -15,23 +15,23 @@ struct Thresholds {
 
   /// Log Bayes factor of a discrepancy, and its rms in noise floors, above which a residual is unexplained.
   double unexplained = 8.0;
-  double least_left = 0.35;
+  double least_residual = 0.35;
   /// Nats that each component of a discrepancy must add to be described.
-  double least_unnamed = 3.0;
+  double least_component = 3.0;
 
   // ---- evidence of a set of effects ----
 
   /// Relative error of the model itself, as a share of the declared joint's deflection. Smaller errors are no evidence,
   /// however long the log is.
-  double trusted = 0.03;
+  double model_error = 0.03;
   /// Negative log prior odds of an effect: of 26 effects a joint has two or three. A discrepancy of one noise floor rms
   /// and more has the same penalty, a smaller one less.
-  double rareness = 2.3;
+  double neg_log_prior_odds = 2.3;
   /// Penalty of a searched number (an order, a time), added to the prior odds.
-  double price_of_a_search = 3.0;
+  double search_penalty = 3.0;
   /// Prior scale of a discrepancy's family, in noise floors: one in two is larger. 150 joints: without this prior 50 %
   /// of the effects are held, with it 75 %; false positives beside an unmodelled cause are 18 % and 25 %.
-  double usual_unknown = 0.5;
+  double usual_discrepancy = 0.5;
   /// The prior size of a number is narrowed until it moves the reading by at most so many times the observed error, or
   /// so many noise floors if the error is small.
   double most_expected = 2.0;
@@ -42,7 +42,7 @@ struct Thresholds {
   double temperature = 1.75;
   /// Nats that one effect requires by itself (audit, detectable sizes): odds of 400, "decisive" (Kass and Raftery
   /// 1995).
-  double price_of_a_name = 6.0;
+  double reporting_penalty = 6.0;
   /// Difference in nats up to which two sets are equally likely.
   double as_good = 4.0;
   /// Degrees of freedom of the noise floor.
@@ -51,28 +51,28 @@ struct Thresholds {
   // ---- what is reported ----
 
   /// Synthetic data sets without an effect, and the largest false-positive rate of an effect that is reported alone.
-  int worlds = 200;
-  double most_mistaken = 0.02;
+  int data_sets = 200;
+  double most_false_positives = 0.02;
   /// Members that an audit adds to a group: the most frequent true causes of its false positives.
-  std::size_t most_culprits = 6;
+  std::size_t most_true_causes = 6;
   /// Doubt above which an effect is not reported. Between the false-positive rate and this its group contains
   /// `unmodelled`. 48 joints: of 10 effects that were lost 6 were in the likeliest set.
   double most_doubtful = 0.3;
   /// Share to which an effect as doubtful must lower the unexplained residual to be reported all the same. Joint
   /// 950018: without this rule an offset is dropped, 4.4 noise floors remain in place of 2, and the held-out error is
   /// 2.0 times as large.
-  double part_left = 0.8;
+  double residual_share = 0.8;
   /// Share of the remaining doubt that each further member of a group must remove. Without it groups of 9 joints from
   /// seed 950001 have 7.2 members in place of 5.7.
   double least_gain = 0.1;
   /// Doubt at which a group is complete.
-  double least_of_a_group = 0.005;
+  double complete_group_doubt = 0.005;
   /// Noise floors rms that an effect beside the best set must trade with a member to join its group, and the number of
   /// effects that are tested. Without this step 8 of 10 effects of the same joints are held in place of 10; without the
   /// limit groups of the first six grow from 7.1 to 7.7.
   double least_shared = 1.5;
   std::size_t most_companions = 10;
-  /// Log odds of an effect against the best unmodelled cause in its place (unmodelled.h) below which its group contains
+  /// Log odds of an effect against the best unmodelled cause in its place (unmodelled_alternatives.h) below which its group contains
   /// `unmodelled`.
   double ahead_of_unmodelled = 10.0;
   /// Log odds that are required of an effect without a shape of its own. It follows temperature or begins at some time,
@@ -81,34 +81,34 @@ struct Thresholds {
   double ahead_without_shape = 40.0;
   /// Factor on intervals beside an unexplained residual. 204 joints: 88 % of 95 numbers were within intervals without
   /// it.
-  double wider_beside_rest = 1.5;
+  double interval_factor = 1.5;
 
   // ---- what is handed over ----
 
   /// Beside an unmodelled cause, largest ratio of held-out mean squares, least squares to MAP, at which least squares
   /// are reported. Set on the real jaw: 0.93 by runs, 0.91 by levels.
-  double least_squares_left = 0.95;
+  double least_squares_gain = 0.95;
 
   // ---- joints that do not repeat ----
 
   /// Scatter between repeated strokes, by the noise within a stroke.
-  double walks = 0.7;
+  double most_stroke_scatter = 0.7;
   /// Scatter of repeats, by the scatter of neighbouring rows. Noise with a memory of 0.95 from row to row reaches 6, of
   /// 0.98 reaches 9.
-  double scatters = 10.0;
+  double most_repeat_scatter = 10.0;
 
   // ---- extent of the search ----
 
   std::size_t most_effects = 5;
   /// Sets that are widened, and linearized candidates of each that are fitted.
   std::size_t beam = 4;
-  std::size_t most_looks = 6;
+  std::size_t most_candidates = 6;
   /// Pairs of linearized candidates that one effect may be in.
   std::size_t most_of_each = 2;
   /// Nats below the best set from which a linearized candidate is not fitted, and a fit is not continued.
   double hopeless = 15.0;
   /// Nats by which a set must exceed the best to replace it: accuracy of a fit.
-  double better = 0.1;
+  double least_improvement = 0.1;
   /// Number of strokes up to which the discrepancy has a constant for each.
   std::size_t most_strokes = 48;
 
@@ -126,25 +126,25 @@ struct Thresholds {
 
   /// Noise floors that the file as it is must leave for an input error to be likely before any search. Known faults
   /// leave 15, one of them 27. The corrected file must leave less, if effects are sought beside the error.
-  double slip_large = 15.0;
+  double input_error_large = 15.0;
   /// Noise floors that the corrected file may leave to explain the data alone. A pulley made for the other sign of OE
   /// leaves 1.8 where a tendon goes slack.
-  double slip_alone = 2.0;
+  double input_error_alone = 2.0;
   /// Otherwise the corrected file, nothing fitted, must leave this many times less than all identified effects. Rig data:
   /// errors leave 3 to 7 times less (signs of a nearly symmetric joint) to 700 times less; no right file is doubted.
-  double slip_gain = 3.0;
+  double input_error_gain = 3.0;
   /// Ratio from which an input error is reported although another cause stays unexplained beside it. Rig data
   /// f_not_in_any_catalogue with the sign of OE turned: 26.
-  double slip_clear = 10.0;
+  double input_error_clear = 10.0;
   /// Ratio to the residual of the best input error up to which others are equally likely.
-  double slip_tie = 1.25;
+  double input_error_tie = 1.25;
 
   // ---- sizes that would have been found, and proposed runs ----
 
   /// Standard errors beyond the required size at which an effect is found in four cases of five.
   double power = 0.84;
   /// Difference in noise at which a proposed run distinguishes two explanations.
-  double told_apart = 3.0;
+  double distinguished = 3.0;
 };
 
 inline constexpr Thresholds k_thresholds{};

@@ -35,9 +35,9 @@ double mean_square(const Run& run, const Stroke& stroke, const std::vector<doubl
 
 }  // namespace
 
-Estimate declared_estimate(Workers& workers, const Selection& selection) {
+Estimate declared_estimate(FitterPool& pool, const Selection& selection) {
   if (selection.none.x.size() == 0) return {selection.none, {}};
-  Fit fit = workers.one().by_squares(selection.none);
+  Fit fit = pool.one().fit_least_squares(selection.none);
   return {fit.usable ? std::move(fit) : selection.none, {}};
 }
 
@@ -129,7 +129,7 @@ bool HeldOutRows::gets_worse(const Level& level, const Level& all) const {
   const Block sum = sum_of(level.blocks);
   if (sum.rows == 0) return false;
   const double more = (sum.after - sum.before) / sum.rows;
-  if (more <= std::pow(k_thresholds.least_left * evidence_.floor, 2)) return false;
+  if (more <= std::pow(k_thresholds.least_residual * evidence_.floor, 2)) return false;
   if (all.blocks.size() < 2) return true;
   const double error = level.blocks.size() > 1
                            ? standard_error(level.blocks)
@@ -156,7 +156,7 @@ std::string HeldOutRows::worse_at(const Estimate& answer) const {
   return "";
 }
 
-void drop_effect(Workers& workers, std::size_t place, const std::string& why, Selection& selection) {
+void drop_effect(FitterPool& pool, std::size_t place, const std::string& why, Selection& selection) {
   const Effect* gone = selection.best.effects[place];
   const EffectSet before = selection.best.effects;
   const std::vector<CredibleGroup> groups = std::move(selection.groups);
@@ -170,7 +170,7 @@ void drop_effect(Workers& workers, std::size_t place, const std::string& why, Se
                 [&](const Rival& rival) { return !contains(selection.best.effects, *rival.accepted); });
   const Fit& best = selection.best;
   selection.without.assign(best.effects.size(), {});
-  workers.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
+  pool.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
     const Effect& effect = *best.effects[i];
     selection.without[i] = fitter.fit(without(best.effects, effect), without(best.at, effect));
   });

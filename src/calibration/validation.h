@@ -17,7 +17,7 @@ struct Estimate {
 };
 
 /// The declared joint, with its free offset by least squares.
-Estimate declared_estimate(Workers& workers, const Selection& selection);
+Estimate declared_estimate(FitterPool& pool, const Selection& selection);
 
 /// Held-out errors of the effects alone, as hold_out().
 HeldOut hold_out(const Evidence& evidence, const Estimate& estimate, const std::vector<Fold>& folds);
@@ -60,6 +60,6 @@ class HeldOutRows {
 
 /// Removes the effect at `place` of the best set; the others as refitted without it. `why` is recorded in
 /// Selection::tried.
-void drop_effect(Workers& workers, std::size_t place, const std::string& why, Selection& selection);
+void drop_effect(FitterPool& pool, std::size_t place, const std::string& why, Selection& selection);
 
 }  // namespace fusee

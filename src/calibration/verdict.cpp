@@ -5,7 +5,7 @@
 #include <map>
 
 #include "calibration/statistics.h"
-#include "calibration/unmodelled.h"
+#include "calibration/unmodelled_alternatives.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
 
@@ -122,8 +122,8 @@ std::string noise_words(const NoiseFloor& noise, const std::string& load_unit) {
 }
 
 /// Finding in a sentence that the user can act on.
-std::string finding(const Calibration& calibration, const Rest& rest, const StrokeScatter& scatter, double floor,
-                    const std::string& load_unit) {
+std::string finding(const Calibration& calibration, const ResidualStructure& structure, const StrokeScatter& scatter,
+                    double floor, const std::string& load_unit) {
   const std::string names = effects_words(calibration.effects);
   switch (calibration.verdict) {
     case CalibrationVerdict::not_repeatable:
@@ -135,8 +135,8 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
              (any_beside(calibration.effects) ? "with these alone " : "") +
              in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms are left and noise makes " +
-             in_degrees(floor) + " of it: what is more stays unexplained, " + rest.where + "." +
-             (calibration.unknown.empty() ? "" : " It depends on " + calibration.unknown.front().factor + ".") +
+             in_degrees(floor) + " of it: what is more stays unexplained, " + structure.where + "." +
+             (calibration.discrepancy.empty() ? "" : " It depends on " + calibration.discrepancy.front().factor + ".") +
              (calibration.dropped.empty() ? ""
                                           : " Not reported, since rows that were not fitted are predicted worse with "
                                             "it than as declared: " +
@@ -161,9 +161,9 @@ std::string figures(const Calibration& calibration, double floor) {
 
 }  // namespace
 
-Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
-  Rest rest;
-  rest.autocorrelation = lag_one_correlation(evidence, fit);
+ResidualStructure describe_residual(const Evidence& evidence, const Fit& fit) {
+  ResidualStructure structure;
+  structure.autocorrelation = lag_one_correlation(evidence, fit);
   Places places(evidence.measurement);
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
@@ -172,31 +172,32 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
       places.add(row, direction, residual);
     }
   }
-  rest.where = places.largest();
-  return rest;
+  structure.where = places.largest();
+  return structure;
 }
 
-void conclude(const Evidence& evidence, const Selection& selection, const Unnamed& unnamed, Calibration& calibration) {
-  const Rest rest = look_at_rest(evidence, selection.best);
+void conclude(const Evidence& evidence, const Selection& selection, const DiscrepancyFit& unmodelled,
+              Calibration& calibration) {
+  const ResidualStructure structure = describe_residual(evidence, selection.best);
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  const bool unexplained = is_unexplained(unnamed, evidence.floor);
-  calibration.rest_autocorrelation = rest.autocorrelation;
+  const bool unexplained = is_unexplained(unmodelled, evidence.floor);
+  calibration.residual_autocorrelation = structure.autocorrelation;
   if (unexplained) {
-    calibration.unexplained_rms = unnamed.rms;
-    calibration.unexplained_where = rest.where;
-    calibration.unknown = unnamed.parts;
+    calibration.unexplained_rms = unmodelled.rms;
+    calibration.unexplained_where = structure.where;
+    calibration.discrepancy = unmodelled.parts;
   }
   const bool walks = is_walking(scatter) || is_scattering(calibration.noise);
   const std::string& load_unit = evidence.measurement.load_unit;
   calibration.noise_varies = noise_words(calibration.noise, load_unit);
-  take_unmodelled(unexplained || walks, selection, calibration.effects);
+  add_unmodelled(unexplained || walks, selection, calibration.effects);
   calibration.verdict = verdict_of(walks, unexplained, calibration.effects);
 }
 
 void summarize(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
-  const Rest rest = look_at_rest(evidence, selection.best);
+  const ResidualStructure structure = describe_residual(evidence, selection.best);
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  calibration.summary = finding(calibration, rest, scatter, evidence.floor, evidence.measurement.load_unit) + " " +
+  calibration.summary = finding(calibration, structure, scatter, evidence.floor, evidence.measurement.load_unit) + " " +
                         figures(calibration, evidence.floor);
 }
 

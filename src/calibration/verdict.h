@@ -4,22 +4,23 @@
 
 #include <string>
 
+#include "calibration/discrepancy_fit.h"
 #include "calibration/selection.h"
-#include "calibration/unknown.h"
 #include "fusee/calibration/calibration.h"
 
 namespace fusee {
 
 /// Repeatable structure of the residual.
-struct Rest {
+struct ResidualStructure {
   double autocorrelation = 0;  ///< lag-1 autocorrelation within strokes
   std::string where;           ///< place and direction at which it is largest
 };
-Rest look_at_rest(const Evidence& evidence, const Fit& fit);
+ResidualStructure describe_residual(const Evidence& evidence, const Fit& fit);
 
 /// Fills verdict, unexplained_rms and unexplained_where, and adds k_unmodelled to groups. `unmodelled`: discrepancy
 /// beside selection.best.
-void conclude(const Evidence& evidence, const Selection& selection, const Unnamed& unnamed, Calibration& calibration);
+void conclude(const Evidence& evidence, const Selection& selection, const DiscrepancyFit& unmodelled,
+              Calibration& calibration);
 
 /// Fills the summary from verdict, effects and next measurements.
 void summarize(const Evidence& evidence, const Selection& selection, Calibration& calibration);

@@ -226,7 +226,7 @@ TEST(CalibrateVerb, ASlipIsSaidAndChangesNothingElse) {
   std::map<std::string, std::string> outputs;
   for (const OutputFile& output : result.outputs) outputs[output.name] = output.bytes;
   ASSERT_EQ(result.product.slips.size(), 1u);
-  const std::string words = slip_words(result.product.slips.front());
+  const std::string words = input_error_words(result.product.slips.front());
   EXPECT_THAT(words, testing::StartsWith("guides.OE_mm = -14 in place of 14 would explain the data to 0.0"));
   EXPECT_THAT(outputs["calibration.json"],
               testing::AllOf(HasSubstr("\"key\": \"guides.OE_mm\""), HasSubstr("\"would_be\": -14"), HasSubstr(words)));

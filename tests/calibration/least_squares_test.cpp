@@ -1,10 +1,10 @@
 // Normal equations, held-out errors, fits and intervals against least squares done another way.
 #include <gmock/gmock.h>
 
-#include "calibration/delivered.h"
 #include "calibration/explanation.h"
 #include "calibration/intervals.h"
 #include "calibration/linear_joint.h"
+#include "calibration/reported_parameters.h"
 #include "calibration/thresholds.h"
 #include "fusee/base/units.h"
 
@@ -78,7 +78,7 @@ TEST(LeastSquares, ACaliperIsARowOfTheFloorsNoise) {
   const NormalEquations row = sums_of_readings(evidence, fit);
   EXPECT_DOUBLE_EQ(row.JJ(0, 0), std::pow(step / 0.004 * k_floor, 2));
   EXPECT_NEAR(least_squares_step(row, fit.x, 0)[0] * step, 0.02, 1e-15);
-  EXPECT_DOUBLE_EQ(against_readings(evidence, {}), 25.0);
+  EXPECT_DOUBLE_EQ(caliper_chi2(evidence, {}), 25.0);
 }
 
 // ---- held out -------------------------------------------------------------------------------------------------------
@@ -127,8 +127,8 @@ TEST(HeldOut, ALevelThatAloneKnowsANumberIsHeldOutByStrokes) {
 
 /// Families of place, load and run, each of some size, beside two numbers.
 Amplitudes some_amplitudes(const Evidence& evidence) {
-  Amplitudes amplitudes = evidence.marginal->nothing_unnamed();
-  const std::vector<Family>& families = evidence.marginal->discrepancy().families;
+  Amplitudes amplitudes = evidence.evidence_model->without_discrepancy();
+  const std::vector<Family>& families = evidence.evidence_model->discrepancy().families;
   for (std::size_t f = 0; f < families.size(); ++f) {
     const bool is_used = families[f].factor == Factor::place || families[f].factor == Factor::load;
     if (is_used) amplitudes.families[static_cast<Eigen::Index>(f)] = 0.2;
@@ -141,7 +141,7 @@ Amplitudes some_amplitudes(const Evidence& evidence) {
 /// that was left out with its fold, by the numbers alone and with the columns of place.
 std::pair<double, double> errors_beside(const Problem& problem, const Amplitudes& amplitudes, const Fold& fold,
                                         std::size_t of) {
-  const Discrepancy& discrepancy = problem.evidence.marginal->discrepancy();
+  const Discrepancy& discrepancy = problem.evidence.evidence_model->discrepancy();
   std::vector<Eigen::Index> rest, own, rest_used, own_used;  // of all rows, of rows in use
   Eigen::Index used = 0;
   for (std::size_t b = 0; b < problem.evidence.blocks.size(); ++b) {
@@ -152,7 +152,7 @@ std::pair<double, double> errors_beside(const Problem& problem, const Amplitudes
       ++used;
     }
   }
-  const double noise = amplitudes.noise / std::sqrt(problem.evidence.marginal->worth());
+  const double noise = amplitudes.noise / std::sqrt(problem.evidence.evidence_model->independent_share());
   std::vector<Eigen::Index> columns;
   std::vector<double> prior;
   std::vector<bool> of_place;
@@ -245,12 +245,12 @@ TEST_F(LinearFit, IsLeastSquares) {
   EXPECT_NEAR(compliance(fit), expected[1], 0.1 * standard_error / 5);
   EXPECT_NEAR(compliance(fit), k_compliance, 5e-5);
   EXPECT_NEAR(fit.mean_square, k_floor * k_floor, 0.2 * k_floor * k_floor);
-  EXPECT_EQ(fit.price, 0);
+  EXPECT_EQ(fit.play_square, 0);
 }
 
 TEST_F(LinearFit, ACandidateByChordsEndsWhereTheFitDoes) {
   const Fit base = fitter.fit({}, {});
-  const Fit candidate = fitter.with_effect(base, stretch);
+  const Fit candidate = fitter.add_effect(base, stretch);
   ASSERT_TRUE(candidate.usable);
   EXPECT_NEAR(compliance(candidate), compliance(fitter.fit({&stretch}, {})), 1e-6);
   EXPECT_EQ(candidate.effects, EffectSet{&stretch});
@@ -259,7 +259,7 @@ TEST_F(LinearFit, ACandidateByChordsEndsWhereTheFitDoes) {
 
 TEST_F(LinearFit, ADirectionIsTheSlopeAndNoFit) {
   const Fit base = fitter.fit({}, {});
-  const Fit wider = fitter.with_direction(base, stretch);
+  const Fit wider = fitter.add_slopes(base, stretch);
   EXPECT_EQ(wider.at, base.at);
   EXPECT_EQ(wider.x[1], 0);
   EXPECT_EQ(wider.residual, base.residual);
@@ -287,34 +287,34 @@ Evidence bending_with_the_load() {
   }));
 }
 
-class BySquares : public testing::Test {
+class LeastSquaresFits : public testing::Test {
  protected:
   Evidence evidence = bending_with_the_load();
-  Workers workers{evidence};
+  FitterPool pool{evidence};
   const Effect& stretch = named("tendon_stretch");
-  const Fit summit = workers.one().fit({&stretch}, {});
+  const Fit summit = pool.one().fit({&stretch}, {});
 
   double left(const Fit& fit) const { return fit.residual.norm(); }
   double compliance(const Fit& fit) const { return value_of(fit.at, stretch.parameters.front()); }
 };
 
-TEST_F(BySquares, AreThoseOfARegression) {
-  const Fit squares = workers.one().by_squares(summit);
+TEST_F(LeastSquaresFits, AreThoseOfARegression) {
+  const Fit squares = pool.one().fit_least_squares(summit);
   const Eigen::VectorXd expected = regression(evidence);
   EXPECT_NEAR(value_of(squares.at, *squares.parameters[0]), expected[0], 1e-6);
   EXPECT_NEAR(compliance(squares), expected[1], 1e-6);
   EXPECT_LT(left(squares), left(summit));
 }
 
-TEST_F(BySquares, NumbersStayWithinTheirBoundsAndTheOthersGoWithThem) {
+TEST_F(LeastSquaresFits, NumbersStayWithinTheirBoundsAndTheOthersGoWithThem) {
   const Effect& gain = named("joint_sensor_gain");
   const EffectParameter& number = gain.parameters.front();
   const Evidence scaled =
       evidence_of(measured({0, 2}, [&, noise = white_noise(k_floor, 5)](const Sample& sample) mutable {
         return k_offset + 1.5 * number.most * sample.alpha / k_ratio + noise(sample);
       }));
-  Workers fitters(scaled);
-  const Fit squares = fitters.one().by_squares(fitters.one().fit({&gain}, {}));
+  FitterPool fitters(scaled);
+  const Fit squares = fitters.one().fit_least_squares(fitters.one().fit({&gain}, {}));
   EXPECT_NEAR(value_of(squares.at, number), number.most, 1e-12);
   EXPECT_NEAR(squares.residual.mean(), 0, 1e-9);  // the best offset beside it
 }
@@ -343,36 +343,36 @@ class HandedOver : public testing::Test {
   explicit HandedOver(double gain = 0) : evidence(evidence_of(loop_that_shrinks(gain))) {}
 
   Evidence evidence;
-  Workers workers{evidence};
+  FitterPool pool{evidence};
   Selection selection;
 
-  Delivered handed_over() {
+  ReportedParameters handed_over() {
     const Effect& stretch = named("tendon_stretch");
     const Effect& slack = named("slack");
     Imperfections start;
     set_value(start, stretch.parameters[0], radians(90));
     set_value(start, slack.parameters[0], radians(3.5));
     set_value(start, slack.parameters[1], radians(70));
-    selection.none = workers.one().fit({}, {});
-    selection.best = workers.one().fit({&stretch, &slack}, start);
+    selection.none = pool.one().fit({}, {});
+    selection.best = pool.one().fit({&stretch, &slack}, start);
     for (std::size_t k = 0; k < selection.best.parameters.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
-      const double variance = selection.best.explained.covariance(i, i);
+      const double variance = selection.best.posterior.covariance(i, i);
       selection.variance[selection.best.parameters[k]] = {variance, variance};
     }
-    return delivered(evidence, workers, selection, unnamed_beside(evidence, selection.best));
+    return choose_reported_parameters(evidence, pool, selection, describe_discrepancy(evidence, selection.best));
   }
 };
 
 TEST_F(HandedOver, LeastSquaresWhereTheyForetellMore) {
-  const Delivered made = handed_over();
+  const ReportedParameters made = handed_over();
   EXPECT_LT(made.estimate.fit.mean_square, 0.7 * selection.best.mean_square);
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.22), 2));
   EXPECT_FALSE(made.curve.used);
 }
 
 TEST_F(HandedOver, IntervalsHoldWhatIsHandedOver) {
-  const Delivered made = handed_over();
+  const ReportedParameters made = handed_over();
   selection.groups = {{{&named("tendon_stretch")}, 0}, {{&named("slack")}, 0}};
   selection.without.resize(2);
   for (auto& [parameter, variance] : selection.variance) variance = {1e-12, 1e-12};  // the summit, and nothing else
@@ -393,11 +393,13 @@ class HandedOverBeside : public HandedOver {
     selection.groups = {{{&named("tendon_stretch"), &named("joint_sensor_gain")}, 0}, {{&named("slack")}, 0}};
   }
 
-  bool holds_gain(const Delivered& made) { return contains(made.estimate.fit.effects, named("joint_sensor_gain")); }
+  bool holds_gain(const ReportedParameters& made) {
+    return contains(made.estimate.fit.effects, named("joint_sensor_gain"));
+  }
 };
 
 TEST_F(HandedOverBeside, AMemberOfAGroupGoesWithTheSetWhereBothForetellMore) {
-  const Delivered made = handed_over();
+  const ReportedParameters made = handed_over();
   ASSERT_TRUE(holds_gain(made));
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.25), 2));
   selection.without.resize(2);
@@ -422,13 +424,13 @@ class NothingBeside : public HandedOverBeside {
 TEST_F(NothingBeside, AMemberThatForetellsNothingStaysOut) { EXPECT_FALSE(holds_gain(handed_over())); }
 
 TEST_F(LinearFit, TheSummitIsHandedOverWhereNothingStaysWithoutAName) {
-  Workers workers(evidence);
+  FitterPool pool(evidence);
   Selection selection;
   selection.none = fitter.fit({}, {});
   selection.best = fitter.fit({&stretch}, {});
-  const Unnamed unnamed = unnamed_beside(evidence, selection.best);
+  const DiscrepancyFit unnamed = describe_discrepancy(evidence, selection.best);
   ASSERT_FALSE(is_unexplained(unnamed, evidence.floor));
-  EXPECT_EQ(delivered(evidence, workers, selection, unnamed).estimate.fit.at, selection.best.at);
+  EXPECT_EQ(choose_reported_parameters(evidence, pool, selection, unnamed).estimate.fit.at, selection.best.at);
 }
 
 }  // namespace

@@ -212,8 +212,8 @@ TEST(PointToPoint, two_places_name_nothing_alone) {
     EXPECT_GT(tried->evidence, 0) << ends.name;
     if (!found.effects.empty()) continue;
     EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained) << found.summary;
-    ASSERT_FALSE(found.unknown.empty()) << ends.name;
-    EXPECT_THAT(found.unknown.front().factor, StartsWith(ends.seen_with));
+    ASSERT_FALSE(found.discrepancy.empty()) << ends.name;
+    EXPECT_THAT(found.discrepancy.front().factor, StartsWith(ends.seen_with));
     EXPECT_THAT(tried->why, AnyOf("it adds less than a name needs", StartsWith("with it rows that were not fitted")));
   }
 }
@@ -234,7 +234,8 @@ TEST(PointToPoint, points_from_one_side_are_asked_for_from_both) {
   EXPECT_THAT(next_words(calibrated({log_of(up, {}, 5)})), Contains(StartsWith(k_both_sides)));
   EXPECT_THAT(next_words(calibrated({log_of(up, {}, 5), log_of(sweep(0.95), {}, 6)})),
               Not(Contains(StartsWith(k_both_sides))));
-  EXPECT_THAT(next_words(calibrated({log_of(up, {}, 5), log_of(sweep(0.2), {}, 6)})), Contains(StartsWith(k_both_sides)));
+  EXPECT_THAT(next_words(calibrated({log_of(up, {}, 5), log_of(sweep(0.2), {}, 6)})),
+              Contains(StartsWith(k_both_sides)));
   Stops few = alternating_ends(1);
   few.resize(8);
   const Calibration too_few = calibrated({log_of(few, {}, 5)});

@@ -116,14 +116,14 @@ TEST(ExpectedSizes, MoveTheReadingByNoMoreThanIsSeen) {
   const double size = 40 * k_floor;
   Evidence evidence =
       evidence_of(measured({0, 5}, [&](const Sample& sample) { return size * std::sin(sample.alpha); }));
-  Workers workers(evidence);
+  FitterPool pool(evidence);
   const EffectSet all = {&named("tendon_stretch"), &named("joint_sensor_gain")};
-  evidence.sizes = expected_sizes(all, evidence, workers);
-  const Fit none = workers.one().fit({}, {});
+  evidence.sizes = expected_sizes(all, evidence, pool);
+  const Fit none = pool.one().fit({}, {});
   const double seen = k_thresholds.most_expected * rms(tangent_of(evidence, none).residual);
   // Five degrees at the largest load are what such joints yield, and not what is seen here; a gain is small anywhere.
   for (const Effect* effect : all) {
-    const Tangent wider = tangent_of(evidence, workers.one().with_chords(none, *effect));
+    const Tangent wider = tangent_of(evidence, pool.one().add_chords(none, *effect));
     const Eigen::Index k = wider.x.size() - 1;
     const double moved = wider.prior[k] * rms(wider.J.col(k));
     if (evidence.sizes.count(&effect->parameters.front())) {
@@ -138,9 +138,9 @@ TEST(ExpectedSizes, MoveTheReadingByNoMoreThanIsSeen) {
 TEST(ExpectedSizes, ShrinkWithWhatIsSeen) {
   const auto size_of_stretch = [](double error) {
     Evidence evidence = evidence_of(measured({0, 5}, [&](const Sample& sample) { return error * sample.alpha; }));
-    Workers workers(evidence);
+    FitterPool pool(evidence);
     const Effect& stretch = named("tendon_stretch");
-    return expected_sizes({&stretch}, evidence, workers).at(&stretch.parameters.front());
+    return expected_sizes({&stretch}, evidence, pool).at(&stretch.parameters.front());
   };
   EXPECT_LT(2 * size_of_stretch(0.0), size_of_stretch(0.02));
 }

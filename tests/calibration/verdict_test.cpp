@@ -40,15 +40,15 @@ class Concluded : public testing::Test {
   }
 
   CalibrationVerdict verdict() {
-    Amplitudes any = evidence.marginal->nothing_unnamed();
+    Amplitudes any = evidence.evidence_model->without_discrepancy();
     any.families.setConstant(k_floor);
-    selection.best.explained = evidence.marginal->best(tangent_of(evidence, selection.best), any);
+    selection.best.posterior = evidence.evidence_model->best(tangent_of(evidence, selection.best), any);
     selection.groups.resize(calibration.effects.size());
     selection.best.effects.clear();
     for (const FoundEffect& effect : calibration.effects)
       selection.best.effects.push_back(find_effect(effect.name, JointKind::tendons));
     selection.without.resize(calibration.effects.size());
-    conclude(evidence, selection, unnamed_beside(evidence, selection.best), calibration);
+    conclude(evidence, selection, describe_discrepancy(evidence, selection.best), calibration);
     if (calibration.next.empty()) calibration.next = next_measurements(evidence, selection, calibration);
     summarize(evidence, selection, calibration);
     return calibration.verdict;
@@ -171,7 +171,7 @@ TEST_F(Concluded, WhatIsDoubtfulMayBeSomethingWithoutANameHoweverFarAhead) {
   leave(1);
   calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled + 1),
                          ahead_by(k_thresholds.ahead_of_unmodelled + 1)};
-  selection.groups = {{{}, k_thresholds.most_mistaken / 2}, {{}, k_thresholds.most_mistaken * 2}};
+  selection.groups = {{{}, k_thresholds.most_false_positives / 2}, {{}, k_thresholds.most_false_positives * 2}};
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash"));
   EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "unmodelled"));
@@ -238,11 +238,11 @@ TEST_F(Concluded, ARestIsDescribedByWhatItDependsOn) {
       selection.best.residual[static_cast<Eigen::Index>(row)] += 5 * k_floor * direction;
   }
   EXPECT_EQ(verdict(), CalibrationVerdict::unexplained);
-  ASSERT_FALSE(calibration.unknown.empty());
-  EXPECT_EQ(calibration.unknown.front().factor, "direction");
-  EXPECT_NEAR(calibration.unknown.front().rms, 5 * k_floor, 0.5 * k_floor);
+  ASSERT_FALSE(calibration.discrepancy.empty());
+  EXPECT_EQ(calibration.discrepancy.front().factor, "direction");
+  EXPECT_NEAR(calibration.discrepancy.front().rms, 5 * k_floor, 0.5 * k_floor);
   // Its picture is that of the way up, and not of whichever row is largest.
-  EXPECT_THAT(calibration.unknown.front().theta, testing::Each(testing::DoubleNear(5 * k_floor, 1.5 * k_floor)));
+  EXPECT_THAT(calibration.discrepancy.front().theta, testing::Each(testing::DoubleNear(5 * k_floor, 1.5 * k_floor)));
   EXPECT_THAT(calibration.summary, HasSubstr("depends on direction"));
 }
 
@@ -276,13 +276,13 @@ TEST(Verdicts, ATorqueWhereAForceIsNeededIsSaid) {
 
 TEST(RmsDrop, IsNeverBelowNothing) {
   const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
-  Workers workers(evidence);
+  FitterPool pool(evidence);
   Selection selection;
   selection.catalogue = catalogue(joint(), evidence.measurement);
   const Effect& stretch = named("tendon_stretch");
-  selection.none = workers.one().fit({}, {});
+  selection.none = pool.one().fit({}, {});
   selection.without = {selection.none};
-  selection.best = workers.one().fit({&stretch}, {});
+  selection.best = pool.one().fit({&stretch}, {});
   selection.groups = {{{&stretch}, 0.0}};
   selection.best.by_factor.mean_square = 2 * selection.none.by_factor.mean_square;  // held out, it does harm
   const std::vector<FoundEffect> found = found_effects(evidence, selection, selection.best);
@@ -315,14 +315,14 @@ TEST(Rivals, ThatDoAsWellDoSomething) {
 
 TEST(FoundEffects, SayWhatTheirSignMeans) {
   const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
-  Workers workers(evidence);
+  FitterPool pool(evidence);
   Selection selection;
   selection.catalogue = catalogue(joint(), evidence.measurement);
-  selection.none = workers.one().fit({}, {});
+  selection.none = pool.one().fit({}, {});
   selection.without = {selection.none};
   for (const auto& [gain, words] : {std::pair(-0.01, "the sensor reads too little"),
                                     std::pair(0.01, "the sensor reads too much"), std::pair(0.0, "")}) {
-    selection.best = workers.one().fit({&named("joint_sensor_gain")}, {});
+    selection.best = pool.one().fit({&named("joint_sensor_gain")}, {});
     selection.groups = {{{&named("joint_sensor_gain")}, 0.0}};
     selection.best.at.sensor.gain = gain;
     selection.best.x[1] = gain / named("joint_sensor_gain").parameters[0].step;

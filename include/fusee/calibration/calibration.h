@@ -43,18 +43,18 @@ struct FittedParameter {
 
 /// Synthetic data sets without an effect, and in how many of them the effect would be reported.
 struct Audit {
-  int worlds = 0;  ///< 0: no audit was made
-  int named = 0;
+  int data_sets = 0;  ///< 0: no audit was made
+  int false_positives = 0;
 };
 
 /// Member of a group whose cause may be unmodelled.
 inline constexpr const char* k_unmodelled = "unmodelled";
 
-/// Unmodelled cause that would explain the same data as an effect.
-struct Unmodelled {
+/// UnmodelledAlternative cause that would explain the same data as an effect.
+struct UnmodelledAlternative {
   /// Log odds of the effect against the best unmodelled cause in its place, with unmodelled causes beside both;
   /// infinite: not computed.
-  double behind = std::numeric_limits<double>::infinity();
+  double log_odds = std::numeric_limits<double>::infinity();
   std::string words;           ///< the cause: "a wave of 5.2 times a turn of the motor"; "" without one
   std::string separating_run;  ///< run that distinguishes it from the effect
 };
@@ -82,7 +82,7 @@ struct FoundEffect {
   double share = 0;     ///< share of the declared joint's held-out mean square that it removes, 0 … 1
   double evidence = 0;  ///< log Bayes factor of the set with it to the set without
   Audit audit;
-  Unmodelled unmodelled;
+  UnmodelledAlternative unmodelled;
   CorrectableBy correctable_by = CorrectableBy::nothing;
   /// Size of a change in standard errors, by the scatter from run to run; infinite: not computed.
   double by_runs = std::numeric_limits<double>::infinity();
@@ -97,7 +97,7 @@ struct Candidate {
 };
 
 /// Component of the model discrepancy: the factor that it depends on, and its size.
-struct Unknown {
+struct DiscrepancyComponent {
   std::string factor;   ///< "place", "direction", "load" …
   double order = 0;     ///< order of a harmonic, in periods a turn; otherwise 0
   double rms = 0;       ///< rad, over the rows in use
@@ -171,11 +171,11 @@ struct Calibration {
   std::vector<std::vector<double>> residuals_after;
   std::vector<std::string> held_out_factors;  ///< "load", "speed"
   std::vector<std::string> held_out_runs;
-  double rest_autocorrelation = 0;  ///< lag-1 autocorrelation of the residual after all effects; 0: white
+  double residual_autocorrelation = 0;  ///< lag-1 autocorrelation of the residual after all effects; 0: white
   double unexplained_rms = 0;
-  std::vector<Unknown> unknown;   ///< components of the discrepancy, largest first
-  EmpiricalCurve curve;           ///< discrepancy that depends on place and direction alone
-  std::string unexplained_where;  ///< α, direction, load or harmonic at which the residual is largest
+  std::vector<DiscrepancyComponent> discrepancy;  ///< components of the discrepancy, largest first
+  EmpiricalCurve curve;                           ///< discrepancy that depends on place and direction alone
+  std::string unexplained_where;                  ///< α, direction, load or harmonic at which the residual is largest
   std::vector<Detectable> detectable;
   std::vector<std::string> null_combinations;  ///< accepted effects and equally likely rivals, with their numbers
   std::vector<NextMeasurement> next;           ///< most decisive first

@@ -11,7 +11,7 @@
 namespace fusee {
 
 /// Likely input error: the data are explained once it is corrected.
-struct UndoneSlip {
+struct LikelyInputError {
   /// "guides.OE_mm"; "guides.EB_mm, guides.ED_mm" where two are exchanged; "theta", "alpha" or both of the data.
   std::string key;
   std::vector<double> declared;  ///< values in the file, in its unit; 1 for a column of data
@@ -25,14 +25,14 @@ struct UndoneSlip {
 
 /// Input errors whose correction explains the data, best first, equally likely ones after it. Empty if `found` is an
 /// explanation or no hypothesis is one. `as_read`: runs before the comparison with a joint.
-std::vector<UndoneSlip> slips_that_explain(const DeclaredMechanism& declared, const Measurement& as_read,
-                                           const Calibration& found);
+std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declared, const Measurement& as_read,
+                                                const Calibration& found);
 
 /// True if the file as it is leaves far more than noise, and one corrected input error, with nothing fitted, leaves
 /// noise or at most a fault beside it. Effects fitted to such a file describe nothing, so the search is omitted.
-bool is_plainly_a_slip(const DeclaredMechanism& declared, const Measurement& as_read);
+bool is_input_error_obvious(const DeclaredMechanism& declared, const Measurement& as_read);
 
 /// "guides.OE_mm = -40 in place of 40 would explain the data to 0.03°: is the sign right?"
-std::string slip_words(const UndoneSlip& slip);
+std::string input_error_words(const LikelyInputError& slip);
 
 }  // namespace fusee

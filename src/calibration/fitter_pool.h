@@ -9,10 +9,10 @@
 
 namespace fusee {
 
-class Workers {
+class FitterPool {
  public:
   /// `evidence` must outlive this.
-  explicit Workers(const Evidence& evidence);
+  explicit FitterPool(const Evidence& evidence);
 
   /// Calls `job` for 0 … count − 1, with one simulation for each thread. The first exception is rethrown. `done(n)` is
   /// called from the calling thread when n jobs have ended; it may throw.

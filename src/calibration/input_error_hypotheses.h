@@ -9,8 +9,8 @@
 namespace fusee {
 
 /// Corrected input error, before it is compared with data.
-struct Suspect {
-  UndoneSlip slip;          ///< the error, without its rms
+struct InputErrorHypothesis {
+  LikelyInputError error;   ///< the error, without its rms
   DeclaredMechanism joint;  ///< corrected joint
   DeclaredMechanism drawn;  ///< joint for which its pulley was made
   double alpha = 1;         ///< factor on the logged angles
@@ -18,6 +18,6 @@ struct Suspect {
 };
 
 /// Likely input errors of `declared` and its data, one at a time.
-std::vector<Suspect> suspects(const DeclaredMechanism& declared);
+std::vector<InputErrorHypothesis> input_error_hypotheses(const DeclaredMechanism& declared);
 
 }  // namespace fusee

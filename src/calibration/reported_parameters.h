@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "calibration/empirical.h"
+#include "calibration/empirical_curve.h"
 #include "calibration/validation.h"
 
 namespace fusee {
 
-struct Delivered {
+struct ReportedParameters {
   /// The found set, perhaps with another member of a group; without effects the declared joint.
   Estimate estimate;
   /// Parameters in the report. If the estimate contains a curve of the ratio, they are fitted without it, since the
@@ -21,23 +21,25 @@ struct Delivered {
 };
 
 /// `unmodelled`: description of the discrepancy beside selection.best.
-Delivered delivered(const Evidence& evidence, Workers& workers, const Selection& selection, const Unnamed& unnamed);
+ReportedParameters choose_reported_parameters(const Evidence& evidence, FitterPool& pool, const Selection& selection,
+                                              const DiscrepancyFit& unmodelled);
 
 /// Answer that is reported.
-struct Validated {
+struct ValidatedAnswer {
   Estimate declared;  ///< declared joint
-  Delivered made;
-  Unnamed unnamed;  ///< discrepancy beside selection.best
+  ReportedParameters reported;
+  DiscrepancyFit unmodelled;  ///< discrepancy beside selection.best
   /// effects that fit the runs and do not predict held-out rows, in the order of their removal
   std::vector<std::string> dropped;
 };
 
 /// Removes effects from `selection`, the least predictive first, until held-out rows are predicted no worse than by the
 /// declared joint, over all and at each level of load and speed. `kept`: runs for validation.
-Validated validated(const Evidence& evidence, Workers& workers, const Measurement& kept, Selection& selection);
+ValidatedAnswer validate_answer(const Evidence& evidence, FitterPool& pool, const Measurement& kept,
+                                Selection& selection);
 
 /// Changes between two states, as selected, beside the discrepancy that both states share. They are not validated by
 /// prediction: every run has the discrepancy of the earlier state.
-Validated changes_beside(const Evidence& evidence, const Selection& selection);
+ValidatedAnswer changes_beside(const Evidence& evidence, const Selection& selection);
 
 }  // namespace fusee

@@ -1,4 +1,4 @@
-#include "calibration/unknown.h"
+#include "calibration/discrepancy_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ constexpr FactorWords k_words[] = {
 /// Rows in use: motor and joint angle, direction of the motor and sign of the load, ±1.
 struct Angles {
   Eigen::VectorXd motor, joint;
-  Eigen::VectorXd direction, pull;
+  Eigen::VectorXd direction, load_sign;
   double motor_step = 0;  ///< median step from row to row while the motor moved
   double joint_step = 0;
 };
@@ -85,7 +85,7 @@ Angles angles_of(const Evidence& evidence) {
       angles.motor[i] = all[row]->alpha;
       angles.joint[i] = all[row]->theta;
       angles.direction[i] = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
-      angles.pull[i] = all[row]->load < 0 ? -1.0 : 1.0;
+      angles.load_sign[i] = all[row]->load < 0 ? -1.0 : 1.0;
       ++i;
     }
   }
@@ -95,24 +95,25 @@ Angles angles_of(const Evidence& evidence) {
 }
 
 /// Sum of the families of a factor, rows in use.
-Eigen::VectorXd part_of(const Discrepancy& discrepancy, const Eigen::VectorXd& unnamed, Factor factor) {
+Eigen::VectorXd part_of(const Discrepancy& discrepancy, const Eigen::VectorXd& coefficients, Factor factor) {
   Eigen::VectorXd part = Eigen::VectorXd::Zero(discrepancy.columns.rows());
   for (const Family& family : discrepancy.families) {
     if (family.factor == factor)
-      part += discrepancy.columns.middleCols(family.first, family.count) * unnamed.segment(family.first, family.count);
+      part +=
+          discrepancy.columns.middleCols(family.first, family.count) * coefficients.segment(family.first, family.count);
   }
   return part;
 }
 
 /// Component for rising motor angle and positive load.
-Eigen::VectorXd turned_over(const Angles& angles, const Eigen::VectorXd& part, Factor factor) {
+Eigen::VectorXd normalized(const Angles& angles, const Eigen::VectorXd& part, Factor factor) {
   switch (factor) {
     case Factor::direction:
     case Factor::load_direction:
     case Factor::speed_direction:
       return part.cwiseProduct(angles.direction);
     case Factor::load:
-      return part.cwiseProduct(angles.pull);
+      return part.cwiseProduct(angles.load_sign);
     default:
       return part;
   }
@@ -124,7 +125,7 @@ bool has_course(Factor factor) {
 }
 
 /// Draws the largest value of a component at each place.
-void draw(const Angles& angles, const Eigen::VectorXd& part, Unknown& unknown) {
+void draw(const Angles& angles, const Eigen::VectorXd& part, DiscrepancyComponent& component) {
   SeenSpan span;
   for (const double alpha : angles.motor) span.take(alpha);
   if (!span.any()) return;
@@ -135,8 +136,8 @@ void draw(const Angles& angles, const Eigen::VectorXd& part, Unknown& unknown) {
     if (std::abs(part[i]) > std::abs(most)) most = part[i];
   }
   for (const auto& [bin, value] : largest) {
-    unknown.alpha.push_back(0.5 * (bins.edge(bin) + bins.edge(bin + 1)));
-    unknown.theta.push_back(value);
+    component.alpha.push_back(0.5 * (bins.edge(bin) + bins.edge(bin + 1)));
+    component.theta.push_back(value);
   }
 }
 
@@ -147,46 +148,47 @@ struct Harmonic {
   Eigen::VectorXd part;
 };
 
-Harmonic strongest(const Eigen::VectorXd& angle, double row_step, const Eigen::VectorXd& left) {
+Harmonic strongest(const Eigen::VectorXd& angle, double row_step, const Eigen::VectorXd& residual) {
   Harmonic best;
   const double span = angle.maxCoeff() - angle.minCoeff();
-  if (!(span > 0) || !(row_step > 0) || !(left.squaredNorm() > 0)) return best;
+  if (!(span > 0) || !(row_step > 0) || !(residual.squaredNorm() > 0)) return best;
   const double most = std::min(k_most_order, k_two_pi / (k_rows_a_period * row_step));
   const double step = 0.25 * k_two_pi / span;
   for (double order = std::max(k_least_order, 1.5 * k_two_pi / span); order < most; order += step) {
-    Eigen::MatrixXd wave(left.size(), 2);
+    Eigen::MatrixXd wave(residual.size(), 2);
     wave.col(0) = (order * angle).array().sin();
     wave.col(1) = (order * angle).array().cos();
-    const Eigen::VectorXd pull = wave.transpose() * left;
-    const Eigen::VectorXd size = solved(wave.transpose() * wave, pull);
-    const double taken = size.dot(pull) / left.squaredNorm();
+    const Eigen::VectorXd projection = wave.transpose() * residual;
+    const Eigen::VectorXd size = solved(wave.transpose() * wave, projection);
+    const double taken = size.dot(projection) / residual.squaredNorm();
     if (taken > best.taken) best = {order, taken, wave * size};
   }
   return best;
 }
 
 /// Adds a harmonic of motor or joint if it is more than half of the residual beyond noise.
-void find_harmonic(const Angles& angles, const Eigen::VectorXd& left, double noise, std::vector<Unknown>& parts) {
-  const Harmonic motor = strongest(angles.motor, angles.motor_step, left);
-  const Harmonic joint = strongest(angles.joint, angles.joint_step, left);
+void find_harmonic(const Angles& angles, const Eigen::VectorXd& residual, double noise,
+                   std::vector<DiscrepancyComponent>& parts) {
+  const Harmonic motor = strongest(angles.motor, angles.motor_step, residual);
+  const Harmonic joint = strongest(angles.joint, angles.joint_step, residual);
   const bool of_motor = motor.taken >= joint.taken;
   const Harmonic& best = of_motor ? motor : joint;
-  const double squares = left.squaredNorm();
-  const double above = squares - static_cast<double>(left.size()) * noise * noise;
-  if (!(best.taken * squares > 0.5 * above) || !(above > 0.3 * static_cast<double>(left.size()) * noise * noise))
+  const double squares = residual.squaredNorm();
+  const double above = squares - static_cast<double>(residual.size()) * noise * noise;
+  if (!(best.taken * squares > 0.5 * above) || !(above > 0.3 * static_cast<double>(residual.size()) * noise * noise))
     return;
-  Unknown unknown;
-  unknown.factor = of_motor ? "motor harmonic" : "joint harmonic";
+  DiscrepancyComponent component;
+  component.factor = of_motor ? "motor harmonic" : "joint harmonic";
   const double whole = std::round(best.order);
-  unknown.order = std::abs(best.order - whole) < 0.15 ? whole : best.order;
-  unknown.rms = rms_of(best.part);
-  unknown.evidence = 0.5 * best.taken * squares / (noise * noise);
-  unknown.words = "once in " + rounded(360.0 / unknown.order, 4) + "° of the " +
-                  (of_motor ? "motor's shaft" : "joint") +
-                  ", whatever load and direction: look at what turns with it there, " +
-                  (of_motor ? "poles, gear teeth, the sensor's own steps" : "the sensor's ring, balls of a bearing");
-  draw(angles, best.part, unknown);
-  parts.push_back(std::move(unknown));
+  component.order = std::abs(best.order - whole) < 0.15 ? whole : best.order;
+  component.rms = rms_of(best.part);
+  component.evidence = 0.5 * best.taken * squares / (noise * noise);
+  component.words = "once in " + rounded(360.0 / component.order, 4) + "° of the " +
+                    (of_motor ? "motor's shaft" : "joint") +
+                    ", whatever load and direction: look at what turns with it there, " +
+                    (of_motor ? "poles, gear teeth, the sensor's own steps" : "the sensor's ring, balls of a bearing");
+  draw(angles, best.part, component);
+  parts.push_back(std::move(component));
 }
 
 }  // namespace
@@ -195,20 +197,20 @@ namespace {
 
 /// Discrepancy of a few factors, added one by one while the data require them: several can replace one another, and the
 /// description contains the one that explains most.
-struct Described {
-  Explained explained;
+struct FactorSelection {
+  Posterior posterior;
   std::vector<std::pair<const FactorWords*, double>> factors;  ///< with the evidence that each added, nats
 };
 
-Described described(const Marginal& marginal, const TangentSums& sums, double size) {
-  const std::vector<Family>& families = marginal.discrepancy().families;
-  Described found;
-  found.explained = marginal.best(sums, marginal.nothing_unnamed());
+FactorSelection select_factors(const EvidenceModel& evidence_model, const TangentSums& sums, double size) {
+  const std::vector<Family>& families = evidence_model.discrepancy().families;
+  FactorSelection found;
+  found.posterior = evidence_model.best(sums, evidence_model.without_discrepancy());
   for (std::size_t step = 0; step < k_most_parts; ++step) {
     const FactorWords* taken = nullptr;
-    Explained better = found.explained;
+    Posterior better = found.posterior;
     for (const FactorWords& factor : k_words) {
-      Amplitudes wider = found.explained.amplitudes;
+      Amplitudes wider = found.posterior.amplitudes;
       bool any = false;
       for (std::size_t f = 0; f < families.size(); ++f) {
         double& amplitude = wider.families[static_cast<Eigen::Index>(f)];
@@ -217,14 +219,14 @@ Described described(const Marginal& marginal, const TangentSums& sums, double si
         any = true;
       }
       if (!any) continue;
-      Explained trial = marginal.best(sums, wider);
+      Posterior trial = evidence_model.best(sums, wider);
       if (trial.log_evidence <= better.log_evidence) continue;
       better = std::move(trial);
       taken = &factor;
     }
-    const double gain = better.log_evidence - found.explained.log_evidence;
-    if (taken == nullptr || gain < k_thresholds.least_unnamed) break;
-    found.explained = std::move(better);
+    const double gain = better.log_evidence - found.posterior.log_evidence;
+    if (taken == nullptr || gain < k_thresholds.least_component) break;
+    found.posterior = std::move(better);
     found.factors.emplace_back(taken, gain);
   }
   return found;
@@ -237,7 +239,7 @@ namespace {
 /// Excess of the noise over the floor, rad². A floor from few repeats is exceeded by chance.
 double noise_beyond_floor(const Evidence& evidence, double noise) {
   const double ratio = std::pow(noise / evidence.floor, 2);
-  const double rows = evidence.marginal->worth() * static_cast<double>(evidence.rows_used());
+  const double rows = evidence.evidence_model->independent_share() * static_cast<double>(evidence.rows_used());
   const bool is_badly_known = evidence.floor_freedom < k_thresholds.noise_freedom;
   if (is_badly_known && ratio < rarest_ratio(rows, evidence.floor_freedom)) return 0;
   return std::max(0.0, ratio - 1.0) * evidence.floor * evidence.floor;
@@ -247,43 +249,43 @@ double noise_beyond_floor(const Evidence& evidence, double noise) {
 
 bool is_of_place(Factor factor) { return factor == Factor::place || factor == Factor::direction; }
 
-Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
-  const Marginal& marginal = *evidence.marginal;
-  const Discrepancy& discrepancy = marginal.discrepancy();
+DiscrepancyFit describe_discrepancy(const Evidence& evidence, const Fit& fit) {
+  const EvidenceModel& evidence_model = *evidence.evidence_model;
+  const Discrepancy& discrepancy = evidence_model.discrepancy();
   const Tangent tangent = tangent_of(evidence, fit);
-  const TangentSums sums = marginal.sums_of(tangent);
+  const TangentSums sums = evidence_model.sums_of(tangent);
   const Angles angles = angles_of(evidence);
-  const Described all = described(marginal, sums, std::max(evidence.floor, rms_of(tangent.residual)));
-  Unnamed unnamed;
-  const double excess = noise_beyond_floor(evidence, all.explained.amplitudes.noise);
-  const Amplitudes nothing = marginal.nothing_unnamed();
-  const Explained as_noise = excess > 0 ? marginal.at(sums, nothing) : marginal.best(sums, nothing);
-  unnamed.evidence = all.explained.log_evidence - as_noise.log_evidence;
+  const FactorSelection all = select_factors(evidence_model, sums, std::max(evidence.floor, rms_of(tangent.residual)));
+  DiscrepancyFit unmodelled;
+  const double excess = noise_beyond_floor(evidence, all.posterior.amplitudes.noise);
+  const Amplitudes nothing = evidence_model.without_discrepancy();
+  const Posterior as_noise = excess > 0 ? evidence_model.at(sums, nothing) : evidence_model.best(sums, nothing);
+  unmodelled.evidence = all.posterior.log_evidence - as_noise.log_evidence;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
   for (const auto& [factor, gain] : all.factors) {
-    const Eigen::VectorXd part = part_of(discrepancy, all.explained.unnamed, factor->factor);
+    const Eigen::VectorXd part = part_of(discrepancy, all.posterior.coefficients, factor->factor);
     sum += part;
-    Unknown unknown;
-    unknown.factor = factor->name;
-    unknown.words = factor->words;
-    unknown.rms = rms_of(part);
-    unknown.evidence = gain;
-    if (unknown.rms < k_thresholds.least_left * evidence.floor) continue;
-    if (has_course(factor->factor)) draw(angles, turned_over(angles, part, factor->factor), unknown);
-    unnamed.parts.push_back(std::move(unknown));
+    DiscrepancyComponent component;
+    component.factor = factor->name;
+    component.words = factor->words;
+    component.rms = rms_of(part);
+    component.evidence = gain;
+    if (component.rms < k_thresholds.least_residual * evidence.floor) continue;
+    if (has_course(factor->factor)) draw(angles, normalized(angles, part, factor->factor), component);
+    unmodelled.parts.push_back(std::move(component));
   }
-  unnamed.rms = std::hypot(rms_of(sum), std::sqrt(excess));
-  Eigen::VectorXd left = tangent.residual - sum + part_of(discrepancy, all.explained.unnamed, Factor::place);
-  if (tangent.x.size() > 0) left -= tangent.J * all.explained.step;
-  find_harmonic(angles, left, evidence.floor, unnamed.parts);
-  std::stable_sort(unnamed.parts.begin(), unnamed.parts.end(),
-                   [](const Unknown& a, const Unknown& b) { return a.rms > b.rms; });
-  unnamed.explained = all.explained;
-  return unnamed;
+  unmodelled.rms = std::hypot(rms_of(sum), std::sqrt(excess));
+  Eigen::VectorXd residual = tangent.residual - sum + part_of(discrepancy, all.posterior.coefficients, Factor::place);
+  if (tangent.x.size() > 0) residual -= tangent.J * all.posterior.step;
+  find_harmonic(angles, residual, evidence.floor, unmodelled.parts);
+  std::stable_sort(unmodelled.parts.begin(), unmodelled.parts.end(),
+                   [](const DiscrepancyComponent& a, const DiscrepancyComponent& b) { return a.rms > b.rms; });
+  unmodelled.posterior = all.posterior;
+  return unmodelled;
 }
 
-bool is_unexplained(const Unnamed& unnamed, double floor) {
-  return unnamed.evidence > k_thresholds.unexplained && unnamed.rms > k_thresholds.least_left * floor;
+bool is_unexplained(const DiscrepancyFit& unmodelled, double floor) {
+  return unmodelled.evidence > k_thresholds.unexplained && unmodelled.rms > k_thresholds.least_residual * floor;
 }
 
 }  // namespace fusee

@@ -6,18 +6,18 @@
 
 #include <vector>
 
+#include "calibration/fitter_pool.h"
 #include "calibration/selection.h"
-#include "calibration/workers.h"
 
 namespace fusee {
 
 /// Best set without an effect, on runs with all loads scaled.
-struct UnderOtherLoads {
+struct LoadScaleFit {
   double times = 1;
   double score = 0;  ///< with the penalty of one searched number; −infinity: no solution, or the effect is equivalent
 };
 
 /// Result for every accepted effect, in their order.
-std::vector<UnderOtherLoads> under_other_loads(const Evidence& evidence, Workers& workers, const Selection& selection);
+std::vector<LoadScaleFit> fit_load_scales(const Evidence& evidence, FitterPool& pool, const Selection& selection);
 
 }  // namespace fusee

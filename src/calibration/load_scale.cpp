@@ -1,4 +1,4 @@
-#include "calibration/other_loads.h"
+#include "calibration/load_scale.h"
 
 #include <algorithm>
 #include <array>
@@ -67,13 +67,13 @@ double score_under(const Evidence& evidence, const Fit& without, double times) {
   const Evidence other = with_loads(evidence, times);
   Forward forward(*other.declared, other.log);
   const Fit fit = Fitter(other, forward).fit(without.effects, without.at);
-  return fit.usable ? score(fit) - k_thresholds.rareness - k_thresholds.price_of_a_search
+  return fit.usable ? score(fit) - k_thresholds.neg_log_prior_odds - k_thresholds.search_penalty
                     : -std::numeric_limits<double>::infinity();
 }
 
 /// Score −infinity if the logged loads are best.
-UnderOtherLoads best_under(const Evidence& evidence, const Fit& without) {
-  UnderOtherLoads best{1.0, score_under(evidence, without, 1.0)};
+LoadScaleFit best_under(const Evidence& evidence, const Fit& without) {
+  LoadScaleFit best{1.0, score_under(evidence, without, 1.0)};
   const auto look = [&](double times) {
     const double score = score_under(evidence, without, times);
     if (score > best.score) best = {times, score};
@@ -91,15 +91,15 @@ UnderOtherLoads best_under(const Evidence& evidence, const Fit& without) {
 
 }  // namespace
 
-std::vector<UnderOtherLoads> under_other_loads(const Evidence& evidence, Workers& workers, const Selection& selection) {
+std::vector<LoadScaleFit> fit_load_scales(const Evidence& evidence, FitterPool& pool, const Selection& selection) {
   const Fit& best = selection.best;
-  std::vector<UnderOtherLoads> all(best.effects.size(), {1.0, -std::numeric_limits<double>::infinity()});
+  std::vector<LoadScaleFit> all(best.effects.size(), {1.0, -std::numeric_limits<double>::infinity()});
   if (!has_loads(evidence)) return all;
   const Eigen::VectorXd slope = load_slope(evidence, best);
   std::vector<double> shares;
   for (const Effect* effect : best.effects) shares.push_back(share_of(evidence, best, *effect, slope));
   const double most = shares.empty() ? 0.0 : *std::max_element(shares.begin(), shares.end());
-  workers.each(all.size(), [&](const Fitter&, std::size_t i) {
+  pool.each(all.size(), [&](const Fitter&, std::size_t i) {
     const Fit& without = selection.without[i];
     const bool is_the_same = shares[i] > k_same && shares[i] == most;
     if (without.usable && !is_the_same) all[i] = best_under(evidence, without);

@@ -1,4 +1,4 @@
-#include "calibration/unnamed_effects.h"
+#include "calibration/unmodelled_effects.h"
 
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ constexpr double k_usual_path = 2.0;
 /// N·mm: friction of a bearing, and more for pins.
 constexpr double k_usual_rubbing = 100.0;
 /// Nats that removals may gain: 3 to 9 on seven joints, once 21.
-constexpr double k_most_by_idle_ones = 25.0;
+constexpr double k_most_by_idle_effects = 25.0;
 constexpr int k_bins_of_a_span = 16;
 /// Least share of a contribution's squares that is of a kind. Geometry has 0.35 (a lever) to 1 equal at a place, play
 /// and stretch under loads of both signs at most 0.06.
@@ -89,11 +89,11 @@ Effect rubbing() {
 
 /// Sum over bins of the rows of the squares of the bins' means.
 template <std::size_t parts, typename Part>
-double alike(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done, Part part) {
+double alike(const std::vector<RowFacts>& rows, const Eigen::VectorXd& contribution, Part part) {
   std::array<double, parts> sums{}, counts{};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto own = static_cast<std::size_t>(part(rows[i]));
-    sums[own] += done[static_cast<Eigen::Index>(i)];
+    sums[own] += contribution[static_cast<Eigen::Index>(i)];
     counts[own] += 1;
   }
   double squares = 0;
@@ -102,26 +102,27 @@ double alike(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done, Par
 }
 
 /// Squares that are equal at a place, for any direction, load and run.
-double alike_at_a_place(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done) {
-  return alike<k_bins_of_a_span>(rows, done, [](const RowFacts& row) { return place_bin(row, k_bins_of_a_span); });
+double alike_at_a_place(const std::vector<RowFacts>& rows, const Eigen::VectorXd& contribution) {
+  return alike<k_bins_of_a_span>(rows, contribution,
+                                 [](const RowFacts& row) { return place_bin(row, k_bins_of_a_span); });
 }
 
 /// Squares that are equal at a place in one direction, beyond those equal in both.
-double alike_one_way(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done) {
+double alike_one_way(const std::vector<RowFacts>& rows, const Eigen::VectorXd& contribution) {
   const auto part = [](const RowFacts& row) { return 2 * place_bin(row, k_bins_of_a_span) + (row.direction > 0); };
-  return alike<2 * k_bins_of_a_span>(rows, done, part) - alike_at_a_place(rows, done);
+  return alike<2 * k_bins_of_a_span>(rows, contribution, part) - alike_at_a_place(rows, contribution);
 }
 
-struct UnnamedEffect {
+struct UnmodelledEffect {
   Effect effect;
-  double (*of_its_kind)(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done);
+  double (*of_its_kind)(const std::vector<RowFacts>& rows, const Eigen::VectorXd& contribution);
   const char* words;
   const char* separating_run;
 };
 
 /// Effects outside the catalogue: no caliper can verify them.
-const std::array<UnnamedEffect, 2>& unnamed_effects() {
-  static const std::array<UnnamedEffect, 2> all = {{
+const std::array<UnmodelledEffect, 2>& unmodelled_effects() {
+  static const std::array<UnmodelledEffect, 2> all = {{
       {longer_paths(), alike_at_a_place,
        "tendons' paths that are longer or shorter by a smooth curve of the joint's angle",
        "measure pins, lever and pulley with a caliper"},
@@ -133,9 +134,9 @@ const std::array<UnnamedEffect, 2>& unnamed_effects() {
 }
 
 /// The refit without the first other effect that lowers the score beside `unmodelled`; none without one.
-std::optional<Fit> without_one_more(const Fitter& fitter, const Fit& fit, const Effect& unnamed) {
+std::optional<Fit> remove_idle_effect(const Fitter& fitter, const Fit& fit, const Effect& unmodelled) {
   for (const Effect* effect : fit.effects) {
-    if (effect == &unnamed) continue;
+    if (effect == &unmodelled) continue;
     Fit fewer = fitter.fit(without(fit.effects, *effect), without(fit.at, *effect));
     if (fewer.usable && score(fewer) > score(fit)) return fewer;
   }
@@ -143,42 +144,43 @@ std::optional<Fit> without_one_more(const Fitter& fitter, const Fit& fit, const 
 }
 
 /// `fit` without the effects that lower the score beside `unmodelled`.
-Fit without_idle_ones(const Fitter& fitter, Fit fit, const Effect& unnamed) {
-  while (std::optional<Fit> fewer = without_one_more(fitter, fit, unnamed)) fit = std::move(*fewer);
+Fit remove_idle_effects(const Fitter& fitter, Fit fit, const Effect& unmodelled) {
+  while (std::optional<Fit> fewer = remove_idle_effect(fitter, fit, unmodelled)) fit = std::move(*fewer);
   return fit;
 }
 
 double score_of_usable(const Fit& fit) { return fit.usable ? score(fit) : -std::numeric_limits<double>::infinity(); }
 
 /// Fit of `others` with the effect, from one of its starts.
-Fit with_unnamed(const Fitter& fitter, const Fit& others, const Effect& unnamed, const std::vector<double>& start) {
+Fit fit_with_unmodelled(const Fitter& fitter, const Fit& others, const Effect& unmodelled,
+                        const std::vector<double>& start) {
   EffectSet effects = others.effects;
-  effects.push_back(&unnamed);
+  effects.push_back(&unmodelled);
   Imperfections at = others.at;
-  for (std::size_t k = 0; k < start.size(); ++k) set_value(at, unnamed.parameters[k], start[k]);
+  for (std::size_t k = 0; k < start.size(); ++k) set_value(at, unmodelled.parameters[k], start[k]);
   return fitter.fit(effects, at);
 }
 
-/// Unmodelled effect in the place of an effect: a fit from each of its starts.
+/// UnmodelledAlternative effect in the place of an effect: a fit from each of its starts.
 struct Substitute {
   std::size_t effect = 0;
-  const UnnamedEffect* unnamed = nullptr;
+  const UnmodelledEffect* unmodelled = nullptr;
   std::vector<Fit> fits;
   double score = -std::numeric_limits<double>::infinity();
 };
 
 /// Substitutes for the effects whose contribution is of the kind of an unmodelled effect.
-std::vector<Substitute> substitutes_of(const Evidence& evidence, Workers& workers, const Selection& selection,
+std::vector<Substitute> substitutes_of(const Evidence& evidence, FitterPool& pool, const Selection& selection,
                                        const std::vector<bool>& asked) {
   const std::vector<RowFacts> rows = row_facts(evidence);
   std::vector<std::vector<Substitute>> of_effects(asked.size());
-  workers.each(asked.size(), [&](const Fitter& fitter, std::size_t i) {
+  pool.each(asked.size(), [&](const Fitter& fitter, std::size_t i) {
     if (!asked[i] || !selection.without[i].usable) return;
-    const Eigen::VectorXd done = fitter.done_by(selection.best, *selection.best.effects[i]);
-    const double all = std::max(done.squaredNorm(), std::numeric_limits<double>::min());
-    for (const UnnamedEffect& unnamed : unnamed_effects()) {
-      if (unnamed.of_its_kind(rows, done) >= k_least_of_its_kind * all)
-        of_effects[i].push_back({i, &unnamed, std::vector<Fit>(unnamed.effect.starts.size())});
+    const Eigen::VectorXd contribution = fitter.contribution_of(selection.best, *selection.best.effects[i]);
+    const double all = std::max(contribution.squaredNorm(), std::numeric_limits<double>::min());
+    for (const UnmodelledEffect& unmodelled : unmodelled_effects()) {
+      if (unmodelled.of_its_kind(rows, contribution) >= k_least_of_its_kind * all)
+        of_effects[i].push_back({i, &unmodelled, std::vector<Fit>(unmodelled.effect.starts.size())});
     }
   });
   std::vector<Substitute> substitutes;
@@ -187,7 +189,7 @@ std::vector<Substitute> substitutes_of(const Evidence& evidence, Workers& worker
 }
 
 /// Fits from each start, in parallel.
-void fit_from_starts(Workers& workers, const Selection& selection, std::vector<Substitute>& substitutes) {
+void fit_from_starts(FitterPool& pool, const Selection& selection, std::vector<Substitute>& substitutes) {
   struct Task {
     Substitute* substitute = nullptr;
     std::size_t start = 0;
@@ -196,11 +198,11 @@ void fit_from_starts(Workers& workers, const Selection& selection, std::vector<S
   for (Substitute& substitute : substitutes) {
     for (std::size_t start = 0; start < substitute.fits.size(); ++start) tasks.push_back({&substitute, start});
   }
-  workers.each(tasks.size(), [&](const Fitter& fitter, std::size_t i) {
+  pool.each(tasks.size(), [&](const Fitter& fitter, std::size_t i) {
     const auto& [substitute, start] = tasks[i];
-    const Effect& unnamed = substitute->unnamed->effect;
+    const Effect& unmodelled = substitute->unmodelled->effect;
     substitute->fits[start] =
-        with_unnamed(fitter, selection.without[substitute->effect], unnamed, unnamed.starts[start]);
+        fit_with_unmodelled(fitter, selection.without[substitute->effect], unmodelled, unmodelled.starts[start]);
   });
 }
 
@@ -211,24 +213,26 @@ double best_score(const Fitter& fitter, Substitute& substitute, double enough) {
     if (score_of_usable(*best) > enough) break;
     if (score_of_usable(fit) > score_of_usable(*best)) best = &fit;
   }
-  if (score_of_usable(*best) < enough - k_most_by_idle_ones) return score_of_usable(*best);
-  return score(without_idle_ones(fitter, std::move(*best), substitute.unnamed->effect));
+  if (score_of_usable(*best) < enough - k_most_by_idle_effects) return score_of_usable(*best);
+  return score(remove_idle_effects(fitter, std::move(*best), substitute.unmodelled->effect));
 }
 
 }  // namespace
 
-std::vector<UnnamedInPlace> unnamed_in_place(const Evidence& evidence, Workers& workers, const Selection& selection,
-                                             const std::vector<bool>& asked, double enough) {
-  std::vector<UnnamedInPlace> found(asked.size());
+std::vector<UnmodelledSubstitute> fit_unmodelled_effects(const Evidence& evidence, FitterPool& pool,
+                                                         const Selection& selection, const std::vector<bool>& asked,
+                                                         double enough) {
+  std::vector<UnmodelledSubstitute> found(asked.size());
   if (evidence.declared->transmission) return found;
-  std::vector<Substitute> substitutes = substitutes_of(evidence, workers, selection, asked);
-  fit_from_starts(workers, selection, substitutes);
-  workers.each(substitutes.size(), [&](const Fitter& fitter, std::size_t i) {
+  std::vector<Substitute> substitutes = substitutes_of(evidence, pool, selection, asked);
+  fit_from_starts(pool, selection, substitutes);
+  pool.each(substitutes.size(), [&](const Fitter& fitter, std::size_t i) {
     substitutes[i].score = best_score(fitter, substitutes[i], enough);
   });
   for (const Substitute& substitute : substitutes) {
     if (substitute.score > found[substitute.effect].score)
-      found[substitute.effect] = {substitute.score, substitute.unnamed->words, substitute.unnamed->separating_run};
+      found[substitute.effect] = {substitute.score, substitute.unmodelled->words,
+                                  substitute.unmodelled->separating_run};
   }
   return found;
 }

@@ -23,11 +23,11 @@ struct Tangent {
   Eigen::MatrixXd J;         ///< dθ/dx
   Eigen::VectorXd residual;  ///< measured − model, rad
   Eigen::VectorXd x;
-  Eigen::VectorXd prior;  ///< prior size of each x; infinite: no prior
-  Eigen::MatrixXd read;   ///< information of caliper readings about x
-  Eigen::VectorXd pull;   ///< gradient of caliper readings
-  double against = 0;     ///< χ² of caliper readings at x
-  double give = 1;        ///< deflection by that of the declared joint: scales the error of the model itself
+  Eigen::VectorXd prior;                ///< prior size of each x; infinite: no prior
+  Eigen::MatrixXd caliper_information;  ///< information of caliper readings about x
+  Eigen::VectorXd caliper_gradient;     ///< gradient of caliper readings
+  double caliper_chi2 = 0;              ///< χ² of caliper readings at x
+  double deflection_ratio = 1;  ///< deflection by that of the declared joint: scales the error of the model itself
 };
 
 /// Appends parameters at zero without caliper readings; the caller sets their slopes.
@@ -40,26 +40,26 @@ struct TangentSums {
   double rr = 0;
   double rows = 0;
   Eigen::VectorXd x, prior;
-  Eigen::MatrixXd read;
-  Eigen::VectorXd pull;
-  double against = 0;
-  double give = 1;
+  Eigen::MatrixXd caliper_information;
+  Eigen::VectorXd caliper_gradient;
+  double caliper_chi2 = 0;
+  double deflection_ratio = 1;
 };
 
 /// Laplace approximation of the posterior at a tangent.
-struct Explained {
+struct Posterior {
   double log_evidence = 0;       ///< log evidence at the mode that the tangent predicts
   double log_evidence_here = 0;  ///< log evidence at x itself: counts nothing that the linearization only predicts
   Eigen::VectorXd step;          ///< step from x to the mode
   Eigen::MatrixXd covariance;    ///< covariance of x
-  Eigen::VectorXd unnamed;       ///< coefficients of the discrepancy's columns at the mode, rad each
+  Eigen::VectorXd coefficients;  ///< coefficients of the discrepancy's columns at the mode, rad each
   Amplitudes amplitudes;
-  double height = 0;        ///< log posterior density at x, up to a constant
-  double height_ahead = 0;  ///< predicted log posterior density at x + step
+  double log_density = 0;            ///< log posterior density at x, up to a constant
+  double predicted_log_density = 0;  ///< predicted log posterior density at x + step
 };
 
 /// Discrepancy of given amplitudes, shared by all tangents: columns of non-zero amplitude, each scaled by it.
-struct SizedDiscrepancy {
+struct ScaledDiscrepancy {
   Amplitudes amplitudes;
   double beta = 0;  ///< weight of a row's square, 1/rad²
   std::vector<Eigen::Index> columns;
@@ -75,69 +75,69 @@ struct ReducedTangent {
   double rr = 0;
   double constant = 0;  ///< log likelihood without its squares
   Eigen::VectorXd x, prior;
-  Eigen::MatrixXd read;
-  Eigen::VectorXd pull;
-  double against = 0;
+  Eigen::MatrixXd caliper_information;
+  Eigen::VectorXd caliper_gradient;
+  double caliper_chi2 = 0;
 };
 
 /// Log evidence with some of its columns, the others fixed at x.
 double log_evidence_of(const ReducedTangent& tangent, const std::vector<Eigen::Index>& columns);
 
 /// Evidence model that all sets of effects share: discrepancy, noise and their priors.
-class Marginal {
+class EvidenceModel {
  public:
   static constexpr int k_rounds = 12;
 
   /// `independent_share`: independent rows in each row; `floor`: rms noise, rad. First guess: every family of the size
   /// of the floor.
-  Marginal(Discrepancy discrepancy, double floor, double worth);
+  EvidenceModel(Discrepancy discrepancy, double floor, double independent_share);
   /// Copies the model with another independent share and first guess.
-  Marginal(const Marginal& other, double worth, Amplitudes first_guess);
+  EvidenceModel(const EvidenceModel& other, double independent_share, Amplitudes first_guess);
 
   const Discrepancy& discrepancy() const { return discrepancy_; }
   double floor() const { return floor_; }
-  double worth() const { return worth_; }
+  double independent_share() const { return independent_share_; }
   const Amplitudes& first_guess() const { return first_guess_; }
   /// Amplitudes of noise and of the families with a fixed amplitude alone.
-  Amplitudes nothing_unnamed() const;
+  Amplitudes without_discrepancy() const;
 
   TangentSums sums_of(const Tangent& tangent) const;
   /// DᵀD
   const Eigen::MatrixXd& gram() const { return gram_; }
 
   /// `deflection_ratio`: as TangentSums.
-  SizedDiscrepancy sized(const Amplitudes& amplitudes, double give) const;
+  ScaledDiscrepancy sized(const Amplitudes& amplitudes, double deflection_ratio) const;
 
-  ReducedTangent reduced(const TangentSums& sums, const SizedDiscrepancy& beside) const;
+  ReducedTangent reduced(const TangentSums& sums, const ScaledDiscrepancy& beside) const;
   /// Posterior with given amplitudes.
-  Explained at(const TangentSums& sums, const SizedDiscrepancy& beside) const;
-  Explained at(const TangentSums& sums, const Amplitudes& amplitudes) const {
-    return at(sums, sized(amplitudes, sums.give));
+  Posterior at(const TangentSums& sums, const ScaledDiscrepancy& beside) const;
+  Posterior at(const TangentSums& sums, const Amplitudes& amplitudes) const {
+    return at(sums, sized(amplitudes, sums.deflection_ratio));
   }
-  Explained at(const Tangent& tangent, const Amplitudes& amplitudes) const { return at(sums_of(tangent), amplitudes); }
-  Explained at(const Tangent& tangent, const SizedDiscrepancy& beside) const { return at(sums_of(tangent), beside); }
+  Posterior at(const Tangent& tangent, const Amplitudes& amplitudes) const { return at(sums_of(tangent), amplitudes); }
+  Posterior at(const Tangent& tangent, const ScaledDiscrepancy& beside) const { return at(sums_of(tangent), beside); }
   /// Posterior with the likeliest amplitudes, iterated from `from`; a family that begins at 0 stays 0.
-  Explained best(const TangentSums& sums, Amplitudes from, int rounds = k_rounds) const;
-  Explained best(const Tangent& tangent, Amplitudes from, int rounds = k_rounds) const {
+  Posterior best(const TangentSums& sums, Amplitudes from, int rounds = k_rounds) const;
+  Posterior best(const Tangent& tangent, Amplitudes from, int rounds = k_rounds) const {
     return best(sums_of(tangent), std::move(from), rounds);
   }
   /// Negative log prior odds of the discrepancy against none, nats.
-  double rareness_of_rest(const Explained& explained) const;
+  double discrepancy_penalty(const Posterior& posterior) const;
   /// Log posterior density at x, up to a constant.
-  double summit(const Tangent& tangent, const SizedDiscrepancy& beside) const;
+  double log_density_at(const Tangent& tangent, const ScaledDiscrepancy& beside) const;
 
  private:
   struct Solved;
   double log_prior_of(const Amplitudes& amplitudes) const;
-  Solved solved(const TangentSums& sums, const SizedDiscrepancy& beside) const;
-  Explained explained(const TangentSums& sums, const SizedDiscrepancy& beside, const Solved& solved) const;
-  Amplitudes reestimated(const TangentSums& sums, const Explained& now, const SizedDiscrepancy& beside,
-                         const Solved& solved) const;
+  Solved solved(const TangentSums& sums, const ScaledDiscrepancy& beside) const;
+  Posterior posterior_at(const TangentSums& sums, const ScaledDiscrepancy& beside, const Solved& solved) const;
+  Amplitudes reestimate(const TangentSums& sums, const Posterior& now, const ScaledDiscrepancy& beside,
+                        const Solved& solved) const;
 
   Discrepancy discrepancy_;
   Eigen::MatrixXd gram_;
   double floor_;
-  double worth_;
+  double independent_share_;
   Amplitudes first_guess_;
 };
 

@@ -9,20 +9,20 @@
 
 namespace fusee {
 
-struct Unnamed {
-  double evidence = 0;         ///< log Bayes factor of the discrepancy to noise and the model's own error alone
-  double rms = 0;              ///< rms of the discrepancy, rad
-  std::vector<Unknown> parts;  ///< components, largest first
-  Explained explained;         ///< posterior with the described factors, each with its amplitude
+struct DiscrepancyFit {
+  double evidence = 0;  ///< log Bayes factor of the discrepancy to noise and the model's own error alone
+  double rms = 0;       ///< rms of the discrepancy, rad
+  std::vector<DiscrepancyComponent> parts;  ///< components, largest first
+  Posterior posterior;                      ///< posterior with the described factors, each with its amplitude
 };
 
 /// True for factors of motor angle and direction alone.
 bool is_of_place(Factor factor);
 
 /// Describes the discrepancy beside `fit`. Components that the data hardly require are omitted.
-Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit);
+DiscrepancyFit describe_discrepancy(const Evidence& evidence, const Fit& fit);
 
 /// True if the residual exceeds noise and the model's own error.
-bool is_unexplained(const Unnamed& unnamed, double floor);
+bool is_unexplained(const DiscrepancyFit& unmodelled, double floor);
 
 }  // namespace fusee

@@ -1,4 +1,4 @@
-#include "calibration/empirical.h"
+#include "calibration/empirical_curve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,11 +67,12 @@ double value_at(const Way& way, double alpha) {
 }
 
 /// Sum of the discrepancy's families of place and direction, rows in use.
-Eigen::VectorXd of_place(const Discrepancy& discrepancy, const Eigen::VectorXd& unnamed) {
+Eigen::VectorXd of_place(const Discrepancy& discrepancy, const Eigen::VectorXd& coefficients) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
   for (const Family& family : discrepancy.families) {
     if (is_of_place(family.factor))
-      sum += discrepancy.columns.middleCols(family.first, family.count) * unnamed.segment(family.first, family.count);
+      sum +=
+          discrepancy.columns.middleCols(family.first, family.count) * coefficients.segment(family.first, family.count);
   }
   return sum;
 }
@@ -157,12 +158,12 @@ bool harms(const Evidence& evidence, const HeldOutBeside& held, const std::vecto
 /// Standard error of the gain: 2 rms(curve) rms(residual) / √(independent rows).
 double error_of(const Evidence& evidence, const Gain& gain, double curve_rms) {
   const double left = std::sqrt(std::max(0.0, gain.before - gain.mean));
-  return 2.0 * curve_rms * left / std::sqrt(std::max(1.0, gain.rows * evidence.marginal->worth()));
+  return 2.0 * curve_rms * left / std::sqrt(std::max(1.0, gain.rows * evidence.evidence_model->independent_share()));
 }
 
 std::string why_not(const Evidence& evidence, const HeldOutBeside& by_run, const HeldOutBeside& by_factor,
                     const Gain& gain, double curve_rms) {
-  if (gain.mean < std::pow(k_thresholds.least_left * evidence.floor, 2) ||
+  if (gain.mean < std::pow(k_thresholds.least_residual * evidence.floor, 2) ||
       gain.mean < k_sure * error_of(evidence, gain, curve_rms))
     return "on data that it was not made from it takes away no more than chance would";
   if (harms(evidence, by_run, evidence.run_folds)) return "it makes a run worse that it was not made from";
@@ -194,12 +195,12 @@ void add(const Run& run, const std::vector<double>& residuals, const EmpiricalCu
 }
 
 /// Limits the gain to that of the curve itself: behind a reversal the discrepancy is no curve.
-void promise(EmpiricalCurve& curve, double gain) {
+void limit_gain(EmpiricalCurve& curve, double gain) {
   curve.gain = std::sqrt(gain);
   curve.held_out_rms = std::sqrt(std::max(0.0, curve.held_out_effects * curve.held_out_effects - gain));
 }
 
-void give_up(EmpiricalCurve& curve, const std::string& why) {
+void reject(EmpiricalCurve& curve, const std::string& why) {
   curve.used = false;
   curve.why = why;
 }
@@ -222,31 +223,31 @@ double EmpiricalCurve::at(double place, bool rising) const {
   return values[i] + share * (values[i + 1] - values[i]);
 }
 
-Amplitudes amplitudes_beside(const Evidence& evidence, const Fit& fit, const Unnamed& unnamed) {
-  Amplitudes amplitudes = unnamed.explained.amplitudes;
-  const std::vector<Family>& families = evidence.marginal->discrepancy().families;
-  const double give = tangent_of(evidence, fit).give;
+Amplitudes amplitudes_beside(const Evidence& evidence, const Fit& fit, const DiscrepancyFit& unmodelled) {
+  Amplitudes amplitudes = unmodelled.posterior.amplitudes;
+  const std::vector<Family>& families = evidence.evidence_model->discrepancy().families;
+  const double deflection_ratio = tangent_of(evidence, fit).deflection_ratio;
   for (std::size_t f = 0; f < families.size(); ++f) {
-    if (families[f].fixed > 0) amplitudes.families[static_cast<Eigen::Index>(f)] *= give;
+    if (families[f].fixed > 0) amplitudes.families[static_cast<Eigen::Index>(f)] *= deflection_ratio;
   }
   return amplitudes;
 }
 
-EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const Unnamed& unnamed) {
-  const Discrepancy& discrepancy = evidence.marginal->discrepancy();
+EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const DiscrepancyFit& unmodelled) {
+  const Discrepancy& discrepancy = evidence.evidence_model->discrepancy();
   EmpiricalCurve curve;
-  if (!depends_on_place(discrepancy, unnamed.explained.amplitudes)) {
+  if (!depends_on_place(discrepancy, unmodelled.posterior.amplitudes)) {
     curve.why = "no part of it depends on place and direction alone";
     return curve;
   }
-  const Eigen::VectorXd at_rows = of_place(discrepancy, unnamed.explained.unnamed);
+  const Eigen::VectorXd at_rows = of_place(discrepancy, unmodelled.posterior.coefficients);
   const BothWays ways = ways_of(evidence, at_rows);
   const SeenSpan seen = seen_both_ways(ways), all = seen_span(evidence.measurement, &Sample::alpha);
   if (!seen.any() || std::max(widest_gap(ways.up), widest_gap(ways.down)) > k_widest_gap * all.size()) {
     curve.why = "there are places between which nothing was measured both ways";
     return curve;
   }
-  const Amplitudes amplitudes = amplitudes_beside(evidence, fit, unnamed);
+  const Amplitudes amplitudes = amplitudes_beside(evidence, fit, unmodelled);
   const HeldOutBeside by_run = hold_out_beside(evidence, fit, amplitudes, evidence.run_folds);
   const HeldOutBeside by_factor = hold_out_beside(evidence, fit, amplitudes, evidence.factor_folds);
   const Gain gain = gain_in(evidence, by_run, all_blocks(evidence));
@@ -260,24 +261,24 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const U
   return curve;
 }
 
-void hold_against(const Measurement& measurement, const std::vector<std::vector<double>>& residuals,
-                  const std::vector<std::string>& kept, EmpiricalCurve& curve) {
+void validate_curve(const Measurement& measurement, const std::vector<std::vector<double>>& residuals,
+                    const std::vector<std::string>& kept, EmpiricalCurve& curve) {
   if (!curve.used) return;
-  Squares learnt, validated;
+  Squares fitted, validate_answer;
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
     const Run& run = measurement.runs[r];
     const bool is_kept = std::find(kept.begin(), kept.end(), run.name) != kept.end();
-    add(run, residuals[r], curve, is_kept ? validated : learnt);
+    add(run, residuals[r], curve, is_kept ? validate_answer : fitted);
   }
   // A wave shorter than the spacing of the rows in use appears as a slow one in them.
-  if (learnt.gain() < k_kept_between * curve.gain * curve.gain)
-    return give_up(curve, "it does not hold in the rows between those that it was made from: what is there is finer");
-  promise(curve, std::min(curve.gain * curve.gain, learnt.gain()));
-  if (validated.rows == 0) return;
-  curve.held_out_effects = std::sqrt(validated.without / validated.rows);
-  curve.held_out_rms = std::sqrt(validated.with / validated.rows);
-  curve.gain = std::sqrt(std::max(0.0, validated.gain()));
-  if (!(curve.gain > 0)) give_up(curve, "it makes the runs worse that were kept for validation");
+  if (fitted.gain() < k_kept_between * curve.gain * curve.gain)
+    return reject(curve, "it does not hold in the rows between those that it was made from: what is there is finer");
+  limit_gain(curve, std::min(curve.gain * curve.gain, fitted.gain()));
+  if (validate_answer.rows == 0) return;
+  curve.held_out_effects = std::sqrt(validate_answer.without / validate_answer.rows);
+  curve.held_out_rms = std::sqrt(validate_answer.with / validate_answer.rows);
+  curve.gain = std::sqrt(std::max(0.0, validate_answer.gain()));
+  if (!(curve.gain > 0)) reject(curve, "it makes the runs worse that were kept for validation");
 }
 
 }  // namespace fusee

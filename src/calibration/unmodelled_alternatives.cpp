@@ -1,4 +1,4 @@
-#include "calibration/unmodelled.h"
+#include "calibration/unmodelled_alternatives.h"
 
 #include <algorithm>
 #include <array>
@@ -7,12 +7,12 @@
 #include <limits>
 #include <set>
 
-#include "calibration/marginal.h"
-#include "calibration/other_loads.h"
+#include "calibration/evidence_model.h"
+#include "calibration/load_scale.h"
 #include "calibration/row_facts.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
-#include "calibration/unnamed_effects.h"
+#include "calibration/unmodelled_effects.h"
 #include "fusee/base/text.h"
 #include "fusee/calibration/words.h"
 
@@ -20,7 +20,7 @@
 // effect with a bend at about that place would be likelier. Shapes of few parameters complete it here, each with the
 // prior of an effect with a searched number. The data are explained with and without the effect, and both models may
 // add shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each
-// effect is tested against them by refits (other_loads.h).
+// effect is tested against them by refits (load_scale.h).
 
 namespace fusee {
 namespace {
@@ -258,36 +258,36 @@ class Shapes {
 };
 
 /// Score of a base with the shapes that were added.
-struct Reading {
+struct ShapeSelection {
   double score = 0;
-  std::vector<std::size_t> taken;  ///< indices of shapes
+  std::vector<std::size_t> shapes;  ///< indices of shapes
 };
 
-class Reader {
+class ShapeSearch {
  public:
-  Reader(const Evidence& evidence, const Selection& selection)
-      : marginal_(*evidence.marginal),
+  ShapeSearch(const Evidence& evidence, const Selection& selection)
+      : evidence_model_(*evidence.evidence_model),
         evidence_(evidence),
         shapes_(evidence),
         CC_(shapes_.columns().transpose() * shapes_.columns()),
-        CD_(shapes_.columns().transpose() * marginal_.discrepancy().columns),
+        CD_(shapes_.columns().transpose() * evidence_model_.discrepancy().columns),
         size_(std::max(evidence.floor, rms_of(tangent_of(evidence, selection.none).residual))) {}
 
   /// `base` with shapes, added as long as they improve the score. `open`: amplitudes of the discrepancy from which a
   /// second search begins.
-  Reading read(const Fit& base, const Amplitudes& open) const {
-    const Beside beside(*this, base);
-    const double loose = base.explained.log_evidence - base.log_evidence;
-    const double others = rareness_of(base.effects);
-    Reading best;
+  ShapeSelection explain(const Fit& base, const Amplitudes& open) const {
+    const BaseSums sums_of_base(*this, base);
+    const double loose = base.posterior.log_evidence - base.log_evidence;
+    const double others = neg_log_prior_odds(base.effects);
+    ShapeSelection best;
     double most = -std::numeric_limits<double>::infinity();
-    for (const Amplitudes& start : {base.explained.amplitudes, open}) {
-      Reading reading;
+    for (const Amplitudes& start : {base.posterior.amplitudes, open}) {
+      ShapeSelection selection_;
       Amplitudes from = start;
-      double reached = marginal_.best(beside.own, start, k_reading_rounds).log_evidence;
-      while (reading.taken.size() < k_most_taken && take_one(beside, reading.taken, from, reached)) {
+      double reached = evidence_model_.best(sums_of_base.own, start, k_reading_rounds).log_evidence;
+      while (selection_.shapes.size() < k_most_taken && add_one(sums_of_base, selection_.shapes, from, reached)) {
       }
-      if (reached > most) most = reached, best = std::move(reading);
+      if (reached > most) most = reached, best = std::move(selection_);
     }
     best.score = most - loose - others;
     return best;
@@ -297,86 +297,88 @@ class Reader {
 
  private:
   /// Sums of a base with the shapes.
-  struct Beside {
-    Beside(const Reader& reader, const Fit& base) {
-      const Tangent tangent = tangent_of(reader.evidence_, base);
-      own = reader.marginal_.sums_of(tangent);
-      CJ = reader.shapes_.columns().transpose() * tangent.J;
-      Cr = reader.shapes_.columns().transpose() * tangent.residual;
+  struct BaseSums {
+    BaseSums(const ShapeSearch& search, const Fit& base) {
+      const Tangent tangent = tangent_of(search.evidence_, base);
+      own = search.evidence_model_.sums_of(tangent);
+      CJ = search.shapes_.columns().transpose() * tangent.J;
+      Cr = search.shapes_.columns().transpose() * tangent.residual;
     }
     TangentSums own;
     Eigen::MatrixXd CJ;
     Eigen::VectorXd Cr;
   };
 
-  double price(const std::vector<std::size_t>& taken) const {
+  double penalty(const std::vector<std::size_t>& shapes) const {
     double sum = 0;
-    for (const std::size_t i : taken) sum += k_thresholds.rareness + k_thresholds.price_of_a_search * shape(i).searched;
+    for (const std::size_t i : shapes)
+      sum += k_thresholds.neg_log_prior_odds + k_thresholds.search_penalty * shape(i).searched;
     return sum;
   }
 
   /// Adds the shape that improves the score most. True if there is one.
-  bool take_one(const Beside& beside, std::vector<std::size_t>& taken, Amplitudes& from, double& reached) const {
-    const SizedDiscrepancy sized = marginal_.sized(from, beside.own.give);
-    std::vector<std::pair<double, std::size_t>> looks;
-    std::vector<std::size_t> wider = taken;
+  bool add_one(const BaseSums& sums_of_base, std::vector<std::size_t>& shapes, Amplitudes& from,
+               double& reached) const {
+    const ScaledDiscrepancy sized = evidence_model_.sized(from, sums_of_base.own.deflection_ratio);
+    std::vector<std::pair<double, std::size_t>> candidates;
+    std::vector<std::size_t> wider = shapes;
     wider.push_back(0);
     for (std::size_t i = 0; i < shapes_.all().size(); ++i) {
-      if (std::count(taken.begin(), taken.end(), i)) continue;
+      if (std::count(shapes.begin(), shapes.end(), i)) continue;
       wider.back() = i;
-      looks.emplace_back(price(wider) - marginal_.at(sums(beside, wider), sized).log_evidence, i);
+      candidates.emplace_back(penalty(wider) - evidence_model_.at(sums(sums_of_base, wider), sized).log_evidence, i);
     }
-    std::sort(looks.begin(), looks.end());
-    looks.resize(std::min(looks.size(), k_shape_tries));
+    std::sort(candidates.begin(), candidates.end());
+    candidates.resize(std::min(candidates.size(), k_shape_tries));
     Amplitudes there;
     std::size_t best = shapes_.all().size();
-    for (const auto& [look, i] : looks) {
+    for (const auto& [predicted, i] : candidates) {
       wider.back() = i;
-      const Explained explained = marginal_.best(sums(beside, wider), from, k_reading_rounds);
-      const double score = explained.log_evidence - price(wider);
+      const Posterior posterior = evidence_model_.best(sums(sums_of_base, wider), from, k_reading_rounds);
+      const double score = posterior.log_evidence - penalty(wider);
       if (!(score > reached)) continue;
       reached = score;
-      there = explained.amplitudes;
+      there = posterior.amplitudes;
       best = i;
     }
     if (best == shapes_.all().size()) return false;
-    taken.push_back(best);
+    shapes.push_back(best);
     from = there;
     return true;
   }
 
   /// Sums of the base with these shapes at zero.
-  TangentSums sums(const Beside& beside, const std::vector<std::size_t>& chosen) const {
+  TangentSums sums(const BaseSums& sums_of_base, const std::vector<std::size_t>& chosen) const {
     std::vector<Eigen::Index> columns;
     for (const std::size_t i : chosen) {
       for (Eigen::Index k = 0; k < shape(i).count; ++k) columns.push_back(shape(i).first + k);
     }
     const auto more = static_cast<Eigen::Index>(columns.size());
-    const Eigen::Index own = beside.own.x.size(), all = own + more;
-    TangentSums sums = beside.own;
+    const Eigen::Index own = sums_of_base.own.x.size(), all = own + more;
+    TangentSums sums = sums_of_base.own;
     sums.JJ.conservativeResize(all, all);
     sums.JJ.bottomRightCorner(more, more) = CC_(columns, columns);
     if (own > 0) {
-      sums.JJ.bottomLeftCorner(more, own) = beside.CJ(columns, Eigen::all);
+      sums.JJ.bottomLeftCorner(more, own) = sums_of_base.CJ(columns, Eigen::all);
       sums.JJ.topRightCorner(own, more) = sums.JJ.bottomLeftCorner(more, own).transpose();
     }
     sums.JD.conservativeResize(all, CD_.cols());
     sums.JD.bottomRows(more) = CD_(columns, Eigen::all);
     sums.Jr.conservativeResize(all);
-    sums.Jr.tail(more) = beside.Cr(columns);
+    sums.Jr.tail(more) = sums_of_base.Cr(columns);
     sums.x.conservativeResize(all);
     sums.x.tail(more).setZero();
     sums.prior.conservativeResize(all);
     sums.prior.tail(more).setConstant(size_);
-    Eigen::MatrixXd read = Eigen::MatrixXd::Zero(all, all);
-    if (own > 0) read.topLeftCorner(own, own) = beside.own.read;
-    sums.read = std::move(read);
-    sums.pull.conservativeResize(all);
-    sums.pull.tail(more).setZero();
+    Eigen::MatrixXd caliper_information = Eigen::MatrixXd::Zero(all, all);
+    if (own > 0) caliper_information.topLeftCorner(own, own) = sums_of_base.own.caliper_information;
+    sums.caliper_information = std::move(caliper_information);
+    sums.caliper_gradient.conservativeResize(all);
+    sums.caliper_gradient.tail(more).setZero();
     return sums;
   }
 
-  const Marginal& marginal_;
+  const EvidenceModel& evidence_model_;
   const Evidence& evidence_;
   Shapes shapes_;
   Eigen::MatrixXd CC_, CD_;
@@ -385,12 +387,12 @@ class Reader {
 
 /// `fit` without one of its effects, the others unchanged. A refit of the others would move them from the values beside
 /// the discrepancy.
-Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
+Fit leave_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
   Fit others = fit;
   others.effects = without(fit.effects, effect);
   others.at = without(fit.at, effect);
   const std::vector<Eigen::Index> own = places_of(fit, effect);
-  others.residual = fitter.residual(others.at, fit.rest);
+  others.residual = fitter.residual(others.at, fit.loose_row);
   others.usable = others.residual.allFinite();
   std::vector<Eigen::Index> kept;
   others.parameters.clear();
@@ -406,88 +408,89 @@ Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
 
 /// True for effects that follow temperature or begin at some time: a drift beside them may follow any course (held-out
 /// seeds 131078 and 131119: thermal_expansion by 101 and 71 nats beside a slipping press fit and a worn pin).
-bool is_told_by_time(const Effect& effect) { return effect.needs.temperature || effect.starts_in_time; }
+bool depends_on_time(const Effect& effect) { return effect.needs.temperature || effect.starts_in_time; }
 
 /// True if the group contains an effect that leaves the joint free within a play, which can absorb any residual.
-bool may_be_loose(const std::vector<std::string>& group, const EffectSet& catalogue) {
+bool has_loose_member(const std::vector<std::string>& group, const EffectSet& catalogue) {
   return std::any_of(catalogue.begin(), catalogue.end(), [&](const Effect* effect) {
     return effect->loosens && std::count(group.begin(), group.end(), effect->name) > 0;
   });
 }
 
 /// Log odds that an effect requires against the best unmodelled alternative, if no other cause is unexplained.
-double least_ahead(const Effect& effect, const std::vector<std::string>& group, const EffectSet& catalogue) {
-  const bool has_no_shape = is_told_by_time(effect) || may_be_loose(group, catalogue);
+double required_log_odds(const Effect& effect, const std::vector<std::string>& group, const EffectSet& catalogue) {
+  const bool has_no_shape = depends_on_time(effect) || has_loose_member(group, catalogue);
   return has_no_shape ? k_thresholds.ahead_without_shape : k_thresholds.ahead_of_unmodelled;
 }
 
 /// Tests effects that exceed all other alternatives against unmodelled effects. `with`: score with all effects.
-void look_at_unnamed_effects(const Evidence& evidence, Workers& workers, const Selection& selection, double with,
-                             std::vector<Unmodelled>& rivals) {
+void test_unmodelled_effects(const Evidence& evidence, FitterPool& pool, const Selection& selection, double with,
+                             std::vector<UnmodelledAlternative>& rivals) {
   std::vector<bool> asked;
-  for (const Unmodelled& rival : rivals) asked.push_back(rival.behind >= k_thresholds.ahead_of_unmodelled);
-  std::vector<UnnamedInPlace> unnamed =
-      unnamed_in_place(evidence, workers, selection, asked, with - k_thresholds.ahead_of_unmodelled);
+  for (const UnmodelledAlternative& rival : rivals) asked.push_back(rival.log_odds >= k_thresholds.ahead_of_unmodelled);
+  std::vector<UnmodelledSubstitute> substitutes =
+      fit_unmodelled_effects(evidence, pool, selection, asked, with - k_thresholds.ahead_of_unmodelled);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
-    if (!(with - unnamed[i].score < rivals[i].behind)) continue;
-    rivals[i].behind = with - unnamed[i].score;
-    rivals[i].words = std::move(unnamed[i].words);
-    rivals[i].separating_run = std::move(unnamed[i].separating_run);
+    if (!(with - substitutes[i].score < rivals[i].log_odds)) continue;
+    rivals[i].log_odds = with - substitutes[i].score;
+    rivals[i].words = std::move(substitutes[i].words);
+    rivals[i].separating_run = std::move(substitutes[i].separating_run);
   }
 }
 
 }  // namespace
 
-std::vector<Unmodelled> unmodelled_rivals(const Evidence& evidence, Workers& workers, const Selection& selection) {
+std::vector<UnmodelledAlternative> find_unmodelled_alternatives(const Evidence& evidence, FitterPool& pool,
+                                                                const Selection& selection) {
   const Fit& best = selection.best;
-  std::vector<Unmodelled> rivals(best.effects.size());
+  std::vector<UnmodelledAlternative> rivals(best.effects.size());
   if (rivals.empty()) return rivals;
-  const Reader reader(evidence, selection);
-  std::vector<Reading> readings(rivals.size() + 1);
-  workers.each(readings.size(), [&](const Fitter& fitter, std::size_t i) {
+  const ShapeSearch search(evidence, selection);
+  std::vector<ShapeSelection> selections(rivals.size() + 1);
+  pool.each(selections.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit& base = i == 0 ? best : selection.without[i - 1];
     if (!base.usable) return;
-    readings[i] = reader.read(base, best.explained.amplitudes);
+    selections[i] = search.explain(base, best.posterior.amplitudes);
     if (i == 0) return;
-    const Fit others = leaving_out(fitter, best, *best.effects[i - 1]);
+    const Fit others = leave_out(fitter, best, *best.effects[i - 1]);
     if (!others.usable) return;
-    Reading stayed = reader.read(others, best.explained.amplitudes);
-    if (stayed.score > readings[i].score) readings[i] = std::move(stayed);
+    ShapeSelection stayed = search.explain(others, best.posterior.amplitudes);
+    if (stayed.score > selections[i].score) selections[i] = std::move(stayed);
   });
-  const std::vector<UnderOtherLoads> loads = under_other_loads(evidence, workers, selection);
+  const std::vector<LoadScaleFit> loads = fit_load_scales(evidence, pool, selection);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     if (!selection.without[i].usable) {
-      rivals[i].behind = 0;  // The effect cannot be distinguished from an unmodelled cause.
+      rivals[i].log_odds = 0;  // The effect cannot be distinguished from an unmodelled cause.
       continue;
     }
-    const Reading& instead = readings[i + 1];
-    rivals[i].behind = readings.front().score - std::max(instead.score, loads[i].score);
+    const ShapeSelection& instead = selections[i + 1];
+    rivals[i].log_odds = selections.front().score - std::max(instead.score, loads[i].score);
     if (loads[i].score > instead.score) {
       rivals[i].words = "loads of " + rounded(loads[i].times, 2) + " times what was logged";
       rivals[i].separating_run = "hang a known weight where the load acts and compare it with what is logged";
       continue;
     }
-    for (const std::size_t taken : instead.taken) {
-      if (std::count(readings.front().taken.begin(), readings.front().taken.end(), taken)) continue;
-      rivals[i].words = reader.shape(taken).words;
-      rivals[i].separating_run = separating_run(reader.shape(taken).dependence);
+    for (const std::size_t shapes : instead.shapes) {
+      if (std::count(selections.front().shapes.begin(), selections.front().shapes.end(), shapes)) continue;
+      rivals[i].words = search.shape(shapes).words;
+      rivals[i].separating_run = separating_run(search.shape(shapes).dependence);
       break;
     }
   }
-  look_at_unnamed_effects(evidence, workers, selection, readings.front().score, rivals);
+  test_unmodelled_effects(evidence, pool, selection, selections.front().score, rivals);
   return rivals;
 }
 
-void take_unmodelled(bool beside_unmodelled, const Selection& selection, std::vector<FoundEffect>& effects) {
+void add_unmodelled(bool beside_unmodelled, const Selection& selection, std::vector<FoundEffect>& effects) {
   const bool is_sure =
       !beside_unmodelled && std::none_of(effects.begin(), effects.end(),
-                                         [](const FoundEffect& effect) { return effect.unmodelled.behind < 0; });
+                                         [](const FoundEffect& effect) { return effect.unmodelled.log_odds < 0; });
   for (std::size_t i = 0; i < effects.size(); ++i) {
     std::vector<std::string>& group = effects[i].group;
-    const double least = is_sure ? least_ahead(*selection.best.effects[i], group, selection.catalogue)
+    const double least = is_sure ? required_log_odds(*selection.best.effects[i], group, selection.catalogue)
                                  : std::numeric_limits<double>::infinity();
-    if (selection.groups[i].doubt > k_thresholds.most_mistaken || effects[i].idle_did_as_well ||
-        effects[i].unmodelled.behind < least)
+    if (selection.groups[i].doubt > k_thresholds.most_false_positives || effects[i].idle_did_as_well ||
+        effects[i].unmodelled.log_odds < least)
       group.emplace_back(k_unmodelled);
   }
 }
