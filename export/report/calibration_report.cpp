@@ -331,9 +331,8 @@ std::string rest_section(const CalibrationProduct& product) {
   const std::string colour = " Neighbouring rows of it are correlated by " +
                              readable(calibration.residual_autocorrelation, 2) +
                              "; noise would be near 0. Dashed: the noise floor of a single row.";
-  const std::string unknown = described_html("Unmodelled, by what it depends on", calibration.discrepancy) +
-                              described_html("As likely as what was named: an unmodelled cause", calibration.instead) +
-                              covered_html(product);
+  const std::string unknown =
+      described_html("Unmodelled, by what it depends on", calibration.discrepancy) + covered_html(product);
   return html_section("rest", "Residual", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot + unknown);
 }
 

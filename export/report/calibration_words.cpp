@@ -65,7 +65,7 @@ std::string unmodelled_words(const FoundEffect& effect) {
   const UnmodelledAlternative& rival = effect.unmodelled;
   const std::string in_its_place = (rival.words.empty() ? "a smooth curve" : rival.words) +
                                    " in its place; odds for the named cause " + odds(rival.log_odds);
-  return "Or an unmodelled cause that does the same: " + (rival.doubt.empty() ? in_its_place : rival.doubt) +
+  return "Or an unmodelled cause that does the same: " + in_its_place +
          (rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".");
 }
 
