@@ -1,4 +1,4 @@
-// The evidence of a set against densities that are written out, and the shapes without a name.
+// Evidence of sets against densities that are written out, and unmodelled shapes.
 #include "calibration/evidence_model.h"
 
 #include <gmock/gmock.h>
@@ -83,7 +83,7 @@ TEST(EvidenceModel, IntegratesANumberOverItsPrior) {
   EXPECT_NEAR(found, std::log(sum) + reference - log_density(r, D, amplitudes, 0.1), 0.02);
 }
 
-TEST(EvidenceModel, AChoiceOfColumnsIsTheTangentThatHasNoOthers) {
+TEST(EvidenceModel, SubsetOfColumnsEqualsSmallerTangent) {
   std::mt19937 random(4);
   const EvidenceModel evidence_model(two_families(60, random), 0.1, 1.0);
   const Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.1), 0.1};
@@ -123,7 +123,7 @@ TEST(EvidenceModel, FindsAmplitudesAndLeavesOutWhatIsNot) {
 }
 
 // As rare as a name from a noise floor on; what the model itself is not trusted to is nothing that happened.
-TEST(EvidenceModel, WhatHasNoNameIsTheRarerTheMoreItMoves) {
+TEST(EvidenceModel, LargerDiscrepancyIsRarer) {
   std::mt19937 random(5);
   Discrepancy D = two_families(50, random);
   D.families[1].fixed = 0.3;
@@ -161,7 +161,7 @@ TEST(EvidenceModel, IntervalsCoverAsOftenAsTheySay) {
   EXPECT_NEAR(covered / static_cast<double>(trials), 0.95, 0.02);
 }
 
-TEST(EvidenceModel, APriorIsADensityWithTailsThatPay) {
+TEST(EvidenceModel, PriorIsDensityWithHeavyTails) {
   double sum = 0;
   for (double x = -2000; x < 2000; x += 0.01) sum += 0.01 * std::exp(log_prior(x, 1.0));
   EXPECT_NEAR(sum, 1, 1e-3);
@@ -169,7 +169,7 @@ TEST(EvidenceModel, APriorIsADensityWithTailsThatPay) {
   EXPECT_GT(log_prior(12, 1.0), log_prior(0, 1.0) - 72);  // a normal one's
 }
 
-TEST(DiscrepancyFit, AWaveOfTheMotorsShaftIsSaidWithItsOrder) {
+TEST(DiscrepancyFit, WaveOfMotorShaftHasItsOrder) {
   Measurement measurement;
   measurement.load_unit = "N";
   measurement.runs = {run_of("one", 0, 12), run_of("two", 5, 12)};

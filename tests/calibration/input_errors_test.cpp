@@ -51,7 +51,7 @@ const Bench& linear() {
   return bench;
 }
 
-/// … and one that another rig measured.
+/// Data of another rig.
 Bench rig_data(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/rig" / name;
   std::vector<std::filesystem::path> runs;
@@ -80,8 +80,7 @@ double left_by(const DeclaredMechanism& file, const Measurement& data) {
   return calibrated(file, data, false).before.rms;
 }
 
-/// What calibrate finds of a file, and then of its slips: where one is plain no effect is looked for, as the program
-/// does not.
+/// Input errors after calibrate(), which searches no effects if an error is obvious, as the program does.
 std::vector<LikelyInputError> slips_of(const DeclaredMechanism& file, const Measurement& data) {
   return find_input_errors(file, data, calibrated(file, data, !is_input_error_obvious(file, data)));
 }
@@ -90,7 +89,7 @@ std::vector<std::string> said(const DeclaredMechanism& file, const Measurement& 
   return words(slips_of(file, data));
 }
 
-/// The same without the minute of search: found is that nothing explains.
+/// Input errors of a calibration that explains nothing, without its minute of search.
 std::vector<std::string> said_where_unexplained(const DeclaredMechanism& file, const Measurement& data) {
   Calibration found;
   found.verdict = CalibrationVerdict::unexplained;
@@ -197,7 +196,7 @@ TEST(UndoneSlips, are_said_where_no_effect_explains) {
 }
 
 TEST(UndoneSlips, are_seen_before_any_search_where_they_are_plain) {
-  // Alone, with a fault beside it, with one that has no name.
+  // The error alone, with a fault beside it, with an unmodelled cause.
   for (const char* name : {"a_declared_right", "b_stretch", "f_not_in_any_catalogue"}) {
     Bench bench = rig_data(name);
     EXPECT_FALSE(is_input_error_obvious(bench.right, bench.data)) << name;

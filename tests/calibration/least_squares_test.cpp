@@ -67,7 +67,7 @@ TEST(LeastSquares, BlocksAddUp) {
   EXPECT_LT(sum.Jr.norm(), 1e-9);
 }
 
-TEST(LeastSquares, ACaliperIsARowOfTheFloorsNoise) {
+TEST(LeastSquares, CaliperCountsAsRowOfNoise) {
   Evidence evidence = evidence_of(measured({0, 5}, [](const Sample&) { return 0.0; }));
   const Effect& stretch = named("tendon_stretch");
   evidence.readings = {{&stretch.parameters.front(), 0.02, 0.004}};
@@ -97,7 +97,7 @@ double error_without(const Problem& problem, const Fold& fold, std::size_t of) {
   return (problem.r(own) - problem.J(own, Eigen::all) * step).squaredNorm() / static_cast<double>(own.size());
 }
 
-TEST(HeldOut, IsTheErrorOfAFitToTheOthers) {
+TEST(HeldOut, EqualsErrorOfFitToOthers) {
   Problem problem = some_problem();
   problem.evidence.factor_folds = {{0, 1, 2, 3}, {4, 5, 6, 7}};
   const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
@@ -111,7 +111,7 @@ TEST(HeldOut, IsTheErrorOfAFitToTheOthers) {
   EXPECT_NEAR(fit.by_factor.mean_square, sum, 1e-12);
 }
 
-TEST(HeldOut, ALevelThatAloneKnowsANumberIsHeldOutByStrokes) {
+TEST(HeldOut, DecisiveLevelIsHeldOutByStrokes) {
   Problem problem = some_problem();
   problem.J.col(1).head(4 * k_rows).setZero();  // the first run says nothing of the second number
   problem.evidence.factor_folds = {{4, 5, 6, 7}};
@@ -181,7 +181,7 @@ std::pair<double, double> errors_beside(const Problem& problem, const Amplitudes
   return {left.squaredNorm() / rows, less.squaredNorm() / rows};
 }
 
-TEST(HeldOut, BesideWhatHasNoNameIsTheErrorOfAFitToTheOthersToo) {
+TEST(HeldOut, EqualsErrorBesideDiscrepancyToo) {
   Problem problem = some_problem();
   Eigen::Index used = 0;
   for (const Block& block : problem.evidence.blocks) {
@@ -239,7 +239,7 @@ TEST_F(LinearFit, IsLeastSquares) {
   const Fit fit = fitter.fit({&stretch}, {});
   const Eigen::VectorXd expected = regression(evidence);
   ASSERT_TRUE(fit.usable);
-  // What is known from practice and a discrepancy beside it move it by less than 10 % of a standard error.
+  // Prior sizes and a discrepancy move it by less than 10 % of a standard error.
   const double standard_error = k_floor / std::sqrt(8 * k_rows);
   EXPECT_NEAR(value_of(fit.at, *fit.parameters[0]), expected[0], 0.1 * standard_error);
   EXPECT_NEAR(compliance(fit), expected[1], 0.1 * standard_error / 5);
@@ -248,7 +248,7 @@ TEST_F(LinearFit, IsLeastSquares) {
   EXPECT_EQ(fit.play_square, 0);
 }
 
-TEST_F(LinearFit, ACandidateByChordsEndsWhereTheFitDoes) {
+TEST_F(LinearFit, CandidateByChordsEndsAtFit) {
   const Fit base = fitter.fit({}, {});
   const Fit candidate = fitter.add_effect(base, stretch);
   ASSERT_TRUE(candidate.usable);
@@ -278,9 +278,10 @@ TEST_F(LinearFit, IntervalsHoldTheTruth) {
   EXPECT_GT(found[1].high * step, k_compliance);
 }
 
-// ---- what is handed over where something has no name ----------------------------------------------------------------
+// ---- reported parameters beside an unmodelled cause
+// ------------------------------------------------------------------
 
-/// It bends with the load, which has no name.
+/// A joint that bends with the load, an unmodelled cause.
 Evidence bending_with_the_load() {
   return evidence_of(measured({0, 2, 5, -3}, [noise = white_noise(k_floor, 5)](const Sample& sample) mutable {
     return k_offset - k_compliance * sample.load + 5e-3 * sample.load * std::pow(sample.alpha, 2) + noise(sample);
@@ -306,7 +307,7 @@ TEST_F(LeastSquaresFits, AreThoseOfARegression) {
   EXPECT_LT(left(squares), left(summit));
 }
 
-TEST_F(LeastSquaresFits, NumbersStayWithinTheirBoundsAndTheOthersGoWithThem) {
+TEST_F(LeastSquaresFits, NumbersStayWithinBounds) {
   const Effect& gain = named("joint_sensor_gain");
   const EffectParameter& number = gain.parameters.front();
   const Evidence scaled =
@@ -319,8 +320,8 @@ TEST_F(LeastSquaresFits, NumbersStayWithinTheirBoundsAndTheOthersGoWithThem) {
   EXPECT_NEAR(squares.residual.mean(), 0, 1e-9);  // the best offset beside it
 }
 
-/// Of a cable joint (as the jaw of docs/background/real-joint.md): its loop shrinks with the load by no law that the
-/// catalogue has.
+/// Log of a cable joint (as the jaw of docs/background/real-joint.md): its hysteresis shrinks with the load by no law
+/// of the catalogue.
 Measurement loop_that_shrinks(double gain = 0) {
   const std::vector<double> loads = {0, 0.01, 0.02, 0.03}, loops = {3.5, 2, 0.5, 0.5};
   Measurement all = measured(loads, white_noise(radians(0.02), 5));
@@ -386,7 +387,7 @@ TEST_F(HandedOver, IntervalsHoldWhatIsHandedOver) {
   }
 }
 
-/// … and the joint's sensor shows more: a group says so, perhaps.
+/// The joint's sensor shows more, as a group says.
 class HandedOverBeside : public HandedOver {
  protected:
   explicit HandedOverBeside(double gain = 0.05) : HandedOver(gain) {
@@ -398,7 +399,7 @@ class HandedOverBeside : public HandedOver {
   }
 };
 
-TEST_F(HandedOverBeside, AMemberOfAGroupGoesWithTheSetWhereBothForetellMore) {
+TEST_F(HandedOverBeside, BetterPredictingMemberIsAdded) {
   const ReportedParameters made = handed_over();
   ASSERT_TRUE(holds_gain(made));
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.25), 2));
@@ -411,7 +412,7 @@ TEST_F(HandedOverBeside, AMemberOfAGroupGoesWithTheSetWhereBothForetellMore) {
   EXPECT_NEAR(found[0].beside[0].parameters[0].value, 5.0, 0.5);
 }
 
-TEST_F(HandedOverBeside, WhatNoGroupHoldsStaysOut) {
+TEST_F(HandedOverBeside, EffectOutsideGroupsStaysOut) {
   selection.groups[0].members.pop_back();
   EXPECT_FALSE(holds_gain(handed_over()));
 }
@@ -423,7 +424,7 @@ class NothingBeside : public HandedOverBeside {
 
 TEST_F(NothingBeside, AMemberThatForetellsNothingStaysOut) { EXPECT_FALSE(holds_gain(handed_over())); }
 
-TEST_F(LinearFit, TheSummitIsHandedOverWhereNothingStaysWithoutAName) {
+TEST_F(LinearFit, ModeIsReportedWithoutDiscrepancy) {
   FitterPool pool(evidence);
   Selection selection;
   selection.none = fitter.fit({}, {});

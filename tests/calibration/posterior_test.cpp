@@ -57,7 +57,7 @@ TEST_F(Groups, HoldWhatStandsInThePlace) {
   EXPECT_NEAR(found.doubt, 0.01, 1e-12);
 }
 
-TEST_F(Groups, HoldOneOfTwoThatTakeThePlaceTogether) {
+TEST_F(Groups, HoldOneOfTwoReplacements) {
   const CredibleGroup found = group({set("a", 70), set("bc", 30)}, "a", 'a');
   EXPECT_EQ(found.members.size(), 2u);
   EXPECT_NEAR(found.doubt, 0, 1e-12);
@@ -69,7 +69,7 @@ TEST_F(Groups, StayInDoubtWhereNothingTakesThePlace) {
   EXPECT_NEAR(found.doubt, 0.1, 1e-12);
 }
 
-TEST_F(Groups, InDoubtHoldWhatTakesMuchOfItAway) {
+TEST_F(Groups, HoldMembersThatRemoveDoubt) {
   const std::vector<Weighed> sets = {set("a", 60), set("b", 30), set("c", 1), set("d", 1), set("", 8)};
   EXPECT_EQ(names(group(sets, "a", 'a').members), "abcd");
   const CredibleGroup found = credible_group(sets, of("a"), *of("a").front(), 0.02, 0.2);
@@ -82,7 +82,7 @@ TEST_F(Groups, DoNotHoldOtherMembersOfTheSet) {
   EXPECT_EQ(names(found.members), "ac");
 }
 
-TEST_F(Groups, DoNotDependOnTheUnitOfTheWeights) {
+TEST_F(Groups, IgnoreUnitOfWeights) {
   std::vector<Weighed> sets = {set("a", 60), set("b", 39), set("", 1)};
   const CredibleGroup before = group(sets, "a", 'a');
   for (Weighed& one : sets) one.log_weight += 5000;
@@ -112,7 +112,7 @@ TEST_F(Groups, LeaveTheDoubtThatAllSetsLeave) {
   }
 }
 
-TEST(ExpectedSizes, MoveTheReadingByNoMoreThanIsSeen) {
+TEST(ExpectedSizes, LimitReadingToObservedError) {
   const double size = 40 * k_floor;
   Evidence evidence =
       evidence_of(measured({0, 5}, [&](const Sample& sample) { return size * std::sin(sample.alpha); }));

@@ -75,7 +75,7 @@ TEST_F(Validation, KeepsWhatPredicts) {
   EXPECT_EQ(answer.reported.estimate.fit.effects.size(), 1u);
 }
 
-TEST_F(Validation, EachRunIsLeftOutOfTheNumbersThatJudgeIt) {
+TEST_F(Validation, NumbersLeaveOutJudgedRun) {
   Measurement odd = stretching({1, 2, 3}, k_stretch, 1);
   for (Sample& sample : odd.runs[2].samples) sample.theta -= 3 * 10 * k_floor;  // 30 floors per N there
   Evidence runs = evidence_of(odd);
@@ -89,7 +89,7 @@ TEST_F(Validation, EachRunIsLeftOutOfTheNumbersThatJudgeIt) {
   EXPECT_GT(value_of(all.fit.at, stretch), 1.3 * k_stretch);
 }
 
-TEST_F(Validation, DeclaredJointHasItsFreeOffsetByLeastSquares) {
+TEST_F(Validation, DeclaredJointFitsFreeOffset) {
   const Estimate declared = declared_estimate(pool, selection);
   double mean = 0;
   for (const Eigen::Index row : evidence.rows()) mean += declared.fit.residual[row];

@@ -82,7 +82,7 @@ TEST_F(Concluded, OneOfTwo) {
   EXPECT_THAT(calibration.summary, HasSubstr("backlash, one of {zero_offset, motor_offset}, and cannot tell which"));
 }
 
-TEST_F(Concluded, RepeatsThatDifferByManyTimesTheScatterWithinAStroke) {
+TEST_F(Concluded, RepeatsFarBeyondScatterWithinStroke) {
   leave(1);
   find({{"backlash"}});
   calibration.noise.from_repeats = true;
@@ -97,7 +97,7 @@ TEST_F(Concluded, RepeatsThatDifferByManyTimesTheScatterWithinAStroke) {
   EXPECT_EQ(verdict(), CalibrationVerdict::explained);
 }
 
-TEST(Scatter, OfASensorThatHoldsItsReadingIsNoNoise) {
+TEST(Scatter, SensorThatHoldsReadingIsNoNoise) {
   const auto noise = white_noise(radians(0.02), 1);
   const auto held = white_noise(radians(2), 2);
   double holds = 0;
@@ -110,7 +110,7 @@ TEST(Scatter, OfASensorThatHoldsItsReadingIsNoNoise) {
   EXPECT_FALSE(is_scattering(noise_floor(measured({0, 5}, noise))));
 }
 
-/// An effect that is so many nats ahead of what has no name.
+/// Effect with these log odds against the best unmodelled cause.
 FoundEffect ahead_by(double nats) {
   FoundEffect effect;
   effect.name = "backlash";
@@ -119,7 +119,7 @@ FoundEffect ahead_by(double nats) {
   return effect;
 }
 
-TEST_F(Concluded, WhatIsHardlyAheadOfSomethingWithoutANameIsNotNamedAlone) {
+TEST_F(Concluded, SmallLeadAddsUnmodelled) {
   leave(1);
   calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled - 1)};
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
@@ -130,14 +130,14 @@ TEST_F(Concluded, WhatIsHardlyAheadOfSomethingWithoutANameIsNotNamedAlone) {
                                   "backlash or an unmodelled cause that does the same"));
 }
 
-TEST_F(Concluded, WhatIsFarAheadOfEverythingWithoutANameIs) {
+TEST_F(Concluded, LargeLeadNamesEffectAlone) {
   leave(1);
   calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled + 1)};
   EXPECT_EQ(verdict(), CalibrationVerdict::explained);
   EXPECT_THAT(calibration.next, testing::IsEmpty());
 }
 
-TEST_F(Concluded, WhatIsToldByWarmthOrByItsTimeHasToBeFurtherAhead) {
+TEST_F(Concluded, EffectsInTimeNeedLargerLead) {
   for (const char* name : {"thermal_expansion", "tendon_slip"}) {
     for (const double more : {-1.0, 1.0}) {
       leave(1);
@@ -150,7 +150,7 @@ TEST_F(Concluded, WhatIsToldByWarmthOrByItsTimeHasToBeFurtherAhead) {
   }
 }
 
-TEST_F(Concluded, WhatMayBeSlackHasToBeFurtherAheadAloneOrInAGroup) {
+TEST_F(Concluded, LooseEffectsNeedLargerLead) {
   const Effect& play = *find_effect("slack", JointKind::tendons);
   selection.catalogue = {&play};
   const std::vector<std::vector<std::string>> groups = {{"slack"}, {"backlash", "slack"}};
@@ -167,7 +167,7 @@ TEST_F(Concluded, WhatMayBeSlackHasToBeFurtherAheadAloneOrInAGroup) {
   }
 }
 
-TEST_F(Concluded, WhatIsDoubtfulMayBeSomethingWithoutANameHoweverFarAhead) {
+TEST_F(Concluded, DoubtAddsUnmodelledAtAnyLead) {
   leave(1);
   calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled + 1),
                          ahead_by(k_thresholds.ahead_of_unmodelled + 1)};
@@ -205,7 +205,7 @@ TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {
   EXPECT_THAT(calibration.summary, testing::StartsWith("The data are explained by backlash"));
 }
 
-TEST_F(Concluded, ARestAboveTheNoiseIsSaidWithItsPlace) {
+TEST_F(Concluded, ResidualAboveNoiseHasPlace) {
   leave(5);
   find({{"zero_offset", "motor_offset"}});
   // The largest mean: the last twelfth of the way down.
@@ -219,7 +219,7 @@ TEST_F(Concluded, ARestAboveTheNoiseIsSaidWithItsPlace) {
   EXPECT_THAT(calibration.summary, HasSubstr("° rms are left and noise makes 0.0573° of it"));
 }
 
-TEST_F(Concluded, WhatIsLeftByNamesIsNotWhatIsLeftByAllThatIsHandedOver) {
+TEST_F(Concluded, ResidualOfEffectsDiffersFromAnswer) {
   for (const bool more : {false, true}) {
     leave(5);
     calibration = {};
@@ -230,7 +230,7 @@ TEST_F(Concluded, WhatIsLeftByNamesIsNotWhatIsLeftByAllThatIsHandedOver) {
   }
 }
 
-TEST_F(Concluded, ARestIsDescribedByWhatItDependsOn) {
+TEST_F(Concluded, ResidualIsDescribedByFactors) {
   leave(1);
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
@@ -265,7 +265,7 @@ TEST(Verdicts, HaveTheContractsWords) {
   for (const auto& [verdict, expected] : words) EXPECT_EQ(word(verdict), expected);
 }
 
-TEST(Verdicts, ATorqueWhereAForceIsNeededIsSaid) {
+TEST(Verdicts, TorqueForForceIsRefused) {
   Measurement measurement = measured({0, 5}, [](const Sample&) { return 0.0; });
   measurement.load_unit = "Nm";
   const DeclaredMechanism tendons = read_mechanism(std::string(FUSEE_SOURCE_DIR) + "/profiles/forearm.toml").mechanism;
@@ -290,7 +290,7 @@ TEST(RmsDrop, IsNeverBelowNothing) {
   EXPECT_EQ(found[0].rms_drop, 0);
 }
 
-TEST(Rivals, ThatDoAsWellDoSomething) {
+TEST(Rivals, GroupsHaveNoIdleMembers) {
   const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
   Selection selection;
   const Effect &gain = named("joint_sensor_gain"), &lag = named("sensor_lag");
@@ -332,7 +332,7 @@ TEST(FoundEffects, SayWhatTheirSignMeans) {
   }
 }
 
-TEST(Effects, ThatACaliperReadsAskForWhatItReads) {
+TEST(Effects, CaliperEffectsAskForReading) {
   const std::vector<std::pair<std::string, std::string>> words = {
       {"guide_radius", "diameter with a caliper and enter half of it as prior.guide_radius_mm"},
       {"radius_offset", "enter half of their total excess (negative: too small)"},
