@@ -35,16 +35,16 @@ constexpr FactorWords k_words[] = {
      "motor's "
      "sensor over pulley and pins to the joint's sensor; re-clock the pulley and see whether it moves along"},
     {Factor::direction, "direction",
-     "turns over with the direction of motion, whatever load and speed: something gives way before it carries, between "
-     "motor shaft and joint"},
+     "turns over with the direction of motion, whatever load and speed: something is loose or compliant before it carries, "
+     "between motor shaft and joint"},
     {Factor::reversal, "way since the reversal",
      "dies away behind each reversal: something is wound up or taken up before the joint follows, by friction or by "
      "lost motion"},
     {Factor::load, "load",
-     "grows in proportion to the load and turns over with it: something in the loaded chain gives way, from the anchor "
+     "grows in proportion to the load and turns over with it: something in the loaded chain is compliant, from the anchor "
      "of the tendon to the frame that holds the pins"},
     {Factor::load_size, "load size",
-     "grows with the size of the load, whichever its sign: something gives way under the tension of both tendons"},
+     "grows with the size of the load, whichever its sign: something is compliant under the tension of both tendons"},
     {Factor::load_direction, "load and direction",
      "a loop that grows with the load: something rubs under the tendons' force, at pins, bearing or groove"},
     {Factor::speed, "speed", "grows with speed, the same both ways: something dynamic, or the clock of the log"},

@@ -214,7 +214,7 @@ class Shapes {
   void add_thresholds() {
     for (const double from : {-0.5, -0.25, 0.0, 0.25, 0.5, 0.75}) {
       const auto beyond = [=](const RowFacts& r) { return std::max(0.0, r.load - from); };
-      add(Dependence::load, 1, "something that gives way from " + rounded(100 * from, 2) + " % of the load on",
+      add(Dependence::load, 1, "a compliance from " + rounded(100 * from, 2) + " % of the load on",
           {beyond, [=](const RowFacts& r) { return beyond(r) * (2 * r.place - 1); }}, true);
     }
   }
