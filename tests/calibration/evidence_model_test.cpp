@@ -134,7 +134,7 @@ TEST(EvidenceModel, LargerDiscrepancyIsRarer) {
   const double rms = std::sqrt(moved.squaredNorm() / 50.0);
   for (const double floors : {0.0, 0.3, 0.99, 1.01, 7.0}) {
     Posterior sized = posterior;
-    sized.unnamed.head(3) *= floors * 0.1 / rms;
+    sized.coefficients.head(3) *= floors * 0.1 / rms;
     EXPECT_NEAR(evidence_model.discrepancy_penalty(sized),
                 k_thresholds.neg_log_prior_odds * std::min(1.0, floors * floors), 1e-9);
   }

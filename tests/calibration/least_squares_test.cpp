@@ -429,9 +429,9 @@ TEST_F(LinearFit, ModeIsReportedWithoutDiscrepancy) {
   Selection selection;
   selection.none = fitter.fit({}, {});
   selection.best = fitter.fit({&stretch}, {});
-  const DiscrepancyFit unnamed = describe_discrepancy(evidence, selection.best);
-  ASSERT_FALSE(is_unexplained(unnamed, evidence.floor));
-  EXPECT_EQ(choose_reported_parameters(evidence, pool, selection, unnamed).estimate.fit.at, selection.best.at);
+  const DiscrepancyFit unmodelled = describe_discrepancy(evidence, selection.best);
+  ASSERT_FALSE(is_unexplained(unmodelled, evidence.floor));
+  EXPECT_EQ(choose_reported_parameters(evidence, pool, selection, unmodelled).estimate.fit.at, selection.best.at);
 }
 
 }  // namespace

@@ -194,7 +194,7 @@ TEST(PointToPoint, play_shows_between_the_sides_that_a_place_was_come_to_from) {
 struct Ends {
   rig::Hidden (*hidden)();
   const char* name;
-  const char* seen_with;  ///< how the factor begins on which the unnamed error is said to depend
+  const char* seen_with;  ///< how the factor begins on which the discrepancy depends
 };
 
 // At two places a smooth error has two numbers, with a name or without: nothing is named alone. What is more, each
