@@ -195,7 +195,7 @@ Fit Fitter::evaluate_at(const EffectSet& effects, const Imperfections& at, Loose
   fit.effects = effects;
   fit.parameters = model_.varied(effects);
   fit.at = at;
-  Evaluation evaluation = model_.evaluate(at, loose_row);
+  ModelResidual evaluation = model_.evaluate(at, loose_row);
   fit.residual = std::move(evaluation.residual);
   fit.loose = std::move(evaluation.loose);
   fit.x = numbers_of(fit.parameters, at);
@@ -216,7 +216,7 @@ void Fitter::take_slopes(Fit& fit, Eigen::Index from) const {
     fit.J.col(k) = model_.slope(fit.at, *fit.parameters[static_cast<std::size_t>(k)], fit.residual, fit.loose_row);
 }
 
-/// Evaluation at `at`, with the slopes of `base`, and new ones of the parameters that it lacks.
+/// ModelResidual at `at`, with the slopes of `base`, and new ones of the parameters that it lacks.
 Fit Fitter::at(const Fit& base, const EffectSet& effects, const Imperfections& at) const {
   Fit fit = evaluate_at(effects, at, base.loose_row);
   fit.J = base.J;
@@ -360,7 +360,7 @@ Fit Fitter::prefer_pushed(Fit fit) const {
   return likelier(std::move(fit), descend_fully(near.effects, near.at, LooseRow::pushed));
 }
 
-/// Evaluation at each start of `effect` beside `base`, without those that cannot be simulated.
+/// ModelResidual at each start of `effect` beside `base`, without those that cannot be simulated.
 std::vector<Fit> Fitter::linearize_starts(const Fit& base, const Effect& effect) const {
   EffectSet effects = base.effects;
   effects.push_back(&effect);

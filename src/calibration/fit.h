@@ -21,7 +21,7 @@ struct Fit {
   Eigen::VectorXd x;  ///< parameters, each divided by its step
   Eigen::MatrixXd J;  ///< dθ/dx at the rows of all runs
   LooseRow loose_row = LooseRow::anywhere;
-  Eigen::VectorXd residual;  ///< residual as Evaluation
+  Eigen::VectorXd residual;  ///< residual as ModelResidual
   Eigen::VectorXd loose;
   std::vector<NormalEquations> sums;  ///< sums of each block
   NormalEquations readings;           ///< sums of caliper readings, in the same unit
@@ -66,7 +66,7 @@ class Fitter {
   /// `base` with one effect more, fitted without discrepancy.
   Fit add_effect_without_discrepancy(const Fit& base, const Effect& effect) const;
 
-  /// Residual at `at`, as Evaluation.
+  /// Residual at `at`, as ModelResidual.
   Eigen::VectorXd residual(const Imperfections& at, LooseRow loose_row) const {
     return model_.evaluate(at, loose_row).residual;
   }

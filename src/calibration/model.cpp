@@ -16,10 +16,10 @@ double weight_of(double loose, double floor) {
 
 }  // namespace
 
-Evaluation Model::evaluate(const Imperfections& at, LooseRow loose_row) const {
+ModelResidual Model::evaluate(const Imperfections& at, LooseRow loose_row) const {
   const Eigen::VectorXd theta = flat(forward_(at));
   if (loose_row == LooseRow::pushed) return {evidence_.theta - theta, Eigen::VectorXd::Zero(theta.size())};
-  Evaluation evaluation{evidence_.theta - theta, flat(forward_.looseness(at))};
+  ModelResidual evaluation{evidence_.theta - theta, flat(forward_.looseness(at))};
   for (Eigen::Index i = 0; i < evaluation.residual.size(); ++i) {
     if (evaluation.loose[i] > 0) evaluation.residual[i] *= weight_of(evaluation.loose[i], evidence_.floor);
   }

@@ -16,7 +16,7 @@ enum class LooseRow {
 };
 
 /// Residual of the model over all runs, one after another.
-struct Evaluation {
+struct ModelResidual {
   Eigen::VectorXd residual;  ///< measured − model, rad; weighted where the joint is loose and rests anywhere
   Eigen::VectorXd loose;     ///< play at each row, rad
 };
@@ -31,7 +31,7 @@ class Model {
   Parameters varied(const EffectSet& effects) const {
     return evidence_.earlier ? parameters_of(effects) : fusee::varied(*evidence_.declared, effects);
   }
-  Evaluation evaluate(const Imperfections& at, LooseRow loose_row) const;
+  ModelResidual evaluate(const Imperfections& at, LooseRow loose_row) const;
   /// dθ/dx of one parameter by a step of its own size, away from its upper bound; `residual` is that at `at`.
   Eigen::VectorXd slope(const Imperfections& at, const EffectParameter& parameter, const Eigen::VectorXd& residual,
                         LooseRow loose_row) const;
