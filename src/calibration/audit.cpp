@@ -92,12 +92,7 @@ Auditor::Auditor(const Evidence& evidence, FitterPool& pool, const Selection& se
   for (std::size_t i = 0; i < catalogue.size(); ++i) {
     ChordColumns own{catalogue[i], static_cast<Eigen::Index>(columns.size()), 0};
     if (contains(selection.best.effects, *catalogue[i])) {
-      for (std::size_t k = 0; k < selection.best.parameters.size(); ++k) {
-        const EffectParameter* number = selection.best.parameters[k];
-        const bool is_own = std::any_of(catalogue[i]->parameters.begin(), catalogue[i]->parameters.end(),
-                                        [&](const EffectParameter& p) { return &p == number; });
-        if (!is_own) continue;
-        const auto at = static_cast<Eigen::Index>(k);
+      for (const Eigen::Index at : places_of(selection.best, *catalogue[i])) {
         columns.push_back(best.J.col(at));
         x.push_back(best.x[at]);
         prior.push_back(known_size(best, at));

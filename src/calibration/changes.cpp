@@ -73,14 +73,9 @@ namespace {
 
 /// Discrepancy beside `fit` without its families of single runs and strokes, rows in use.
 Eigen::VectorXd shared_discrepancy(const Evidence& evidence, const Fit& fit) {
-  const Discrepancy& discrepancy = evidence.evidence_model->discrepancy();
-  Eigen::VectorXd shared = Eigen::VectorXd::Zero(discrepancy.columns.rows());
-  for (const Family& family : discrepancy.families) {
-    if (family.factor == Factor::run || family.factor == Factor::drift || family.factor == Factor::stroke) continue;
-    shared += discrepancy.columns.middleCols(family.first, family.count) *
-              fit.posterior.coefficients.segment(family.first, family.count);
-  }
-  return shared;
+  return sum_of_families(evidence.evidence_model->discrepancy(), fit.posterior.coefficients, [](Factor factor) {
+    return factor != Factor::run && factor != Factor::drift && factor != Factor::stroke;
+  });
 }
 
 /// Variance of the size of a change, from one state: Σ (gᵣ·eᵣ)² / (Σ gᵣ·gᵣ)² over its clusters, corrected for their

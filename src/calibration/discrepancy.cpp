@@ -130,6 +130,17 @@ bool strokes_span_places(const Evidence& evidence) {
 
 }  // namespace
 
+Eigen::VectorXd sum_of_families(const Discrepancy& discrepancy, const Eigen::VectorXd& coefficients,
+                                const std::function<bool(Factor)>& is_in) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
+  for (const Family& family : discrepancy.families) {
+    if (is_in(family.factor))
+      sum +=
+          discrepancy.columns.middleCols(family.first, family.count) * coefficients.segment(family.first, family.count);
+  }
+  return sum;
+}
+
 Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& deflection) {
   const std::vector<RowFacts> facts = row_facts(evidence);
   Builder builder(static_cast<Eigen::Index>(facts.size()));

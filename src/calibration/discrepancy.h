@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,10 @@ struct Discrepancy {
   Eigen::MatrixXd columns;
   std::vector<Family> families;
 };
+
+/// Sum of the families of the factors for which `is_in` is true, rows in use. `coefficients`: of all columns.
+Eigen::VectorXd sum_of_families(const Discrepancy& discrepancy, const Eigen::VectorXd& coefficients,
+                                const std::function<bool(Factor)>& is_in);
 
 /// Families of all factors that these runs vary. `deflection`: of the declared joint, all rows, rad.
 Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& deflection);

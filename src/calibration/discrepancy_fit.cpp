@@ -35,13 +35,15 @@ constexpr FactorWords k_words[] = {
      "motor's "
      "sensor over pulley and pins to the joint's sensor; re-clock the pulley and see whether it moves along"},
     {Factor::direction, "direction",
-     "turns over with the direction of motion, whatever load and speed: something is loose or compliant before it carries, "
+     "turns over with the direction of motion, whatever load and speed: something is loose or compliant before it "
+     "carries, "
      "between motor shaft and joint"},
     {Factor::reversal, "way since the reversal",
      "dies away behind each reversal: something is wound up or taken up before the joint follows, by friction or by "
      "lost motion"},
     {Factor::load, "load",
-     "grows in proportion to the load and turns over with it: something in the loaded chain is compliant, from the anchor "
+     "grows in proportion to the load and turns over with it: something in the loaded chain is compliant, from the "
+     "anchor "
      "of the tendon to the frame that holds the pins"},
     {Factor::load_size, "load size",
      "grows with the size of the load, whichever its sign: something is compliant under the tension of both tendons"},
@@ -94,15 +96,9 @@ Angles angles_of(const Evidence& evidence) {
   return angles;
 }
 
-/// Sum of the families of a factor, rows in use.
+/// Component of a factor, rows in use.
 Eigen::VectorXd part_of(const Discrepancy& discrepancy, const Eigen::VectorXd& coefficients, Factor factor) {
-  Eigen::VectorXd part = Eigen::VectorXd::Zero(discrepancy.columns.rows());
-  for (const Family& family : discrepancy.families) {
-    if (family.factor == factor)
-      part +=
-          discrepancy.columns.middleCols(family.first, family.count) * coefficients.segment(family.first, family.count);
-  }
-  return part;
+  return sum_of_families(discrepancy, coefficients, [factor](Factor other) { return other == factor; });
 }
 
 /// Component for rising motor angle and positive load.

@@ -66,17 +66,6 @@ double value_at(const Way& way, double alpha) {
   return low.second + share * (above->second - low.second);
 }
 
-/// Sum of the discrepancy's families of place and direction, rows in use.
-Eigen::VectorXd of_place(const Discrepancy& discrepancy, const Eigen::VectorXd& coefficients) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
-  for (const Family& family : discrepancy.families) {
-    if (is_of_place(family.factor))
-      sum +=
-          discrepancy.columns.middleCols(family.first, family.count) * coefficients.segment(family.first, family.count);
-  }
-  return sum;
-}
-
 struct BothWays {
   Way up, down;
 };
@@ -240,7 +229,7 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const D
     curve.why = "no part of it depends on place and direction alone";
     return curve;
   }
-  const Eigen::VectorXd at_rows = of_place(discrepancy, unmodelled.posterior.coefficients);
+  const Eigen::VectorXd at_rows = sum_of_families(discrepancy, unmodelled.posterior.coefficients, is_of_place);
   const BothWays ways = ways_of(evidence, at_rows);
   const SeenSpan seen = seen_both_ways(ways), all = seen_span(evidence.measurement, &Sample::alpha);
   if (!seen.any() || std::max(widest_gap(ways.up), widest_gap(ways.down)) > k_widest_gap * all.size()) {

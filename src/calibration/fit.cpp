@@ -216,7 +216,7 @@ void Fitter::take_slopes(Fit& fit, Eigen::Index from) const {
     fit.J.col(k) = model_.slope(fit.at, *fit.parameters[static_cast<std::size_t>(k)], fit.residual, fit.loose_row);
 }
 
-/// ModelResidual at `at`, with the slopes of `base`, and new ones of the parameters that it lacks.
+/// Model residual at `at`, with the slopes of `base`, and new ones of the parameters that it lacks.
 Fit Fitter::at(const Fit& base, const EffectSet& effects, const Imperfections& at) const {
   Fit fit = evaluate_at(effects, at, base.loose_row);
   fit.J = base.J;
@@ -360,7 +360,7 @@ Fit Fitter::prefer_pushed(Fit fit) const {
   return likelier(std::move(fit), descend_fully(near.effects, near.at, LooseRow::pushed));
 }
 
-/// ModelResidual at each start of `effect` beside `base`, without those that cannot be simulated.
+/// Model residual at each start of `effect` beside `base`, without those that cannot be simulated.
 std::vector<Fit> Fitter::linearize_starts(const Fit& base, const Effect& effect) const {
   EffectSet effects = base.effects;
   effects.push_back(&effect);

@@ -51,12 +51,7 @@ Eigen::VectorXd load_slope(const Evidence& evidence, const Fit& best) {
 /// Share of the squares of a load scale's slope that an effect of `best` explains.
 double share_of(const Evidence& evidence, const Fit& best, const Effect& effect, const Eigen::VectorXd& slope) {
   const Tangent tangent = tangent_of(evidence, best);
-  std::vector<Eigen::Index> own;
-  for (std::size_t k = 0; k < best.parameters.size(); ++k) {
-    if (std::any_of(effect.parameters.begin(), effect.parameters.end(),
-                    [&](const EffectParameter& p) { return &p == best.parameters[k]; }))
-      own.push_back(static_cast<Eigen::Index>(k));
-  }
+  const std::vector<Eigen::Index> own = places_of(best, effect);
   if (own.empty() || !(slope.squaredNorm() > 0)) return 0;
   const Eigen::MatrixXd J = tangent.J(Eigen::all, own);
   const Eigen::VectorXd left = slope - J * solved(J.transpose() * J, Eigen::VectorXd(J.transpose() * slope));
