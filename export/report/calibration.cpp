@@ -16,7 +16,7 @@ namespace {
 
 /// Null where no joints were simulated.
 Json audit_json(const Audit& audit) {
-  return audit.worlds > 0 ? Json({{"worlds", audit.worlds}, {"named", audit.named}}) : Json();
+  return audit.data_sets > 0 ? Json({{"worlds", audit.data_sets}, {"named", audit.false_positives}}) : Json();
 }
 
 Json parameters_json(const std::vector<FittedParameter>& parameters) {
@@ -41,7 +41,7 @@ Json effect_json(const FoundEffect& effect) {
                {"correctable_by", word(effect.correctable_by)}};
   // Only a group that may be unmodelled has this key.
   if (effect.group.back() == k_unmodelled) {
-    json["unmodelled"] = {{"behind", nine_digits(effect.unmodelled.behind)}, {"words", unmodelled_words(effect)}};
+    json["unmodelled"] = {{"behind", nine_digits(effect.unmodelled.log_odds)}, {"words", unmodelled_words(effect)}};
   }
   for (const MemberBeside& member : effect.instead)
     json["instead"].push_back({{"name", member.name}, {"parameters", parameters_json(member.parameters)}});
@@ -51,9 +51,9 @@ Json effect_json(const FoundEffect& effect) {
 }
 
 /// Parts of the discrepancy beside the effects.
-Json unknown_json(const std::vector<Unknown>& unknown) {
+Json unknown_json(const std::vector<DiscrepancyComponent>& unknown) {
   Json list = Json::array();
-  for (const Unknown& part : unknown) {
+  for (const DiscrepancyComponent& part : unknown) {
     Json json = {{"factor", part.factor},
                  {"rms_deg", angle_json(part.rms)},
                  {"evidence", nine_digits(part.evidence)},
@@ -136,16 +136,16 @@ Json numbers_json(const std::vector<double>& values) {
   return list;
 }
 
-Json slips_json(const std::vector<UndoneSlip>& slips) {
+Json slips_json(const std::vector<LikelyInputError>& slips) {
   Json list = Json::array();
-  for (const UndoneSlip& slip : slips) {
+  for (const LikelyInputError& slip : slips) {
     list.push_back({{"key", slip.key},
                     {"declared", numbers_json(slip.declared)},
                     {"would_be", numbers_json(slip.would_be)},
                     {"rms_deg", angle_json(slip.rms)},
                     {"pulley_as_declared", slip.pulley_as_declared},
                     {"beside", slip.beside},
-                    {"words", slip_words(slip)}});
+                    {"words", input_error_words(slip)}});
   }
   return list;
 }
@@ -209,12 +209,12 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["after_per_noise_floor"] =
       calibration.noise.rms > 0 ? nine_digits(calibration.after.rms / calibration.noise.rms) : Json();
   json["held_out"] = {{"factors", calibration.held_out_factors}, {"runs", calibration.held_out_runs}};
-  json["rest_autocorrelation"] = nine_digits(calibration.rest_autocorrelation);
+  json["rest_autocorrelation"] = nine_digits(calibration.residual_autocorrelation);
   json["unexplained_rms_deg"] = angle_json(calibration.unexplained_rms);
   json["dropped"] = calibration.dropped;
   json["unexplained_where"] = calibration.unexplained_where;
-  json["unknown"] = unknown_json(calibration.unknown);
-  json["instead"] = unknown_json(calibration.instead);
+  json["unknown"] = unknown_json(calibration.discrepancy);
+  json["instead"] = Json::array();  // always empty; readers of the schema expect the key
   json["covered"] = covered_json(product);
   json["slips"] = slips_json(product.slips);
   json["detectable"] = detectable_json(calibration);

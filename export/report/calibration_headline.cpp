@@ -163,7 +163,7 @@ std::string cause_words(const CalibrationProduct& product) {
   if (calibration.effects.empty()) {
     if (calibration.verdict != CalibrationVerdict::unexplained) return "";
     return std::string("No known cause predicts it") +
-           (calibration.unknown.empty() ? "." : "; it depends on " + calibration.unknown.front().factor + ".");
+           (calibration.discrepancy.empty() ? "." : "; it depends on " + calibration.discrepancy.front().factor + ".");
   }
   const FoundEffect& first = largest_effect(calibration.effects);
   std::string text = first_upper(group_words(first, product.measurement.load_unit));

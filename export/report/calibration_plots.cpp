@@ -431,7 +431,7 @@ std::string rest_html(const CalibrationProduct& product) {
   return single(plot);
 }
 
-std::string unknown_html(const Unknown& unknown) {
+std::string unknown_html(const DiscrepancyComponent& unknown) {
   if (unknown.alpha.size() < 2) return "";
   PlotSeries course{"", Ink::third, {}};
   for (std::size_t i = 0; i < unknown.alpha.size(); ++i)

@@ -17,7 +17,7 @@ std::string residual_levels_html(const CalibrationProduct& product);
 /// The residual of all runs over α, on an axis of its own with the noise floor.
 std::string rest_html(const CalibrationProduct& product);
 /// An unmodelled part over α.
-std::string unknown_html(const Unknown& unknown);
+std::string unknown_html(const DiscrepancyComponent& unknown);
 /// The empirical curve over α, both ways; "" where the table has none.
 std::string curve_html(const CalibrationProduct& product);
 /// Required motor angle, minus that of the declared law.

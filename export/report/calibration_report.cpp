@@ -313,9 +313,9 @@ std::string covered_html(const CalibrationProduct& product) {
   return "<h3>What of it the table covers</h3><p>" + safe_text(first_upper(words)) + ".</p>" + curve_html(product);
 }
 
-std::string described_html(const std::string& heading, const std::vector<Unknown>& parts) {
+std::string described_html(const std::string& heading, const std::vector<DiscrepancyComponent>& parts) {
   std::string html = parts.empty() ? "" : "<h3>" + heading + "</h3>";
-  for (const Unknown& part : parts)
+  for (const DiscrepancyComponent& part : parts)
     html += "<p>" + safe_text(first_upper(unknown_words(part))) + ".</p>" + unknown_html(part);
   return html;
 }
@@ -329,11 +329,10 @@ std::string rest_section(const CalibrationProduct& product) {
                                 : "Unexplained beyond the noise: " + degree_words(calibration.unexplained_rms) +
                                       " rms, " + calibration.unexplained_where + ".";
   const std::string colour = " Neighbouring rows of it are correlated by " +
-                             readable(calibration.rest_autocorrelation, 2) +
+                             readable(calibration.residual_autocorrelation, 2) +
                              "; noise would be near 0. Dashed: the noise floor of a single row.";
-  const std::string unknown = described_html("Unmodelled, by what it depends on", calibration.unknown) +
-                              described_html("As likely as what was named: an unmodelled cause", calibration.instead) +
-                              covered_html(product);
+  const std::string unknown =
+      described_html("Unmodelled, by what it depends on", calibration.discrepancy) + covered_html(product);
   return html_section("rest", "Residual", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot + unknown);
 }
 

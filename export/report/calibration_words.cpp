@@ -55,17 +55,17 @@ std::string first_upper(std::string words) {
 }
 
 std::string audit_words(const FoundEffect& effect) {
-  if (effect.audit.worlds == 0) return "";
-  return "In " + std::to_string(effect.audit.worlds) + " simulated joints without " + open_words(effect.name) +
-         ", these runs would have named it in " + std::to_string(effect.audit.named) + ".";
+  if (effect.audit.data_sets == 0) return "";
+  return "In " + std::to_string(effect.audit.data_sets) + " simulated joints without " + open_words(effect.name) +
+         ", these runs would have named it in " + std::to_string(effect.audit.false_positives) + ".";
 }
 
 std::string unmodelled_words(const FoundEffect& effect) {
   if (effect.group.empty() || effect.group.back() != k_unmodelled) return "";
-  const Unmodelled& rival = effect.unmodelled;
+  const UnmodelledAlternative& rival = effect.unmodelled;
   const std::string in_its_place = (rival.words.empty() ? "a smooth curve" : rival.words) +
-                                   " in its place; odds for the named cause " + odds(rival.behind);
-  return "Or an unmodelled cause that does the same: " + (rival.doubt.empty() ? in_its_place : rival.doubt) +
+                                   " in its place; odds for the named cause " + odds(rival.log_odds);
+  return "Or an unmodelled cause that does the same: " + in_its_place +
          (rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".");
 }
 
@@ -82,7 +82,7 @@ std::string beside_words(const FoundEffect& effect, const std::string& load_unit
          "predicted best.";
 }
 
-std::string unknown_words(const Unknown& unknown) {
+std::string unknown_words(const DiscrepancyComponent& unknown) {
   return rounded(degrees(unknown.rms), 2) + "° rms, " + unknown.factor + ": " + unknown.words;
 }
 
@@ -204,7 +204,7 @@ std::vector<std::string> next_texts(const Calibration& calibration) {
 
 std::vector<std::string> slips_words(const CalibrationProduct& product) {
   std::vector<std::string> all;
-  for (const UndoneSlip& slip : product.slips) all.push_back(slip_words(slip));
+  for (const LikelyInputError& slip : product.slips) all.push_back(input_error_words(slip));
   return all;
 }
 

@@ -6,11 +6,11 @@
 
 #include "calibration/thresholds.h"
 
-// The joint of the file with all that was found but one effect, logged as these runs were, with this noise. In its
-// place stands nothing, or another effect of the catalogue, known to the search or not, or a shape without a name, as
-// large as the effect was found. Everything is linear about the fit: chords of each effect over its size in practice,
-// so that a joint is a vector of sums and a search costs milliseconds. The search is a plain one, the best addition
-// first, and a name costs what it needs to stand; what would stand in its group is no mistake.
+// Synthetic data: the declared joint with all found effects but one, logged as these runs were, with their noise. One
+// of four replaces the effect: nothing, an effect of the catalogue, an effect that the search does not know, or a
+// smooth discrepancy of its size. The model is linear about the fit, by chords of each effect over its expected sizes,
+// so a data set is a vector of sums and a search takes milliseconds. The search adds the best effect, at the penalty of
+// a reported effect. A true cause that would join the group is no false positive.
 
 namespace fusee {
 namespace {
@@ -18,19 +18,19 @@ namespace {
 constexpr int k_rounds = 4;
 constexpr int k_most_added = 3;
 constexpr std::size_t k_tries = 3;
-/// Of what was found: an effect that is smaller in practice cannot stand for it.
+/// Share of the size of the found effect: smaller effects cannot cause it.
 constexpr double k_as_large = 0.5;
 
-/// Chords of an effect over the rows in use, as columns of one matrix.
+/// Columns of an effect's chords over the rows in use.
 struct ChordColumns {
   const Effect* effect = nullptr;
   Eigen::Index first = 0;
   Eigen::Index count = 0;
 };
 
-/// Of a number, from practice and from a caliper.
+/// Prior size of a number, with caliper readings.
 double known_size(const Tangent& tangent, Eigen::Index k) {
-  return 1.0 / std::sqrt(1.0 / (tangent.prior[k] * tangent.prior[k]) + tangent.read(k, k));
+  return 1.0 / std::sqrt(1.0 / (tangent.prior[k] * tangent.prior[k]) + tangent.caliper_information(k, k));
 }
 
 void count(const Effect* effect, std::vector<std::pair<int, const Effect*>>& counts) {
@@ -44,76 +44,71 @@ void count(const Effect* effect, std::vector<std::pair<int, const Effect*>>& cou
 
 class Auditor {
  public:
-  Auditor(const Evidence& evidence, Workers& workers, const Selection& selection);
+  Auditor(const Evidence& evidence, FitterPool& pool, const Selection& selection);
 
-  Audited of(std::size_t found, Workers& workers) const;
+  AuditResult audit_effect(std::size_t found, FitterPool& pool) const;
 
  private:
-  struct World {
-    Eigen::VectorXd pull;  ///< Aᵀ z
+  struct SyntheticDataset {
+    Eigen::VectorXd projections;  ///< Aᵀ z
     double rr = 0;
-    const Effect* there = nullptr;    ///< what stands in the place
-    const Effect* unknown = nullptr;  ///< what the search does not know
+    const Effect* true_cause = nullptr;  ///< true cause in the place of the found effect
+    const Effect* excluded = nullptr;    ///< effect that the search does not know
     Amplitudes start;
   };
   using Set = std::vector<std::size_t>;
-  World world(std::size_t found, std::size_t number) const;
-  Eigen::VectorXd noise(std::mt19937_64& dice) const;
-  TangentSums sums(const World& world, const Set& set) const;
-  double score_of(const Explained& explained, const Set& set) const;
-  Set search(const World& world, Set set) const;
-  bool could_be(const World& world, const Set& found, std::size_t named) const;
+  SyntheticDataset synthesize(std::size_t found, std::size_t number) const;
+  Eigen::VectorXd noise(std::mt19937_64& random) const;
+  TangentSums sums(const SyntheticDataset& data, const Set& set) const;
+  double score_of(const Posterior& posterior, const Set& set) const;
+  Set search(const SyntheticDataset& data, Set set) const;
+  bool is_group_member(const SyntheticDataset& data, const Set& found, std::size_t named) const;
 
   const Evidence& evidence_;
   const Selection& selection_;
-  const Marginal& marginal_;
+  const EvidenceModel& evidence_model_;
   std::vector<ChordColumns> chords_;
-  Eigen::VectorXd x_;  ///< as found; zero of what was not
+  Eigen::VectorXd x_;  ///< numbers as found; zero for other effects
   Eigen::VectorXd prior_;
-  Eigen::MatrixXd all_;  ///< chords, then the discrepancy's columns
+  Eigen::MatrixXd all_;  ///< chords, then columns of the discrepancy
   Eigen::MatrixXd gram_;
-  Eigen::Index own_ = 0;  ///< columns of chords
-  double give_ = 1;
+  Eigen::Index own_ = 0;  ///< number of chord columns
+  double deflection_ratio_ = 1;
 };
 
-Auditor::Auditor(const Evidence& evidence, Workers& workers, const Selection& selection)
-    : evidence_(evidence), selection_(selection), marginal_(*evidence.marginal) {
+Auditor::Auditor(const Evidence& evidence, FitterPool& pool, const Selection& selection)
+    : evidence_(evidence), selection_(selection), evidence_model_(*evidence.evidence_model) {
   const EffectSet& catalogue = selection.catalogue;
-  std::vector<Tangent> looks(catalogue.size());
+  std::vector<Tangent> candidates(catalogue.size());
   const Tangent best = tangent_of(evidence, selection.best);
-  give_ = best.give;
-  workers.each(catalogue.size(), [&](const Fitter& fitter, std::size_t i) {
+  deflection_ratio_ = best.deflection_ratio;
+  pool.each(catalogue.size(), [&](const Fitter& fitter, std::size_t i) {
     if (contains(selection.best.effects, *catalogue[i])) return;
-    const Fit wider = fitter.with_chords(selection.best, *catalogue[i]);
-    if (wider.usable) looks[i] = tangent_of(evidence, wider);
+    const Fit wider = fitter.add_chords(selection.best, *catalogue[i]);
+    if (wider.usable) candidates[i] = tangent_of(evidence, wider);
   });
   std::vector<Eigen::VectorXd> columns;
   std::vector<double> x, prior;
   for (std::size_t i = 0; i < catalogue.size(); ++i) {
     ChordColumns own{catalogue[i], static_cast<Eigen::Index>(columns.size()), 0};
     if (contains(selection.best.effects, *catalogue[i])) {
-      for (std::size_t k = 0; k < selection.best.parameters.size(); ++k) {
-        const EffectParameter* number = selection.best.parameters[k];
-        const bool is_own = std::any_of(catalogue[i]->parameters.begin(), catalogue[i]->parameters.end(),
-                                        [&](const EffectParameter& p) { return &p == number; });
-        if (!is_own) continue;
-        const auto at = static_cast<Eigen::Index>(k);
+      for (const Eigen::Index at : places_of(selection.best, *catalogue[i])) {
         columns.push_back(best.J.col(at));
         x.push_back(best.x[at]);
         prior.push_back(known_size(best, at));
       }
-    } else if (looks[i].x.size() > best.x.size()) {
-      for (Eigen::Index k = best.x.size(); k < looks[i].x.size(); ++k) {
-        columns.push_back(looks[i].J.col(k));
+    } else if (candidates[i].x.size() > best.x.size()) {
+      for (Eigen::Index k = best.x.size(); k < candidates[i].x.size(); ++k) {
+        columns.push_back(candidates[i].J.col(k));
         x.push_back(0);
-        prior.push_back(known_size(looks[i], k));
+        prior.push_back(known_size(candidates[i], k));
       }
     }
     own.count = static_cast<Eigen::Index>(columns.size()) - own.first;
     chords_.push_back(own);
   }
   own_ = static_cast<Eigen::Index>(columns.size());
-  const Eigen::MatrixXd& D = marginal_.discrepancy().columns;
+  const Eigen::MatrixXd& D = evidence_model_.discrepancy().columns;
   all_.resize(D.rows(), own_ + D.cols());
   for (Eigen::Index k = 0; k < own_; ++k) all_.col(k) = columns[static_cast<std::size_t>(k)];
   all_.rightCols(D.cols()) = D;
@@ -122,40 +117,40 @@ Auditor::Auditor(const Evidence& evidence, Workers& workers, const Selection& se
   prior_ = Eigen::Map<const Eigen::VectorXd>(prior.data(), own_);
 }
 
-/// As large and as coloured as that of these runs.
-Eigen::VectorXd Auditor::noise(std::mt19937_64& dice) const {
+/// Noise of the size and autocorrelation of these runs.
+Eigen::VectorXd Auditor::noise(std::mt19937_64& random) const {
   std::normal_distribution<double> normal;
-  const double colour = (1.0 - marginal_.worth()) / (1.0 + marginal_.worth());
-  const double size = selection_.best.explained.amplitudes.noise;
+  const double colour = (1.0 - evidence_model_.independent_share()) / (1.0 + evidence_model_.independent_share());
+  const double size = selection_.best.posterior.amplitudes.noise;
   Eigen::VectorXd noise(all_.rows());
   Eigen::Index row = 0;
   for (const Block& block : evidence_.blocks) {
-    double last = normal(dice);
+    double last = normal(random);
     for (std::size_t i = 0; i < block.rows.size(); ++i, ++row) {
       noise[row] = size * last;
-      last = colour * last + std::sqrt(1.0 - colour * colour) * normal(dice);
+      last = colour * last + std::sqrt(1.0 - colour * colour) * normal(random);
     }
   }
   return noise;
 }
 
-Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
-  std::mt19937_64 dice(1000003ULL * (found + 1) + number);
+Auditor::SyntheticDataset Auditor::synthesize(std::size_t found, std::size_t number) const {
+  std::mt19937_64 random(1000003ULL * (found + 1) + number);
   std::normal_distribution<double> normal;
-  const std::vector<Family>& families = marginal_.discrepancy().families;
-  World made;
-  made.start = marginal_.first_guess();
-  // What wriggles, and constants of strokes, cost most of the time: looked at where they are known to be.
+  const std::vector<Family>& families = evidence_model_.discrepancy().families;
+  SyntheticDataset data;
+  data.start = evidence_model_.first_guess();
+  // Families of many columns cost most of the time: used only if the data required them.
   const auto keep = [&](std::size_t f) {
     const Family& family = families[f];
-    return family.count <= 12 || selection_.best.explained.amplitudes.families[static_cast<Eigen::Index>(f)] > 0;
+    return family.count <= 12 || selection_.best.posterior.amplitudes.families[static_cast<Eigen::Index>(f)] > 0;
   };
   for (std::size_t f = 0; f < families.size(); ++f) {
-    double& amplitude = made.start.families[static_cast<Eigen::Index>(f)];
+    double& amplitude = data.start.families[static_cast<Eigen::Index>(f)];
     if (families[f].fixed > 0) continue;
-    amplitude = keep(f) ? std::max(amplitude, marginal_.floor()) : 0.0;
+    amplitude = keep(f) ? std::max(amplitude, evidence_model_.floor()) : 0.0;
   }
-  Eigen::VectorXd z = noise(dice);
+  Eigen::VectorXd z = noise(random);
   double size = 0;
   for (const ChordColumns& one : chords_) {
     if (one.count == 0 || !contains(selection_.best.effects, *one.effect)) continue;
@@ -169,16 +164,16 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
   for (std::size_t f = 0; f < families.size(); ++f) {
     const Family& family = families[f];
     const double amplitude = family.fixed > 0
-                                 ? family.fixed * give_
-                                 : selection_.best.explained.amplitudes.families[static_cast<Eigen::Index>(f)];
+                                 ? family.fixed * deflection_ratio_
+                                 : selection_.best.posterior.amplitudes.families[static_cast<Eigen::Index>(f)];
     if (!(amplitude > 0)) continue;
-    for (Eigen::Index k = 0; k < family.count; ++k) z += amplitude * normal(dice) * all_.col(own_ + family.first + k);
+    for (Eigen::Index k = 0; k < family.count; ++k) z += amplitude * normal(random) * all_.col(own_ + family.first + k);
   }
   const double found_size = size;
-  size *= std::exp(0.5 * normal(dice));
+  size *= std::exp(0.5 * normal(random));
   std::vector<std::size_t> others, shapes;
   for (std::size_t i = 0; i < chords_.size(); ++i) {
-    // What does as well stands in the group already.
+    // Equally likely rivals are members of the group already.
     const bool in_group = std::any_of(selection_.rivals.begin(), selection_.rivals.end(), [&](const Rival& rival) {
       return rival.accepted == selection_.best.effects[found] && rival.rival == chords_[i].effect &&
              as_good(evidence_, rival.fit, selection_.best);
@@ -189,29 +184,29 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
   for (std::size_t f = 0; f < families.size(); ++f) {
     if (!(families[f].fixed > 0) && families[f].factor != Factor::stroke) shapes.push_back(f);
   }
-  const std::size_t kind = number % 4;  // nothing, an effect that is known, one that is not, a shape
+  const std::size_t kind = number % 4;  // nothing, an effect, an effect that is not in the search, a discrepancy
   if ((kind == 1 || kind == 2) && !others.empty()) {
     const ChordColumns& other = chords_[others[(number / 4) % others.size()]];
     Eigen::VectorXd part = Eigen::VectorXd::Zero(all_.rows());
     for (Eigen::Index k = 0; k < other.count; ++k)
-      part += prior_[other.first + k] * normal(dice) * all_.col(other.first + k);
+      part += prior_[other.first + k] * normal(random) * all_.col(other.first + k);
     z += part;
-    if (rms_of(part) > k_as_large * found_size) made.there = other.effect;
-    if (kind == 2) made.unknown = other.effect;
+    if (rms_of(part) > k_as_large * found_size) data.true_cause = other.effect;
+    if (kind == 2) data.excluded = other.effect;
   } else if (kind == 3 && !shapes.empty()) {
     const std::size_t f = shapes[(number / 4) % shapes.size()];
     const Family& family = families[f];
     Eigen::VectorXd part = Eigen::VectorXd::Zero(all_.rows());
-    for (Eigen::Index k = 0; k < family.count; ++k) part += normal(dice) * all_.col(own_ + family.first + k);
+    for (Eigen::Index k = 0; k < family.count; ++k) part += normal(random) * all_.col(own_ + family.first + k);
     z += part * (size / std::max(1e-12, rms_of(part)));
-    made.start.families[static_cast<Eigen::Index>(f)] = std::max(size, marginal_.floor());
+    data.start.families[static_cast<Eigen::Index>(f)] = std::max(size, evidence_model_.floor());
   }
-  made.pull = all_.transpose() * z;
-  made.rr = z.squaredNorm();
-  return made;
+  data.projections = all_.transpose() * z;
+  data.rr = z.squaredNorm();
+  return data;
 }
 
-TangentSums Auditor::sums(const World& world, const Set& set) const {
+TangentSums Auditor::sums(const SyntheticDataset& data, const Set& set) const {
   std::vector<Eigen::Index> columns;
   for (const std::size_t i : set) {
     for (Eigen::Index k = 0; k < chords_[i].count; ++k) columns.push_back(chords_[i].first + k);
@@ -220,109 +215,110 @@ TangentSums Auditor::sums(const World& world, const Set& set) const {
   TangentSums sums;
   sums.JJ = gram_(columns, columns);
   sums.JD = gram_(columns, Eigen::seqN(own_, m));
-  sums.Jr = world.pull(columns);
-  sums.Dr = world.pull.tail(m);
-  sums.rr = world.rr;
+  sums.Jr = data.projections(columns);
+  sums.Dr = data.projections.tail(m);
+  sums.rr = data.rr;
   sums.rows = static_cast<double>(all_.rows());
   const auto count = static_cast<Eigen::Index>(columns.size());
   sums.x = Eigen::VectorXd::Zero(count);
   sums.prior = prior_(columns);
-  sums.read = Eigen::MatrixXd::Zero(count, count);
-  sums.pull = Eigen::VectorXd::Zero(count);
-  sums.give = give_;
+  sums.caliper_information = Eigen::MatrixXd::Zero(count, count);
+  sums.caliper_gradient = Eigen::VectorXd::Zero(count);
+  sums.deflection_ratio = deflection_ratio_;
   return sums;
 }
 
-double Auditor::score_of(const Explained& explained, const Set& set) const {
-  double score = explained.log_evidence;
-  for (const std::size_t i : set) score -= cost_of(*chords_[i].effect);
+double Auditor::score_of(const Posterior& posterior, const Set& set) const {
+  double score = posterior.log_evidence;
+  for (const std::size_t i : set) score -= reporting_penalty(*chords_[i].effect);
   return score;
 }
 
-/// Adds what betters the score, the best first.
-Auditor::Set Auditor::search(const World& world, Set set) const {
-  Explained here = marginal_.best(sums(world, set), world.start, k_rounds + 2);
+/// Greedy search: adds the effect that improves the score most.
+Auditor::Set Auditor::search(const SyntheticDataset& data, Set set) const {
+  Posterior here = evidence_model_.best(sums(data, set), data.start, k_rounds + 2);
   for (int step = 0; step < k_most_added; ++step) {
-    std::vector<std::pair<double, std::size_t>> looks;
-    const SizedDiscrepancy beside = marginal_.sized(here.amplitudes, give_);
+    std::vector<std::pair<double, std::size_t>> candidates;
+    const ScaledDiscrepancy beside = evidence_model_.sized(here.amplitudes, deflection_ratio_);
     for (std::size_t i = 0; i < chords_.size(); ++i) {
-      if (chords_[i].count == 0 || chords_[i].effect == world.unknown || std::count(set.begin(), set.end(), i))
+      if (chords_[i].count == 0 || chords_[i].effect == data.excluded || std::count(set.begin(), set.end(), i))
         continue;
       Set wider = set;
       wider.push_back(i);
-      looks.emplace_back(-score_of(marginal_.at(sums(world, wider), beside), wider), i);
+      candidates.emplace_back(-score_of(evidence_model_.at(sums(data, wider), beside), wider), i);
     }
-    std::sort(looks.begin(), looks.end());
-    looks.resize(std::min(looks.size(), k_tries));
+    std::sort(candidates.begin(), candidates.end());
+    candidates.resize(std::min(candidates.size(), k_tries));
     double reached = score_of(here, set);
     Set better;
-    Explained there;
-    for (const auto& [look, i] : looks) {
+    Posterior true_cause;
+    for (const auto& [predicted, i] : candidates) {
       Set wider = set;
       wider.push_back(i);
-      Explained explained = marginal_.best(sums(world, wider), here.amplitudes, k_rounds);
-      const double score = score_of(explained, wider);
+      Posterior posterior = evidence_model_.best(sums(data, wider), here.amplitudes, k_rounds);
+      const double score = score_of(posterior, wider);
       if (!(score > reached)) continue;
       reached = score;
       better = wider;
-      there = std::move(explained);
+      true_cause = std::move(posterior);
     }
     if (better.empty()) break;
     set = better;
-    here = there;
+    here = true_cause;
   }
   return set;
 }
 
-/// Whether what is there stands in the group of what was named.
-bool Auditor::could_be(const World& world, const Set& found, std::size_t named) const {
-  if (world.there == nullptr || world.there == world.unknown) return false;
+/// True if the true cause would be a member of the group of the reported effect.
+bool Auditor::is_group_member(const SyntheticDataset& data, const Set& found, std::size_t named) const {
+  if (data.true_cause == nullptr || data.true_cause == data.excluded) return false;
   Set instead;
   for (const std::size_t i : found) {
-    if (chords_[i].effect == world.there) return true;
+    if (chords_[i].effect == data.true_cause) return true;
     if (i != named) instead.push_back(i);
   }
   for (std::size_t i = 0; i < chords_.size(); ++i) {
-    if (chords_[i].effect == world.there) instead.push_back(i);
+    if (chords_[i].effect == data.true_cause) instead.push_back(i);
   }
   const auto reached = [&](const Set& set) {
-    return score_of(marginal_.best(sums(world, set), world.start, k_rounds + 2), set);
+    return score_of(evidence_model_.best(sums(data, set), data.start, k_rounds + 2), set);
   };
-  return reached(instead) > reached(found) - k_thresholds.temperature * std::log(1.0 / k_thresholds.least_of_a_group);
+  return reached(instead) >
+         reached(found) - k_thresholds.temperature * std::log(1.0 / k_thresholds.complete_group_doubt);
 }
 
-Audited Auditor::of(std::size_t found, Workers& workers) const {
+AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
   const Effect* named = selection_.best.effects[found];
   Set others;
   for (std::size_t i = 0; i < chords_.size(); ++i) {
     if (chords_[i].effect != named && contains(selection_.best.effects, *chords_[i].effect)) others.push_back(i);
   }
-  const auto worlds = static_cast<std::size_t>(k_thresholds.worlds);
-  std::vector<char> blamed(worlds, 0);
-  std::vector<const Effect*> there(worlds, nullptr);
-  workers.each(worlds, [&](const Fitter&, std::size_t i) {
-    const World made = world(found, i);
-    const Set set = search(made, others);
+  const auto data_sets = static_cast<std::size_t>(k_thresholds.data_sets);
+  std::vector<char> is_false_positive(data_sets, 0);
+  std::vector<const Effect*> true_cause(data_sets, nullptr);
+  pool.each(data_sets, [&](const Fitter&, std::size_t i) {
+    const SyntheticDataset data = synthesize(found, i);
+    const Set set = search(data, others);
     for (const std::size_t chord : set) {
-      if (chords_[chord].effect == named) blamed[i] = !could_be(made, set, chord);
+      if (chords_[chord].effect == named) is_false_positive[i] = !is_group_member(data, set, chord);
     }
-    there[i] = made.there;
+    true_cause[i] = data.true_cause;
   });
-  Audited audited;
-  audited.counts.worlds = k_thresholds.worlds;
-  std::vector<std::pair<int, const Effect*>> culprits;
-  for (std::size_t i = 0; i < worlds; ++i) {
-    if (!blamed[i]) continue;
-    ++audited.counts.named;
-    if (there[i] != nullptr) count(there[i], culprits);
+  AuditResult audited;
+  audited.counts.data_sets = k_thresholds.data_sets;
+  std::vector<std::pair<int, const Effect*>> causes;
+  for (std::size_t i = 0; i < data_sets; ++i) {
+    if (!is_false_positive[i]) continue;
+    ++audited.counts.false_positives;
+    if (true_cause[i] != nullptr) count(true_cause[i], causes);
   }
-  std::stable_sort(culprits.begin(), culprits.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  int doubtful = audited.counts.named;
-  for (const auto& [joints, effect] : culprits) {
-    if (doubtful <= k_thresholds.most_mistaken * audited.counts.worlds ||
-        audited.mistaken.size() == k_thresholds.most_culprits)
+  std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  int doubtful = audited.counts.false_positives;
+  for (const auto& [joints, effect] : causes) {
+    if (doubtful <= k_thresholds.most_false_positives * audited.counts.data_sets ||
+        audited.true_causes.size() == k_thresholds.most_true_causes)
       break;
-    audited.mistaken.push_back(effect);
+    audited.true_causes.push_back(effect);
     doubtful -= joints;
   }
   return audited;
@@ -330,11 +326,11 @@ Audited Auditor::of(std::size_t found, Workers& workers) const {
 
 }  // namespace
 
-std::vector<Audited> audit(const Evidence& evidence, Workers& workers, const Selection& selection) {
-  std::vector<Audited> all;
+std::vector<AuditResult> audit(const Evidence& evidence, FitterPool& pool, const Selection& selection) {
+  std::vector<AuditResult> all;
   if (selection.best.effects.empty()) return all;
-  const Auditor auditor(evidence, workers, selection);
-  for (std::size_t i = 0; i < selection.best.effects.size(); ++i) all.push_back(auditor.of(i, workers));
+  const Auditor auditor(evidence, pool, selection);
+  for (std::size_t i = 0; i < selection.best.effects.size(); ++i) all.push_back(auditor.audit_effect(i, pool));
   return all;
 }
 

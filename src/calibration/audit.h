@@ -1,5 +1,5 @@
 /// \file
-/// How often the same runs would have named an effect that is not there: counted on simulated joints.
+/// False-positive rate of each reported effect, counted on synthetic data sets.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace fusee {
 
-/// What simulated joints without an effect say of its name.
-struct Audited {
+/// False positives of an effect on synthetic data sets without it.
+struct AuditResult {
   Audit counts;
-  /// Effects that were there and were read as this one, the most often first, as many as it takes to be sure.
-  EffectSet mistaken;
+  /// True causes of the false positives, most frequent first, until the rate without them is acceptable.
+  EffectSet true_causes;
 };
 
-/// Of each effect of selection.best, in their order.
-std::vector<Audited> audit(const Evidence& evidence, Workers& workers, const Selection& selection);
+/// Audit of each effect of selection.best, in their order.
+std::vector<AuditResult> audit(const Evidence& evidence, FitterPool& pool, const Selection& selection);
 
 }  // namespace fusee

@@ -4,13 +4,12 @@
 #include "calibration/audit.h"
 #include "calibration/catalogue.h"
 #include "calibration/changes.h"
-#include "calibration/delivered.h"
-#include "calibration/evenness.h"
 #include "calibration/expected_sizes.h"
 #include "calibration/explanation.h"
 #include "calibration/next_measurements.h"
+#include "calibration/reported_parameters.h"
 #include "calibration/thresholds.h"
-#include "calibration/unmodelled.h"
+#include "calibration/unmodelled_alternatives.h"
 #include "calibration/verdict.h"
 #include "fusee/calibration/calibration.h"
 #include "fusee/joint/simulate.h"
@@ -28,7 +27,7 @@ std::vector<std::vector<double>> residuals(const Measurement& measurement, const
   return all;
 }
 
-/// Of whole strokes.
+/// Figures over whole strokes.
 ErrorFigures figures(const Measurement& measurement, const std::vector<std::vector<double>>& all, double held_out) {
   ErrorFigures error;
   double squares = 0;
@@ -74,26 +73,28 @@ bool is_named(const Run& run, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), run.name) != names.end();
 }
 
-/// The runs that may be learnt from, or those kept for validation.
+/// The runs to fit, or those kept for validation.
 Measurement part(const Measurement& measurement, const std::vector<std::string>& hold_out, bool held) {
   Measurement chosen = measurement;
   std::erase_if(chosen.runs, [&](const Run& run) { return is_named(run, hold_out) != held; });
   return chosen;
 }
 
-/// Where runs were named, theirs are the held-out figures.
-void validate(const Mechanism& declared, const Measurement& kept, const Validated& answer, Calibration& calibration) {
+/// Replaces the held-out figures by those of the runs kept for validation.
+void validate(const Mechanism& declared, const Measurement& kept, const ValidatedAnswer& answer,
+              Calibration& calibration) {
   if (kept.runs.empty()) return;
   const auto rms = [&](const Imperfections& at) {
     return figures(kept, residuals(kept, predict(declared, at, bench_log(kept))), 0).rms;
   };
   calibration.before.held_out_rms = rms(answer.declared.fit.at);
-  calibration.after.held_out_rms = rms(answer.made.estimate.fit.at);
+  calibration.after.held_out_rms = rms(answer.reported.estimate.fit.at);
   calibration.held_out_runs.clear();
   for (const Run& run : kept.runs) calibration.held_out_runs.push_back(run.name);
 }
 
-/// The tendons' elastic model takes N across OC; read_measurement() and compare_with_declared() see to it.
+/// The elastic model of tendons requires a force in N across OC; read_measurement() and compare_with_declared() convert
+/// it.
 bool is_torque(const Mechanism& declared, const Measurement& measurement) {
   return !declared.transmission && (measurement.load_unit == "Nm" || measurement.load_unit == "Nmm");
 }
@@ -105,18 +106,18 @@ std::vector<std::string> why_not_testable(const Mechanism& declared, const Measu
   return measurement.not_testable;
 }
 
-void describe_errors(const Evidence& evidence, const Measurement& measurement, const Validated& answer,
+void describe_errors(const Evidence& evidence, const Measurement& measurement, const ValidatedAnswer& answer,
                      Calibration& calibration) {
   const BenchLog log = bench_log(measurement);
   const auto residuals_of = [&](const Estimate& estimate) {
     return residuals(measurement, predict(*evidence.declared, estimate.fit.at, log, evidence.earlier));
   };
   const auto held_out_rms = [&](const Estimate& estimate) {
-    if (evidence.earlier) return std::sqrt(std::max(0.0, estimate.fit.by_run.mean_square - estimate.fit.price));
+    if (evidence.earlier) return std::sqrt(std::max(0.0, estimate.fit.by_run.mean_square - estimate.fit.play_square));
     const double square = hold_out(evidence, estimate, evidence.run_folds).mean_square;
-    return std::sqrt(std::max(0.0, square - estimate.fit.price));
+    return std::sqrt(std::max(0.0, square - estimate.fit.play_square));
   };
-  const Estimate &before = answer.declared, &after = answer.made.estimate;
+  const Estimate &before = answer.declared, &after = answer.reported.estimate;
   calibration.residuals_before = residuals_of(before);
   calibration.residuals_after = residuals_of(after);
   calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(before));
@@ -125,8 +126,8 @@ void describe_errors(const Evidence& evidence, const Measurement& measurement, c
   calibration.iso_after = iso230(measurement, calibration.residuals_after);
 }
 
-/// Of what the declared joint leaves: between rows that stand far apart θ(α) bends by more than noise. As logged where
-/// the declared joint has no place.
+/// Measurement minus the declared joint: between sparse rows θ(α) bends by more than noise. As logged if the declared
+/// joint has no equilibrium.
 Measurement about_declared(const Mechanism& declared, const Measurement& measurement,
                            const std::optional<EarlierState>& earlier) {
   const Readings model = predict(declared, {}, bench_log(measurement), earlier);
@@ -140,7 +141,7 @@ Measurement about_declared(const Mechanism& declared, const Measurement& measure
   return about;
 }
 
-/// A number that does nothing is as declared.
+/// Numbers that have no effect are reset to the declared value.
 Imperfections without_idle_numbers(const Fit& fit, const Imperfections& numbers) {
   Imperfections at = numbers;
   for (const EffectParameter* parameter : fit.parameters) {
@@ -155,8 +156,8 @@ void describe_changes(const Evidence& evidence, const Selection& selection, Cali
   for (std::size_t i = 0; i < sizes.size(); ++i) calibration.effects[i].by_runs = sizes[i];
 }
 
-/// Rows that a correction is measured by: the runs that were kept for validation, or whole runs left out in turn. A lone
-/// run is judged by the numbers that its strokes were validated with.
+/// Held-out rows for the validation of a correction: the runs kept for validation, or whole runs left out in turn. A
+/// single run is validated with the numbers of all its strokes.
 std::vector<LeftOut> left_out(const Evidence& evidence, const Estimate& estimate, const std::vector<std::string>& kept,
                               const Imperfections& identified) {
   if (!kept.empty()) return {{kept, identified}};
@@ -168,12 +169,12 @@ std::vector<LeftOut> left_out(const Evidence& evidence, const Estimate& estimate
   return all;
 }
 
-/// A name that simulated joints without it bear too often is none to stand alone: what was read as it joins the group.
-void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
+/// Adds the true causes of an effect's false positives to its group.
+void take_audit(const std::vector<AuditResult>& audited, Calibration& calibration) {
   for (std::size_t i = 0; i < audited.size(); ++i) {
     FoundEffect& effect = calibration.effects[i];
     effect.audit = audited[i].counts;
-    for (const Effect* other : audited[i].mistaken) {
+    for (const Effect* other : audited[i].true_causes) {
       if (std::find(effect.group.begin(), effect.group.end(), other->name) == effect.group.end())
         effect.group.push_back(other->name);
     }
@@ -191,10 +192,10 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
   if (evidence.blocks.size() < 2)
     return not_testable(declared, measurement,
                         {"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
-  Workers workers(evidence);
+  FitterPool pool(evidence);
   evidence.sizes =
-      expected_sizes(catalogue(declared, measurement, options.more_effects, options.without), evidence, workers);
-  Selection selection = select_effects(evidence, workers, options);
+      expected_sizes(catalogue(declared, measurement, options.more_effects, options.without), evidence, pool);
+  Selection selection = select_effects(evidence, pool, options);
   if (!selection.none.usable)
     return not_testable(
         declared, measurement,
@@ -203,37 +204,33 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
   Calibration calibration;
   calibration.noise = noise;
   const Measurement kept = part(measurement, options.hold_out, true);
-  const Validated answer =
-      options.earlier ? changes_beside(evidence, selection) : validated(evidence, workers, kept, selection);
-  const Fit& numbers = answer.made.estimate.fit;
+  const ValidatedAnswer answer =
+      options.earlier ? changes_beside(evidence, selection) : validate_answer(evidence, pool, kept, selection);
+  const Fit& numbers = answer.reported.estimate.fit;
   calibration.dropped = answer.dropped;
-  calibration.effects = found_effects(evidence, selection, answer.made.reported);
+  calibration.effects = found_effects(evidence, selection, answer.reported.reported);
   if (options.audit) {
-    take_audit(audit(evidence, workers, selection), calibration);
-    const std::vector<Unmodelled> unmodelled = unmodelled_rivals(evidence, workers, selection);
-    const std::vector<Evenness> even = evenness(evidence, workers, selection);
-    for (std::size_t i = 0; i < unmodelled.size(); ++i) {
-      calibration.effects[i].unmodelled = unmodelled[i];
-      calibration.effects[i].evenness = even[i];
-    }
+    take_audit(audit(evidence, pool, selection), calibration);
+    const std::vector<UnmodelledAlternative> unmodelled = find_unmodelled_alternatives(evidence, pool, selection);
+    for (std::size_t i = 0; i < unmodelled.size(); ++i) calibration.effects[i].unmodelled = unmodelled[i];
   }
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.tried = selection.tried;
-  calibration.detectable = detectable_sizes(evidence, workers, selection);
+  calibration.detectable = detectable_sizes(evidence, pool, selection);
   calibration.identified = without_idle_numbers(numbers, numbers.at);
-  calibration.left_out = left_out(evidence, answer.made.estimate, options.hold_out, calibration.identified);
+  calibration.left_out = left_out(evidence, answer.reported.estimate, options.hold_out, calibration.identified);
   for (LeftOut& left : calibration.left_out) left.identified = without_idle_numbers(numbers, left.identified);
   describe_errors(evidence, measurement, answer, calibration);
   name_held_out(evidence, calibration);
   validate(declared, kept, answer, calibration);
-  calibration.curve = answer.made.curve;
-  conclude(evidence, selection, answer.unnamed, calibration);
+  calibration.curve = answer.reported.curve;
+  conclude(evidence, selection, answer.unmodelled, calibration);
   if (!options.earlier) {
     calibration.next = next_measurements(evidence, selection, calibration);
     ask_for_both_sides(learnt_from, calibration.next);
   }
   summarize(evidence, selection, calibration);
-  hold_against(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
+  validate_curve(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
   if (options.earlier) describe_changes(evidence, selection, calibration);
   return calibration;
 }

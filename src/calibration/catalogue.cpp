@@ -10,7 +10,7 @@
 namespace fusee {
 namespace {
 
-/// A sensor that drifts by less has seen one temperature.
+/// Temperature range below which all data are at one temperature.
 constexpr double k_least_warming = 1.0;  // K
 
 bool all(const Measurement& measurement, bool Run::*has) {

@@ -1,5 +1,5 @@
 /// \file
-/// Which effects a joint can have and its data can show.
+/// Effects that a joint can have and its data can show.
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@
 
 namespace fusee {
 
-/// Of effects() and of `more`, but for those named in `without`, in the order of the chain. The effects stay where they
-/// are: pointers to them hold.
+/// Effects of effects() and `more` except those named in `without`, in the order of the chain. Pointers refer to the
+/// originals.
 std::vector<const Effect*> catalogue(const Mechanism& declared, const Measurement& measurement,
                                      std::span<const Effect* const> more = {},
                                      std::span<const std::string> without = {});

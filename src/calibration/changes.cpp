@@ -14,7 +14,7 @@ bool has_size(const Effect& effect, const Imperfections& joint) {
                      [&](const EffectParameter& p) { return !p.searched && value_of(joint, p) != 0; });
 }
 
-/// A joint has one order of each wave: a wave that is there may change in size and phase alone.
+/// A joint has one order of each wave: an existing wave may change in size and phase only.
 void keep_order(const Imperfections& before, Effect& effect) {
   for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
     const EffectParameter& parameter = effect.parameters[k];
@@ -25,7 +25,7 @@ void keep_order(const Imperfections& before, Effect& effect) {
   }
 }
 
-/// A number that may shrink is looked for from below too.
+/// Adds starts of the opposite sign for numbers that may shrink.
 void add_opposite_starts(Effect& effect) {
   const std::vector<std::vector<double>> starts = effect.starts;
   for (std::vector<double> start : starts) {
@@ -60,7 +60,7 @@ Effect change_of(const Imperfections& before, Effect effect) {
 std::vector<Effect> changes_from(const Imperfections& before, JointKind kind) {
   std::vector<Effect> all;
   for (const Effect& effect : effects(kind)) {
-    // A slip has one time: a second one has no place beside it.
+    // The model of a slip has one time, so an existing slip excludes a second one.
     if (effect.starts_in_time && has_size(effect, before)) continue;
     all.push_back(change_of(before, effect));
   }
@@ -71,19 +71,15 @@ std::vector<Effect> changes_from(const Imperfections& before, JointKind kind) {
 
 namespace {
 
-/// The discrepancy beside `fit` but for what it says of single runs and strokes, rows in use.
+/// Discrepancy beside `fit` without its families of single runs and strokes, rows in use.
 Eigen::VectorXd shared_discrepancy(const Evidence& evidence, const Fit& fit) {
-  const Discrepancy& discrepancy = evidence.marginal->discrepancy();
-  Eigen::VectorXd shared = Eigen::VectorXd::Zero(discrepancy.columns.rows());
-  for (const Family& family : discrepancy.families) {
-    if (family.factor == Factor::run || family.factor == Factor::drift || family.factor == Factor::stroke) continue;
-    shared += discrepancy.columns.middleCols(family.first, family.count) *
-              fit.explained.unnamed.segment(family.first, family.count);
-  }
-  return shared;
+  return sum_of_families(evidence.evidence_model->discrepancy(), fit.posterior.coefficients, [](Factor factor) {
+    return factor != Factor::run && factor != Factor::drift && factor != Factor::stroke;
+  });
 }
 
-/// Variance of the size of a change, from one state: Σ (gᵣ·eᵣ)² / (Σ gᵣ·gᵣ)² over its clusters, corrected for few.
+/// Variance of the size of a change, from one state: Σ (gᵣ·eᵣ)² / (Σ gᵣ·gᵣ)² over its clusters, corrected for their
+/// number.
 class ClusteredVariance {
  public:
   void take(std::size_t cluster, double done, double left) {
@@ -102,7 +98,8 @@ class ClusteredVariance {
   double squares_ = 0;
 };
 
-/// `done`: by the change, in every run of either state; `left`: of the fit, beside the shared discrepancy.
+/// `done`: contribution of the change to every run of both states; `left`: residual of the fit beside the shared
+/// discrepancy.
 double size_by_scatter(const Evidence& evidence, const Eigen::VectorXd& done, const Eigen::VectorXd& left) {
   const std::size_t first = evidence.earlier->runs, runs = evidence.measurement.runs.size();
   std::array<ClusteredVariance, 2> states;

@@ -1,5 +1,5 @@
 /// \file
-/// The catalogue of effects as changes of a joint whose state before is known.
+/// Effects of the catalogue as changes of a joint whose earlier state is known.
 #pragma once
 
 #include <vector>
@@ -10,16 +10,16 @@
 
 namespace fusee {
 
-/// Every effect of the kind, its bounds and starts shifted so that a number is what was added to `before`: play may
-/// shrink by as much as there was. Of a joint declared by a ratio the joint sensor's zero is one of them.
+/// Every effect of the kind, with bounds and starts shifted so that a number is the change from `before`: play may
+/// shrink by as much as it was. For a joint declared by a ratio the joint sensor's zero is one of them.
 std::vector<Effect> changes_from(const Imperfections& before, JointKind kind);
 
-/// One number for each effect of `fit`, in their order: 1 / s, where s is the standard error of the size of what it does,
-/// 1 as fitted, with runs as clusters (Liang & Zeger 1986); of a state of one run its blocks. What a joint does in one
-/// run and not in the next is no change, however small the noise within a run.
+/// For each effect of `fit`, in their order: 1 / s, with the standard error s of a factor on its contribution (1 as
+/// fitted) by scatter between runs as clusters (Liang and Zeger 1986). The clusters of a state of one run are its
+/// blocks. A contribution that does not repeat from run to run is no change, however small the noise within a run.
 std::vector<double> sizes_by_scatter(const Evidence& evidence, const Fit& fit);
 
-/// `none`: with the joint as it was, `changed`: with the changes.
+/// `none`: fit of the earlier joint, `changed`: fit with the changes.
 StateDifference state_difference(const Evidence& evidence, const Fit& none, const Fit& changed);
 
 }  // namespace fusee

@@ -7,24 +7,23 @@
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
 
-// The joint before is identified from its own runs. All runs are then explained together: those before by that joint,
-// those after by that joint with changes, both beside one discrepancy. What the identified joint does not hold is in
-// both states and so in the discrepancy, whatever its cause, and so is what it holds wrongly; the scatter between runs
-// is a part of the discrepancy too. A change is named by the same selection as an effect.
+// The earlier joint is identified from its own runs. Then all runs are explained together, the earlier ones by that
+// joint, the later ones by that joint with changes, both beside one discrepancy. An error of the identified joint is
+// present in both states, so in the discrepancy, as is the scatter between runs. Changes are selected as effects are.
 
 namespace fusee {
 namespace {
 
 const EffectParameter* find_parameter(const std::string& effect, const std::string& name, JointKind kind) {
   const Effect* found = find_effect(effect, kind);
-  if (found == nullptr) found = find_effect(effect, JointKind::tendons);  // the zero of a joint declared by a ratio
+  if (found == nullptr) found = find_effect(effect, JointKind::tendons);  // the zero of a joint declared by its ratio
   if (found == nullptr) return nullptr;
   const auto own = std::find_if(found->parameters.begin(), found->parameters.end(),
                                 [&](const EffectParameter& p) { return p.name == name; });
   return own == found->parameters.end() ? nullptr : &*own;
 }
 
-/// The number as it was fitted to the runs before; null where it was not.
+/// The parameter as fitted to the earlier runs; null if it was not fitted.
 const FittedParameter* find_fitted(const Calibration& before, const std::string& effect, const std::string& name) {
   for (const FoundEffect& found : before.effects) {
     for (const FittedParameter& own : found.parameters) {
@@ -34,7 +33,7 @@ const FittedParameter* find_fitted(const Calibration& before, const std::string&
   return nullptr;
 }
 
-/// Slack leaves a part of the pretension.
+/// Factor on a number by slack, which leaves a share of the pretension.
 double part_in_use(const EffectParameter& number, const Imperfections& joint) {
   return number.name == "pretension_N" ? joint.tendon.pretension_share() : 1.0;
 }
@@ -50,7 +49,7 @@ StateChange change_of(const FoundEffect& effect, const DeclaredMechanism& declar
     const double was = part_in_use(*number, before) * shown_value(*number, before, declared);
     const double part = part_in_use(*number, after);
     ChangedParameter own{fitted.name, was, part * fitted.value, part * fitted.low - was, part * fitted.high - was};
-    // A cause that is gone altogether is as uncertain as it was.
+    // A vanished cause is as uncertain as it was before.
     const FittedParameter* fitted_before = find_fitted(comparison.before, effect.name, fitted.name);
     if (fitted_before != nullptr && value_of(after, *number) <= number->least)
       own.low = own.after - fitted_before->high, own.high = own.after - fitted_before->low;
@@ -63,7 +62,7 @@ std::string range_words(const SeenSpan& span) {
   return rounded(degrees(span.least), 3) + "° … " + rounded(degrees(span.most), 3) + "°";
 }
 
-/// Why these are no two states of one joint, as far as their files say; "" where they may be.
+/// Reason why the files cannot be two states of one joint; "" if they can.
 std::string why_not_comparable(const ComparedRuns& runs) {
   const std::string one_of_both = " Name files of one joint behind --before and --after.";
   const std::string& unit = runs.before.load_unit;
@@ -84,7 +83,7 @@ std::string why_not_comparable(const ComparedRuns& runs) {
   return "";
 }
 
-/// Mean square about their mean, of those that are finite.
+/// Variance of the finite values.
 class Variance {
  public:
   void take(double value) {
@@ -99,8 +98,8 @@ class Variance {
   double sum_ = 0, squares_ = 0, count_ = 0;
 };
 
-/// How much further the runs after are from the joint before than its own runs, whatever changed, by how far they move;
-/// a moved zero aside.
+/// Excess rms of the later runs over the earlier ones, relative to the earlier joint, by the rms of the motion. Offsets
+/// do not count.
 double part_of_motion(const ComparedRuns& runs, const std::vector<std::vector<double>>& about_before) {
   Variance own, later, motion;
   for (std::size_t r = 0; r < about_before.size(); ++r) {

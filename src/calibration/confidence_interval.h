@@ -2,11 +2,11 @@
 
 namespace fusee {
 
-/// Of one fitted x, in its own steps.
+/// Interval of a fitted x, in its steps.
 struct ConfidenceInterval {
   double low = 0;  ///< 95 %
   double high = 0;
-  double deviation = 0;  ///< standard
+  double deviation = 0;  ///< standard deviation
 };
 
 }  // namespace fusee

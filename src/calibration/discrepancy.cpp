@@ -11,28 +11,27 @@
 #include "calibration/thresholds.h"
 #include "measurement/seen_span.h"
 
-// A Gaussian process over place of one length is its eigenfunctions: smooth ones with much of the variance, wrigglier
-// ones with less. Two lengths stand beside each other, so that what is bent like a pin's radius and what is bent like a
-// lump are both described, and each pays for its own columns alone. Everything else is these functions times what the
-// runs vary: a direction, a load, a speed.
+// A Gaussian process over place is represented by its eigenfunctions. Two length scales are combined, for smooth errors
+// (a pin's radius) and local ones, and each has its own columns. All other factors multiply these functions: a
+// direction, a load, a speed.
 
 namespace fusee {
 namespace {
 
-/// Curves over the seen span: of place and direction, of what else they are multiplied by, those of no more than one
-/// bend, and those that bend most. Each order of bends has an amplitude of its own: what is bent once is no cheaper by
-/// a name than without.
+/// Numbers of curves over the measured range: of place and direction, of their products with other factors, of those
+/// with at most one bend, and of those on the short length scale. Each order of bends has an amplitude of its own, so
+/// that an effect of one bend has no advantage over the discrepancy.
 constexpr Eigen::Index k_smooth = 10;
 constexpr Eigen::Index k_simple = 6;
 constexpr Eigen::Index k_plain = 3;
 constexpr Eigen::Index k_rough = 18;
-/// Share of the span over which the latter bend, and places at which they are known.
+/// Short length scale as a share of the span, and nodes of its kernel.
 constexpr double k_bend = 0.06;
 constexpr int k_nodes = 41;
-/// Ways over which what a reversal leaves dies away, of the span: from a stiff drive's to a sheathed cable's.
+/// Decay lengths behind a reversal as shares of the span: from a stiff drive's to a sheathed cable's.
 constexpr std::array k_ways = {0.02, 0.06, 0.2};
 
-/// Legendre's polynomials over the span, orthonormal: any shape of so many bends, each as likely.
+/// Orthonormal Legendre polynomials over the span: shapes with a number of bends, each equally likely.
 Eigen::MatrixXd smooth_curves(const std::vector<RowFacts>& facts, Eigen::Index count) {
   Eigen::MatrixXd curves(static_cast<Eigen::Index>(facts.size()), count);
   for (Eigen::Index i = 0; i < curves.rows(); ++i) {
@@ -43,8 +42,8 @@ Eigen::MatrixXd smooth_curves(const std::vector<RowFacts>& facts, Eigen::Index c
   return curves;
 }
 
-/// Eigenfunctions of a Gaussian process that bends over a small part of the span: φ φᵀ is its covariance. A lump
-/// anywhere is as likely as any.
+/// Eigenfunctions of a Gaussian process of a short length scale: φ φᵀ is its covariance. Local errors are equally
+/// likely anywhere.
 Eigen::MatrixXd rough_curves(const std::vector<RowFacts>& facts) {
   const auto kernel = [](double a, double b) { return std::exp(-0.5 * (a - b) * (a - b) / (k_bend * k_bend)); };
   const auto node = [](Eigen::Index i) { return static_cast<double>(i) / (k_nodes - 1); };
@@ -66,7 +65,7 @@ class Builder {
  public:
   explicit Builder(Eigen::Index rows) : rows_(rows) {}
 
-  /// Nothing where the columns are nothing.
+  /// Adds a family, unless its columns are zero.
   void add(Factor factor, const Eigen::MatrixXd& columns, double fixed = 0) {
     const double square = columns.squaredNorm() / static_cast<double>(rows_);
     if (!(square > 1e-12)) return;
@@ -104,7 +103,7 @@ Eigen::MatrixXd indicators(const std::vector<RowFacts>& facts, std::size_t RowFa
   return all;
 }
 
-/// The curves times `part`, of each run its own.
+/// The curves times `part`, one set for each run.
 Eigen::MatrixXd curves_of_runs(const std::vector<RowFacts>& facts, const Eigen::MatrixXd& curves, const Part& part) {
   const Eigen::MatrixXd runs = indicators(facts, &RowFacts::run, part);
   Eigen::MatrixXd all(runs.rows(), runs.cols() * curves.cols());
@@ -113,7 +112,7 @@ Eigen::MatrixXd curves_of_runs(const std::vector<RowFacts>& facts, const Eigen::
   return all;
 }
 
-/// What dies away behind a reversal.
+/// Exponential decays behind a reversal.
 Eigen::MatrixXd transients(const std::vector<RowFacts>& facts, const Part& part) {
   Eigen::MatrixXd all(static_cast<Eigen::Index>(facts.size()), static_cast<Eigen::Index>(k_ways.size()));
   for (std::size_t i = 0; i < facts.size(); ++i) {
@@ -124,12 +123,23 @@ Eigen::MatrixXd transients(const std::vector<RowFacts>& facts, const Part& part)
   return all;
 }
 
-/// Whether a stroke's rows lie at many places. A constant of each stand at one place is any data whatever.
+/// True if a stroke's rows lie at many places. Constants of dwells at one place could explain any data.
 bool strokes_span_places(const Evidence& evidence) {
   return std::none_of(evidence.measurement.runs.begin(), evidence.measurement.runs.end(), is_from_point_to_point);
 }
 
 }  // namespace
+
+Eigen::VectorXd sum_of_families(const Discrepancy& discrepancy, const Eigen::VectorXd& coefficients,
+                                const std::function<bool(Factor)>& is_in) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
+  for (const Family& family : discrepancy.families) {
+    if (is_in(family.factor))
+      sum +=
+          discrepancy.columns.middleCols(family.first, family.count) * coefficients.segment(family.first, family.count);
+  }
+  return sum;
+}
 
 Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& deflection) {
   const std::vector<RowFacts> facts = row_facts(evidence);
@@ -159,7 +169,7 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
     builder.add(Factor::load_direction,
                 times([](const RowFacts& r) { return std::abs(r.load) * r.direction; }, smooth));
   }
-  // Tendons go slack and stiffen. What a joint declared by its ratio does under load is all in its effects.
+  // Tendons go slack and stiffen. The effects of a joint declared by its ratio contain all of its behaviour under load.
   if (varies(facts, &RowFacts::load, 0.05) && !evidence.declared->transmission) {
     builder.add(Factor::load,
                 times([](const RowFacts& r) { return 2.5 * r.load * r.load * r.load - 1.5 * r.load; }, plain));
@@ -182,12 +192,13 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
   if (evidence.blocks.size() <= k_thresholds.most_strokes && strokes_span_places(evidence))
     builder.add(Factor::stroke, indicators(facts, &RowFacts::block, one));
   const std::vector<Eigen::Index> rows = evidence.rows();
-  if (deflection.size() > 0) {  // of a joint declared by a ratio: what a unit of load does to one of compliance 1
+  // for a joint declared by its ratio: response of one of compliance 1 to a unit of load
+  if (deflection.size() > 0) {
     const Eigen::VectorXd yielding = deflection(rows);
     const Eigen::MatrixXd even = yielding.asDiagonal() * smooth;
     const Eigen::MatrixXd odd = column(facts, [](const RowFacts& r) { return r.direction; }).asDiagonal() * even;
-    builder.add(Factor::model_error, even, k_thresholds.trusted);
-    builder.add(Factor::model_error, odd, k_thresholds.trusted);
+    builder.add(Factor::model_error, even, k_thresholds.model_error);
+    builder.add(Factor::model_error, odd, k_thresholds.model_error);
   }
   return std::move(builder).made();
 }

@@ -1,9 +1,10 @@
 /// \file
-/// What no effect has a name for, as far as it can be described: families of smooth functions of place, direction,
-/// load, speed and time, each of one unknown amplitude.
+/// Model discrepancy: families of smooth functions of place, direction, load, speed and time, each of one unknown
+/// amplitude.
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,37 +12,41 @@
 
 namespace fusee {
 
-/// On what a part of an error depends.
+/// Factor that a component of the discrepancy depends on.
 enum class Factor {
-  place,            ///< α alone, whichever way, load and speed
+  place,            ///< α alone, at any direction, load and speed
   direction,        ///< odd in the direction of motion
   reversal,         ///< dies away over some way behind a reversal
   load,             ///< in proportion to the load
   load_size,        ///< with the size of the load, whichever its sign
-  load_direction,   ///< a loop that grows with the load
+  load_direction,   ///< hysteresis that grows with the load
   speed,            ///< in proportion to the speed, the same both ways
-  speed_direction,  ///< a loop that grows with speed
+  speed_direction,  ///< hysteresis that grows with speed
   run,              ///< one constant a run
   drift,            ///< steadily in time within a run
   stroke,           ///< one constant a stroke
-  model_error,      ///< what the model itself is not trusted to
+  model_error,      ///< error of the model itself
 };
 
-/// Neighbouring columns with one amplitude: the rms of what they may add, over all rows.
+/// Neighbouring columns of one amplitude: the rms of their sum over all rows.
 struct Family {
   Factor factor = Factor::place;
   Eigen::Index first = 0;
   Eigen::Index count = 0;
-  double fixed = 0;  ///< amplitude that is stated and not found, rad; 0: found
+  double fixed = 0;  ///< fixed amplitude, rad; 0: estimated
 };
 
-/// Columns over the rows in use, block by block: those of a family have a mean square of 1 over the rows in sum.
+/// Columns over the rows in use, block by block. The mean squares of a family's columns sum to 1 over the rows.
 struct Discrepancy {
   Eigen::MatrixXd columns;
   std::vector<Family> families;
 };
 
-/// Of everything that these runs vary. `deflection`: of the declared joint, all rows, rad.
+/// Sum of the families of the factors for which `is_in` is true, rows in use. `coefficients`: of all columns.
+Eigen::VectorXd sum_of_families(const Discrepancy& discrepancy, const Eigen::VectorXd& coefficients,
+                                const std::function<bool(Factor)>& is_in);
+
+/// Families of all factors that these runs vary. `deflection`: of the declared joint, all rows, rad.
 Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& deflection);
 
 }  // namespace fusee

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "calibration/marginal.h"
+#include "calibration/evidence_model.h"
 #include "calibration/thresholds.h"
 #include "measurement/seen_span.h"
 #include "measurement/strokes.h"
@@ -15,22 +15,21 @@
 namespace fusee {
 namespace {
 
-/// Rows of a run that a fit looks at: enough for every stroke's shape, and few enough for hundreds of fits.
+/// Rows of a run in a fit: enough for the shape of every stroke, few enough for hundreds of fits.
 constexpr std::size_t k_rows_a_run = 170;
 constexpr std::size_t k_most_rows = 1500;
-/// A joint declared by a ratio costs next to nothing to simulate.
+/// Factor on the rows of a joint declared by its ratio, which costs next to nothing to simulate.
 constexpr std::size_t k_cheaper = 5;
 constexpr std::size_t k_least_rows_a_block = 6;
-/// Of a held point, where a run holds so many that there is not enough for all.
-constexpr std::size_t k_rows_a_stand = 3;
-/// Ways whose ends are within this part of what α spans repeat one another. Levels of a load that goes with the motion
-/// cut strokes into pieces, two of one level at two places: what differs between these is the joint's law, and no
-/// scatter (the jaw of docs/background/real-joint.md).
+/// Least rows of a dwell in a run of many dwells.
+constexpr std::size_t k_rows_a_dwell = 3;
+/// Segments repeat one another only if their α end points agree within this share of the range of α. Levels of a load
+/// that varies with the motion divide strokes into segments at different places, whose difference is θ(α) and no noise
+/// (the jaw of docs/background/real-joint.md).
 constexpr double k_one_way = 0.1;
 
-/// Whole cycles, evenly spread, of so many strokes that enough rows of each are left; the ends of the others are
-/// history.
-std::vector<bool> looked_at(const Run& run, std::size_t most_pairs) {
+/// Selects whole cycles, evenly spread, so that each keeps enough rows; of other strokes the ends are kept as history.
+std::vector<bool> select_strokes(const Run& run, std::size_t most_pairs) {
   const std::size_t pairs = (run.strokes.size() + 1) / 2;
   std::vector<bool> chosen(run.strokes.size(), true);
   for (std::size_t i = 0; pairs > most_pairs && i < chosen.size(); ++i)
@@ -38,70 +37,70 @@ std::vector<bool> looked_at(const Run& run, std::size_t most_pairs) {
   return chosen;
 }
 
-/// What a fit does with each row of a run.
-struct Taken {
-  std::vector<bool> counted;  ///< judged by
-  std::vector<bool> kept;     ///< judged by, or history
+/// Use of each row of a run in a fit.
+struct RowSelection {
+  std::vector<bool> counted;  ///< rows in the residual
+  std::vector<bool> kept;     ///< rows in the residual or the history of the motion
 };
 
-/// Every n-th row of the strokes looked at.
-Taken every_nth(const Run& run, std::size_t most) {
-  const std::vector<bool> chosen = looked_at(run, std::max<std::size_t>(1, most / (4 * k_least_rows_a_block)));
-  // Rows before, between and after strokes are history where all strokes are looked at.
+/// Every n-th row of the selected strokes.
+RowSelection sample_every_nth(const Run& run, std::size_t most) {
+  const std::vector<bool> chosen = select_strokes(run, std::max<std::size_t>(1, most / (4 * k_least_rows_a_block)));
+  // Rows before, between and after strokes are history if all strokes are selected.
   std::vector<bool> inside(run.samples.size(), std::find(chosen.begin(), chosen.end(), false) == chosen.end());
   for (std::size_t s = 0; s < run.strokes.size(); ++s) {
     for (std::size_t i = run.strokes[s].first; chosen[s] && i <= run.strokes[s].last; ++i) inside[i] = true;
   }
   const auto rows = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), true));
   const std::size_t every = (rows + most - 1) / std::max<std::size_t>(1, most);
-  Taken taken{std::vector<bool>(run.samples.size(), false), {}};
+  RowSelection selected{std::vector<bool>(run.samples.size(), false), {}};
   std::size_t seen = 0;
-  for (std::size_t i = 0; i < run.samples.size(); ++i) taken.counted[i] = inside[i] && seen++ % every == 0;
-  taken.kept = taken.counted;
-  return taken;
+  for (std::size_t i = 0; i < run.samples.size(); ++i) selected.counted[i] = inside[i] && seen++ % every == 0;
+  selected.kept = selected.counted;
+  return selected;
 }
 
-/// As many rows of each stand, however long it is; a few of it tell what all of it tells.
-Taken of_each_stand(const Run& run, std::size_t most) {
-  const auto stands = static_cast<std::size_t>(
+/// Equally many rows of each dwell, however long it is.
+RowSelection sample_each_dwell(const Run& run, std::size_t most) {
+  const auto dwells = static_cast<std::size_t>(
       std::count_if(run.segments.begin(), run.segments.end(), [](const Segment& s) { return s.held; }));
-  const std::size_t most_pairs = std::max<std::size_t>(1, most * ((run.strokes.size() + 1) / 2) / stands);
-  const std::vector<bool> chosen = looked_at(run, most_pairs);
-  const std::size_t rows = std::max(most / stands, k_rows_a_stand);
-  Taken taken{std::vector<bool>(run.samples.size(), false), {}};
-  for (const Segment& stretch : run.segments) {
-    if (!chosen[stretch.stroke]) continue;
-    const std::size_t count = stretch.last - stretch.first + 1, used = std::min(count, rows);
-    for (std::size_t i = 0; i < used; ++i) taken.counted[stretch.first + (2 * i + 1) * count / (2 * used)] = true;
+  const std::size_t most_pairs = std::max<std::size_t>(1, most * ((run.strokes.size() + 1) / 2) / dwells);
+  const std::vector<bool> chosen = select_strokes(run, most_pairs);
+  const std::size_t rows = std::max(most / dwells, k_rows_a_dwell);
+  RowSelection selected{std::vector<bool>(run.samples.size(), false), {}};
+  for (const Segment& segment : run.segments) {
+    if (!chosen[segment.stroke]) continue;
+    const std::size_t count = segment.last - segment.first + 1, used = std::min(count, rows);
+    for (std::size_t i = 0; i < used; ++i) selected.counted[segment.first + (2 * i + 1) * count / (2 * used)] = true;
   }
-  taken.kept = taken.counted;
-  return taken;
+  selected.kept = selected.counted;
+  return selected;
 }
 
-/// Strokes without which play and friction would begin anew: all, or of very many those looked at and two before each.
-std::vector<bool> strokes_kept(const Run& run, const Taken& taken, std::size_t most) {
+/// Strokes whose history play and friction require: all, or, of very many, the selected ones and two before each.
+std::vector<bool> strokes_kept(const Run& run, const RowSelection& selected, std::size_t most) {
   std::vector<bool> kept(run.strokes.size(), 2 * run.segments.size() <= 10 * most);
   for (std::size_t s = 0; s < run.strokes.size(); ++s) {
-    const auto first = taken.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].first),
-               end = taken.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].last) + 1;
+    const auto first = selected.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].first),
+               end = selected.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].last) + 1;
     if (std::find(first, end, true) == end) continue;
     for (std::size_t before = 0; before <= std::min<std::size_t>(2, s); ++before) kept[s - before] = true;
   }
   return kept;
 }
 
-/// Fewer rows, and both ends of each stretch, which the motion's history needs. `counted`: those to judge by, lest ends
+/// Thins a run, and keeps both ends of each segment as history. `counted`: rows in the residual, in which ends would
 /// weigh too much.
 Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
   if (run.samples.size() <= most) {
     counted.insert(counted.end(), run.samples.size(), true);
     return run;
   }
-  Taken taken = is_from_point_to_point(run) ? of_each_stand(run, most) : every_nth(run, most);
-  const std::vector<bool> strokes = strokes_kept(run, taken, most);
-  const std::vector<Segment> stretches = segments_of(run);
-  for (const Segment& stretch : stretches) {
-    if (strokes[stretch.stroke]) taken.kept[stretch.first] = taken.kept[stretch.last] = true;
+  RowSelection selected = is_from_point_to_point(run) ? sample_each_dwell(run, most) : sample_every_nth(run, most);
+  const std::vector<bool> strokes = strokes_kept(run, selected, most);
+  const std::vector<Segment> segments = segments_of(run);
+  for (const Segment& segment : segments) {
+    if (strokes[segment.stroke]) selected.kept[segment.first] = selected.kept[segment.last] = true;
   }
   Run thin = run;
   thin.samples.clear();
@@ -110,9 +109,9 @@ Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
   std::vector<std::size_t> place(run.samples.size());
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     place[i] = thin.samples.size();
-    if (!taken.kept[i]) continue;
+    if (!selected.kept[i]) continue;
     thin.samples.push_back(run.samples[i]);
-    counted.push_back(taken.counted[i]);
+    counted.push_back(selected.counted[i]);
   }
   std::vector<std::size_t> stroke_place(run.strokes.size());
   for (std::size_t s = 0; s < run.strokes.size(); ++s) {
@@ -123,18 +122,18 @@ Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
     stroke.last = place[stroke.last];
     thin.strokes.push_back(stroke);
   }
-  for (Segment stretch : stretches) {
-    if (!strokes[stretch.stroke]) continue;
-    stretch.first = place[stretch.first];
-    stretch.last = place[stretch.last];
-    stretch.stroke = stroke_place[stretch.stroke];
-    thin.segments.push_back(stretch);
+  for (Segment segment : segments) {
+    if (!strokes[segment.stroke]) continue;
+    segment.first = place[segment.first];
+    segment.last = place[segment.last];
+    segment.stroke = stroke_place[segment.stroke];
+    thin.segments.push_back(segment);
   }
   return thin;
 }
 
-/// A level of load: the mean, or where it changes sign within the rows, its size.
-class Level {
+/// Load level: the mean, or its size if the sign changes within the rows.
+class LoadLevel {
  public:
   void take(double load) {
     sum_ += load;
@@ -152,13 +151,13 @@ class Level {
   std::size_t count_ = 0;
 };
 
-Level level_of(const Run& run, std::size_t first, std::size_t last) {
-  Level level;
+LoadLevel level_of(const Run& run, std::size_t first, std::size_t last) {
+  LoadLevel level;
   for (std::size_t i = first; run.has_load && i <= last; ++i) level.take(run.samples[i].load);
   return level;
 }
 
-/// Items of about the same value, by their places in `values`.
+/// Groups of about equal values, as indices into `values`.
 std::vector<std::vector<std::size_t>> levels(const std::vector<double>& values, double tolerance) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), 0);
@@ -177,8 +176,8 @@ double load_tolerance(const std::vector<double>& loads) {
   return std::max(1e-9, 0.08 * (*most - *least));
 }
 
-/// Blocks of which the load is a level of its own: where those of one direction differ within a run. A load that turns
-/// with the motion is the run's.
+/// Blocks with a load level of their own: loads of one direction differ within the run. A load that changes sign with
+/// the motion is a level of the run.
 std::vector<bool> have_their_own_load(const Evidence& evidence) {
   std::vector<double> loads;
   for (const Block& block : evidence.blocks) loads.push_back(block.load);
@@ -197,7 +196,7 @@ std::vector<bool> have_their_own_load(const Evidence& evidence) {
   return own;
 }
 
-/// Of blocks.
+/// Load levels, as folds of blocks.
 std::vector<Fold> load_levels(const Evidence& evidence) {
   const std::vector<bool> own = have_their_own_load(evidence);
   std::vector<double> runs, loads;
@@ -209,7 +208,7 @@ std::vector<Fold> load_levels(const Evidence& evidence) {
 }
 
 std::vector<Fold> speed_levels(const Evidence& evidence) {
-  // A held motor has none: slower than any sweep.
+  // Dwells have no speed: slower than any sweep.
   constexpr double held = -20;
   std::vector<double> speeds;
   for (const Block& block : evidence.blocks) {
@@ -230,7 +229,7 @@ std::vector<std::size_t> blocks_of(const Evidence& evidence, const std::vector<s
   return found;
 }
 
-/// Whole runs in turn; of a lone run its blocks.
+/// Whole runs in turn, or the blocks of a single run.
 std::vector<Fold> run_folds(const Evidence& evidence) {
   std::vector<Fold> folds;
   if (evidence.measurement.runs.size() == 1) {
@@ -244,7 +243,7 @@ std::vector<Fold> run_folds(const Evidence& evidence) {
   return folds;
 }
 
-/// Whole levels of load and speed, where enough is left to learn from; what no level holds as in run_folds().
+/// Whole levels of load and speed if enough data remain to fit; blocks in no such level as in run_folds().
 void choose_factor_folds(Evidence& evidence) {
   std::set<std::size_t> held;
   const auto hold = [&](const std::string& factor, std::vector<Fold> all) {
@@ -270,7 +269,7 @@ void choose_factor_folds(Evidence& evidence) {
   }
 }
 
-/// Rows of a stroke that lie with their neighbours: none of the effects makes a single row jump.
+/// Rows of a stroke near their neighbours: no effect moves a single row.
 std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::size_t first, std::size_t last,
                                           double floor) {
   std::vector<std::size_t> rows;
@@ -287,7 +286,8 @@ std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::
   return rows;
 }
 
-// ---- what was measured by hand --------------------------------------------------------------------------------------
+// ---- caliper readings
+// ------------------------------------------------------------------------------------------------
 
 std::vector<HandReading> hand_readings(const DeclaredMechanism& declared) {
   std::vector<HandReading> readings;
@@ -339,7 +339,7 @@ std::size_t Evidence::rows_used() const {
 
 namespace {
 
-/// As many rows of each run as many fits can bear.
+/// Thins all runs to the rows that many fits can afford.
 Measurement thinned(const Mechanism& declared, Measurement measurement, std::vector<bool>& counted) {
   const std::size_t runs = std::max<std::size_t>(1, measurement.runs.size());
   const std::size_t cheaper = declared.transmission ? k_cheaper : 1;
@@ -357,13 +357,13 @@ Eigen::VectorXd measured_theta(const Measurement& measurement) {
   return flat(theta);
 }
 
-/// What makes two stretches of a run repeat each other.
-struct Kind {
+/// Properties by which two segments of a run repeat each other.
+struct SegmentKind {
   int direction = 0;
   bool held = false;
   int pull = 0;
   double load = 0;
-  double from = 0, to = 0;  ///< α at its ends; of stands that were joined those of the first
+  double from = 0, to = 0;  ///< α at its ends; for joined dwells those of the first
 };
 
 class BlockMaker {
@@ -385,71 +385,73 @@ class BlockMaker {
   }
 
  private:
-  /// Stands of too few rows, waiting for more of their kind.
-  struct Waiting {
-    Kind kind;
+  /// Dwells of too few rows, to be joined with others of their kind.
+  struct PendingBlock {
+    SegmentKind kind;
     Block block;
   };
 
   void add_run(std::size_t i) {
     const Run& run = evidence_.measurement.runs[i];
     kinds_.clear();
-    waiting_.clear();
-    for (const Segment& stretch : segments_of(run)) {
-      if (is_settling(run, stretch)) continue;
-      const std::size_t first = offset_ + stretch.first, last = offset_ + stretch.last;
-      Block block{i, stretch.stroke, without_outliers(residual_, first, last, evidence_.floor)};
+    pending_.clear();
+    for (const Segment& segment : segments_of(run)) {
+      if (is_settling(run, segment)) continue;
+      const std::size_t first = offset_ + segment.first, last = offset_ + segment.last;
+      Block block{i, segment.stroke, without_outliers(residual_, first, last, evidence_.floor)};
       std::erase_if(block.rows, [&](std::size_t row) { return !counted_[row]; });
       if (block.rows.empty()) continue;
-      block.load = level_of(run, stretch.first, stretch.last).mean();
-      const Kind kind{run.strokes[stretch.stroke].direction,
-                      stretch.held,
-                      stretch.pull,
-                      block.load,
-                      run.samples[stretch.first].alpha,
-                      run.samples[stretch.last].alpha};
+      block.load = level_of(run, segment.first, segment.last).mean();
+      const SegmentKind kind{run.strokes[segment.stroke].direction,
+                             segment.held,
+                             segment.pull,
+                             block.load,
+                             run.samples[segment.first].alpha,
+                             run.samples[segment.last].alpha};
       if (block.rows.size() >= k_least_rows_a_block) {
         add(kind, std::move(block));
-      } else if (stretch.held) {
-        wait(kind, std::move(block));
+      } else if (segment.held) {
+        join(kind, std::move(block));
       }
     }
-    // Their last ones are few.
-    for (Waiting& left : waiting_) {
+    // The last joined dwells may have half the rows.
+    for (PendingBlock& left : pending_) {
       if (2 * left.block.rows.size() >= k_least_rows_a_block) add(left.kind, std::move(left.block));
     }
     offset_ += run.samples.size();
   }
 
-  /// Where the play stood when the log began is not known: the first stroke finds out, or the way to the second hold.
-  static bool is_settling(const Run& run, const Segment& stretch) {
-    if (run.strokes[stretch.stroke].partial) return true;
-    if (is_from_point_to_point(run)) return stretch.first == run.segments.front().first && run.segments.size() > 2;
-    return stretch.stroke == 0 && run.strokes.size() > 2;
+  /// The state of the play at the beginning of the log is unknown. The first stroke determines it, or the move to the
+  /// second dwell.
+  static bool is_settling(const Run& run, const Segment& segment) {
+    if (run.strokes[segment.stroke].partial) return true;
+    if (is_from_point_to_point(run)) return segment.first == run.segments.front().first && run.segments.size() > 2;
+    return segment.stroke == 0 && run.strokes.size() > 2;
   }
 
-  bool in_one_place(const Kind& a, const Kind& b) const {
-    const double apart = (a.held ? k_one_stand : k_one_way) * (alphas_.any() ? alphas_.size() : 0.0);
+  bool in_one_place(const SegmentKind& a, const SegmentKind& b) const {
+    const double apart = (a.held ? k_dwell_tolerance : k_one_way) * (alphas_.any() ? alphas_.size() : 0.0);
     return std::abs(a.from - b.from) <= apart && std::abs(a.to - b.to) <= apart;
   }
 
-  bool are_alike(const Kind& a, const Kind& b, bool anywhere) const {
+  bool are_alike(const SegmentKind& a, const SegmentKind& b, bool anywhere) const {
     return a.direction == b.direction && a.held == b.held && a.pull == b.pull && (anywhere || in_one_place(a, b)) &&
            std::abs(a.load - b.load) <= load_tolerance_;
   }
 
-  void add(const Kind& kind, Block block) {
-    auto found = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& k) { return are_alike(k, kind, false); });
+  void add(const SegmentKind& kind, Block block) {
+    auto found =
+        std::find_if(kinds_.begin(), kinds_.end(), [&](const SegmentKind& k) { return are_alike(k, kind, false); });
     if (found == kinds_.end()) found = kinds_.insert(kinds_.end(), kind);
     block.alike = static_cast<std::size_t>(found - kinds_.begin());
     blocks_.push_back(std::move(block));
   }
 
-  void wait(const Kind& kind, Block block) {
-    const auto found = std::find_if(waiting_.begin(), waiting_.end(),
-                                    [&](const Waiting& other) { return are_alike(other.kind, kind, true); });
-    if (found == waiting_.end()) {
-      waiting_.push_back({kind, std::move(block)});
+  void join(const SegmentKind& kind, Block block) {
+    const auto found = std::find_if(pending_.begin(), pending_.end(),
+                                    [&](const PendingBlock& other) { return are_alike(other.kind, kind, true); });
+    if (found == pending_.end()) {
+      pending_.push_back({kind, std::move(block)});
       return;
     }
     Block& joined = found->block;
@@ -458,17 +460,17 @@ class BlockMaker {
     joined.rows.insert(joined.rows.end(), block.rows.begin(), block.rows.end());
     if (joined.rows.size() < k_least_rows_a_block) return;
     add(found->kind, std::move(joined));
-    waiting_.erase(found);
+    pending_.erase(found);
   }
 
   const Evidence& evidence_;
   const std::vector<bool>& counted_;
   SeenSpan alphas_;
   double load_tolerance_ = 0;
-  Eigen::VectorXd residual_;  ///< of the declared joint
+  Eigen::VectorXd residual_;  ///< residual of the declared joint
   std::size_t offset_ = 0;
-  std::vector<Kind> kinds_;  ///< of this run
-  std::vector<Waiting> waiting_;
+  std::vector<SegmentKind> kinds_;  ///< kinds of this run
+  std::vector<PendingBlock> pending_;
   std::vector<Block> blocks_;
 };
 
@@ -476,36 +478,35 @@ class BlockMaker {
 
 namespace {
 
-/// By how much the declared joint gives way, all rows, rad; of a joint declared by a ratio, which gives way by nothing,
-/// the load.
+/// Deflection of the declared joint, all rows, rad. For a joint declared by its ratio, which is rigid, the load.
 Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& declared) {
   const DeclaredLaw law(*evidence.declared);
-  Eigen::VectorXd given = declared;
+  Eigen::VectorXd deflection = declared;
   if (evidence.declared->transmission) {
     Eigen::Index at = 0;
     for (const Run& run : evidence.measurement.runs) {
-      for (const Sample& sample : run.samples) given[at++] = run.has_load ? sample.load : 0.0;
+      for (const Sample& sample : run.samples) deflection[at++] = run.has_load ? sample.load : 0.0;
     }
-    return given;
+    return deflection;
   }
   if (!law.exists()) return {};
   Eigen::Index row = 0;
   for (const Run& run : evidence.measurement.runs) {
-    for (const Sample& sample : run.samples) given[row++] -= law.theta_extrapolated(sample.alpha);
+    for (const Sample& sample : run.samples) deflection[row++] -= law.theta_extrapolated(sample.alpha);
   }
-  for (double& angle : given) angle = std::isfinite(angle) ? angle : 0.0;
-  return given;
+  for (double& angle : deflection) angle = std::isfinite(angle) ? angle : 0.0;
+  return deflection;
 }
 
-/// From row to row within blocks, 0 … 1.
-double colour_of(const Evidence& evidence, const Eigen::VectorXd& rest) {
+/// Lag-1 autocorrelation within blocks, 0 … 1.
+double autocorrelation_of(const Evidence& evidence, const Eigen::VectorXd& residual) {
   double products = 0;
   double squares = 0;
   Eigen::Index row = 0;
   for (const Block& block : evidence.blocks) {
     for (std::size_t i = 0; i < block.rows.size(); ++i, ++row) {
-      squares += rest[row] * rest[row];
-      if (i > 0) products += rest[row] * rest[row - 1];
+      squares += residual[row] * residual[row];
+      if (i > 0) products += residual[row] * residual[row - 1];
     }
   }
   return squares > 0 ? std::clamp(products / squares, 0.0, 0.95) : 0.0;
@@ -516,15 +517,17 @@ double colour_of(const Evidence& evidence, const Eigen::VectorXd& rest) {
 void weigh(Evidence& evidence) {
   Forward forward(*evidence.declared, evidence.log, evidence.earlier);
   const Eigen::VectorXd declared = flat(forward({}));
-  Discrepancy unnamed = discrepancy_of(evidence, deflection(evidence, declared));
+  Discrepancy discrepancy = discrepancy_of(evidence, deflection(evidence, declared));
   const Eigen::VectorXd left = (evidence.theta - declared)(evidence.rows());
   Tangent nothing;
   nothing.residual = left.unaryExpr([](double angle) { return std::isfinite(angle) ? angle : 0.0; });
   nothing.J.resize(left.size(), 0);
-  const Marginal blind(std::move(unnamed), evidence.floor, 1.0);
-  const Explained blindly = blind.best(nothing, blind.first_guess());
-  const double colour = colour_of(evidence, nothing.residual - blind.discrepancy().columns * blindly.unnamed);
-  evidence.marginal = std::make_shared<const Marginal>(blind, (1.0 - colour) / (1.0 + colour), blindly.amplitudes);
+  const EvidenceModel white(std::move(discrepancy), evidence.floor, 1.0);
+  const Posterior explained = white.best(nothing, white.first_guess());
+  const double autocorrelation =
+      autocorrelation_of(evidence, nothing.residual - white.discrepancy().columns * explained.coefficients);
+  evidence.evidence_model = std::make_shared<const EvidenceModel>(
+      white, (1.0 - autocorrelation) / (1.0 + autocorrelation), explained.amplitudes);
 }
 
 Measurement with_fewer_rows(Measurement measurement, std::size_t most_a_run) {
@@ -546,7 +549,7 @@ Evidence gather(const DeclaredMechanism& declared, const Measurement& measuremen
   evidence.blocks = BlockMaker(evidence, counted).made();
   evidence.run_folds = run_folds(evidence);
   choose_factor_folds(evidence);
-  if (!earlier) evidence.readings = hand_readings(declared);  // they are of a joint, and not of what changed
+  if (!earlier) evidence.readings = hand_readings(declared);  // calipers measure a joint and no change
   weigh(evidence);
   return evidence;
 }

@@ -6,13 +6,13 @@
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 
-// The size in practice alone would charge an effect of four numbers for all the joints on which it is large, and it
-// would lose against one of a single number on a joint where both are small.
+// With known sizes alone an effect of four numbers would be penalised for all joints on which it is large, and lose to
+// an effect of one number on a joint where both are small.
 
 namespace fusee {
 namespace {
 
-/// Chords over the sizes in practice; empty where the joint cannot be simulated.
+/// Chords over the known sizes; empty if the joint cannot be simulated.
 struct Chords {
   Parameters parameters;
   Tangent tangent;
@@ -21,15 +21,15 @@ struct Chords {
 }  // namespace
 
 std::map<const EffectParameter*, double> expected_sizes(const EffectSet& catalogue, const Evidence& evidence,
-                                                        Workers& workers) {
+                                                        FitterPool& pool) {
   std::map<const EffectParameter*, double> sizes;
-  const Fit none = workers.one().fit({}, {});
+  const Fit none = pool.one().fit({}, {});
   if (!none.usable) return sizes;
   const double seen = std::max(k_thresholds.most_expected * rms_of(tangent_of(evidence, none).residual),
                                k_thresholds.least_expected * evidence.floor);
   std::vector<Chords> all(catalogue.size());
-  workers.each(catalogue.size(), [&](const Fitter& fitter, std::size_t i) {
-    const Fit wider = fitter.with_chords(none, *catalogue[i]);
+  pool.each(catalogue.size(), [&](const Fitter& fitter, std::size_t i) {
+    const Fit wider = fitter.add_chords(none, *catalogue[i]);
     if (wider.usable) all[i] = {wider.parameters, tangent_of(evidence, wider)};
   });
   for (const Chords& of_one : all) {

@@ -12,18 +12,18 @@
 namespace fusee {
 namespace {
 
-/// Intervals of each number of a fit: whatever else may be there, and if nothing else is.
+/// Intervals of each number of a fit: with other effects marginalised, and if there are none.
 struct Ranges {
   std::vector<ConfidenceInterval> overall, if_only;
 };
 
-/// `range` in the number's own unit, within its bounds.
+/// `range` in the number's own unit, clamped to its bounds.
 std::pair<double, double> range_of(const EffectParameter& own, const ConfidenceInterval& range) {
   return {std::clamp(range.low * own.step, own.least, own.most),
           std::clamp(range.high * own.step, own.least, own.most)};
 }
 
-/// `ranges`: of the numbers of `fit`.
+/// `ranges`: intervals of the parameters of `fit`.
 std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit, const Ranges& ranges,
                                                const Effect& effect) {
   std::vector<FittedParameter> fitted;
@@ -38,7 +38,7 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
       overall = range_of(own, ranges.overall[k]);
       if_only = range_of(own, ranges.if_only[k]);
     }
-    // Numbers that predict better than those of the summit may stand beside the intervals about it.
+    // Least-squares numbers may be outside the intervals about the mode.
     for (std::pair<double, double>* range : {&overall, &if_only})
       *range = {std::min(range->first, value), std::max(range->second, value)};
     const double before = evidence.earlier ? value_of(evidence.earlier->joint, own) : 0.0;
@@ -61,16 +61,15 @@ std::string with_numbers(const Evidence& evidence, const Fit& fit, const Effect&
   return effect.name + " (" + numbers + ")";
 }
 
-/// By how much the held-out error falls with the effect at `place` beside the others, rad; by how much it does from the
-/// declared joint where the others alone give none that could be simulated. An effect without which the held-out error
-/// is no larger takes nothing away, and not less than nothing.
+/// Reduction of the held-out error by the effect at `place` beside the others, rad; from the declared joint if the
+/// others alone cannot be simulated. At least 0.
 double rms_drop(const Selection& selection, std::size_t place) {
   const Fit& others = selection.without[place];
   const Fit& before = others.usable ? others : selection.none;
   return std::max(0.0, std::sqrt(before.by_factor.mean_square) - std::sqrt(selection.best.by_factor.mean_square));
 }
 
-/// That fall as a part of the mean square that the declared joint leaves.
+/// That reduction as a share of the mean square that the declared joint leaves.
 double share(const Selection& selection, std::size_t place) {
   const double all = selection.none.by_factor.mean_square, best = selection.best.by_factor.mean_square;
   const Fit& others = selection.without[place];
@@ -82,7 +81,7 @@ double share(const Selection& selection, std::size_t place) {
 bool moves_nothing(const Evidence& evidence, const Fit& fit, const Effect& effect) {
   const std::vector<Eigen::Index> places = places_of(fit, effect);
   const Eigen::VectorXd moved = fit.J(evidence.rows(), places) * fit.x(places);
-  const double seen = moved.squaredNorm() * evidence.marginal->worth();
+  const double seen = moved.squaredNorm() * evidence.evidence_model->independent_share();
   return seen < static_cast<double>(places.size()) * evidence.floor * evidence.floor;
 }
 
@@ -94,7 +93,7 @@ void drop_idle_members(const Evidence& evidence, const Selection& selection, con
   }
 }
 
-/// What was handed over beside the set that was found, in the first group that holds it.
+/// Adds effects that are reported beside the found set to the first group that contains them.
 void place_beside(const Evidence& evidence, const Selection& selection, const Fit& numbers,
                   std::vector<FoundEffect>& found) {
   const std::vector<ConfidenceInterval> both = intervals(numbers);
@@ -115,7 +114,7 @@ std::vector<const Rival*> rivals_as_good(const Evidence& evidence, const Selecti
   std::vector<const Rival*> all;
   for (const Rival& rival : selection.rivals) {
     const auto accepted = std::find(best.effects.begin(), best.effects.end(), rival.accepted);
-    if (accepted == best.effects.end()) continue;  // of a set that another was likelier than
+    if (accepted == best.effects.end()) continue;  // rival of a set that was replaced
     const Fit& others = selection.without[static_cast<std::size_t>(accepted - best.effects.begin())];
     const bool does_nothing = others.usable && score(rival.fit) < score(others);
     if (!does_nothing && as_good(evidence, rival.fit, best)) all.push_back(&rival);
@@ -167,13 +166,13 @@ std::vector<std::string> null_combinations(const Evidence& evidence, const Selec
   return all;
 }
 
-std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& workers, const Selection& selection) {
+std::vector<Detectable> detectable_sizes(const Evidence& evidence, FitterPool& pool, const Selection& selection) {
   const Fit& best = selection.best;
   EffectSet others = selection.catalogue;
   std::erase_if(others, [&](const Effect* effect) { return contains(best.effects, *effect); });
   std::vector<double> sizes(others.size(), -1);
-  workers.each(others.size(), [&](const Fitter& fitter, std::size_t i) {
-    const Fit wider = fitter.with_direction(best, *others[i]);
+  pool.each(others.size(), [&](const Fitter& fitter, std::size_t i) {
+    const Fit wider = fitter.add_slopes(best, *others[i]);
     if (!wider.usable) return;
     const std::vector<ConfidenceInterval> ranges = intervals(wider);
     sizes[i] = 0;
@@ -181,7 +180,7 @@ std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& work
       const double sensitivity = wider.J.col(k).norm() / std::sqrt(static_cast<double>(wider.J.rows()));
       const double deviation = ranges[static_cast<std::size_t>(k)].deviation;
       const double width = std::log(std::max(1.0, tangent_of(evidence, wider).prior[k] / deviation));
-      const double named = std::sqrt(2.0 * (cost_of(*others[i]) + width)) + k_thresholds.power;
+      const double named = std::sqrt(2.0 * (reporting_penalty(*others[i]) + width)) + k_thresholds.power;
       sizes[i] = std::max(sizes[i], named * deviation * sensitivity);
     }
   });

@@ -7,31 +7,30 @@
 #include "calibration/starts.h"
 #include "calibration/thresholds.h"
 
-// Gauss and Newton's steps towards the summit of the posterior, with the discrepancy integrated out: what a smooth
-// curve without a name explains as well does not bend the numbers of an effect. A candidate takes its steps by chords:
-// the slopes of the parameters that the base has are its own, those of the effect are found anew at every step. So it
-// costs a dozen simulations, whatever stands beside it. Where another of its starts explains more as if nothing stayed
-// without a name, it is fitted from there too, with all slopes.
+// Gauss-Newton steps to the posterior mode, with the discrepancy marginalised: parameters are not biased by what the
+// discrepancy explains equally well. A candidate is stepped by chords: the slopes of the base's parameters stay, those
+// of the effect are computed at every step. It costs a dozen simulations, whatever the size of the base. If another
+// start explains more without discrepancy, the candidate is fitted from there too, with all slopes.
 
 namespace fusee {
 namespace {
 
 constexpr int k_most_steps_down = 8;
 constexpr int k_chords = 3;
-/// With the amplitudes that the place before had.
+/// Passes by the amplitudes of the place before.
 constexpr int k_passes = 3;
-/// Of amplitudes, on the way.
+/// Rounds of amplitudes during the descent.
 constexpr int k_few_rounds = 3;
-/// Of a step that made things worse.
+/// Factor on a step that lowered the density.
 constexpr double k_shorter = 0.3;
-/// Nats: a step that gains less is the last …
+/// Nats: a step that gains less is the last.
 constexpr double k_least_gain = 0.05;
-/// … and one that promises less, a seventieth of a standard error, is not simulated. Matrix, random joints: at 2e-3 a
-/// group of one joint in six that were looked at took in four members more.
+/// Nats: a step that predicts less, a seventieth of a standard error, is not simulated. At 2e-3 a group of one joint in
+/// six takes in four members more (random joints of tests/rig).
 constexpr double k_worth_a_step = 1e-4;
-/// Of the squares: a step that takes no more away is the last.
+/// Relative reduction of the squares below which a step is the last.
 constexpr double k_least_of_squares = 1e-4;
-/// Of a number that no practice is known of, in its steps.
+/// Prior size of a number without known sizes, in its steps.
 constexpr double k_steps_in_practice = 100.0;
 
 double largest_load(const Measurement& measurement) {
@@ -42,7 +41,7 @@ double largest_load(const Measurement& measurement) {
   return most;
 }
 
-/// In steps of the parameter.
+/// Prior size, in steps of the parameter.
 double size_in_practice(const Evidence& evidence, const EffectParameter& parameter) {
   if (&parameter == free_offset(*evidence.declared)) return std::numeric_limits<double>::infinity();
   if (const auto known = evidence.sizes.find(&parameter); known != evidence.sizes.end()) return known->second;
@@ -50,9 +49,8 @@ double size_in_practice(const Evidence& evidence, const EffectParameter& paramet
   return prior_of(parameter, largest_load(evidence.measurement)) / parameter.step;
 }
 
-/// A step of the fit, kept within bounds: what would leave them stays there, and the others go where they are best
-/// with it.
-Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
+/// Numbers after a step, clamped to their bounds.
+Imperfections step_within_bounds(const Fit& fit, const Eigen::VectorXd& step) {
   Imperfections at = fit.at;
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
     const EffectParameter& parameter = *fit.parameters[k];
@@ -62,7 +60,7 @@ Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
   return at;
 }
 
-/// `step` without what is held.
+/// `step` without the parameters that are fixed at a bound.
 Eigen::VectorXd of_free_numbers(const Fit& fit, Eigen::VectorXd step) {
   for (Eigen::Index k = 0; k < step.size(); ++k) {
     if (fit.J.col(k).isZero(0)) step[k] = 0;
@@ -70,7 +68,7 @@ Eigen::VectorXd of_free_numbers(const Fit& fit, Eigen::VectorXd step) {
   return step;
 }
 
-/// Each by its step.
+/// Values, each divided by its step.
 Eigen::VectorXd numbers_of(const Parameters& parameters, const Imperfections& at) {
   Eigen::VectorXd x(static_cast<Eigen::Index>(parameters.size()));
   for (Eigen::Index k = 0; k < x.size(); ++k) {
@@ -80,69 +78,71 @@ Eigen::VectorXd numbers_of(const Parameters& parameters, const Imperfections& at
   return x;
 }
 
-/// What loose rows leave less than noise does, nats.
-double price_of(const Evidence& evidence, const Fit& fit) {
+/// Nats by which loose rows are penalised less than noise.
+double play_penalty(const Evidence& evidence, const Fit& fit) {
   double squares = 0;
   for (const Block& block : evidence.blocks) {
     for (const std::size_t row : block.rows)
-      squares += price_of_play(fit.loose[static_cast<Eigen::Index>(row)], evidence.floor);
+      squares += play_correction(fit.loose[static_cast<Eigen::Index>(row)], evidence.floor);
   }
-  return 0.5 * evidence.marginal->worth() * squares / (evidence.floor * evidence.floor);
+  return 0.5 * evidence.evidence_model->independent_share() * squares / (evidence.floor * evidence.floor);
 }
 
-/// What they cost in evidence, nats: by their residuals, and because those that rest where they were pushed say more of
-/// the numbers than their weights do (the posterior is as much narrower). The summit is sought without it: between two
-/// places that explain a loose row lie others that do not.
-double cost_of_play(const Evidence& evidence, const Fit& fit) {
-  const Marginal& marginal = *evidence.marginal;
+/// Evidence that loose rows cost, nats: by their residuals, and by the information of rows at the last pushed position,
+/// which narrows the posterior. The mode is sought without it, since places that explain a loose row alternate with
+/// places that do not.
+double loose_row_penalty(const Evidence& evidence, const Fit& fit) {
+  const EvidenceModel& evidence_model = *evidence.evidence_model;
   const std::vector<Eigen::Index> rows = evidence.rows();
-  const Eigen::VectorXd left = fit.residual(rows) - marginal.discrepancy().columns * fit.explained.unnamed;
-  const LooseRows said = loose_rows(left, fit.loose(rows), evidence.floor);
-  double nats = marginal.worth() * said.nats;
-  if (fit.x.size() == 0 || said.unheard.isZero()) return nats;
-  const Eigen::MatrixXd unheard = said.unheard.cwiseSqrt().asDiagonal() * Eigen::MatrixXd(fit.J(rows, Eigen::all));
-  const double beta = marginal.worth() / (evidence.floor * evidence.floor);
-  const Eigen::MatrixXd wider = Cholesky(fit.explained.covariance).lower();
-  const Eigen::MatrixXd gained =
-      Eigen::MatrixXd::Identity(fit.x.size(), fit.x.size()) + beta * (unheard * wider).transpose() * (unheard * wider);
+  const Eigen::VectorXd left = fit.residual(rows) - evidence_model.discrepancy().columns * fit.posterior.coefficients;
+  const LooseRows mixture = loose_rows(left, fit.loose(rows), evidence.floor);
+  double nats = evidence_model.independent_share() * mixture.nats;
+  if (fit.x.size() == 0 || mixture.extra_information.isZero()) return nats;
+  const Eigen::MatrixXd extra_information =
+      mixture.extra_information.cwiseSqrt().asDiagonal() * Eigen::MatrixXd(fit.J(rows, Eigen::all));
+  const double beta = evidence_model.independent_share() / (evidence.floor * evidence.floor);
+  const Eigen::MatrixXd wider = Cholesky(fit.posterior.covariance).lower();
+  const Eigen::MatrixXd gained = Eigen::MatrixXd::Identity(fit.x.size(), fit.x.size()) +
+                                 beta * (extra_information * wider).transpose() * (extra_information * wider);
   return nats + Cholesky(gained).half_log_determinant();
 }
 
-/// Whether something larger than noise is left to what has no name.
-bool leaves_much(const Evidence& evidence, const Fit& fit) {
-  const std::vector<Family>& families = evidence.marginal->discrepancy().families;
+/// True if a family of the discrepancy is larger than the noise.
+bool has_large_discrepancy(const Evidence& evidence, const Fit& fit) {
+  const std::vector<Family>& families = evidence.evidence_model->discrepancy().families;
   for (std::size_t f = 0; f < families.size(); ++f) {
-    const double amplitude = fit.explained.amplitudes.families[static_cast<Eigen::Index>(f)];
+    const double amplitude = fit.posterior.amplitudes.families[static_cast<Eigen::Index>(f)];
     if (!(families[f].fixed > 0) && amplitude > evidence.floor) return true;
   }
   return false;
 }
 
-/// A discrepancy by the amplitudes that were asked for last: on the way down the same are asked for several times.
-class LastSized {
+/// Cache of the last scaled discrepancy: a descent requires the same amplitudes several times.
+class ScaledDiscrepancyCache {
  public:
-  explicit LastSized(const Marginal& marginal) : marginal_(marginal) {}
+  explicit ScaledDiscrepancyCache(const EvidenceModel& evidence_model) : evidence_model_(evidence_model) {}
 
-  const SizedDiscrepancy& of(const Amplitudes& amplitudes, double give) {
-    if (!last_ || give_ != give || !(last_->amplitudes == amplitudes)) last_ = marginal_.sized(amplitudes, give);
-    give_ = give;
+  const ScaledDiscrepancy& of(const Amplitudes& amplitudes, double deflection_ratio) {
+    if (!last_ || deflection_ratio_ != deflection_ratio || !(last_->amplitudes == amplitudes))
+      last_ = evidence_model_.sized(amplitudes, deflection_ratio);
+    deflection_ratio_ = deflection_ratio;
     return *last_;
   }
 
  private:
-  const Marginal& marginal_;
-  double give_ = 0;
-  std::optional<SizedDiscrepancy> last_;
+  const EvidenceModel& evidence_model_;
+  double deflection_ratio_ = 0;
+  std::optional<ScaledDiscrepancy> last_;
 };
 
-/// Of two the likelier that can be used; the first where neither is.
+/// The likelier of two that are usable; the first if neither is.
 Fit likelier(Fit one, Fit other) {
   const bool is_other = other.usable && (!one.usable || other.log_evidence > one.log_evidence);
   return is_other ? std::move(other) : std::move(one);
 }
 
-/// Whether the slopes promise a better place than this.
-bool is_promising(const Fit& fit) { return fit.explained.log_evidence > fit.explained.log_evidence_here + 0.5; }
+/// True if the slopes predict a likelier place.
+bool predicts_gain(const Fit& fit) { return fit.posterior.log_evidence > fit.posterior.log_evidence_here + 0.5; }
 
 }  // namespace
 
@@ -173,38 +173,38 @@ Tangent tangent_of(const Evidence& evidence, const Fit& fit) {
     tangent.prior[k] = size_in_practice(evidence, *fit.parameters[static_cast<std::size_t>(k)]);
   const NormalEquations readings = sums_of_readings(evidence, fit);
   const double unit = evidence.floor * evidence.floor;
-  tangent.read = readings.JJ / unit;
-  tangent.pull = readings.Jr / unit;
-  tangent.against = against_readings(evidence, fit.at);
-  tangent.give =
+  tangent.caliper_information = readings.JJ / unit;
+  tangent.caliper_gradient = readings.Jr / unit;
+  tangent.caliper_chi2 = caliper_chi2(evidence, fit.at);
+  tangent.deflection_ratio =
       evidence.declared->transmission ? std::abs(fit.at.ratio_joint.compliance) : 1.0 + fit.at.tendon.stretch;
   return tangent;
 }
 
-Tangent said_of(Tangent tangent, const Eigen::VectorXd& x) {
+Tangent move_tangent(Tangent tangent, const Eigen::VectorXd& x) {
   const Eigen::VectorXd step = x - tangent.x;
   tangent.residual -= tangent.J * step;
-  tangent.against += step.dot(tangent.read * step) - 2.0 * step.dot(tangent.pull);
+  tangent.caliper_chi2 += step.dot(tangent.caliper_information * step) - 2.0 * step.dot(tangent.caliper_gradient);
   tangent.x = x;
   return tangent;
 }
 
-Fit Fitter::placed(const EffectSet& effects, const Imperfections& at, LooseRow rest) const {
+Fit Fitter::evaluate_at(const EffectSet& effects, const Imperfections& at, LooseRow loose_row) const {
   Fit fit;
-  fit.rest = rest;
+  fit.loose_row = loose_row;
   fit.effects = effects;
   fit.parameters = model_.varied(effects);
   fit.at = at;
-  Said words = model_.said(at, rest);
-  fit.residual = std::move(words.residual);
-  fit.loose = std::move(words.loose);
+  ModelResidual evaluation = model_.evaluate(at, loose_row);
+  fit.residual = std::move(evaluation.residual);
+  fit.loose = std::move(evaluation.loose);
   fit.x = numbers_of(fit.parameters, at);
   return fit;
 }
 
-/// With the slopes of all its numbers.
-Fit Fitter::started(const EffectSet& effects, const Imperfections& at, LooseRow rest) const {
-  Fit fit = placed(effects, at, rest);
+/// Linearization with the slopes of all parameters.
+Fit Fitter::linearize_at(const EffectSet& effects, const Imperfections& at, LooseRow loose_row) const {
+  Fit fit = evaluate_at(effects, at, loose_row);
   take_slopes(fit, 0);
   fit.usable = is_finite(evidence(), fit);
   return fit;
@@ -213,56 +213,57 @@ Fit Fitter::started(const EffectSet& effects, const Imperfections& at, LooseRow 
 void Fitter::take_slopes(Fit& fit, Eigen::Index from) const {
   fit.J.conservativeResize(fit.residual.size(), fit.x.size());
   for (Eigen::Index k = from; k < fit.x.size(); ++k)
-    fit.J.col(k) = model_.slope(fit.at, *fit.parameters[static_cast<std::size_t>(k)], fit.residual, fit.rest);
+    fit.J.col(k) = model_.slope(fit.at, *fit.parameters[static_cast<std::size_t>(k)], fit.residual, fit.loose_row);
 }
 
-/// At `at`, with the slopes that `base` knows and new ones of what it does not have.
+/// Model residual at `at`, with the slopes of `base`, and new ones of the parameters that it lacks.
 Fit Fitter::at(const Fit& base, const EffectSet& effects, const Imperfections& at) const {
-  Fit fit = placed(effects, at, base.rest);
+  Fit fit = evaluate_at(effects, at, base.loose_row);
   fit.J = base.J;
   take_slopes(fit, base.x.size());
   fit.usable = is_finite(evidence(), fit);
   return fit;
 }
 
-/// Steps while they gain, or promise to; slopes before `from` stay what they are.
-Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const {
-  const Marginal& marginal = *evidence().marginal;
-  LastSized sized(marginal);
-  const auto summit = [&](const Tangent& tangent, const Amplitudes& given) {
-    return marginal.summit(tangent, sized.of(given, tangent.give));
+/// Steps as long as they gain or predict a gain; slopes before `from` are kept.
+Fit Fitter::descend(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const {
+  const EvidenceModel& evidence_model = *evidence().evidence_model;
+  ScaledDiscrepancyCache sized(evidence_model);
+  const auto log_density_at = [&](const Tangent& tangent, const Amplitudes& given) {
+    return evidence_model.log_density_at(tangent, sized.of(given, tangent.deflection_ratio));
   };
   Tangent here = tangent_of(evidence(), fit);
   const bool stated = rounds == 1;
-  Explained known = marginal.best(here, amplitudes, rounds);
-  bool estimated = true;  // the amplitudes, where it stands
+  Posterior known = evidence_model.best(here, amplitudes, rounds);
+  bool estimated = true;  // amplitudes are those of this place
   double share = 1.0;
   for (int i = 0; i < steps; ++i) {
     Imperfections there;
-    const auto promised = [&] {
-      there = stepped(fit, share * known.step);
+    const auto predict_evidence = [&] {
+      there = step_within_bounds(fit, share * known.step);
       const Eigen::VectorXd x = numbers_of(fit.parameters, there);
       const bool whole = (fit.x + known.step - x).isZero(1e-9 * known.step.norm());
-      return (whole ? known.height_ahead : summit(said_of(here, x), known.amplitudes)) - known.height;
+      return (whole ? known.predicted_log_density : log_density_at(move_tangent(here, x), known.amplitudes)) -
+             known.log_density;
     };
-    double promise = promised();
+    double promise = predict_evidence();
     if (promise < k_worth_a_step) {
       if (estimated) break;
-      known = marginal.best(here, known.amplitudes, rounds);
+      known = evidence_model.best(here, known.amplitudes, rounds);
       estimated = true;
-      promise = promised();
+      promise = predict_evidence();
       if (promise < k_worth_a_step) break;
     }
-    const double height = known.height - price_of(evidence(), fit);
-    Fit next = placed(fit.effects, there, fit.rest);
+    const double height = known.log_density - play_penalty(evidence(), fit);
+    Fit next = evaluate_at(fit.effects, there, fit.loose_row);
     next.J = fit.J;
     next.usable = is_finite(evidence(), next);
-    const double reached = next.usable
-                               ? summit(tangent_of(evidence(), next), known.amplitudes) - price_of(evidence(), next)
-                               : -std::numeric_limits<double>::infinity();
-    // Slopes cost most: a step that is not taken needs none, and one that gained what they promised has left them.
-    const bool straight = std::abs(reached - height - promise) < k_least_gain;
-    if (reached > height && !straight) {
+    const double reached =
+        next.usable ? log_density_at(tangent_of(evidence(), next), known.amplitudes) - play_penalty(evidence(), next)
+                    : -std::numeric_limits<double>::infinity();
+    // Slopes cost most. A rejected step needs none, and a step that gained as predicted keeps them.
+    const bool is_linear = std::abs(reached - height - promise) < k_least_gain;
+    if (reached > height && !is_linear) {
       take_slopes(next, from);
       next.usable = is_finite(evidence(), next);
     }
@@ -270,96 +271,97 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
       share *= k_shorter;
       continue;
     }
-    const bool settled = reached < height + k_least_gain;
+    const bool is_settled = reached < height + k_least_gain;
     fit = std::move(next);
     here = tangent_of(evidence(), fit);
     estimated = i % 2 == 1 || stated;
-    known = estimated && !stated ? marginal.best(here, known.amplitudes, rounds)
-                                 : marginal.at(here, sized.of(known.amplitudes, here.give));
+    known = estimated && !stated ? evidence_model.best(here, known.amplitudes, rounds)
+                                 : evidence_model.at(here, sized.of(known.amplitudes, here.deflection_ratio));
     share = 1.0;
-    if (settled) break;
+    if (is_settled) break;
   }
   return fit;
 }
 
 Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
-  Fit beside = or_pushed(fitted(effects, from, LooseRow::anywhere));
-  if (!beside.usable || beside.x.size() == 0 || !leaves_much(evidence(), beside)) return beside;
-  // What has no name took it before the effects could: they are let go first.
-  Fit start = started(effects, from, LooseRow::anywhere);
+  Fit beside = prefer_pushed(descend_fully(effects, from, LooseRow::anywhere));
+  if (!beside.usable || beside.x.size() == 0 || !has_large_discrepancy(evidence(), beside)) return beside;
+  // The discrepancy may have taken the effects' share: fit without discrepancy first.
+  Fit start = linearize_at(effects, from, LooseRow::anywhere);
   if (!start.usable) return beside;
-  return likelier(std::move(beside), settled(named_first(start)));
+  return likelier(std::move(beside), refine(fit_effects_first(start)));
 }
 
-Fit Fitter::by_squares(const Fit& fit) const {
+Fit Fitter::fit_least_squares(const Fit& fit) const {
   const double ridge = wide_prior(evidence().floor);
   const auto sums_at = [&](Fit& place) {
     place.readings = sums_of_readings(evidence(), place);
     return sums_of_all(evidence(), place);
   };
-  Fit best = started(fit.effects, fit.at, fit.rest);
+  Fit best = linearize_at(fit.effects, fit.at, fit.loose_row);
   double share = 1.0;
   for (int i = 0; i < k_most_steps_down && best.usable; ++i) {
     hold_at_bounds(best);
     const NormalEquations sums = sums_at(best);
     const Eigen::VectorXd step = least_squares_step(sums, best.x, ridge);
-    Fit next = placed(best.effects, stepped(best, of_free_numbers(best, share * step)), best.rest);
+    Fit next = evaluate_at(best.effects, step_within_bounds(best, of_free_numbers(best, share * step)), best.loose_row);
     next.J = best.J;
     const double left = is_finite(evidence(), next) ? sums_at(next).rr : sums.rr;
     if (left >= sums.rr) {
       share *= k_shorter;
       continue;
     }
-    best = started(next.effects, next.at, next.rest);
+    best = linearize_at(next.effects, next.at, next.loose_row);
     share = 1.0;
     if (left > (1.0 - k_least_of_squares) * sums.rr) break;
   }
-  return judged(std::move(best));
+  return with_evidence(std::move(best));
 }
 
-Fit Fitter::fitted(const EffectSet& effects, const Imperfections& from, LooseRow rest) const {
-  Fit start = started(effects, from, rest);
+Fit Fitter::descend_fully(const EffectSet& effects, const Imperfections& from, LooseRow loose_row) const {
+  Fit start = linearize_at(effects, from, loose_row);
   if (!start.usable) return start;
-  if (start.x.size() == 0) return judged(std::move(start));
-  return settled(
-      judged(descended(std::move(start), 0, k_most_steps_down, evidence().marginal->first_guess(), k_few_rounds)));
+  if (start.x.size() == 0) return with_evidence(std::move(start));
+  return refine(with_evidence(
+      descend(std::move(start), 0, k_most_steps_down, evidence().evidence_model->first_guess(), k_few_rounds)));
 }
 
-Fit Fitter::settled(Fit fit) const {
-  for (int pass = 0; pass < k_passes && fit.usable && is_promising(fit); ++pass) {
-    Fit further = judged(descended(fit, 0, k_most_steps_down, fit.explained.amplitudes, 1));
+Fit Fitter::refine(Fit fit) const {
+  for (int pass = 0; pass < k_passes && fit.usable && predicts_gain(fit); ++pass) {
+    Fit further = with_evidence(descend(fit, 0, k_most_steps_down, fit.posterior.amplitudes, 1));
     if (!further.usable || !(further.log_evidence > fit.log_evidence + k_least_gain)) break;
     fit = std::move(further);
   }
   return fit;
 }
 
-/// As if all of the error were its effects': where a discrepancy explains as much, small steps end too soon.
-Amplitudes Fitter::all_error_named(const Fit& fit) const {
-  Amplitudes alone = evidence().marginal->nothing_unnamed();
+/// Amplitudes of no discrepancy, with all of the error as noise. Where a discrepancy explains as much, small steps end
+/// too soon.
+Amplitudes Fitter::amplitudes_without_discrepancy(const Fit& fit) const {
+  Amplitudes alone = evidence().evidence_model->without_discrepancy();
   const Eigen::VectorXd left = tangent_of(evidence(), fit).residual;
   alone.noise = std::max(alone.noise, left.norm() / std::sqrt(static_cast<double>(left.size())));
   return alone;
 }
 
-/// A few steps with all slopes, as if all of the error were its effects'.
-Fit Fitter::named_first(const Fit& start) const {
-  return judged(descended(start, 0, k_chords, all_error_named(start), 1));
+/// A few steps with all slopes and no discrepancy.
+Fit Fitter::fit_effects_first(const Fit& start) const {
+  return with_evidence(descend(start, 0, k_chords, amplitudes_without_discrepancy(start), 1));
 }
 
-/// The looser the joint, the less the rows say that rest anywhere, and steps lead to more play than there is. Rows that
-/// rest where they were pushed lead to as much as there is, and then say as much as any.
-Fit Fitter::or_pushed(Fit fit) const {
+/// The looser the joint, the less information rows have that rest anywhere, so steps lead to too much play. Rows that
+/// rest at the last pushed position lead to the right play.
+Fit Fitter::prefer_pushed(Fit fit) const {
   if (!fit.usable || fit.x.size() == 0 || !(fit.loose(evidence().rows()).maxCoeff() > 0)) return fit;
-  Fit start = started(fit.effects, fit.at, LooseRow::pushed);
+  Fit start = linearize_at(fit.effects, fit.at, LooseRow::pushed);
   if (!start.usable) return fit;
-  const Amplitudes alone = all_error_named(start);
-  const Fit near = descended(std::move(start), 0, k_most_steps_down, alone, 1);
-  return likelier(std::move(fit), fitted(near.effects, near.at, LooseRow::pushed));
+  const Amplitudes alone = amplitudes_without_discrepancy(start);
+  const Fit near = descend(std::move(start), 0, k_most_steps_down, alone, 1);
+  return likelier(std::move(fit), descend_fully(near.effects, near.at, LooseRow::pushed));
 }
 
-/// Of each of the starts of `effect` beside `base`, what cannot be simulated left out.
-std::vector<Fit> Fitter::started_beside(const Fit& base, const Effect& effect) const {
+/// Model residual at each start of `effect` beside `base`, without those that cannot be simulated.
+std::vector<Fit> Fitter::linearize_starts(const Fit& base, const Effect& effect) const {
   EffectSet effects = base.effects;
   effects.push_back(&effect);
   std::vector<Fit> all;
@@ -372,56 +374,56 @@ std::vector<Fit> Fitter::started_beside(const Fit& base, const Effect& effect) c
   return all;
 }
 
-double Fitter::promised(const Fit& start, const Amplitudes& unnamed) const {
-  const double nats = evidence().marginal->at(tangent_of(evidence(), start), unnamed).log_evidence;
-  return std::isfinite(nats) ? nats - price_of(evidence(), start) : -std::numeric_limits<double>::infinity();
+double Fitter::predict_evidence(const Fit& start, const Amplitudes& amplitudes) const {
+  const double nats = evidence().evidence_model->at(tangent_of(evidence(), start), amplitudes).log_evidence;
+  return std::isfinite(nats) ? nats - play_penalty(evidence(), start) : -std::numeric_limits<double>::infinity();
 }
 
-Fitter::Promise Fitter::most_promising(const std::vector<Fit>& starts, const Amplitudes& unnamed) const {
+Fitter::PredictedStart Fitter::select_start(const std::vector<Fit>& starts, const Amplitudes& amplitudes) const {
   std::vector<double> promises;
-  for (const Fit& start : starts) promises.push_back(promised(start, unnamed));
+  for (const Fit& start : starts) promises.push_back(predict_evidence(start, amplitudes));
   const auto most = std::max_element(promises.begin(), promises.end());
   return {static_cast<std::size_t>(most - promises.begin()), *most};
 }
 
-Fit Fitter::with_effect_alone(const Fit& base, const Effect& effect) const {
-  const std::vector<Fit> starts = started_beside(base, effect);
+Fit Fitter::add_effect_without_discrepancy(const Fit& base, const Effect& effect) const {
+  const std::vector<Fit> starts = linearize_starts(base, effect);
   if (starts.empty()) return {};
-  return named_first(starts[most_promising(starts, all_error_named(base)).place]);
+  return fit_effects_first(starts[select_start(starts, amplitudes_without_discrepancy(base)).place]);
 }
 
-Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
-  const std::vector<Fit> starts = started_beside(base, effect);
+Fit Fitter::add_effect(const Fit& base, const Effect& effect) const {
+  const std::vector<Fit> starts = linearize_starts(base, effect);
   if (starts.empty()) return {};
-  const Promise beside = most_promising(starts, base.explained.amplitudes);
-  const std::size_t alone = most_promising(starts, all_error_named(base)).place;
-  Fit fit = by_chords(base, starts[beside.place], beside.nats);
-  return alone == beside.place ? fit : likelier(std::move(fit), settled(named_first(starts[alone])));
+  const PredictedStart beside = select_start(starts, base.posterior.amplitudes);
+  const std::size_t alone = select_start(starts, amplitudes_without_discrepancy(base)).place;
+  Fit fit = fit_by_chords(base, starts[beside.place], beside.nats);
+  return alone == beside.place ? fit : likelier(std::move(fit), refine(fit_effects_first(starts[alone])));
 }
 
-/// With one effect more from `start`, by the slopes that the base has; `promise`: of the start, beside what the base
-/// leaves without a name.
-Fit Fitter::by_chords(const Fit& base, const Fit& start, double promise) const {
+/// Fit with one effect more from `start`, by the slopes of the base. `promise`: predicted evidence of the start, with
+/// the amplitudes of the base.
+Fit Fitter::fit_by_chords(const Fit& base, const Fit& start, double promise) const {
   const auto ended = [&](Fit from) {
-    return judged(descended(std::move(from), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds));
+    return with_evidence(descend(std::move(from), base.x.size(), k_chords, base.posterior.amplitudes, k_few_rounds));
   };
-  Fit first = ended(descended(start, base.x.size(), k_chords, all_error_named(start), 1));
-  // What the start promised is reached: small steps from there would not find more.
-  if (first.usable && first.log_evidence >= promise) return or_pushed(std::move(first));
-  return or_pushed(likelier(std::move(first), ended(start)));
+  Fit first = ended(descend(start, base.x.size(), k_chords, amplitudes_without_discrepancy(start), 1));
+  // The prediction is reached: small steps would not find more.
+  if (first.usable && first.log_evidence >= promise) return prefer_pushed(std::move(first));
+  return prefer_pushed(likelier(std::move(first), ended(start)));
 }
 
-Fit Fitter::judged(Fit fit) const {
+Fit Fitter::with_evidence(Fit fit) const {
   hold_at_bounds(fit);
-  judge(fit);
+  compute_evidence(fit);
   return fit;
 }
 
-/// Two states are predicted with the discrepancy: runs of the other state at the same load and speed show it. A whole
-/// level left out would leave none of them, so runs are left out one by one.
+/// Two states are predicted with the discrepancy, which other runs at the same load and speed show. A whole level left
+/// out would leave none of them, so runs are left out one by one.
 void Fitter::hold_out_of(Fit& fit) const {
   if (evidence().earlier) {
-    fit.by_run = hold_out_beside(evidence(), fit, fit.explained.amplitudes, evidence().run_folds).with_all;
+    fit.by_run = hold_out_beside(evidence(), fit, fit.posterior.amplitudes, evidence().run_folds).with_all;
     fit.by_factor = fit.by_run;
     return;
   }
@@ -429,36 +431,36 @@ void Fitter::hold_out_of(Fit& fit) const {
   fit.by_run = hold_out(evidence(), fit, evidence().run_folds);
 }
 
-void Fitter::judge(Fit& fit) const {
+void Fitter::compute_evidence(Fit& fit) const {
   fit.usable = fit.usable && is_finite(evidence(), fit);
   if (!fit.usable) return;
-  const Marginal& marginal = *evidence().marginal;
-  fit.explained = marginal.best(tangent_of(evidence(), fit), marginal.first_guess());
-  fit.log_evidence = fit.explained.log_evidence_here - cost_of_play(evidence(), fit);
-  fit.rareness_of_rest = marginal.rareness_of_rest(fit.explained);
-  // Two waves of one order are one column twice: a set that cannot be weighed would take all others' weight with it.
+  const EvidenceModel& evidence_model = *evidence().evidence_model;
+  fit.posterior = evidence_model.best(tangent_of(evidence(), fit), evidence_model.first_guess());
+  fit.log_evidence = fit.posterior.log_evidence_here - loose_row_penalty(evidence(), fit);
+  fit.discrepancy_penalty = evidence_model.discrepancy_penalty(fit.posterior);
+  // Two waves of one order are equal columns: a set without a finite evidence must not enter the weights.
   fit.usable = std::isfinite(fit.log_evidence);
   if (!fit.usable) return;
   fit.readings = sums_of_readings(evidence(), fit);
-  fit.against_readings = against_readings(evidence(), fit.at);
+  fit.caliper_chi2 = caliper_chi2(evidence(), fit.at);
   fit.sums.clear();
   double rows = 0;
   double squares = 0;
-  double prices = 0;
+  double play_squares = 0;
   for (const Block& block : evidence().blocks) {
     fit.sums.push_back(sums_of(block, fit, evidence().floor));
     rows += fit.sums.back().rows;
     squares += fit.sums.back().rr;
     for (const std::size_t row : block.rows)
-      prices += price_of_play(fit.loose[static_cast<Eigen::Index>(row)], evidence().floor);
+      play_squares += play_correction(fit.loose[static_cast<Eigen::Index>(row)], evidence().floor);
   }
   fit.mean_square = squares / rows;
-  fit.price = prices / rows;
+  fit.play_square = play_squares / rows;
   hold_out_of(fit);
 }
 
-/// `fit` with the numbers of `effect` at zero, of what is searched where it begins.
-Fit Fitter::beside(const Fit& fit, const Effect& effect, const std::vector<double>& start) const {
+/// `fit` with the numbers of `effect` at zero, searched ones at the start.
+Fit Fitter::extend(const Fit& fit, const Effect& effect, const std::vector<double>& start) const {
   Fit wider = fit;
   wider.effects.push_back(&effect);
   wider.parameters = model_.varied(wider.effects);
@@ -470,35 +472,35 @@ Fit Fitter::beside(const Fit& fit, const Effect& effect, const std::vector<doubl
   return wider;
 }
 
-/// At its first start.
-Fit Fitter::beside(const Fit& fit, const Effect& effect) const {
+/// `fit` with `effect` at its first start.
+Fit Fitter::extend(const Fit& fit, const Effect& effect) const {
   const std::vector<std::vector<double>> starts = starts_of(evidence(), fit, effect);
-  return beside(fit, effect, starts.empty() ? std::vector<double>() : starts.front());
+  return extend(fit, effect, starts.empty() ? std::vector<double>() : starts.front());
 }
 
-Eigen::VectorXd Fitter::done_by(const Fit& fit, const Effect& effect) const {
-  return (residual(without(fit.at, effect), fit.rest) - fit.residual)(evidence().rows());
+Eigen::VectorXd Fitter::contribution_of(const Fit& fit, const Effect& effect) const {
+  return (residual(without(fit.at, effect), fit.loose_row) - fit.residual)(evidence().rows());
 }
 
-Fit Fitter::with_direction(const Fit& fit, const Effect& effect) const {
-  Fit wider = beside(fit, effect);
+Fit Fitter::add_slopes(const Fit& fit, const Effect& effect) const {
+  Fit wider = extend(fit, effect);
   take_slopes(wider, fit.x.size());
-  judge(wider);
+  compute_evidence(wider);
   return wider;
 }
 
-/// Over `size` in the number's own unit, or as much less where its upper bound is in the way.
+/// Chord over `size` in the number's own unit, shorter at its upper bound.
 void Fitter::take_chord(Fit& wider, Eigen::Index k, double size) const {
   const EffectParameter& parameter = *wider.parameters[static_cast<std::size_t>(k)];
   const double value = value_of(wider.at, parameter);
   Imperfections moved = wider.at;
   set_value(moved, parameter, value + size <= parameter.most ? value + size : std::max(parameter.least, value - size));
   const double steps = (value_of(moved, parameter) - value) / parameter.step;
-  wider.J.col(k) = (wider.residual - model_.said(moved, wider.rest).residual) / steps;
+  wider.J.col(k) = (wider.residual - model_.evaluate(moved, wider.loose_row).residual) / steps;
 }
 
-Fit Fitter::with_chords(const Fit& fit, const Effect& effect) const {
-  Fit wider = beside(fit, effect);
+Fit Fitter::add_chords(const Fit& fit, const Effect& effect) const {
+  Fit wider = extend(fit, effect);
   wider.J.conservativeResize(wider.residual.size(), wider.x.size());
   for (Eigen::Index k = fit.x.size(); k < wider.x.size(); ++k) {
     const EffectParameter& parameter = *wider.parameters[static_cast<std::size_t>(k)];
@@ -508,10 +510,10 @@ Fit Fitter::with_chords(const Fit& fit, const Effect& effect) const {
   return wider;
 }
 
-std::vector<Fit> Fitter::with_chords_of_starts(const Fit& fit, const Effect& effect) const {
+std::vector<Fit> Fitter::add_chords_of_starts(const Fit& fit, const Effect& effect) const {
   std::vector<Fit> all;
   for (const std::vector<double>& start : starts_that_differ(evidence(), fit, effect)) {
-    Fit wider = beside(fit, effect, start);
+    Fit wider = extend(fit, effect, start);
     wider.J.conservativeResize(wider.residual.size(), wider.x.size());
     for (Eigen::Index k = fit.x.size(); k < wider.x.size(); ++k) {
       const EffectParameter& parameter = *wider.parameters[static_cast<std::size_t>(k)];

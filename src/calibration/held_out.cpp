@@ -5,41 +5,41 @@
 #include <utility>
 
 #include "base/decompositions.h"
+#include "calibration/discrepancy_fit.h"
 #include "calibration/fit.h"
-#include "calibration/unknown.h"
 
 namespace fusee {
 namespace {
 
-/// Of what all blocks know of a direction, what must be left without a fold for the fold to be held out (commit
-/// 7732596: of a delay beside play only the one fast run knows).
+/// Share of the information in each direction that must remain without a fold (a delay beside play is determined by the
+/// one fast run).
 constexpr double k_least_known = 0.03;
 
-/// Whether the blocks outside a fold say enough of every direction that all of them together know: a level that alone
-/// carries what is known of a number cannot be held out.
-bool can_do_without(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& all) {
+/// True if the blocks outside a fold determine every direction that all of them determine: rest − k all is positive
+/// definite, scaled to unit diagonal.
+bool can_do_without(const Eigen::MatrixXd& remaining, const Eigen::MatrixXd& all) {
   if (all.rows() == 0) return true;
   const Eigen::VectorXd size = all.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = size.asDiagonal() * all * size.asDiagonal();
-  const Eigen::MatrixXd part = size.asDiagonal() * rest * size.asDiagonal();
+  const Eigen::MatrixXd part = size.asDiagonal() * remaining * size.asDiagonal();
   const Eigen::MatrixXd ridge = 1e-9 * Eigen::MatrixXd::Identity(all.rows(), all.cols());
   return is_positive_definite(part + ridge - k_least_known * (scaled + ridge));
 }
 
-/// What is fitted: sums block by block and of what was measured by hand, where the numbers stand.
+/// Sums of each block and of caliper readings at the fit.
 struct Fitted {
   std::vector<NormalEquations> sums;
   NormalEquations all;
   Eigen::VectorXd x;
-  Eigen::Index named = 0;  ///< numbers of effects: the first of x
+  Eigen::Index named = 0;  ///< number of effect parameters: the first of x
 };
 
-/// Which of the fitted numbers a prediction is made with: 1, or 0.
+/// Parameters that take part in a prediction: 1, or 0.
 using Mask = Eigen::VectorXd;
 
 class Folds {
  public:
-  /// A prediction for each mask.
+  /// One prediction for each mask.
   Folds(const Fitted& fitted, double floor, std::vector<Mask> masks)
       : fitted_(fitted),
         ridge_(wide_prior(floor)),
@@ -48,19 +48,19 @@ class Folds {
         times_(fitted.sums.size(), 0) {}
 
   void leave_out(const Fold& fold) {
-    const NormalEquations rest = without(fold);
-    if (is_enough(rest)) return judge(fold, rest);
-    for (const std::size_t block : fold) judge({block}, without({block}));
+    const NormalEquations remaining = without(fold);
+    if (is_enough(remaining)) return add_errors(fold, remaining);
+    for (const std::size_t block : fold) add_errors({block}, without({block}));
   }
 
-  /// To the effects' numbers that the rest of the blocks have; none where these do not know them.
+  /// Step of the effects' parameters to the fit of the other blocks; zero if these do not determine them.
   Eigen::VectorXd step_without(const Fold& fold) const {
-    const NormalEquations rest = without(fold);
-    if (!is_enough(rest)) return Eigen::VectorXd::Zero(fitted_.named);
-    return least_squares_step(rest, fitted_.x, ridge_).head(fitted_.named);
+    const NormalEquations remaining = without(fold);
+    if (!is_enough(remaining)) return Eigen::VectorXd::Zero(fitted_.named);
+    return least_squares_step(remaining, fitted_.x, ridge_).head(fitted_.named);
   }
 
-  /// `else_square`: where nothing is held out.
+  /// `else_square`: the result if nothing is held out.
   HeldOut errors(std::size_t mask, double else_square) const {
     HeldOut held;
     double rows = 0;
@@ -77,20 +77,20 @@ class Folds {
 
  private:
   NormalEquations without(const Fold& fold) const {
-    NormalEquations rest = fitted_.all;
-    for (const std::size_t block : fold) rest -= fitted_.sums[block];
-    return rest;
+    NormalEquations remaining = fitted_.all;
+    for (const std::size_t block : fold) remaining -= fitted_.sums[block];
+    return remaining;
   }
 
-  bool is_enough(const NormalEquations& rest) const {
+  bool is_enough(const NormalEquations& remaining) const {
     const auto known = [this](const NormalEquations& sums) {
       return sums.JJ.topLeftCorner(fitted_.named, fitted_.named);
     };
-    return can_do_without(known(rest), known(fitted_.all));
+    return can_do_without(known(remaining), known(fitted_.all));
   }
 
-  void judge(const Fold& fold, const NormalEquations& rest) {
-    const Eigen::VectorXd step = least_squares_step(rest, fitted_.x, ridge_);
+  void add_errors(const Fold& fold, const NormalEquations& remaining) {
+    const Eigen::VectorXd step = least_squares_step(remaining, fitted_.x, ridge_);
     for (const std::size_t block : fold) {
       const NormalEquations& sums = fitted_.sums[block];
       for (std::size_t mask = 0; mask < masks_.size(); ++mask)
@@ -102,7 +102,7 @@ class Folds {
   const Fitted& fitted_;
   double ridge_;
   std::vector<Mask> masks_;
-  std::vector<std::vector<double>> error_;  ///< mask by mask, block by block
+  std::vector<std::vector<double>> error_;  ///< errors by mask and block
   std::vector<int> times_;
 };
 
@@ -112,21 +112,21 @@ Fitted effects_alone(const Fit& fit) {
   return fitted;
 }
 
-// ---- what has no name beside them -----------------------------------------------------------------------------------
+// ---- discrepancy beside the effects
+// -----------------------------------------------------------------------------------
 
-/// Columns of the discrepancy that are used, and what each is multiplied by: in such a unit the wide prior is that of
-/// its amplitude.
+/// Columns of the discrepancy in use and their scales: in these units the wide prior is that of the amplitude.
 struct Scaled {
   std::vector<Eigen::Index> columns;
   std::vector<double> size;
-  std::vector<bool> of_place;  ///< of place and direction alone
+  std::vector<bool> of_place;  ///< true for factors of place and direction
 };
 
 Scaled scaled(const Evidence& evidence, const Amplitudes& amplitudes) {
-  const Marginal& marginal = *evidence.marginal;
-  const double unit = std::sqrt(wide_prior(evidence.floor) * marginal.worth()) / amplitudes.noise;
+  const EvidenceModel& evidence_model = *evidence.evidence_model;
+  const double unit = std::sqrt(wide_prior(evidence.floor) * evidence_model.independent_share()) / amplitudes.noise;
   Scaled used;
-  const std::vector<Family>& families = marginal.discrepancy().families;
+  const std::vector<Family>& families = evidence_model.discrepancy().families;
   for (std::size_t f = 0; f < families.size(); ++f) {
     const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
     for (Eigen::Index k = 0; amplitude > 0 && k < families[f].count; ++k) {
@@ -138,7 +138,7 @@ Scaled scaled(const Evidence& evidence, const Amplitudes& amplitudes) {
   return used;
 }
 
-/// Effects and columns side by side.
+/// Normal equations of effects and discrepancy together.
 Fitted effects_beside(const Evidence& evidence, const Fit& fit, const Scaled& used) {
   const auto more = static_cast<Eigen::Index>(used.columns.size());
   Fitted fitted;
@@ -148,9 +148,9 @@ Fitted effects_beside(const Evidence& evidence, const Fit& fit, const Scaled& us
   fitted.all = NormalEquations::none(fitted.x.size());
   fitted.all.JJ.topLeftCorner(fitted.named, fitted.named) = fit.readings.JJ;
   fitted.all.Jr.head(fitted.named) = fit.readings.Jr;
-  const Eigen::MatrixXd& columns = evidence.marginal->discrepancy().columns;
+  const Eigen::MatrixXd& columns = evidence.evidence_model->discrepancy().columns;
   const Eigen::Map<const Eigen::VectorXd> size(used.size.data(), more);
-  Eigen::Index first = 0;  // row in use
+  Eigen::Index first = 0;  // row among the rows in use
   for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {
     const std::vector<std::size_t>& rows = evidence.blocks[b].rows;
     const auto count = static_cast<Eigen::Index>(rows.size());

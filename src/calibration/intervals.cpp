@@ -6,10 +6,10 @@ namespace fusee {
 
 namespace {
 
-/// In steps of the number, squared.
+/// Variance in steps of the number, squared.
 double variance_of(const Fit& fit, std::size_t k) {
   const auto i = static_cast<Eigen::Index>(k);
-  return std::max(0.0, fit.explained.covariance(i, i));
+  return std::max(0.0, fit.posterior.covariance(i, i));
 }
 
 ConfidenceInterval about(double x, double variance) {

@@ -1,5 +1,5 @@
 /// \file
-/// How well the data know the numbers of a fit.
+/// Confidence intervals of fitted parameters.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,12 @@
 
 namespace fusee {
 
-/// Of every fitted x, in their order: beside a discrepancy that may take any shape, and what is known from practice and
-/// from calipers.
-/// `overstated`: by which evidence is, as Selection::temperature.
+/// Interval of every fitted x, in their order, with the discrepancy marginalised, prior sizes and caliper readings.
+/// `overstated`: as Selection::temperature.
 std::vector<ConfidenceInterval> intervals(const Fit& fit, double overstated = 1.0);
-/// Of `selection.best`, wider by what is not known of the other effects, and by as much as evidence is overstated.
+/// Intervals of `selection.best` with other effects marginalised, at the selection's temperature.
 std::vector<ConfidenceInterval> intervals(const Selection& selection);
-/// Intervals if the effects of `selection.best` are all there is: by as much wider as evidence is overstated.
+/// Intervals if the effects of `selection.best` are the only ones, at the selection's temperature.
 std::vector<ConfidenceInterval> intervals_if_only(const Selection& selection);
 
 }  // namespace fusee

@@ -7,34 +7,35 @@ namespace fusee {
 
 namespace {
 
-/// What a row says of the place of a joint with so much play, by what it says of a taut one.
+/// Weight of a row of a joint with so much play, 1 for a taut joint.
 double weight_of(double loose, double floor) {
-  constexpr double uncertain = 1.0 / 3.0;  // of the play: how far from where it was last pushed a loose joint may rest
+  // share of the play within which a loose joint may rest, standard deviation
+  constexpr double uncertain = 1.0 / 3.0;
   return floor / std::hypot(floor, uncertain * loose);
 }
 
 }  // namespace
 
-Said Model::said(const Imperfections& at, LooseRow rest) const {
+ModelResidual Model::evaluate(const Imperfections& at, LooseRow loose_row) const {
   const Eigen::VectorXd theta = flat(forward_(at));
-  if (rest == LooseRow::pushed) return {evidence_.theta - theta, Eigen::VectorXd::Zero(theta.size())};
-  Said words{evidence_.theta - theta, flat(forward_.looseness(at))};
-  for (Eigen::Index i = 0; i < words.residual.size(); ++i) {
-    if (words.loose[i] > 0) words.residual[i] *= weight_of(words.loose[i], evidence_.floor);
+  if (loose_row == LooseRow::pushed) return {evidence_.theta - theta, Eigen::VectorXd::Zero(theta.size())};
+  ModelResidual evaluation{evidence_.theta - theta, flat(forward_.looseness(at))};
+  for (Eigen::Index i = 0; i < evaluation.residual.size(); ++i) {
+    if (evaluation.loose[i] > 0) evaluation.residual[i] *= weight_of(evaluation.loose[i], evidence_.floor);
   }
-  return words;
+  return evaluation;
 }
 
 Eigen::VectorXd Model::slope(const Imperfections& at, const EffectParameter& parameter, const Eigen::VectorXd& residual,
-                             LooseRow rest) const {
+                             LooseRow loose_row) const {
   Imperfections moved = at;
   const double value = value_of(at, parameter);
   const double step = value + parameter.step <= parameter.most ? 1.0 : -1.0;
   set_value(moved, parameter, value + step * parameter.step);
-  return (residual - said(moved, rest).residual) / step;
+  return (residual - evaluate(moved, loose_row).residual) / step;
 }
 
-double price_of_play(double loose, double floor) {
+double play_correction(double loose, double floor) {
   const double weight = weight_of(loose, floor);
   return floor * floor * (1.0 - weight * weight);
 }
@@ -43,7 +44,7 @@ LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loo
   constexpr int k_most_rounds = 40;
   const Eigen::Index rows = residual.size();
   LooseRows result{0, Eigen::VectorXd::Zero(rows)};
-  Eigen::VectorXd pushed(rows), anywhere(rows), weight(rows);  // densities, in those of noise at its height
+  Eigen::VectorXd pushed(rows), anywhere(rows), weight(rows);  // densities relative to the peak of the noise density
   double count = 0;
   for (Eigen::Index i = 0; i < rows; ++i) {
     weight[i] = weight_of(loose[i], floor);
@@ -56,7 +57,7 @@ LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loo
   const auto surely_pushed = [&](Eigen::Index i, double share) {
     return (1.0 - share) * pushed[i] / ((1.0 - share) * pushed[i] + share * anywhere[i]);
   };
-  double share = 0.5;  // of those that rest anywhere: expectation and maximisation in turn
+  double share = 0.5;  // share of rows that rest anywhere, by expectation maximisation
   for (int round = 0; round < k_most_rounds; ++round) {
     double sum = 0;
     for (Eigen::Index i = 0; i < rows; ++i) {
@@ -64,12 +65,12 @@ LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loo
     }
     share = std::clamp(sum / count, 1e-9, 1.0 - 1e-9);
   }
-  result.nats = 0.5 * std::log(count);  // the share is a number that was fitted
+  result.nats = 0.5 * std::log(count);  // the share is one fitted number
   for (Eigen::Index i = 0; i < rows; ++i) {
     if (!(loose[i] > 0)) continue;
     const double squares = residual[i] * residual[i] / (floor * floor);
     result.nats -= std::log((1.0 - share) * pushed[i] + share * anywhere[i]) + 0.5 * squares;
-    result.unheard[i] = surely_pushed(i, share) * (1.0 / (weight[i] * weight[i]) - 1.0);
+    result.extra_information[i] = surely_pushed(i, share) * (1.0 / (weight[i] * weight[i]) - 1.0);
   }
   return result;
 }

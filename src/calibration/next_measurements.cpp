@@ -11,22 +11,22 @@
 #include "fusee/plan/plan.h"
 #include "measurement/seen_span.h"
 
-// Each proposal is simulated with what was found and with what may be there in its place, as each was fitted. A
-// proposal is made only if its result can be given to calibrate: a run with its columns, a number with a key of [prior].
+// Each proposal is simulated with the found effects and with each alternative, as fitted. Proposals produce inputs of
+// calibrate only: a run with its columns, or a number with a key of [prior].
 
 namespace fusee {
 namespace {
 
 constexpr std::size_t k_most_proposals = 4;
-constexpr double k_lever_load = 0.3;    // of the pretension, as a tip force
-constexpr double k_slow_stroke = 15.0;  // s, where no time was logged
+constexpr double k_lever_load = 0.3;    // share of the pretension, as a tip force
+constexpr double k_slow_stroke = 15.0;  // s, without logged times
 constexpr int k_rows_a_stroke = 60;
-/// Ratio to a pace that is clearly another one.
+/// Factors to a clearly different speed.
 constexpr double k_faster = 5.0, k_slower = 0.1;
 constexpr double k_long_dwell = 60.0;  // s: nearly two decades of creep
-/// A margin that is wider decides no better: the shorter measurement comes first then.
+/// Largest useful margin: of two wider ones the shorter measurement is first.
 constexpr double k_wide = 3.0;
-/// Part of the margin that distinguishes: less is not worth the minutes.
+/// Least useful share of the margin that distinguishes.
 constexpr double k_least_told = 0.6;
 
 const Run& longest(const Measurement& measurement) {
@@ -43,7 +43,7 @@ double largest_load(const Evidence& evidence) {
   return std::max(1.0, std::round(k_lever_load * evidence.declared->tendon.pretension));
 }
 
-/// The strokes that were measured, without load.
+/// The measured strokes, without load.
 PlannedRun as_before(const Measurement& measurement) {
   const Run& run = longest(measurement);
   const SeenSpan seen = seen_span(measurement, &Sample::alpha);
@@ -52,7 +52,7 @@ PlannedRun as_before(const Measurement& measurement) {
   return before;
 }
 
-/// True if a run at about this pace and under about this load was measured.
+/// True if a run at about this speed and load was measured.
 bool was_measured(const PlannedRun& run, const Measurement& measurement) {
   constexpr double k_alike = 0.2;
   if (run.change != BenchChange::none || run.dwell > 0) return false;
@@ -64,7 +64,7 @@ bool was_measured(const PlannedRun& run, const Measurement& measurement) {
   });
 }
 
-/// Runs that could be driven next and were not yet, beginning from those that were.
+/// Possible runs that were not measured, those nearest to the measured ones first.
 std::vector<PlannedRun> proposals(const Evidence& evidence) {
   const PlannedRun before = as_before(evidence.measurement);
   const double load = largest_load(evidence);
@@ -89,15 +89,15 @@ std::vector<PlannedRun> proposals(const Evidence& evidence) {
   return all;
 }
 
-/// Candidates in the place of an effect that was found.
+/// Member of a group in the place of the found effect.
 struct Alternative {
   const Effect* found = nullptr;
-  std::string name;                   ///< of the group's member
-  const Imperfections* at = nullptr;  ///< with that in its place; where it was not fitted with nothing there
+  std::string name;                   ///< name of the member
+  const Imperfections* at = nullptr;  ///< joint with the member in its place; without both if it was not fitted
   bool is_fitted = false;
 };
 
-/// The member of a group as it was fitted in the place of what was found; null where it was not.
+/// Fit of a member in the place of the found effect; null without one.
 const Rival* fitted_in_place(const Selection& selection, const Effect& found, const std::string& member) {
   const auto rival = std::find_if(selection.rivals.begin(), selection.rivals.end(), [&](const Rival& known) {
     return known.accepted == &found && known.rival->name == member && known.fit.usable;
@@ -121,7 +121,7 @@ std::vector<Alternative> alternatives(const Selection& selection, const std::vec
   return all;
 }
 
-/// A proposal with the margin by which it distinguishes each alternative: 1 is just distinguished.
+/// Proposal with the margin by which it distinguishes each alternative: 1 just distinguishes.
 struct Proposal {
   NextMeasurement next;
   std::vector<double> margins;
@@ -143,7 +143,7 @@ class Proposals {
     }
   }
 
-  /// The best first, each for an alternative that those before it leave.
+  /// Best first, each for an alternative that those before it do not distinguish.
   std::vector<NextMeasurement> best() {
     std::vector<NextMeasurement> chosen;
     std::vector<bool> left(others_.size(), true);
@@ -151,7 +151,7 @@ class Proposals {
       const auto next = std::max_element(all_.begin(), all_.end(), [&](const Proposal& one, const Proposal& other) {
         return is_worse(one, other, left);
       });
-      if (next == all_.end() || told(*next, left) == 0) break;
+      if (next == all_.end() || distinguished(*next, left) == 0) break;
       describe(*next);
       for (std::size_t i = 0; i < left.size(); ++i) left[i] = left[i] && next->margins[i] < 1;
       chosen.push_back(next->next);
@@ -165,8 +165,8 @@ class Proposals {
     return predict(*evidence_.declared, at, {driven(run, k_rows_a_stroke)});
   }
 
-  /// Difference of both in the run, beyond what they differ by in the slow one without load: there the data are said by
-  /// both, with a curve of the place beside either. An unmodelled cause may follow any load and pace.
+  /// rms difference between both in the run, beyond their difference in the slow unloaded run, which the data and a
+  /// curve of place determine. An unmodelled cause may have any dependence on load and speed.
   double rms_from(const Alternative& other, const PlannedRun& run) const {
     if (!other.is_fitted && run.change == BenchChange::none) return 0;
     PlannedRun before = run;
@@ -181,7 +181,7 @@ class Proposals {
     return rms_apart(found, expected);
   }
 
-  /// Strokes repeat one another: noise of their mean counts.
+  /// Margins by the noise of the mean of repeated strokes.
   void add(const PlannedRun& run) {
     const auto found = shown(found_, run);
     const auto stands = [](double angle) { return std::isfinite(angle); };
@@ -190,11 +190,11 @@ class Proposals {
     const std::string unit = evidence_.declared->transmission ? evidence_.measurement.load_unit : "N";
     Proposal proposal{next_run(run, as_before(evidence_.measurement).speed, unit), {}};
     for (const Alternative& other : others_)
-      proposal.margins.push_back(rms_from(other, run) / noise / k_thresholds.told_apart);
+      proposal.margins.push_back(rms_from(other, run) / noise / k_thresholds.distinguished);
     all_.push_back(std::move(proposal));
   }
 
-  /// Readings by hand distinguish those that give a number different values.
+  /// Margins of caliper readings, for alternatives with different values of a number.
   void add(const std::vector<const EffectParameter*>& numbers) {
     Proposal proposal{next_reading(numbers), {}};
     for (const Alternative& other : others_) {
@@ -204,13 +204,13 @@ class Proposals {
                              reading_by_hand(*number, *other.at, *evidence_.declared);
         squares += std::pow(apart / number->by_hand.uncertainty, 2);
       }
-      proposal.margins.push_back(std::sqrt(squares) / k_thresholds.told_apart);
+      proposal.margins.push_back(std::sqrt(squares) / k_thresholds.distinguished);
     }
     all_.push_back(std::move(proposal));
   }
 
-  /// Number of remaining alternatives that it distinguishes; half told ones count in part.
-  static double told(const Proposal& proposal, const std::vector<bool>& left) {
+  /// Number of the remaining alternatives that it distinguishes; half distinguished ones count in part.
+  static double distinguished(const Proposal& proposal, const std::vector<bool>& left) {
     double sum = 0;
     for (std::size_t i = 0; i < left.size(); ++i) {
       if (left[i] && proposal.margins[i] >= k_least_told) sum += std::min(1.0, proposal.margins[i]);
@@ -218,9 +218,9 @@ class Proposals {
     return sum;
   }
 
-  /// More alternatives, then the wider of their narrowest margins, then fewer minutes.
+  /// Order by the number of alternatives, then by the least of their margins, then by duration.
   static bool is_worse(const Proposal& one, const Proposal& other, const std::vector<bool>& left) {
-    const double sum = told(one, left), other_sum = told(other, left);
+    const double sum = distinguished(one, left), other_sum = distinguished(other, left);
     if (sum != other_sum) return sum < other_sum;
     const auto narrowest = [&](const Proposal& proposal) {
       double least = k_wide;
@@ -235,24 +235,24 @@ class Proposals {
 
   void describe(Proposal& proposal) const {
     const Effect* named = nullptr;
-    std::string told;
+    std::string distinguished;
     const auto separate = [&](const std::string& name) {
       std::vector<std::string>& names = proposal.next.separates;
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     };
     for (std::size_t i = 0; i < others_.size(); ++i) {
       if (proposal.margins[i] < k_least_told) continue;
-      const double apart = proposal.margins[i] * k_thresholds.told_apart;
-      const std::string unit = told.empty() ? " × the uncertainty)" : " ×)";
-      told += told.empty() ? "" : ", ";
-      if (others_[i].found != named) told += others_[i].found->name + " from ";
+      const double apart = proposal.margins[i] * k_thresholds.distinguished;
+      const std::string unit = distinguished.empty() ? " × the uncertainty)" : " ×)";
+      distinguished += distinguished.empty() ? "" : ", ";
+      if (others_[i].found != named) distinguished += others_[i].found->name + " from ";
       named = others_[i].found;
-      told += (others_[i].name == k_unmodelled ? "an unmodelled cause" : others_[i].name) + " (" +
-              rounded(std::min(apart, 999.0), 2) + unit;
+      distinguished += (others_[i].name == k_unmodelled ? "an unmodelled cause" : others_[i].name) + " (" +
+                       rounded(std::min(apart, 999.0), 2) + unit;
       separate(others_[i].found->name);
       separate(others_[i].name);
     }
-    proposal.next.gain = told;
+    proposal.next.gain = distinguished;
   }
 
   const Evidence& evidence_;
@@ -261,7 +261,7 @@ class Proposals {
   std::vector<Proposal> all_;
 };
 
-/// The side from which a held point was come to.
+/// Sides from which a dwell was approached.
 struct Sides {
   double alpha = 0;
   bool rising = false, falling = false;
@@ -272,15 +272,15 @@ std::vector<Sides> held_points(const Measurement& measurement) {
   std::vector<Sides> points;
   for (const Run& run : measurement.runs) {
     if (!is_from_point_to_point(run)) continue;
-    for (const Segment& stretch : run.segments) {
-      const bool is_first = &stretch == &run.segments.front();  // where it came from was not logged
-      if (!stretch.held || is_first) continue;
-      const double alpha = run.samples[stretch.first].alpha;
+    for (const Segment& segment : run.segments) {
+      const bool is_first = &segment == &run.segments.front();  // its approach was not logged
+      if (!segment.held || is_first) continue;
+      const double alpha = run.samples[segment.first].alpha;
       auto point = std::find_if(points.begin(), points.end(), [&](const Sides& known) {
-        return std::abs(known.alpha - alpha) <= k_one_stand * seen.size();
+        return std::abs(known.alpha - alpha) <= k_dwell_tolerance * seen.size();
       });
       if (point == points.end()) point = points.insert(points.end(), {alpha});
-      const int direction = run.strokes[stretch.stroke].direction;
+      const int direction = run.strokes[segment.stroke].direction;
       point->rising = point->rising || direction > 0;
       point->falling = point->falling || direction < 0;
     }
@@ -288,7 +288,7 @@ std::vector<Sides> held_points(const Measurement& measurement) {
   return points;
 }
 
-/// The range in which a run sweeps there and back; nothing if it does not.
+/// Range that a run sweeps in both directions; empty without one.
 SeenSpan swept_both_ways(const Run& run) {
   const auto goes = [&](int direction) {
     return std::any_of(run.strokes.begin(), run.strokes.end(),
@@ -320,7 +320,7 @@ void ask_for_both_sides(const Measurement& measurement, std::vector<NextMeasurem
 
 std::vector<NextMeasurement> planned_measurements(const DeclaredMechanism& declared) {
   const Plan plan = plan_runs(declared);
-  // A law that does not exist over the range moves nothing.
+  // A law without solution over the range has no motion.
   if (!(plan.slow > 0))
     return {next_inspection(
         "several strokes both ways over the whole range, slowly, at no load and at two loads, and one run faster")};
@@ -337,7 +337,7 @@ std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const S
   const std::vector<Alternative> others = alternatives(selection, calibration.effects);
   std::vector<NextMeasurement> next;
   if (!others.empty()) next = Proposals(evidence, selection, others).best();
-  // Nothing that can be simulated distinguishes them: what each effect itself asks for.
+  // No simulated measurement distinguishes them: the effects' own proposals.
   if (next.empty()) {
     for (const Rival* rival : rivals_as_good(evidence, selection)) ask(rival->rival->separating_run, next);
   }

@@ -1,5 +1,5 @@
 /// \file
-/// The measurements that would distinguish the members of a group, and by how much.
+/// Measurements that distinguish the members of a group, and their margins.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace fusee {
 
-/// The most decisive first; of `calibration`, which has its groups and its verdict. Empty where no group has more than
-/// one member and nothing stays unexplained.
+/// Most decisive first, for the groups and verdict of `calibration`. Empty if no group has several members and nothing
+/// is unexplained.
 std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const Selection& selection,
                                                const Calibration& calibration);
 
-/// For data that decide nothing: the plan of a joint that was not measured.
+/// Plan of an unmeasured joint, for data that cannot be tested.
 std::vector<NextMeasurement> planned_measurements(const DeclaredMechanism& declared);
 
-/// Adds what held points ask for that were come to from one side only, and that no run sweeps over there and back.
+/// Adds a request to approach dwells from both sides, unless they were or a run sweeps over them in both directions.
 void ask_for_both_sides(const Measurement& measurement, std::vector<NextMeasurement>& next);
 
 }  // namespace fusee

@@ -8,7 +8,7 @@
 namespace fusee {
 namespace {
 
-/// dθ/dx of a row. Of a fit without parameters J holds nothing, not even a place to point at.
+/// dθ/dx of a row. J of a fit without parameters has no storage.
 Eigen::VectorXd slopes_of(const Fit& fit, Eigen::Index row) {
   return fit.x.size() > 0 ? Eigen::VectorXd(fit.J.row(row).transpose()) : Eigen::VectorXd();
 }
@@ -17,7 +17,7 @@ double reading_of(const HandReading& reading, const Evidence& evidence, const Im
   return reading_by_hand(*reading.parameter, at, *evidence.declared);
 }
 
-/// d(reading)/dx: a step of each number.
+/// d(reading)/dx, by a step of each number.
 Eigen::VectorXd slopes_of(const HandReading& reading, const Evidence& evidence, const Fit& fit) {
   Eigen::VectorXd slopes(fit.x.size());
   const double here = reading_of(reading, evidence, fit.at);
@@ -33,7 +33,7 @@ void add_row(const Fit& fit, Eigen::Index row, double floor, NormalEquations& no
   const Eigen::VectorXd J = slopes_of(fit, row);
   normal.JJ.noalias() += J * J.transpose();
   normal.Jr.noalias() += J * fit.residual[row];
-  normal.rr += fit.residual[row] * fit.residual[row] + price_of_play(fit.loose[row], floor);
+  normal.rr += fit.residual[row] * fit.residual[row] + play_correction(fit.loose[row], floor);
   normal.rows += 1;
 }
 
@@ -78,7 +78,7 @@ NormalEquations sums_of_readings(const Evidence& evidence, const Fit& fit) {
   return sums;
 }
 
-double against_readings(const Evidence& evidence, const Imperfections& at) {
+double caliper_chi2(const Evidence& evidence, const Imperfections& at) {
   double squares = 0;
   for (const HandReading& reading : evidence.readings)
     squares += std::pow((reading.value - reading_of(reading, evidence, at)) / reading.uncertainty, 2);

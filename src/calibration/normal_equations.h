@@ -1,5 +1,5 @@
 /// \file
-/// Sums of squares and products about a fit: what a linear step, a held-out error and an interval need.
+/// Normal equations about a fit, for linear steps, held-out errors and intervals.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,11 +11,11 @@ namespace fusee {
 
 struct Fit;
 
-/// Of rows with slopes J and residuals r.
+/// Sums over rows with slopes J and residuals r.
 struct NormalEquations {
   Eigen::MatrixXd JJ;  ///< Σ J Jᵀ
   Eigen::VectorXd Jr;  ///< Σ J r
-  double rr = 0;       ///< Σ r², rad², with the price of play
+  double rr = 0;       ///< Σ r², rad², with the play correction
   double rows = 0;
 
   static NormalEquations none(Eigen::Index parameters);
@@ -26,22 +26,22 @@ struct NormalEquations {
   NormalEquations& operator-=(const NormalEquations& other);
 };
 
-/// The step to least squares and `ridge` times the square of where it ends: what the rows cannot tell ends at nothing.
+/// Step that minimises the squares plus `ridge` |x|²: undetermined directions end at zero.
 Eigen::VectorXd least_squares_step(const NormalEquations& normal, const Eigen::VectorXd& x, double ridge);
 
-/// A wide prior about no effect: a thousand steps are worth a row of the floor's noise.
+/// Wide prior about zero: a thousand steps cost as much as one row of the floor's noise.
 inline double wide_prior(double floor) { return 1e-6 * floor * floor; }
 
-/// Of one block, about the fit.
+/// Sums over one block, about the fit.
 NormalEquations sums_of(const Block& block, const Fit& fit, double floor);
-/// A caliper's reading is worth a row of the floor's noise that shows the number alone.
+/// Sums over caliper readings: each is a row with noise of the floor.
 NormalEquations sums_of_readings(const Evidence& evidence, const Fit& fit);
-/// Sum of squares of what was measured by hand, each by its uncertainty.
-double against_readings(const Evidence& evidence, const Imperfections& at);
-/// Of all rows in use, and JJ and Jr of what was measured by hand: what one linear step needs.
+/// χ² of the caliper readings.
+double caliper_chi2(const Evidence& evidence, const Imperfections& at);
+/// Sums over all rows in use, with JJ and Jr of caliper readings.
 NormalEquations sums_of_all(const Evidence& evidence, const Fit& fit);
 
-/// Whether residual and slopes are numbers in every row in use.
+/// True if residual and slopes are finite in every row in use.
 bool is_finite(const Evidence& evidence, const Fit& fit);
 
 }  // namespace fusee

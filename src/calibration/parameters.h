@@ -1,5 +1,5 @@
 /// \file
-/// The numbers that a fit varies, and where they stand in the imperfections of a joint.
+/// Parameters of a fit, and their places in the imperfections of a joint.
 #pragma once
 
 #include <vector>
@@ -11,17 +11,17 @@ namespace fusee {
 
 using EffectSet = std::vector<const Effect*>;
 
-/// In the order of a fit's x.
+/// Parameters in the order of a fit's x.
 using Parameters = std::vector<const EffectParameter*>;
 
-/// Whether where it acts has to be found: a look from where it begins says little of it.
+/// True if a parameter is searched for (an order, a time): slopes at its start predict little.
 bool is_searched(const Effect& effect);
 
-/// θ = offset + α/ratio declares its offset free; null of any other joint.
+/// The free offset of a joint declared as θ = offset + α/ratio; null for any other joint.
 const EffectParameter* free_offset(const Mechanism& declared);
-/// The fitted numbers of these effects.
+/// Fitted parameters of these effects.
 Parameters parameters_of(const EffectSet& effects);
-/// The fitted numbers behind the free offset.
+/// The free offset, if any, then the fitted parameters.
 Parameters varied(const Mechanism& declared, const EffectSet& effects);
 
 /// `at` without an effect.
@@ -29,9 +29,9 @@ Imperfections without(Imperfections at, const Effect& effect);
 EffectSet without(const EffectSet& effects, const Effect& effect);
 bool contains(const EffectSet& effects, const Effect& effect);
 
-/// True at either end of the number's range.
+/// True at either end of the parameter's range.
 bool at_end(const Imperfections& at, const EffectParameter& parameter);
-/// True at an end where the data ask for more than any joint has; false where the joint has none of the effect.
+/// True at an end at which the data require more than any joint has; false if the effect is absent there.
 bool at_bound(const Imperfections& at, const EffectParameter& parameter);
 
 }  // namespace fusee

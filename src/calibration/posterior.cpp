@@ -12,7 +12,7 @@ bool shares(const EffectSet& one, const EffectSet& other) {
 
 namespace {
 
-/// Weights of the likeliest set's 1.
+/// Weights relative to the likeliest set.
 std::vector<double> weights_of(const std::vector<Weighed>& sets) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Weighed& set : sets) most = std::max(most, set.log_weight);
@@ -21,7 +21,7 @@ std::vector<double> weights_of(const std::vector<Weighed>& sets) {
   return weights;
 }
 
-/// Of what all weigh, the part of sets that hold none of these.
+/// Share of the weight of sets without any of these members.
 double doubt_of(const std::vector<Weighed>& sets, const std::vector<double>& weights, const EffectSet& members) {
   double without = 0, all = 0;
   for (std::size_t i = 0; i < sets.size(); ++i) {
@@ -31,7 +31,7 @@ double doubt_of(const std::vector<Weighed>& sets, const std::vector<double>& wei
   return all > 0 ? without / all : 1.0;
 }
 
-/// What most of the weight has in the place of `members`; nothing where it has nothing there.
+/// Effect outside `best` with the most weight among sets without `members`; null without one.
 const Effect* in_their_place(const std::vector<Weighed>& sets, const std::vector<double>& weights,
                              const EffectSet& members, const EffectSet& best) {
   std::vector<std::pair<const Effect*, double>> others;

@@ -1,6 +1,6 @@
 /// \file
-/// How sure the data are of an effect, over all sets of effects that were looked at: groups of which one is there
-/// (credible sets, as Wang et al. 2020 have them for correlated causes).
+/// Posterior over sets of effects: credible groups, of which one member is present (credible sets of Wang et al. 2020
+/// for correlated causes).
 #pragma once
 
 #include <vector>
@@ -9,24 +9,24 @@
 
 namespace fusee {
 
-/// Whether an effect of the one is in the other.
+/// True if the sets have a common effect.
 bool shares(const EffectSet& one, const EffectSet& other);
 
-/// A set that was looked at; of two the one with the larger weight is the likelier.
+/// Visited set; the larger weight is the likelier.
 struct Weighed {
   EffectSet effects;
   double log_weight = 0;
 };
 
-/// Effects of which one at least is there, as surely as 1 − `doubt`.
+/// Effects of which at least one is present, with probability 1 − `doubt`.
 struct CredibleGroup {
-  EffectSet members;  ///< what was named first
+  EffectSet members;  ///< members, the reported effect first
   double doubt = 0;
 };
 
-/// `named` of the set `best`, with as many others that stand in its place as it takes to be sure to within
-/// `most_doubt`; where what speaks against it has nothing in its place the doubt stays larger. `least_gain`: each other
-/// takes more than this part of the doubt away.
+/// Group of the effect `named` of the set `best`: effects in its place are added until the doubt is at most
+/// `most_doubt`, or the remaining sets have nothing in its place. `least_gain`: share of the doubt that each further
+/// member must remove.
 CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& best, const Effect& named,
                              double most_doubt, double least_gain = 0);
 

@@ -9,20 +9,20 @@
 namespace fusee {
 namespace {
 
-/// What went on by a row.
-struct GoneOn {
+/// Time, travel and load changes before a row.
+struct SessionProgress {
   double time = 0, way = 0, loading = 0;
 };
 
-/// Of each row of each run, in shares of what the whole session has.
-std::vector<std::vector<GoneOn>> gone_on(const Evidence& evidence) {
+/// Progress at each row of each run, as shares of the session's totals.
+std::vector<std::vector<SessionProgress>> session_progress(const Evidence& evidence) {
   const std::vector<double> clock = bench_clock(evidence.log);
-  std::vector<std::vector<GoneOn>> all;
+  std::vector<std::vector<SessionProgress>> all;
   const Sample* before = nullptr;
-  GoneOn so_far;
+  SessionProgress so_far;
   double begin = 0;
   for (std::size_t i = 0; i < clock.size(); ++i) {
-    std::vector<GoneOn>& run = all.emplace_back();
+    std::vector<SessionProgress>& run = all.emplace_back();
     for (const Sample& sample : evidence.measurement.runs[i].samples) {
       const double now = clock[i] + sample.time;
       if (before == nullptr) {
@@ -37,8 +37,8 @@ std::vector<std::vector<GoneOn>> gone_on(const Evidence& evidence) {
     }
   }
   const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
-  for (std::vector<GoneOn>& run : all) {
-    for (GoneOn& by : run)
+  for (std::vector<SessionProgress>& run : all) {
+    for (SessionProgress& by : run)
       by = {share(by.time, so_far.time), share(by.way, so_far.way), share(by.loading, so_far.loading)};
   }
   return all;
@@ -50,7 +50,7 @@ int place_bin(const RowFacts& row, int count) { return Bins{{0, 1}, count}.bin(r
 
 std::vector<RowFacts> row_facts(const Evidence& evidence) {
   const SeenSpan span = seen_span(evidence.measurement, &Sample::alpha);
-  const std::vector<std::vector<GoneOn>> gone = gone_on(evidence);
+  const std::vector<std::vector<SessionProgress>> gone = session_progress(evidence);
   double most_load = 0;
   double most_speed = 0;
   std::vector<std::size_t> offset;
@@ -71,7 +71,7 @@ std::vector<RowFacts> row_facts(const Evidence& evidence) {
     for (const std::size_t row : block.rows) {
       const std::size_t place = row - offset[block.run];
       const Sample& sample = run.samples[place];
-      const GoneOn& by = gone[block.run][place];
+      const SessionProgress& by = gone[block.run][place];
       const double begun = run.samples[run.strokes[block.stroke].first].alpha;
       facts.push_back({sample.alpha, sample.theta, span.any() ? (sample.alpha - span.least) / span.size() : 0.0,
                        static_cast<double>(run.strokes[block.stroke].direction),

@@ -1,5 +1,5 @@
 /// \file
-/// Which effects the data ask for, which would do as well, and what they would have shown of the others.
+/// Selection of the effects that the data require, and of their rivals.
 #pragma once
 
 #include <map>
@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "calibration/fitter_pool.h"
 #include "calibration/posterior.h"
 #include "calibration/statistics.h"
-#include "calibration/workers.h"
 #include "fusee/calibration/calibration.h"
 
 namespace fusee {
 
-/// Another effect in the place of an accepted one.
+/// Fit with another effect in the place of an accepted one.
 struct Rival {
   const Effect* accepted = nullptr;
   const Effect* rival = nullptr;
@@ -22,34 +22,33 @@ struct Rival {
 };
 
 struct Selection {
-  EffectSet catalogue;                ///< what was tried
-  Fit none;                           ///< the declared model
-  Fit best;                           ///< with all accepted effects
-  std::vector<Fit> without;           ///< `best` without each of its effects, in their order
-  std::vector<Rival> rivals;          ///< of every accepted effect, usable ones
-  std::vector<CredibleGroup> groups;  ///< of every accepted effect, in their order
-  double temperature = 1;             ///< by which evidence is overstated: variances are as many times larger
-  /// Mean square of a number about its value in `best`, in its steps.
+  EffectSet catalogue;                ///< effects that were tested
+  Fit none;                           ///< fit of the declared model
+  Fit best;                           ///< fit of all accepted effects
+  std::vector<Fit> without;           ///< `best` without each of its effects, the others refitted, in their order
+  std::vector<Rival> rivals;          ///< usable rivals of every accepted effect
+  std::vector<CredibleGroup> groups;  ///< credible group of each accepted effect, in their order
+  /// factor by which evidence is overstated: log odds are divided by it, variances multiplied
+  double temperature = 1;
+  /// Mean square deviation of a number from its value in `best`, in its steps².
   struct Variance {
-    double if_only = 0;  ///< with the effects of `best` and no other
-    double overall = 0;  ///< over all sets that hold it by their weight, and with whatever may be there beside it
+    double if_only = 0;  ///< if the effects of `best` are the only ones
+    double overall = 0;  ///< over all sets that contain it by their weight, and with every possible companion
   };
   std::map<const EffectParameter*, Variance> variance;
-  /// What has no name and is as likely as names of `best` that took its place.
-  std::optional<std::vector<Unknown>> instead;
   std::vector<Candidate> tried;
 };
 
-/// By how much an effect is rarer than none, nats.
-double rareness_of(const Effect& effect);
-double rareness_of(const EffectSet& effects);
-/// What a name costs, nats.
-double cost_of(const Effect& effect);
+/// Negative log prior odds of an effect, nats.
+double neg_log_prior_odds(const Effect& effect);
+double neg_log_prior_odds(const EffectSet& effects);
+/// Penalty of a reported effect, nats.
+double reporting_penalty(const Effect& effect);
 
-/// Log of how likely a set is, but for a constant: by the data, and by how common faults are.
+/// Log posterior of a set up to a constant: log evidence, and log prior odds of effects and discrepancy.
 double score(const Fit& fit);
 
-/// An empty catalogue's answer with an unusable `none` where the declared joint has no equilibrium.
-Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options);
+/// Searches the catalogue. The result has an unusable `none` if the declared joint has no equilibrium.
+Selection select_effects(const Evidence& evidence, FitterPool& pool, const CalibrationOptions& options);
 
 }  // namespace fusee

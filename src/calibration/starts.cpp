@@ -9,10 +9,10 @@ namespace fusee {
 namespace {
 
 constexpr std::size_t k_slip_times = 4;
-/// At which a step is tried.
+/// Times at which a step is tested.
 constexpr std::size_t k_tried_times = 96;
 
-/// By the bench's clock, of the rows in use.
+/// Times of the rows in use, by the bench's clock.
 std::vector<double> times_of_rows(const Evidence& evidence) {
   std::vector<double> all, used;
   const std::vector<double> clock = bench_clock(evidence.log);
@@ -23,7 +23,7 @@ std::vector<double> times_of_rows(const Evidence& evidence) {
   return used;
 }
 
-/// Between rows, evenly among them.
+/// Times between rows, evenly among them.
 std::vector<double> times_to_try(std::vector<double> rows) {
   std::sort(rows.begin(), rows.end());
   const std::size_t count = std::min(rows.size(), k_tried_times + 1);
@@ -35,7 +35,7 @@ std::vector<double> times_to_try(std::vector<double> rows) {
   return times;
 }
 
-/// The likeliest first, each with a step of any size beside the base's numbers and what has no name.
+/// Times by the evidence of a step of any size beside the base and the discrepancy, likeliest first.
 std::vector<double> by_evidence(const Evidence& evidence, const Fit& base, const std::vector<double>& times) {
   const std::vector<double> rows = times_of_rows(evidence);
   Tangent tangent = tangent_of(evidence, base);
@@ -47,9 +47,10 @@ std::vector<double> by_evidence(const Evidence& evidence, const Fit& base, const
       tangent.J(i, own + k) = rows[static_cast<std::size_t>(i)] > times[static_cast<std::size_t>(k)] ? 1.0 : 0.0;
   }
   add_numbers(Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity()), tangent);
-  const TangentSums sums = evidence.marginal->sums_of(tangent);
-  const Amplitudes& unnamed = base.explained.amplitudes;
-  const ReducedTangent beside = evidence.marginal->reduced(sums, evidence.marginal->sized(unnamed, sums.give));
+  const TangentSums sums = evidence.evidence_model->sums_of(tangent);
+  const Amplitudes& amplitudes = base.posterior.amplitudes;
+  const ReducedTangent beside =
+      evidence.evidence_model->reduced(sums, evidence.evidence_model->sized(amplitudes, sums.deflection_ratio));
   std::vector<Eigen::Index> columns(static_cast<std::size_t>(own) + 1);
   std::iota(columns.begin(), columns.end(), 0);
   std::vector<std::pair<double, double>> likely;

@@ -1,5 +1,5 @@
 /// \file
-/// Where the fit of an effect begins.
+/// Starts of the fit of an effect.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace fusee {
 
-/// As things are, and the effect's own starts: one value a parameter. Where it may have happened at any time, the
-/// places at which a step would take most out of what `base` leaves, with several sizes each.
+/// Zero, and the effect's own starts, one value for each parameter. For effects that begin at an unknown time, the
+/// times at which a step reduces the residual of `base` most, with several sizes each.
 std::vector<std::vector<double>> starts_of(const Evidence& evidence, const Fit& base, const Effect& effect);
 
-/// Of these, those that a linear look tells apart: of a time one size.
+/// The starts that a linearization distinguishes: one size for each time.
 std::vector<std::vector<double>> starts_that_differ(const Evidence& evidence, const Fit& base, const Effect& effect);
 
 }  // namespace fusee

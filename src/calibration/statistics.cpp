@@ -49,16 +49,16 @@ namespace {
 
 using Alike = std::tuple<std::size_t, int, std::size_t>;  ///< run, direction, Block::alike
 
-/// A number of each stroke, a mean or a tilt, and the residual about what it describes.
+/// Mean or tilt of each stroke, and the residual about it.
 struct Within {
   std::map<Alike, std::vector<double>> numbers;
   double squares = 0;
-  double products = 0;  ///< of neighbours
-  double freedom = 0;   ///< rows, less what the numbers have taken
+  double products = 0;  ///< sum of products of neighbours
+  double freedom = 0;   ///< rows minus fitted numbers
   double strokes = 0;
   double inverse_rows = 0;  ///< Σ 1 / rows of a stroke
 
-  /// `about`: what is left of a stroke, of whose freedom `taken` is gone.
+  /// `about`: residual of a stroke, of which `taken` degrees of freedom are fitted.
   void add(const Alike& of, double number, const Eigen::VectorXd& about, double taken) {
     numbers[of].push_back(number);
     squares += about.squaredNorm();
@@ -70,7 +70,7 @@ struct Within {
   }
 
   double mean_square() const { return squares / freedom; }
-  /// Of a number of a stroke, by noise alone.
+  /// Variance of a stroke's number by noise alone.
   double of_noise() const {
     const double colour = squares > 0 ? std::clamp(products / squares, 0.0, 0.95) : 0.0;
     return mean_square() * (1.0 + colour) / (1.0 - colour) * inverse_rows / strokes;
@@ -82,7 +82,7 @@ struct VarianceOfNumbers {
   double freedom = 0;
 };
 
-/// Mean square of numbers about those that are alike; zero where no stroke has a like.
+/// Variance of numbers about the mean of their kind; 0 if no stroke repeats.
 VarianceOfNumbers variance_of_numbers(const Within& sums) {
   double between = 0;
   double freedom = 0;
@@ -94,7 +94,7 @@ VarianceOfNumbers variance_of_numbers(const Within& sums) {
   return {freedom > 0 ? between / freedom : 0.0, freedom};
 }
 
-/// rms of the numbers about those that are alike, beyond what noise does to them.
+/// rms of the numbers about their kind's mean, beyond noise.
 double beyond_noise(const Within& sums) {
   const VarianceOfNumbers numbers = variance_of_numbers(sums);
   const double of_noise = sums.of_noise();
@@ -117,7 +117,7 @@ double rarest_ratio(double upper_freedom, double lower_freedom) {
 
 StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
   const Eigen::VectorXd alpha = alphas(evidence.measurement);
-  // rms of α about its mean, of the first of each kind: no two strokes are sampled alike.
+  // rms of α about its mean, for the first stroke of each kind: no two strokes are sampled alike.
   std::map<Alike, double> widths;
   Within means, tilts;
   for (const Block& block : evidence.blocks) {
@@ -144,12 +144,13 @@ StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
 }
 
 bool is_scattering(const NoiseFloor& noise) {
-  return noise.from_repeats && noise.within_stroke > 0 && noise.rms > k_thresholds.scatters * noise.within_stroke;
+  return noise.from_repeats && noise.within_stroke > 0 &&
+         noise.rms > k_thresholds.most_repeat_scatter * noise.within_stroke;
 }
 
 bool is_walking(const StrokeScatter& scatter) {
-  return scatter.between > k_thresholds.walks * scatter.within ||
-         scatter.tilts > k_thresholds.walks * scatter.about_tilts;
+  return scatter.between > k_thresholds.most_stroke_scatter * scatter.within ||
+         scatter.tilts > k_thresholds.most_stroke_scatter * scatter.about_tilts;
 }
 
 }  // namespace fusee

@@ -1,30 +1,30 @@
 /// \file
-/// What is said of fits: which of two is better and how surely, how much a rest repeats.
+/// Comparison of fits, and statistics of residuals.
 #pragma once
 
 #include "calibration/fit.h"
 
 namespace fusee {
 
-/// Whether the evidence of two sets is the same as far as the data can tell.
+/// True if the evidence of two sets is equal within k_thresholds.as_good.
 bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
 
-/// Root of the mean square; 0 of none.
+/// Root mean square; 0 without values.
 double rms_of(const Eigen::VectorXd& values);
 
-/// α of all rows, as Block::rows counts them.
+/// α of all rows, in the order of Block::rows.
 Eigen::VectorXd alphas(const Measurement& measurement);
 
-/// Of the residual from row to row within blocks, −1 … 1.
+/// Lag-1 autocorrelation of the residual within blocks, −1 … 1.
 double lag_one_correlation(const Evidence& evidence, const Fit& fit);
 
-/// The ratio of two mean squares of the same noise, of so many degrees of freedom, that chance exceeds as seldom as a
-/// normal number exceeds three standard deviations (Paulson 1942: the cube root of a mean square is nearly normal).
-/// Infinite where the lower one is known too badly to say.
+/// Ratio of two mean squares of the same noise, with these degrees of freedom, that chance exceeds as seldom as a
+/// normal variable exceeds three standard deviations (Paulson 1942: the cube root of a mean square is nearly normal).
+/// Infinite if the lower one has too few degrees of freedom.
 double rarest_ratio(double upper_freedom, double lower_freedom);
 
-/// Of the residual: rms of the means of strokes about their run and direction, beyond what noise does to means, and rms
-/// within strokes; the same of their tilts over α, by what these do to the rows, and rms about both. rad
+/// Scatter of the residual, rad: rms of stroke means about their run and direction beyond noise, and rms within
+/// strokes; the same for the tilts over α.
 struct StrokeScatter {
   double between = 0;
   double within = 0;
@@ -33,10 +33,10 @@ struct StrokeScatter {
 };
 StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit);
 
-/// Repeats differ by many times what a stroke scatters by within itself: no noise of a sensor does that.
+/// True if repeats differ by many times the scatter within a stroke, which no noise of a sensor does.
 bool is_scattering(const NoiseFloor& noise);
 
-/// Whether strokes of one run and direction differ by more than noise lets them.
+/// True if strokes of one run and direction differ by more than noise.
 bool is_walking(const StrokeScatter& scatter);
 
 }  // namespace fusee

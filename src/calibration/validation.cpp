@@ -12,7 +12,7 @@ namespace {
 
 /// Standard errors over strokes by which a level may get worse by chance.
 constexpr double k_errors_by_chance = 2.0;
-/// Rows of a run that was kept for validation: enough to judge by.
+/// Rows of a run that was kept for validation.
 constexpr std::size_t k_rows_a_kept_run = 400;
 
 std::string names_of(const Evidence& evidence, const Fold& fold) {
@@ -35,10 +35,10 @@ double mean_square(const Run& run, const Stroke& stroke, const std::vector<doubl
 
 }  // namespace
 
-Estimate declared_estimate(Workers& workers, const Selection& selection) {
+Estimate declared_estimate(FitterPool& pool, const Selection& selection) {
   if (selection.none.x.size() == 0) return {selection.none, {}};
-  const Fit fit = workers.one().by_squares(selection.none);
-  return {fit.usable ? fit : selection.none, {}};
+  Fit fit = pool.one().fit_least_squares(selection.none);
+  return {fit.usable ? std::move(fit) : selection.none, {}};
 }
 
 HeldOut hold_out(const Evidence& evidence, const Estimate& estimate, const std::vector<Fold>& folds) {
@@ -83,7 +83,7 @@ std::vector<HeldOutRows::Level> HeldOutRows::left_out(const std::vector<Fold>& f
   return levels;
 }
 
-/// Run by run: each has its load and speed.
+/// Levels of the kept runs: each run has its load and speed.
 std::vector<HeldOutRows::Level> HeldOutRows::kept_apart(const Estimate& answer) const {
   const BenchLog log = bench_log(kept_);
   const Readings before = predict(*evidence_.declared, declared_.fit.at, log),
@@ -113,7 +113,7 @@ HeldOutRows::Block HeldOutRows::sum_of(const std::vector<Block>& blocks) {
   return sum;
 }
 
-/// Standard error of the mean of what the squares of blocks gained, by how they differ in it, rad².
+/// Standard error of the mean change of the squares, by its scatter between blocks, rad².
 double HeldOutRows::standard_error(const std::vector<Block>& blocks) {
   const Block sum = sum_of(blocks);
   const double more = (sum.after - sum.before) / sum.rows;
@@ -123,12 +123,13 @@ double HeldOutRows::standard_error(const std::vector<Block>& blocks) {
   return std::sqrt(squares * count / (count - 1.0));
 }
 
-/// By more than can be seen, and by more than strokes differ in that: a single one as those of `all` levels do.
+/// True if the squares rise by more than is visible and by more than strokes scatter; a single stroke is compared with
+/// the scatter of `all` levels.
 bool HeldOutRows::gets_worse(const Level& level, const Level& all) const {
   const Block sum = sum_of(level.blocks);
   if (sum.rows == 0) return false;
   const double more = (sum.after - sum.before) / sum.rows;
-  if (more <= std::pow(k_thresholds.least_left * evidence_.floor, 2)) return false;
+  if (more <= std::pow(k_thresholds.least_residual * evidence_.floor, 2)) return false;
   if (all.blocks.size() < 2) return true;
   const double error = level.blocks.size() > 1
                            ? standard_error(level.blocks)
@@ -155,7 +156,7 @@ std::string HeldOutRows::worse_at(const Estimate& answer) const {
   return "";
 }
 
-void drop_effect(Workers& workers, std::size_t place, const std::string& why, Selection& selection) {
+void drop_effect(FitterPool& pool, std::size_t place, const std::string& why, Selection& selection) {
   const Effect* gone = selection.best.effects[place];
   const EffectSet before = selection.best.effects;
   const std::vector<CredibleGroup> groups = std::move(selection.groups);
@@ -169,7 +170,7 @@ void drop_effect(Workers& workers, std::size_t place, const std::string& why, Se
                 [&](const Rival& rival) { return !contains(selection.best.effects, *rival.accepted); });
   const Fit& best = selection.best;
   selection.without.assign(best.effects.size(), {});
-  workers.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
+  pool.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
     const Effect& effect = *best.effects[i];
     selection.without[i] = fitter.fit(without(best.effects, effect), without(best.at, effect));
   });

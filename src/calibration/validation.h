@@ -1,6 +1,5 @@
 /// \file
-/// Validation by prediction: an answer stands only where it predicts rows that it was not fitted to at least as well as
-/// the declared joint does.
+/// Validation by prediction: an answer must predict held-out rows at least as well as the declared joint.
 #pragma once
 
 #include <optional>
@@ -11,30 +10,30 @@
 
 namespace fusee {
 
-/// Numbers of a set of effects, and how they are estimated.
+/// Parameters of a set of effects, and their estimator.
 struct Estimate {
   Fit fit;
-  std::optional<Amplitudes> beside;  ///< of the discrepancy that is estimated with them; none: by least squares
+  std::optional<Amplitudes> beside;  ///< amplitudes of the discrepancy estimated with them; none: by least squares
 };
 
-/// The declared joint: its free offset by least squares, and nothing else fitted.
-Estimate declared_estimate(Workers& workers, const Selection& selection);
+/// The declared joint, with its free offset by least squares.
+Estimate declared_estimate(FitterPool& pool, const Selection& selection);
 
-/// Errors of the effects alone on blocks that were left out, as hold_out().
+/// Held-out errors of the effects alone, as hold_out().
 HeldOut hold_out(const Evidence& evidence, const Estimate& estimate, const std::vector<Fold>& folds);
 
-/// The joint as the rows outside each of the folds have it.
+/// The joint refitted without each of the folds.
 std::vector<Imperfections> estimates_without(const Evidence& evidence, const Estimate& estimate,
                                              const std::vector<Fold>& folds);
 
-/// Rows that an answer is not fitted to: folds of the evidence, and runs that were kept for validation.
+/// Held-out rows: folds of the evidence, and runs kept for validation.
 class HeldOutRows {
  public:
   /// `kept` may have no runs. All must outlive this.
   HeldOutRows(const Evidence& evidence, const Estimate& declared, Measurement kept);
 
-  /// The rows on which the answer predicts worse than the declared joint by more than strokes differ: on all of them ("all rows"),
-  /// or on one level of load or speed ("run_3.csv"). Empty: nowhere.
+  /// Rows that the answer predicts worse than the declared joint by more than strokes differ: all of them ("all rows"),
+  /// or one level of load or speed ("run_3.csv"). Empty: none.
   std::string worse_at(const Estimate& answer) const;
 
  private:
@@ -59,8 +58,8 @@ class HeldOutRows {
   Measurement kept_;
 };
 
-/// Removes the effect at `place` of the best set; the others are as they were fitted without it. `why` stands beside
-/// its name in Selection::tried.
-void drop_effect(Workers& workers, std::size_t place, const std::string& why, Selection& selection);
+/// Removes the effect at `place` of the best set; the others as refitted without it. `why` is recorded in
+/// Selection::tried.
+void drop_effect(FitterPool& pool, std::size_t place, const std::string& why, Selection& selection);
 
 }  // namespace fusee

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "calibration/statistics.h"
-#include "calibration/unmodelled.h"
+#include "calibration/unmodelled_alternatives.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
 
@@ -40,7 +40,7 @@ class Places {
     mean.count += 1;
   }
 
-  /// Where the mean is largest, in words; "" without a row.
+  /// Place of the largest mean, in words; "" without a row.
   std::string largest() const {
     const auto found = std::max_element(means_.begin(), means_.end(), [](const auto& a, const auto& b) {
       return std::abs(a.second.value()) < std::abs(b.second.value());
@@ -54,9 +54,9 @@ class Places {
   }
 
  private:
-  Eigen::VectorXd alpha_;  ///< of every row
+  Eigen::VectorXd alpha_;  ///< α of every row
   Bins bins_;
-  std::map<std::pair<int, int>, Mean> means_;  ///< by place and direction
+  std::map<std::pair<int, int>, Mean> means_;  ///< means by place and direction
 };
 
 std::string group_words(const FoundEffect& effect) {
@@ -72,7 +72,7 @@ std::string effects_words(const std::vector<FoundEffect>& effects) {
   return list(names);
 }
 
-/// Whether more is handed over than is named.
+/// True if an effect beside the found set is reported.
 bool any_beside(const std::vector<FoundEffect>& effects) {
   return std::any_of(effects.begin(), effects.end(), [](const FoundEffect& effect) { return !effect.beside.empty(); });
 }
@@ -95,7 +95,7 @@ std::string level_words(const NoiseLevel& level, const std::string& load_unit) {
 
 bool is_quieter(const NoiseLevel& one, const NoiseLevel& other) { return one.rms < other.rms; }
 
-/// Repeats that no sensor's noise makes differ, and where they do most.
+/// Sentence on scatter between repeats that far exceeds a sensor's noise, with its largest place.
 std::string scatter_words(const Calibration& calibration, const std::string& load_unit) {
   const NoiseFloor& noise = calibration.noise;
   std::string words = "The same angle, direction and load give joint angles that differ by " + in_degrees(noise.rms) +
@@ -109,7 +109,7 @@ std::string scatter_words(const Calibration& calibration, const std::string& loa
   return words + ": look for something loose, or a sensor that holds its reading, before any correction.";
 }
 
-/// Noise that is another at another load or speed by more than chance makes it, and by more than half.
+/// Sentence on noise that differs between loads or speeds by more than chance, and by more than half; "" otherwise.
 std::string noise_words(const NoiseFloor& noise, const std::string& load_unit) {
   if (noise.levels.size() < 2) return "";
   const auto [least, most] = std::minmax_element(noise.levels.begin(), noise.levels.end(), is_quieter);
@@ -121,9 +121,9 @@ std::string noise_words(const NoiseFloor& noise, const std::string& load_unit) {
          in_degrees(most->rms) + " at " + level_words(*most, load_unit) + ".";
 }
 
-/// What a person can act on.
-std::string finding(const Calibration& calibration, const Rest& rest, const StrokeScatter& scatter, double floor,
-                    const std::string& load_unit) {
+/// Finding in a sentence that the user can act on.
+std::string finding(const Calibration& calibration, const ResidualStructure& structure, const StrokeScatter& scatter,
+                    double floor, const std::string& load_unit) {
   const std::string names = effects_words(calibration.effects);
   switch (calibration.verdict) {
     case CalibrationVerdict::not_repeatable:
@@ -135,8 +135,8 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
              (any_beside(calibration.effects) ? "with these alone " : "") +
              in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms are left and noise makes " +
-             in_degrees(floor) + " of it: what is more stays unexplained, " + rest.where + "." +
-             (calibration.unknown.empty() ? "" : " It depends on " + calibration.unknown.front().factor + ".") +
+             in_degrees(floor) + " of it: what is more stays unexplained, " + structure.where + "." +
+             (calibration.discrepancy.empty() ? "" : " It depends on " + calibration.discrepancy.front().factor + ".") +
              (calibration.dropped.empty() ? ""
                                           : " Not reported, since rows that were not fitted are predicted worse with "
                                             "it than as declared: " +
@@ -149,7 +149,7 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
     case CalibrationVerdict::no_effect:
       return "The joint does what its file declares, as far as the data can tell.";
     case CalibrationVerdict::not_testable:
-      break;  // concluded before anything is fitted
+      break;  // decided before any fit
   }
   return "";
 }
@@ -161,9 +161,9 @@ std::string figures(const Calibration& calibration, double floor) {
 
 }  // namespace
 
-Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
-  Rest rest;
-  rest.autocorrelation = lag_one_correlation(evidence, fit);
+ResidualStructure describe_residual(const Evidence& evidence, const Fit& fit) {
+  ResidualStructure structure;
+  structure.autocorrelation = lag_one_correlation(evidence, fit);
   Places places(evidence.measurement);
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
@@ -172,33 +172,32 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
       places.add(row, direction, residual);
     }
   }
-  rest.where = places.largest();
-  return rest;
+  structure.where = places.largest();
+  return structure;
 }
 
-void conclude(const Evidence& evidence, const Selection& selection, const Unnamed& unnamed, Calibration& calibration) {
-  const Rest rest = look_at_rest(evidence, selection.best);
+void conclude(const Evidence& evidence, const Selection& selection, const DiscrepancyFit& unmodelled,
+              Calibration& calibration) {
+  const ResidualStructure structure = describe_residual(evidence, selection.best);
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  const bool unexplained = is_unexplained(unnamed, evidence.floor);
-  calibration.rest_autocorrelation = rest.autocorrelation;
+  const bool unexplained = is_unexplained(unmodelled, evidence.floor);
+  calibration.residual_autocorrelation = structure.autocorrelation;
   if (unexplained) {
-    calibration.unexplained_rms = unnamed.rms;
-    calibration.unexplained_where = rest.where;
-    calibration.unknown = unnamed.parts;
+    calibration.unexplained_rms = unmodelled.rms;
+    calibration.unexplained_where = structure.where;
+    calibration.discrepancy = unmodelled.parts;
   }
   const bool walks = is_walking(scatter) || is_scattering(calibration.noise);
   const std::string& load_unit = evidence.measurement.load_unit;
   calibration.noise_varies = noise_words(calibration.noise, load_unit);
-  if (selection.instead) calibration.instead = *selection.instead;
-  const bool in_time = walks || (unexplained && goes_with_time(unnamed));
-  take_unmodelled({unexplained || walks || selection.instead, in_time}, selection, calibration.effects);
+  add_unmodelled(unexplained || walks, selection, calibration.effects);
   calibration.verdict = verdict_of(walks, unexplained, calibration.effects);
 }
 
 void summarize(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
-  const Rest rest = look_at_rest(evidence, selection.best);
+  const ResidualStructure structure = describe_residual(evidence, selection.best);
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  calibration.summary = finding(calibration, rest, scatter, evidence.floor, evidence.measurement.load_unit) + " " +
+  calibration.summary = finding(calibration, structure, scatter, evidence.floor, evidence.measurement.load_unit) + " " +
                         figures(calibration, evidence.floor);
 }
 

@@ -80,8 +80,7 @@ std::vector<std::string> effect_texts(const Calibration& c, const std::string& l
   if (texts.empty()) texts.push_back("none accepted");
   if (!c.unexplained_where.empty())
     texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms beyond the noise, " + c.unexplained_where);
-  for (const Unknown& unknown : c.unknown) texts.push_back("unmodelled: " + unknown_words(unknown));
-  for (const Unknown& unknown : c.instead) texts.push_back("or, as likely, unmodelled: " + unknown_words(unknown));
+  for (const DiscrepancyComponent& unknown : c.discrepancy) texts.push_back("unmodelled: " + unknown_words(unknown));
   return texts;
 }
 

@@ -64,10 +64,10 @@ void conclude(const CalibrationContext& context, const RunFiles& runs) {
   options.hold_out = names_from(product.measurement, runs.fitted);
   options.progress = [&](const std::string& what, double share) { context.step(what, share); };
   options.audit = context.options.audit;
-  options.look_for_effects = !is_plainly_a_slip(declared, as_read);
+  options.look_for_effects = !is_input_error_obvious(declared, as_read);
   product.calibration = calibrate(expected, product.measurement, options);
   context.step("checking for input errors");
-  product.slips = slips_that_explain(declared, as_read, product.calibration);
+  product.slips = find_input_errors(declared, as_read, product.calibration);
   if (!product.slips.empty() && product.calibration.curve.used) {
     product.calibration.curve.used = false;
     product.calibration.curve.why = "an input error in the file or the log may explain the data: check it first";

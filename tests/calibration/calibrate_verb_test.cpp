@@ -139,7 +139,7 @@ CalibrationProduct with_each_kind() {
   return product;
 }
 
-TEST(NextMeasurements, OfEachKindInTheDocument) {
+TEST(NextMeasurements, EachKindIsInTheDocument) {
   const nlohmann::json next = nlohmann::json::parse(calibration_json(with_each_kind()))["next"];
   ASSERT_EQ(next.size(), 4u);
   EXPECT_EQ(next[0]["kind"], "run");
@@ -194,7 +194,7 @@ TEST(NextMeasurements, AreReadWhenFilledIn) {
   }
 }
 
-TEST(CalibrateVerb, WhatIsThrownBeforeWritingLeavesNothing) {
+TEST(CalibrateVerb, ExceptionBeforeWritingLeavesNothing) {
   const std::filesystem::path folder = scratch("thrown") / "out";
   CalibrateOptions options = into(folder);
   options.before_writing = [] { throw std::runtime_error("enough"); };
@@ -204,7 +204,7 @@ TEST(CalibrateVerb, WhatIsThrownBeforeWritingLeavesNothing) {
   EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
-TEST(CalibrateVerb, ARunHeldOutIsNotFittedAndAFileCountsOnce) {
+TEST(CalibrateVerb, HeldOutRunIsNotFitted) {
   CalibrateOptions options = into(scratch("held"));
   options.dry_run = true;
   const std::vector<std::filesystem::path> runs = runs_in(k_rig / "c_backlash");
@@ -226,7 +226,7 @@ TEST(CalibrateVerb, ASlipIsSaidAndChangesNothingElse) {
   std::map<std::string, std::string> outputs;
   for (const OutputFile& output : result.outputs) outputs[output.name] = output.bytes;
   ASSERT_EQ(result.product.slips.size(), 1u);
-  const std::string words = slip_words(result.product.slips.front());
+  const std::string words = input_error_words(result.product.slips.front());
   EXPECT_THAT(words, testing::StartsWith("guides.OE_mm = -14 in place of 14 would explain the data to 0.0"));
   EXPECT_THAT(outputs["calibration.json"],
               testing::AllOf(HasSubstr("\"key\": \"guides.OE_mm\""), HasSubstr("\"would_be\": -14"), HasSubstr(words)));
@@ -236,7 +236,7 @@ TEST(CalibrateVerb, ASlipIsSaidAndChangesNothingElse) {
   EXPECT_THAT(result.product.file.warnings.front().message, HasSubstr("guides.OE_mm = 14"));
 }
 
-TEST(CalibrateVerb, WithoutASlipTheListIsEmptyAndThePageHasNoSuchSection) {
+TEST(CalibrateVerb, RightFileListsNoInputError) {
   CalibrateOptions options = into(scratch("no_slip"));
   options.dry_run = true;
   const CalibrateResult result =
@@ -320,7 +320,7 @@ TEST(LawTable, OtherWaysToWriteItAreFound) {
   }
 }
 
-TEST(LawTable, OfTorqueGoesBesideToo) {
+TEST(LawTable, TorqueGoesBesideToo) {
   const std::filesystem::path folder = scratch("torque");
   const MechanismFile law = tabled(folder);
   leave(folder / "laws/torque.csv", "theta_deg,motor_torque_Nmm\n-30,300\n-10,310\n10,320\n30,330\n");
@@ -351,7 +351,7 @@ CalibrationProduct explained() {
   return product;
 }
 
-TEST(CalibrationPage, APulleyThatCannotBeMadeIsNotNothing) {
+TEST(CalibrationPage, ImpossiblePulleyIsReported) {
   CalibrationProduct product = explained();
   product.correction.infeasible = "tendon 2 leaves pin D at α = 115°";
   const std::string page = calibration_report_html(product);

@@ -135,7 +135,7 @@ Measurement unrepeated(Measurement measurement, unsigned seed) {
   return measurement;
 }
 
-TEST(Comparison, ReportsNothingThatRunsOfOneStateDoNotRepeat) {
+TEST(Comparison, IgnoresChangesThatRunsDoNotRepeat) {
   for (const unsigned seed : {1u, 4u, 6u}) {
     const ComparedRuns same = two_states(with_play(radians(2)), with_play(radians(2)));
     const ComparedRuns runs = both_of(unrepeated(same.before, seed), unrepeated(same.after, 100 + seed));
@@ -160,7 +160,7 @@ TEST(Comparison, FindsPlayThatGrewAndShrank) {
   }
 }
 
-TEST(Comparison, IsAsCertainOfPlayThatIsGoneAsOfPlayThatWas) {
+TEST(Comparison, KeepsUncertaintyOfPlayThatIsGone) {
   ComparedRuns runs = two_states(with_play(radians(2)), {});
   for (Measurement* measurement : {&runs.before, &runs.after, &runs.both}) {
     for (fusee::Run& run : measurement->runs) run.has_load = false;  // or slack, which a load takes up, is as likely

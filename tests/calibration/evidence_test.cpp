@@ -27,7 +27,7 @@ std::vector<std::size_t> strokes_of(const Evidence& evidence, std::size_t run) {
   return strokes;
 }
 
-TEST(Gather, TheFirstStrokeFindsOutWhereThePlayStood) {
+TEST(Gather, FirstStrokeSettlesPlay) {
   Measurement measurement = quiet({0, 5});
   measurement.runs[1].strokes.resize(2);  // too few to do without one
   const Evidence evidence = gather(joint(), measurement, k_floor);
@@ -54,7 +54,7 @@ TEST(Gather, ARowThatJumpsIsLeftOut) {
   EXPECT_NEAR(evidence.theta[wild], measurement.runs[0].samples[wild].theta, 1e-15) << "as history it stays";
 }
 
-TEST(Gather, LongRunsAreThinnedEvenlyAndKeepTheEndsOfStrokes) {
+TEST(Gather, ThinsLongRunsAndKeepsStrokeEnds) {
   Measurement measurement = quiet({0});
   fusee::Run& run = measurement.runs[0];
   const fusee::Run pattern = run;
@@ -73,14 +73,14 @@ TEST(Gather, LongRunsAreThinnedEvenlyAndKeepTheEndsOfStrokes) {
   }
 }
 
-TEST(Folds, OfALoneRunAreItsStrokes) {
+TEST(Folds, FoldsOfSingleRunAreStrokes) {
   const Evidence evidence = gather(joint(), quiet({0}), k_floor);
   EXPECT_THAT(evidence.run_folds, ElementsAre(ElementsAre(0), ElementsAre(1), ElementsAre(2)));
   EXPECT_EQ(evidence.factor_folds, evidence.run_folds);
   EXPECT_THAT(evidence.factors, IsEmpty());
 }
 
-TEST(Folds, OfRunsThatAreAlikeAreWholeRuns) {
+TEST(Folds, FoldsOfAlikeRunsAreRuns) {
   const Evidence evidence = gather(joint(), quiet({0, 0}), k_floor);
   EXPECT_THAT(evidence.run_folds, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(3, 4, 5)));
   EXPECT_EQ(evidence.factor_folds, evidence.run_folds);
@@ -92,7 +92,7 @@ TEST(Folds, HoldWholeLevelsOfLoadOut) {
   EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(0, 1, 2, 6, 7, 8), ElementsAre(3, 4, 5, 9, 10, 11)));
 }
 
-TEST(Folds, ALevelThatIsNearlyAllIsNotHeldOut) {
+TEST(Folds, LevelOfNearlyAllRowsIsKept) {
   const Evidence evidence = gather(joint(), quiet({0, 0, 5}), k_floor);
   EXPECT_THAT(evidence.factors, ElementsAre("load"));
   EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(6, 7, 8), ElementsAre(0, 1, 2), ElementsAre(3, 4, 5)));
@@ -106,7 +106,7 @@ TEST(Folds, SpeedIsAFactorToo) {
 
 // ---- held angles and levels of load ---------------------------------------------------------------------------------
 
-/// Of each block, with which others of its run it repeats.
+/// For each block, the number of the blocks of its run that it repeats.
 std::vector<std::size_t> repeats_in(const Evidence& evidence) {
   std::vector<std::size_t> alike;
   for (const Block& block : evidence.blocks) alike.push_back(block.alike);
@@ -160,7 +160,7 @@ Measurement in_thirds(const std::array<double, 3>& levels) {
   return measurement;
 }
 
-TEST(Gather, PiecesOfOneLevelAtTwoPlacesAreNoRepeats) {
+TEST(Gather, SegmentsAtTwoPlacesAreNoRepeats) {
   const Evidence evidence = gather(joint(), in_thirds({5, 0, 5}), k_floor);
   EXPECT_THAT(repeats_in(evidence), ElementsAre(0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5));
 }
@@ -174,7 +174,7 @@ TEST(Gather, HeldAnglesAreBlocks) {
   EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(3, 4, 5, 6)));
 }
 
-TEST(Gather, ShortStandsOfOneKindMakeABlockTogether) {
+TEST(Gather, ShortDwellsOfOneKindAreJoined) {
   const Evidence evidence = gather(joint(), held_at_ends(std::vector<double>(49, 0.0), 1), k_floor);
   EXPECT_EQ(evidence.rows_used(), 48u);
   ASSERT_EQ(evidence.blocks.size(), 8u);
@@ -191,7 +191,7 @@ TEST(Gather, LongStandsGiveAFewRowsEach) {
   EXPECT_GE(evidence.rows_used(), 39 * 6u);
 }
 
-TEST(Gather, OfVeryManyStandsHistoryIsWhatComesBeforeThoseLookedAt) {
+TEST(Gather, HistoryOfManyDwellsPrecedesSelectedOnes) {
   const Evidence evidence = gather(joint(), held_at_ends(std::vector<double>(100'000, 0.0), 3), k_floor);
   EXPECT_GE(evidence.rows_used(), 500u);
   EXPECT_LE(evidence.theta.size(), 12'000);
@@ -208,7 +208,7 @@ TEST(Folds, HoldLevelsOfLoadWithinARunOut) {
   EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(3, 4)));
 }
 
-TEST(Folds, ALoadThatTurnsWithTheMotionIsOneLevel) {
+TEST(Folds, LoadThatFollowsMotionIsOneLevel) {
   Measurement measurement;
   measurement.runs.push_back(run_of("run_1", 0, 6));
   for (std::size_t i = 0; i < 6 * k_rows; ++i) measurement.runs[0].samples[i].load = i / k_rows % 2 == 0 ? 5 : -5;
@@ -222,12 +222,12 @@ double cost_of_rows(const Eigen::VectorXd& residuals, double loose, double floor
   return 0.5 * weighted.squaredNorm() / (floor * floor) + loose_rows(weighted, plays, floor).nats;
 }
 
-TEST(Play, CostsRowsWhatTheirWholeResidualsDoOrAnywhereInThePlay) {
+TEST(Play, LooseRowsRestPushedOrAnywhere) {
   constexpr double floor = 0.01, loose = 0.3;
   constexpr Eigen::Index count = 400;
   const double fitted = 0.5 * std::log(count);
   EXPECT_EQ(loose_rows(Eigen::VectorXd::Constant(9, 0.02), Eigen::VectorXd::Zero(9), floor).nats, 0);  // no play
-  // Where it was pushed, but for noise: what taut rows would cost.
+  // Rest at the pushed position, with noise: the cost of taut rows.
   const Eigen::VectorXd noise = floor * Eigen::VectorXd::LinSpaced(count, -1.7, 1.7);
   EXPECT_NEAR(cost_of_rows(noise, loose, floor), 0.5 * noise.squaredNorm() / (floor * floor) + fitted, 0.5);
   // Anywhere: a density as much lower as the play is wider than noise, ln 10.05, and the squares of one so wide.

@@ -20,7 +20,7 @@ class Geared : public testing::Test {
     return at;
   }
 
-  /// Of every row, what it should show.
+  /// Expects a value of every row.
   void expect(const Imperfections& at, const std::function<double(const fusee::Run&, std::size_t)>& expected) {
     const Readings found = forward(at);
     for (std::size_t r = 0; r < found.size(); ++r) {
@@ -66,7 +66,7 @@ TEST_F(Geared, ADelayShowsWhatWas) {
   });
 }
 
-TEST_F(Geared, AFilterOfThatTimeConstantShowsWhatWasRoundedOff) {
+TEST_F(Geared, FilterShowsRoundedReversal) {
   constexpr double tau = 0.8;
   Imperfections late;
   late.sensor.lag = tau;
@@ -113,7 +113,7 @@ TEST_F(Geared, SlackIsPlayThatTheLoadTakesUp) {
   });
 }
 
-TEST_F(Geared, CreepGoesOnWithTheLogarithmOfTimeUnderLoad) {
+TEST_F(Geared, CreepFollowsLogarithmOfTime) {
   const Readings found = forward(with("creep", 1e-3));
   const fusee::Run& loaded = measurement.runs[1];
   for (std::size_t i = 0; i < loaded.samples.size(); ++i) {

@@ -1,10 +1,10 @@
 // Normal equations, held-out errors, fits and intervals against least squares done another way.
 #include <gmock/gmock.h>
 
-#include "calibration/delivered.h"
 #include "calibration/explanation.h"
 #include "calibration/intervals.h"
 #include "calibration/linear_joint.h"
+#include "calibration/reported_parameters.h"
 #include "calibration/thresholds.h"
 #include "fusee/base/units.h"
 
@@ -67,7 +67,7 @@ TEST(LeastSquares, BlocksAddUp) {
   EXPECT_LT(sum.Jr.norm(), 1e-9);
 }
 
-TEST(LeastSquares, ACaliperIsARowOfTheFloorsNoise) {
+TEST(LeastSquares, CaliperCountsAsRowOfNoise) {
   Evidence evidence = evidence_of(measured({0, 5}, [](const Sample&) { return 0.0; }));
   const Effect& stretch = named("tendon_stretch");
   evidence.readings = {{&stretch.parameters.front(), 0.02, 0.004}};
@@ -78,7 +78,7 @@ TEST(LeastSquares, ACaliperIsARowOfTheFloorsNoise) {
   const NormalEquations row = sums_of_readings(evidence, fit);
   EXPECT_DOUBLE_EQ(row.JJ(0, 0), std::pow(step / 0.004 * k_floor, 2));
   EXPECT_NEAR(least_squares_step(row, fit.x, 0)[0] * step, 0.02, 1e-15);
-  EXPECT_DOUBLE_EQ(against_readings(evidence, {}), 25.0);
+  EXPECT_DOUBLE_EQ(caliper_chi2(evidence, {}), 25.0);
 }
 
 // ---- held out -------------------------------------------------------------------------------------------------------
@@ -97,7 +97,7 @@ double error_without(const Problem& problem, const Fold& fold, std::size_t of) {
   return (problem.r(own) - problem.J(own, Eigen::all) * step).squaredNorm() / static_cast<double>(own.size());
 }
 
-TEST(HeldOut, IsTheErrorOfAFitToTheOthers) {
+TEST(HeldOut, EqualsErrorOfFitToOthers) {
   Problem problem = some_problem();
   problem.evidence.factor_folds = {{0, 1, 2, 3}, {4, 5, 6, 7}};
   const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
@@ -111,7 +111,7 @@ TEST(HeldOut, IsTheErrorOfAFitToTheOthers) {
   EXPECT_NEAR(fit.by_factor.mean_square, sum, 1e-12);
 }
 
-TEST(HeldOut, ALevelThatAloneKnowsANumberIsHeldOutByStrokes) {
+TEST(HeldOut, DecisiveLevelIsHeldOutByStrokes) {
   Problem problem = some_problem();
   problem.J.col(1).head(4 * k_rows).setZero();  // the first run says nothing of the second number
   problem.evidence.factor_folds = {{4, 5, 6, 7}};
@@ -127,8 +127,8 @@ TEST(HeldOut, ALevelThatAloneKnowsANumberIsHeldOutByStrokes) {
 
 /// Families of place, load and run, each of some size, beside two numbers.
 Amplitudes some_amplitudes(const Evidence& evidence) {
-  Amplitudes amplitudes = evidence.marginal->nothing_unnamed();
-  const std::vector<Family>& families = evidence.marginal->discrepancy().families;
+  Amplitudes amplitudes = evidence.evidence_model->without_discrepancy();
+  const std::vector<Family>& families = evidence.evidence_model->discrepancy().families;
   for (std::size_t f = 0; f < families.size(); ++f) {
     const bool is_used = families[f].factor == Factor::place || families[f].factor == Factor::load;
     if (is_used) amplitudes.families[static_cast<Eigen::Index>(f)] = 0.2;
@@ -141,7 +141,7 @@ Amplitudes some_amplitudes(const Evidence& evidence) {
 /// that was left out with its fold, by the numbers alone and with the columns of place.
 std::pair<double, double> errors_beside(const Problem& problem, const Amplitudes& amplitudes, const Fold& fold,
                                         std::size_t of) {
-  const Discrepancy& discrepancy = problem.evidence.marginal->discrepancy();
+  const Discrepancy& discrepancy = problem.evidence.evidence_model->discrepancy();
   std::vector<Eigen::Index> rest, own, rest_used, own_used;  // of all rows, of rows in use
   Eigen::Index used = 0;
   for (std::size_t b = 0; b < problem.evidence.blocks.size(); ++b) {
@@ -152,7 +152,7 @@ std::pair<double, double> errors_beside(const Problem& problem, const Amplitudes
       ++used;
     }
   }
-  const double noise = amplitudes.noise / std::sqrt(problem.evidence.marginal->worth());
+  const double noise = amplitudes.noise / std::sqrt(problem.evidence.evidence_model->independent_share());
   std::vector<Eigen::Index> columns;
   std::vector<double> prior;
   std::vector<bool> of_place;
@@ -181,7 +181,7 @@ std::pair<double, double> errors_beside(const Problem& problem, const Amplitudes
   return {left.squaredNorm() / rows, less.squaredNorm() / rows};
 }
 
-TEST(HeldOut, BesideWhatHasNoNameIsTheErrorOfAFitToTheOthersToo) {
+TEST(HeldOut, EqualsErrorBesideDiscrepancyToo) {
   Problem problem = some_problem();
   Eigen::Index used = 0;
   for (const Block& block : problem.evidence.blocks) {
@@ -239,18 +239,18 @@ TEST_F(LinearFit, IsLeastSquares) {
   const Fit fit = fitter.fit({&stretch}, {});
   const Eigen::VectorXd expected = regression(evidence);
   ASSERT_TRUE(fit.usable);
-  // What is known from practice and a discrepancy beside it move it by less than 10 % of a standard error.
+  // Prior sizes and a discrepancy move it by less than 10 % of a standard error.
   const double standard_error = k_floor / std::sqrt(8 * k_rows);
   EXPECT_NEAR(value_of(fit.at, *fit.parameters[0]), expected[0], 0.1 * standard_error);
   EXPECT_NEAR(compliance(fit), expected[1], 0.1 * standard_error / 5);
   EXPECT_NEAR(compliance(fit), k_compliance, 5e-5);
   EXPECT_NEAR(fit.mean_square, k_floor * k_floor, 0.2 * k_floor * k_floor);
-  EXPECT_EQ(fit.price, 0);
+  EXPECT_EQ(fit.play_square, 0);
 }
 
-TEST_F(LinearFit, ACandidateByChordsEndsWhereTheFitDoes) {
+TEST_F(LinearFit, CandidateByChordsEndsAtFit) {
   const Fit base = fitter.fit({}, {});
-  const Fit candidate = fitter.with_effect(base, stretch);
+  const Fit candidate = fitter.add_effect(base, stretch);
   ASSERT_TRUE(candidate.usable);
   EXPECT_NEAR(compliance(candidate), compliance(fitter.fit({&stretch}, {})), 1e-6);
   EXPECT_EQ(candidate.effects, EffectSet{&stretch});
@@ -259,7 +259,7 @@ TEST_F(LinearFit, ACandidateByChordsEndsWhereTheFitDoes) {
 
 TEST_F(LinearFit, ADirectionIsTheSlopeAndNoFit) {
   const Fit base = fitter.fit({}, {});
-  const Fit wider = fitter.with_direction(base, stretch);
+  const Fit wider = fitter.add_slopes(base, stretch);
   EXPECT_EQ(wider.at, base.at);
   EXPECT_EQ(wider.x[1], 0);
   EXPECT_EQ(wider.residual, base.residual);
@@ -278,49 +278,50 @@ TEST_F(LinearFit, IntervalsHoldTheTruth) {
   EXPECT_GT(found[1].high * step, k_compliance);
 }
 
-// ---- what is handed over where something has no name ----------------------------------------------------------------
+// ---- reported parameters beside an unmodelled cause
+// ------------------------------------------------------------------
 
-/// It bends with the load, which has no name.
+/// A joint that bends with the load, an unmodelled cause.
 Evidence bending_with_the_load() {
   return evidence_of(measured({0, 2, 5, -3}, [noise = white_noise(k_floor, 5)](const Sample& sample) mutable {
     return k_offset - k_compliance * sample.load + 5e-3 * sample.load * std::pow(sample.alpha, 2) + noise(sample);
   }));
 }
 
-class BySquares : public testing::Test {
+class LeastSquaresFits : public testing::Test {
  protected:
   Evidence evidence = bending_with_the_load();
-  Workers workers{evidence};
+  FitterPool pool{evidence};
   const Effect& stretch = named("tendon_stretch");
-  const Fit summit = workers.one().fit({&stretch}, {});
+  const Fit summit = pool.one().fit({&stretch}, {});
 
   double left(const Fit& fit) const { return fit.residual.norm(); }
   double compliance(const Fit& fit) const { return value_of(fit.at, stretch.parameters.front()); }
 };
 
-TEST_F(BySquares, AreThoseOfARegression) {
-  const Fit squares = workers.one().by_squares(summit);
+TEST_F(LeastSquaresFits, AreThoseOfARegression) {
+  const Fit squares = pool.one().fit_least_squares(summit);
   const Eigen::VectorXd expected = regression(evidence);
   EXPECT_NEAR(value_of(squares.at, *squares.parameters[0]), expected[0], 1e-6);
   EXPECT_NEAR(compliance(squares), expected[1], 1e-6);
   EXPECT_LT(left(squares), left(summit));
 }
 
-TEST_F(BySquares, NumbersStayWithinTheirBoundsAndTheOthersGoWithThem) {
+TEST_F(LeastSquaresFits, NumbersStayWithinBounds) {
   const Effect& gain = named("joint_sensor_gain");
   const EffectParameter& number = gain.parameters.front();
   const Evidence scaled =
       evidence_of(measured({0, 2}, [&, noise = white_noise(k_floor, 5)](const Sample& sample) mutable {
         return k_offset + 1.5 * number.most * sample.alpha / k_ratio + noise(sample);
       }));
-  Workers fitters(scaled);
-  const Fit squares = fitters.one().by_squares(fitters.one().fit({&gain}, {}));
+  FitterPool fitters(scaled);
+  const Fit squares = fitters.one().fit_least_squares(fitters.one().fit({&gain}, {}));
   EXPECT_NEAR(value_of(squares.at, number), number.most, 1e-12);
   EXPECT_NEAR(squares.residual.mean(), 0, 1e-9);  // the best offset beside it
 }
 
-/// Of a cable joint (as the jaw of docs/background/real-joint.md): its loop shrinks with the load by no law that the
-/// catalogue has.
+/// Log of a cable joint (as the jaw of docs/background/real-joint.md): its hysteresis shrinks with the load by no law
+/// of the catalogue.
 Measurement loop_that_shrinks(double gain = 0) {
   const std::vector<double> loads = {0, 0.01, 0.02, 0.03}, loops = {3.5, 2, 0.5, 0.5};
   Measurement all = measured(loads, white_noise(radians(0.02), 5));
@@ -343,36 +344,36 @@ class HandedOver : public testing::Test {
   explicit HandedOver(double gain = 0) : evidence(evidence_of(loop_that_shrinks(gain))) {}
 
   Evidence evidence;
-  Workers workers{evidence};
+  FitterPool pool{evidence};
   Selection selection;
 
-  Delivered handed_over() {
+  ReportedParameters handed_over() {
     const Effect& stretch = named("tendon_stretch");
     const Effect& slack = named("slack");
     Imperfections start;
     set_value(start, stretch.parameters[0], radians(90));
     set_value(start, slack.parameters[0], radians(3.5));
     set_value(start, slack.parameters[1], radians(70));
-    selection.none = workers.one().fit({}, {});
-    selection.best = workers.one().fit({&stretch, &slack}, start);
+    selection.none = pool.one().fit({}, {});
+    selection.best = pool.one().fit({&stretch, &slack}, start);
     for (std::size_t k = 0; k < selection.best.parameters.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
-      const double variance = selection.best.explained.covariance(i, i);
+      const double variance = selection.best.posterior.covariance(i, i);
       selection.variance[selection.best.parameters[k]] = {variance, variance};
     }
-    return delivered(evidence, workers, selection, unnamed_beside(evidence, selection.best));
+    return choose_reported_parameters(evidence, pool, selection, describe_discrepancy(evidence, selection.best));
   }
 };
 
 TEST_F(HandedOver, LeastSquaresWhereTheyForetellMore) {
-  const Delivered made = handed_over();
+  const ReportedParameters made = handed_over();
   EXPECT_LT(made.estimate.fit.mean_square, 0.7 * selection.best.mean_square);
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.22), 2));
   EXPECT_FALSE(made.curve.used);
 }
 
 TEST_F(HandedOver, IntervalsHoldWhatIsHandedOver) {
-  const Delivered made = handed_over();
+  const ReportedParameters made = handed_over();
   selection.groups = {{{&named("tendon_stretch")}, 0}, {{&named("slack")}, 0}};
   selection.without.resize(2);
   for (auto& [parameter, variance] : selection.variance) variance = {1e-12, 1e-12};  // the summit, and nothing else
@@ -386,18 +387,20 @@ TEST_F(HandedOver, IntervalsHoldWhatIsHandedOver) {
   }
 }
 
-/// … and the joint's sensor shows more: a group says so, perhaps.
+/// The joint's sensor shows more, as a group says.
 class HandedOverBeside : public HandedOver {
  protected:
   explicit HandedOverBeside(double gain = 0.05) : HandedOver(gain) {
     selection.groups = {{{&named("tendon_stretch"), &named("joint_sensor_gain")}, 0}, {{&named("slack")}, 0}};
   }
 
-  bool holds_gain(const Delivered& made) { return contains(made.estimate.fit.effects, named("joint_sensor_gain")); }
+  bool holds_gain(const ReportedParameters& made) {
+    return contains(made.estimate.fit.effects, named("joint_sensor_gain"));
+  }
 };
 
-TEST_F(HandedOverBeside, AMemberOfAGroupGoesWithTheSetWhereBothForetellMore) {
-  const Delivered made = handed_over();
+TEST_F(HandedOverBeside, BetterPredictingMemberIsAdded) {
+  const ReportedParameters made = handed_over();
   ASSERT_TRUE(holds_gain(made));
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.25), 2));
   selection.without.resize(2);
@@ -409,7 +412,7 @@ TEST_F(HandedOverBeside, AMemberOfAGroupGoesWithTheSetWhereBothForetellMore) {
   EXPECT_NEAR(found[0].beside[0].parameters[0].value, 5.0, 0.5);
 }
 
-TEST_F(HandedOverBeside, WhatNoGroupHoldsStaysOut) {
+TEST_F(HandedOverBeside, EffectOutsideGroupsStaysOut) {
   selection.groups[0].members.pop_back();
   EXPECT_FALSE(holds_gain(handed_over()));
 }
@@ -421,14 +424,14 @@ class NothingBeside : public HandedOverBeside {
 
 TEST_F(NothingBeside, AMemberThatForetellsNothingStaysOut) { EXPECT_FALSE(holds_gain(handed_over())); }
 
-TEST_F(LinearFit, TheSummitIsHandedOverWhereNothingStaysWithoutAName) {
-  Workers workers(evidence);
+TEST_F(LinearFit, ModeIsReportedWithoutDiscrepancy) {
+  FitterPool pool(evidence);
   Selection selection;
   selection.none = fitter.fit({}, {});
   selection.best = fitter.fit({&stretch}, {});
-  const Unnamed unnamed = unnamed_beside(evidence, selection.best);
-  ASSERT_FALSE(is_unexplained(unnamed, evidence.floor));
-  EXPECT_EQ(delivered(evidence, workers, selection, unnamed).estimate.fit.at, selection.best.at);
+  const DiscrepancyFit unmodelled = describe_discrepancy(evidence, selection.best);
+  ASSERT_FALSE(is_unexplained(unmodelled, evidence.floor));
+  EXPECT_EQ(choose_reported_parameters(evidence, pool, selection, unmodelled).estimate.fit.at, selection.best.at);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ inline std::function<double(const Sample&)> white_noise(double size, unsigned se
   };
 }
 
-/// A fit of straight lines that nobody simulated: slopes and residuals as given, normal equations summed up.
+/// Fit of straight lines without simulation: given slopes and residuals, summed normal equations.
 inline Fit hand_made(const Evidence& evidence, const Eigen::MatrixXd& J, const Eigen::VectorXd& residual) {
   Fit fit;
   fit.usable = true;

@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// Where the motor is held, under what load, for how many rows.
+/// Dwell of the motor: its place, load and rows.
 struct Stop {
   double share = 0;  ///< of the declared range of α, −1 … 1
   double load = 0;   ///< N
@@ -81,7 +81,7 @@ Stops cycles_at(int loads, int rows) {
 Stops few_repeats(int rows) { return cycles_at(2, rows); }
 Stops no_repeats(int rows) { return cycles_at(6, rows); }
 
-/// What the bench writes; between stops it moves and loads in small steps that are not logged.
+/// Log of the bench; between stops it moves and loads in small steps that are not logged.
 std::string log_of(const Stops& stops, const rig::Hidden& hidden, std::uint64_t seed, double noise = 0.02) {
   constexpr int between = 30;
   rig::Bench bench(joint(), hidden);
@@ -165,7 +165,7 @@ TEST(PointToPoint, a_joint_as_declared_is_blamed_for_nothing) {
 TEST(PointToPoint, few_rows_are_no_reason_to_doubt_a_joint) {
   for (const Protocol& protocol : k_protocols) {
     if (protocol.rows > 1) continue;
-    // Of these seeds the ends in turn were called not_repeatable on 2, and few repeats unexplained on all.
+    // With these seeds the ends in turn were reported as not_repeatable on 2, and few repeats as unexplained on all.
     for (const std::uint64_t seed : {2, 3}) {
       const Calibration found = calibrated({log_of(protocol.stops(protocol.rows), {}, seed)});
       EXPECT_EQ(found.verdict, CalibrationVerdict::no_effect) << protocol.name << ", " << seed << ": " << found.summary;
@@ -194,7 +194,7 @@ TEST(PointToPoint, play_shows_between_the_sides_that_a_place_was_come_to_from) {
 struct Ends {
   rig::Hidden (*hidden)();
   const char* name;
-  const char* seen_with;  ///< how the factor begins on which the unnamed error is said to depend
+  const char* seen_with;  ///< how the factor begins on which the discrepancy depends
 };
 
 // At two places a smooth error has two numbers, with a name or without: nothing is named alone. What is more, each
@@ -212,8 +212,8 @@ TEST(PointToPoint, two_places_name_nothing_alone) {
     EXPECT_GT(tried->evidence, 0) << ends.name;
     if (!found.effects.empty()) continue;
     EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained) << found.summary;
-    ASSERT_FALSE(found.unknown.empty()) << ends.name;
-    EXPECT_THAT(found.unknown.front().factor, StartsWith(ends.seen_with));
+    ASSERT_FALSE(found.discrepancy.empty()) << ends.name;
+    EXPECT_THAT(found.discrepancy.front().factor, StartsWith(ends.seen_with));
     EXPECT_THAT(tried->why, AnyOf("it adds less than a name needs", StartsWith("with it rows that were not fitted")));
   }
 }

@@ -57,7 +57,7 @@ TEST_F(Groups, HoldWhatStandsInThePlace) {
   EXPECT_NEAR(found.doubt, 0.01, 1e-12);
 }
 
-TEST_F(Groups, HoldOneOfTwoThatTakeThePlaceTogether) {
+TEST_F(Groups, HoldOneOfTwoReplacements) {
   const CredibleGroup found = group({set("a", 70), set("bc", 30)}, "a", 'a');
   EXPECT_EQ(found.members.size(), 2u);
   EXPECT_NEAR(found.doubt, 0, 1e-12);
@@ -69,7 +69,7 @@ TEST_F(Groups, StayInDoubtWhereNothingTakesThePlace) {
   EXPECT_NEAR(found.doubt, 0.1, 1e-12);
 }
 
-TEST_F(Groups, InDoubtHoldWhatTakesMuchOfItAway) {
+TEST_F(Groups, HoldMembersThatRemoveDoubt) {
   const std::vector<Weighed> sets = {set("a", 60), set("b", 30), set("c", 1), set("d", 1), set("", 8)};
   EXPECT_EQ(names(group(sets, "a", 'a').members), "abcd");
   const CredibleGroup found = credible_group(sets, of("a"), *of("a").front(), 0.02, 0.2);
@@ -82,7 +82,7 @@ TEST_F(Groups, DoNotHoldOtherMembersOfTheSet) {
   EXPECT_EQ(names(found.members), "ac");
 }
 
-TEST_F(Groups, DoNotDependOnTheUnitOfTheWeights) {
+TEST_F(Groups, IgnoreUnitOfWeights) {
   std::vector<Weighed> sets = {set("a", 60), set("b", 39), set("", 1)};
   const CredibleGroup before = group(sets, "a", 'a');
   for (Weighed& one : sets) one.log_weight += 5000;
@@ -112,18 +112,18 @@ TEST_F(Groups, LeaveTheDoubtThatAllSetsLeave) {
   }
 }
 
-TEST(ExpectedSizes, MoveTheReadingByNoMoreThanIsSeen) {
+TEST(ExpectedSizes, LimitReadingToObservedError) {
   const double size = 40 * k_floor;
   Evidence evidence =
       evidence_of(measured({0, 5}, [&](const Sample& sample) { return size * std::sin(sample.alpha); }));
-  Workers workers(evidence);
+  FitterPool pool(evidence);
   const EffectSet all = {&named("tendon_stretch"), &named("joint_sensor_gain")};
-  evidence.sizes = expected_sizes(all, evidence, workers);
-  const Fit none = workers.one().fit({}, {});
+  evidence.sizes = expected_sizes(all, evidence, pool);
+  const Fit none = pool.one().fit({}, {});
   const double seen = k_thresholds.most_expected * rms(tangent_of(evidence, none).residual);
   // Five degrees at the largest load are what such joints yield, and not what is seen here; a gain is small anywhere.
   for (const Effect* effect : all) {
-    const Tangent wider = tangent_of(evidence, workers.one().with_chords(none, *effect));
+    const Tangent wider = tangent_of(evidence, pool.one().add_chords(none, *effect));
     const Eigen::Index k = wider.x.size() - 1;
     const double moved = wider.prior[k] * rms(wider.J.col(k));
     if (evidence.sizes.count(&effect->parameters.front())) {
@@ -138,9 +138,9 @@ TEST(ExpectedSizes, MoveTheReadingByNoMoreThanIsSeen) {
 TEST(ExpectedSizes, ShrinkWithWhatIsSeen) {
   const auto size_of_stretch = [](double error) {
     Evidence evidence = evidence_of(measured({0, 5}, [&](const Sample& sample) { return error * sample.alpha; }));
-    Workers workers(evidence);
+    FitterPool pool(evidence);
     const Effect& stretch = named("tendon_stretch");
-    return expected_sizes({&stretch}, evidence, workers).at(&stretch.parameters.front());
+    return expected_sizes({&stretch}, evidence, pool).at(&stretch.parameters.front());
   };
   EXPECT_LT(2 * size_of_stretch(0.0), size_of_stretch(0.02));
 }

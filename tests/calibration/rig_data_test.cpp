@@ -114,7 +114,7 @@ TEST(RealJaw, lost_motion_and_stretch_and_no_delay) {
   EXPECT_THAT(names(found), Not(Contains("sensor_lag")));
   EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained);
   EXPECT_GT(degrees(found.before.held_out_rms), 1.5);
-  // Of the runs that were kept; numbers beside what has no name leave 0.377.
+  // Error of the kept runs; numbers beside the discrepancy leave 0.377.
   EXPECT_LE(degrees(found.after.held_out_rms), 0.33);
 }
 

@@ -1,5 +1,5 @@
-// What calibrate() concludes from data made with its own model: every effect is found in data that hold it, and nothing
-// in data that hold nothing. Data made by another model stand in tests/rig.
+// Results of calibrate() for data of its own model: every effect is found in data that contain it, and none in data
+// without. Data of another model are in tests/rig.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ Run planned(const std::string& name, const Plan& plan, double alpha_most, double
   return run;
 }
 
-/// What sensors with white noise would log of a joint that differs from its file by `at`.
+/// Log by sensors with white noise of a joint that differs from its file by `at`.
 Measurement logged(const DeclaredMechanism& declared, const Imperfections& at, const std::vector<Plan>& plans,
                    unsigned seed = 1) {
   Measurement measurement;
@@ -203,7 +203,7 @@ TEST(Selection, FindsBothOfAPairWithTheirNumbers) {
   EXPECT_NEAR(found.identified.shaft.backlash, radians(1.5), radians(0.03));
 }
 
-TEST(Selection, TellsADelayFromPlayOnlyAtTwoSpeeds) {
+TEST(Selection, DistinguishesDelayFromPlayAtTwoSpeeds) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
   truth.shaft.backlash = radians(2);
@@ -218,7 +218,7 @@ TEST(Selection, TellsADelayFromPlayOnlyAtTwoSpeeds) {
 }
 
 // An error that turns with a sensor is the sensor's: no caliper and no other run says as much.
-TEST(Selection, AsksToTurnASensorThatMayBeOffCentre) {
+TEST(Selection, AsksToTurnEccentricSensor) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
   truth.motor.eccentricity_sin = radians(2);
@@ -262,8 +262,8 @@ TEST(Selection, ACaliperSplitsAGroup) {
   EXPECT_THAT(all_groups(with), Not(Contains("radius_offset")));
 }
 
-// Nothing else without a name moves the arms by which a load acts: pins out of place were 57 nats ahead of it.
-TEST(Selection, GeometryWithoutANameIsNotNamedForSure) {
+// No other unmodelled cause moves the arms by which a load acts: pins out of place were 57 nats ahead of it.
+TEST(Selection, UnmodelledGeometryIsNoCertainEffect) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
   truth.joint.path1 = {0.0, 4.0, 4.0};
@@ -274,7 +274,7 @@ TEST(Selection, GeometryWithoutANameIsNotNamedForSure) {
 }
 
 // It holds the joint as a bearing's does, and that was 220 nats ahead of every curve beside the readings.
-TEST(Selection, FrictionByAnotherLawIsNotNamedForSure) {
+TEST(Selection, UnmodelledFrictionIsNoCertainEffect) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
   truth.joint.rubbing.by_area = 250;
@@ -290,34 +290,7 @@ TEST(Selection, FrictionByAnotherLawIsNotNamedForSure) {
   EXPECT_THAT(named.effects.front().group, testing::ElementsAre("joint_friction"));
 }
 
-/// Of two joints, run by run in turn.
-Measurement in_turn(Measurement one, const Measurement& other) {
-  for (std::size_t i = 1; i < one.runs.size(); i += 2) one.runs[i] = other.runs[i];
-  return one;
-}
-
-TEST(Selection, AnEffectIsOfOneSize) {
-  const DeclaredMechanism declared = bench_joint();
-  const auto play_of = [&](double degrees) {
-    Imperfections at;
-    at.shaft.backlash = radians(degrees);
-    return logged(declared, at, {{0, 1}, {0, 1}, {3, 8}, {3, 8}});
-  };
-  const Calibration even = calibrate(declared, play_of(2));
-  ASSERT_EQ(even.effects.size(), 1u) << why(even);
-  EXPECT_LT(even.effects.front().evenness.uneven, 1);
-  EXPECT_GT(even.effects.front().evenness.part, 5);
-
-  const Calibration uneven = calibrate(declared, in_turn(play_of(1.5), play_of(2.5)));
-  const auto play = std::find_if(uneven.effects.begin(), uneven.effects.end(),
-                                 [](const FoundEffect& effect) { return effect.name == "backlash"; });
-  ASSERT_NE(play, uneven.effects.end()) << why(uneven);
-  EXPECT_GT(play->evenness.uneven, 30);
-  EXPECT_EQ(play->evenness.words, "from run to run");
-  EXPECT_EQ(play->group.back(), "unmodelled");
-}
-
-TEST(Selection, AWalkingZeroIsNoEffectOfTheCatalogue) {
+TEST(Selection, WalkingZeroIsNoEffect) {
   const DeclaredMechanism declared = bench_joint();
   Measurement measurement = logged(declared, {}, k_full);
   std::mt19937 random(3);
@@ -343,7 +316,7 @@ TEST(Selection, NamedRunsAreNeverFittedTo) {
   const Calibration found = calibrate(declared, measurement, options);
   EXPECT_THAT(found.held_out_runs, testing::ElementsAre("run_5.csv"));
   EXPECT_LT(found.after.held_out_rms, 1.2 * k_noise);
-  // What the held-out run says changes nothing of what was found.
+  // The held-out run changes nothing of the result.
   for (Sample& sample : measurement.runs.back().samples) sample.theta += radians(3);
   const Calibration other = calibrate(declared, measurement, options);
   EXPECT_EQ(other.identified.shaft.backlash, found.identified.shaft.backlash);

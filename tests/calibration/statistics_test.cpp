@@ -1,4 +1,4 @@
-// What is said of fits, against numbers worked out by hand.
+// Statistics of fits against numbers worked out by hand.
 #include "calibration/statistics.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ Fit with_errors(const Evidence& evidence, const std::vector<double>& by_block, E
   return fit;
 }
 
-TEST(LagOne, OfAlternatingRowsIsNegative) {
+TEST(LagOne, IsNegativeForAlternatingRows) {
   const Evidence evidence = two_runs();
   EXPECT_DOUBLE_EQ(lag_one_correlation(evidence, with_errors(evidence, std::vector<double>(8, 1.0))),
                    -(k_rows - 1.0) / k_rows);
@@ -72,7 +72,7 @@ TEST(StrokeScatter, TellsTiltsOfStrokesFromRowsWithin) {
 }
 
 // No two strokes are sampled alike: one that is cut short has the slope of the others, and no other tilt.
-TEST(StrokeScatter, StrokesOfOneSlopeAreAlikeWhateverTheirWidth) {
+TEST(StrokeScatter, StrokesOfOneSlopeAreAlike) {
   Evidence evidence = two_runs();
   Fit fit = with_errors(evidence, std::vector<double>(8, 1.0));
   fit.residual += 100 * alphas(evidence.measurement);

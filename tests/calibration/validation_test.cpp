@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "calibration/delivered.h"
 #include "calibration/linear_joint.h"
+#include "calibration/reported_parameters.h"
 #include "fusee/base/units.h"
 
 namespace fusee::linear {
@@ -24,12 +24,12 @@ class Validation : public testing::Test {
  protected:
   static constexpr double k_stretch = 20 * k_floor;
   Evidence evidence = evidence_of(stretching({0, 1, 2}, k_stretch, 1));
-  Workers workers{evidence};
+  FitterPool pool{evidence};
   Selection selection;
 
   void SetUp() override {
-    selection.none = workers.one().fit({}, {});
-    selection.best = workers.one().fit({&named("tendon_stretch")}, {});
+    selection.none = pool.one().fit({}, {});
+    selection.best = pool.one().fit({&named("tendon_stretch")}, {});
     selection.without = {selection.none};
     selection.groups = {{{&named("tendon_stretch")}, 0}};
     Candidate taken;
@@ -42,46 +42,46 @@ class Validation : public testing::Test {
 };
 
 TEST_F(Validation, AcceptsEffectThatPredictsKeptRuns) {
-  const Estimate declared = declared_estimate(workers, selection);
+  const Estimate declared = declared_estimate(pool, selection);
   EXPECT_EQ(HeldOutRows(evidence, declared, stretching({3}, k_stretch, 2)).worse_at(found()), "");
   EXPECT_EQ(HeldOutRows(evidence, declared, {}).worse_at(found()), "");
 }
 
 TEST_F(Validation, RejectsEffectThatKeptRunsDoNotHave) {
-  const Estimate declared = declared_estimate(workers, selection);
+  const Estimate declared = declared_estimate(pool, selection);
   EXPECT_EQ(HeldOutRows(evidence, declared, stretching({3}, -k_stretch, 2)).worse_at(found()), "all rows");
 }
 
 TEST_F(Validation, NamesLevelThatGetsWorse) {
-  const Estimate declared = declared_estimate(workers, selection);
+  const Estimate declared = declared_estimate(pool, selection);
   Measurement kept = stretching({4, 2}, k_stretch, 2);
   for (Sample& sample : kept.runs[1].samples) sample.theta += 2 * k_stretch;  // the other way
   EXPECT_EQ(HeldOutRows(evidence, declared, kept).worse_at(found()), "run_2");
 }
 
 TEST_F(Validation, RetreatsToDeclaredJoint) {
-  const Validated answer = validated(evidence, workers, stretching({3}, -k_stretch, 2), selection);
+  const ValidatedAnswer answer = validate_answer(evidence, pool, stretching({3}, -k_stretch, 2), selection);
   EXPECT_THAT(answer.dropped, ElementsAre("tendon_stretch"));
-  EXPECT_THAT(answer.made.estimate.fit.effects, IsEmpty());
-  EXPECT_EQ(answer.made.estimate.fit.at, answer.declared.fit.at);
+  EXPECT_THAT(answer.reported.estimate.fit.effects, IsEmpty());
+  EXPECT_EQ(answer.reported.estimate.fit.at, answer.declared.fit.at);
   EXPECT_THAT(selection.groups, IsEmpty());
   EXPECT_FALSE(selection.tried.front().accepted);
   EXPECT_NE(selection.tried.front().why, "");
 }
 
 TEST_F(Validation, KeepsWhatPredicts) {
-  const Validated answer = validated(evidence, workers, stretching({3}, k_stretch, 2), selection);
+  const ValidatedAnswer answer = validate_answer(evidence, pool, stretching({3}, k_stretch, 2), selection);
   EXPECT_THAT(answer.dropped, IsEmpty());
-  EXPECT_EQ(answer.made.estimate.fit.effects.size(), 1u);
+  EXPECT_EQ(answer.reported.estimate.fit.effects.size(), 1u);
 }
 
-TEST_F(Validation, EachRunIsLeftOutOfTheNumbersThatJudgeIt) {
+TEST_F(Validation, NumbersLeaveOutJudgedRun) {
   Measurement odd = stretching({1, 2, 3}, k_stretch, 1);
   for (Sample& sample : odd.runs[2].samples) sample.theta -= 3 * 10 * k_floor;  // 30 floors per N there
   Evidence runs = evidence_of(odd);
   runs.run_folds = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
-  Workers more(runs);
-  const Estimate all{more.one().by_squares(more.one().fit({&named("tendon_stretch")}, {})), {}};
+  FitterPool more(runs);
+  const Estimate all{more.one().fit_least_squares(more.one().fit({&named("tendon_stretch")}, {})), {}};
   const std::vector<Imperfections> without = estimates_without(runs, all, runs.run_folds);
   const EffectParameter& stretch = named("tendon_stretch").parameters[0];
   ASSERT_EQ(without.size(), 3u);
@@ -89,8 +89,8 @@ TEST_F(Validation, EachRunIsLeftOutOfTheNumbersThatJudgeIt) {
   EXPECT_GT(value_of(all.fit.at, stretch), 1.3 * k_stretch);
 }
 
-TEST_F(Validation, DeclaredJointHasItsFreeOffsetByLeastSquares) {
-  const Estimate declared = declared_estimate(workers, selection);
+TEST_F(Validation, DeclaredJointFitsFreeOffset) {
+  const Estimate declared = declared_estimate(pool, selection);
   double mean = 0;
   for (const Eigen::Index row : evidence.rows()) mean += declared.fit.residual[row];
   EXPECT_NEAR(mean / static_cast<double>(evidence.rows_used()), 0, 0.01 * k_floor);

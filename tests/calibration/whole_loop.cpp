@@ -16,7 +16,7 @@ namespace {
 constexpr double k_slow = radians(12.0);
 constexpr double k_fast = radians(90.0);
 
-/// The same loads about a mean that stays.
+/// Loads about a constant mean.
 std::vector<RunPlan> about(double load) {
   return {{load, k_slow, 3, 0.0}, {1.5 * load, k_slow, 2, 0.0}, {load, k_fast, 3, 0.0}, {0.5 * load, k_slow, 2, 0.0}};
 }
@@ -31,7 +31,7 @@ Log one_run(const MadeJoint& joint, const Hidden& hidden, double load) {
   return log_runs(joint, hidden, {{load, k_slow, 2, 0.0}}, silent).front();
 }
 
-/// Of the rows from the first reversal on: before it the play's state is a matter of how the run began.
+/// rms over the rows from the first reversal on: before it the play depends on how the run began.
 template <typename Error>
 double rms(const Log& log, Error error) {
   double squares = 0, count = 0;

@@ -24,7 +24,7 @@ struct LoopCase {
 /// One of each kind, on the forearm-sized joint and on others.
 std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load);
 
-/// What one turn of the loop did. rad, rms of θ − θ(α) as declared, one unloaded or evenly loaded run without noise.
+/// Result of one turn of the loop. rad, rms of θ − θ(α) as declared, one unloaded or evenly loaded run without noise.
 struct LoopOutcome {
   std::string name;
   std::string found;  ///< what calibrate named
@@ -41,7 +41,7 @@ struct LoopOutcome {
 /// The joint with the pulley that `fusee build` makes of `corrected`, on the bench of `declared`.
 MadeJoint with_corrected_pulley(const MadeJoint& declared, const DeclaredMechanism& corrected);
 
-/// What the same joint misses of its law with another pulley, its motor's zero moved as `tied_at` says. rad rms
+/// Error of the same joint with another pulley, its motor's zero moved as `tied_at` says. rad rms
 double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_at);
 
 /// The data of a case as a bench would leave them; scratch files go to `folder`.

@@ -28,7 +28,7 @@ constexpr const char* k_head =
     "with the same fault, tendons tied where corrected.toml says; *tied at 0*: tied with the motor at 0 whatever it "
     "says; *by the table*: tied at 0,\n"
     "against compensation.csv; *no fault*: the declared joint, which friction and the polygon leave. In brackets what "
-    "the data cannot tell apart.\n\n"
+    "the data do not distinguish.\n\n"
     "| hidden effect | verdict | found | before | after | after / before | tied at 0 | by the table | no fault |\n"
     "|---|---|---|--:|--:|--:|--:|--:|--:|\n";
 

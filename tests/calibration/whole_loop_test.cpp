@@ -33,7 +33,7 @@ Joint joint_of(const std::string& file, bool friction = true) {
   return joint;
 }
 
-/// What a perfect calibration would say.
+/// Result of a perfect calibration.
 Imperfections truth_of(const Hidden& hidden, const DeclaredMechanism& declared) {
   Imperfections at;
   at.pulley.outline.offset = hidden.radius_offset;
@@ -132,7 +132,7 @@ TEST_P(Known, FaultGivesAPulleyThatPassesAllChecks) {
     EXPECT_TRUE(check.ok) << check.name << " " << check.value << " " << check.where;
 }
 
-/// A floor as it lies in the drawing, as the pitch curve of the rig's outline.
+/// Groove floor of the drawing, as the pitch curve of the rig's outline.
 Outline outline_of(const BuildResult& result, const std::string& layer, Side side, double diameter) {
   for (const OutputFile& output : result.outputs) {
     if (output.name != "profile.dxf") continue;
@@ -156,7 +156,7 @@ Outline outline_of(const BuildResult& result, const std::string& layer, Side sid
   return {};
 }
 
-TEST(WholeLoop, TheDrawingThatBuildWritesTakesTheFaultOut) {
+TEST(WholeLoop, DrawingOfBuildCorrectsFault) {
   const Joint joint = joint_of("profiles/forearm.toml");
   LoopCase hidden = case_of(joint, "pulley_runout");
   hidden.hidden.radius_offset = -0.2;
@@ -172,7 +172,7 @@ TEST(WholeLoop, TheDrawingThatBuildWritesTakesTheFaultOut) {
 }
 
 TEST(WholeLoop, TheWrongCauseIsSeen) {
-  // The same loop with half of the truth leaves half of the error: the rig does not take the correction's word.
+  // A loop with half of the truth leaves half of the error: the rig does not trust the correction.
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "pulley_runout");
   Correction half = known_correction(joint, hidden);
@@ -182,7 +182,7 @@ TEST(WholeLoop, TheWrongCauseIsSeen) {
   EXPECT_NEAR(joint_error(corrected_joint(joint, half), hidden, 0) / before, 0.5, 0.05);
 }
 
-TEST(WholeLoop, ATableTakesOutWhatTheUntiedLoadLeaves) {
+TEST(WholeLoop, TableCorrectsUntiedLoad) {
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "tendon_stretch");
   const Correction correction = known_correction(joint, hidden);
@@ -207,7 +207,7 @@ TEST(WholeLoop, GoesOnFromACorrectedFile) {
   EXPECT_EQ(correct(corrected, again, second).identified, first.identified);
 }
 
-TEST(WholeLoop, WhatIsFoundLaterIsAdded) {
+TEST(WholeLoop, LaterFindingIsAdded) {
   const Joint joint = joint_of("profiles/forearm.toml");
   DeclaredMechanism corrected = joint.made.declared;
   corrected.identified.pins.radius = 1;

@@ -23,7 +23,7 @@ TEST_P(WideWholeLoop, FaultIsTakenOutByThePulley) {
   const auto [profile, effect, load] = GetParam();
   const std::string file = std::string(FUSEE_SOURCE_DIR) + "/profiles/" + profile + ".toml";
   DeclaredMechanism declared = read_mechanism(file).mechanism;
-  declared.load = {};  // a joint that gives way under it misses its law without a fault
+  declared.load = {};  // a compliant joint misses its law without a fault
   const MadeJoint joint = make_joint(declared);
   int turned = 0;
   for (const LoopCase& one : loop_cases(declared, load)) {

@@ -165,7 +165,7 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
     one.false_names += wrong && !holds(effect.group, k_unmodelled) ? 1 : 0;
     one.wrong_alone += wrong && effect.group.size() == 1 ? 1 : 0;
     groups += (wrong ? "  !{" : "  {") + joined(effect.group) + "}" + rounded(effect.evidence, 2) + "~" +
-              rounded(effect.unmodelled.behind, 2) + "[" + effect.unmodelled.words + "]";
+              rounded(effect.unmodelled.log_odds, 2) + "[" + effect.unmodelled.words + "]";
   }
   std::string seen;
   for (const double times : made.seen) seen += (seen.empty() ? "" : ", ") + rounded(times, 3);

@@ -318,7 +318,8 @@ bool print_report(const std::vector<Judgement>& all, const Request& request) {
 
 int run(const std::vector<std::string>& words) {
   const std::optional<Request> request = read_options(words, k_options, k_flags);
-  if (!request) {
+  // Truth and slopes are those of the whole catalogue.
+  if (!request || (!request->data_to.empty() && !request->leave_out.empty())) {
     std::fputs(k_usage, stderr);
     return 2;
   }

@@ -1,5 +1,5 @@
 /// \file
-/// Two measured states of one joint: what changed between them, by the catalogue of effects.
+/// Comparison of two measured states of one joint, by changes of the effects of the catalogue.
 #pragma once
 
 #include <functional>
@@ -12,10 +12,10 @@
 namespace fusee {
 
 enum class ComparisonVerdict { not_testable, not_comparable, no_change, changed };
-/// "not_testable", as the JSON has it.
+/// Key in the JSON: "not_testable".
 std::string_view word(ComparisonVerdict verdict);
 
-/// A number of the joint in both states, in the unit that ends its name.
+/// Parameter of the joint in both states, in the unit that ends its name.
 struct ChangedParameter {
   std::string name;
   double before = 0;
@@ -26,21 +26,21 @@ struct ChangedParameter {
   double change() const { return after - before; }
 };
 
-/// A change that the runs show, with every change that would explain them as well.
+/// Change that the runs show, with every change that explains them equally well.
 struct StateChange {
   std::string name;
-  std::vector<std::string> group;  ///< `name` first; k_unmodelled where it may be none of the catalogue
+  std::vector<std::string> group;  ///< `name` first; k_unmodelled if the cause may be unmodelled
   ChainPlace place = ChainPlace::joint;
   std::vector<ChangedParameter> parameters;
-  double rms_drop = 0;  ///< of the held-out residual, rad
-  double by_runs = 0;   ///< its size by the standard error that the scatter from run to run gives it
+  double rms_drop = 0;  ///< reduction of the held-out residual, rad
+  double by_runs = 0;   ///< its size in standard errors, by the scatter from run to run
 };
 
 struct Comparison {
   ComparisonVerdict verdict = ComparisonVerdict::not_testable;
-  std::string why;      ///< of not_testable and not_comparable: what is wrong, where, what to do
-  Calibration before;   ///< of the earlier runs alone
-  Calibration changes;  ///< of all runs about the earlier state
+  std::string why;      ///< reason of not_testable and not_comparable: the fault, its place, the remedy
+  Calibration before;   ///< calibration of the earlier runs alone
+  Calibration changes;  ///< calibration of all runs, relative to the earlier state
   std::vector<StateChange> found;
   StateDifference difference;
 };
@@ -49,11 +49,11 @@ struct ComparisonOptions {
   std::function<void(const std::string& what, double share)> progress;
 };
 
-/// Runs of two states, read for the declared joint.
+/// Runs of two states, compared with the declared joint.
 struct ComparedRuns {
   Measurement before;
   Measurement after;
-  Measurement both;  ///< those before, then those after
+  Measurement both;  ///< earlier runs, then later runs
 };
 
 Comparison compare_states(const DeclaredMechanism& declared, const ComparedRuns& runs,

@@ -1,7 +1,7 @@
 /// \file
-/// The words of a calibration, once: terminal, page, JSON and corrected.toml say the same.
+/// Wording of a calibration's results, shared by terminal, page, JSON and corrected.toml.
 ///
-/// Names and places of effects stand in the effects' own files, reasons beside the decisions (Candidate::why).
+/// Names and places of effects are in the files of the effects, reasons beside the decisions (Candidate::why).
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace fusee {
 
-/// As in calibration.json: "not_testable".
+/// Key in calibration.json: "not_testable".
 std::string_view word(CalibrationVerdict verdict);
 
-/// "100 : 1" of a log of odds: to one digit, and of more than a million to one no more.
+/// Odds of their logarithm, "100 : 1", to one digit, at most a million.
 std::string odds(double log_odds);
 
-/// What can be done about an effect, a sentence.
+/// Sentence on how the effect can be corrected.
 std::string_view remedy_words(const FoundEffect& effect);
 
 }  // namespace fusee

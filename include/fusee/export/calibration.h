@@ -20,7 +20,7 @@ struct CalibrationProduct {
   MechanismFile file;
   Measurement measurement;
   Calibration calibration;
-  std::vector<UndoneSlip> slips;  ///< of the file or of the data, that would explain what no effect does
+  std::vector<LikelyInputError> slips;  ///< of the file or of the data, that would explain what no effect does
   Correction correction;
   Rehearsal rehearsal;  ///< of what was found
 };

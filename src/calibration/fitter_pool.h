@@ -1,5 +1,5 @@
 /// \file
-/// The same simulation many times over, on as many threads as the machine has. The outcome does not depend on how many.
+/// Fits on as many threads as the machine has. The result does not depend on their number.
 #pragma once
 
 #include <functional>
@@ -9,16 +9,16 @@
 
 namespace fusee {
 
-class Workers {
+class FitterPool {
  public:
   /// `evidence` must outlive this.
-  explicit Workers(const Evidence& evidence);
+  explicit FitterPool(const Evidence& evidence);
 
-  /// Calls `job` for 0 … count − 1, each with a simulation of its own thread. The first exception is passed on.
-  /// `done(n)` is called from this thread whenever n of the jobs were seen to have ended; it may throw.
+  /// Calls `job` for 0 … count − 1, with one simulation for each thread. The first exception is rethrown. `done(n)` is
+  /// called from the calling thread when n jobs have ended; it may throw.
   void each(std::size_t count, const std::function<void(const Fitter&, std::size_t)>& job,
             const std::function<void(std::size_t)>& done = {});
-  /// For a single fit in between.
+  /// Fitter for a single fit between jobs.
   Fitter one() { return Fitter(evidence_, forwards_.front()); }
 
  private:

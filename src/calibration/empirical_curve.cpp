@@ -1,4 +1,4 @@
-#include "calibration/empirical.h"
+#include "calibration/empirical_curve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,26 +7,25 @@
 #include "calibration/thresholds.h"
 #include "measurement/seen_span.h"
 
-// The curve is the mean of what the discrepancy can be, given the data, in its families of place and direction, beside
-// all others that a description needs: what grows with a load or walks with time is theirs. Whether it holds is asked
-// of data that it was not made from, run by run and level by level.
+// The curve is the posterior mean of the discrepancy's families of place and direction, beside all other factors of its
+// description. It is validated on held-out data, run by run and level by level.
 
 namespace fusee {
 namespace {
 
 constexpr int k_pieces = 60;
-/// Share of the seen span in which no row may be missing: twice what the discrepancy bends over.
+/// Largest gap between rows as a share of the measured range: twice the discrepancy's short length scale.
 constexpr double k_widest_gap = 0.12;
-/// Standard errors by which the gain must be above nothing.
+/// Standard errors that the gain must exceed.
 constexpr double k_sure = 3.0;
-/// Of the mean square that effects leave at a level: by more than that no level may become worse. A stroke of 60 rows
-/// that are noise alone moves its mean square by as much now and then.
+/// Share of a level's mean square by which the curve may raise it by chance. The mean square of a stroke of 60 rows of
+/// noise varies by as much.
 constexpr double k_worse = 0.05;
 
-/// Of the gain, what all rows together must show of it.
+/// Share of the gain that all rows together must show.
 constexpr double k_kept_between = 0.5;
 
-/// Rows in use on their way up or down, by growing α: α and curve. Behind a reversal the curve may be several at a
+/// Rows in use of one direction, by rising α: α and curve. Behind a reversal the curve may have several values at a
 /// place.
 using Way = std::vector<std::pair<double, double>>;
 
@@ -36,7 +35,7 @@ double widest_gap(const Way& way) {
   return gap;
 }
 
-/// Means of half a piece each: the curve bends over much more.
+/// Means over half a segment of the curve, far below its length scale.
 Way smoothed(const Way& way, const SeenSpan& seen) {
   const Bins bins{seen, 2 * k_pieces};
   Way means;
@@ -57,7 +56,7 @@ Way smoothed(const Way& way, const SeenSpan& seen) {
   return means;
 }
 
-/// By straight pieces.
+/// Linear interpolation.
 double value_at(const Way& way, double alpha) {
   const auto above = std::lower_bound(way.begin() + 1, way.end() - 1, alpha,
                                       [](const auto& row, double value) { return row.first < value; });
@@ -65,16 +64,6 @@ double value_at(const Way& way, double alpha) {
   const double span = above->first - low.first;
   const double share = span > 0 ? std::clamp((alpha - low.first) / span, 0.0, 1.0) : 0.0;
   return low.second + share * (above->second - low.second);
-}
-
-/// What the discrepancy's families of place and direction add, rows in use.
-Eigen::VectorXd of_place(const Discrepancy& discrepancy, const Eigen::VectorXd& unnamed) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
-  for (const Family& family : discrepancy.families) {
-    if (is_of_place(family.factor))
-      sum += discrepancy.columns.middleCols(family.first, family.count) * unnamed.segment(family.first, family.count);
-  }
-  return sum;
 }
 
 struct BothWays {
@@ -97,7 +86,7 @@ BothWays ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
   return ways;
 }
 
-/// Places that were seen both ways.
+/// Range measured in both directions.
 SeenSpan seen_both_ways(const BothWays& ways) {
   SeenSpan span;
   if (ways.up.size() < 2 || ways.down.size() < 2) return span;
@@ -117,14 +106,14 @@ void draw(const BothWays& ways, const SeenSpan& seen, EmpiricalCurve& curve) {
   }
 }
 
-/// Mean squares of blocks of a fold that neither effects nor curve were made from.
+/// Mean squares of held-out blocks of a fold.
 struct Gain {
   double before = 0;
-  double mean = 0;  ///< what the curve takes off it
+  double mean = 0;  ///< reduction by the curve
   double rows = 0;
 };
 
-/// Of a fold of several blocks: of one alone it is a matter of chance.
+/// Gain over a fold of several blocks; that of a single block is chance.
 Gain gain_in(const Evidence& evidence, const HeldOutBeside& held, const Fold& fold) {
   Gain gain;
   for (const std::size_t block : fold) {
@@ -147,7 +136,7 @@ Fold all_blocks(const Evidence& evidence) {
   return all;
 }
 
-/// Whether it makes something worse that differs from the rest in its run, load or speed.
+/// True if the curve worsens a fold: its run, load or speed differs from the others.
 bool harms(const Evidence& evidence, const HeldOutBeside& held, const std::vector<Fold>& folds) {
   return std::any_of(folds.begin(), folds.end(), [&](const Fold& fold) {
     const Gain gain = gain_in(evidence, held, fold);
@@ -155,15 +144,15 @@ bool harms(const Evidence& evidence, const HeldOutBeside& held, const std::vecto
   });
 }
 
-/// Standard error of the gain: what is left, as if it were noise, times twice the curve.
+/// Standard error of the gain: 2 rms(curve) rms(residual) / √(independent rows).
 double error_of(const Evidence& evidence, const Gain& gain, double curve_rms) {
   const double left = std::sqrt(std::max(0.0, gain.before - gain.mean));
-  return 2.0 * curve_rms * left / std::sqrt(std::max(1.0, gain.rows * evidence.marginal->worth()));
+  return 2.0 * curve_rms * left / std::sqrt(std::max(1.0, gain.rows * evidence.evidence_model->independent_share()));
 }
 
 std::string why_not(const Evidence& evidence, const HeldOutBeside& by_run, const HeldOutBeside& by_factor,
                     const Gain& gain, double curve_rms) {
-  if (gain.mean < std::pow(k_thresholds.least_left * evidence.floor, 2) ||
+  if (gain.mean < std::pow(k_thresholds.least_residual * evidence.floor, 2) ||
       gain.mean < k_sure * error_of(evidence, gain, curve_rms))
     return "on data that it was not made from it takes away no more than chance would";
   if (harms(evidence, by_run, evidence.run_folds)) return "it makes a run worse that it was not made from";
@@ -172,7 +161,7 @@ std::string why_not(const Evidence& evidence, const HeldOutBeside& by_run, const
   return "";
 }
 
-/// Mean squares of rows where the curve is known.
+/// Squares over rows within the range of the curve.
 struct Squares {
   double without = 0;
   double with = 0;
@@ -194,13 +183,13 @@ void add(const Run& run, const std::vector<double>& residuals, const EmpiricalCu
   }
 }
 
-/// Behind a reversal the discrepancy is more than a curve can be: no more than the curve itself takes off.
-void promise(EmpiricalCurve& curve, double gain) {
+/// Limits the gain to that of the curve itself: behind a reversal the discrepancy is no curve.
+void limit_gain(EmpiricalCurve& curve, double gain) {
   curve.gain = std::sqrt(gain);
   curve.held_out_rms = std::sqrt(std::max(0.0, curve.held_out_effects * curve.held_out_effects - gain));
 }
 
-void give_up(EmpiricalCurve& curve, const std::string& why) {
+void reject(EmpiricalCurve& curve, const std::string& why) {
   curve.used = false;
   curve.why = why;
 }
@@ -223,31 +212,31 @@ double EmpiricalCurve::at(double place, bool rising) const {
   return values[i] + share * (values[i + 1] - values[i]);
 }
 
-Amplitudes amplitudes_beside(const Evidence& evidence, const Fit& fit, const Unnamed& unnamed) {
-  Amplitudes amplitudes = unnamed.explained.amplitudes;
-  const std::vector<Family>& families = evidence.marginal->discrepancy().families;
-  const double give = tangent_of(evidence, fit).give;
+Amplitudes amplitudes_beside(const Evidence& evidence, const Fit& fit, const DiscrepancyFit& unmodelled) {
+  Amplitudes amplitudes = unmodelled.posterior.amplitudes;
+  const std::vector<Family>& families = evidence.evidence_model->discrepancy().families;
+  const double deflection_ratio = tangent_of(evidence, fit).deflection_ratio;
   for (std::size_t f = 0; f < families.size(); ++f) {
-    if (families[f].fixed > 0) amplitudes.families[static_cast<Eigen::Index>(f)] *= give;
+    if (families[f].fixed > 0) amplitudes.families[static_cast<Eigen::Index>(f)] *= deflection_ratio;
   }
   return amplitudes;
 }
 
-EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const Unnamed& unnamed) {
-  const Discrepancy& discrepancy = evidence.marginal->discrepancy();
+EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const DiscrepancyFit& unmodelled) {
+  const Discrepancy& discrepancy = evidence.evidence_model->discrepancy();
   EmpiricalCurve curve;
-  if (!depends_on_place(discrepancy, unnamed.explained.amplitudes)) {
+  if (!depends_on_place(discrepancy, unmodelled.posterior.amplitudes)) {
     curve.why = "no part of it depends on place and direction alone";
     return curve;
   }
-  const Eigen::VectorXd at_rows = of_place(discrepancy, unnamed.explained.unnamed);
+  const Eigen::VectorXd at_rows = sum_of_families(discrepancy, unmodelled.posterior.coefficients, is_of_place);
   const BothWays ways = ways_of(evidence, at_rows);
   const SeenSpan seen = seen_both_ways(ways), all = seen_span(evidence.measurement, &Sample::alpha);
   if (!seen.any() || std::max(widest_gap(ways.up), widest_gap(ways.down)) > k_widest_gap * all.size()) {
     curve.why = "there are places between which nothing was measured both ways";
     return curve;
   }
-  const Amplitudes amplitudes = amplitudes_beside(evidence, fit, unnamed);
+  const Amplitudes amplitudes = amplitudes_beside(evidence, fit, unmodelled);
   const HeldOutBeside by_run = hold_out_beside(evidence, fit, amplitudes, evidence.run_folds);
   const HeldOutBeside by_factor = hold_out_beside(evidence, fit, amplitudes, evidence.factor_folds);
   const Gain gain = gain_in(evidence, by_run, all_blocks(evidence));
@@ -261,24 +250,24 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const U
   return curve;
 }
 
-void hold_against(const Measurement& measurement, const std::vector<std::vector<double>>& residuals,
-                  const std::vector<std::string>& kept, EmpiricalCurve& curve) {
+void validate_curve(const Measurement& measurement, const std::vector<std::vector<double>>& residuals,
+                    const std::vector<std::string>& kept, EmpiricalCurve& curve) {
   if (!curve.used) return;
-  Squares learnt, validated;
+  Squares fitted, validate_answer;
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
     const Run& run = measurement.runs[r];
     const bool is_kept = std::find(kept.begin(), kept.end(), run.name) != kept.end();
-    add(run, residuals[r], curve, is_kept ? validated : learnt);
+    add(run, residuals[r], curve, is_kept ? validate_answer : fitted);
   }
-  // A wave finer than the rows in use looks like a slow one in them.
-  if (learnt.gain() < k_kept_between * curve.gain * curve.gain)
-    return give_up(curve, "it does not hold in the rows between those that it was made from: what is there is finer");
-  promise(curve, std::min(curve.gain * curve.gain, learnt.gain()));
-  if (validated.rows == 0) return;
-  curve.held_out_effects = std::sqrt(validated.without / validated.rows);
-  curve.held_out_rms = std::sqrt(validated.with / validated.rows);
-  curve.gain = std::sqrt(std::max(0.0, validated.gain()));
-  if (!(curve.gain > 0)) give_up(curve, "it makes the runs worse that were kept for validation");
+  // A wave shorter than the spacing of the rows in use appears as a slow one in them.
+  if (fitted.gain() < k_kept_between * curve.gain * curve.gain)
+    return reject(curve, "it does not hold in the rows between those that it was made from: what is there is finer");
+  limit_gain(curve, std::min(curve.gain * curve.gain, fitted.gain()));
+  if (validate_answer.rows == 0) return;
+  curve.held_out_effects = std::sqrt(validate_answer.without / validate_answer.rows);
+  curve.held_out_rms = std::sqrt(validate_answer.with / validate_answer.rows);
+  curve.gain = std::sqrt(std::max(0.0, validate_answer.gain()));
+  if (!(curve.gain > 0)) reject(curve, "it makes the runs worse that were kept for validation");
 }
 
 }  // namespace fusee

@@ -1,4 +1,4 @@
-#include "calibration/workers.h"
+#include "calibration/fitter_pool.h"
 
 #include <algorithm>
 #include <atomic>
@@ -13,13 +13,13 @@ constexpr unsigned k_most_threads = 8;
 
 }  // namespace
 
-Workers::Workers(const Evidence& evidence) : evidence_(evidence) {
+FitterPool::FitterPool(const Evidence& evidence) : evidence_(evidence) {
   const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, k_most_threads);
   for (unsigned i = 0; i < threads; ++i) forwards_.emplace_back(*evidence.declared, evidence.log, evidence.earlier);
 }
 
-void Workers::each(std::size_t count, const std::function<void(const Fitter&, std::size_t)>& job,
-                   const std::function<void(std::size_t)>& done) {
+void FitterPool::each(std::size_t count, const std::function<void(const Fitter&, std::size_t)>& job,
+                      const std::function<void(std::size_t)>& done) {
   std::atomic<std::size_t> next{0};
   std::mutex guard;
   std::exception_ptr failure;

@@ -1,4 +1,4 @@
-#include "calibration/marginal.h"
+#include "calibration/evidence_model.h"
 
 #include <cmath>
 #include <limits>
@@ -13,18 +13,18 @@ namespace fusee {
 namespace {
 
 constexpr double k_settled = 0.02;  // nats
-/// Of the floor: below it a family is nothing.
+/// Share of the floor below which a family's amplitude is set to 0.
 constexpr double k_nothing = 0.03;
 /// Degrees of freedom of Student's t.
 constexpr double k_tail = 2.0;
 
 double square(double x) { return x * x; }
 
-/// Logarithm of the density of Student's t at 0. Computed once, before any thread begins: lgamma writes a global sign.
+/// Log density of Student's t at 0. Computed once, before any thread begins: lgamma writes a global sign.
 const double k_log_density_at_0 =
     std::lgamma(0.5 * (k_tail + 1.0)) - std::lgamma(0.5 * k_tail) - 0.5 * std::log(k_tail * k_pi);
 
-/// Information that the prior gives near x.
+/// Information of the prior near x: −d²/dx² of its log density, without the negative part.
 double information(double x, double prior) {
   return std::isfinite(prior) ? (k_tail + 1.0) / (k_tail * prior * prior + x * x) : 1e-12;
 }
@@ -43,46 +43,47 @@ void add_numbers(const Eigen::VectorXd& prior, Tangent& tangent) {
   tangent.x.tail(prior.size()).setZero();
   tangent.prior.conservativeResize(all);
   tangent.prior.tail(prior.size()) = prior;
-  Eigen::MatrixXd read = Eigen::MatrixXd::Zero(all, all);
-  read.topLeftCorner(before, before) = tangent.read;
-  tangent.read = std::move(read);
-  tangent.pull.conservativeResize(all);
-  tangent.pull.tail(prior.size()).setZero();
+  Eigen::MatrixXd caliper_information = Eigen::MatrixXd::Zero(all, all);
+  caliper_information.topLeftCorner(before, before) = tangent.caliper_information;
+  tangent.caliper_information = std::move(caliper_information);
+  tangent.caliper_gradient.conservativeResize(all);
+  tangent.caliper_gradient.tail(prior.size()).setZero();
 }
 
-/// Of a tangent beside a discrepancy of given size.
-struct Marginal::Solved {
+/// Solution of the discrepancy's columns at a tangent: A = I + λ DᵀD λ β.
+struct EvidenceModel::Solved {
   Eigen::MatrixXd B;      ///< λ DᵀJ β
   Eigen::MatrixXd AB;     ///< A⁻¹ B
   Eigen::VectorXd t, At;  ///< λ Dᵀr β, A⁻¹ t
-  Eigen::MatrixXd JJ;     ///< with the discrepancy integrated out
+  Eigen::MatrixXd JJ;     ///< information with the discrepancy integrated out
   Eigen::VectorXd Jr;
   double rr = 0;
-  double constant = 0;  ///< log of the likelihood without its squares
+  double constant = 0;  ///< log likelihood without its squares
 };
 
-Marginal::Marginal(Discrepancy discrepancy, double floor, double worth)
+EvidenceModel::EvidenceModel(Discrepancy discrepancy, double floor, double independent_share)
     : discrepancy_(std::move(discrepancy)),
       gram_(discrepancy_.columns.transpose() * discrepancy_.columns),
       floor_(floor),
-      worth_(worth),
-      first_guess_(nothing_unnamed()) {
+      independent_share_(independent_share),
+      first_guess_(without_discrepancy()) {
   for (double& amplitude : first_guess_.families) amplitude = amplitude == 0 ? floor : amplitude;
 }
 
-Marginal::Marginal(const Marginal& other, double worth, Amplitudes first_guess) : Marginal(other) {
-  worth_ = worth;
+EvidenceModel::EvidenceModel(const EvidenceModel& other, double independent_share, Amplitudes first_guess)
+    : EvidenceModel(other) {
+  independent_share_ = independent_share;
   first_guess_ = std::move(first_guess);
 }
 
-Amplitudes Marginal::nothing_unnamed() const {
+Amplitudes EvidenceModel::without_discrepancy() const {
   Amplitudes nothing{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(discrepancy_.families.size())), floor_};
   for (Eigen::Index f = 0; f < nothing.families.size(); ++f)
     nothing.families[f] = discrepancy_.families[static_cast<std::size_t>(f)].fixed;
   return nothing;
 }
 
-TangentSums Marginal::sums_of(const Tangent& tangent) const {
+TangentSums EvidenceModel::sums_of(const Tangent& tangent) const {
   TangentSums sums;
   sums.JJ = tangent.J.transpose() * tangent.J;
   // Column by column: a product of a few columns with many costs Eigen twice as much.
@@ -95,22 +96,22 @@ TangentSums Marginal::sums_of(const Tangent& tangent) const {
   sums.rows = static_cast<double>(tangent.residual.size());
   sums.x = tangent.x;
   sums.prior = tangent.prior;
-  sums.read = tangent.read;
-  sums.pull = tangent.pull;
-  sums.against = tangent.against;
-  sums.give = tangent.give;
+  sums.caliper_information = tangent.caliper_information;
+  sums.caliper_gradient = tangent.caliper_gradient;
+  sums.caliper_chi2 = tangent.caliper_chi2;
+  sums.deflection_ratio = tangent.deflection_ratio;
   return sums;
 }
 
-SizedDiscrepancy Marginal::sized(const Amplitudes& amplitudes, double give) const {
-  SizedDiscrepancy u{amplitudes, worth_ / (amplitudes.noise * amplitudes.noise), {}, {}, {}};
+ScaledDiscrepancy EvidenceModel::sized(const Amplitudes& amplitudes, double deflection_ratio) const {
+  ScaledDiscrepancy u{amplitudes, independent_share_ / (amplitudes.noise * amplitudes.noise), {}, {}, {}};
   std::vector<double> size;
   for (std::size_t f = 0; f < discrepancy_.families.size(); ++f) {
     const Family& family = discrepancy_.families[f];
     const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
     for (Eigen::Index k = 0; amplitude > 0 && k < family.count; ++k) {
       u.columns.push_back(family.first + k);
-      size.push_back(family.fixed > 0 ? amplitude * give : amplitude);
+      size.push_back(family.fixed > 0 ? amplitude * deflection_ratio : amplitude);
     }
   }
   u.size = Eigen::Map<const Eigen::VectorXd>(size.data(), static_cast<Eigen::Index>(size.size()));
@@ -120,28 +121,28 @@ SizedDiscrepancy Marginal::sized(const Amplitudes& amplitudes, double give) cons
   return u;
 }
 
-/// Cauchy's: what has no name is the rarer the larger it is, and may be as large as it is.
-double Marginal::log_prior_of(const Amplitudes& amplitudes) const {
+/// Half-Cauchy-type prior on each family's amplitude: −log(1 + (λ / 0.5 σ)²), σ the noise floor.
+double EvidenceModel::log_prior_of(const Amplitudes& amplitudes) const {
   double sum = 0;
   for (std::size_t f = 0; f < discrepancy_.families.size(); ++f) {
     const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
     if (!(discrepancy_.families[f].fixed > 0))
-      sum -= std::log1p(square(amplitude / (k_thresholds.usual_unknown * floor_)));
+      sum -= std::log1p(square(amplitude / (k_thresholds.usual_discrepancy * floor_)));
   }
   return sum;
 }
 
-Marginal::Solved Marginal::solved(const TangentSums& sums, const SizedDiscrepancy& u) const {
+EvidenceModel::Solved EvidenceModel::solved(const TangentSums& sums, const ScaledDiscrepancy& u) const {
   Solved s;
   s.B = u.beta * (u.size.asDiagonal() * sums.JD(Eigen::all, u.columns).transpose());
-  // Where there is no effect there is nothing to solve: Eigen looks at the first number even of none.
+  // Eigen reads the first element even of an empty matrix.
   s.AB = s.B.size() > 0 ? u.A.solve(s.B) : s.B;
   s.t = u.beta * u.size.cwiseProduct(sums.Dr(u.columns));
   s.At = u.A.solve(s.t);
   s.JJ = u.beta * sums.JJ - s.B.transpose() * s.AB;
   s.Jr = u.beta * sums.Jr - s.AB.transpose() * s.t;
   s.rr = u.beta * sums.rr - s.t.dot(s.At);
-  const double rows = worth_ * sums.rows;
+  const double rows = independent_share_ * sums.rows;
   const double freedom = k_thresholds.noise_freedom;
   const double excess = floor_ * floor_ / (u.amplitudes.noise * u.amplitudes.noise);
   s.constant = log_prior_of(u.amplitudes) + 0.5 * rows * std::log(u.beta) - u.A.half_log_determinant() +
@@ -149,14 +150,15 @@ Marginal::Solved Marginal::solved(const TangentSums& sums, const SizedDiscrepanc
   return s;
 }
 
-ReducedTangent Marginal::reduced(const TangentSums& sums, const SizedDiscrepancy& beside) const {
+ReducedTangent EvidenceModel::reduced(const TangentSums& sums, const ScaledDiscrepancy& beside) const {
   Solved s = solved(sums, beside);
-  return {std::move(s.JJ), std::move(s.Jr), s.rr, s.constant, sums.x, sums.prior, sums.read, sums.pull, sums.against};
+  return {std::move(s.JJ),       std::move(s.Jr),  s.rr, s.constant, sums.x, sums.prior, sums.caliper_information,
+          sums.caliper_gradient, sums.caliper_chi2};
 }
 
 double log_evidence_of(const ReducedTangent& tangent, const std::vector<Eigen::Index>& columns) {
-  const Eigen::MatrixXd known = tangent.JJ(columns, columns) + tangent.read(columns, columns);
-  const Eigen::VectorXd gradient = tangent.Jr(columns) + tangent.pull(columns);
+  const Eigen::MatrixXd known = tangent.JJ(columns, columns) + tangent.caliper_information(columns, columns);
+  const Eigen::VectorXd gradient = tangent.Jr(columns) + tangent.caliper_gradient(columns);
   const Eigen::VectorXd x = tangent.x(columns);
   const Eigen::VectorXd prior = tangent.prior(columns);
   Eigen::MatrixXd H = known;
@@ -169,54 +171,54 @@ double log_evidence_of(const ReducedTangent& tangent, const std::vector<Eigen::I
   const Cholesky factor(H);
   const Eigen::VectorXd step = factor.solve(g);
   double log_evidence = tangent.constant - factor.half_log_determinant() -
-                        0.5 * (tangent.rr + tangent.against + step.dot(known * step) - 2.0 * step.dot(gradient));
+                        0.5 * (tangent.rr + tangent.caliper_chi2 + step.dot(known * step) - 2.0 * step.dot(gradient));
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     if (std::isfinite(prior[k])) log_evidence += log_prior(x[k] + step[k], prior[k]) + 0.5 * std::log(k_two_pi);
   }
   return log_evidence;
 }
 
-Explained Marginal::explained(const TangentSums& tangent, const SizedDiscrepancy& u, const Solved& s) const {
+Posterior EvidenceModel::posterior_at(const TangentSums& tangent, const ScaledDiscrepancy& u, const Solved& s) const {
   const Eigen::Index count = tangent.x.size();
-  Eigen::MatrixXd H = s.JJ + tangent.read;
-  Eigen::VectorXd g = s.Jr + tangent.pull;
+  Eigen::MatrixXd H = s.JJ + tangent.caliper_information;
+  Eigen::VectorXd g = s.Jr + tangent.caliper_gradient;
   for (Eigen::Index k = 0; k < count; ++k) {
     const double known = information(tangent.x[k], tangent.prior[k]);
     H(k, k) += known;
     g[k] -= known * tangent.x[k];
   }
   const Cholesky factor(H);
-  Explained explained;
-  explained.amplitudes = u.amplitudes;
-  explained.step = count > 0 ? factor.solve(g) : Eigen::VectorXd();
-  explained.covariance = factor.solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count)));
-  const Eigen::VectorXd& step = explained.step;
-  double squares = s.rr + tangent.against;
+  Posterior posterior;
+  posterior.amplitudes = u.amplitudes;
+  posterior.step = count > 0 ? factor.solve(g) : Eigen::VectorXd();
+  posterior.covariance = factor.solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count)));
+  const Eigen::VectorXd& step = posterior.step;
+  double squares = s.rr + tangent.caliper_chi2;
   if (count > 0) {
     squares += step.dot(s.JJ * step) - 2.0 * step.dot(s.Jr);
-    squares += step.dot(tangent.read * step) - 2.0 * step.dot(tangent.pull);
+    squares += step.dot(tangent.caliper_information * step) - 2.0 * step.dot(tangent.caliper_gradient);
   }
-  explained.height = s.constant - 0.5 * (s.rr + tangent.against);
-  explained.height_ahead = s.constant - 0.5 * squares;
+  posterior.log_density = s.constant - 0.5 * (s.rr + tangent.caliper_chi2);
+  posterior.predicted_log_density = s.constant - 0.5 * squares;
   double width = count > 0 ? factor.half_log_determinant() : 0.0;
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!std::isfinite(tangent.prior[k])) continue;
-    explained.height += log_prior(tangent.x[k], tangent.prior[k]);
-    explained.height_ahead += log_prior(tangent.x[k] + step[k], tangent.prior[k]);
+    posterior.log_density += log_prior(tangent.x[k], tangent.prior[k]);
+    posterior.predicted_log_density += log_prior(tangent.x[k] + step[k], tangent.prior[k]);
     width -= 0.5 * std::log(k_two_pi);
   }
-  explained.log_evidence = explained.height_ahead - width;
-  explained.log_evidence_here = explained.height - width;
-  explained.unnamed = Eigen::VectorXd::Zero(discrepancy_.columns.cols());
+  posterior.log_evidence = posterior.predicted_log_density - width;
+  posterior.log_evidence_here = posterior.log_density - width;
+  posterior.coefficients = Eigen::VectorXd::Zero(discrepancy_.columns.cols());
   Eigen::VectorXd scaled = s.At;
   if (count > 0) scaled -= s.AB * step;
   for (std::size_t i = 0; i < u.columns.size(); ++i)
-    explained.unnamed[u.columns[i]] = u.size[static_cast<Eigen::Index>(i)] * scaled[static_cast<Eigen::Index>(i)];
-  return explained;
+    posterior.coefficients[u.columns[i]] = u.size[static_cast<Eigen::Index>(i)] * scaled[static_cast<Eigen::Index>(i)];
+  return posterior;
 }
 
-Amplitudes Marginal::reestimated(const TangentSums& sums, const Explained& now, const SizedDiscrepancy& u,
-                                 const Solved& s) const {
+Amplitudes EvidenceModel::reestimate(const TangentSums& sums, const Posterior& now, const ScaledDiscrepancy& u,
+                                     const Solved& s) const {
   Eigen::VectorXd unknown = u.A.inverse_diagonal();
   if (now.step.size() > 0) unknown += (s.AB * now.covariance).cwiseProduct(s.AB).rowwise().sum();
   Amplitudes better = now.amplitudes;
@@ -230,57 +232,57 @@ Amplitudes Marginal::reestimated(const TangentSums& sums, const Explained& now, 
     place += family.count;
     determined += known;
     if (family.fixed > 0) continue;
-    const double rarer = square(amplitude / (k_thresholds.usual_unknown * floor_));
-    const double against = 2.0 * rarer / (1.0 + rarer);  // the prior's slope over log amplitude
-    amplitude = std::sqrt(now.unnamed.segment(family.first, family.count).squaredNorm() / (known + against));
+    const double rarer = square(amplitude / (k_thresholds.usual_discrepancy * floor_));
+    const double prior_slope = 2.0 * rarer / (1.0 + rarer);  // slope of the log prior over log amplitude
+    amplitude = std::sqrt(now.coefficients.segment(family.first, family.count).squaredNorm() / (known + prior_slope));
     if (amplitude < k_nothing * floor_) amplitude = 0;
   }
-  // Σ (r − J step − D a)², by what the sums know.
-  const Eigen::VectorXd& a = now.unnamed;
+  // Σ (r − J step − D a)² from the sums.
+  const Eigen::VectorXd& a = now.coefficients;
   double squares = sums.rr - 2.0 * a.dot(sums.Dr) + a.dot(gram_ * a);
   if (now.step.size() > 0)
     squares += now.step.dot(sums.JJ * now.step) - 2.0 * now.step.dot(sums.Jr) + 2.0 * now.step.dot(sums.JD * a);
   const double freedom = k_thresholds.noise_freedom;
-  const double rows = worth_ * sums.rows;
+  const double rows = independent_share_ * sums.rows;
   const double left = freedom + std::max(1.0, rows - determined);
-  better.noise = std::max(floor_, std::sqrt((freedom * floor_ * floor_ + worth_ * squares) / left));
+  better.noise = std::max(floor_, std::sqrt((freedom * floor_ * floor_ + independent_share_ * squares) / left));
   return better;
 }
 
-Explained Marginal::at(const TangentSums& sums, const SizedDiscrepancy& beside) const {
-  return explained(sums, beside, solved(sums, beside));
+Posterior EvidenceModel::at(const TangentSums& sums, const ScaledDiscrepancy& beside) const {
+  return posterior_at(sums, beside, solved(sums, beside));
 }
 
-Explained Marginal::best(const TangentSums& sums, Amplitudes from, int rounds) const {
-  Explained best;
+Posterior EvidenceModel::best(const TangentSums& sums, Amplitudes from, int rounds) const {
+  Posterior best;
   double last = -std::numeric_limits<double>::infinity();
   for (int round = 0; round < rounds; ++round) {
-    const SizedDiscrepancy u = sized(from, sums.give);
+    const ScaledDiscrepancy u = sized(from, sums.deflection_ratio);
     const Solved s = solved(sums, u);
-    Explained now = explained(sums, u, s);
-    const bool settled = std::abs(now.log_evidence - last) < k_settled;  // on the way it may fall
+    Posterior now = posterior_at(sums, u, s);
+    const bool settled = std::abs(now.log_evidence - last) < k_settled;  // may fall during the iteration
     last = now.log_evidence;
     if (round == 0 || now.log_evidence > best.log_evidence) best = now;
     if (settled || round + 1 == rounds) break;
-    from = reestimated(sums, now, u, s);
+    from = reestimate(sums, now, u, s);
   }
   return best;
 }
 
-double Marginal::rareness_of_rest(const Explained& explained) const {
-  Eigen::VectorXd unnamed = explained.unnamed;
+double EvidenceModel::discrepancy_penalty(const Posterior& posterior) const {
+  Eigen::VectorXd coefficients = posterior.coefficients;
   for (const Family& family : discrepancy_.families) {
-    if (family.fixed > 0) unnamed.segment(family.first, family.count).setZero();
+    if (family.fixed > 0) coefficients.segment(family.first, family.count).setZero();
   }
-  const double mean_square = unnamed.dot(gram_ * unnamed) / static_cast<double>(discrepancy_.columns.rows());
-  return k_thresholds.rareness * std::min(1.0, std::max(0.0, mean_square) / square(floor_));
+  const double mean_square = coefficients.dot(gram_ * coefficients) / static_cast<double>(discrepancy_.columns.rows());
+  return k_thresholds.neg_log_prior_odds * std::min(1.0, std::max(0.0, mean_square) / square(floor_));
 }
 
-double Marginal::summit(const Tangent& tangent, const SizedDiscrepancy& beside) const {
+double EvidenceModel::log_density_at(const Tangent& tangent, const ScaledDiscrepancy& beside) const {
   Tangent here = tangent;
   here.J.resize(tangent.J.rows(), 0);
   const Solved s = solved(sums_of(here), beside);
-  double density = s.constant - 0.5 * (s.rr + tangent.against);
+  double density = s.constant - 0.5 * (s.rr + tangent.caliper_chi2);
   for (Eigen::Index k = 0; k < tangent.x.size(); ++k) density += log_prior(tangent.x[k], tangent.prior[k]);
   return density;
 }

@@ -1,4 +1,4 @@
-#include "calibration/other_loads.h"
+#include "calibration/load_scale.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 #include "calibration/thresholds.h"
 #include "joint/forward.h"
 
-// A load that is wrong by a share is no shape beside a fit: a tendon goes slack under one of 20 N and not under one of
-// 15 N, and how much it gives way is then fitted anew. So the set without the effect is fitted again to the same
-// readings with all loads so many times larger, over a ladder of shares first, then more closely about the best.
+// Wrong loads are no shape beside a fit: a tendon becomes slack under 20 N and not under 15 N, and its compliance is
+// then fitted anew. So the set without the effect is refitted to the same readings with all loads scaled, over a ladder
+// of factors first, then more closely about the best.
 
 namespace fusee {
 namespace {
@@ -19,7 +19,8 @@ namespace {
 constexpr std::array k_ladder = {0.5, 0.71, 0.84, 1.19, 1.41, 2.0};
 /// Halvings of the ladder's step about its best.
 constexpr int k_halvings = 3;
-/// Of what a wrong load does, squared, by one effect: then that effect is what such a load is read as, and no rival.
+/// Share of a load scale's squares that one effect explains: above it that effect is equivalent to a load scale and no
+/// rival.
 constexpr double k_same = 0.8;
 constexpr double k_slope_share = 0.05;
 
@@ -38,7 +39,7 @@ bool has_loads(const Evidence& evidence) {
   });
 }
 
-/// What a share more of every load does to the rows in use.
+/// Slope of the rows in use over the scale of all loads.
 Eigen::VectorXd load_slope(const Evidence& evidence, const Fit& best) {
   const Evidence other = with_loads(evidence, 1.0 + k_slope_share);
   Forward logged(*evidence.declared, evidence.log);
@@ -47,15 +48,10 @@ Eigen::VectorXd load_slope(const Evidence& evidence, const Fit& best) {
   return moved.allFinite() ? moved : Eigen::VectorXd::Zero(moved.size());
 }
 
-/// Which part of what a wrong load does, squared, an effect of `best` does by itself.
+/// Share of the squares of a load scale's slope that an effect of `best` explains.
 double share_of(const Evidence& evidence, const Fit& best, const Effect& effect, const Eigen::VectorXd& slope) {
   const Tangent tangent = tangent_of(evidence, best);
-  std::vector<Eigen::Index> own;
-  for (std::size_t k = 0; k < best.parameters.size(); ++k) {
-    if (std::any_of(effect.parameters.begin(), effect.parameters.end(),
-                    [&](const EffectParameter& p) { return &p == best.parameters[k]; }))
-      own.push_back(static_cast<Eigen::Index>(k));
-  }
+  const std::vector<Eigen::Index> own = places_of(best, effect);
   if (own.empty() || !(slope.squaredNorm() > 0)) return 0;
   const Eigen::MatrixXd J = tangent.J(Eigen::all, own);
   const Eigen::VectorXd left = slope - J * solved(J.transpose() * J, Eigen::VectorXd(J.transpose() * slope));
@@ -66,13 +62,13 @@ double score_under(const Evidence& evidence, const Fit& without, double times) {
   const Evidence other = with_loads(evidence, times);
   Forward forward(*other.declared, other.log);
   const Fit fit = Fitter(other, forward).fit(without.effects, without.at);
-  return fit.usable ? score(fit) - k_thresholds.rareness - k_thresholds.price_of_a_search
+  return fit.usable ? score(fit) - k_thresholds.neg_log_prior_odds - k_thresholds.search_penalty
                     : -std::numeric_limits<double>::infinity();
 }
 
-/// None where the loads as logged do best.
-UnderOtherLoads best_under(const Evidence& evidence, const Fit& without) {
-  UnderOtherLoads best{1.0, score_under(evidence, without, 1.0)};
+/// Score −infinity if the logged loads are best.
+LoadScaleFit best_under(const Evidence& evidence, const Fit& without) {
+  LoadScaleFit best{1.0, score_under(evidence, without, 1.0)};
   const auto look = [&](double times) {
     const double score = score_under(evidence, without, times);
     if (score > best.score) best = {times, score};
@@ -90,15 +86,15 @@ UnderOtherLoads best_under(const Evidence& evidence, const Fit& without) {
 
 }  // namespace
 
-std::vector<UnderOtherLoads> under_other_loads(const Evidence& evidence, Workers& workers, const Selection& selection) {
+std::vector<LoadScaleFit> fit_load_scales(const Evidence& evidence, FitterPool& pool, const Selection& selection) {
   const Fit& best = selection.best;
-  std::vector<UnderOtherLoads> all(best.effects.size(), {1.0, -std::numeric_limits<double>::infinity()});
+  std::vector<LoadScaleFit> all(best.effects.size(), {1.0, -std::numeric_limits<double>::infinity()});
   if (!has_loads(evidence)) return all;
   const Eigen::VectorXd slope = load_slope(evidence, best);
   std::vector<double> shares;
   for (const Effect* effect : best.effects) shares.push_back(share_of(evidence, best, *effect, slope));
   const double most = shares.empty() ? 0.0 : *std::max_element(shares.begin(), shares.end());
-  workers.each(all.size(), [&](const Fitter&, std::size_t i) {
+  pool.each(all.size(), [&](const Fitter&, std::size_t i) {
     const Fit& without = selection.without[i];
     const bool is_the_same = shares[i] > k_same && shares[i] == most;
     if (without.usable && !is_the_same) all[i] = best_under(evidence, without);

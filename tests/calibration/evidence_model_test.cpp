@@ -1,13 +1,13 @@
-// The evidence of a set against densities that are written out, and the shapes without a name.
-#include "calibration/marginal.h"
+// Evidence of sets against densities that are written out, and unmodelled shapes.
+#include "calibration/evidence_model.h"
 
 #include <gmock/gmock.h>
 
 #include <random>
 
+#include "calibration/discrepancy_fit.h"
 #include "calibration/linear_joint.h"
 #include "calibration/thresholds.h"
-#include "calibration/unknown.h"
 
 namespace fusee::linear {
 namespace {
@@ -30,7 +30,7 @@ Tangent nothing_varied(const Eigen::VectorXd& residual) {
   Tangent tangent;
   tangent.residual = residual;
   tangent.J.resize(residual.size(), 0);
-  tangent.read.resize(0, 0);
+  tangent.caliper_information.resize(0, 0);
   return tangent;
 }
 
@@ -42,40 +42,40 @@ double log_density(const Eigen::VectorXd& r, const Discrepancy& D, const Amplitu
     C += std::pow(amplitudes.families[static_cast<Eigen::Index>(f)], 2) * own * own.transpose();
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(C);
-  const double usual = k_thresholds.usual_unknown * floor;
+  const double usual = k_thresholds.usual_discrepancy * floor;
   const double prior = -(1.0 + (amplitudes.families / usual).array().square()).log().sum();
   return prior - 0.5 * r.dot(factor.solve(r)) - factor.matrixLLT().diagonal().array().log().sum();
 }
 
-TEST(Marginal, IsTheDensityWrittenOut) {
+TEST(EvidenceModel, IsTheDensityWrittenOut) {
   std::mt19937 random(1);
   const Discrepancy D = two_families(40, random);
-  const Marginal marginal(D, 0.1, 1.0);
+  const EvidenceModel evidence_model(D, 0.1, 1.0);
   const Amplitudes one{Eigen::Vector2d(0.3, 0.0), 0.1}, other{Eigen::Vector2d(0.05, 0.4), 0.1};
   const Eigen::VectorXd r = drawn(40, random, 0.2);
   const double found =
-      marginal.at(nothing_varied(r), one).log_evidence - marginal.at(nothing_varied(r), other).log_evidence;
+      evidence_model.at(nothing_varied(r), one).log_evidence - evidence_model.at(nothing_varied(r), other).log_evidence;
   EXPECT_NEAR(found, log_density(r, D, one, 0.1) - log_density(r, D, other, 0.1), 1e-8);
 }
 
-TEST(Marginal, IntegratesANumberOverItsPrior) {
+TEST(EvidenceModel, IntegratesANumberOverItsPrior) {
   std::mt19937 random(2);
   const Discrepancy D = two_families(60, random);
-  const Marginal marginal(D, 0.1, 1.0);
+  const EvidenceModel evidence_model(D, 0.1, 1.0);
   const Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.1), 0.1};
   const Eigen::VectorXd slope = drawn(60, random);
   const Eigen::VectorXd r = 0.7 * slope + drawn(60, random, 0.1);
   Tangent tangent = nothing_varied(r);
-  const double without = marginal.at(tangent, amplitudes).log_evidence;
+  const double without = evidence_model.at(tangent, amplitudes).log_evidence;
   tangent.J = slope;
-  tangent.x = tangent.pull = Eigen::VectorXd::Zero(1);
+  tangent.x = tangent.caliper_gradient = Eigen::VectorXd::Zero(1);
   tangent.prior = Eigen::VectorXd::Constant(1, 0.5);
-  tangent.read = Eigen::MatrixXd::Zero(1, 1);
+  tangent.caliper_information = Eigen::MatrixXd::Zero(1, 1);
   // At the summit, as a fit leaves it.
-  const double summit = marginal.at(tangent, amplitudes).step[0];
+  const double summit = evidence_model.at(tangent, amplitudes).step[0];
   tangent.x[0] = summit;
   tangent.residual -= summit * slope;
-  const double found = marginal.at(tangent, amplitudes).log_evidence - without;
+  const double found = evidence_model.at(tangent, amplitudes).log_evidence - without;
   double sum = 0;
   const double step = 1e-4, reference = log_density(r - summit * slope, D, amplitudes, 0.1);
   for (double x = summit - 0.5; x < summit + 0.5; x += step)
@@ -83,30 +83,30 @@ TEST(Marginal, IntegratesANumberOverItsPrior) {
   EXPECT_NEAR(found, std::log(sum) + reference - log_density(r, D, amplitudes, 0.1), 0.02);
 }
 
-TEST(Marginal, AChoiceOfColumnsIsTheTangentThatHasNoOthers) {
+TEST(EvidenceModel, SubsetOfColumnsEqualsSmallerTangent) {
   std::mt19937 random(4);
-  const Marginal marginal(two_families(60, random), 0.1, 1.0);
+  const EvidenceModel evidence_model(two_families(60, random), 0.1, 1.0);
   const Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.1), 0.1};
   Tangent all = nothing_varied(drawn(60, random, 0.2));
   all.J.resize(60, 4);
   for (Eigen::Index k = 0; k < 4; ++k) all.J.col(k) = drawn(60, random);
   add_numbers(Eigen::Vector4d(0.5, 1.0, std::numeric_limits<double>::infinity(), 2.0), all);
   all.x = Eigen::Vector4d(0.3, -0.1, 0.0, 0.2);
-  all.read.diagonal().setConstant(3.0);
-  all.pull.setConstant(0.4);
+  all.caliper_information.diagonal().setConstant(3.0);
+  all.caliper_gradient.setConstant(0.4);
   const std::vector<Eigen::Index> chosen = {0, 2};
   Tangent few = all;
   few.J = all.J(Eigen::all, chosen);
   few.x = all.x(chosen);
   few.prior = all.prior(chosen);
-  few.read = all.read(chosen, chosen);
-  few.pull = all.pull(chosen);
-  const TangentSums sums = marginal.sums_of(all);
-  const ReducedTangent reduced = marginal.reduced(sums, marginal.sized(amplitudes, all.give));
-  EXPECT_NEAR(log_evidence_of(reduced, chosen), marginal.at(few, amplitudes).log_evidence, 1e-9);
+  few.caliper_information = all.caliper_information(chosen, chosen);
+  few.caliper_gradient = all.caliper_gradient(chosen);
+  const TangentSums sums = evidence_model.sums_of(all);
+  const ReducedTangent reduced = evidence_model.reduced(sums, evidence_model.sized(amplitudes, all.deflection_ratio));
+  EXPECT_NEAR(log_evidence_of(reduced, chosen), evidence_model.at(few, amplitudes).log_evidence, 1e-9);
 }
 
-TEST(Marginal, FindsAmplitudesAndLeavesOutWhatIsNot) {
+TEST(EvidenceModel, FindsAmplitudesAndLeavesOutWhatIsNot) {
   std::mt19937 random(3);
   const Eigen::Index rows = 400, count = 40;
   Discrepancy D;
@@ -114,53 +114,54 @@ TEST(Marginal, FindsAmplitudesAndLeavesOutWhatIsNot) {
   for (Eigen::Index k = 0; k < 2 * count; ++k)
     D.columns.col(k) = drawn(rows, random) / std::sqrt(static_cast<double>(count));
   D.families = {{Factor::place, 0, count, 0}, {Factor::load, count, count, 0}};
-  const Marginal marginal(D, 0.1, 1.0);
+  const EvidenceModel evidence_model(D, 0.1, 1.0);
   const Eigen::VectorXd r = D.columns.leftCols(count) * drawn(count, random, 0.5) + drawn(rows, random, 0.1);
-  const Explained found = marginal.best(nothing_varied(r), marginal.first_guess(), 40);
+  const Posterior found = evidence_model.best(nothing_varied(r), evidence_model.first_guess(), 40);
   EXPECT_NEAR(found.amplitudes.families[0], 0.5, 0.15);
   EXPECT_LT(found.amplitudes.families[1], 0.05);
   EXPECT_NEAR(found.amplitudes.noise, 0.1, 0.01);
 }
 
 // As rare as a name from a noise floor on; what the model itself is not trusted to is nothing that happened.
-TEST(Marginal, WhatHasNoNameIsTheRarerTheMoreItMoves) {
+TEST(EvidenceModel, LargerDiscrepancyIsRarer) {
   std::mt19937 random(5);
   Discrepancy D = two_families(50, random);
   D.families[1].fixed = 0.3;
-  const Marginal marginal(D, 0.1, 1.0);
-  Explained explained;
-  explained.unnamed = drawn(6, random);
-  const Eigen::VectorXd moved = D.columns.leftCols(3) * explained.unnamed.head(3);
+  const EvidenceModel evidence_model(D, 0.1, 1.0);
+  Posterior posterior;
+  posterior.coefficients = drawn(6, random);
+  const Eigen::VectorXd moved = D.columns.leftCols(3) * posterior.coefficients.head(3);
   const double rms = std::sqrt(moved.squaredNorm() / 50.0);
   for (const double floors : {0.0, 0.3, 0.99, 1.01, 7.0}) {
-    Explained sized = explained;
-    sized.unnamed.head(3) *= floors * 0.1 / rms;
-    EXPECT_NEAR(marginal.rareness_of_rest(sized), k_thresholds.rareness * std::min(1.0, floors * floors), 1e-9);
+    Posterior sized = posterior;
+    sized.coefficients.head(3) *= floors * 0.1 / rms;
+    EXPECT_NEAR(evidence_model.discrepancy_penalty(sized),
+                k_thresholds.neg_log_prior_odds * std::min(1.0, floors * floors), 1e-9);
   }
 }
 
-TEST(Marginal, IntervalsCoverAsOftenAsTheySay) {
+TEST(EvidenceModel, IntervalsCoverAsOftenAsTheySay) {
   std::mt19937 random(4);
   const Discrepancy D = two_families(60, random);
-  const Marginal marginal(D, 0.1, 1.0);
+  const EvidenceModel evidence_model(D, 0.1, 1.0);
   const Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.3), 0.1};
   Tangent tangent = nothing_varied(Eigen::VectorXd::Zero(60));
   tangent.J = drawn(60, random);
-  tangent.x = tangent.pull = Eigen::VectorXd::Zero(1);
+  tangent.x = tangent.caliper_gradient = Eigen::VectorXd::Zero(1);
   tangent.prior = Eigen::VectorXd::Constant(1, 100.0);
-  tangent.read = Eigen::MatrixXd::Zero(1, 1);
+  tangent.caliper_information = Eigen::MatrixXd::Zero(1, 1);
   constexpr int trials = 2000;
   int covered = 0;
   for (int i = 0; i < trials; ++i) {
     tangent.residual = 0.4 * tangent.J + D.columns.leftCols(3) * drawn(3, random, 0.2) +
                        D.columns.rightCols(3) * drawn(3, random, 0.3) + drawn(60, random, 0.1);
-    const Explained found = marginal.at(tangent, amplitudes);
+    const Posterior found = evidence_model.at(tangent, amplitudes);
     covered += std::abs(found.step[0] - 0.4) <= 1.96 * std::sqrt(found.covariance(0, 0)) ? 1 : 0;
   }
   EXPECT_NEAR(covered / static_cast<double>(trials), 0.95, 0.02);
 }
 
-TEST(Marginal, APriorIsADensityWithTailsThatPay) {
+TEST(EvidenceModel, PriorIsDensityWithHeavyTails) {
   double sum = 0;
   for (double x = -2000; x < 2000; x += 0.01) sum += 0.01 * std::exp(log_prior(x, 1.0));
   EXPECT_NEAR(sum, 1, 1e-3);
@@ -168,7 +169,7 @@ TEST(Marginal, APriorIsADensityWithTailsThatPay) {
   EXPECT_GT(log_prior(12, 1.0), log_prior(0, 1.0) - 72);  // a normal one's
 }
 
-TEST(Unnamed, AWaveOfTheMotorsShaftIsSaidWithItsOrder) {
+TEST(DiscrepancyFit, WaveOfMotorShaftHasItsOrder) {
   Measurement measurement;
   measurement.load_unit = "N";
   measurement.runs = {run_of("one", 0, 12), run_of("two", 5, 12)};
@@ -178,10 +179,10 @@ TEST(Unnamed, AWaveOfTheMotorsShaftIsSaidWithItsOrder) {
   }
   const Evidence evidence = evidence_of(measurement);
   Forward forward(joint(), evidence.log);
-  const Unnamed found = unnamed_beside(evidence, Fitter(evidence, forward).fit({}, {}));
+  const DiscrepancyFit found = describe_discrepancy(evidence, Fitter(evidence, forward).fit({}, {}));
   EXPECT_TRUE(is_unexplained(found, k_floor));
-  const auto wave =
-      std::find_if(found.parts.begin(), found.parts.end(), [](const Unknown& part) { return part.order > 0; });
+  const auto wave = std::find_if(found.parts.begin(), found.parts.end(),
+                                 [](const DiscrepancyComponent& part) { return part.order > 0; });
   ASSERT_NE(wave, found.parts.end());
   EXPECT_EQ(wave->factor, "motor harmonic");
   EXPECT_NEAR(wave->order, 21, 0.8);
@@ -189,30 +190,10 @@ TEST(Unnamed, AWaveOfTheMotorsShaftIsSaidWithItsOrder) {
   EXPECT_THAT(wave->words, testing::HasSubstr("of the motor's shaft"));
 }
 
-// What is gone of one part may be made up for in the whole by another.
-TEST(Unnamed, IsWithoutAPartWhateverElseStays) {
-  const auto of = [](double place, double run) {
-    Unnamed unnamed;
-    for (const auto& [factor, rms] : {std::pair("run", run), std::pair("place", place)}) {
-      if (rms == 0) continue;
-      Unknown& part = unnamed.parts.emplace_back();
-      part.factor = factor;
-      part.rms = rms;
-    }
-    return unnamed;
-  };
-  constexpr double floor = 0.1;
-  EXPECT_TRUE(is_without_a_part(of(0, 0.5), of(0.3, 0.4), floor));
-  EXPECT_TRUE(is_without_a_part(of(0.14, 0.5), of(0.3, 0.4), floor));
-  EXPECT_FALSE(is_without_a_part(of(0.16, 0.5), of(0.3, 0.4), floor)) << "half of it stays";
-  EXPECT_FALSE(is_without_a_part(of(0, 0.5), of(0.09, 0.5), floor)) << "it is less than noise";
-  EXPECT_FALSE(is_without_a_part(of(0.3, 0), of(0.3, 0), floor));
-}
-
-TEST(Unnamed, NoiseIsNotDescribed) {
+TEST(DiscrepancyFit, NoiseIsNotDescribed) {
   const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 6)));
   Forward forward(joint(), evidence.log);
-  const Unnamed found = unnamed_beside(evidence, Fitter(evidence, forward).fit({}, {}));
+  const DiscrepancyFit found = describe_discrepancy(evidence, Fitter(evidence, forward).fit({}, {}));
   EXPECT_FALSE(is_unexplained(found, k_floor));
   EXPECT_TRUE(found.parts.empty());
 }

@@ -1,4 +1,4 @@
-#include "calibration/unmodelled.h"
+#include "calibration/unmodelled_alternatives.h"
 
 #include <algorithm>
 #include <array>
@@ -7,21 +7,20 @@
 #include <limits>
 #include <set>
 
-#include "calibration/marginal.h"
-#include "calibration/other_loads.h"
+#include "calibration/evidence_model.h"
+#include "calibration/load_scale.h"
 #include "calibration/row_facts.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
-#include "calibration/unnamed_effects.h"
+#include "calibration/unmodelled_effects.h"
 #include "fusee/base/text.h"
 #include "fusee/calibration/words.h"
 
-// The discrepancy is smooth: a kink, a jump, a lump or a wave of many periods costs it many columns, and a name that
-// bends at about the same place is cheaper though it is not there. So shapes with few numbers stand here beside the
-// catalogue, each as rare as an effect whose number is searched for. The joint is read twice, once with the effect and
-// once without, and either reading may take what has no name as long as that pays for itself. What the effect is ahead
-// by then is what the data say for its name, and not merely for something of its kind. A load that is not as logged is
-// no shape, and is held against each name by fits of its own (other_loads.h).
+// The discrepancy is smooth: a kink, a step, a bump or a short wave requires many of its columns, so that an absent
+// effect with a bend at about that place would be likelier. Shapes of few parameters complete it here, each with the
+// prior of an effect with a searched number. The data are explained with and without the effect, and both models may
+// add shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each
+// effect is tested against them by refits (load_scale.h).
 
 namespace fusee {
 namespace {
@@ -29,22 +28,21 @@ namespace {
 constexpr int k_most_taken = 3;
 constexpr std::size_t k_shape_tries = 3;
 constexpr int k_reading_rounds = 4;
-/// Waves: the least in periods over the span, steps between orders in the same, the most by rows and by cost.
+/// Waves: least periods over the span, step in periods, largest by cost, and rows that a period requires.
 constexpr double k_least_periods = 0.75;
 constexpr double k_period_step = 0.25;
 constexpr double k_most_periods = 24.0;
 constexpr double k_rows_a_wave = 4.0;
-/// Of jumps, kinks and lumps over the span, and how wide the latter are.
+/// Places of steps, kinks and bumps over the span, and widths of bumps.
 constexpr int k_shape_places = 13;
 constexpr std::array k_widths = {0.04, 0.10};
-/// Times of a jump, over all runs.
+/// Times of a step, over all runs.
 constexpr int k_times = 24;
-/// Of the session: in how much of it a drift dies away, from what settles in the first run to what hardly slows down,
-/// and how many times at which one sets in.
+/// Shares of the session: decay times of a drift, and number of times at which one begins.
 constexpr std::array k_settling = {0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 4.0};
 constexpr int k_late = 6;
 
-/// Ways over which what a reversal leaves is gone, of the span.
+/// Decay lengths behind a reversal, as shares of the span.
 constexpr std::array k_shape_ways = {0.01, 0.02, 0.04, 0.08, 0.15, 0.3};
 
 enum class Dependence {
@@ -61,10 +59,10 @@ enum class Dependence {
   drift
 };
 
-/// A family of shapes of which one is chosen by a searched number or two.
+/// Shape with one or two searched parameters.
 struct Shape {
   Dependence dependence = Dependence::place;
-  Eigen::Index first = 0, count = 0;  ///< columns
+  Eigen::Index first = 0, count = 0;  ///< first column and number of columns
   int searched = 0;
   std::string words;
 };
@@ -102,7 +100,7 @@ const char* separating_run(Dependence dependence) {
 
 using Part = std::function<double(const RowFacts&)>;
 
-/// Shapes over the rows in use, columns of rms 1.
+/// Shapes over the rows in use, as columns of rms 1.
 class Shapes {
  public:
   explicit Shapes(const Evidence& evidence)
@@ -141,7 +139,7 @@ class Shapes {
  private:
   static double clock(const RowFacts& r) { return static_cast<double>(r.run) + 0.5 * (r.time + 1.0); }
 
-  /// Nothing of one that is nothing, or alike in all rows.
+  /// Adds a shape, unless a column is zero or constant.
   void add(Dependence dependence, int searched, std::string words, const std::vector<Part>& parts, bool centred) {
     const auto rows = static_cast<Eigen::Index>(facts_.size());
     const auto count = static_cast<Eigen::Index>(parts.size());
@@ -194,7 +192,7 @@ class Shapes {
     }
   }
 
-  /// What dies away behind a reversal, unlike at the two ends: at once or at last.
+  /// Decays behind a reversal, different at the two ends: exponential, or linear to zero.
   void add_ways(const Part& times, const std::string& how) {
     for (const double way : k_shape_ways) {
       const auto fading = [=](const RowFacts& r) { return times(r) * std::exp(-r.since / way); };
@@ -212,11 +210,11 @@ class Shapes {
     }
   }
 
-  /// What gives way from some load on, alike everywhere or more to one end.
+  /// Compliance from a load threshold on, uniform or growing to one end.
   void add_thresholds() {
     for (const double from : {-0.5, -0.25, 0.0, 0.25, 0.5, 0.75}) {
       const auto beyond = [=](const RowFacts& r) { return std::max(0.0, r.load - from); };
-      add(Dependence::load, 1, "something that gives way from " + rounded(100 * from, 2) + " % of the load on",
+      add(Dependence::load, 1, "a compliance from " + rounded(100 * from, 2) + " % of the load on",
           {beyond, [=](const RowFacts& r) { return beyond(r) * (2 * r.place - 1); }}, true);
     }
   }
@@ -231,7 +229,7 @@ class Shapes {
     }
   }
 
-  /// What ages with time, wears with the way or sets with each load, ever slower or from some time on.
+  /// Drifts with time, travel or load changes, decaying or from some moment on.
   void add_drifts(double RowFacts::*by, const std::string& what) {
     for (const double settling : k_settling) {
       add_drift("a drift that dies away in " + rounded(100 * settling, 2) + " % of the session, by " + what,
@@ -244,8 +242,8 @@ class Shapes {
     }
   }
 
-  /// Alike at all places, or more to one end, or where there is load: a longer tendon turns the joint by its arm, and
-  /// lets go of its pretension.
+  /// Drift that is uniform, grows to one end, or scales with the load: a longer tendon turns the joint by its moment
+  /// arm, and loses pretension.
   void add_drift(std::string words, const Part& drift) {
     std::vector<Part> parts = {drift, [=](const RowFacts& r) { return drift(r) * (2 * r.place - 1); }};
     if (has_loads_) parts.push_back([=](const RowFacts& r) { return drift(r) * r.load; });
@@ -259,36 +257,37 @@ class Shapes {
   std::vector<Shape> shapes_;
 };
 
-/// What a joint without names was read as.
-struct Reading {
+/// Score of a base with the shapes that were added.
+struct ShapeSelection {
   double score = 0;
-  std::vector<std::size_t> taken;  ///< shapes
+  std::vector<std::size_t> shapes;  ///< indices of shapes
 };
 
-class Reader {
+class ShapeSearch {
  public:
-  Reader(const Evidence& evidence, const Selection& selection)
-      : marginal_(*evidence.marginal),
+  ShapeSearch(const Evidence& evidence, const Selection& selection)
+      : evidence_model_(*evidence.evidence_model),
         evidence_(evidence),
         shapes_(evidence),
         CC_(shapes_.columns().transpose() * shapes_.columns()),
-        CD_(shapes_.columns().transpose() * marginal_.discrepancy().columns),
+        CD_(shapes_.columns().transpose() * evidence_model_.discrepancy().columns),
         size_(std::max(evidence.floor, rms_of(tangent_of(evidence, selection.none).residual))) {}
 
-  /// `base` with what has no name beside it, as long as that pays. `open`: amplitudes of the discrepancy to begin with.
-  Reading read(const Fit& base, const Amplitudes& open) const {
-    const Beside beside(*this, base);
-    const double loose = base.explained.log_evidence - base.log_evidence;
-    const double others = rareness_of(base.effects);
-    Reading best;
+  /// `base` with shapes, added as long as they improve the score. `open`: amplitudes of the discrepancy from which a
+  /// second search begins.
+  ShapeSelection explain(const Fit& base, const Amplitudes& open) const {
+    const BaseSums sums_of_base(*this, base);
+    const double loose = base.posterior.log_evidence - base.log_evidence;
+    const double others = neg_log_prior_odds(base.effects);
+    ShapeSelection best;
     double most = -std::numeric_limits<double>::infinity();
-    for (const Amplitudes& start : {base.explained.amplitudes, open}) {
-      Reading reading;
+    for (const Amplitudes& start : {base.posterior.amplitudes, open}) {
+      ShapeSelection selection_;
       Amplitudes from = start;
-      double reached = marginal_.best(beside.own, start, k_reading_rounds).log_evidence;
-      while (reading.taken.size() < k_most_taken && take_one(beside, reading.taken, from, reached)) {
+      double reached = evidence_model_.best(sums_of_base.own, start, k_reading_rounds).log_evidence;
+      while (selection_.shapes.size() < k_most_taken && add_one(sums_of_base, selection_.shapes, from, reached)) {
       }
-      if (reached > most) most = reached, best = std::move(reading);
+      if (reached > most) most = reached, best = std::move(selection_);
     }
     best.score = most - loose - others;
     return best;
@@ -297,101 +296,103 @@ class Reader {
   const Shape& shape(std::size_t i) const { return shapes_.all()[i]; }
 
  private:
-  /// A base, and what the shapes are to it.
-  struct Beside {
-    Beside(const Reader& reader, const Fit& base) {
-      const Tangent tangent = tangent_of(reader.evidence_, base);
-      own = reader.marginal_.sums_of(tangent);
-      CJ = reader.shapes_.columns().transpose() * tangent.J;
-      Cr = reader.shapes_.columns().transpose() * tangent.residual;
+  /// Sums of a base with the shapes.
+  struct BaseSums {
+    BaseSums(const ShapeSearch& search, const Fit& base) {
+      const Tangent tangent = tangent_of(search.evidence_, base);
+      own = search.evidence_model_.sums_of(tangent);
+      CJ = search.shapes_.columns().transpose() * tangent.J;
+      Cr = search.shapes_.columns().transpose() * tangent.residual;
     }
     TangentSums own;
     Eigen::MatrixXd CJ;
     Eigen::VectorXd Cr;
   };
 
-  double price(const std::vector<std::size_t>& taken) const {
+  double penalty(const std::vector<std::size_t>& shapes) const {
     double sum = 0;
-    for (const std::size_t i : taken) sum += k_thresholds.rareness + k_thresholds.price_of_a_search * shape(i).searched;
+    for (const std::size_t i : shapes)
+      sum += k_thresholds.neg_log_prior_odds + k_thresholds.search_penalty * shape(i).searched;
     return sum;
   }
 
-  /// The shape that betters the score most. Whether there is one.
-  bool take_one(const Beside& beside, std::vector<std::size_t>& taken, Amplitudes& from, double& reached) const {
-    const SizedDiscrepancy sized = marginal_.sized(from, beside.own.give);
-    std::vector<std::pair<double, std::size_t>> looks;
-    std::vector<std::size_t> wider = taken;
+  /// Adds the shape that improves the score most. True if there is one.
+  bool add_one(const BaseSums& sums_of_base, std::vector<std::size_t>& shapes, Amplitudes& from,
+               double& reached) const {
+    const ScaledDiscrepancy sized = evidence_model_.sized(from, sums_of_base.own.deflection_ratio);
+    std::vector<std::pair<double, std::size_t>> candidates;
+    std::vector<std::size_t> wider = shapes;
     wider.push_back(0);
     for (std::size_t i = 0; i < shapes_.all().size(); ++i) {
-      if (std::count(taken.begin(), taken.end(), i)) continue;
+      if (std::count(shapes.begin(), shapes.end(), i)) continue;
       wider.back() = i;
-      looks.emplace_back(price(wider) - marginal_.at(sums(beside, wider), sized).log_evidence, i);
+      candidates.emplace_back(penalty(wider) - evidence_model_.at(sums(sums_of_base, wider), sized).log_evidence, i);
     }
-    std::sort(looks.begin(), looks.end());
-    looks.resize(std::min(looks.size(), k_shape_tries));
+    std::sort(candidates.begin(), candidates.end());
+    candidates.resize(std::min(candidates.size(), k_shape_tries));
     Amplitudes there;
     std::size_t best = shapes_.all().size();
-    for (const auto& [look, i] : looks) {
+    for (const auto& [predicted, i] : candidates) {
       wider.back() = i;
-      const Explained explained = marginal_.best(sums(beside, wider), from, k_reading_rounds);
-      const double score = explained.log_evidence - price(wider);
+      const Posterior posterior = evidence_model_.best(sums(sums_of_base, wider), from, k_reading_rounds);
+      const double score = posterior.log_evidence - penalty(wider);
       if (!(score > reached)) continue;
       reached = score;
-      there = explained.amplitudes;
+      there = posterior.amplitudes;
       best = i;
     }
     if (best == shapes_.all().size()) return false;
-    taken.push_back(best);
+    shapes.push_back(best);
     from = there;
     return true;
   }
 
-  /// The base's, with these shapes where they do nothing.
-  TangentSums sums(const Beside& beside, const std::vector<std::size_t>& chosen) const {
+  /// Sums of the base with these shapes at zero.
+  TangentSums sums(const BaseSums& sums_of_base, const std::vector<std::size_t>& chosen) const {
     std::vector<Eigen::Index> columns;
     for (const std::size_t i : chosen) {
       for (Eigen::Index k = 0; k < shape(i).count; ++k) columns.push_back(shape(i).first + k);
     }
     const auto more = static_cast<Eigen::Index>(columns.size());
-    const Eigen::Index own = beside.own.x.size(), all = own + more;
-    TangentSums sums = beside.own;
+    const Eigen::Index own = sums_of_base.own.x.size(), all = own + more;
+    TangentSums sums = sums_of_base.own;
     sums.JJ.conservativeResize(all, all);
     sums.JJ.bottomRightCorner(more, more) = CC_(columns, columns);
     if (own > 0) {
-      sums.JJ.bottomLeftCorner(more, own) = beside.CJ(columns, Eigen::all);
+      sums.JJ.bottomLeftCorner(more, own) = sums_of_base.CJ(columns, Eigen::all);
       sums.JJ.topRightCorner(own, more) = sums.JJ.bottomLeftCorner(more, own).transpose();
     }
     sums.JD.conservativeResize(all, CD_.cols());
     sums.JD.bottomRows(more) = CD_(columns, Eigen::all);
     sums.Jr.conservativeResize(all);
-    sums.Jr.tail(more) = beside.Cr(columns);
+    sums.Jr.tail(more) = sums_of_base.Cr(columns);
     sums.x.conservativeResize(all);
     sums.x.tail(more).setZero();
     sums.prior.conservativeResize(all);
     sums.prior.tail(more).setConstant(size_);
-    Eigen::MatrixXd read = Eigen::MatrixXd::Zero(all, all);
-    if (own > 0) read.topLeftCorner(own, own) = beside.own.read;
-    sums.read = std::move(read);
-    sums.pull.conservativeResize(all);
-    sums.pull.tail(more).setZero();
+    Eigen::MatrixXd caliper_information = Eigen::MatrixXd::Zero(all, all);
+    if (own > 0) caliper_information.topLeftCorner(own, own) = sums_of_base.own.caliper_information;
+    sums.caliper_information = std::move(caliper_information);
+    sums.caliper_gradient.conservativeResize(all);
+    sums.caliper_gradient.tail(more).setZero();
     return sums;
   }
 
-  const Marginal& marginal_;
+  const EvidenceModel& evidence_model_;
   const Evidence& evidence_;
   Shapes shapes_;
   Eigen::MatrixXd CC_, CD_;
   double size_ = 0;
 };
 
-/// `fit` without one of its effects: the others are where they were. Where a fit of them had to do its part as well,
-/// they have gone from where what has no name would leave them.
-Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
+/// `fit` without one of its effects, the others unchanged. A refit of the others would move them from the values beside
+/// the discrepancy.
+Fit leave_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
   Fit others = fit;
   others.effects = without(fit.effects, effect);
   others.at = without(fit.at, effect);
   const std::vector<Eigen::Index> own = places_of(fit, effect);
-  others.residual = fitter.residual(others.at, fit.rest);
+  others.residual = fitter.residual(others.at, fit.loose_row);
   others.usable = others.residual.allFinite();
   std::vector<Eigen::Index> kept;
   others.parameters.clear();
@@ -405,109 +406,91 @@ Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
   return others;
 }
 
-/// By what the joint does while the bench warms up, or from some moment on. Something without a name that walks beside
-/// it walks as it likes: sealed split, seeds 131078 and 131119: thermal_expansion by 101 and 71 nats, beside a rest
-/// that differed from run to run, where a press fit slipped and a pin wore.
-bool is_told_by_time(const Effect& effect) { return effect.needs.temperature || effect.starts_in_time; }
+/// True for effects that follow temperature or begin at some time: a drift beside them may follow any course (held-out
+/// seeds 131078 and 131119: thermal_expansion by 101 and 71 nats beside a slipping press fit and a worn pin).
+bool depends_on_time(const Effect& effect) { return effect.needs.temperature || effect.starts_in_time; }
 
-/// Whether the group holds what leaves the joint free within a play: it takes what it meets.
-bool may_be_loose(const std::vector<std::string>& group, const EffectSet& catalogue) {
+/// True if the group contains an effect that leaves the joint free within a play, which can absorb any residual.
+bool has_loose_member(const std::vector<std::string>& group, const EffectSet& catalogue) {
   return std::any_of(catalogue.begin(), catalogue.end(), [&](const Effect* effect) {
     return effect->loosens && std::count(group.begin(), group.end(), effect->name) > 0;
   });
 }
 
-/// Nats by which a name must be ahead of what has none, where nothing stays unexplained.
-double least_ahead(const Effect& effect, const std::vector<std::string>& group, const EffectSet& catalogue) {
-  if (is_told_by_time(effect)) return k_thresholds.ahead_by_time;
-  if (may_be_loose(group, catalogue)) return k_thresholds.ahead_with_play;
-  return group.size() == 1 ? k_thresholds.ahead_of_unmodelled : k_thresholds.ahead_in_a_group;
+/// Log odds that an effect requires against the best unmodelled alternative, if no other cause is unexplained.
+double required_log_odds(const Effect& effect, const std::vector<std::string>& group, const EffectSet& catalogue) {
+  const bool has_no_shape = depends_on_time(effect) || has_loose_member(group, catalogue);
+  return has_no_shape ? k_thresholds.ahead_without_shape : k_thresholds.ahead_of_unmodelled;
 }
 
-/// Of names that are ahead of all else: `with`, the score with all of them.
-void look_at_unnamed_effects(const Evidence& evidence, Workers& workers, const Selection& selection, double with,
-                             std::vector<Unmodelled>& rivals) {
+/// Tests effects that exceed all other alternatives against unmodelled effects. `with`: score with all effects.
+void test_unmodelled_effects(const Evidence& evidence, FitterPool& pool, const Selection& selection, double with,
+                             std::vector<UnmodelledAlternative>& rivals) {
   std::vector<bool> asked;
-  for (const Unmodelled& rival : rivals) asked.push_back(rival.behind >= k_thresholds.ahead_of_unmodelled);
-  std::vector<UnnamedInPlace> unnamed =
-      unnamed_in_place(evidence, workers, selection, asked, with - k_thresholds.ahead_of_unmodelled);
+  for (const UnmodelledAlternative& rival : rivals) asked.push_back(rival.log_odds >= k_thresholds.ahead_of_unmodelled);
+  std::vector<UnmodelledSubstitute> substitutes =
+      fit_unmodelled_effects(evidence, pool, selection, asked, with - k_thresholds.ahead_of_unmodelled);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
-    if (!(with - unnamed[i].score < rivals[i].behind)) continue;
-    rivals[i].behind = with - unnamed[i].score;
-    rivals[i].words = std::move(unnamed[i].words);
-    rivals[i].separating_run = std::move(unnamed[i].separating_run);
-  }
-}
-
-/// Says why the effect may be of what stays beside it, however far it is ahead.
-void doubt_beside_rest(FoundEffect& effect) {
-  const Evenness& even = effect.evenness;
-  Unmodelled& unmodelled = effect.unmodelled;
-  if (even.uneven > k_thresholds.most_uneven) {
-    unmodelled.doubt = "it would be of another size " + even.words + ", odds " + odds(even.uneven) +
-                       ", and something stays unexplained beside it";
-    unmodelled.separating_run = even.separating_run;
-  } else if (even.part < k_thresholds.least_part) {
-    unmodelled.doubt = "it does " + rounded(even.part, 2) + " times as much as what stays unexplained beside it";
+    if (!(with - substitutes[i].score < rivals[i].log_odds)) continue;
+    rivals[i].log_odds = with - substitutes[i].score;
+    rivals[i].words = std::move(substitutes[i].words);
+    rivals[i].separating_run = std::move(substitutes[i].separating_run);
   }
 }
 
 }  // namespace
 
-std::vector<Unmodelled> unmodelled_rivals(const Evidence& evidence, Workers& workers, const Selection& selection) {
+std::vector<UnmodelledAlternative> find_unmodelled_alternatives(const Evidence& evidence, FitterPool& pool,
+                                                                const Selection& selection) {
   const Fit& best = selection.best;
-  std::vector<Unmodelled> rivals(best.effects.size());
+  std::vector<UnmodelledAlternative> rivals(best.effects.size());
   if (rivals.empty()) return rivals;
-  const Reader reader(evidence, selection);
-  std::vector<Reading> readings(rivals.size() + 1);
-  workers.each(readings.size(), [&](const Fitter& fitter, std::size_t i) {
+  const ShapeSearch search(evidence, selection);
+  std::vector<ShapeSelection> selections(rivals.size() + 1);
+  pool.each(selections.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit& base = i == 0 ? best : selection.without[i - 1];
     if (!base.usable) return;
-    readings[i] = reader.read(base, best.explained.amplitudes);
+    selections[i] = search.explain(base, best.posterior.amplitudes);
     if (i == 0) return;
-    const Fit others = leaving_out(fitter, best, *best.effects[i - 1]);
+    const Fit others = leave_out(fitter, best, *best.effects[i - 1]);
     if (!others.usable) return;
-    Reading stayed = reader.read(others, best.explained.amplitudes);
-    if (stayed.score > readings[i].score) readings[i] = std::move(stayed);
+    ShapeSelection stayed = search.explain(others, best.posterior.amplitudes);
+    if (stayed.score > selections[i].score) selections[i] = std::move(stayed);
   });
-  const std::vector<UnderOtherLoads> loads = under_other_loads(evidence, workers, selection);
+  const std::vector<LoadScaleFit> loads = fit_load_scales(evidence, pool, selection);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     if (!selection.without[i].usable) {
-      rivals[i].behind = 0;  // Nothing says that it is more than what has no name.
+      rivals[i].log_odds = 0;  // The effect cannot be distinguished from an unmodelled cause.
       continue;
     }
-    const Reading& instead = readings[i + 1];
-    rivals[i].behind = readings.front().score - std::max(instead.score, loads[i].score);
+    const ShapeSelection& instead = selections[i + 1];
+    rivals[i].log_odds = selections.front().score - std::max(instead.score, loads[i].score);
     if (loads[i].score > instead.score) {
       rivals[i].words = "loads of " + rounded(loads[i].times, 2) + " times what was logged";
       rivals[i].separating_run = "hang a known weight where the load acts and compare it with what is logged";
       continue;
     }
-    for (const std::size_t taken : instead.taken) {
-      if (std::count(readings.front().taken.begin(), readings.front().taken.end(), taken)) continue;
-      rivals[i].words = reader.shape(taken).words;
-      rivals[i].separating_run = separating_run(reader.shape(taken).dependence);
+    for (const std::size_t shapes : instead.shapes) {
+      if (std::count(selections.front().shapes.begin(), selections.front().shapes.end(), shapes)) continue;
+      rivals[i].words = search.shape(shapes).words;
+      rivals[i].separating_run = separating_run(search.shape(shapes).dependence);
       break;
     }
   }
-  look_at_unnamed_effects(evidence, workers, selection, readings.front().score, rivals);
+  test_unmodelled_effects(evidence, pool, selection, selections.front().score, rivals);
   return rivals;
 }
 
-void take_unmodelled(const Left& left, const Selection& selection, std::vector<FoundEffect>& effects) {
-  const bool beside_unmodelled =
-      left.anything || std::any_of(effects.begin(), effects.end(),
-                                   [](const FoundEffect& effect) { return effect.unmodelled.behind < 0; });
+void add_unmodelled(bool beside_unmodelled, const Selection& selection, std::vector<FoundEffect>& effects) {
+  const bool is_sure =
+      !beside_unmodelled && std::none_of(effects.begin(), effects.end(),
+                                         [](const FoundEffect& effect) { return effect.unmodelled.log_odds < 0; });
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    const Effect& found = *selection.best.effects[i];
     std::vector<std::string>& group = effects[i].group;
-    const bool is_doubtful =
-        selection.groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && is_told_by_time(found));
-    const double least =
-        beside_unmodelled ? k_thresholds.ahead_beside_rest : least_ahead(found, group, selection.catalogue);
-    if (left.anything && effects[i].unmodelled.behind >= least) doubt_beside_rest(effects[i]);
-    if (is_doubtful || effects[i].idle_did_as_well || effects[i].unmodelled.behind < least ||
-        !effects[i].unmodelled.doubt.empty())
+    const double least = is_sure ? required_log_odds(*selection.best.effects[i], group, selection.catalogue)
+                                 : std::numeric_limits<double>::infinity();
+    if (selection.groups[i].doubt > k_thresholds.most_false_positives || effects[i].idle_did_as_well ||
+        effects[i].unmodelled.log_odds < least)
       group.emplace_back(k_unmodelled);
   }
 }

@@ -1,7 +1,5 @@
 // Files and logs that were written wrongly, of joints that were made and measured rightly: by a rig that shares no code
 // with the fit.
-#include "fusee/calibration/slips.h"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "fusee/calibration/slips.h"
 #include "fusee/mechanism/file.h"
 #include "rig/random.h"
 #include "rig/truths.h"
@@ -52,7 +51,7 @@ const Bench& linear() {
   return bench;
 }
 
-/// … and one that another rig measured.
+/// Data of another rig.
 Bench rig_data(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/rig" / name;
   std::vector<std::filesystem::path> runs;
@@ -63,9 +62,9 @@ Bench rig_data(const std::string& name) {
   return {read_mechanism(folder / "spec.toml").mechanism, read_measurement(runs)};
 }
 
-std::vector<std::string> words(const std::vector<UndoneSlip>& slips) {
+std::vector<std::string> words(const std::vector<LikelyInputError>& slips) {
   std::vector<std::string> all;
-  for (const UndoneSlip& slip : slips) all.push_back(slip_words(slip));
+  for (const LikelyInputError& slip : slips) all.push_back(input_error_words(slip));
   return all;
 }
 
@@ -81,23 +80,22 @@ double left_by(const DeclaredMechanism& file, const Measurement& data) {
   return calibrated(file, data, false).before.rms;
 }
 
-/// What calibrate finds of a file, and then of its slips: where one is plain no effect is looked for, as the program
-/// does not.
-std::vector<UndoneSlip> slips_of(const DeclaredMechanism& file, const Measurement& data) {
-  return slips_that_explain(file, data, calibrated(file, data, !is_plainly_a_slip(file, data)));
+/// Input errors after calibrate(), which searches no effects if an error is obvious, as the program does.
+std::vector<LikelyInputError> slips_of(const DeclaredMechanism& file, const Measurement& data) {
+  return find_input_errors(file, data, calibrated(file, data, !is_input_error_obvious(file, data)));
 }
 
 std::vector<std::string> said(const DeclaredMechanism& file, const Measurement& data) {
   return words(slips_of(file, data));
 }
 
-/// The same without the minute of search: found is that nothing explains.
+/// Input errors of a calibration that explains nothing, without its minute of search.
 std::vector<std::string> said_where_unexplained(const DeclaredMechanism& file, const Measurement& data) {
   Calibration found;
   found.verdict = CalibrationVerdict::unexplained;
   found.before = {radians(5.0), radians(10.0), radians(5.0)};
   found.after = {radians(0.5), radians(1.0), radians(0.5)};
-  return words(slips_that_explain(file, data, found));
+  return words(find_input_errors(file, data, found));
 }
 
 // ---- one slip after another -----------------------------------------------------------------------------------------
@@ -156,13 +154,13 @@ Measurement times(Measurement data, double alpha, double theta) {
 
 TEST(UndoneSlips, of_the_log_name_the_angle) {
   const Bench& bench = compensating();
-  const auto said_of = [&](double alpha, double theta) {
+  const auto move_tangent = [&](double alpha, double theta) {
     return said_where_unexplained(bench.right, times(bench.data, alpha, theta));
   };
-  EXPECT_THAT(said_of(1, -1), ElementsAre(HasSubstr("the logged theta times -1")));
-  EXPECT_THAT(said_of(-1, 1), ElementsAre(HasSubstr("the logged alpha times -1")));
-  EXPECT_THAT(said_of(-1, -1), ElementsAre(HasSubstr("the logged alpha and theta times -1")));
-  EXPECT_THAT(said_of(1, radians(1)), ElementsAre(HasSubstr("the logged theta times 57.296")));
+  EXPECT_THAT(move_tangent(1, -1), ElementsAre(HasSubstr("the logged theta times -1")));
+  EXPECT_THAT(move_tangent(-1, 1), ElementsAre(HasSubstr("the logged alpha times -1")));
+  EXPECT_THAT(move_tangent(-1, -1), ElementsAre(HasSubstr("the logged alpha and theta times -1")));
+  EXPECT_THAT(move_tangent(1, radians(1)), ElementsAre(HasSubstr("the logged theta times 57.296")));
 }
 
 TEST(UndoneSlips, know_the_pulley_that_was_made_from_the_wrong_file) {
@@ -185,7 +183,7 @@ TEST(UndoneSlips, are_said_where_no_effect_explains) {
   bench.right.guides.OE *= -1;
   const Calibration found = calibrated(bench.right, bench.data);
   ASSERT_EQ(found.verdict, CalibrationVerdict::unexplained);
-  const std::vector<UndoneSlip> slips = slips_that_explain(bench.right, bench.data, found);
+  const std::vector<LikelyInputError> slips = find_input_errors(bench.right, bench.data, found);
   ASSERT_EQ(slips.size(), 1u);
   EXPECT_EQ(slips[0].key, "guides.OE_mm");
   EXPECT_THAT(slips[0].declared, ElementsAre(14.0));
@@ -193,21 +191,21 @@ TEST(UndoneSlips, are_said_where_no_effect_explains) {
   const double left = left_by(rig_data("a_declared_right").right, bench.data);
   EXPECT_NEAR(slips[0].rms, left, 0.1 * left);
   EXPECT_LT(slips[0].rms, 1.1 * found.noise.rms);
-  EXPECT_EQ(slip_words(slips[0]), "guides.OE_mm = -14 in place of 14 would explain the data to " +
-                                      rounded(degrees(slips[0].rms), 2) + "°: is the sign right?");
+  EXPECT_EQ(input_error_words(slips[0]), "guides.OE_mm = -14 in place of 14 would explain the data to " +
+                                             rounded(degrees(slips[0].rms), 2) + "°: is the sign right?");
 }
 
 TEST(UndoneSlips, are_seen_before_any_search_where_they_are_plain) {
-  // Alone, with a fault beside it, with one that has no name.
+  // The error alone, with a fault beside it, with an unmodelled cause.
   for (const char* name : {"a_declared_right", "b_stretch", "f_not_in_any_catalogue"}) {
     Bench bench = rig_data(name);
-    EXPECT_FALSE(is_plainly_a_slip(bench.right, bench.data)) << name;
+    EXPECT_FALSE(is_input_error_obvious(bench.right, bench.data)) << name;
     bench.right.guides.OE *= -1;
-    EXPECT_TRUE(is_plainly_a_slip(bench.right, bench.data)) << name;
+    EXPECT_TRUE(is_input_error_obvious(bench.right, bench.data)) << name;
     const Calibration found = calibrated(bench.right, bench.data, false);
     EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained);
     EXPECT_THAT(found.effects, IsEmpty());
-    EXPECT_THAT(words(slips_that_explain(bench.right, bench.data, found)),
+    EXPECT_THAT(words(find_input_errors(bench.right, bench.data, found)),
                 ElementsAre(HasSubstr("guides.OE_mm = -14 in place of 14")))
         << name;
   }
@@ -230,7 +228,7 @@ TEST(UndoneSlips, leave_room_for_a_cause_without_a_name) {
   Bench bench = rig_data("f_not_in_any_catalogue");
   const double left = left_by(bench.right, bench.data);
   bench.right.guides.OE *= -1;
-  const std::vector<UndoneSlip> slips = slips_of(bench.right, bench.data);
+  const std::vector<LikelyInputError> slips = slips_of(bench.right, bench.data);
   ASSERT_EQ(slips.size(), 1u);
   EXPECT_EQ(slips[0].key, "guides.OE_mm");
   EXPECT_THAT(slips[0].beside, IsEmpty());
@@ -245,9 +243,9 @@ TEST(UndoneSlips, stand_before_effects_that_are_larger_than_any) {
   found.verdict = CalibrationVerdict::explained;
   found.noise.rms = found.after.held_out_rms = radians(0.02);
   found.before.held_out_rms = radians(1.0);
-  EXPECT_THAT(words(slips_that_explain(file, bench.data, found)), ElementsAre(HasSubstr("are the two exchanged?")));
+  EXPECT_THAT(words(find_input_errors(file, bench.data, found)), ElementsAre(HasSubstr("are the two exchanged?")));
   found.before.held_out_rms = radians(0.2);  // as large as any effect
-  EXPECT_THAT(slips_that_explain(file, bench.data, found), IsEmpty());
+  EXPECT_THAT(find_input_errors(file, bench.data, found), IsEmpty());
 }
 
 // ---- where they must not be said ------------------------------------------------------------------------------------
@@ -267,7 +265,7 @@ TEST(UndoneSlips, are_not_said_where_a_cause_has_no_name) {
     const Measurement data = logged(made.logs);
     const Calibration found = calibrated(made.joint.declared, data);
     EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained) << fault;
-    EXPECT_THAT(slips_that_explain(made.joint.declared, data, found), IsEmpty()) << fault;
+    EXPECT_THAT(find_input_errors(made.joint.declared, data, found), IsEmpty()) << fault;
   }
 }
 

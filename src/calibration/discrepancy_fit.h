@@ -1,0 +1,28 @@
+/// \file
+/// Description of the discrepancy beside a set of effects: its components, their sizes and possible places.
+#pragma once
+
+#include <vector>
+
+#include "calibration/fit.h"
+#include "fusee/calibration/calibration.h"
+
+namespace fusee {
+
+struct DiscrepancyFit {
+  double evidence = 0;  ///< log Bayes factor of the discrepancy to noise and the model's own error alone
+  double rms = 0;       ///< rms of the discrepancy, rad
+  std::vector<DiscrepancyComponent> parts;  ///< components, largest first
+  Posterior posterior;                      ///< posterior with the described factors, each with its amplitude
+};
+
+/// True for factors of motor angle and direction alone.
+bool is_of_place(Factor factor);
+
+/// Describes the discrepancy beside `fit`. Components that the data hardly require are omitted.
+DiscrepancyFit describe_discrepancy(const Evidence& evidence, const Fit& fit);
+
+/// True if the residual exceeds noise and the model's own error.
+bool is_unexplained(const DiscrepancyFit& unmodelled, double floor);
+
+}  // namespace fusee

@@ -1,0 +1,20 @@
+/// \file
+/// Empirical curve of the discrepancy that depends on place and direction alone, and its validation on held-out data.
+#pragma once
+
+#include "calibration/discrepancy_fit.h"
+
+namespace fusee {
+
+/// Amplitudes of the discrepancy beside `fit`; the error of the model itself grows with the deflection of the fitted
+/// joint.
+Amplitudes amplitudes_beside(const Evidence& evidence, const Fit& fit, const DiscrepancyFit& unmodelled);
+
+EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const DiscrepancyFit& unmodelled);
+
+/// Validates a curve on every logged row, of which the fit used a few, and on runs kept for validation, whose figures
+/// are then the held-out ones. `residuals`: measured − model, rad, run by run.
+void validate_curve(const Measurement& measurement, const std::vector<std::vector<double>>& residuals,
+                    const std::vector<std::string>& kept, EmpiricalCurve& curve);
+
+}  // namespace fusee
