@@ -177,9 +177,7 @@ class Selector {
   void drop_what_predicts_nothing();
   void write_down();
 
-  void report(const std::string& what, double share) const {
-    if (options_.progress) options_.progress(what, share);
-  }
+  void report(const std::string& what, double share) const { options_.context.begin_step(what, share); }
   std::size_t place_of(const Effect& effect) const {
     return static_cast<std::size_t>(std::find(selection_.catalogue.begin(), selection_.catalogue.end(), &effect) -
                                     selection_.catalogue.begin());

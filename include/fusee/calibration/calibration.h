@@ -2,13 +2,13 @@
 /// From a measured residual to named effects with their evidence.
 #pragma once
 
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "fusee/base/run_context.h"
 #include "fusee/joint/simulate.h"
 #include "fusee/measurement/measurement.h"
 #include "fusee/mechanism/effect.h"
@@ -29,7 +29,7 @@ struct CalibrationOptions {
   /// beside a discrepancy that both states share. Fitted parameters are those of the later state, Calibration::identified
   /// is what was added, and no further runs are asked for.
   std::optional<EarlierState> earlier = {};
-  std::function<void(const std::string& what, double share)> progress;
+  RunContext context = {};
 };
 
 struct FittedParameter {

@@ -2,7 +2,6 @@
 /// Two measured states of one joint: what changed between them, by the catalogue of effects.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,7 +45,7 @@ struct Comparison {
 };
 
 struct ComparisonOptions {
-  std::function<void(const std::string& what, double share)> progress;
+  RunContext context = {};
 };
 
 /// Runs of two states, read for the declared joint.

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "fusee/base/run_context.h"
 #include "fusee/export/kit.h"
 #include "fusee/profile/advice.h"
 
@@ -18,10 +18,6 @@ struct KitOptions {
   std::filesystem::path folder;  ///< folder of the output files
   bool force = false;
   bool dry_run = false;  ///< everything except publishing
-  /// Called once, before the first file is written.
-  std::function<void()> before_writing;
-  /// Called before each step with its name. An exception from it stops the work and leaves no files.
-  std::function<void(std::string_view step)> before_step;
 };
 
 enum class KitEnding { done, no_pulley, no_kit, check_failed };
@@ -37,7 +33,7 @@ struct KitResult {
 /// Designs the test rig. Every mesh and drawing is read back and checked. An infeasible pulley, colliding parts and
 /// failed checks are values; throws InputError and OutputError. Failed checks are published only if they replace no
 /// earlier run, or with `force`.
-KitResult kit(const MechanismFile& file, const KitOptions& options);
+KitResult kit(const MechanismFile& file, const KitOptions& options, const RunContext& context = {});
 
 /// Smallest distances between the assembled parts over the range, measured on their meshes, as checks.
 std::vector<Check> kit_fit_checks(const KitPlan& plan);
