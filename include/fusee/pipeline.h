@@ -46,12 +46,12 @@ namespace fusee {
 
 /// Largest deviations of the pulley as built that pass the checks.
 struct AsBuiltLimits {
-  double theta_error = 0.05;  ///< deg
-  double slack = 0.05;        ///< mm
+  double theta_error_deg = 0.05;
+  double slack = 0.05;  ///< mm
 };
 
 struct BuildOptions {
-  double tolerance = 0.01;  ///< sagitta of curves (chord error), mm
+  double chord_error_mm = 0.01;  ///< largest distance of a facet from its curve (sagitta)
   AsBuiltLimits limits;
   DxfVersion dxf = DxfVersion::ac1015;
   /// Writes pulley.step, too. build() throws InputError if the part is too large for it, or if step_missing().

@@ -174,7 +174,7 @@ std::filesystem::path default_folder(const std::filesystem::path& spec) {
 
 BuildOptions build_options_from(const Arguments& arguments) {
   BuildOptions options;
-  options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0005, 1.0, "mm");
+  options.chord_error_mm = arguments.number("--tolerance-mm", options.chord_error_mm, 0.0005, 1.0, "mm");
   options.limits = limits_from(arguments);
   options.dxf = dxf_version(arguments);
   options.step = arguments.has("--step");

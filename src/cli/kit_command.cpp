@@ -12,7 +12,7 @@ namespace {
 
 KitOptions kit_options_from(const Arguments& arguments) {
   KitOptions options;
-  options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0005, 1.0, "mm");
+  options.chord_error_mm = arguments.number("--tolerance-mm", options.chord_error_mm, 0.0005, 1.0, "mm");
   const std::string version = arguments.text("--dxf").value_or("ac1015");
   if (version != "ac1015" && version != "r12")
     throw UsageError("--dxf must be ac1015 or r12; '" + version + "' is not");
@@ -28,7 +28,7 @@ KitOptions kit_options_from(const Arguments& arguments) {
 /// Explains why the pulley is infeasible, as build does.
 void explain_no_pulley(const MechanismFile& file, const KitOptions& options, const RunContext& context, Reply& reply) {
   BuildOptions build_options;
-  build_options.tolerance = options.tolerance;
+  build_options.chord_error_mm = options.chord_error_mm;
   build_options.dry_run = true;
   build_options.folder = options.folder;
   build_options.force = true;

@@ -70,7 +70,7 @@ DracoFile write_helical_parts(BuildContext& context) {
   const TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
   context.step("writing meshes and drawings");
-  auto draco = run_async([&] { return draco_file(mesh, context.options.tolerance); });
+  auto draco = run_async([&] { return draco_file(mesh, context.options.chord_error_mm); });
   auto profile = run_async([&] { return profile_dxf(product, context.options.dxf); });
   auto threemf = run_async([&] { return threemf_bytes(mesh, name); });
   auto obj = run_async([&] { return obj_text(mesh, name); });
@@ -98,7 +98,7 @@ std::vector<Check> print_checks(const Print& print, const TriangleMesh& mesh) {
 std::vector<Check> draco_checks(const BuildContext& context, const TriangleMesh& mesh, const DracoFile& made) {
   const bool is_unchanged = read_file(context.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
   const Part decoded = is_unchanged ? Part(made.decoded) : context.read_back("pulley.drc");
-  std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), context.options.tolerance);
+  std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), context.options.chord_error_mm);
   for (const Check& check : is_unchanged ? made.checks : check_part(decoded)) checks.push_back(check);
   return checks;
 }
@@ -106,7 +106,7 @@ std::vector<Check> draco_checks(const BuildContext& context, const TriangleMesh&
 /// Checks that the STEP file is a valid solid, and winds tendons on its floors.
 std::vector<Check> step_checks(const BuildContext& context) {
   const Product& product = context.result.product;
-  StepInspection look = inspect_step(context.folder.staged_path(k_step), product, context.options.tolerance);
+  StepInspection look = inspect_step(context.folder.staged_path(k_step), product, context.options.chord_error_mm);
   std::vector<Check> checks = std::move(look.checks);
   if (!all_ok(checks)) return checks;
   const RewindResult wound = product.helix
@@ -142,7 +142,7 @@ void begin_mesh_checks(PendingChecks& pending, const BuildContext& context) {
   pending.mesh = run_async([&context] { return context.mesh_of("pulley.stl"); }).share();
   pending.pulley_checks = run_async([&context, &product, mesh = pending.mesh] {
     return check_pulley(mesh.get(), product.joint.mechanism, product.synthesis, product.pulley,
-                        context.options.tolerance);
+                        context.options.chord_error_mm);
   });
   pending.as_built = run_async(
       [&product, mesh = pending.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh.get()); });
@@ -157,7 +157,7 @@ PendingChecks write_parts(BuildContext& context) {
   const TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
   context.step("writing meshes and drawings");
-  auto draco = run_async([&] { return draco_file(mesh, context.options.tolerance); });
+  auto draco = run_async([&] { return draco_file(mesh, context.options.chord_error_mm); });
   auto plates = run_async([&] { return plates_dxf(product, context.options.dxf); });
   auto profile = run_async([&] { return profile_dxf(product, context.options.dxf); });
   auto threemf = run_async([&] { return threemf_bytes(plate_of(product.pulley), name); });
@@ -305,7 +305,7 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options, const
   Product product;
   product.file = file;
   product.joint = as_it_is(file.mechanism);
-  if (!design_any(product, options.tolerance, options.limits, context, TieOffSearch::brief)) return false;
+  if (!design_any(product, options.chord_error_mm, options.limits, context, TieOffSearch::brief)) return false;
   if (product.helix) return passes_checks_of_several_turns(product, options);
   const Mechanism& mechanism = product.joint.mechanism;
   const TriangleMesh& mesh = product.pulley.mesh;
@@ -320,7 +320,7 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options, const
                        [&](const PrintedPart& part) { return all_ok(print_checks(mechanism.print, part.mesh)); });
   });
   const bool is_right =
-      all_ok(check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.tolerance)) &&
+      all_ok(check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.chord_error_mm)) &&
       all_ok(as_built_checks(mechanism, rewind_made(product.joint, product.pulley.layout, mesh), options.limits));
   const bool prints = of_printing.get();
   return of_plates.get() && prints && is_right;
@@ -358,7 +358,7 @@ class FeasibilityCheck {
 
   /// Number of full builds for which the largest variant leaves time.
   int max_builds() const {
-    const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.tolerance / largest_));
+    const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.chord_error_mm / largest_));
     const double points = std::max(k_two_pi / turn, own_points_);
     return std::max(1, static_cast<int>(k_points_for_advice / points));
   }
@@ -408,7 +408,7 @@ Advice advice_for(const Product& product, const BuildOptions& options, const Run
   const MechanismFile& file = product.file;
   if (product.helix) {
     const auto made = [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options, context); };
-    return advice_for_several_turns(product, {options.tolerance, made, context});
+    return advice_for_several_turns(product, {options.chord_error_mm, made, context});
   }
   const FeasibilityCheck check(product, options, context);
   std::atomic<int> begun = 0;
@@ -449,7 +449,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options, const 
   if (const auto why = options.step ? step_missing() : std::nullopt)
     throw InputError("", "no pulley.step: this fusee was built without STEP: " + *why, "build without --step");
   target.claim(output_names());  // before the work: a refusal should not cost a wait
-  const bool is_possible = design_any(result.product, options.tolerance, options.limits, context);
+  const bool is_possible = design_any(result.product, options.chord_error_mm, options.limits, context);
   for (Diagnostic& warning : warned.get()) result.product.file.warnings.push_back(std::move(warning));
   if (!is_possible) {
     result.status = BuildStatus::infeasible;

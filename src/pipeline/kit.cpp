@@ -123,7 +123,7 @@ Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, cons
             return failed_of(plan_kit_of_turns(changed, product.pulley.pulley.layout, *plan.heights).conditions);
           },
       .made =
-          [&](const Mechanism& changed) { return has_kit(with_declared(file, changed), options.tolerance, context); }};
+          [&](const Mechanism& changed) { return has_kit(with_declared(file, changed), options.chord_error_mm, context); }};
   Advice advice = find_advice(file.mechanism, judge, {"body.flange_thickness_mm"});
   // Steps are relative, so none leaves a pin radius of 0.
   if (Mechanism thicker = file.mechanism; thicker.guides.radius == 0) {
@@ -168,7 +168,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options, const RunCon
   OutputFolder target(options.folder, options.force, context);
   target.claim(
       {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work, so that a refusal costs no time
-  if (!design_any(product.pulley, options.tolerance, {}, context)) {
+  if (!design_any(product.pulley, options.chord_error_mm, {}, context)) {
     result.ending = KitEnding::no_pulley;
     return result;
   }

@@ -224,7 +224,7 @@ py::dict build_pulley(const CarriedMechanism& carried, const Target& target, dou
     demand_tendons(carried.file, "build a pulley for");
     BuildOptions options;
     aim(options, target);
-    options.tolerance = tolerance;
+    options.chord_error_mm = tolerance;
     options.limits = limits_of(max_theta_error, max_slack);
     options.dxf = dxf_version(dxf);
     options.step = step;
@@ -363,7 +363,7 @@ py::dict kit_parts(const CarriedMechanism& carried, const Target& target, double
     demand_tendons(carried.file, "make a kit for");
     KitOptions options;
     aim(options, target);
-    options.tolerance = tolerance;
+    options.chord_error_mm = tolerance;
     options.dxf = dxf_version(dxf);
     return kit(carried.file, options, context);
   }));

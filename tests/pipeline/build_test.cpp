@@ -224,7 +224,7 @@ TEST_F(Build, InfeasibleDesignIsValue) {
 }
 
 TEST_F(Build, FailedBuildKeepsEarlierRun) {
-  options_.limits.theta_error = 0;
+  options_.limits.theta_error_deg = 0;
   const BuildResult first = build(file_, options_);
   EXPECT_EQ(first.status, BuildStatus::check_failed);
   EXPECT_TRUE(first.published);

@@ -168,7 +168,7 @@ void expect_kit_or_reasons(const Product& product) {
 template <typename Read>
 End end_of(Read read, double tolerance) {
   BuildOptions options;
-  options.tolerance = tolerance;
+  options.chord_error_mm = tolerance;
   options.dry_run = true;
   options.advice = false;  // tested elsewhere, and takes longer than the rest
   try {

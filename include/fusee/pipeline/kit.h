@@ -13,7 +13,7 @@
 namespace fusee {
 
 struct KitOptions {
-  double tolerance = 0.01;  ///< sagitta of the pulley's curves (chord error), mm
+  double chord_error_mm = 0.01;  ///< largest distance of a facet of the pulley from its curve (sagitta)
   DxfVersion dxf = DxfVersion::ac1015;
   std::filesystem::path folder;  ///< folder of the output files
   bool force = false;
