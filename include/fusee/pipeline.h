@@ -11,6 +11,9 @@
 ///     ModelResult      model(file, options)              the joint for simulators and firmware (pipeline/model.h)
 ///     SimulateResult   simulate(file, log, options)      logged motor angles and loads: joint angle, tensions, torque
 ///
+/// Every verb takes a RunContext last: progress, a request to stop, and access to files (base/run_context.h). It throws
+/// Stopped after a request to stop, except optimize(), whose result is then the best design so far.
+///
 /// The steps of build() are public, too:
 ///
 ///     MechanismFile    file = read_mechanism("forearm.toml")            the declared joint (mechanism/file.h)
@@ -20,16 +23,15 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "fusee/analysis/analysis.h"
 #include "fusee/base/check.h"
 #include "fusee/base/files.h"
+#include "fusee/base/run_context.h"
 #include "fusee/export/drawings.h"
 #include "fusee/export/product.h"
 #include "fusee/mechanism/file.h"
@@ -44,12 +46,12 @@ namespace fusee {
 
 /// Largest deviations of the pulley as built that pass the checks.
 struct AsBuiltLimits {
-  double theta_error = 0.05;  ///< deg
-  double slack = 0.05;        ///< mm
+  double theta_error_deg = 0.05;
+  double slack = 0.05;  ///< mm
 };
 
 struct BuildOptions {
-  double tolerance = 0.01;  ///< sagitta of curves (chord error), mm
+  double chord_error_mm = 0.01;  ///< largest distance of a facet from its curve (sagitta)
   AsBuiltLimits limits;
   DxfVersion dxf = DxfVersion::ac1015;
   /// Writes pulley.step, too. build() throws InputError if the part is too large for it, or if step_missing().
@@ -58,15 +60,8 @@ struct BuildOptions {
   bool force = false;
   /// Does everything except publishing. Files that are read back are staged in the system's temporary folder.
   bool dry_run = false;
-  /// Called before each step with its name. An exception from it stops the build and leaves no files.
-  std::function<void(std::string_view step)> before_step;
-  /// Called some hundred times a second while advice is searched for. An exception from it stops the search.
-  std::function<void()> between_tries;
-  /// Called once, before the first file is written.
-  std::function<void()> before_writing;
-  /// Called some fifty times a second while other threads make and check files. A program that must exit at once calls
-  /// `clean_up`, which removes all staged files.
-  std::function<void(const std::function<void()>& clean_up)> while_waiting;
+  /// Searches for changes that make an infeasible design feasible.
+  bool advice = true;
 };
 
 enum class BuildStatus { done, infeasible, check_failed };
@@ -82,18 +77,18 @@ struct BuildResult {
 /// Builds the checked pulley in every format. Every mesh and drawing is read back from the disk and checked. Infeasible
 /// designs and failed checks are values; throws InputError and OutputError. A build with failed checks is published
 /// only if it replaces no earlier run, or with `force`.
-BuildResult build(const MechanismFile& file, const BuildOptions& options);
+BuildResult build(const MechanismFile& file, const BuildOptions& options, const RunContext& context = {});
 
 /// The files of build(), in the order in which they are written.
 const std::vector<std::string>& output_names();
 
 /// Forces over the range of the identified joint. Throws InputError for a joint with [transmission], which has no
 /// tendons.
-AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options = {});
+AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options = {}, const RunContext& context = {});
 
 /// Runs the search of [optimize] on the identified joint, in terms of the declared numbers. A box without a feasible
 /// design and a stopped search are values; throws InputError and OutputError.
-OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options = {});
+OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options = {}, const RunContext& context = {});
 
 // ---- Parts from files -----------------------------------------------------------------------------------------------
 
@@ -101,9 +96,7 @@ OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& option
 using Part = std::variant<TriangleMesh, Drawing>;
 /// Reads a mesh (stl obj 3mf off ply drc) or a drawing (dxf), distinguished by content, then by file name. Throws
 /// InputError.
-Part read_part(const std::filesystem::path& path);
-/// Reads a file that this run wrote, so that faults in it are bugs and not bad input.
-Part read_made_part(const std::filesystem::path& path);
+Part read_part(const std::filesystem::path& path, FileAccess& files = disk());
 /// check_mesh() or check_drawing().
 std::vector<Check> check_part(const Part& part);
 

@@ -232,7 +232,7 @@ std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const St
   return breaks;
 }
 
-AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options) {
+AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options, const RunContext& context) {
   AnalysisResult result;
   SynthesisOptions synthesis_options;
   synthesis_options.stroke_steps = options.steps;
@@ -252,7 +252,7 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
   result.strength = tendon_strength(mechanism.tendon);
   result.breaks_at = breaking_place(result);
   result.sources = error_sources(mechanism);
-  result.tolerances = tolerance_effects(mechanism, options);
+  result.tolerances = tolerance_effects(mechanism, options, context);
   result.synthesis = std::move(synthesis);
   return result;
 }

@@ -162,7 +162,8 @@ std::vector<ErrorSource> error_sources(const Mechanism& mechanism) {
           thickness_ignored(mechanism)};
 }
 
-std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options) {
+std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options,
+                                               const RunContext& context) {
   const Mechanism real = exact(mechanism);
   const MadePulleys made(real);
   const std::vector<double> alphas = places_of(made.declared());
@@ -170,7 +171,7 @@ std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const
   const double sigma = 0.5 * options.tolerance;
   NormalNumbers numbers(options.seed);
   const auto next = [&] {
-    if (options.between_samples) options.between_samples();
+    context.throw_if_stopped();
     return sigma * numbers.next();
   };
   Spread all{std::vector<double>(alphas.size(), 0.0), std::vector<double>(alphas.size(), 0.0)};

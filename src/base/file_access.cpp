@@ -15,9 +15,6 @@
 namespace fusee {
 namespace {
 
-/// The current FileAccess. One thread reads and writes files, so no lock is needed.
-FileAccess* current_access = nullptr;
-
 std::string error_text(int code) { return std::error_code(code, std::generic_category()).message(); }
 
 /// The size of a regular file; 0 for a pipe.
@@ -35,9 +32,12 @@ std::size_t demand_readable(const ReadRequest& request, const Descriptor& file) 
 
 }  // namespace
 
-FileAccess::FileAccess() : outer_(current_access) { current_access = this; }
-FileAccess::~FileAccess() { current_access = outer_; }
-FileAccess* FileAccess::current() { return current_access; }
+void FileAccess::read(const ReadRequest& request, const TakeBlock& take) { read_from_disk(request, take); }
+
+FileAccess& disk() {
+  static FileAccess files;
+  return files;
+}
 
 void read_from_disk(const ReadRequest& request, const TakeBlock& take) {
   const std::string name = request.path.string();

@@ -24,22 +24,10 @@ void reserve_for(const fs::path& path, std::size_t limit, std::string& bytes) {
 
 }  // namespace
 
-void read_blocks(const ReadRequest& request, const TakeBlock& take) {
-  if (FileAccess* access = FileAccess::current()) return access->read(request, take);
-  read_from_disk(request, take);
-}
-
-std::string read_file(const fs::path& path, std::size_t limit) {
+std::string read_file(const fs::path& path, std::size_t limit, FileAccess& files) {
   std::string bytes;
   reserve_for(path, limit, bytes);
-  read_blocks({path, limit}, [&bytes](std::string_view block) { bytes += block; });
-  return bytes;
-}
-
-std::string read_output(const fs::path& path, std::size_t limit) {
-  std::string bytes;
-  reserve_for(path, limit, bytes);
-  read_from_disk({path, limit}, [&bytes](std::string_view block) { bytes += block; });
+  files.read({path, limit}, [&bytes](std::string_view block) { bytes += block; });
   return bytes;
 }
 

@@ -95,7 +95,7 @@ int recover(const fs::path& leftover, const fs::path& place) {
 void add_written_files(const fs::path& folder, WrittenFiles& written) {
   constexpr std::size_t k_largest_manifest = 16 << 20;
   try {
-    const std::string text = read_output(folder / k_manifest, k_largest_manifest);
+    const std::string text = read_file(folder / k_manifest, k_largest_manifest);
     const Json manifest = parse_foreign_json(text);
     if (manifest.at("tool").get<std::string>().rfind("fusee", 0) != 0 || !manifest.at("outputs").is_array()) return;
     written.emplace(k_manifest, sha256(text));
@@ -117,7 +117,7 @@ void add_files_aside(const fs::path& place, WrittenFiles& written) {
 bool is_unchanged(const WrittenFiles& written, const fs::path& folder, const std::string& name) {
   if (!fs::is_regular_file(fs::symlink_status(folder / name))) return false;
   try {
-    return written.count({name, sha256(read_output(folder / name, k_largest_output))}) != 0;
+    return written.count({name, sha256(read_file(folder / name, k_largest_output))}) != 0;
   } catch (const InputError&) {
     return false;
   }

@@ -25,10 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void report_obstacle(const fs::path& path) {
-  if (FileAccess* access = FileAccess::current()) access->in_the_way(path);
-}
-
 /// Throws OutputError when no file can be made in the deepest existing part of `folder`.
 void demand_writable(fs::path folder) {
   while (!entry_exists(folder) && folder.has_parent_path() && folder != folder.parent_path())
@@ -38,14 +34,6 @@ void demand_writable(fs::path folder) {
   if (!fs::is_directory(ground, error))
     throw OutputError(ground.string() + " is not a folder", "choose another folder with -o");
   if (::access(ground.c_str(), W_OK | X_OK) != 0) fail_output("cannot write in", ground, errno);
-}
-
-/// Throws OutputError when something other than a folder has the name of an output subfolder. Links are not followed.
-void demand_subfolder(const fs::path& folder) {
-  if (!entry_exists(folder) || fs::is_directory(fs::symlink_status(folder))) return;
-  report_obstacle(folder);
-  throw OutputError(folder.string() + " is in the way and is not a folder",
-                    "move it away, or choose another folder with -o");
 }
 
 /// True when the folder has extended attributes that a new folder would lack. Security labels are set anew by the
@@ -102,13 +90,41 @@ bool is_output_name(const std::string& name) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path folder, bool force)
-    : folder_(folder.empty() ? "." : std::move(folder)), place_(place_of(folder_)), force_(force) {
-  if (FileAccess* access = FileAccess::current()) access->will_write(folder_);
+OutputFolder::OutputFolder(fs::path folder, bool force, const RunContext& context)
+    : folder_(folder.empty() ? "." : std::move(folder)),
+      place_(place_of(folder_)),
+      force_(force),
+      context_(context.without_progress()),
+      on_stop_(context_.stop, [this] { discard(); }) {
+  context_.files->will_write(folder_);
   find_own_files();
 }
 
+// Staged beside a name that is never used: a folder of that name could belong to another user.
+OutputFolder::OutputFolder(const RunContext& context)
+    : folder_(temporary_folder() / "fusee-dry-run"),
+      place_(folder_),
+      force_(true),
+      context_(context.without_progress()),
+      on_stop_(context_.stop, [this] { discard(); }) {
+  if (::access(folder_.parent_path().c_str(), W_OK | X_OK) != 0)
+    throw OutputError("the temporary folder cannot be written: " + folder_.string(),
+                      "set TMPDIR to a folder that you may write to");
+  const std::lock_guard lock(guard_);
+  staging_ = std::make_unique<Staging>(place_, StagingSite::beside);
+}
+
+OutputFolder OutputFolder::temporary(const RunContext& context) { return OutputFolder(context); }
+
 OutputFolder::~OutputFolder() = default;
+
+/// Throws OutputError when something other than a folder has the name of an output subfolder. Links are not followed.
+void OutputFolder::demand_subfolder(const fs::path& folder) const {
+  if (!entry_exists(folder) || fs::is_directory(fs::symlink_status(folder))) return;
+  report_obstacle(folder);
+  throw OutputError(folder.string() + " is in the way and is not a folder",
+                    "move it away, or choose another folder with -o");
+}
 
 void OutputFolder::find_own_files() {
   add_written_files(place_, own_files_);
@@ -150,11 +166,14 @@ void OutputFolder::claim(const std::vector<std::string>& names) {
 }
 
 void OutputFolder::discard() const {
+  const std::lock_guard lock(guard_);
   if (staging_) staging_->remove();
 }
 
 void OutputFolder::stage(const OutputFile& file) {
   demand(is_output_name(file.name), "output name " + file.name);
+  const std::lock_guard lock(guard_);
+  context_.throw_if_stopped();
   if (!staging_) open_staging();
   demand(!contains(staged_, file.name), "staged twice: " + file.name);
   staged_.push_back(file.name);
@@ -262,7 +281,9 @@ void OutputFolder::remove_empty_subfolders() const {
 }
 
 void OutputFolder::publish(std::vector<Diagnostic>& notes) {
+  const std::lock_guard lock(guard_);
   if (!staging_) return;
+  context_.throw_if_stopped();
   for (Diagnostic& note : recover_leftovers(place_)) notes.push_back(std::move(note));
   std::stable_partition(staged_.begin(), staged_.end(), [](const std::string& name) { return name != k_manifest; });
   claim(staged_);
@@ -272,10 +293,7 @@ void OutputFolder::publish(std::vector<Diagnostic>& notes) {
     if (entry_exists(staged_path(subfolder))) made.push_back(staged_path(subfolder));
   }
   flush_all(made);
-  if (FileAccess* access = FileAccess::current()) {
-    for (const std::string& name : staged_)
-      access->wrote(folder_ / name, read_output(staged_path(name), k_largest_output));
-  }
+  for (const std::string& name : staged_) context_.files->will_publish(folder_ / name, staged_path(name));
   if (publish_as_folder(notes)) {
     flush_all({place_.parent_path()});
   } else {
@@ -285,14 +303,13 @@ void OutputFolder::publish(std::vector<Diagnostic>& notes) {
   staged_.clear();
 }
 
-void write_file(const fs::path& path, std::string_view bytes, bool force) {
-  FileAccess* access = FileAccess::current();
-  if (access != nullptr) access->will_write(path);
+void write_file(const fs::path& path, std::string_view bytes, bool force, FileAccess& files) {
+  files.will_write(path);
   std::error_code error;
   const fs::path target = fs::is_symlink(path) ? fs::weakly_canonical(path, error) : path;
   const bool is_file = fs::is_regular_file(fs::symlink_status(target));
   if (entry_exists(target) && !(force && is_file)) {
-    report_obstacle(path);
+    files.in_the_way(path);
     if (!is_file) throw OutputError(path.string() + " exists and is not a regular file", "choose another name");
     throw OutputError(path.string() + " exists", "choose another name, or overwrite it with --force");
   }
@@ -308,7 +325,7 @@ void write_file(const fs::path& path, std::string_view bytes, bool force) {
   flush_all({made});
   if (::rename(made.c_str(), target.c_str()) != 0) fail_output("cannot write", target, errno);
   flush_all({folder});
-  if (access != nullptr) access->wrote(path, bytes);
+  files.will_publish(path, target);
 }
 
 }  // namespace fusee

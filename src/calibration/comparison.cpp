@@ -137,7 +137,7 @@ Comparison compare_states(const DeclaredMechanism& declared, const ComparedRuns&
   }
   CalibrationOptions of_one;
   of_one.audit = false;
-  of_one.progress = options.progress;
+  of_one.context = options.context;
   comparison.before = calibrate(declared, runs.before, of_one);
   if (comparison.before.verdict == CalibrationVerdict::not_testable) {
     comparison.why = "The runs before: " + comparison.before.summary;

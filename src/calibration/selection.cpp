@@ -162,9 +162,7 @@ class Selector {
   void drop_unpredictive();
   void record_candidates();
 
-  void report(const std::string& what, double share) const {
-    if (options_.progress) options_.progress(what, share);
-  }
+  void report(const std::string& what, double share) const { options_.context.begin_step(what, share); }
   std::size_t place_of(const Effect& effect) const {
     return static_cast<std::size_t>(std::find(selection_.catalogue.begin(), selection_.catalogue.end(), &effect) -
                                     selection_.catalogue.begin());

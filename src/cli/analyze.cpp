@@ -255,22 +255,21 @@ std::string bytes_for(const std::string& ending, const MechanismFile& mechanism,
 }
 
 void write_result(const Arguments& arguments, const MechanismFile& mechanism, const AnalysisResult& result,
-                  const AnalysisOptions& options, Reply& reply) {
+                  const AnalysisOptions& options, FileAccess& files, Reply& reply) {
   const std::optional<std::string> file = arguments.text("--out");
   if (!file) return;
   const std::string bytes = bytes_for(ending_of(*file), mechanism, result, options, reply);
-  if (!arguments.has("--dry-run")) write_file(*file, bytes, arguments.has("--force"));
+  if (!arguments.has("--dry-run")) write_file(*file, bytes, arguments.has("--force"), files);
   reply.fields["output"] = *file;
 }
 
-Reply run_analyze(const Arguments& arguments, Console& console) {
+Reply run_analyze(const Arguments& arguments, Console& console, const RunContext& context) {
   refuse_unknown_ending(arguments);
   const AnalysisOptions options = options_from(arguments);
-  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
+  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
   Reply reply;
   reply.diagnostics = file.warnings;
-  console.progress("moving the joint through its range");
-  const AnalysisResult result = analyze(file, options);
+  const AnalysisResult result = analyze(file, options, context);
   reply.diagnostics.insert(reply.diagnostics.end(), result.warnings.begin(), result.warnings.end());
   if (!result.exists) {
     reply.exit = Exit::infeasible;
@@ -282,7 +281,7 @@ Reply run_analyze(const Arguments& arguments, Console& console) {
   }
   add_pins_note(file, reply);
   add_findings(result, file.path, reply);
-  write_result(arguments, file, result, options, reply);
+  write_result(arguments, file, result, options, *context.files, reply);
   const bool csv = arguments.has("--csv");
   reply.text = csv ? stroke_csv(result.rows)
                    : file.mechanism.name + "\n\n" + stroke_tables(result.rows, console.verbose()) + "\n" +

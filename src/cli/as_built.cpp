@@ -23,7 +23,7 @@ const std::vector<Option>& limit_options() {
 
 AsBuiltLimits limits_from(const Arguments& arguments) {
   AsBuiltLimits limits;
-  limits.theta_error = arguments.number("--max-theta-error-deg", limits.theta_error, 0.0, 180.0, "deg");
+  limits.theta_error_deg = arguments.number("--max-theta-error-deg", limits.theta_error_deg, 0.0, 180.0, "deg");
   limits.slack = arguments.number("--max-slack-mm", limits.slack, 0.0, 1000.0, "mm");
   return limits;
 }

@@ -4,9 +4,7 @@
 #include "base/output_list.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
-#include "cli/interrupt.h"
 #include "cli/pins.h"
-#include "cli/steps.h"
 #include "cli/table.h"
 #include "export/report/tendon_lengths.h"
 #include "fusee/base/text.h"
@@ -176,7 +174,7 @@ std::filesystem::path default_folder(const std::filesystem::path& spec) {
 
 BuildOptions build_options_from(const Arguments& arguments) {
   BuildOptions options;
-  options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0005, 1.0, "mm");
+  options.chord_error_mm = arguments.number("--tolerance-mm", options.chord_error_mm, 0.0005, 1.0, "mm");
   options.limits = limits_from(arguments);
   options.dxf = dxf_version(arguments);
   options.step = arguments.has("--step");
@@ -186,19 +184,10 @@ BuildOptions build_options_from(const Arguments& arguments) {
   return options;
 }
 
-Reply run_build(const Arguments& arguments, Console& console) {
-  BuildOptions options = build_options_from(arguments);
-  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
-  Steps steps(console);
-  options.before_step = steps.shown();
-  options.before_writing = steps.before_writing();
-  options.while_waiting = [](const std::function<void()>& clean_up) {
-    if (!is_interrupted()) return;
-    clean_up();
-    leave_interrupted();
-  };
-  const BuildResult built = build(file, options);
-  steps.end_writing();
+Reply run_build(const Arguments& arguments, Console& console, const RunContext& context) {
+  const BuildOptions options = build_options_from(arguments);
+  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
+  const BuildResult built = build(file, options, context);
   Reply reply;
   add_warnings(built.product, reply);
   add_pins_note(file, reply);

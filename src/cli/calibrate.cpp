@@ -7,7 +7,6 @@
 #include "cli/calibration_summary.h"
 #include "cli/command.h"
 #include "cli/measured_columns.h"
-#include "cli/steps.h"
 #include "cli/table.h"
 #include "fusee/base/text.h"
 #include "fusee/pipeline.h"
@@ -49,7 +48,7 @@ void add_notes(const CalibrateResult& result, bool verbose, Reply& reply) {
              "corrected.toml includes the values of --set and has every key; comments of the file are omitted"));
 }
 
-CalibrateOptions options_from(const Arguments& arguments, const std::filesystem::path& spec, Console& console) {
+CalibrateOptions options_from(const Arguments& arguments, const std::filesystem::path& spec) {
   CalibrateOptions options;
   options.columns = columns_from(arguments);
   options.hold_out = paths(arguments.texts("--hold-out"));
@@ -58,21 +57,15 @@ CalibrateOptions options_from(const Arguments& arguments, const std::filesystem:
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
   options.audit = !arguments.has("--no-audit");
-  options.progress = [&console](const std::string& what, std::optional<double> share) {
-    console.progress(share ? progress_bar(*share) + ", " + what : what);
-  };
   return options;
 }
 
-Reply run_calibrate(const Arguments& arguments, Console& console) {
+Reply run_calibrate(const Arguments& arguments, Console& console, const RunContext& context) {
   const std::filesystem::path spec = arguments.positionals().front();
-  CalibrateOptions options = options_from(arguments, spec, console);
+  const CalibrateOptions options = options_from(arguments, spec);
   const std::vector<std::filesystem::path> runs = runs_from(arguments);
-  const MechanismFile file = read_mechanism(spec, arguments.settings());
-  Steps steps(console);
-  options.before_writing = steps.before_writing();
-  const CalibrateResult result = calibrate(file, runs, options);
-  steps.end_writing();
+  const MechanismFile file = read_mechanism(spec, arguments.settings(), *context.files);
+  const CalibrateResult result = calibrate(file, runs, options, context);
   Reply reply;
   add_notes(result, console.verbose(), reply);
   reply.text = calibration_summary(result.product, console.verbose()) +

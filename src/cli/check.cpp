@@ -71,11 +71,11 @@ void add_size(const PartSize& size, Reply& reply) {
   if (size.contours) reply.fields["contours"] = *size.contours;
 }
 
-Reply run_check(const Arguments& arguments, Console& console) {
+Reply run_check(const Arguments& arguments, Console&, const RunContext& context) {
   const std::string& file = arguments.positionals().front();
-  console.progress("reading the file");
-  const Part part = read_part(file);
-  console.progress("checking");
+  context.begin_step("reading the file");
+  const Part part = read_part(file, *context.files);
+  context.begin_step("checking");
   const std::vector<Check> checks = check_part(part);
   const PartSize size = size_of(part, checks);
   Reply reply;

@@ -10,6 +10,7 @@
 #include "cli/arguments.h"
 #include "cli/console.h"
 #include "cli/reply.h"
+#include "fusee/base/run_context.h"
 
 namespace fusee::cli {
 
@@ -26,7 +27,7 @@ struct Command {
   std::string_view description;  ///< one paragraph for a first-time user
   std::vector<Option> options;   ///< in addition to common_options()
   std::vector<Example> examples;
-  std::function<Reply(const Arguments&, Console&)> run;
+  std::function<Reply(const Arguments&, Console&, const RunContext&)> run;
 };
 
 // One file a command.

@@ -6,7 +6,6 @@
 #include "base/output_list.h"
 #include "cli/command.h"
 #include "cli/measured_columns.h"
-#include "cli/steps.h"
 #include "cli/table.h"
 #include "fusee/base/text.h"
 #include "fusee/export/calibration.h"
@@ -85,21 +84,16 @@ Reply reply_of(const CompareResult& result, const std::string& folder, bool verb
   return reply;
 }
 
-Reply run_compare(const Arguments& arguments, Console& console) {
+Reply run_compare(const Arguments& arguments, Console& console, const RunContext& context) {
   const std::filesystem::path spec = arguments.positionals().front();
   const auto before = runs_of(arguments, "--before"), after = runs_of(arguments, "--after");
-  Steps steps(console);
   CompareOptions options;
   options.columns = columns_from(arguments);
   options.folder = arguments.text("--out").value_or("");
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
-  options.progress = [&console](const std::string& what, std::optional<double> share) {
-    console.progress(share ? progress_bar(*share) + ", " + what : what);
-  };
-  options.before_writing = steps.before_writing();
-  const CompareResult result = compare(read_mechanism(spec, arguments.settings()), before, after, options);
-  steps.end_writing();
+  const CompareResult result =
+      compare(read_mechanism(spec, arguments.settings(), *context.files), before, after, options, context);
   return reply_of(result, options.folder.string(), console.verbose());
 }
 

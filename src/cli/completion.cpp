@@ -80,7 +80,7 @@ Reply answer_of(std::string_view line) {
   return reply;
 }
 
-Reply run_completion(const Arguments& arguments, Console&) {
+Reply run_completion(const Arguments& arguments, Console&, const RunContext&) {
   const std::string& shell = arguments.positionals().front();
   if (shell == "candidates")
     return answer_of(arguments.positionals().size() > 1 ? arguments.positionals()[1] : std::string());

@@ -4,7 +4,7 @@
 namespace fusee::cli {
 namespace {
 
-Reply run_explain(const Arguments& arguments, Console&) {
+Reply run_explain(const Arguments& arguments, Console&, const RunContext&) {
   Reply reply;
   if (arguments.has("--schema")) {
     const std::string schema = mechanism_schema();

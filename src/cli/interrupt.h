@@ -2,31 +2,31 @@
 /// Ctrl-C, SIGTERM and SIGHUP: exit 130 without partial output.
 #pragma once
 
-#include <stdexcept>
+#include <stop_token>
+#include <thread>
 
 namespace fusee::cli {
 
-class Interrupted : public std::runtime_error {
+/// While it lives, a signal requests a stop, upon which every OutputFolder removes its staged files, and then exits with
+/// 130 at once, whatever other threads do. The program has one.
+class SignalWatch {
  public:
-  Interrupted() : std::runtime_error("interrupted") {}
+  SignalWatch();
+  /// Exits if a signal came and the exit is not prevented.
+  ~SignalWatch();
+  SignalWatch(const SignalWatch&) = delete;
+  SignalWatch& operator=(const SignalWatch&) = delete;
+
+  std::stop_token stop() const { return source_.get_token(); }
+
+ private:
+  std::stop_source source_;
+  std::thread thread_;
 };
 
-/// From now on a signal exits with 130 at once, except while InterruptsDeferred exists.
-void catch_interrupts();
-
-/// While an instance exists, files on the disk need cleaning up: a signal is only recorded, and stop_if_interrupted()
-/// throws Interrupted at the next step. A signal after the last step has no effect, because all files are in place.
-class InterruptsDeferred {
- public:
-  InterruptsDeferred();
-  ~InterruptsDeferred();
-  InterruptsDeferred(const InterruptsDeferred&) = delete;
-  InterruptsDeferred& operator=(const InterruptsDeferred&) = delete;
-};
-void stop_if_interrupted();
-/// Exits with 130 at once, independent of other threads.
-[[noreturn]] void leave_interrupted();
-/// True after a signal, for searches that have a result whenever they stop.
+/// From now on a signal does not exit: all files are in place, or the command has a result whenever it stops.
+void prevent_exit_by_signal();
+/// True after a signal.
 bool is_interrupted();
 
 }  // namespace fusee::cli

@@ -3,8 +3,6 @@
 #include "base/output_list.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
-#include "cli/interrupt.h"
-#include "cli/steps.h"
 #include "fusee/base/text.h"
 #include "fusee/pipeline.h"
 #include "fusee/pipeline/kit.h"
@@ -14,7 +12,7 @@ namespace {
 
 KitOptions kit_options_from(const Arguments& arguments) {
   KitOptions options;
-  options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0005, 1.0, "mm");
+  options.chord_error_mm = arguments.number("--tolerance-mm", options.chord_error_mm, 0.0005, 1.0, "mm");
   const std::string version = arguments.text("--dxf").value_or("ac1015");
   if (version != "ac1015" && version != "r12")
     throw UsageError("--dxf must be ac1015 or r12; '" + version + "' is not");
@@ -28,14 +26,13 @@ KitOptions kit_options_from(const Arguments& arguments) {
 }
 
 /// Explains why the pulley is infeasible, as build does.
-void explain_no_pulley(const MechanismFile& file, const KitOptions& options, Reply& reply) {
+void explain_no_pulley(const MechanismFile& file, const KitOptions& options, const RunContext& context, Reply& reply) {
   BuildOptions build_options;
-  build_options.tolerance = options.tolerance;
+  build_options.chord_error_mm = options.chord_error_mm;
   build_options.dry_run = true;
   build_options.folder = options.folder;
   build_options.force = true;
-  build_options.between_tries = [] { stop_if_interrupted(); };
-  const BuildResult built = build(file, build_options);
+  const BuildResult built = build(file, build_options, context.without_progress());
   const bool has_curves = built.product.synthesis.made();
   const std::vector<Condition>& conditions =
       has_curves ? built.product.pulley.conditions : built.product.synthesis.conditions;
@@ -76,18 +73,14 @@ std::string kit_summary(const KitResult& made, const KitOptions& options) {
   return text + "  files       in " + options.folder.string() + ": open kit.html\n";
 }
 
-Reply run_kit(const Arguments& arguments, Console& console) {
-  KitOptions options = kit_options_from(arguments);
-  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
-  Steps steps(console);
-  options.before_step = steps.shown();
-  options.before_writing = steps.before_writing();
-  const KitResult made = kit(file, options);
-  steps.end_writing();
+Reply run_kit(const Arguments& arguments, Console&, const RunContext& context) {
+  const KitOptions options = kit_options_from(arguments);
+  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
+  const KitResult made = kit(file, options, context);
   Reply reply;
   reply.diagnostics = made.product.pulley.file.warnings;
   if (made.ending == KitEnding::no_pulley) {
-    explain_no_pulley(file, options, reply);
+    explain_no_pulley(file, options, context, reply);
     return reply;
   }
   const KitPlan& plan = made.product.plan;

@@ -62,7 +62,7 @@ std::string main_page() {
   return text;
 }
 
-Reply run_manual(const Arguments& arguments, Console&) {
+Reply run_manual(const Arguments& arguments, Console&, const RunContext&) {
   Reply reply;
   if (arguments.positionals().empty()) {
     reply.text = main_page();

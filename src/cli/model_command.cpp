@@ -4,7 +4,6 @@
 #include "base/output_list.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
-#include "cli/steps.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "fusee/pipeline/model.h"
@@ -160,14 +159,10 @@ Json errors_json(const ModelProduct& product) {
   return json;
 }
 
-Reply run_model(const Arguments& arguments, Console& console) {
-  ModelOptions options = model_options_from(arguments);
-  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
-  Steps steps(console);
-  options.before_step = steps.shown();
-  options.before_writing = steps.before_writing();
-  const ModelResult made = model(file, options);
-  steps.end_writing();
+Reply run_model(const Arguments& arguments, Console&, const RunContext& context) {
+  const ModelOptions options = model_options_from(arguments);
+  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
+  const ModelResult made = model(file, options, context);
   const ModelProduct& product = made.product;
   Reply reply;
   reply.diagnostics = product.file.warnings;

@@ -1,6 +1,5 @@
 #include "cli/command.h"
 #include "cli/questions.h"
-#include "fusee/base/file_access.h"
 #include "fusee/base/text.h"
 #include "fusee/mechanism/file.h"
 
@@ -20,16 +19,17 @@ Reply list_templates() {
 }
 
 /// Writes the file of the answers, and reports if a pulley is feasible or which obstacles remain.
-Reply ask_questions(const Arguments& arguments, Console& console) {
+Reply ask_questions(const Arguments& arguments, Console& console, FileAccess& files) {
   if (!arguments.positionals().empty()) throw UsageError("--ask takes no template: it asks for the joint");
-  if (FileAccess::current() != nullptr)
+  if (files.is_bundled())
     throw UsageError("--ask reads typed answers, which a bundle cannot record",
                      "use --bundle with the file that it writes");
   const AskedMechanism asked = ask_for_mechanism(console);
   Reply reply;
   reply.text = asked.text;
   if (const auto settings = arguments.settings(); !settings.empty())
-    reply.text = write_mechanism(parse_mechanism(reply.text, "your answers", ".", settings, &reply.diagnostics));
+    reply.text =
+        write_mechanism(parse_mechanism(reply.text, "your answers", ".", settings, &reply.diagnostics, nullptr, files));
   for (const std::string& change : asked.changed)
     reply.diagnostics.push_back(note(Severity::note, "changed to make a pulley feasible: " + change));
   for (const Condition& condition : asked.obstacles)
@@ -43,14 +43,15 @@ Reply ask_questions(const Arguments& arguments, Console& console) {
   return reply;
 }
 
-Reply run_new(const Arguments& arguments, Console& console) {
-  if (arguments.has("--ask")) return ask_questions(arguments, console);
+Reply run_new(const Arguments& arguments, Console& console, const RunContext& context) {
+  if (arguments.has("--ask")) return ask_questions(arguments, console, *context.files);
   if (arguments.positionals().empty()) return list_templates();
   const std::string& name = arguments.positionals().front();
   Reply reply;
   reply.text = find_template(name);
   if (const auto settings = arguments.settings(); !settings.empty()) {
-    reply.text = write_mechanism(parse_mechanism(reply.text, name, ".", settings, &reply.diagnostics));
+    reply.text =
+        write_mechanism(parse_mechanism(reply.text, name, ".", settings, &reply.diagnostics, nullptr, *context.files));
   }
   reply.fields["template"] = name;
   reply.fields["text"] = reply.text;

@@ -34,17 +34,16 @@ std::optional<Objective> second_objective(const Arguments& arguments) {
                    nearest.empty() ? "fusee explain optimize.objective lists them" : "did you mean " + nearest + "?");
 }
 
-/// Shows a progress bar and stops at Ctrl-C.
-KeepGoing shown_progress(Console& console) {
-  return [&console, shown = std::string()](const SearchProgress& progress) mutable {
-    const std::string bar = progress_bar(progress.done);
-    if (bar != shown) console.progress(progress.best ? bar + ", best " + rounded(*progress.best, 6) : bar);
+/// A progress bar that is drawn when it grows.
+RunContext::Progress search_bar(Console& console) {
+  return [&console, shown = std::string()](std::string_view best, std::optional<double> share) mutable {
+    const std::string bar = progress_bar(share.value_or(0));
+    if (bar != shown) console.progress(best.empty() ? bar : bar + ", " + std::string(best));
     shown = bar;
-    return !is_interrupted();
   };
 }
 
-OptimizeOptions options_from(const Arguments& arguments, Console& console) {
+OptimizeOptions optimize_options_from(const Arguments& arguments) {
   OptimizeOptions options;
   options.method = asked_method(arguments);
   options.then = second_objective(arguments);
@@ -57,7 +56,6 @@ OptimizeOptions options_from(const Arguments& arguments, Console& console) {
   options.front_folder = arguments.text("--front").value_or("");
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
-  options.keep_going = shown_progress(console);
   return options;
 }
 
@@ -70,12 +68,12 @@ void demand_agreement(const MechanismFile& file, const OptimizeOptions& options)
     throw UsageError("--front requires --method pareto");
 }
 
-Reply run_optimize(const Arguments& arguments, Console& console) {
-  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
-  const OptimizeOptions options = options_from(arguments, console);
+Reply run_optimize(const Arguments& arguments, Console& console, const RunContext& context) {
+  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
+  const OptimizeOptions options = optimize_options_from(arguments);
   demand_agreement(file, options);
-  const InterruptsDeferred deferred;
-  const OptimizeResult result = optimize(file, options);
+  prevent_exit_by_signal();
+  const OptimizeResult result = optimize(file, options, {search_bar(console), context.stop, context.files});
   Reply reply;
   reply.diagnostics = file.warnings;
   reply.fields["method"] = k_methods[result.search.index()];

@@ -46,7 +46,7 @@ std::vector<double> list_from(const Arguments& arguments, std::string_view optio
   return values;
 }
 
-PlanFilesOptions plan_options_from(const Arguments& arguments, const std::filesystem::path& spec, Console& console) {
+PlanFilesOptions plan_options_from(const Arguments& arguments, const std::filesystem::path& spec) {
   PlanFilesOptions options;
   PlanOptions& plan = options.plan;
   plan.noise = radians(arguments.number("--noise-deg", degrees(plan.noise), 1e-6, 45, "deg"));
@@ -60,7 +60,6 @@ PlanFilesOptions plan_options_from(const Arguments& arguments, const std::filesy
     plan.range = {radians(range[0]), radians(range[1])};
   }
   plan.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, 4294967295.0, "(a whole number)"));
-  plan.progress = [&console](const std::string& what) { console.progress("simulating: " + what); };
   options.folder =
       arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_plan")).string());
   options.force = arguments.has("--force");
@@ -140,11 +139,11 @@ void refuse_short_time(const PlanResult& result, const std::string& path, Reply&
   for (const std::string& words : minute_words(first)) reply.diagnostics.push_back(note(Severity::note, words));
 }
 
-Reply run_plan(const Arguments& arguments, Console& console) {
+Reply run_plan(const Arguments& arguments, Console&, const RunContext& context) {
   const std::filesystem::path spec = arguments.positionals().front();
-  const PlanFilesOptions options = plan_options_from(arguments, spec, console);
-  const MechanismFile file = read_mechanism(spec, arguments.settings());
-  const PlanResult result = plan(file, options);
+  const PlanFilesOptions options = plan_options_from(arguments, spec);
+  const MechanismFile file = read_mechanism(spec, arguments.settings(), *context.files);
+  const PlanResult result = plan(file, options, context);
   Reply reply;
   reply.diagnostics = result.product.file.warnings;
   if (result.without_law) {

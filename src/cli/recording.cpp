@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "base/leftovers.h"
 #include "base/staging.h"
+#include "cli/interrupt.h"
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
 
@@ -16,7 +18,7 @@ namespace fs = std::filesystem;
 
 bool stands_as_other(const fs::path& file) {
   try {
-    return entry_exists(file) && !is_bundle(read_output(file, k_largest_bundle));
+    return entry_exists(file) && !is_bundle(read_file(file, k_largest_bundle));
   } catch (const InputError&) {
     return true;
   }
@@ -64,7 +66,8 @@ BundledOutcome outcome_of(Ending ending, std::vector<BundledOutput> outputs, con
   return outcome;
 }
 
-BundledOutput output_of(const fs::path& path, std::string_view bytes) {
+BundledOutput output_of(const fs::path& path, const fs::path& bytes_at) {
+  const std::string bytes = read_file(bytes_at, k_largest_output);
   return {tame(path.filename().string()), bytes.size(), sha256(bytes)};
 }
 
@@ -97,6 +100,11 @@ void Recording::read(const ReadRequest& request, const TakeBlock& take) {
     if (entry.failure) entry.failure->place.file.clear();
     throw;
   }
+}
+
+void Recording::will_publish(const fs::path& name, const fs::path& bytes_at) {
+  prevent_exit_by_signal();
+  bundle_.outcome.outputs.push_back(output_of(name, bytes_at));
 }
 
 void Recording::in_the_way(const fs::path& path) {

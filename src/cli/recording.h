@@ -19,22 +19,20 @@ std::string take_bundle_option(std::vector<std::string>& words);
 /// The run's report, with names of the bundle for files.
 BundledOutcome outcome_of(Ending ending, std::vector<BundledOutput> outputs, const BundleNames& names);
 /// The file is named without its folder; the command line has that, if given.
-BundledOutput output_of(const std::filesystem::path& path, std::string_view bytes);
+BundledOutput output_of(const std::filesystem::path& path, const std::filesystem::path& bytes_at);
 /// Adds version and build of this program.
 void sign(Bundle& bundle);
 
-/// Records all file access of the run during its lifetime.
+/// Records the file access of a run. Once files are published, a signal has no effect.
 class Recording : public FileAccess {
  public:
   /// Throws OutputError if `file` exists and is not a bundle, unless `force`.
   Recording(std::filesystem::path file, const std::vector<std::string>& words, bool force);
 
   void read(const ReadRequest& request, const TakeBlock& take) override;
-  void will_write(const std::filesystem::path&) override {}
   void in_the_way(const std::filesystem::path& path) override;
-  void wrote(const std::filesystem::path& name, std::string_view bytes) override {
-    bundle_.outcome.outputs.push_back(output_of(name, bytes));
-  }
+  void will_publish(const std::filesystem::path& name, const std::filesystem::path& bytes_at) override;
+  bool is_bundled() const override { return true; }
 
   /// Writes the bundle and returns a message for the user. Throws OutputError.
   Diagnostic pack(const Ending& ending);

@@ -11,7 +11,6 @@
 #include "base/staging.h"
 #include "cli/bundle_names.h"
 #include "cli/command.h"
-#include "cli/interrupt.h"
 #include "cli/recording.h"
 #include "cli/run.h"
 #include "fusee/base/files.h"
@@ -49,7 +48,10 @@ class Replaying : public FileAccess {
     if (leads_out(seen_from(here_, place)))
       throw OutputError(place.string() + " is outside of the folder in which the bundle is replayed");
   }
-  void wrote(const fs::path& name, std::string_view bytes) override { outputs_.push_back(output_of(name, bytes)); }
+  void will_publish(const fs::path& name, const fs::path& bytes_at) override {
+    outputs_.push_back(output_of(name, bytes_at));
+  }
+  bool is_bundled() const override { return true; }
   BundledOutcome outcome(const Ending& ending) const { return outcome_of(ending, outputs_, names_); }
 
  private:
@@ -73,13 +75,12 @@ class Replaying : public FileAccess {
 };
 
 /// Makes `folder` the working folder and the place of temporary files.
-BundledOutcome replayed_in(const fs::path& folder, const Bundle& bundle) {
+BundledOutcome replayed_in(const fs::path& folder, const Bundle& bundle, const std::stop_token& stop) {
   if (::chdir(folder.c_str()) != 0) fail_output("cannot work in", folder, errno);
   ::setenv("TMPDIR", folder.c_str(), 1);
   Console console;
   Replaying access(bundle);
-  const Ending ending = ending_of(bundle.words, console);
-  stop_if_interrupted();
+  const Ending ending = ending_of(bundle.words, console, {.stop = stop, .files = &access});
   return access.outcome(ending);
 }
 
@@ -103,15 +104,17 @@ void demand_free(const fs::path& folder) {
 
 /// Replays in a new folder next to `kept`, which is then renamed to it; without `kept` in the system's temporary
 /// folder.
-BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<fs::path>& kept) {
+BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<fs::path>& kept,
+                                      const std::stop_token& stop) {
   const fs::path place = place_of(kept ? *kept : temporary_folder() / "fusee-replay");
   remove_staged_leftovers(place);
   const Staging staging(place, StagingSite::beside);
+  const std::stop_callback on_stop(stop, [&staging] { staging.remove(); });
   const fs::path& folder = staging.path();
   for (const BundledFile& file : bundle.files)
     if (kept && !file.failure) write_file(folder / file.path, file.bytes, /*force=*/false);
   put_in_the_way(bundle, folder);
-  BundledOutcome outcome = replayed_in(folder, bundle);
+  BundledOutcome outcome = replayed_in(folder, bundle, stop);
   if (!kept) return outcome;
   demand_free(place);
   if (::rename(folder.c_str(), place.c_str()) != 0) fail_output("cannot write", place, errno);
@@ -236,19 +239,19 @@ void add_findings(const Bundle& bundle, const Json& differences, Reply& reply) {
   reply.diagnostics.push_back(note(Severity::error, "the result differs from the recorded run: " + first, hint));
 }
 
-Reply run_replay(const Arguments& arguments, Console& console) {
+Reply run_replay(const Arguments& arguments, Console&, const RunContext& context) {
   const std::string& file = arguments.positionals().front();
   std::optional<fs::path> kept;
   if (const auto folder = arguments.text("--out"); folder && !arguments.has("--dry-run")) kept = *folder;
-  const Bundle bundle = read_bundle(read_file(file, k_largest_bundle), file);
+  const Bundle bundle = read_bundle(read_file(file, k_largest_bundle, *context.files), file);
   // A bundle of a replay could contain itself.
   if (const auto at = find_command(bundle.words); at && bundle.words[*at] == "replay")
     throw InputError(file, "contains a run of 'fusee replay'", "replay the bundle inside this zip instead");
   if (kept) demand_free(*kept);
-  console.progress("running " + command_line(bundle));
+  context.begin_step("running " + command_line(bundle));
   Reply reply;
   say_version(bundle, reply);
-  const BundledOutcome now = replayed_in_own_folder(bundle, kept);
+  const BundledOutcome now = replayed_in_own_folder(bundle, kept, context.stop);
   const Json differences = differences_of(bundle.outcome, now);
   add_findings(bundle, differences, reply);
   reply.text = summary(bundle, now, differences);

@@ -1,5 +1,4 @@
 #include "cli/command.h"
-#include "cli/interrupt.h"
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
 #include "fusee/export/paper.h"
@@ -99,23 +98,19 @@ std::vector<std::string> names_of(const std::vector<OutputFile>& files) {
   return names;
 }
 
-Reply run_reproduce(const Arguments& arguments, Console& console) {
+Reply run_reproduce(const Arguments& arguments, Console&, const RunContext& context) {
   const auto folder = arguments.text("--out");
-  const Reproduction all = reproduce_paper({}, [&console](std::string_view step) { console.progress(step); });
+  const Reproduction all = reproduce_paper({}, context);
   Reply reply;
   reply.text = assumed_text(all.assumptions) + table_4_text(all);
   for (const Claim& claim : all.claims) reply.text += claim_text(claim);
   reply.text += laws_text(all);
   reply.fields = reproduction_json(all);
   if (!folder || arguments.has("--dry-run")) return reply;
-  const InterruptsDeferred deferred;
   const std::vector<OutputFile> files = paper_files(all);
-  OutputFolder out(*folder, arguments.has("--force"));
+  OutputFolder out(*folder, arguments.has("--force"), context);
   out.claim(names_of(files));
-  for (const OutputFile& file : files) {
-    stop_if_interrupted();
-    out.stage(file);
-  }
+  for (const OutputFile& file : files) out.stage(file);
   out.publish(reply.diagnostics);
   reply.text += "\n" + std::to_string(files.size()) + " files in " + *folder + "\n";
   reply.fields["outputs"] = names_of(files);

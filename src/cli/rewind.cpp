@@ -124,10 +124,10 @@ Json placements_json(const RewoundPart& part) {
 // ---- command -----------------------------------------------------------------------------------
 
 /// Reads and rewinds a part; faults are reported with its file name.
-RewoundPart rewind_file(const JointAsItIs& joint, const std::string& file, bool as_is, Console& console) {
-  console.progress("reading the part");
-  const Part part = read_part(file);
-  console.progress("winding tendons on it");
+RewoundPart rewind_file(const JointAsItIs& joint, const std::string& file, bool as_is, const RunContext& context) {
+  context.begin_step("reading the part");
+  const Part part = read_part(file, *context.files);
+  context.begin_step("winding tendons on it");
   try {
     return as_is ? RewoundPart{rewind_part(joint, part), PartPlace::as_made, {}} : rewind_moved_part(joint, part);
   } catch (const InputError& error) {
@@ -149,12 +149,12 @@ std::string result_text(const RewoundPart& part) {
   return "theta within " + rounded(degrees(part.as_built.max_theta_error), 2) + " deg";
 }
 
-Reply run_rewind(const Arguments& arguments, Console& console) {
+Reply run_rewind(const Arguments& arguments, Console& console, const RunContext& context) {
   const AsBuiltLimits limits = limits_from(arguments);
-  const MechanismFile spec = read_mechanism(arguments.positionals()[0], arguments.settings());
+  const MechanismFile spec = read_mechanism(arguments.positionals()[0], arguments.settings(), *context.files);
   const std::string& file = arguments.positionals()[1];
   const JointAsItIs joint = as_it_is(spec.mechanism);
-  const RewoundPart part = rewind_file(joint, file, arguments.has("--as-is"), console);
+  const RewoundPart part = rewind_file(joint, file, arguments.has("--as-is"), context);
   const std::vector<Check> checks = checks_of(joint.mechanism, part, limits);
   Reply reply;
   reply.diagnostics = spec.warnings;

@@ -24,9 +24,9 @@ constexpr const char* k_version = FUSEE_VERSION;
 
 /// The first mechanism file of this folder by name; "" if there is none, or if the run is recorded or replayed, since a
 /// bundle has no folder listing.
-std::string mechanism_here() {
+std::string mechanism_here(const FileAccess& files) {
   std::vector<std::string> names;
-  if (FileAccess::current() != nullptr) return "";
+  if (files.is_bundled()) return "";
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator(".", failed)) {
     if (names.size() < 100 && entry.path().extension() == ".toml" && entry.is_regular_file(failed))
@@ -60,16 +60,16 @@ Reply version_reply() {
 }
 
 /// The overview, and the next command for this folder.
-Reply overview_reply() {
-  const std::string spec = mechanism_here();
+Reply overview_reply(const FileAccess& files) {
+  const std::string spec = mechanism_here(files);
   const std::string next = spec.empty() ? "Begin with 'fusee new forearm > arm.toml', then 'fusee build arm.toml'."
                                         : "'fusee build " + spec + "' makes the pulley of " + spec + ".";
   return help_reply(main_help() + next + "\n");
 }
 
-Reply without_command(const std::vector<std::string>& words) {
+Reply without_command(const std::vector<std::string>& words, const FileAccess& files) {
   if (has_switch(words, "--version")) return version_reply();
-  return has_switch(words, "--help") || has_switch(words, "-h") ? help_reply(main_help()) : overview_reply();
+  return has_switch(words, "--help") || has_switch(words, "-h") ? help_reply(main_help()) : overview_reply(files);
 }
 
 /// Replaces "help build" by "build --help".
@@ -81,10 +81,11 @@ std::vector<std::string> without_help_command(std::vector<std::string> words) {
   return words;
 }
 
-Reply answer(const std::vector<std::string>& given, std::string& command_name, Console& console) {
+Reply answer(const std::vector<std::string>& given, std::string& command_name, Console& console,
+             const RunContext& context) {
   std::vector<std::string> words = without_help_command(given);
   const auto at = find_command(words);
-  if (!at) return without_command(words);
+  if (!at) return without_command(words, *context.files);
   const Command& command = find_known_command(words[*at]);
   command_name = command.name;
   words.erase(words.begin() + static_cast<std::ptrdiff_t>(*at));
@@ -92,7 +93,7 @@ Reply answer(const std::vector<std::string>& given, std::string& command_name, C
   console.set_options({arguments.has("--quiet"), arguments.has("--verbose"), arguments.has("--no-color")});
   if (arguments.has("--help")) return help_reply(command_help(command));
   if (arguments.has("--version")) return version_reply();
-  return command.run(arguments, console);
+  return command.run(arguments, console, context);
 }
 
 Reply failed(Exit exit, Diagnostic diagnostic) {
@@ -113,9 +114,10 @@ Reply out_of_memory() {
 }
 
 /// Converts exceptions into exit codes; the only such place.
-Reply guarded_answer(const std::vector<std::string>& words, std::string& command_name, Console& console) {
+Reply guarded_answer(const std::vector<std::string>& words, std::string& command_name, Console& console,
+                     const RunContext& context) {
   try {
-    return answer(words, command_name, console);
+    return answer(words, command_name, console, context);
   } catch (const UsageError& error) {
     return failed(Exit::usage, note(Severity::error, error.what(), error.hint()));
   } catch (const InputError& error) {
@@ -125,7 +127,7 @@ Reply guarded_answer(const std::vector<std::string>& words, std::string& command
     return reply;
   } catch (const OutputError& error) {
     return failed(Exit::cannot_write, note(Severity::error, error.what(), error.hint()));
-  } catch (const Interrupted& error) {
+  } catch (const Stopped& error) {
     return failed(Exit::interrupted, note(Severity::error, error.what()));
   } catch (const std::bad_alloc&) {
     return out_of_memory();
@@ -160,9 +162,12 @@ const std::vector<Command>& commands() {
   return all;
 }
 
-Ending ending_of(const std::vector<std::string>& words, Console& console) {
+Ending ending_of(const std::vector<std::string>& words, Console& console, RunContext context) {
   Ending ending;
-  ending.reply = guarded_answer(words, ending.command, console);
+  context.progress = [&console](std::string_view step, std::optional<double> share) {
+    console.progress(share ? progress_bar(*share) + ", " + std::string(step) : step);
+  };
+  ending.reply = guarded_answer(words, ending.command, console, context);
   ending.json = has_switch(words, "--json");
   return ending;
 }
@@ -175,12 +180,19 @@ void add_not_packed(const OutputError& error, Reply& reply) {
   if (reply.exit == Exit::done) reply.exit = Exit::cannot_write;
 }
 
-Ending recorded_ending(const std::vector<std::string>& words, const std::string& bundle, Console& console) {
+/// The files of a command. Once they are published, a signal has no effect.
+class CommandFiles : public FileAccess {
+ public:
+  void will_publish(const std::filesystem::path&, const std::filesystem::path&) override { prevent_exit_by_signal(); }
+};
+
+Ending recorded_ending(const std::vector<std::string>& words, const std::string& bundle, Console& console,
+                       const std::stop_token& stop) {
   Ending ending;
   ending.json = has_switch(words, "--json");
   try {
     Recording recording(bundle, words, has_switch(words, "--force"));
-    ending = ending_of(words, console);
+    ending = ending_of(words, console, {.stop = stop, .files = &recording});
     ending.reply.diagnostics.push_back(recording.pack(ending));
     ending.reply.fields["bundle"] = bundle;
   } catch (const OutputError& error) {
@@ -196,11 +208,16 @@ Ending recorded_ending(const std::vector<std::string>& words, const std::string&
 int run(const std::vector<std::string>& given) {
   std::vector<std::string> words = given;
   write_json_at_exit(has_switch(words, "--json"));
-  catch_interrupts();
   catch_lack_of_memory();
   Console console;
   const std::string bundle = take_bundle_option(words);
-  const Ending ending = bundle.empty() ? ending_of(words, console) : recorded_ending(words, bundle, console);
+  const auto ended = [&] {
+    const SignalWatch watch;
+    CommandFiles files;
+    return bundle.empty() ? ending_of(words, console, {.stop = watch.stop(), .files = &files})
+                          : recorded_ending(words, bundle, console, watch.stop());
+  };
+  const Ending ending = ended();
   const Reply& reply = ending.reply;
   for (const Diagnostic& diagnostic : reply.diagnostics) console.say(diagnostic);
   console.end_progress();

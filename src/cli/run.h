@@ -7,6 +7,7 @@
 
 #include "cli/console.h"
 #include "cli/reply.h"
+#include "fusee/base/run_context.h"
 
 namespace fusee::cli {
 
@@ -19,8 +20,9 @@ struct Ending {
   std::string result() const { return json ? document(reply, command) : reply.text; }
 };
 
-/// Runs a command. `words`: the arguments without the program's name. Never throws; prints only progress.
-Ending ending_of(const std::vector<std::string>& words, Console& console);
+/// Runs a command. `words`: the arguments without the program's name. Never throws; prints only progress. `context`: its
+/// progress is shown on the console.
+Ending ending_of(const std::vector<std::string>& words, Console& console, RunContext context);
 
 /// Runs a command with --bundle, prints everything and returns the exit code.
 int run(const std::vector<std::string>& words);

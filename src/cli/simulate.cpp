@@ -98,12 +98,11 @@ Json columns_json(const Simulation& simulation) {
   return columns;
 }
 
-Reply run_simulate(const Arguments& arguments, Console& console) {
+Reply run_simulate(const Arguments& arguments, Console&, const RunContext& context) {
   const SimulateOptions options = simulate_options_from(arguments);
   const std::vector<std::string>& names = arguments.positionals();
-  const MechanismFile file = read_mechanism(names[0], arguments.settings());
-  console.progress("moving the joint through " + names[1]);
-  const SimulateResult result = simulate(file, names[1], options);
+  const MechanismFile file = read_mechanism(names[0], arguments.settings(), *context.files);
+  const SimulateResult result = simulate(file, names[1], options, context);
   Reply reply;
   reply.diagnostics = result.simulation.file.warnings;
   if (result.without_law) {
@@ -113,7 +112,7 @@ Reply run_simulate(const Arguments& arguments, Console& console) {
   add_findings(result.simulation, reply);
   const std::string table = simulation_csv(result.simulation);
   const std::optional<std::string> target = arguments.text("--out");
-  if (target && !arguments.has("--dry-run")) write_file(*target, table, arguments.has("--force"));
+  if (target && !arguments.has("--dry-run")) write_file(*target, table, arguments.has("--force"), *context.files);
   reply.text = target ? summary(result.simulation, *target) : table;
   reply.fields["name"] = file.mechanism.name;
   reply.fields["rows"] = result.simulation.states.size();

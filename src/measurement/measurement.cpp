@@ -185,7 +185,8 @@ Run parse_run(std::string_view text, const std::string& name, const MeasurementO
   return make_run(name, read_rows(text, name, options), into);
 }
 
-Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options) {
+Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options,
+                             FileAccess& access) {
   check_roles(options);
   Measurement measurement;
   std::vector<Diagnostic> problems;
@@ -194,7 +195,7 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
   for (std::size_t i = 0; i < files.size(); ++i) {
     try {
       measurement.runs.push_back(
-          make_run(names[i], read_rows(files[i], files[i].string(), options, share), measurement));
+          make_run(names[i], read_rows(files[i], files[i].string(), options, access, share), measurement));
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
@@ -206,13 +207,14 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
 }
 
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const Mechanism& declared,
-                             const MeasurementOptions& options) {
-  Measurement measurement = read_measurement(files, expecting(declared, options));
+                             const MeasurementOptions& options, FileAccess& access) {
+  Measurement measurement = read_measurement(files, expecting(declared, options), access);
   compare_with_declared(declared, measurement);
   return measurement;
 }
 
-Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared, MeasurementOptions options) {
+Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared, MeasurementOptions options,
+                         FileAccess& access) {
   options = expecting(declared, std::move(options));
   options.needs_theta = false;
   check_roles(options);
@@ -220,7 +222,7 @@ Measurement read_driving(const std::filesystem::path& file, const Mechanism& dec
   Run& run = measurement.runs.emplace_back();
   run.name = file.filename().string();
   const NoteSink add_note = [&](const std::string& words) { measurement.notes.push_back(run.name + ": " + words); };
-  LoggedRows rows = read_rows(file, file.string(), options);
+  LoggedRows rows = read_rows(file, file.string(), options, access);
   if (rows.samples.empty())
     throw InputError(file.string(), "no row has alpha", "write one row a line: alpha_deg and, if known, time_s,load_N");
   note_rows_read(rows, run.name, add_note, measurement);

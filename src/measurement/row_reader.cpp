@@ -5,7 +5,6 @@
 #include <limits>
 #include <set>
 
-#include "fusee/base/files.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "measurement/cells.h"
@@ -456,11 +455,11 @@ LoggedRows read_rows(std::string_view text, const std::string& name, const Measu
 }
 
 LoggedRows read_rows(const std::filesystem::path& path, const std::string& name, const MeasurementOptions& options,
-                     std::size_t most_samples) {
+                     FileAccess& access, std::size_t most_samples) {
   RowReader reader(name, options, most_samples);
   RecordSplitter records = splitter_for(reader);
   constexpr std::size_t k_any_size = std::numeric_limits<std::size_t>::max();
-  read_blocks({path, k_any_size, /*pipes=*/true}, [&records](std::string_view block) { records.add(block); });
+  access.read({path, k_any_size, /*pipes=*/true}, [&records](std::string_view block) { records.add(block); });
   records.finish();
   return reader.finish();
 }

@@ -34,7 +34,7 @@ LoggedRows read_rows(std::string_view text, const std::string& name, const Measu
                      std::size_t most_samples = k_most_samples);
 /// Reads a file; `name` appears in messages.
 LoggedRows read_rows(const std::filesystem::path& path, const std::string& name, const MeasurementOptions& options,
-                     std::size_t most_samples = k_most_samples);
+                     FileAccess& access, std::size_t most_samples = k_most_samples);
 
 /// Throws InputError for an unknown role, or a unit that does not fit the role.
 void check_roles(const MeasurementOptions& options);

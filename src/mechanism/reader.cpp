@@ -67,7 +67,8 @@ std::string described(const toml::node& node) {
 
 class MechanismReader {
  public:
-  MechanismReader(const std::string& name, const std::filesystem::path& folder) : name_(name), folder_(folder) {}
+  MechanismReader(const std::string& name, const std::filesystem::path& folder, FileAccess& files)
+      : name_(name), folder_(folder), files_(files) {}
 
   DeclaredMechanism read(std::string_view text, const std::vector<Setting>& settings,
                          std::vector<Diagnostic>* warnings);
@@ -118,6 +119,7 @@ class MechanismReader {
 
   const std::string& name_;
   const std::filesystem::path& folder_;
+  FileAccess& files_;
   toml::table root_;
   std::vector<std::unique_ptr<toml::table>> setting_values_;  ///< keeps the nodes of --set alive
   std::map<std::string, Entry> entries_;                      ///< by dotted name
@@ -674,7 +676,7 @@ void MechanismReader::load_table() {
   if (!has(key) || !good_[key] || !good_["joint.range_deg"] || (torque && table.empty())) return;
   const std::filesystem::path path = folder_ / std::filesystem::path(table);
   try {
-    const std::string csv = read_file(path, k_max_table_size);
+    const std::string csv = read_file(path, k_max_table_size, files_);
     if (torque)
       pulley.torque_rows = parse_torque_table(csv, path.string(), mechanism_.joint, table_errors_);
     else
@@ -766,8 +768,8 @@ KeyPlaces MechanismReader::places() const {
 
 DeclaredMechanism parse_mechanism(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                                   const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings,
-                                  KeyPlaces* places) {
-  MechanismReader reader(name, folder);
+                                  KeyPlaces* places, FileAccess& files) {
+  MechanismReader reader(name, folder, files);
   DeclaredMechanism mechanism = reader.read(text, settings, warnings);
   if (places != nullptr) *places = reader.places();
   return mechanism;
@@ -778,12 +780,13 @@ Place MechanismFile::place_of(std::string_view key) const {
   return found == places.end() ? Place{path, 0, 0} : found->second;
 }
 
-MechanismFile read_mechanism(const std::filesystem::path& path, const std::vector<Setting>& settings) {
-  const std::string text = read_file(path, k_max_file_size);
+MechanismFile read_mechanism(const std::filesystem::path& path, const std::vector<Setting>& settings,
+                             FileAccess& files) {
+  const std::string text = read_file(path, k_max_file_size, files);
   MechanismFile file;
   file.path = path.string();
   file.sha256 = sha256(text);
-  file.mechanism = parse_mechanism(text, file.path, path.parent_path(), settings, &file.warnings, &file.places);
+  file.mechanism = parse_mechanism(text, file.path, path.parent_path(), settings, &file.warnings, &file.places, files);
   return file;
 }
 

@@ -9,6 +9,7 @@
 #include "fusee/base/text.h"
 #include "optimize/bound.h"
 #include "optimize/random.h"
+#include "optimize/search_progress.h"
 #include "optimize/thread_pool.h"
 
 namespace fusee {
@@ -48,11 +49,13 @@ struct Outcome {
 
 class BranchAndBound {
  public:
-  BranchAndBound(const Problem& problem, Objective objective, const CertifiedOptions& options)
+  BranchAndBound(const Problem& problem, Objective objective, const CertifiedOptions& options,
+                 const RunContext& context)
       : problem_(problem),
         count_(problem.variables.size()),
         objective_(objective),
         options_(options),
+        context_(context),
         bounds_(problem, objective),
         pool_(options.threads) {}
 
@@ -121,15 +124,12 @@ class BranchAndBound {
   }
 
   bool stopped(double bound) {
-    if (!options_.keep_going || stopped_) return stopped_;
-    SearchProgress progress;
-    if (!best_.empty()) progress.best = best_value_;
-    progress.lower_bound = bound;
-    progress.evaluations = evaluations_;
+    if (stopped_) return true;
     const double gap = (best_value_ - bound) / std::abs(best_value_);
     // The gap closes by powers of ten.
-    progress.done = gap > 0 && gap < 1 ? std::min(1.0, std::log(gap) / std::log(options_.gap)) : 0.0;
-    stopped_ = !options_.keep_going(progress);
+    const double done = gap > 0 && gap < 1 ? std::min(1.0, std::log(gap) / std::log(options_.gap)) : 0.0;
+    const auto best = best_.empty() ? std::nullopt : std::optional(best_value_);
+    stopped_ = !may_continue(context_, done, best) || (best && options_.sufficient && *best < *options_.sufficient);
     return stopped_;
   }
 
@@ -270,6 +270,7 @@ class BranchAndBound {
     result.lower_bound = queue_.empty() ? best_value_ : std::min(best_value_, queue_.top().bound);
     result.relative_gap = (result.value - result.lower_bound) / std::abs(result.lower_bound);
     result.proven = result.relative_gap <= options_.gap;
+    result.stopped = stopped_;
   }
 
   std::string commonest_reason() const {
@@ -356,6 +357,7 @@ class BranchAndBound {
   std::size_t count_;
   Objective objective_;
   CertifiedOptions options_;
+  const RunContext& context_;
   BoundCalculator bounds_;
   ThreadPool pool_;
   Box root_;
@@ -409,9 +411,10 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
   return "";
 }
 
-CertifiedResult certified_optimum(const Problem& problem, Objective objective, const CertifiedOptions& options) {
+CertifiedResult certified_optimum(const Problem& problem, Objective objective, const CertifiedOptions& options,
+                                  const RunContext& context) {
   demand_certifiable(problem, objective);
-  return BranchAndBound(problem, objective, options).run();
+  return BranchAndBound(problem, objective, options, context).run();
 }
 
 }  // namespace fusee

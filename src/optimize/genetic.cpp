@@ -13,6 +13,7 @@
 #include "fusee/base/diagnostics.h"
 #include "optimize/evolution.h"
 #include "optimize/random.h"
+#include "optimize/search_progress.h"
 #include "optimize/thread_pool.h"
 
 namespace fusee {
@@ -65,13 +66,16 @@ struct GenerationEvaluator {
   const Problem& problem;
   std::vector<Objective> objectives;
   ThreadPool pool;
-  KeepGoing keep_going;
-  SearchProgress progress;
+  const RunContext& context;
+  double done = 0;             ///< share of the generations
+  std::optional<double> best;  ///< value of the best design so far; null for a front
+  long evaluations = 0;
   CostsOfDesigns known;
   ReasonCounter reasons;
 
-  GenerationEvaluator(const Problem& of, std::vector<Objective> by, const GeneticOptions& options)
-      : problem(of), objectives(std::move(by)), pool(options.threads), keep_going(options.keep_going) {}
+  GenerationEvaluator(const Problem& of, std::vector<Objective> by, const GeneticOptions& options,
+                      const RunContext& run)
+      : problem(of), objectives(std::move(by)), pool(options.threads), context(run) {}
 
   Costs costs_of(const Design& design) const {
     Costs result;
@@ -93,14 +97,14 @@ struct GenerationEvaluator {
     constexpr std::size_t k_at_once = 16;
     known.clear();
     for (std::size_t begin = 0; begin < designs.size(); begin += k_at_once) {
-      if (keep_going && !keep_going(progress)) throw SearchStopped();
+      if (!may_continue(context, done, best)) throw SearchStopped();
       std::vector<Costs> costs(std::min(k_at_once, designs.size() - begin));
       pool.each(costs.size(), [&](std::size_t i) { costs[i] = costs_of(designs[begin + i]); });
       for (std::size_t i = 0; i < costs.size(); ++i) {
         reasons.add(costs[i].reason);
         known[designs[begin + i]] = std::move(costs[i].costs);
       }
-      progress.evaluations += static_cast<long>(costs.size());
+      evaluations += static_cast<long>(costs.size());
     }
   }
 };
@@ -165,25 +169,26 @@ std::optional<double> found(double best) { return std::abs(best) < k_no_value ? 
 
 }  // namespace
 
-GeneticResult genetic_optimum(const Problem& problem, Objective objective, const GeneticOptions& options) {
-  GenerationEvaluator evaluator(problem, {objective}, options);
+GeneticResult genetic_optimum(const Problem& problem, Objective objective, const GeneticOptions& options,
+                              const RunContext& context) {
+  GenerationEvaluator evaluator(problem, {objective}, options, context);
   const auto evolution = evolution_of(evaluator, EvolutionKind::genetic, options.seed);
   GeneticResult result;
   double best = info(objective).largest ? -k_no_value : k_no_value;
   try {
     begin(*evolution, evaluator, options);
     for (unsigned number = 0; number <= options.generations; ++number) {
-      evaluator.progress.done = static_cast<double>(number) / options.generations;
+      evaluator.done = static_cast<double>(number) / options.generations;
       if (number > 0) advance(*evolution, evaluator);
       result.generations.push_back(described(number, *evolution, objective, best));
       best = result.generations.back().best;
-      evaluator.progress.best = found(best);
+      evaluator.best = found(best);
       result.best = evolution->best();
     }
   } catch (const SearchStopped&) {
     result.stopped = true;
   }
-  result.evaluations = evaluator.progress.evaluations;
+  result.evaluations = evaluator.evaluations;
   if (!result.best.empty()) {
     const Evaluation evaluation = evaluate_design(problem, objective, result.best);
     result.found = evaluation.possible;
@@ -194,12 +199,12 @@ GeneticResult genetic_optimum(const Problem& problem, Objective objective, const
   return result;
 }
 
-ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options) {
+ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options, const RunContext& context) {
   if (problem.objectives.size() < 2) {
     throw InputError("", "a front needs two or three objectives",
                      "for example optimize.objective = [\"max_tension\", \"footprint\"]");
   }
-  GenerationEvaluator evaluator(problem, problem.objectives, options);
+  GenerationEvaluator evaluator(problem, problem.objectives, options, context);
   const auto evolution = evolution_of(evaluator, EvolutionKind::nsga2, options.seed);
   ParetoResult result;
   bool has_begun = false;
@@ -207,13 +212,13 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options)
     begin(*evolution, evaluator, options);
     has_begun = true;
     for (; result.generations < options.generations; ++result.generations) {
-      evaluator.progress.done = static_cast<double>(result.generations) / options.generations;
+      evaluator.done = static_cast<double>(result.generations) / options.generations;
       advance(*evolution, evaluator);
     }
   } catch (const SearchStopped&) {
     result.stopped = true;
   }
-  result.evaluations = evaluator.progress.evaluations;
+  result.evaluations = evaluator.evaluations;
   result.reason = evaluator.reasons.commonest();
   if (!has_begun) return result;
   const auto designs = evolution->designs(), costs = evolution->costs();

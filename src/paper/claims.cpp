@@ -42,7 +42,7 @@ double elongation(const StrokePlace& place) { return place.forces.elongation; }
 double joint_error(const StrokePlace& place) { return degrees(place.forces.theta_error); }
 
 CertifiedResult optimum_of(const PaperAssumptions& assumptions, Objective objective, double gap,
-                           const KeepGoing& keep_going = {}) {
+                           std::optional<double> sufficient = std::nullopt) {
   MechanismFile file = paper_problem_file(assumptions);
   file.mechanism.optimize.objectives = {std::string(info(objective).name)};
   const Problem problem = make_problem(file);
@@ -50,7 +50,7 @@ CertifiedResult optimum_of(const PaperAssumptions& assumptions, Objective object
   options.gap = gap;
   options.most_tie_boxes = 1;  // ties are not needed
   options.most_boxes = 60000;
-  options.keep_going = keep_going;
+  options.sufficient = sufficient;
   options.first_tries = {{file.mechanism.joint.R, file.mechanism.guides.ED, file.mechanism.guides.OE}};
   return certified_optimum(problem, objective, options);
 }
@@ -78,8 +78,7 @@ bool is_optimal(const PaperAssumptions& assumptions, Objective objective, const 
     const Evaluation there = evaluate(objective, paper_mechanism(assumptions, near.R, near.ED, near.OE));
     if (there.possible && there.value < enough) return false;
   }
-  const auto keep_going = [enough](const SearchProgress& progress) { return progress.best >= enough; };
-  return optimum_of(assumptions, objective, k_same_value, keep_going).lower_bound >=
+  return optimum_of(assumptions, objective, k_same_value, enough).lower_bound >=
          here.value * (1.0 - 2.0 * k_same_value);
 }
 
@@ -253,19 +252,19 @@ bool table_4_is_optimal(const PaperAssumptions& assumptions) {
   return is_optimal(assumptions, Objective::max_tension, table_4_lengths(assumptions));
 }
 
-std::vector<Claim> paper_claims(const Reproduction& so_far, const std::function<void(std::string_view)>& before_step) {
+std::vector<Claim> paper_claims(const Reproduction& so_far, const RunContext& context) {
   std::vector<Claim> claims;
-  before_step("claims: the optimum");
+  context.begin_step("claims: the optimum");
   claims.push_back(optimum_claim(so_far));
-  before_step("claims: its bounds");
+  context.begin_step("claims: its bounds");
   claims.push_back(bounds_claim(so_far));
-  before_step("claims: where in the stroke");
+  context.begin_step("claims: where in the stroke");
   claims.push_back(place_claim(so_far, "largest_tension_at_negative_limit", "tension T_b", "N", tension));
   claims.push_back(place_claim(so_far, "largest_elongation_at_negative_limit", "elongation", "mm", elongation));
   claims.push_back(place_claim(so_far, "largest_error_at_negative_limit", "joint error", "°", joint_error));
-  before_step("claims: tension and error");
+  context.begin_step("claims: tension and error");
   claims.push_back(same_optimum_claim(so_far));
-  before_step("claims: the pulley");
+  context.begin_step("claims: the pulley");
   claims.push_back(linear_claim(so_far));
   claims.push_back(drawing_claim(so_far));
   return claims;

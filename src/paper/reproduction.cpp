@@ -168,14 +168,10 @@ std::vector<LawCost> law_costs(const PaperAssumptions& assumptions) {
   return {law_cost(compensate, "compensate"), law_cost(linear, "linear")};
 }
 
-Reproduction reproduce_paper(const PaperAssumptions& assumptions,
-                             const std::function<void(std::string_view step)>& before_step) {
-  const auto step = [&before_step](std::string_view what) {
-    if (before_step) before_step(what);
-  };
+Reproduction reproduce_paper(const PaperAssumptions& assumptions, const RunContext& context) {
   Reproduction all;
   all.assumptions = assumptions;
-  step("Table 4: the certified optimum");
+  context.begin_step("Table 4: the certified optimum");
   const Problem problem = make_problem(paper_problem_file(assumptions));
   const CertifiedResult optimum = certified_optimum(problem, Objective::max_tension);
   all.optimum = optimum.value;
@@ -185,12 +181,12 @@ Reproduction reproduce_paper(const PaperAssumptions& assumptions,
     all.table_4.push_back({i == 1 ? "EB = ED" : variable.symbol, variable.lower, variable.upper,
                            k_table_4[i] * assumptions.unit, optimum.best[i]});
   }
-  step("Fig. 7: the genetic algorithm");
+  context.begin_step("Fig. 7: the genetic algorithm");
   all.figures = paper_figures(assumptions, genetic_optimum(problem, Objective::max_tension));
-  all.claims = paper_claims(all, step);
-  step("both laws beside each other");
+  all.claims = paper_claims(all, context);
+  context.begin_step("both laws beside each other");
   all.laws = law_costs(assumptions);
-  step("where in mu Table 4 is the optimum, for other r1 and EF");
+  context.begin_step("where in mu Table 4 is the optimum, for other r1 and EF");
   all.mu_windows = mu_windows(assumptions);
   return all;
 }

@@ -23,7 +23,7 @@ double nonlinearity(const std::vector<StrokePlace>& stroke);
 /// Largest distance from the least squares line through evenly spaced α.
 double least_squares_nonlinearity(const std::vector<StrokePlace>& stroke);
 
-std::vector<Claim> paper_claims(const Reproduction& so_far, const std::function<void(std::string_view)>& before_step);
+std::vector<Claim> paper_claims(const Reproduction& so_far, const RunContext& context);
 std::vector<PaperFigure> paper_figures(const PaperAssumptions& assumptions, const GeneticResult& evolution);
 std::vector<LawCost> law_costs(const PaperAssumptions& assumptions);
 /// True if no design of the box is better than Table 4 by more than a millionth.

@@ -15,12 +15,13 @@ void wind_several_times(AnalysisResult& result) {
 
 }  // namespace
 
-AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options) {
+AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options, const RunContext& context) {
   if (file.mechanism.transmission) {
     throw InputError(file.path, "a joint with [transmission] has no tendons to analyze",
                      "[transmission] is for 'fusee calibrate'");
   }
-  AnalysisResult result = analyse(as_it_is(file.mechanism).mechanism, options);
+  context.begin_step("moving the joint through its range");
+  AnalysisResult result = analyse(as_it_is(file.mechanism).mechanism, options, context);
   result.warnings = likely_input_errors(file);
   // A tendon that breaks is an error rather than a warning.
   if (const auto overloaded = overloaded_tendon(file); overloaded && !result.breaks_at)

@@ -1,11 +1,6 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <functional>
 #include <future>
 #include <memory>
 
@@ -26,30 +21,6 @@
 namespace fusee {
 namespace {
 
-/// A private folder in the system's temporary folder, removed with its content by the destructor.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (temporary_folder() / "fusee-dry-run-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw OutputError("the temporary folder cannot be written: " + name,
-                        "set TMPDIR to a folder that you may write to");
-    path_ = name;
-  }
-  ~TemporaryFolder() { remove(); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  void remove() const {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
 // Limit of outline points for the full builds of advice. A build of the usual 200 points takes a quarter of a second,
 // in proportion to the points (campaign of seed 210002).
 constexpr double k_points_for_advice = 1600;
@@ -59,35 +30,20 @@ constexpr const char* k_step = "pulley.step";
 // Upper bound of our own output files.
 constexpr std::size_t k_largest_draco = std::size_t{512} << 20;
 
-void announce(const BuildOptions& options, std::string_view what) {
-  if (options.before_step) options.before_step(what);
-}
-
 /// State of a build: results so far and their staging folder.
 struct BuildContext {
   const BuildOptions& options;
+  const RunContext& run;
   BuildResult& result;
   OutputFolder& folder;
-  std::function<void()> clean_up;
 
-  void step(std::string_view what) const {
-    if (options.while_waiting) options.while_waiting(clean_up);
-    announce(options, what);
-  }
+  void step(std::string_view what) const { run.begin_step(what); }
   void stage(std::string name, std::string bytes) {
     step("writing " + name);
     result.outputs.push_back({std::move(name), std::move(bytes)});
     folder.stage(result.outputs.back());
   }
-  /// Waits for the result of another thread.
-  template <typename Value>
-  Value take(std::future<Value>& made) const {
-    while (made.wait_for(std::chrono::milliseconds(20)) == std::future_status::timeout) {
-      if (options.while_waiting) options.while_waiting(clean_up);
-    }
-    return made.get();
-  }
-  Part read_back(const std::string& name) const { return read_made_part(folder.staged_path(name)); }
+  Part read_back(const std::string& name) const { return read_part(folder.staged_path(name)); }
   TriangleMesh mesh_of(const std::string& name) const { return std::get<TriangleMesh>(read_back(name)); }
   void add(std::vector<Check> checks, const std::string& prefix = {}) {
     for (Check& check : checks) {
@@ -114,20 +70,20 @@ DracoFile write_helical_parts(BuildContext& context) {
   const TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
   context.step("writing meshes and drawings");
-  auto draco = run_async([&] { return draco_file(mesh, context.options.tolerance); });
+  auto draco = run_async([&] { return draco_file(mesh, context.options.chord_error_mm); });
   auto profile = run_async([&] { return profile_dxf(product, context.options.dxf); });
   auto threemf = run_async([&] { return threemf_bytes(mesh, name); });
   auto obj = run_async([&] { return obj_text(mesh, name); });
   auto scad = run_async([&] { return scad_text(product); });
   auto step = run_async([&] { return context.options.step ? step_file(product) : StepFile(); }, context.options.step);
   context.stage("pulley.stl", stl_bytes(mesh, name));
-  context.stage("pulley.obj", context.take(obj));
-  context.stage("pulley.3mf", context.take(threemf));
-  DracoFile file = context.take(draco);
+  context.stage("pulley.obj", obj.get());
+  context.stage("pulley.3mf", threemf.get());
+  DracoFile file = draco.get();
   context.stage("pulley.drc", file.bytes);
-  if (context.options.step) stage_step(context, context.take(step));
-  context.stage("pulley.scad", context.take(scad));
-  context.stage("profile.dxf", context.take(profile));
+  if (context.options.step) stage_step(context, step.get());
+  context.stage("pulley.scad", scad.get());
+  context.stage("profile.dxf", profile.get());
   return file;
 }
 
@@ -140,9 +96,9 @@ std::vector<Check> print_checks(const Print& print, const TriangleMesh& mesh) {
 }
 
 std::vector<Check> draco_checks(const BuildContext& context, const TriangleMesh& mesh, const DracoFile& made) {
-  const bool is_unchanged = read_output(context.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
+  const bool is_unchanged = read_file(context.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
   const Part decoded = is_unchanged ? Part(made.decoded) : context.read_back("pulley.drc");
-  std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), context.options.tolerance);
+  std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), context.options.chord_error_mm);
   for (const Check& check : is_unchanged ? made.checks : check_part(decoded)) checks.push_back(check);
   return checks;
 }
@@ -150,7 +106,7 @@ std::vector<Check> draco_checks(const BuildContext& context, const TriangleMesh&
 /// Checks that the STEP file is a valid solid, and winds tendons on its floors.
 std::vector<Check> step_checks(const BuildContext& context) {
   const Product& product = context.result.product;
-  StepInspection look = inspect_step(context.folder.staged_path(k_step), product, context.options.tolerance);
+  StepInspection look = inspect_step(context.folder.staged_path(k_step), product, context.options.chord_error_mm);
   std::vector<Check> checks = std::move(look.checks);
   if (!all_ok(checks)) return checks;
   const RewindResult wound = product.helix
@@ -186,7 +142,7 @@ void begin_mesh_checks(PendingChecks& pending, const BuildContext& context) {
   pending.mesh = run_async([&context] { return context.mesh_of("pulley.stl"); }).share();
   pending.pulley_checks = run_async([&context, &product, mesh = pending.mesh] {
     return check_pulley(mesh.get(), product.joint.mechanism, product.synthesis, product.pulley,
-                        context.options.tolerance);
+                        context.options.chord_error_mm);
   });
   pending.as_built = run_async(
       [&product, mesh = pending.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh.get()); });
@@ -201,7 +157,7 @@ PendingChecks write_parts(BuildContext& context) {
   const TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
   context.step("writing meshes and drawings");
-  auto draco = run_async([&] { return draco_file(mesh, context.options.tolerance); });
+  auto draco = run_async([&] { return draco_file(mesh, context.options.chord_error_mm); });
   auto plates = run_async([&] { return plates_dxf(product, context.options.dxf); });
   auto profile = run_async([&] { return profile_dxf(product, context.options.dxf); });
   auto threemf = run_async([&] { return threemf_bytes(plate_of(product.pulley), name); });
@@ -212,29 +168,29 @@ PendingChecks write_parts(BuildContext& context) {
   PendingChecks pending;
   context.stage("pulley.stl", stl_bytes(mesh, name));
   begin_mesh_checks(pending, context);
-  context.stage("pulley.obj", context.take(obj));
+  context.stage("pulley.obj", obj.get());
   pending.obj_checks =
       run_async([&context, read = pending.mesh] { return same_mesh(read.get(), context.mesh_of("pulley.obj")); });
-  context.stage("pulley.3mf", context.take(threemf));
+  context.stage("pulley.3mf", threemf.get());
   pending.threemf_checks =
       run_async([&context, &product] { return same_mesh(plate_of(product.pulley), context.mesh_of("pulley.3mf")); });
   for (const PrintedPart& part : product.pulley.parts) {
     context.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
     pending.printed_checks.push_back(run_async([&context, &part] { return checks_of_printed(context, part); }));
   }
-  DracoFile file = context.take(draco);
+  DracoFile file = draco.get();
   context.stage("pulley.drc", file.bytes);
   pending.draco_checks =
       run_async([&context, read = pending.mesh, made = std::make_shared<const DracoFile>(std::move(file))] {
         return draco_checks(context, read.get(), *made);
       });
-  if (context.options.step) stage_step(context, context.take(step));
-  context.stage("pulley.scad", context.take(scad));
-  context.stage("profile.dxf", context.take(profile));
+  if (context.options.step) stage_step(context, step.get());
+  context.stage("pulley.scad", scad.get());
+  context.stage("profile.dxf", profile.get());
   pending.profile_checks = run_async([&context] { return check_part(context.read_back("profile.dxf")); });
-  context.stage("plates.dxf", context.take(plates));
+  context.stage("plates.dxf", plates.get());
   pending.plates_checks = run_async([&context] { return check_part(context.read_back("plates.dxf")); });
-  product.holding = context.take(holding);
+  product.holding = holding.get();
   const bool is_step = has_step(context);
   pending.step_checks =
       run_async([&context, is_step] { return is_step ? step_checks(context) : std::vector<Check>(); }, is_step);
@@ -256,21 +212,21 @@ Tables begin_tables(const Product& product) {
 Tables check_parts(BuildContext& context, PendingChecks& pending) {
   Product& product = context.result.product;
   context.step("checking the written files");
-  context.add(context.take(pending.pulley_checks));
+  context.add(pending.pulley_checks.get());
   context.step("winding tendons on it");
-  product.as_built = context.take(pending.as_built);
+  product.as_built = pending.as_built.get();
   context.add(as_built_checks(product.joint.mechanism, product.as_built, context.options.limits));
   Tables tables = begin_tables(product);
   context.step("checking the other files");
   for (std::size_t k = 0; k < product.pulley.parts.size(); ++k)
-    context.add(context.take(pending.printed_checks[k]), product.pulley.parts[k].side == Side::left ? "p1_" : "p2_");
-  if (product.pulley.parts.empty()) context.add(context.take(pending.printed_checks.front()));
-  context.add(context.take(pending.obj_checks), "obj_");
-  context.add(context.take(pending.threemf_checks), "3mf_");
-  context.add(context.take(pending.draco_checks), "drc_");
-  context.add(context.take(pending.step_checks), "step_");
-  context.add(context.take(pending.profile_checks), "profile_dxf_");
-  context.add(context.take(pending.plates_checks), "plates_dxf_");
+    context.add(pending.printed_checks[k].get(), product.pulley.parts[k].side == Side::left ? "p1_" : "p2_");
+  if (product.pulley.parts.empty()) context.add(pending.printed_checks.front().get());
+  context.add(pending.obj_checks.get(), "obj_");
+  context.add(pending.threemf_checks.get(), "3mf_");
+  context.add(pending.draco_checks.get(), "drc_");
+  context.add(pending.step_checks.get(), "step_");
+  context.add(pending.profile_checks.get(), "profile_dxf_");
+  context.add(pending.plates_checks.get(), "plates_dxf_");
   return tables;
 }
 
@@ -288,28 +244,29 @@ Tables check_helical_parts(BuildContext& context, const DracoFile& draco) {
   auto as_built = run_async([&] { return rewind_several_turns(product, mesh); });
   auto of_step =
       run_async([&] { return has_step(context) ? step_checks(context) : std::vector<Check>(); }, context.options.step);
-  context.add(context.take(of_pulley));
+  context.add(of_pulley.get());
   context.step("winding tendons on it");
-  product.helix->as_built = context.take(as_built);
+  product.helix->as_built = as_built.get();
   product.as_built = product.helix->as_built.result;
   context.add(as_built_checks(mechanism, product.as_built, context.options.limits));
   Tables tables = begin_tables(product);
   context.step("checking the other files");
-  context.add(context.take(of_printing));
-  context.add(context.take(of_obj), "obj_");
-  context.add(context.take(of_3mf), "3mf_");
-  context.add(context.take(of_draco), "drc_");
-  context.add(context.take(of_step), "step_");
-  context.add(context.take(of_profile), "profile_dxf_");
+  context.add(of_printing.get());
+  context.add(of_obj.get(), "obj_");
+  context.add(of_3mf.get(), "3mf_");
+  context.add(of_draco.get(), "drc_");
+  context.add(of_step.get(), "step_");
+  context.add(of_profile.get(), "profile_dxf_");
   return tables;
 }
 
-/// A written file that cannot be read back is a bug, not bad input.
+/// A written file that cannot be read back is a bug, not bad input, unless a request to stop has removed it.
 template <typename Checking>
-Tables check_written(const Checking& run_checks) {
+Tables check_written(const BuildContext& context, const Checking& run_checks) {
   try {
     return run_checks();
   } catch (const InputError& error) {
+    context.run.throw_if_stopped();
     throw Bug(std::string("a written file cannot be read back: ") + error.what());
   }
 }
@@ -317,23 +274,23 @@ Tables check_written(const Checking& run_checks) {
 Tables write_and_check_parts(BuildContext& context) {
   if (context.result.product.helix) {
     const DracoFile draco = write_helical_parts(context);
-    return check_written([&] { return check_helical_parts(context, draco); });
+    return check_written(context, [&] { return check_helical_parts(context, draco); });
   }
   PendingChecks pending = write_parts(context);
-  return check_written([&] { return check_parts(context, pending); });
+  return check_written(context, [&] { return check_parts(context, pending); });
 }
 
 void write_texts(BuildContext& context, Tables tables) {
   const Product& product = context.result.product;
   context.step("writing tables, report and manifest");
   auto report = run_async([&] { return report_html(product); });
-  context.stage("profile.csv", context.take(tables.profile));
-  context.stage("profile_p1.csv", context.take(tables.p1));
-  context.stage("profile_p2.csv", context.take(tables.p2));
-  context.stage("transmission.csv", context.take(tables.transmission));
-  context.stage("report.html", context.take(report));
+  context.stage("profile.csv", tables.profile.get());
+  context.stage("profile_p1.csv", tables.p1.get());
+  context.stage("profile_p2.csv", tables.p2.get());
+  context.stage("transmission.csv", tables.transmission.get());
+  context.stage("report.html", report.get());
   auto manifest = run_async([&] { return manifest_json(product, context.result.outputs); });
-  context.stage("manifest.json", context.take(manifest));
+  context.stage("manifest.json", manifest.get());
 }
 
 bool passes_checks_of_several_turns(const Product& product, const BuildOptions& options) {
@@ -344,19 +301,15 @@ bool passes_checks_of_several_turns(const Product& product, const BuildOptions& 
 }
 
 /// Designs curves, body and plates in memory and runs the checks that a design can fail.
-bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
+bool passes_checks(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
   Product product;
   product.file = file;
   product.joint = as_it_is(file.mechanism);
-  BuildOptions quietly = options;
-  quietly.before_step = [&options](std::string_view) {
-    if (options.between_tries) options.between_tries();
-  };
-  if (!design_any(product, quietly.tolerance, quietly.limits, quietly.before_step, TieOffSearch::brief)) return false;
+  if (!design_any(product, options.chord_error_mm, options.limits, context, TieOffSearch::brief)) return false;
   if (product.helix) return passes_checks_of_several_turns(product, options);
   const Mechanism& mechanism = product.joint.mechanism;
   const TriangleMesh& mesh = product.pulley.mesh;
-  announce(quietly, "checking the trial's mesh");
+  context.throw_if_stopped();
   auto of_plates = run_async([&] {
     const std::string drawing = plates_dxf(product, options.dxf);
     return all_ok(check_part(read_dxf(drawing, "plates.dxf")));
@@ -367,16 +320,16 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
                        [&](const PrintedPart& part) { return all_ok(print_checks(mechanism.print, part.mesh)); });
   });
   const bool is_right =
-      all_ok(check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.tolerance)) &&
+      all_ok(check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.chord_error_mm)) &&
       all_ok(as_built_checks(mechanism, rewind_made(product.joint, product.pulley.layout, mesh), options.limits));
   const bool prints = of_printing.get();
   return of_plates.get() && prints && is_right;
 }
 
 /// Bad input and parts on which no tendon can be wound are not feasible.
-bool is_made(const MechanismFile& file, const BuildOptions& options) {
+bool is_made(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
   try {
-    return passes_checks(file, options);
+    return passes_checks(file, options, context);
   } catch (const InputError&) {
     return false;
   }
@@ -386,14 +339,15 @@ bool is_made(const MechanismFile& file, const BuildOptions& options) {
 /// reuses the file's curves.
 class FeasibilityCheck {
  public:
-  FeasibilityCheck(const Product& refused, const BuildOptions& options)
+  FeasibilityCheck(const Product& refused, const BuildOptions& options, const RunContext& context)
       : file_(refused.file),
         options_(options),
+        context_(context),
         own_(curves_of(refused.file.mechanism)),
         own_points_(static_cast<double>(refused.synthesis.p1.points.size())) {}
 
   std::vector<Condition> operator()(const Mechanism& changed) const {
-    if (options_.between_tries) options_.between_tries();
+    context_.throw_if_stopped();
     if (!has_own_curves(changed)) return obstacles(curves_of(with_declared(file_, changed).mechanism));
     Curves curves = own_;
     curves.joint.mechanism.body = changed.body;
@@ -404,7 +358,7 @@ class FeasibilityCheck {
 
   /// Number of full builds for which the largest variant leaves time.
   int max_builds() const {
-    const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.tolerance / largest_));
+    const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.chord_error_mm / largest_));
     const double points = std::max(k_two_pi / turn, own_points_);
     return std::max(1, static_cast<int>(k_points_for_advice / points));
   }
@@ -443,25 +397,26 @@ class FeasibilityCheck {
 
   const MechanismFile& file_;
   const BuildOptions& options_;
+  const RunContext& context_;
   Curves own_;
   double own_points_;  ///< of an outline as it would be made, 0 where there is none
   /// Largest distance of an outline from the axis among the trials with room for a body, mm.
   mutable std::atomic<double> largest_ = 0;
 };
 
-Advice advice_for(const Product& product, const BuildOptions& options) {
+Advice advice_for(const Product& product, const BuildOptions& options, const RunContext& context) {
   const MechanismFile& file = product.file;
   if (product.helix) {
-    const auto made = [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); };
-    return advice_for_several_turns(product, {options.tolerance, made, options.between_tries});
+    const auto made = [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options, context); };
+    return advice_for_several_turns(product, {options.chord_error_mm, made, context});
   }
-  const FeasibilityCheck check(product, options);
+  const FeasibilityCheck check(product, options, context);
   std::atomic<int> begun = 0;
   const FeasibilityOracle judge{.obstacles = [&](const Mechanism& changed) { return check(changed); },
                                 .made =
                                     [&](const Mechanism& changed) {
                                       ++begun;
-                                      return is_made(with_declared(file, changed), options);
+                                      return is_made(with_declared(file, changed), options, context);
                                     },
                                 .builds_left = [&] { return check.max_builds() - begun; }};
   return body_advice(file.mechanism, judge, product.pulley.layout.parts);
@@ -475,17 +430,6 @@ void write_and_check(BuildContext& context) {
   context.result.status = all_ok(context.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }
 
-void write_dry_run(BuildResult& result, const BuildOptions& options) {
-  if (options.before_writing) options.before_writing();
-  const TemporaryFolder temporary;
-  OutputFolder staging(temporary.path() / "out", true);
-  BuildContext context{options, result, staging, [&] {
-                         staging.discard();
-                         temporary.remove();
-                       }};
-  write_and_check(context);
-}
-
 }  // namespace
 
 const std::vector<std::string>& output_names() {
@@ -496,36 +440,38 @@ const std::vector<std::string>& output_names() {
   return names;
 }
 
-BuildResult build(const MechanismFile& file, const BuildOptions& options) {
+BuildResult build(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
   BuildResult result;
   result.product.file = file;
   auto warned = run_async([&file] { return plausibility_warnings(file); });
   result.product.joint = as_it_is(file.mechanism);
-  OutputFolder target(options.folder, options.force);
+  OutputFolder target(options.folder, options.force, context);
   if (const auto why = options.step ? step_missing() : std::nullopt)
     throw InputError("", "no pulley.step: this fusee was built without STEP: " + *why, "build without --step");
   target.claim(output_names());  // before the work: a refusal should not cost a wait
-  const bool is_possible = design_any(result.product, options.tolerance, options.limits, options.before_step);
+  const bool is_possible = design_any(result.product, options.chord_error_mm, options.limits, context);
   for (Diagnostic& warning : warned.get()) result.product.file.warnings.push_back(std::move(warning));
   if (!is_possible) {
     result.status = BuildStatus::infeasible;
-    announce(options, "looking for what would make it possible");
-    result.advice = advice_for(result.product, options);
+    if (!options.advice) return result;
+    context.begin_step("looking for what would make it possible");
+    result.advice = advice_for(result.product, options, context.without_progress());
     return result;
   }
   if (!result.product.helix) {
     for (Diagnostic& unused : unused_turn_keys(file)) result.product.file.warnings.push_back(std::move(unused));
   }
   if (options.dry_run) {
-    write_dry_run(result, options);
+    OutputFolder staging = OutputFolder::temporary(context);
+    BuildContext dry_run{options, context, result, staging};
+    write_and_check(dry_run);
     return result;
   }
-  if (options.before_writing) options.before_writing();
-  BuildContext context{options, result, target, [&target] { target.discard(); }};
-  write_and_check(context);
+  BuildContext published{options, context, result, target};
+  write_and_check(published);
   const bool may_publish = result.status == BuildStatus::done || !target.has_earlier_run() || options.force;
   if (!may_publish) return result;
-  context.step("publishing");
+  context.begin_step("publishing");
   // pulley_p1.stl of an earlier run does not belong to a pulley in one piece.
   target.withdraw(output_names());
   target.publish(result.product.file.warnings);

@@ -39,10 +39,7 @@ struct CalibrationContext {
   const MechanismFile& file;
   const CalibrateOptions& options;
   CalibrateResult& result;
-
-  void step(const std::string& what, std::optional<double> share = std::nullopt) const {
-    if (options.progress) options.progress(what, share);
-  }
+  const RunContext& run;
 };
 
 std::vector<std::string> names_from(const Measurement& measurement, std::size_t first) {
@@ -56,23 +53,24 @@ void conclude(const CalibrationContext& context, const RunFiles& runs) {
   CalibrationProduct& product = context.result.product;
   const DeclaredMechanism& declared = context.file.mechanism;
   const DeclaredMechanism expected = expected_joint(declared);
-  context.step("reading the runs");
-  const Measurement as_read = read_measurement(runs.all, expecting(expected, context.options.columns));
+  context.run.begin_step("reading the runs");
+  const Measurement as_read =
+      read_measurement(runs.all, expecting(expected, context.options.columns), *context.run.files);
   product.measurement = as_read;
   compare_with_declared(expected, product.measurement);
   CalibrationOptions options;
   options.hold_out = names_from(product.measurement, runs.fitted);
-  options.progress = [&](const std::string& what, double share) { context.step(what, share); };
+  options.context = context.run;
   options.audit = context.options.audit;
   options.look_for_effects = !is_input_error_obvious(declared, as_read);
   product.calibration = calibrate(expected, product.measurement, options);
-  context.step("checking for input errors");
+  context.run.begin_step("checking for input errors");
   product.slips = find_input_errors(declared, as_read, product.calibration);
   if (!product.slips.empty() && product.calibration.curve.used) {
     product.calibration.curve.used = false;
     product.calibration.curve.why = "an input error in the file or the log may explain the data: check it first";
   }
-  context.step("computing the correction");
+  context.run.begin_step("computing the correction");
   product.correction.identified = declared.identified;
   product.correction.why_no_pulley_file = product.correction.why_no_table = "the data are inconclusive";
   if (product.calibration.verdict != CalibrationVerdict::not_testable)
@@ -81,25 +79,25 @@ void conclude(const CalibrationContext& context, const RunFiles& runs) {
 }
 
 /// The user's text if it describes the mechanism; else a new text with every key.
-std::string own_text(const MechanismFile& file, bool& rewritten) {
+std::string own_text(const MechanismFile& file, bool& rewritten, FileAccess& files) {
   const std::filesystem::path path = file.path;
   rewritten = true;
   if (path.empty()) return write_mechanism(file.mechanism);
-  const std::string text = read_file(path, k_largest_spec);
-  rewritten = parse_mechanism(text, file.path, path.parent_path()) != file.mechanism;
+  const std::string text = read_file(path, k_largest_spec, files);
+  rewritten = parse_mechanism(text, file.path, path.parent_path(), {}, nullptr, nullptr, files) != file.mechanism;
   return rewritten ? write_mechanism(file.mechanism) : text;
 }
 
 /// Text that corrected.toml starts from, independent of its folder.
-std::string declared_text(const MechanismFile& file, bool& rewritten) {
-  const std::string text = own_text(file, rewritten);
-  return law_table_name(file.mechanism) ? with_table_beside(text, file) : text;
+std::string declared_text(const MechanismFile& file, bool& rewritten, FileAccess& files) {
+  const std::string text = own_text(file, rewritten, files);
+  return law_table_name(file.mechanism) ? with_table_beside(text, file, files) : text;
 }
 
-std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const std::string& declared) {
+std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const std::string& declared, FileAccess& files) {
   std::vector<OutputFile> outputs;
   outputs.push_back({"calibration.json", calibration_json(product)});
-  if (law_table_name(product.file.mechanism)) outputs.push_back(law_table_copy(product.file));
+  if (law_table_name(product.file.mechanism)) outputs.push_back(law_table_copy(product.file, files));
   if (product.correction.why_no_pulley_file.empty())
     outputs.push_back(
         {"corrected.toml", corrected_toml(declared, product.file.mechanism, product.calibration, product.correction)});
@@ -132,10 +130,7 @@ int first_free_run_beside(const RunFiles& files) {
 }
 
 void publish(const CalibrationContext& context, OutputFolder& folder) {
-  for (const OutputFile& output : context.result.outputs) {
-    if (context.options.before_writing) context.options.before_writing();
-    folder.stage(output);
-  }
+  for (const OutputFile& output : context.result.outputs) folder.stage(output);
   folder.publish(context.result.product.file.warnings);
   context.result.published = true;
 }
@@ -143,17 +138,17 @@ void publish(const CalibrationContext& context, OutputFolder& folder) {
 }  // namespace
 
 CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::filesystem::path>& runs,
-                          const CalibrateOptions& options) {
+                          const CalibrateOptions& options, const RunContext& run) {
   CalibrateResult result;
   result.product.file = with_plausibility_warnings_and_turns(file);
-  const CalibrationContext context{file, options, result};
-  OutputFolder target(options.folder, options.force);
+  const CalibrationContext context{file, options, result, run};
+  OutputFolder target(options.folder, options.force, run);
   const RunFiles files = run_files(runs, options.hold_out);
   target.claim(with_next(output_names(file), first_free_run_beside(files),
                          k_most_next_runs));  // before the work, so that a refusal costs no time
-  const std::string declared = declared_text(file, result.rewritten);
+  const std::string declared = declared_text(file, result.rewritten, *run.files);
   conclude(context, files);
-  result.outputs = outputs_of(result.product, declared);
+  result.outputs = outputs_of(result.product, declared, *run.files);
   target.withdraw(
       with_next(output_names(file), 1, k_most_earlier_runs));  // a correction or run file that this run does not write
   if (!options.dry_run) publish(context, target);

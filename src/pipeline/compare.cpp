@@ -17,27 +17,20 @@ std::vector<OutputFile> outputs_of(const ComparisonProduct& product) {
 
 /// Both states are compared with the mounted joint of the file.
 void conclude(const MechanismFile& file, const Paths& before, const Paths& after, const CompareOptions& options,
-              ComparisonProduct& product) {
-  const auto step = [&](const std::string& what, std::optional<double> share = std::nullopt) {
-    if (options.progress) options.progress(what, share);
-  };
-  step("reading the runs");
+              const RunContext& context, ComparisonProduct& product) {
+  context.begin_step("reading the runs");
   const DeclaredMechanism expected = expected_joint(file.mechanism);
   Paths both = before;
   both.insert(both.end(), after.begin(), after.end());
-  product.measurement = read_measurement(both, expected, options.columns);
+  product.measurement = read_measurement(both, expected, options.columns, *context.files);
   product.runs_before = before.size();
-  const ComparedRuns runs{read_measurement(before, expected, options.columns),
-                          read_measurement(after, expected, options.columns), product.measurement};
-  product.comparison =
-      compare_states(expected, runs, {.progress = [&](const std::string& what, double share) { step(what, share); }});
+  const ComparedRuns runs{read_measurement(before, expected, options.columns, *context.files),
+                          read_measurement(after, expected, options.columns, *context.files), product.measurement};
+  product.comparison = compare_states(expected, runs, {.context = context});
 }
 
-void publish(const CompareOptions& options, OutputFolder& folder, CompareResult& result) {
-  for (const OutputFile& output : result.outputs) {
-    if (options.before_writing) options.before_writing();
-    folder.stage(output);
-  }
+void publish(OutputFolder& folder, CompareResult& result) {
+  for (const OutputFile& output : result.outputs) folder.stage(output);
   folder.publish(result.product.file.warnings);
   result.published = true;
 }
@@ -45,19 +38,20 @@ void publish(const CompareOptions& options, OutputFolder& folder, CompareResult&
 }  // namespace
 
 CompareResult compare(const MechanismFile& file, const std::vector<std::filesystem::path>& before,
-                      const std::vector<std::filesystem::path>& after, const CompareOptions& options) {
+                      const std::vector<std::filesystem::path>& after, const CompareOptions& options,
+                      const RunContext& context) {
   CompareResult result;
   result.product.file = with_plausibility_warnings_and_turns(file);
   std::optional<OutputFolder> target;
   if (!options.folder.empty()) {
-    target.emplace(options.folder, options.force);
+    target.emplace(options.folder, options.force, context);
     target->claim(
         {"comparison.json", "report.html", "manifest.json"});  // before the work, so that a refusal costs no time
   }
-  conclude(file, before, after, options, result.product);
+  conclude(file, before, after, options, context, result.product);
   if (!target) return result;
   result.outputs = outputs_of(result.product);
-  if (!options.dry_run) publish(options, *target, result);
+  if (!options.dry_run) publish(*target, result);
   return result;
 }
 

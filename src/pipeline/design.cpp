@@ -32,10 +32,9 @@ std::vector<Condition> windable(const Mechanism& mechanism, const std::function<
   return {condition};
 }
 
-bool design(Product& product, double tolerance, const std::function<void(std::string_view step)>& before_step,
-            TieOffSearch search) {
+bool design(Product& product, double tolerance, const RunContext& context, TieOffSearch search) {
   const Mechanism& mechanism = product.joint.mechanism;
-  if (before_step) before_step("finding both pitch curves");
+  context.begin_step("finding both pitch curves");
   SynthesisOptions synthesis_options;
   synthesis_options.tolerance = tolerance;
   synthesis_options.drawn_out = -product.joint.outline.offset;
@@ -45,7 +44,7 @@ bool design(Product& product, double tolerance, const std::function<void(std::st
   draw_for_making(product.synthesis, product.joint.outline);
   product.pulley.conditions = turns_inward_as_drawn(product.synthesis, product.joint.outline);
   if (!product.pulley.conditions.empty()) return false;
-  if (before_step) before_step("building the body");
+  context.begin_step("building the body");
   auto cut_layout = run_async([&] { return layout_to_cut(mechanism, product.synthesis); });
   product.pulley = make_pulley(mechanism, product.synthesis, search);
   product.cut_layout = cut_layout.get();

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <functional>
-#include <string_view>
 #include <vector>
 
+#include "fusee/base/run_context.h"
 #include "fusee/export/product.h"
 #include "fusee/solid/pulley.h"
 
@@ -13,7 +13,7 @@ namespace fusee {
 
 /// Designs curves within `tolerance`, mm, and the body of product.joint. False if it is infeasible: the reasons are
 /// conditions of product.synthesis, or of product.pulley if the curves exist.
-bool design(Product& product, double tolerance, const std::function<void(std::string_view step)>& before_step,
+bool design(Product& product, double tolerance, const RunContext& context,
             TieOffSearch search = TieOffSearch::thorough);
 
 /// Replaces the declared mechanism by a trial mechanism, and keeps the identified effects.

@@ -19,9 +19,10 @@ Diagnostic warning(std::string message) {
 }
 
 /// True if the edited text is a valid mechanism with the intended numbers.
-bool holds(const std::string& text, const std::vector<ValueEdit>& edits, const std::string& path) {
+bool holds(const std::string& text, const std::vector<ValueEdit>& edits, const std::string& path, FileAccess& files) {
   try {
-    const DeclaredMechanism read = parse_mechanism(text, path, std::filesystem::path(path).parent_path());
+    const DeclaredMechanism read =
+        parse_mechanism(text, path, std::filesystem::path(path).parent_path(), {}, nullptr, nullptr, files);
     return std::all_of(edits.begin(), edits.end(), [&read](const ValueEdit& edit) {
       return std::abs(find_number_key(edit.key)->get(read) - edit.value) <= 1e-12 * std::abs(edit.value);
     });
@@ -51,11 +52,11 @@ std::vector<ValueEdit> all_edits(const Problem& problem, const Design& design, c
 }  // namespace
 
 DesignFile design_file(const MechanismFile& file, const Problem& problem, const Design& design,
-                       const std::vector<Setting>& settings) {
+                       const std::vector<Setting>& settings, FileAccess& files) {
   DesignFile result;
   const std::vector<ValueEdit> edits = all_edits(problem, design, settings, result.warnings);
-  result.text = edit_values(read_file(file.path, k_largest_file), edits);
-  if (holds(result.text, edits, file.path)) return result;
+  result.text = edit_values(read_file(file.path, k_largest_file, files), edits);
+  if (holds(result.text, edits, file.path, files)) return result;
   // Dotted keys leave no place for a new key of their table.
   result.warnings.push_back(warning("the layout of " + file.path + " could not be kept: the new file has every key"));
   DeclaredMechanism whole = mechanism_at(problem, design);

@@ -14,6 +14,6 @@ struct DesignFile {
 
 /// `file` with the design's numbers at their keys, and with the numeric values of `settings`.
 DesignFile design_file(const MechanismFile& file, const Problem& problem, const Design& design,
-                       const std::vector<Setting>& settings);
+                       const std::vector<Setting>& settings, FileAccess& files = disk());
 
 }  // namespace fusee

@@ -17,10 +17,6 @@
 namespace fusee {
 namespace {
 
-void begin_step(const KitOptions& options, std::string_view what) {
-  if (options.before_step) options.before_step(what);
-}
-
 /// A written file that cannot be read back is a bug, not bad input.
 TriangleMesh read_back(const OutputFile& file) {
   try {
@@ -62,9 +58,9 @@ CheckedPart made(const KitPart& part, const KitProduct& product) {
   return result;
 }
 
-void make_files(KitResult& result, const KitOptions& options) {
+void make_files(KitResult& result, const KitOptions& options, const RunContext& context) {
   KitProduct& product = result.product;
-  begin_step(options, "building parts");
+  context.begin_step("building parts");
   auto drawing = run_async([&] { return kit_dxf(product, options.dxf); });
   std::vector<std::future<CheckedPart>> parts;
   for (const KitPart& part : product.plan.parts) parts.push_back(run_async([&] { return made(part, product); }));
@@ -79,7 +75,7 @@ void make_files(KitResult& result, const KitOptions& options) {
     check.name = "kit_dxf_" + check.name;
     product.checks.push_back(std::move(check));
   }
-  begin_step(options, "writing the page");
+  context.begin_step("writing the page");
   result.outputs.push_back({"bom.csv", bom_csv(product)});
   result.outputs.push_back({"kit.html", kit_html(product)});
   for (std::size_t i = 0; i < product.bench.plan.steps.size(); ++i) {
@@ -104,27 +100,30 @@ KitPlan plan_of(const Product& pulley) {
 }
 
 /// Tests the rounded numbers that are advised. A number that makes the file bad input is infeasible.
-bool has_kit(const MechanismFile& file, double tolerance) {
+bool has_kit(const MechanismFile& file, double tolerance, const RunContext& context) {
   try {
     Product pulley;
     pulley.file = file;
     pulley.joint = as_it_is(file.mechanism);
-    return design_any(pulley, tolerance, {}, {}, TieOffSearch::brief) && plan_of(pulley).made();
+    return design_any(pulley, tolerance, {}, context, TieOffSearch::brief) && plan_of(pulley).made();
   } catch (const InputError&) {
     return false;
   }
 }
 
 /// Changes that make room for the rig of a feasible pulley.
-Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, const KitOptions& options) {
+Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, const KitOptions& options,
+                      const RunContext& context) {
   const KitPlan& plan = product.plan;
   const FeasibilityOracle judge{
       .obstacles =
           [&](const Mechanism& changed) {
+            context.throw_if_stopped();
             if (!plan.heights) return obstacles_to_kit(with_declared(file, changed).mechanism);
             return failed_of(plan_kit_of_turns(changed, product.pulley.pulley.layout, *plan.heights).conditions);
           },
-      .made = [&](const Mechanism& changed) { return has_kit(with_declared(file, changed), options.tolerance); }};
+      .made =
+          [&](const Mechanism& changed) { return has_kit(with_declared(file, changed), options.chord_error_mm, context); }};
   Advice advice = find_advice(file.mechanism, judge, {"body.flange_thickness_mm"});
   // Steps are relative, so none leaves a pin radius of 0.
   if (Mechanism thicker = file.mechanism; thicker.guides.radius == 0) {
@@ -161,39 +160,38 @@ std::vector<Check> kit_fit_checks(const KitPlan& plan) {
   return checks;
 }
 
-KitResult kit(const MechanismFile& file, const KitOptions& options) {
+KitResult kit(const MechanismFile& file, const KitOptions& options, const RunContext& context) {
   KitResult result;
   KitProduct& product = result.product;
   product.pulley.file = with_plausibility_warnings(file);
   product.pulley.joint = as_it_is(file.mechanism);
-  OutputFolder target(options.folder, options.force);
+  OutputFolder target(options.folder, options.force, context);
   target.claim(
       {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work, so that a refusal costs no time
-  if (!design_any(product.pulley, options.tolerance, {}, options.before_step)) {
+  if (!design_any(product.pulley, options.chord_error_mm, {}, context)) {
     result.ending = KitEnding::no_pulley;
     return result;
   }
   const Mechanism& mechanism = product.pulley.joint.mechanism;
-  begin_step(options, "placing parts");
+  context.begin_step("placing parts");
   product.plan = plan_of(product.pulley);
   if (!product.plan.made()) {
     result.ending = KitEnding::no_kit;
-    begin_step(options, "searching for changes that make room");
-    result.advice = advice_for_kit(file, product, options);
+    context.begin_step("searching for changes that make room");
+    result.advice = advice_for_kit(file, product, options, context.without_progress());
     return result;
   }
   const PlanOptions bench;
-  auto planned = run_async([&] { return plan_runs(file.mechanism, bench); });
+  auto planned = run_async([&] { return plan_runs(file.mechanism, bench, context.without_progress()); });
   target.claim(kit_names(product.plan));
   if (!product.pulley.helix)
     product.pulley.holding = tendon_holding(mechanism, product.pulley.synthesis, product.pulley.pulley);
   product.bench = {product.pulley.file, bench.noise, bench.minutes, planned.get()};
-  make_files(result, options);
+  make_files(result, options, context);
   result.ending = all_ok(product.checks) ? KitEnding::done : KitEnding::check_failed;
   if (options.dry_run) return result;
   if (result.ending != KitEnding::done && target.has_earlier_run() && !options.force) return result;
-  begin_step(options, "publishing");
-  if (options.before_writing) options.before_writing();
+  context.begin_step("publishing");
   for (const OutputFile& output : result.outputs) target.stage(output);
   target.withdraw(kit_names(product.plan));
   target.publish(product.pulley.file.warnings);

@@ -16,9 +16,10 @@ std::filesystem::path table_path(const MechanismFile& file) {
 }
 
 /// True if `text`, placed in `folder`, is a mechanism that finds its table there.
-bool has_beside(const std::string& text, const std::filesystem::path& folder, const std::string& table) {
+bool has_beside(const std::string& text, const std::filesystem::path& folder, const std::string& table,
+                FileAccess& files) {
   try {
-    const DeclaredMechanism mechanism = parse_mechanism(text, "corrected.toml", folder);
+    const DeclaredMechanism mechanism = parse_mechanism(text, "corrected.toml", folder, {}, nullptr, nullptr, files);
     return declared_table(mechanism) == table;
   } catch (const InputError&) {
     return false;
@@ -35,20 +36,20 @@ std::optional<std::string> law_table_name(const Mechanism& mechanism) {
   return std::filesystem::path(table).filename().string();
 }
 
-OutputFile law_table_copy(const MechanismFile& file) {
-  return {law_table_name(file.mechanism).value(), read_file(table_path(file), k_largest_law)};
+OutputFile law_table_copy(const MechanismFile& file, FileAccess& files) {
+  return {law_table_name(file.mechanism).value(), read_file(table_path(file), k_largest_law, files)};
 }
 
 // The table's name may also occur in a comment or another value. The right occurrence is the one with which the reader
 // finds the table in its own folder. A value with escapes does not occur literally: then every key is written anew.
-std::string with_table_beside(const std::string& text, const MechanismFile& file) {
+std::string with_table_beside(const std::string& text, const MechanismFile& file, FileAccess& files) {
   const std::string& declared = declared_table(file.mechanism);
   const std::string beside = law_table_name(file.mechanism).value();
   if (beside == declared) return text;
   for (std::size_t at = text.find(declared); at != std::string::npos; at = text.find(declared, at + 1)) {
     std::string changed = text;
     changed.replace(at, declared.size(), beside);
-    if (has_beside(changed, table_path(file).parent_path(), beside)) return changed;
+    if (has_beside(changed, table_path(file).parent_path(), beside, files)) return changed;
   }
   DeclaredMechanism mechanism = file.mechanism;
   declared_table(mechanism) = beside;

@@ -17,27 +17,24 @@ const std::vector<std::string> k_model_names = {
     "joint.xml",     "joint_tendons.xml", "joint.urdf",   "joint_ros2_control.urdf",
     "joint_table.h", "joint_table.json",  "manifest.json"};
 
-void begin_step(const ModelOptions& options, std::string_view what) {
-  if (options.before_step) options.before_step(what);
-}
-
 /// compensation.csv that calibrate() wrote next to its corrected.toml, as confirmed by both manifests.
-std::optional<std::filesystem::path> compensation_beside(const MechanismFile& file) {
+std::optional<std::filesystem::path> compensation_beside(const MechanismFile& file, FileAccess& files) {
   const std::filesystem::path spec = file.path, csv = spec.parent_path() / "compensation.csv";
   try {
-    const std::string manifest = read_file(spec.parent_path() / "manifest.json", k_largest_csv);
+    const std::string manifest = read_file(spec.parent_path() / "manifest.json", k_largest_csv, files);
     if (!names_output(manifest, spec.filename().string(), file.sha256)) return std::nullopt;
-    if (!names_output(manifest, csv.filename().string(), sha256(read_file(csv, k_largest_csv)))) return std::nullopt;
+    if (!names_output(manifest, csv.filename().string(), sha256(read_file(csv, k_largest_csv, files))))
+      return std::nullopt;
     return csv;
   } catch (const InputError&) {
     return std::nullopt;  // no manifest
   }
 }
 
-void take_compensation(ModelProduct& product, const ModelOptions& options) {
-  const auto path = options.compensation ? options.compensation : compensation_beside(product.file);
+void take_compensation(ModelProduct& product, const ModelOptions& options, FileAccess& files) {
+  const auto path = options.compensation ? options.compensation : compensation_beside(product.file, files);
   if (!path || path->empty()) return;
-  const std::vector<TwoWayRow> rows = read_compensation(read_file(*path, k_largest_csv), path->string());
+  const std::vector<TwoWayRow> rows = read_compensation(read_file(*path, k_largest_csv, files), path->string());
   product.curves.sensed = two_way_curve(refined(rows, Transmission(product.file.mechanism)), CurveSource::compensation);
   product.compensation = path->filename().string();
 }
@@ -107,7 +104,7 @@ std::vector<ModelChange> changes_for_table(const ModelProduct& product, const Mo
 // ---- the steps ------------------------------------------------------------------------------------------------------
 
 /// False if there is no θ(α) to fit; the reason is in `result`.
-bool find_curves(ModelResult& result, const ModelOptions& options) {
+bool find_curves(ModelResult& result, const ModelOptions& options, FileAccess& files) {
   ModelProduct& product = result.product;
   const DeclaredMechanism& declared = product.file.mechanism;
   if (declared.transmission)
@@ -142,12 +139,12 @@ bool find_curves(ModelResult& result, const ModelOptions& options) {
     return false;
   }
   product.curves = *curves;
-  take_compensation(product, options);
+  take_compensation(product, options, files);
   demand_countable(product, options.unit);
   return true;
 }
 
-bool find_fits(ModelResult& result, const ModelOptions& options) {
+bool find_fits(ModelResult& result, const ModelOptions& options, const RunContext& context) {
   ModelProduct& product = result.product;
   const AngleMap& map = product.curves.physical.middle;
   product.equality = fit_equality(map);
@@ -167,7 +164,7 @@ bool find_fits(ModelResult& result, const ModelOptions& options) {
     result.changes = changes_for_polynomial(product, options);
     return false;
   }
-  begin_step(options, "making tables");
+  context.begin_step("making tables");
   const auto table = joint_table(product.curves.sensed, product.mechanism, options.unit, options.most_table_error);
   if (!table) {
     result.ending = ModelEnding::table_off;
@@ -193,7 +190,7 @@ void write_files(ModelResult& result) {
 
 }  // namespace
 
-ModelResult model(const MechanismFile& file, const ModelOptions& options) {
+ModelResult model(const MechanismFile& file, const ModelOptions& options, const RunContext& context) {
   ModelResult result;
   ModelProduct& product = result.product;
   product.file = with_plausibility_warnings_and_turns(file);
@@ -202,18 +199,17 @@ ModelResult model(const MechanismFile& file, const ModelOptions& options) {
   product.most_error = options.most_error;
   product.most_table_error = options.most_table_error;
   product.prefix = options.prefix.empty() ? c_prefix(file.mechanism.name) : options.prefix;
-  OutputFolder target(options.folder, options.force);
+  OutputFolder target(options.folder, options.force, context);
   target.claim(k_model_names);
-  begin_step(options, "simulating the joint");
-  if (!find_curves(result, options)) return result;
-  begin_step(options, "fitting");
-  if (!find_fits(result, options)) return result;
-  begin_step(options, "writing and checking");
+  context.begin_step("simulating the joint");
+  if (!find_curves(result, options, *context.files)) return result;
+  context.begin_step("fitting");
+  if (!find_fits(result, options, context)) return result;
+  context.begin_step("writing and checking");
   write_files(result);
   result.ending = all_ok(product.checks) ? ModelEnding::done : ModelEnding::check_failed;
   if (options.dry_run) return result;
   if (result.ending != ModelEnding::done && target.has_earlier_run() && !options.force) return result;
-  if (options.before_writing) options.before_writing();
   for (const OutputFile& output : result.outputs) target.stage(output);
   target.withdraw(k_model_names);
   target.publish(product.file.warnings);

@@ -40,17 +40,10 @@ void demand_one_objective(const MechanismFile& file, const Problem& problem) {
       "--method pareto, or --set optimize.objective=" + std::string(info(problem.objectives.front()).name));
 }
 
-/// Forwards keep_going() and records in `stopped` that it returned false.
-KeepGoing recording_stop(const KeepGoing& keep_going, bool& stopped) {
-  return [&keep_going, &stopped](const SearchProgress& progress) {
-    if (keep_going && !keep_going(progress)) stopped = true;
-    return !stopped;
-  };
-}
-
 template <typename Found>
 void take_best(const Found& found, OptimizeResult& result) {
   result.found = found.found;
+  result.stopped = found.stopped;
   result.reason = found.reason;
   result.design = found.best;
   result.value = found.value;
@@ -58,7 +51,8 @@ void take_best(const Found& found, OptimizeResult& result) {
 }
 
 /// Selects the best of the designs that tie with the first optimum, by another objective.
-void break_ties(Objective second, CertifiedOptions options, const CertifiedResult& first, OptimizeResult& result) {
+void break_ties(Objective second, const CertifiedResult& first, const RunContext& context, OptimizeResult& result) {
+  CertifiedOptions options;
   const Objective objective = result.problem.objectives.front();
   Problem among = result.problem;
   among.cap = ObjectiveCap{objective, first.value + options.tie * std::abs(first.value)};
@@ -66,24 +60,23 @@ void break_ties(Objective second, CertifiedOptions options, const CertifiedResul
   // Ties of 0.1 % need no finer gap, and the edge of a thin set of designs is costly to follow.
   options.gap = options.tie;
   options.most_boxes = 300000;
-  result.then = certified_optimum(among, second, options);
+  result.then = certified_optimum(among, second, options, context);
+  result.stopped = result.then->stopped;
   result.design = result.then->best;
   const Evaluation value = evaluate_design(result.problem, objective, result.design);
   result.value = value.value;
   result.theta = value.theta;
 }
 
-void search_certified(const OptimizeOptions& asked, OptimizeResult& result) {
-  CertifiedOptions options;
-  options.keep_going = recording_stop(asked.keep_going, result.stopped);
-  const CertifiedResult found = certified_optimum(result.problem, result.problem.objectives.front(), options);
+void search_certified(const OptimizeOptions& options, const RunContext& context, OptimizeResult& result) {
+  const CertifiedResult found = certified_optimum(result.problem, result.problem.objectives.front(), {}, context);
   take_best(found, result);
   result.search = found;
-  if (found.found && asked.then && !result.stopped) break_ties(*asked.then, options, found, result);
+  if (found.found && options.then && !found.stopped) break_ties(*options.then, found, context, result);
 }
 
-void search_genetic(const GeneticOptions& options, OptimizeResult& result) {
-  const GeneticResult found = genetic_optimum(result.problem, result.problem.objectives.front(), options);
+void search_genetic(const GeneticOptions& options, const RunContext& context, OptimizeResult& result) {
+  const GeneticResult found = genetic_optimum(result.problem, result.problem.objectives.front(), options, context);
   take_best(found, result);
   result.search = found;
 }
@@ -103,8 +96,9 @@ const FrontPoint& balanced_point(const std::vector<FrontPoint>& front, const std
   return front.at(static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) - distances.begin()));
 }
 
-void search_front(const GeneticOptions& options, OptimizeResult& result) {
-  const ParetoResult found = pareto_front(result.problem, options);
+void search_front(const GeneticOptions& options, const RunContext& context, OptimizeResult& result) {
+  const ParetoResult found = pareto_front(result.problem, options, context);
+  result.stopped = found.stopped;
   result.found = !found.front.empty();
   result.reason = found.reason;
   result.search = found;
@@ -114,16 +108,14 @@ void search_front(const GeneticOptions& options, OptimizeResult& result) {
   result.value = best.values.front();
 }
 
-void search(SearchMethod method, const OptimizeOptions& options, OptimizeResult& result) {
-  GeneticOptions genetic = options.genetic;
-  genetic.keep_going = recording_stop(options.keep_going, result.stopped);
+void search(SearchMethod method, const OptimizeOptions& options, const RunContext& context, OptimizeResult& result) {
   switch (method) {
     case SearchMethod::certified:
-      return search_certified(options, result);
+      return search_certified(options, context, result);
     case SearchMethod::genetic:
-      return search_genetic(genetic, result);
+      return search_genetic(options.genetic, context, result);
     case SearchMethod::pareto:
-      return search_front(genetic, result);
+      return search_front(options.genetic, context, result);
   }
 }
 
@@ -133,9 +125,9 @@ std::string point_name(std::size_t number) {
   return "point_" + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits + ".toml";
 }
 
-void write_texts(const MechanismFile& file, const OptimizeOptions& options, OptimizeResult& result) {
+void write_texts(const MechanismFile& file, const OptimizeOptions& options, FileAccess& files, OptimizeResult& result) {
   const auto text_of = [&](const Design& design, std::vector<Diagnostic>& warnings) {
-    DesignFile written = design_file(file, result.problem, design, options.settings);
+    DesignFile written = design_file(file, result.problem, design, options.settings, files);
     warnings = std::move(written.warnings);
     return std::move(written.text);
   };
@@ -156,10 +148,10 @@ void note_turns(const MechanismFile& file, OptimizeResult& result) {
   for (Diagnostic& warning : warnings_of_turns(found)) result.warnings.push_back(std::move(warning));
 }
 
-void publish(const OptimizeOptions& options, OutputFolder& front_folder, OptimizeResult& result) {
+void publish(const OptimizeOptions& options, OutputFolder& front_folder, FileAccess& files, OptimizeResult& result) {
   for (const OutputFile& file : result.front_files) front_folder.stage(file);
   front_folder.publish(result.warnings);
-  if (!options.new_file.empty()) write_file(options.new_file, result.new_text, options.force);
+  if (!options.new_file.empty()) write_file(options.new_file, result.new_text, options.force, files);
   result.published = true;
 }
 
@@ -167,7 +159,7 @@ void publish(const OptimizeOptions& options, OutputFolder& front_folder, Optimiz
 
 SearchMethod strongest_method(const MechanismFile& file) { return strongest_method(problem_of(file)); }
 
-OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options) {
+OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options, const RunContext& context) {
   OptimizeResult result;
   result.problem = problem_of(file);
   result.warnings = plausibility_warnings(file);
@@ -175,15 +167,16 @@ OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& option
   result.warnings.insert(result.warnings.end(), bends.begin(), bends.end());
   const SearchMethod method = options.method ? *options.method : strongest_method(result.problem);
   if (method != SearchMethod::pareto) demand_one_objective(file, result.problem);
-  OutputFolder front_folder(options.front_folder, options.force);
+  // Without the stop token: the best design of a stopped search is published.
+  OutputFolder front_folder(options.front_folder, options.force, {.files = context.files});
   // before the work, so that a refusal costs no time
   if (!options.front_folder.empty()) front_folder.claim({point_name(1)});
-  search(method, options, result);
+  search(method, options, context, result);
   result.before = evaluate(result.problem.objectives.front(), judged(result.problem, result.problem.base));
   if (!result.found) return result;
   note_turns(file, result);
-  write_texts(file, options, result);
-  if (!options.dry_run) publish(options, front_folder, result);
+  write_texts(file, options, *context.files, result);
+  if (!options.dry_run) publish(options, front_folder, *context.files, result);
   return result;
 }
 

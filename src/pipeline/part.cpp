@@ -39,10 +39,8 @@ bool is_closed(const DrawingPath& path) { return path.closed; }
 
 }  // namespace
 
-Part read_part(const std::filesystem::path& path) { return parse_part(read_file(path, k_largest_part), path.string()); }
-
-Part read_made_part(const std::filesystem::path& path) {
-  return parse_part(read_output(path, k_largest_part), path.string());
+Part read_part(const std::filesystem::path& path, FileAccess& files) {
+  return parse_part(read_file(path, k_largest_part, files), path.string());
 }
 
 std::vector<Check> check_part(const Part& part) {

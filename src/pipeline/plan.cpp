@@ -25,16 +25,16 @@ std::vector<std::string> run_names() {
 
 }  // namespace
 
-PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options) {
+PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options, const RunContext& context) {
   PlanResult result;
   result.product.file = with_plausibility_warnings_and_turns(file);
   result.product.noise = options.plan.noise;
   result.product.minutes = options.plan.minutes;
   result.without_law = without_law(file.mechanism);
   if (result.without_law) return result;
-  OutputFolder target(options.folder, options.force);
+  OutputFolder target(options.folder, options.force, context);
   target.claim({"plan.json", "plan.html", "manifest.json"});  // before the work, so that a refusal costs no time
-  result.product.plan = plan_runs(file.mechanism, options.plan);
+  result.product.plan = plan_runs(file.mechanism, options.plan, context);
   if (result.product.plan.steps.empty()) return result;
   result.outputs = outputs_of(result.product);
   if (options.dry_run) return result;

@@ -204,7 +204,7 @@ RewindResult rewind_helical_part(const JointAsItIs& joint, const Part& part) {
                      "use the mesh: pulley.stl");
   Product right;
   right.joint = joint;
-  if (!design_several_turns(right, BuildOptions().tolerance, {})) {
+  if (!design_several_turns(right, BuildOptions().chord_error_mm, {})) {
     std::string why = right.synthesis.made() ? "" : right.synthesis.brief();
     for (const Condition& condition : right.pulley.conditions)
       if (!condition.ok && why.empty()) why = condition.message;
@@ -290,7 +290,7 @@ std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResul
     return {at_most("theta_error_reported", error, 180.0, "deg", error_at),
             at_most("slack_reported", as_built.max_slack, whole_mechanism, "mm", slack_at)};
   }
-  return {at_most("theta_error", error, limits.theta_error, "deg", error_at),
+  return {at_most("theta_error", error, limits.theta_error_deg, "deg", error_at),
           at_most("slack", as_built.max_slack, limits.slack, "mm", slack_at)};
 }
 

@@ -178,10 +178,9 @@ MechanismFile with_plausibility_warnings_and_turns(MechanismFile file) {
   return file;
 }
 
-bool design_several_turns(Product& product, double tolerance,
-                          const std::function<void(std::string_view step)>& before_step, TieOffSearch search) {
+bool design_several_turns(Product& product, double tolerance, const RunContext& context, TieOffSearch search) {
   const Mechanism& mechanism = product.joint.mechanism;
-  if (before_step) before_step("winding both tendons several times");
+  context.begin_step("winding both tendons several times");
   HelixProduct& helix = product.helix.emplace();
   SynthesisOptions options;
   options.tolerance = tolerance;
@@ -190,7 +189,7 @@ bool design_several_turns(Product& product, double tolerance,
   adopt_synthesis(product, helix);
   if (!helix.synthesis.made()) return false;
   for (HelixSide& side : helix.synthesis.sides) draw_for_making(side.spiral, product.joint.outline);
-  if (before_step) before_step("building the body");
+  context.begin_step("building the body");
   helix.pulley = make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral,
                                      tolerance, search);
   Pulley& pulley = product.pulley;
@@ -217,25 +216,25 @@ namespace {
 /// A string on a polygon inscribed in its curve is too short by a share of the tolerance per radian of winding. If the
 /// slack over the range exceeds its limit, the curves are drawn again, as finely as the limit requires (campaign of
 /// seed 620001, design 316: 10.5 rad, 0.11 mm of slack).
-bool design_turns_within(Product& product, double tolerance, const AsBuiltLimits& limits,
-                         const std::function<void(std::string_view step)>& before_step, TieOffSearch search) {
-  if (!design_several_turns(product, tolerance, before_step, search)) return false;
+bool design_turns_within(Product& product, double tolerance, const AsBuiltLimits& limits, const RunContext& context,
+                         TieOffSearch search) {
+  if (!design_several_turns(product, tolerance, context, search)) return false;
   double furthest = 0;  // rad
   for (const TransmissionPoint& place : product.synthesis.stroke) furthest = std::max(furthest, std::abs(place.alpha));
   if (furthest * tolerance <= limits.slack) return true;
   const RewindResult wound = rewind_several_turns(product, product.pulley.mesh).result;
   if (all_ok(as_built_checks(product.joint.mechanism, wound, limits))) return true;
-  return design_several_turns(product, 0.5 * limits.slack / furthest, before_step, search);
+  return design_several_turns(product, 0.5 * limits.slack / furthest, context, search);
 }
 
 }  // namespace
 
-bool design_any(Product& product, double tolerance, const AsBuiltLimits& limits,
-                const std::function<void(std::string_view step)>& before_step, TieOffSearch search) {
-  if (design(product, tolerance, before_step, search)) return true;
+bool design_any(Product& product, double tolerance, const AsBuiltLimits& limits, const RunContext& context,
+                TieOffSearch search) {
+  if (design(product, tolerance, context, search)) return true;
   if (!need_several_turns(product.synthesis)) return false;
   const auto kept = kept_to_one_turn(product.file.mechanism);
-  if (!kept) return design_turns_within(product, tolerance, limits, before_step, search);
+  if (!kept) return design_turns_within(product, tolerance, limits, context, search);
   for (Condition& condition : product.synthesis.conditions) {
     if (!condition.ok) condition.message += " (" + *kept + ")";
   }
@@ -330,7 +329,7 @@ class MultiTurnCheck {
   MultiTurnCheck(const DeclaredMechanism& declared, const MultiTurnTrial& trial) : declared_(declared), trial_(trial) {}
 
   std::vector<Condition> obstacles(const Mechanism& changed) {
-    if (trial_.between) trial_.between();
+    trial_.context.throw_if_stopped();
     DeclaredMechanism declared = declared_;
     static_cast<Mechanism&>(declared) = changed;
     const Mechanism joint = as_it_is(declared, LawSearch::brief).mechanism;

@@ -5,7 +5,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "fusee/export/product.h"
@@ -26,14 +25,12 @@ std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file);
 MechanismFile with_plausibility_warnings_and_turns(MechanismFile file);
 
 /// Designs spirals and body of product.joint, which one turn could not provide; otherwise as design().
-bool design_several_turns(Product& product, double tolerance,
-                          const std::function<void(std::string_view step)>& before_step,
+bool design_several_turns(Product& product, double tolerance, const RunContext& context,
                           TieOffSearch search = TieOffSearch::thorough);
 
 /// Designs one turn if it suffices, else several; false if neither is feasible. If the file excludes several turns, the
 /// conditions state the key.
-bool design_any(Product& product, double tolerance, const AsBuiltLimits& limits,
-                const std::function<void(std::string_view step)>& before_step,
+bool design_any(Product& product, double tolerance, const AsBuiltLimits& limits, const RunContext& context,
                 TieOffSearch search = TieOffSearch::thorough);
 
 /// Heights of the tendons above the pulley's lower face, on guides and drum.
@@ -54,7 +51,7 @@ std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism)
 struct MultiTurnTrial {
   double tolerance = 0;                        ///< chord error of the pulleys, mm
   std::function<bool(const Mechanism&)> made;  ///< the full build with checks
-  std::function<void()> between;               ///< called between checks; may be empty
+  const RunContext& context;                   ///< a request to stop ends the search
 };
 /// Changes that make a refused pulley of several turns possible.
 Advice advice_for_several_turns(const Product& product, const MultiTurnTrial& trial);

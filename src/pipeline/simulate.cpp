@@ -36,11 +36,13 @@ void add_noise(std::vector<JointState>& states, double noise, std::uint64_t seed
 
 }  // namespace
 
-SimulateResult simulate(const MechanismFile& file, const std::filesystem::path& log, const SimulateOptions& options) {
+SimulateResult simulate(const MechanismFile& file, const std::filesystem::path& log, const SimulateOptions& options,
+                        const RunContext& context) {
+  context.begin_step("moving the joint through " + log.string());
   SimulateResult result;
   Simulation& simulation = result.simulation;
   simulation.file = with_plausibility_warnings_and_turns(file);
-  simulation.log = read_driving(log, file.mechanism, options.columns);
+  simulation.log = read_driving(log, file.mechanism, options.columns, *context.files);
   result.without_law = without_law(file.mechanism);
   if (result.without_law) return result;
   const SimulatedJoint joint = with_pulley(file.mechanism, options.corrected);

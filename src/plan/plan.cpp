@@ -31,8 +31,11 @@ using Margins = std::vector<std::vector<double>>;
 /// Plans for the causes that the set of all candidate measurements detects.
 class Planner {
  public:
-  Planner(const DeclaredMechanism& declared, const PlanOptions& options)
-      : options_(options), bench_(bench_of(declared, options)), signatures_(declared, bench_, options.noise) {
+  Planner(const DeclaredMechanism& declared, const PlanOptions& options, const RunContext& context)
+      : options_(options),
+        context_(context),
+        bench_(bench_of(declared, options)),
+        signatures_(declared, bench_, options.noise) {
     unit_ = declared.transmission ? "" : "N";
     for (const PlannedRun& run : candidate_runs(bench_)) add(run);
     for (const EffectParameter* reading : unread_numbers(declared)) add(*reading);
@@ -61,9 +64,7 @@ class Planner {
   }
 
  private:
-  void report(const std::string& what) const {
-    if (options_.progress) options_.progress(what);
-  }
+  void report(const std::string& what) const { context_.begin_step("simulating: " + what); }
 
   void add(const PlannedRun& run) {
     report(words(run, bench_.speeds.front(), unit_));
@@ -299,6 +300,7 @@ class Planner {
   }
 
   const PlanOptions& options_;
+  const RunContext& context_;
   Bench bench_;
   Signatures signatures_;
   std::string unit_;
@@ -310,8 +312,8 @@ class Planner {
 
 }  // namespace
 
-Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options) {
-  return Planner(declared, options).plan();
+Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options, const RunContext& context) {
+  return Planner(declared, options, context).plan();
 }
 
 }  // namespace fusee

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fusee/base/file_access.h"
 #include "fusee/mechanism/file.h"
 
 namespace fusee::python {
@@ -14,18 +15,17 @@ namespace fusee::python {
 /// Requested path → content.
 using CarriedFiles = std::map<std::string, std::string>;
 
-/// While an instance exists, its thread reads these files instead of those on the disk.
-class Carrying {
+/// Reads these files instead of those on the disk.
+class CarriedAccess : public FileAccess {
  public:
   /// Files that are still read from the disk are added to `seen`, if given.
-  explicit Carrying(const CarriedFiles& files, CarriedFiles* seen = nullptr);
-  ~Carrying();
-  Carrying(const Carrying&) = delete;
-  Carrying& operator=(const Carrying&) = delete;
-};
+  explicit CarriedAccess(const CarriedFiles& files, CarriedFiles* seen = nullptr) : files_(files), seen_(seen) {}
+  void read(const ReadRequest& request, const TakeBlock& take) override;
 
-/// Installs the file access for Carrying. To be called once, when the module is loaded.
-void read_carried_files_first();
+ private:
+  const CarriedFiles& files_;
+  CarriedFiles* seen_;
+};
 
 /// A mechanism as it was read, and everything that reading it again requires.
 struct CarriedMechanism {

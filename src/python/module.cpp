@@ -3,10 +3,10 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <atomic>
 #include <exception>
 #include <iterator>
 #include <map>
+#include <stop_token>
 #include <tuple>
 
 #include "fusee/joint/as_it_is.h"
@@ -22,29 +22,23 @@ namespace {
 
 // ---- interruption ---------------------------------------------------------------------------------------------------
 
-/// Thrown by a verb's callbacks after a request to stop.
-class Stopped : public std::exception {};
-
-/// Set by the thread that waits for a verb, and read by the verb.
+/// Set by the thread that waits for a verb.
 class Stop {
  public:
-  void set() { asked_ = true; }
-  bool is_set() const { return asked_; }
-  void look() const {
-    if (asked_) throw Stopped();
-  }
+  void set() { source_.request_stop(); }
+  std::stop_token token() const { return source_.get_token(); }
 
  private:
-  std::atomic<bool> asked_ = false;
+  std::stop_source source_;
 };
 
-/// The result of `make`, computed without the interpreter's lock, with the mechanism's files available.
+/// The result of `make`, computed without the interpreter's lock. `make` receives a context with the mechanism's files.
 template <typename Make>
-auto made_unlocked(const CarriedFiles& files, Make make) {
-  using Made = decltype(make());
+auto made_unlocked(const CarriedFiles& files, const Stop& stop, Make make) {
+  using Made = decltype(make(RunContext()));
   const py::gil_scoped_release released;
-  const Carrying carrying(files);
-  return std::make_shared<const Made>(make());
+  CarriedAccess access(files);
+  return std::make_shared<const Made>(make(RunContext{.stop = stop.token(), .files = &access}));
 }
 
 void demand_tendons(const MechanismFile& file, const std::string& what) {
@@ -138,7 +132,7 @@ bool same(const CarriedMechanism& a, const CarriedMechanism& b) { return a.file.
 // ---- verbs ----------------------------------------------------------------------------------------------------------
 
 py::dict synthesise_joint(const CarriedMechanism& carried, double tolerance, bool advice, int steps) {
-  return to_python(made_unlocked(carried.files, [&] {
+  return to_python(made_unlocked(carried.files, Stop(), [&](const RunContext&) {
     demand_tendons(carried.file, "synthesise for");
     SynthesisOptions options;
     options.tolerance = tolerance;
@@ -151,8 +145,8 @@ py::dict synthesise_joint(const CarriedMechanism& carried, double tolerance, boo
 AsBuiltLimits limits_of(double max_theta_error, double max_slack) { return {max_theta_error, max_slack}; }
 
 /// Rewinds a part; faults are reported with its file name.
-RewoundPart rewound(const JointAsItIs& joint, const std::string& path, bool as_is) {
-  const Part part = read_part(path);
+RewoundPart rewound(const JointAsItIs& joint, const std::string& path, bool as_is, FileAccess& files) {
+  const Part part = read_part(path, files);
   try {
     return as_is ? RewoundPart{rewind_part(joint, part), PartPlace::as_made, {}} : rewind_moved_part(joint, part);
   } catch (const InputError& error) {
@@ -174,9 +168,9 @@ py::dict with_checks(const CarriedMechanism& carried, const std::shared_ptr<cons
 
 py::dict rewind_file(const CarriedMechanism& carried, const std::string& path, bool as_is, double max_theta_error,
                      double max_slack) {
-  const auto part = made_unlocked(carried.files, [&] {
+  const auto part = made_unlocked(carried.files, Stop(), [&](const RunContext& context) {
     demand_tendons(carried.file, "wind");
-    return rewound(as_it_is(carried.file.mechanism), path, as_is);
+    return rewound(as_it_is(carried.file.mechanism), path, as_is, *context.files);
   });
   return with_checks(carried, part, limits_of(max_theta_error, max_slack));
 }
@@ -193,7 +187,7 @@ Polygon polygon_of(const Floor& floor) {
 py::dict rewind_floors(const CarriedMechanism& carried, const Floor& floor1, const Floor& floor2,
                        double max_theta_error, double max_slack) {
   const Polygon p1 = polygon_of(floor1), p2 = polygon_of(floor2);
-  const auto part = made_unlocked(carried.files, [&] {
+  const auto part = made_unlocked(carried.files, Stop(), [&](const RunContext&) {
     demand_tendons(carried.file, "wind");
     return RewoundPart{rewind(as_it_is(carried.file.mechanism).mechanism, p1, p2), PartPlace::as_made, {}};
   });
@@ -201,7 +195,8 @@ py::dict rewind_floors(const CarriedMechanism& carried, const Floor& floor1, con
 }
 
 py::dict check_file(const std::string& path) {
-  const auto checks = made_unlocked({}, [&] { return check_part(read_part(path)); });
+  const auto checks =
+      made_unlocked({}, Stop(), [&](const RunContext& context) { return check_part(read_part(path, *context.files)); });
   py::dict dict;
   dict["checks"] = to_python(*checks);
   return dict;
@@ -225,31 +220,27 @@ DxfVersion dxf_version(const std::string& name) { return name == "r12" ? DxfVers
 
 py::dict build_pulley(const CarriedMechanism& carried, const Target& target, double tolerance, const std::string& dxf,
                       bool step, double max_theta_error, double max_slack, const Stop& stop) {
-  return to_python(made_unlocked(carried.files, [&] {
+  return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
     demand_tendons(carried.file, "build a pulley for");
     BuildOptions options;
     aim(options, target);
-    options.tolerance = tolerance;
+    options.chord_error_mm = tolerance;
     options.limits = limits_of(max_theta_error, max_slack);
     options.dxf = dxf_version(dxf);
     options.step = step;
-    options.before_step = [&stop](std::string_view) { stop.look(); };
-    options.between_tries = options.before_writing = [&stop] { stop.look(); };
-    options.while_waiting = [&stop](const std::function<void()>&) { stop.look(); };
-    return build(carried.file, options);
+    return build(carried.file, options, context);
   }));
 }
 
 py::dict analyze_joint(const CarriedMechanism& carried, int steps, double tolerance, int samples, std::uint64_t seed,
                        const Stop& stop) {
-  return to_python(made_unlocked(carried.files, [&] {
+  return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
     AnalysisOptions options;
     options.steps = steps;
     options.tolerance = tolerance;
     options.samples = samples;
     options.seed = seed;
-    options.between_samples = [&stop] { stop.look(); };
-    return analyze(carried.file, options);
+    return analyze(carried.file, options, context);
   }));
 }
 
@@ -274,7 +265,7 @@ std::optional<SearchMethod> search_method(const std::string& name) {
 
 py::dict optimize_joint(const CarriedMechanism& carried, const std::string& method, const std::string& then,
                         unsigned population, unsigned generations, unsigned seed, unsigned threads, const Stop& stop) {
-  return to_python(made_unlocked(carried.files, [&] {
+  return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
     OptimizeOptions options;
     options.method = search_method(method);
     if (!then.empty()) options.then = find_objective(then);
@@ -287,10 +278,9 @@ py::dict optimize_joint(const CarriedMechanism& carried, const std::string& meth
                  [](const Setting& setting) { return find_number_key(setting.key).has_value(); });
     options.new_file = carried.file.path;  // not written: only the text is used
     options.dry_run = true;
-    options.keep_going = [&stop](const SearchProgress&) { return !stop.is_set(); };
     demand_agreement(carried.file, options);
-    OptimizeResult result = optimize(carried.file, options);
-    stop.look();
+    OptimizeResult result = optimize(carried.file, options, context);
+    context.throw_if_stopped();
     return result;
   }));
 }
@@ -314,15 +304,13 @@ py::dict calibrate_joint(const CarriedMechanism& carried, const std::vector<std:
                          const ReadingOptions& reading, const Target& target, bool audit, const Stop& stop) {
   CarriedFiles files = carried.files;
   files.insert(logs.begin(), logs.end());
-  return to_python(made_unlocked(files, [&] {
+  return to_python(made_unlocked(files, stop, [&](const RunContext& context) {
     CalibrateOptions options;
     aim(options, target);
     options.columns = measurement_options(reading);
     options.hold_out = paths_of(hold_out);
     options.audit = audit;
-    options.progress = [&stop](const std::string&, std::optional<double>) { stop.look(); };
-    options.before_writing = [&stop] { stop.look(); };
-    return calibrate(carried.file, paths_of(runs), options);
+    return calibrate(carried.file, paths_of(runs), options, context);
   }));
 }
 
@@ -331,20 +319,18 @@ py::dict compare_joint(const CarriedMechanism& carried, const std::vector<std::s
                        const Target& target, const Stop& stop) {
   CarriedFiles files = carried.files;
   files.insert(logs.begin(), logs.end());
-  return to_python(made_unlocked(files, [&] {
+  return to_python(made_unlocked(files, stop, [&](const RunContext& context) {
     CompareOptions options;
     aim(options, target);
     options.columns = measurement_options(reading);
-    options.progress = [&stop](const std::string&, std::optional<double>) { stop.look(); };
-    options.before_writing = [&stop] { stop.look(); };
-    return compare(carried.file, paths_of(before), paths_of(after), options);
+    return compare(carried.file, paths_of(before), paths_of(after), options, context);
   }));
 }
 
 py::dict plan_bench(const CarriedMechanism& carried, const Target& target, double noise, double minutes,
                     const std::vector<double>& loads, const std::vector<double>& speeds,
                     const std::optional<std::pair<double, double>>& range, std::uint64_t seed, const Stop& stop) {
-  return to_python(made_unlocked(carried.files, [&] {
+  return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
     PlanFilesOptions options;
     aim(options, target);
     options.plan.noise = noise;
@@ -353,8 +339,7 @@ py::dict plan_bench(const CarriedMechanism& carried, const Target& target, doubl
     options.plan.speeds = speeds;
     options.plan.range = range;
     options.plan.seed = seed;
-    options.plan.progress = [&stop](const std::string&) { stop.look(); };
-    return plan(carried.file, options);
+    return plan(carried.file, options, context);
   }));
 }
 
@@ -362,27 +347,25 @@ py::dict simulate_joint(const CarriedMechanism& carried, const std::string& log,
                         const ReadingOptions& reading, bool corrected, double noise, std::uint64_t seed) {
   CarriedFiles files = carried.files;
   files.insert(logs.begin(), logs.end());
-  return to_python(made_unlocked(files, [&] {
+  return to_python(made_unlocked(files, Stop(), [&](const RunContext& context) {
     SimulateOptions options;
     options.columns = measurement_options(reading);
     options.corrected = corrected;
     options.noise = noise;
     options.seed = seed;
-    return simulate(carried.file, log, options);
+    return simulate(carried.file, log, options, context);
   }));
 }
 
 py::dict kit_parts(const CarriedMechanism& carried, const Target& target, double tolerance, const std::string& dxf,
                    const Stop& stop) {
-  return to_python(made_unlocked(carried.files, [&] {
+  return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
     demand_tendons(carried.file, "make a kit for");
     KitOptions options;
     aim(options, target);
-    options.tolerance = tolerance;
+    options.chord_error_mm = tolerance;
     options.dxf = dxf_version(dxf);
-    options.before_step = [&stop](std::string_view) { stop.look(); };
-    options.before_writing = [&stop] { stop.look(); };
-    return kit(carried.file, options);
+    return kit(carried.file, options, context);
   }));
 }
 
@@ -428,7 +411,6 @@ Class& with_mechanism(Class& type) {
 }  // namespace
 
 PYBIND11_MODULE(_core, module) {
-  read_carried_files_first();
   py::register_exception_translator(raise_in_python);
   py::class_<Stop>(module, "Stop").def(py::init<>()).def("set", &Stop::set);
   py::class_<Target>(module, "Target").def(py::init([](std::string folder, bool force, bool dry_run) {

@@ -167,15 +167,42 @@ TEST_F(Files, LeavesNothingWithoutPublishing) {
   EXPECT_THAT(names_in(root_ / "mine"), IsEmpty());
 }
 
-// An interrupted program discards its staged files while other threads still call staged_path(). This once crashed
-// (signal 11).
-TEST_F(Files, StagedPathOutlivesDiscard) {
-  OutputFolder output(root_ / "a" / "b", false);
+// Other threads may still call staged_path() when a request to stop removes the files. This once crashed (signal 11).
+TEST_F(Files, StopRemovesStagedFiles) {
+  std::stop_source source;
+  OutputFolder output(root_ / "a" / "b", false, {.stop = source.get_token()});
   output.stage({"x.stl", "xyz"});
   const fs::path there = output.staged_path("x.stl");
-  output.discard();
+  source.request_stop();
   EXPECT_THAT(names_in(root_), IsEmpty());
   EXPECT_EQ(output.staged_path("x.stl"), there);
+  EXPECT_THROW(output.stage({"y.stl", "xyz"}), Stopped);
+  std::vector<Diagnostic> notes;
+  EXPECT_THROW(output.publish(notes), Stopped);
+  EXPECT_THAT(names_in(root_), IsEmpty());
+}
+
+TEST_F(Files, StopKeepsPublishedFiles) {
+  std::stop_source source;
+  OutputFolder output(root_ / "a", false, {.stop = source.get_token()});
+  output.stage({"x.stl", "xyz"});
+  std::vector<Diagnostic> notes;
+  output.publish(notes);
+  source.request_stop();
+  EXPECT_THAT(names_in(root_ / "a"), ElementsAre("x.stl"));
+}
+
+TEST_F(Files, TemporaryFolderLeavesNothing) {
+  ::setenv("TMPDIR", root_.c_str(), 1);
+  {
+    OutputFolder output = OutputFolder::temporary({});
+    output.stage({"x.stl", "xyz"});
+    EXPECT_EQ(read_file(output.staged_path("x.stl"), 3), "xyz");
+  }
+  EXPECT_THAT(names_in(root_), IsEmpty());
+  ::setenv("TMPDIR", (root_ / "missing").c_str(), 1);
+  EXPECT_THAT(output_error([] { OutputFolder::temporary({}); }), HasSubstr("is no folder"));
+  ::unsetenv("TMPDIR");
 }
 
 TEST_F(Files, OverwritesOwnFiles) {

@@ -151,7 +151,7 @@ void whole_build_of_turns(benchmark::State& state) {
   const MechanismFile file = with_turns(static_cast<double>(state.range(0)));
   BuildOptions options;
   options.folder = std::filesystem::temp_directory_path() / "fusee-bench";
-  options.tolerance = 0.01;
+  options.chord_error_mm = 0.01;
   std::size_t triangles = 0;
   forget_peak();
   for (auto _ : state) {
@@ -178,7 +178,7 @@ BENCHMARK(page)->Unit(benchmark::kMillisecond);
 // One part with ever smaller facets.
 void build_by_tolerance(benchmark::State& state) {
   BuildOptions options;
-  options.tolerance = 0.01 / static_cast<double>(state.range(0));
+  options.chord_error_mm = 0.01 / static_cast<double>(state.range(0));
   options.dry_run = true;
   options.folder = "unused";
   std::size_t triangles = 0;

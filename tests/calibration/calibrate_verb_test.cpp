@@ -55,12 +55,12 @@ CalibrateOptions into(const std::filesystem::path& folder) {
 TEST(CalibrateVerb, LeavesEveryFile) {
   const std::filesystem::path folder = scratch("all") / "out";
   std::vector<std::string> steps;
-  CalibrateOptions options = into(folder);
-  options.progress = [&](const std::string& what, std::optional<double> share) {
-    if (!share) steps.push_back(what);
-  };
+  const CalibrateOptions options = into(folder);
+  const RunContext context{.progress = [&](std::string_view step, std::optional<double> share) {
+    if (!share) steps.emplace_back(step);
+  }};
   const CalibrateResult result =
-      calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), runs_in(k_rig / "c_backlash"), options);
+      calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), runs_in(k_rig / "c_backlash"), options, context);
   EXPECT_THAT(names(result.outputs),
               ElementsAre("calibration.json", "corrected.toml", "compensation.csv", "report.html", "manifest.json"));
   EXPECT_TRUE(result.published);
@@ -194,13 +194,18 @@ TEST(NextMeasurements, AreReadWhenFilledIn) {
   }
 }
 
-TEST(CalibrateVerb, ExceptionBeforeWritingLeavesNothing) {
+TEST(CalibrateVerb, StopLeavesNothing) {
   const std::filesystem::path folder = scratch("thrown") / "out";
-  CalibrateOptions options = into(folder);
-  options.before_writing = [] { throw std::runtime_error("enough"); };
-  EXPECT_THROW(
-      calibrate(read_mechanism(k_rig / "e_one_sweep_only/spec.toml"), {k_rig / "e_one_sweep_only/run_1.csv"}, options),
-      std::runtime_error);
+  const CalibrateOptions options = into(folder);
+  std::stop_source source;
+  const RunContext context{.progress =
+                               [&source](std::string_view step, std::optional<double>) {
+                                 if (step == "computing the correction") source.request_stop();
+                               },
+                           .stop = source.get_token()};
+  EXPECT_THROW(calibrate(read_mechanism(k_rig / "e_one_sweep_only/spec.toml"), {k_rig / "e_one_sweep_only/run_1.csv"},
+                         options, context),
+               Stopped);
   EXPECT_FALSE(std::filesystem::exists(folder));
 }
 

@@ -115,7 +115,7 @@ BuildResult built(const DeclaredMechanism& corrected, double tolerance = 0.01) {
   MechanismFile file;
   file.mechanism = corrected;
   BuildOptions options;
-  options.tolerance = tolerance;
+  options.chord_error_mm = tolerance;
   options.folder = scratch("build");
   options.dry_run = true;
   return build(file, options);

@@ -511,9 +511,11 @@ TEST(Certified, FeasibleOptimumIsDrawable) {
 }
 
 TEST(Certified, StopsWithBestDesign) {
-  CertifiedOptions options;
-  options.keep_going = [](const SearchProgress&) { return false; };
-  const CertifiedResult result = certified_optimum(paper_problem(), Objective::max_tension, options);
+  std::stop_source source;
+  source.request_stop();
+  const CertifiedResult result =
+      certified_optimum(paper_problem(), Objective::max_tension, {}, {.stop = source.get_token()});
+  EXPECT_TRUE(result.stopped);
   EXPECT_TRUE(result.found);
   EXPECT_FALSE(result.proven);
   EXPECT_LE(result.lower_bound, 2.36735);
@@ -542,8 +544,13 @@ TEST(Genetic, StopsWithinAGeneration) {
   int asked = 0;
   GeneticOptions options;
   options.population = 100;
-  options.keep_going = [&asked](const SearchProgress&) { return ++asked < 10; };
-  const GeneticResult result = genetic_optimum(paper_problem(), Objective::max_tension, options);
+  std::stop_source source;
+  const RunContext context{.progress =
+                               [&](std::string_view, std::optional<double>) {
+                                 if (++asked == 10) source.request_stop();
+                               },
+                           .stop = source.get_token()};
+  const GeneticResult result = genetic_optimum(paper_problem(), Objective::max_tension, options, context);
   EXPECT_TRUE(result.stopped);
   EXPECT_TRUE(result.found);
   EXPECT_EQ(result.generations.size(), 1u);

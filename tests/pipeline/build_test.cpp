@@ -191,16 +191,22 @@ TEST_F(Build, DryRunWritesNothing) {
 TEST_F(Build, StoppedBuildLeavesNothing) {
   struct Stop {};
   int steps = 0;
-  options_.before_step = [&steps](std::string_view) { ++steps; };
-  build(file_, options_);
+  build(file_, options_, {.progress = [&steps](std::string_view, std::optional<double>) { ++steps; }});
   ASSERT_GT(steps, 5);
   fs::remove_all(options_.folder);
   for (int last = 0; last < steps; ++last) {
-    options_.before_step = [left = last](std::string_view) mutable {
+    const auto thrower = [left = last](std::string_view, std::optional<double>) mutable {
       if (left-- == 0) throw Stop();
     };
-    EXPECT_THROW(build(file_, options_), Stop);
+    EXPECT_THROW(build(file_, options_, {.progress = thrower}), Stop);
     EXPECT_THAT(names_in(scratch_), IsEmpty()) << "stopped before step " << last;
+    if (last + 1 == steps) continue;  // nothing asks after the last step
+    std::stop_source source;
+    const auto stopper = [&source, left = last](std::string_view, std::optional<double>) mutable {
+      if (left-- == 0) source.request_stop();
+    };
+    EXPECT_THROW(build(file_, options_, {.progress = stopper, .stop = source.get_token()}), Stopped);
+    EXPECT_THAT(names_in(scratch_), IsEmpty()) << "asked to stop in step " << last;
   }
 }
 
@@ -218,7 +224,7 @@ TEST_F(Build, InfeasibleDesignIsValue) {
 }
 
 TEST_F(Build, FailedBuildKeepsEarlierRun) {
-  options_.limits.theta_error = 0;
+  options_.limits.theta_error_deg = 0;
   const BuildResult first = build(file_, options_);
   EXPECT_EQ(first.status, BuildStatus::check_failed);
   EXPECT_TRUE(first.published);

@@ -16,8 +16,6 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/pipeline.h"
-#include "fusee/profile/synthesis.h"
-#include "pipeline/several_turns.h"
 
 namespace {
 
@@ -101,9 +99,6 @@ TurningJoint draw_joint(std::uint64_t seed) {
   return joint;
 }
 
-/// Thrown at the first trial: advice is tested elsewhere.
-struct NoTries {};
-
 enum class End { made, refused, bad_input };
 
 struct Outcome {
@@ -120,7 +115,7 @@ void expect_true_reasons(const std::vector<Condition>& conditions) {
 
 Outcome outcome_of(const TurningJoint& joint, BuildOptions options) {
   options.dry_run = true;
-  options.between_tries = [] { throw NoTries(); };
+  options.advice = false;  // tested elsewhere
   const auto path = std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (joint.profile + ".toml");
   try {
     const BuildResult built = build(read_mechanism(path, joint.settings), options);
@@ -129,18 +124,6 @@ Outcome outcome_of(const TurningJoint& joint, BuildOptions options) {
     expect_true_reasons(built.product.pulley.conditions);
     if (built.status == BuildStatus::infeasible) return {End::refused, 0};
     return {End::made, built.product.as_built.max_theta_error};
-  } catch (const NoTries&) {
-    // The exception hides the reason, so the design is repeated without advice.
-    Product product;
-    product.file = read_mechanism(path, joint.settings);
-    product.joint = as_it_is(product.file.mechanism);
-    SynthesisOptions synthesis;
-    synthesis.advice = false;
-    if (need_several_turns(synthesise(product.file.mechanism, synthesis))) {
-      design_several_turns(product, options.tolerance, {});
-      expect_true_reasons(product.pulley.conditions);
-    }
-    return {End::refused, 0};
   } catch (const InputError&) {
     return {End::bad_input, 0};
   }

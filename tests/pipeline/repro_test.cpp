@@ -35,7 +35,7 @@ std::string shown(const BuildResult& built) {
 BuildResult dry_run(const Repro& repro, std::vector<Setting> more = {}) {
   more.insert(more.begin(), repro.settings.begin(), repro.settings.end());
   BuildOptions options;
-  options.tolerance = repro.tolerance;
+  options.chord_error_mm = repro.tolerance;
   options.dry_run = true;
   return build(read_mechanism(fs::path(FUSEE_SOURCE_DIR) / repro.path, more), options);
 }

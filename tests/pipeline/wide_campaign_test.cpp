@@ -155,8 +155,6 @@ int wide_number(const char* variable, int otherwise) {
   return text == nullptr ? otherwise : std::atoi(text);
 }
 
-struct NoWideAdvice {};
-
 /// Limit of the rewinding error, deg: 0.005 for joints with tendon arms of 8 mm or more, and the same length of tendon
 /// for smaller ones.
 double rewinding_limit(const SynthesisResult& synthesis) {
@@ -181,10 +179,9 @@ void expect_plates_or_reasons(const Product& product) {
 enum class WideEnd { made, refused, bad_input };
 
 WideEnd wide_end(const std::string& text) {
-  const bool with_advice = std::getenv("FUSEE_LONG_TESTS") != nullptr;
   BuildOptions options;
   options.dry_run = true;
-  if (!with_advice) options.between_tries = [] { throw NoWideAdvice(); };
+  options.advice = std::getenv("FUSEE_LONG_TESTS") != nullptr;
   try {
     MechanismFile file;
     file.mechanism = parse_mechanism(text, "wide.toml");
@@ -200,8 +197,6 @@ WideEnd wide_end(const std::string& text) {
     }
     if (!built.product.helix) expect_plates_or_reasons(built.product);
     return WideEnd::made;
-  } catch (const NoWideAdvice&) {
-    return WideEnd::refused;
   } catch (const InputError&) {
     return WideEnd::bad_input;
   }

@@ -4,12 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/base/run_context.h"
 #include "fusee/joint/equilibrium.h"
 #include "fusee/profile/synthesis.h"
 #include "fusee/transmission/tension.h"
@@ -21,8 +21,6 @@ struct AnalysisOptions {
   double tolerance = 0.1;  ///< tolerance of every dimension in the error budget (95 % within ±), mm
   int samples = 1000;      ///< samples of the Monte Carlo simulation
   std::uint64_t seed = 1;
-  std::function<void()> between_samples =
-      {};  ///< called for each joint of the Monte Carlo; what it throws stops the work
 };
 
 /// One point of the stroke. The full model has completed a cycle before, so that its start has no influence.
@@ -120,12 +118,13 @@ struct AnalysisResult {
   std::vector<Diagnostic> warnings;         ///< set by the caller: plausibility warnings of the file
 };
 
-AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options = {});
+AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options = {}, const RunContext& context = {});
 
 /// Deviations of θ from the declared law by single causes: stretch, friction, and simplifications in drawing a pulley.
 std::vector<ErrorSource> error_sources(const Mechanism& mechanism);
 /// Tolerance effects of every dimension by both methods.
-std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options);
+std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options,
+                                               const RunContext& context = {});
 /// "tendon 2 below pin D"; with a sheath there is no pin below: "tendon 2 between sheath and pulley".
 std::string place_words(const TensionExtreme& extreme, const Mechanism& mechanism);
 /// Maximum tensions of the tendons.

@@ -1,6 +1,5 @@
 /// \file
-/// Hook through which a run reads its inputs and announces its outputs. Bundles of a run are recorded and replayed with
-/// it.
+/// Through it a run reads its inputs and reports its outputs. Bundles of a run are recorded and replayed with it.
 #pragma once
 
 #include <cstddef>
@@ -20,31 +19,30 @@ struct ReadRequest {
   bool pipes = false;
 };
 
-/// While an object lives, this process reads all inputs through it and reports all outputs to it. Objects nest.
+/// This class reads from the disk and ignores reports. One thread at a time uses an object of a derived class.
 class FileAccess {
  public:
-  FileAccess();
-  virtual ~FileAccess();
+  FileAccess() = default;
+  virtual ~FileAccess() = default;
   FileAccess(const FileAccess&) = delete;
   FileAccess& operator=(const FileAccess&) = delete;
 
   /// Throws InputError. Exceptions of `take` pass through.
-  virtual void read(const ReadRequest& request, const TakeBlock& take) = 0;
+  virtual void read(const ReadRequest& request, const TakeBlock& take);
   /// Called before anything is written at `place`, a file or a folder. An exception prevents the writing.
-  virtual void will_write(const std::filesystem::path& place) = 0;
+  virtual void will_write(const std::filesystem::path&) {}
   /// Called for an existing entry that must not be replaced. The run then ends with OutputError.
   virtual void in_the_way(const std::filesystem::path&) {}
-  /// Called for each published file, once its whole set is in place.
-  virtual void wrote(const std::filesystem::path& name, std::string_view bytes) = 0;
-
-  /// The object made last; null when there is none, and files are then read from the disk.
-  static FileAccess* current();
-
- private:
-  FileAccess* outer_;
+  /// Called for each file of a set that is complete and is now put in place, which no request to stop prevents.
+  /// `bytes_at`: the file that has the bytes at this moment.
+  virtual void will_publish(const std::filesystem::path& /*name*/, const std::filesystem::path& /*bytes_at*/) {}
+  /// True if the run is recorded or replayed: it must then depend on nothing but what it reads through this object.
+  virtual bool is_bundled() const { return false; }
 };
 
-/// Reads from the disk and bypasses the current FileAccess.
+/// The files of the disk. The object has no state.
+FileAccess& disk();
+/// As disk().read().
 void read_from_disk(const ReadRequest& request, const TakeBlock& take);
 
 }  // namespace fusee

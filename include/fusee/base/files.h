@@ -4,8 +4,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,16 +16,13 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/file_access.h"
+#include "fusee/base/run_context.h"
 
 namespace fusee {
 
-/// Reads an input in blocks through the current FileAccess, as `request` specifies.
-void read_blocks(const ReadRequest& request, const TakeBlock& take);
-/// The bytes of an input, a regular file. Throws InputError when it is missing, a directory, unreadable, or larger than
-/// `limit` bytes.
-std::string read_file(const std::filesystem::path& path, std::size_t limit);
-/// The bytes of a file that fusee wrote, now or earlier. It is not an input: the current FileAccess is bypassed.
-std::string read_output(const std::filesystem::path& path, std::size_t limit);
+/// The bytes of a regular file. Throws InputError when it is missing, a directory, unreadable, or larger than `limit`
+/// bytes. Inputs are read through the FileAccess of the run; files that fusee wrote, from the disk.
+std::string read_file(const std::filesystem::path& path, std::size_t limit, FileAccess& files = disk());
 
 /// The system's folder for temporary files. OutputError where TMPDIR names none.
 std::filesystem::path temporary_folder();
@@ -42,7 +42,9 @@ struct OutputFile {
 ///
 /// stage() writes the files into a private folder next to the output folder. publish() flushes them to disk and
 /// replaces the earlier folder by the private one, which also receives the unrelated entries of the earlier folder. The
-/// destructor removes staged files that were not published, and the folders made for them. A kill at any moment leaves
+/// destructor removes staged files that were not published, and the folders made for them. So does a request to stop, at
+/// once and in the thread that makes it; from then on stage() and publish() throw Stopped. A request during publish() waits
+/// until the files are in place. A kill at any moment leaves
 /// the old set or the new one; the next publish() into that folder restores or removes what the killed run set aside.
 /// Some folders cannot be renamed: the current folder of the process, a mount point, a folder of another owner. There,
 /// files are replaced one by one. manifest.json is removed first and written last, so a folder without it after a kill
@@ -54,7 +56,9 @@ struct OutputFile {
 class OutputFolder {
  public:
   /// Changes nothing on the disk.
-  OutputFolder(std::filesystem::path folder, bool force);
+  OutputFolder(std::filesystem::path folder, bool force, const RunContext& context = {});
+  /// A folder in the system's temporary folder, for files that are read back and never published. Throws OutputError.
+  static OutputFolder temporary(const RunContext& context);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -73,11 +77,16 @@ class OutputFolder {
   /// Publishes the staged files. If a rename fails, earlier renames are undone. `notes` receives what was restored or
   /// ignored of killed runs.
   void publish(std::vector<Diagnostic>& notes);
-  /// Removes staged files and the folders made for them from the disk. Paths stay valid: an interrupted program exits
-  /// while other threads still call staged_path().
-  void discard() const;
 
  private:
+  /// For temporary().
+  explicit OutputFolder(const RunContext& context);
+
+  /// Removes staged files and the folders made for them from the disk. Paths stay valid, because other threads may still
+  /// call staged_path().
+  void discard() const;
+  void report_obstacle(const std::filesystem::path& path) const { context_.files->in_the_way(path); }
+  void demand_subfolder(const std::filesystem::path& folder) const;
   void find_own_files();
   void open_staging();
   bool is_obsolete(const std::filesystem::path& folder, const std::string& name) const;
@@ -95,10 +104,13 @@ class OutputFolder {
   std::vector<std::string> staged_;
   std::vector<std::string> withdrawn_;
   std::unique_ptr<Staging> staging_;
+  RunContext context_;
+  mutable std::mutex guard_;  ///< held while files are staged, published or discarded
+  std::stop_callback<std::function<void()>> on_stop_;
 };
 
 /// Writes one file atomically, by a rename. Throws OutputError when the file exists (unless `force`) or cannot be
 /// written. A symbolic link is followed. Only regular files are replaced.
-void write_file(const std::filesystem::path& path, std::string_view bytes, bool force);
+void write_file(const std::filesystem::path& path, std::string_view bytes, bool force, FileAccess& files = disk());
 
 }  // namespace fusee

@@ -2,13 +2,13 @@
 /// Identification of joint errors from measurements: named effects with their evidence.
 #pragma once
 
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "fusee/base/run_context.h"
 #include "fusee/joint/simulate.h"
 #include "fusee/measurement/measurement.h"
 #include "fusee/mechanism/effect.h"
@@ -27,7 +27,7 @@ struct CalibrationOptions {
   /// one discrepancy. Fitted parameters are those of the later state, Calibration::identified is the change, and no
   /// further runs are proposed.
   std::optional<EarlierState> earlier = {};
-  std::function<void(const std::string& what, double share)> progress;
+  RunContext context = {};
 };
 
 struct FittedParameter {

@@ -2,7 +2,6 @@
 /// Comparison of two measured states of one joint, by changes of the effects of the catalogue.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,7 +45,7 @@ struct Comparison {
 };
 
 struct ComparisonOptions {
-  std::function<void(const std::string& what, double share)> progress;
+  RunContext context = {};
 };
 
 /// Runs of two states, compared with the declared joint.

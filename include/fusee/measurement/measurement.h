@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/base/file_access.h"
 #include "fusee/joint/bench_log.h"
 #include "fusee/mechanism/mechanism.h"
 
@@ -93,16 +94,18 @@ struct Measurement {
 /// Reads and checks all files. Throws InputError (file, line, what to change) for unreadable text and for a run that is
 /// given twice. Readable data that cannot be evaluated are reported in `not_testable`. Of longer logs a million rows in
 /// all are kept, evenly spaced, and a note says so.
-Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options = {});
+Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options = {},
+                             FileAccess& access = disk());
 
 /// Reads and checks the files, then runs compare_with_declared().
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const Mechanism& declared,
-                             const MeasurementOptions& options = {});
+                             const MeasurementOptions& options = {}, FileAccess& access = disk());
 
 /// Reads the input of a simulation, logged or planned: one run in order of time, α unwrapped, load and temperature
 /// without gaps. Missing θ is NaN, and strokes are not determined. A torque is converted as in compare_with_declared().
 /// Throws InputError, also if no row has α.
-Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared, MeasurementOptions options = {});
+Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared, MeasurementOptions options = {},
+                         FileAccess& access = disk());
 
 /// Parses one run; `name` appears in messages. Notes and reasons go to `into`. Throws InputError.
 Run parse_run(std::string_view text, const std::string& name, const MeasurementOptions& options, Measurement& into);

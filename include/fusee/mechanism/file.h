@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/base/file_access.h"
 #include "fusee/mechanism/mechanism.h"
 
 namespace fusee {
@@ -37,12 +38,14 @@ struct MechanismFile {
 
 /// Reads a file, fills in defaults, applies `settings`, and loads the table of the law. Checks each key against the
 /// field table and the keys against each other. Throws InputError with *all* errors of the file.
-MechanismFile read_mechanism(const std::filesystem::path& path, const std::vector<Setting>& settings = {});
+MechanismFile read_mechanism(const std::filesystem::path& path, const std::vector<Setting>& settings = {},
+                             FileAccess& files = disk());
 
 /// As read_mechanism(), from text. `name` is used in messages; tables are searched in `folder`.
 DeclaredMechanism parse_mechanism(std::string_view text, const std::string& name,
                                   const std::filesystem::path& folder = ".", const std::vector<Setting>& settings = {},
-                                  std::vector<Diagnostic>* warnings = nullptr, KeyPlaces* places = nullptr);
+                                  std::vector<Diagnostic>* warnings = nullptr, KeyPlaces* places = nullptr,
+                                  FileAccess& files = disk());
 
 /// A complete file, where each key has its meaning, unit, range and default as a comment. parse(write(m)) == m.
 std::string write_mechanism(const DeclaredMechanism& mechanism);

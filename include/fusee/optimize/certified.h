@@ -3,6 +3,7 @@
 /// Constraints are satisfied to 1e-12 of their largest term, in the bound and in the designs.
 #pragma once
 
+#include "fusee/base/run_context.h"
 #include "fusee/optimize/problem.h"
 
 namespace fusee {
@@ -13,7 +14,8 @@ struct CertifiedOptions {
   long most_boxes = 1000000;  ///< limit of memory (150 MB) and time
   long most_tie_boxes = 3000;
   std::vector<Design> first_tries;  ///< designs known to be good
-  KeepGoing keep_going;
+  /// The search ends at a design with a smaller value.
+  std::optional<double> sufficient = std::nullopt;
   unsigned threads = 0;  ///< 0: as many as available; the result does not depend on the number
 };
 
@@ -33,8 +35,9 @@ struct TieSet {
 };
 
 struct CertifiedResult {
-  bool found = false;   ///< false: no design satisfies all conditions (proven if `proven`)
-  bool proven = false;  ///< the gap was reached
+  bool found = false;    ///< false: no design satisfies all conditions (proven if `proven`)
+  bool proven = false;   ///< the gap was reached
+  bool stopped = false;  ///< by RunContext::stop, or by `sufficient`: the best design so far
   Design best;
   double value = 0;        ///< value of the best design, rounded up over the whole range
   double theta = 0;        ///< joint angle of that value, rad
@@ -52,7 +55,8 @@ std::string cannot_certify(const Problem& problem, Objective objective);
 /// Requires a certifiable objective, law compensate or linear, and a joint as declared; otherwise throws InputError
 /// with the certifiable objectives. `feasible`: no design with a drawable pulley is below the bound. Two conditions of
 /// profile/feasibility.cpp are omitted from the bound, which can only lower it: one turn suffices, and an arc closes
-/// the curve. The best design satisfies all of them.
-CertifiedResult certified_optimum(const Problem& problem, Objective objective, const CertifiedOptions& options = {});
+/// the curve. The best design satisfies all of them. Progress: "best 2.367", or "" before the first design.
+CertifiedResult certified_optimum(const Problem& problem, Objective objective, const CertifiedOptions& options = {},
+                                  const RunContext& context = {});
 
 }  // namespace fusee

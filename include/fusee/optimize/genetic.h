@@ -3,6 +3,7 @@
 /// run gives the same bytes.
 #pragma once
 
+#include "fusee/base/run_context.h"
 #include "fusee/optimize/problem.h"
 
 namespace fusee {
@@ -11,7 +12,6 @@ struct GeneticOptions {
   unsigned population = 48;  ///< a multiple of 4
   unsigned generations = 100;
   unsigned seed = 1;
-  KeepGoing keep_going;
   unsigned threads = 0;  ///< 0: as many as available; the result does not depend on the number
 };
 
@@ -24,7 +24,7 @@ struct Generation {
 
 struct GeneticResult {
   bool found = false;
-  bool stopped = false;  ///< stopped by keep_going
+  bool stopped = false;  ///< by RunContext::stop
   Design best;
   double value = 0;
   double theta = 0;
@@ -33,7 +33,9 @@ struct GeneticResult {
   std::string reason;  ///< cause if nothing was found
 };
 
-GeneticResult genetic_optimum(const Problem& problem, Objective objective, const GeneticOptions& options = {});
+/// A stopped search returns its best design. Progress: "best 2.367", or "" before the first design.
+GeneticResult genetic_optimum(const Problem& problem, Objective objective, const GeneticOptions& options = {},
+                              const RunContext& context = {});
 
 struct FrontPoint {
   Design design;
@@ -41,7 +43,7 @@ struct FrontPoint {
 };
 
 struct ParetoResult {
-  bool stopped = false;
+  bool stopped = false;           ///< by RunContext::stop
   unsigned generations = 0;       ///< completed generations
   std::vector<FrontPoint> front;  ///< non-dominated designs, sorted by the first objective
   long evaluations = 0;
@@ -49,6 +51,6 @@ struct ParetoResult {
 };
 
 /// Requires two or three objectives; otherwise throws InputError.
-ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options = {});
+ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options = {}, const RunContext& context = {});
 
 }  // namespace fusee

@@ -88,13 +88,4 @@ double constraint_violation(const Problem& problem, const Design& design);
 /// Evaluates the objective, constraints, bounds of ties, the cap, and (if required) whether a pulley can be made.
 Evaluation evaluate_design(const Problem& problem, Objective objective, const Design& design);
 
-/// Progress of a search. If the callback returns false, the search stops and returns its best result.
-struct SearchProgress {
-  double done = 0;             ///< 0 … 1, an estimate
-  std::optional<double> best;  ///< value of the best design so far, in the objective's unit; null for a front
-  double lower_bound = 0;      ///< certified search only
-  long evaluations = 0;
-};
-using KeepGoing = std::function<bool(const SearchProgress&)>;
-
 }  // namespace fusee

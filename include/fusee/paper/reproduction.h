@@ -6,11 +6,11 @@
 /// numbers in which a claim holds are computed.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "fusee/base/plane.h"
+#include "fusee/base/run_context.h"
 #include "fusee/optimize/genetic.h"
 
 namespace fusee {
@@ -106,8 +106,7 @@ struct Reproduction {
   std::vector<MuWindow> mu_windows;
 };
 
-/// `before_step` is called with a description of each step; its exceptions stop the work.
-Reproduction reproduce_paper(const PaperAssumptions& assumptions = {},
-                             const std::function<void(std::string_view step)>& before_step = {});
+/// Throws Stopped between steps.
+Reproduction reproduce_paper(const PaperAssumptions& assumptions = {}, const RunContext& context = {});
 
 }  // namespace fusee

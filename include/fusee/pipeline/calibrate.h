@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,10 +18,6 @@ struct CalibrateOptions {
   bool force = false;
   bool dry_run = false;  ///< everything except writing
   bool audit = true;     ///< CalibrationOptions::audit
-  /// Called with the present task and its share, if known. An exception from it stops the work.
-  std::function<void(const std::string& what, std::optional<double> share)> progress;
-  /// Called before each file is staged. An exception from it leaves no files.
-  std::function<void()> before_writing;
 };
 
 struct CalibrateResult {
@@ -39,6 +34,6 @@ struct CalibrateResult {
 /// and held out is held out. corrected.toml keeps the text of `file.path` with comments if it describes
 /// `file.mechanism`.
 CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::filesystem::path>& runs,
-                          const CalibrateOptions& options);
+                          const CalibrateOptions& options, const RunContext& context = {});
 
 }  // namespace fusee

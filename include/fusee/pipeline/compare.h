@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,10 +16,6 @@ struct CompareOptions {
   std::filesystem::path folder;  ///< folder of the output files; empty: no files
   bool force = false;
   bool dry_run = false;  ///< everything except writing
-  /// Called with the present task and its share, if known. An exception from it stops the work.
-  std::function<void(const std::string& what, std::optional<double> share)> progress;
-  /// Called before each file is staged. An exception from it leaves no files.
-  std::function<void()> before_writing;
 };
 
 struct CompareResult {
@@ -33,6 +28,7 @@ struct CompareResult {
 /// manifest.json. Files that are not two states of one joint give a verdict and the same files. Throws InputError for
 /// unreadable input and for a repeated run, and OutputError before the work if the output may not be written.
 CompareResult compare(const MechanismFile& file, const std::vector<std::filesystem::path>& before,
-                      const std::vector<std::filesystem::path>& after, const CompareOptions& options);
+                      const std::vector<std::filesystem::path>& after, const CompareOptions& options,
+                      const RunContext& context = {});
 
 }  // namespace fusee

@@ -3,25 +3,21 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "fusee/base/run_context.h"
 #include "fusee/export/kit.h"
 #include "fusee/profile/advice.h"
 
 namespace fusee {
 
 struct KitOptions {
-  double tolerance = 0.01;  ///< sagitta of the pulley's curves (chord error), mm
+  double chord_error_mm = 0.01;  ///< largest distance of a facet of the pulley from its curve (sagitta)
   DxfVersion dxf = DxfVersion::ac1015;
   std::filesystem::path folder;  ///< folder of the output files
   bool force = false;
   bool dry_run = false;  ///< everything except publishing
-  /// Called once, before the first file is written.
-  std::function<void()> before_writing;
-  /// Called before each step with its name. An exception from it stops the work and leaves no files.
-  std::function<void(std::string_view step)> before_step;
 };
 
 enum class KitEnding { done, no_pulley, no_kit, check_failed };
@@ -37,7 +33,7 @@ struct KitResult {
 /// Designs the test rig. Every mesh and drawing is read back and checked. An infeasible pulley, colliding parts and
 /// failed checks are values; throws InputError and OutputError. Failed checks are published only if they replace no
 /// earlier run, or with `force`.
-KitResult kit(const MechanismFile& file, const KitOptions& options);
+KitResult kit(const MechanismFile& file, const KitOptions& options, const RunContext& context = {});
 
 /// Smallest distances between the assembled parts over the range, measured on their meshes, as checks.
 std::vector<Check> kit_fit_checks(const KitPlan& plan);

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "fusee/base/run_context.h"
 #include "fusee/base/units.h"
 #include "fusee/export/model.h"
 #include "fusee/profile/synthesis.h"
@@ -32,10 +32,6 @@ struct ModelOptions {
   std::filesystem::path folder;
   bool force = false;
   bool dry_run = false;  ///< everything except publishing
-  /// Called before each step with its name. An exception from it stops the work and leaves no files.
-  std::function<void(std::string_view step)> before_step;
-  /// Called once, before the first file is written.
-  std::function<void()> before_writing;
 };
 
 enum class ModelEnding {
@@ -65,6 +61,6 @@ struct ModelResult {
 
 /// Writes the models. A missing law, an insufficient polynomial or table, and failed checks are values; throws
 /// InputError and OutputError.
-ModelResult model(const MechanismFile& file, const ModelOptions& options);
+ModelResult model(const MechanismFile& file, const ModelOptions& options, const RunContext& context = {});
 
 }  // namespace fusee

@@ -24,8 +24,7 @@ SearchMethod strongest_method(const MechanismFile& file);
 struct OptimizeOptions {
   std::optional<SearchMethod> method;  ///< default: strongest_method()
   std::optional<Objective> then;       ///< certified: second objective that selects among tied designs
-  GeneticOptions genetic;              ///< for genetic and pareto, except keep_going
-  KeepGoing keep_going;                ///< for every method; a stopped search returns the best design so far
+  GeneticOptions genetic;              ///< for genetic and pareto
   /// settings with which the file was read; numbers among them go into the new files
   std::vector<Setting> settings;
   std::filesystem::path new_file;      ///< path of the mechanism with the new numbers; empty: none
@@ -39,7 +38,7 @@ struct OptimizeResult {
   std::variant<CertifiedResult, GeneticResult, ParetoResult> search;
   std::optional<CertifiedResult> then;  ///< the second search of OptimizeOptions::then
   bool found = false;
-  bool stopped = false;  ///< by keep_going
+  bool stopped = false;  ///< by RunContext::stop: the best design so far
   std::string reason;    ///< if nothing was found: the most frequent cause
   Design design;         ///< best design, in the file's declared numbers; for a front its most balanced point
   double value = 0;      ///< of the first objective

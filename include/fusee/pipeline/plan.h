@@ -29,6 +29,6 @@ struct PlanResult {
 /// Plans the shortest set of runs for the joint of `file`, given the values in [prior]: plan.json, plan.html, and
 /// run_1.csv … in the format of `fusee calibrate`, without θ. If no run fits into the minutes, the plan has no steps
 /// and lists what more minutes would add. Throws InputError and OutputError.
-PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options);
+PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options, const RunContext& context = {});
 
 }  // namespace fusee

@@ -29,6 +29,6 @@ struct SimulateResult {
 /// Simulates the identified joint of `file` row by row, for a log or a run of plan(). Rows without an equilibrium are
 /// marked. Throws InputError for unreadable input.
 SimulateResult simulate(const MechanismFile& file, const std::filesystem::path& log,
-                        const SimulateOptions& options = {});
+                        const SimulateOptions& options = {}, const RunContext& context = {});
 
 }  // namespace fusee

@@ -9,12 +9,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "fusee/base/run_context.h"
 #include "fusee/plan/bench_run.h"
 
 namespace fusee {
@@ -27,8 +27,6 @@ struct PlanOptions {
   /// Motor range, rad. Default: the joint's range, or one turn for a joint declared by a ratio.
   std::optional<std::pair<double, double>> range;
   std::uint64_t seed = 1;  ///< seed of the synthetic data sets
-  /// called with the current task; an exception from it stops the work
-  std::function<void(const std::string&)> progress;
 };
 
 /// A run, or a dimension to read by hand.
@@ -79,6 +77,6 @@ struct Plan {
 };
 
 /// Plans the runs. The joint's law must exist over its range. If no run fits into the minutes, `steps` is empty.
-Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options = {});
+Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options = {}, const RunContext& context = {});
 
 }  // namespace fusee
