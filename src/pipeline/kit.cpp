@@ -123,7 +123,9 @@ Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, cons
             return failed_of(plan_kit_of_turns(changed, product.pulley.pulley.layout, *plan.heights).conditions);
           },
       .made =
-          [&](const Mechanism& changed) { return has_kit(with_declared(file, changed), options.chord_error_mm, context); }};
+          [&](const Mechanism& changed) {
+            return has_kit(with_declared(file, changed), options.chord_error_mm, context);
+          }};
   Advice advice = find_advice(file.mechanism, judge, {"body.flange_thickness_mm"});
   // Steps are relative, so none leaves a pin radius of 0.
   if (Mechanism thicker = file.mechanism; thicker.guides.radius == 0) {
