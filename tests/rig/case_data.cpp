@@ -188,7 +188,7 @@ Json answer_of(const TimedAnswer& answer) {
     effects.push_back({{"name", effect.name},
                        {"group", effect.group},
                        {"log_odds", nine_digits(effect.evidence)},
-                       {"log_odds_over_unmodelled", nine_digits(effect.unmodelled.behind)},
+                       {"log_odds_over_unmodelled", nine_digits(effect.unmodelled.log_odds)},
                        {"numbers", numbers}});
   }
   return {{"verdict", word(found.verdict)},

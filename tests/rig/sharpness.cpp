@@ -137,9 +137,8 @@ std::string median_text(const std::vector<double>& values) {
 double unmodelled_log_odds(const Calibration& found) {
   if (found.verdict == CalibrationVerdict::not_repeatable) return k_certain;
   double odds = -k_certain;
-  for (const FoundEffect& effect : found.effects) odds = std::max(odds, -effect.unmodelled.behind);
-  for (const Unknown& part : found.instead) odds = std::max(odds, part.evidence);
-  for (const Unknown& part : found.unknown) odds = std::max(odds, part.evidence);
+  for (const FoundEffect& effect : found.effects) odds = std::max(odds, -effect.unmodelled.log_odds);
+  for (const DiscrepancyComponent& part : found.discrepancy) odds = std::max(odds, part.evidence);
   return std::min(odds, k_certain);
 }
 

@@ -21,11 +21,11 @@ TEST(Sharpness, LogOddsFollowBestAlternative) {
   Calibration found;
   EXPECT_EQ(unmodelled_log_odds(found), -1000);
   found.effects.resize(2);
-  found.effects[0].unmodelled.behind = 20;
-  found.effects[1].unmodelled.behind = 5;
+  found.effects[0].unmodelled.log_odds = 20;
+  found.effects[1].unmodelled.log_odds = 5;
   EXPECT_EQ(unmodelled_log_odds(found), -5);
-  found.unknown.resize(1);
-  found.unknown[0].evidence = 12;
+  found.discrepancy.resize(1);
+  found.discrepancy[0].evidence = 12;
   EXPECT_EQ(unmodelled_log_odds(found), 12);
   found.verdict = CalibrationVerdict::not_repeatable;
   EXPECT_EQ(unmodelled_log_odds(found), 1000);
@@ -34,7 +34,7 @@ TEST(Sharpness, LogOddsFollowBestAlternative) {
 /// The Cramér-Rao bound of a constant offset in n rows is the noise over the root of n.
 TEST(Sharpness, BoundOfOffsetIsNoiseOverRootOfRows) {
   const Case made = make_case(truth_of("zero_offset"), 980501);
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "sharpness_of_offset";
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "sharpness_of_offset";
   write_case(made, folder);
   const CaseInput input = read_case(made, folder);
   std::filesystem::remove_all(folder);
@@ -57,7 +57,7 @@ TEST(Sharpness, BoundOfOffsetIsNoiseOverRootOfRows) {
   found.effects = {effect};
   const Sharpness one = sharpness_of(made, input, {found, judge(made, found)});
   EXPECT_FALSE(one.has_unmodelled);
-  EXPECT_THAT(one.group_sizes, testing::ElementsAre(2u));
+  EXPECT_THAT(one.group_sizes, ::testing::ElementsAre(2u));
   ASSERT_EQ(one.widths.size(), 1u);
   EXPECT_NEAR(one.widths[0], 6 / (2 * 1.959964), 1e-4);
   EXPECT_NEAR(one.widths_if_only[0], 1, 1e-4);

@@ -25,7 +25,7 @@ Product designed(const std::string& profile, const std::vector<Setting>& setting
   Product product;
   product.file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / (profile + ".toml"), settings);
   product.joint = as_it_is(product.file.mechanism);
-  design(product, 0.01, nullptr, TieOffSearch::brief);
+  design(product, 0.01, {}, TieOffSearch::brief);
   return product;
 }
 
@@ -96,7 +96,7 @@ const Product& climbing() {
     made.file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / "wrist_turns.toml",
                                {{"pulley.ratio", "5.5"}, {"body.spare_turns", "0.5"}});
     made.joint = as_it_is(made.file.mechanism);
-    design_several_turns(made, 0.02, nullptr);
+    design_several_turns(made, 0.02, {});
     return made;
   }();
   return product;
