@@ -20,8 +20,8 @@
 #include "export/drawings/end_points.h"
 #include "export/drawings/plane_shapes.h"
 #include "export/drawings/polygon_cgal.h"
-#include "fusee/base/text.h"
-#include "fusee/export/drawings.h"
+#include "base/text.h"
+#include "fusee/export.h"
 
 namespace fusee {
 namespace {

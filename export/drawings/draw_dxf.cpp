@@ -7,9 +7,8 @@
 
 #include "export/drawings/entity_curves.h"
 #include "export/drawings/join_paths.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "export/drawings/dxf_file.h"
-#include "fusee/export/drawings.h"
+#include "fusee/export.h"
 
 namespace fusee {
 

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "export/drawings/dxf_versions.h"
 #include "export/drawings/stroke_font.h"
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

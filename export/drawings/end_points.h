@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

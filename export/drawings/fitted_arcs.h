@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "export/drawings/sampled_curves.h"
-#include "fusee/profile/outline.h"
-#include "fusee/solid/layout.h"
+#include "fusee/profile.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/export/drawings.h"
+#include "fusee/export.h"
 
 namespace fusee {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "export/drawings/sampled_curves.h"
-#include "fusee/base/plane.h"
-#include "fusee/solid/layout.h"
+#include "fusee/base.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

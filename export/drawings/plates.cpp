@@ -12,8 +12,8 @@
 #include "export/drawings/plane_shapes.h"
 #include "export/drawings/polygon_cgal.h"
 #include "export/drawings/stroke_font.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 #include "solid/body.h"
 #include "solid/dowels.h"
 

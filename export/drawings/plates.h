@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "export/drawings/plane_shapes.h"
-#include "fusee/base/plane.h"
-#include "fusee/export/product.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
 
 namespace fusee {
 

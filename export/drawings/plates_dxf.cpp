@@ -7,8 +7,8 @@
 #include "export/drawings/plane_shapes.h"
 #include "export/drawings/plates.h"
 #include "export/drawings/stroke_font.h"
-#include "fusee/base/text.h"
-#include "fusee/export/drawings.h"
+#include "base/text.h"
+#include "fusee/export.h"
 
 namespace fusee {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -10,9 +10,9 @@
 #include "export/drawings/dxf_writer.h"
 #include "export/drawings/fitted_arcs.h"
 #include "export/drawings/plane_shapes.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/export/drawings.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
 #include "solid/bore.h"
 
 namespace fusee {

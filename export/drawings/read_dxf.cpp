@@ -12,7 +12,7 @@
 #include "export/drawings/dxf_file.h"
 #include "export/drawings/dxf_tags.h"
 #include "export/drawings/join_paths.h"
-#include "fusee/export/drawings.h"
+#include "fusee/export.h"
 
 namespace fusee {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

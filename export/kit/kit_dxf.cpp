@@ -9,8 +9,8 @@
 #include "export/drawings/nesting.h"
 #include "export/drawings/plates.h"
 #include "export/drawings/stroke_font.h"
-#include "fusee/base/text.h"
-#include "fusee/export/kit.h"
+#include "base/text.h"
+#include "fusee/export.h"
 
 namespace fusee {
 namespace {

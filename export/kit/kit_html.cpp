@@ -9,9 +9,10 @@
 #include "export/report/report_parts.h"
 #include "export/report/tables.h"
 #include "export/report/tendon_lengths.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/export/kit.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
+#include "mechanism/catalogue.h"
 
 namespace fusee {
 namespace {

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "export/report/tendon_trace.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "mechanism/catalogue.h"
 
 namespace fusee {
 namespace {

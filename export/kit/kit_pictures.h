@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "export/report/svg.h"
-#include "fusee/export/kit.h"
+#include "fusee/export.h"
 
 namespace fusee {
 

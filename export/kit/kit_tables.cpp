@@ -6,9 +6,10 @@
 #include "base/output_list.h"
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/export/kit.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
+#include "mechanism/catalogue.h"
 
 namespace fusee {
 namespace {

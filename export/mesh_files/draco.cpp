@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "export/mesh_files/mesh_formats.h"
-#include "fusee/export/mesh_files.h"
+#include "export/mesh_files/mesh_files.h"
 
 namespace fusee {
 namespace {

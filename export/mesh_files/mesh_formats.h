@@ -13,8 +13,8 @@
 #include <string>
 #include <string_view>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/solid/mesh.h"
+#include "fusee/base.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

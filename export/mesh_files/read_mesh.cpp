@@ -10,7 +10,7 @@
 
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
-#include "fusee/export/mesh_files.h"
+#include "export/mesh_files/mesh_files.h"
 
 namespace fusee {
 namespace {

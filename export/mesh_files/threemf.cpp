@@ -16,8 +16,8 @@
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
 #include "export/tool.h"
-#include "fusee/base/text.h"
-#include "fusee/export/mesh_files.h"
+#include "base/text.h"
+#include "export/mesh_files/mesh_files.h"
 
 namespace fusee {
 namespace {

@@ -9,9 +9,8 @@
 
 #include "base/json.h"
 #include "export/model/words.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

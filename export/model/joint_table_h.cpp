@@ -5,8 +5,8 @@
 
 #include "export/model/words.h"
 #include "export/tool.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -6,8 +6,8 @@
 #include "base/output_list.h"
 #include "export/model/words.h"
 #include "export/tool.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "export/model/words.h"
 #include "export/tool.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/transmission/load.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "transmission/load.h"
 
 namespace fusee {
 namespace {

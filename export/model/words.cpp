@@ -4,9 +4,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/transmission/load.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "transmission/load.h"
 
 namespace fusee {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fusee/export/model.h"
+#include "fusee/export.h"
 
 namespace fusee::model_words {
 

@@ -10,9 +10,9 @@
 #include "export/report/report_parts.h"
 #include "export/report/svg.h"
 #include "export/report/tables.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/export/analysis.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "export/report/analysis.h"
 
 namespace fusee {
 namespace {

@@ -1,6 +1,6 @@
 // calibration.json and manifest.json of a calibration.
 
-#include "fusee/export/calibration.h"
+#include "fusee/export.h"
 
 #include <cmath>
 #include <filesystem>
@@ -8,8 +8,9 @@
 #include "base/output_list.h"
 #include "export/report/calibration_words.h"
 #include "export/tool.h"
-#include "fusee/base/units.h"
-#include "fusee/calibration/words.h"
+#include "fusee/base.h"
+#include "calibration/words.h"
+#include "mechanism/effect.h"
 
 namespace fusee {
 namespace {

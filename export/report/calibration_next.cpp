@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <regex>
 
-#include "fusee/export/calibration.h"
-#include "fusee/export/plan.h"
+#include "fusee/export.h"
 
 namespace fusee {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "export/report/plot.h"
-#include "fusee/base/text.h"
-#include "fusee/transmission/transmission.h"
+#include "base/text.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 namespace {

@@ -14,9 +14,9 @@
 #include "export/report/svg.h"
 #include "export/report/tables.h"
 #include "export/tool.h"
-#include "fusee/base/text.h"
-#include "fusee/calibration/words.h"
-#include "fusee/mechanism/effect.h"
+#include "base/text.h"
+#include "calibration/words.h"
+#include "mechanism/effect.h"
 
 namespace fusee {
 namespace {

@@ -5,10 +5,10 @@
 #include <map>
 
 #include "export/report/svg.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/calibration/words.h"
-#include "fusee/export/calibration.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "calibration/words.h"
+#include "fusee/export.h"
 
 namespace fusee {
 namespace {

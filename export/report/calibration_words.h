@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fusee/calibration/calibration.h"
+#include "fusee/calibration.h"
 
 namespace fusee {
 

@@ -1,6 +1,6 @@
 // Outputs of a comparison of two states: words, comparison.json, manifest.json, report.html.
 
-#include "fusee/export/comparison.h"
+#include "fusee/export.h"
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,8 @@
 #include "export/report/svg.h"
 #include "export/report/tables.h"
 #include "export/tool.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/export/calibration.h"
+#include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

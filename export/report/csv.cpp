@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "export/report/csv_cells.h"
-#include "fusee/base/units.h"
-#include "fusee/export/report.h"
-#include "fusee/transmission/tension.h"
+#include "fusee/base.h"
+#include "export/report/report.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 namespace {
@@ -123,7 +123,7 @@ std::string pitch_curve_csv(const Product& product, Side side) {
 }
 
 /// r1 and r2: moment arms of the tendons about the pulley's axis; m1 and m2: about the joint. Forces as in
-/// transmission/tension.h. The last two columns are results of the tendons wound on the written mesh.
+/// fusee/transmission.h. The last two columns are results of the tendons wound on the written mesh.
 std::string transmission_csv(const Product& product) {
   std::string table =
       "alpha_deg,theta_deg,r1_mm,r2_mm,m1_mm,m2_mm,gamma2_deg,T2_N,phi_deg,Tb_N,elongation_mm,theta_error_deg,"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 

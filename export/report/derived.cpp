@@ -1,6 +1,6 @@
 #include "export/report/derived.h"
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "fusee/joint/as_it_is.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/joint.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 

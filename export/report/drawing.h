@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "export/report/svg.h"
-#include "fusee/mechanism/mechanism.h"
-#include "fusee/profile/synthesis.h"
-#include "fusee/solid/pulley.h"
+#include "fusee/mechanism.h"
+#include "fusee/profile.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

@@ -5,7 +5,7 @@
 
 #include "export/report/calibration_words.h"
 #include "export/report/tables.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "export/report/plot.h"
 #include "export/report/svg.h"
-#include "fusee/export/product.h"
+#include "fusee/export.h"
 
 namespace fusee {
 

@@ -10,8 +10,8 @@
 #include "coil/helical_plan.h"
 #include "coil/winding.h"
 #include "export/report/scad_words.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fusee/export/product.h"
+#include "fusee/export.h"
 
 namespace fusee {
 

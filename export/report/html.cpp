@@ -2,7 +2,7 @@
 
 #include "export/report/svg.h"
 #include "export/tool.h"
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

@@ -7,10 +7,10 @@
 #include "export/report/derived.h"
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
-#include "fusee/base/units.h"
-#include "fusee/export/mesh_files.h"
-#include "fusee/export/report.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/base.h"
+#include "export/mesh_files/mesh_files.h"
+#include "export/report/report.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 namespace {

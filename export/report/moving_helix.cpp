@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "export/report/svg.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "fusee/export/product.h"
+#include "fusee/export.h"
 
 namespace fusee {
 

@@ -7,8 +7,8 @@
 #include "export/report/drawing.h"
 #include "export/report/report_parts.h"
 #include "export/report/tendon_trace.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

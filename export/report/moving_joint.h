@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/analysis/stroke.h"
-#include "fusee/correction/rehearsal.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/analysis.h"
+#include "fusee/correction.h"
+#include "fusee/profile.h"
 
 namespace fusee {
 

@@ -1,10 +1,10 @@
-#include "fusee/export/paper.h"
+#include "export/report/paper.h"
 
 #include "base/output_list.h"
 #include "export/report/calibration_words.h"
 #include "export/report/plot.h"
 #include "export/tool.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "paper/windows.h"
 
 namespace fusee {

@@ -7,7 +7,7 @@
 
 #include "base/module.h"
 #include "export/report/report_parts.h"
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

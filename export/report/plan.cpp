@@ -1,6 +1,6 @@
 // plan.json, the empty run files and manifest.json of a plan.
 
-#include "fusee/export/plan.h"
+#include "fusee/export.h"
 
 #include <cmath>
 #include <filesystem>
@@ -8,10 +8,10 @@
 #include "base/output_list.h"
 #include "export/report/csv_cells.h"
 #include "export/tool.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/measurement/measurement.h"
-#include "fusee/transmission/load.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/measurement.h"
+#include "transmission/load.h"
 
 namespace fusee {
 namespace {

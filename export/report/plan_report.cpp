@@ -9,9 +9,9 @@
 #include "export/report/svg.h"
 #include "export/report/tables.h"
 #include "export/tool.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/export/plan.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
 
 namespace fusee {
 namespace {

@@ -1,5 +1,5 @@
-#include "fusee/base/text.h"
-#include "fusee/export/plan.h"
+#include "base/text.h"
+#include "fusee/export.h"
 
 namespace fusee {
 namespace {

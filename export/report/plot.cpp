@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

@@ -1,5 +1,5 @@
 /// report.html: all information about a pulley before printing, on one self-contained page.
-#include "fusee/export/report.h"
+#include "export/report/report.h"
 
 #include <algorithm>
 #include <array>
@@ -21,9 +21,9 @@
 #include "export/report/tables.h"
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/transmission/load.h"
+#include "base/text.h"
+#include "mechanism/catalogue.h"
+#include "transmission/load.h"
 
 namespace fusee {
 namespace {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "export/report/tables.h"
-#include "fusee/base/units.h"
-#include "fusee/transmission/load.h"
-#include "fusee/transmission/tension.h"
+#include "fusee/base.h"
+#include "transmission/load.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "export/report/plot.h"
-#include "fusee/export/product.h"
+#include "fusee/export.h"
 
 namespace fusee {
 

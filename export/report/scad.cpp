@@ -11,9 +11,9 @@
 
 #include "export/report/helix_scad.h"
 #include "export/report/scad_words.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/export/report.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "export/report/report.h"
 #include "solid/body.h"
 #include "solid/bore.h"
 #include "solid/channel_entries.h"

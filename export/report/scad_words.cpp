@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "export/report/report_parts.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 #include "solid/bore.h"
 
 namespace fusee::scad {

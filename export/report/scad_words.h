@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "fusee/base/plane.h"
-#include "fusee/export/product.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
 
 namespace fusee::scad {
 

@@ -1,10 +1,10 @@
-#include "fusee/export/simulation.h"
+#include "fusee/export.h"
 
 #include <functional>
 
 #include "export/report/csv_cells.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

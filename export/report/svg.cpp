@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "export/report/report_parts.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

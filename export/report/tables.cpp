@@ -6,7 +6,7 @@
 
 #include "export/report/calibration_words.h"
 #include "export/report/svg.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/base/check.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/base.h"
+#include "fusee/profile.h"
 
 namespace fusee {
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "fusee/base/plane.h"
-#include "fusee/export/product.h"
-#include "fusee/transmission/tendon_path.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 

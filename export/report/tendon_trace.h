@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/base/plane.h"
-#include "fusee/mechanism/mechanism.h"
-#include "fusee/profile/outline.h"
+#include "fusee/base.h"
+#include "fusee/mechanism.h"
+#include "fusee/profile.h"
 
 namespace fusee {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "coil/winding.h"
-#include "fusee/base/plane.h"
-#include "fusee/coil/helical_pulley.h"
-#include "fusee/helix/spiral.h"
+#include "fusee/base.h"
+#include "fusee/coil.h"
+#include "fusee/helix.h"
 
 namespace fusee {
 

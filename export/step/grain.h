@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

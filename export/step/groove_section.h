@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/mechanism/mechanism.h"
-#include "fusee/solid/layout.h"
+#include "fusee/mechanism.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

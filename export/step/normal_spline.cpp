@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/decompositions.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "profile/pitch_curve.h"
 
 namespace fusee {

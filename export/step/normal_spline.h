@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "export/step/step_part.h"
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

@@ -12,8 +12,7 @@
 #include "export/step/climbing_curve.h"
 #include "export/step/grain.h"
 #include "export/step/normal_spline.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/heights.h"
 
 // The outer surface consists of strands: closed rings, and the corners of both grooves' sections over all turns. Marks

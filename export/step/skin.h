@@ -3,7 +3,7 @@
 
 #include "export/step/groove_section.h"
 #include "export/step/step_part.h"
-#include "fusee/export/product.h"
+#include "fusee/export.h"
 
 namespace fusee {
 

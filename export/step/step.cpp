@@ -1,4 +1,4 @@
-#include "fusee/export/step.h"
+#include "export/step/step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "export/step/step_build.h"
 #include "export/step/step_part.h"
 #include "export/step/step_shapes.h"
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 #include "solid/nearest_segment.h"
 
 namespace fusee {

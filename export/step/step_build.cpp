@@ -10,9 +10,8 @@
 #include "export/step/normal_spline.h"
 #include "export/step/skin.h"
 #include "export/step/step_shapes.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
+#include "base/text.h"
 #include "solid/body.h"
 
 namespace fusee {

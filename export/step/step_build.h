@@ -2,7 +2,7 @@
 #pragma once
 
 #include "export/step/step_part.h"
-#include "fusee/export/product.h"
+#include "fusee/export.h"
 
 namespace fusee {
 

@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
-#include "fusee/base/plane.h"
-#include "fusee/solid/mesh.h"
+#include "fusee/base.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

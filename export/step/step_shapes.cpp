@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/anchors.h"
 #include "solid/bore.h"
 #include "solid/set_screw.h"

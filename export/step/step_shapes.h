@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "export/step/step_part.h"
-#include "fusee/solid/pulley.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

@@ -5,44 +5,257 @@
 ///     AnalysisResult   analyze(file, options)            the transmission and the forces over the range
 ///     OptimizeResult   optimize(file, options)           better numbers for the mechanism
 ///     CalibrateResult  calibrate(file, runs, options)    measured runs: the causes of the error, a better file
-///     CompareResult    compare(file, before, after, options)  what changed between two states (pipeline/compare.h)
+///     CompareResult    compare(file, before, after, options)  what changed between two states (fusee/pipeline.h)
 ///     PlanResult       plan(file, options)               which runs to measure, what they can show
-///     KitResult        kit(file, options)                the test rig: parts, plates, a page (pipeline/kit.h)
-///     ModelResult      model(file, options)              the joint for simulators and firmware (pipeline/model.h)
+///     KitResult        kit(file, options)                the test rig: parts, plates, a page (fusee/pipeline.h)
+///     ModelResult      model(file, options)              the joint for simulators and firmware (fusee/pipeline.h)
 ///     SimulateResult   simulate(file, log, options)      logged motor angles and loads: joint angle, tensions, torque
 ///
-/// Every verb takes a RunContext last: progress, a request to stop, and access to files (base/run_context.h). It throws
+/// Every verb takes a RunContext last: progress, a request to stop, and access to files (fusee/base.h). It throws
 /// Stopped after a request to stop, except optimize(), whose result is then the best design so far.
 ///
 /// The steps of build() are public, too:
 ///
-///     MechanismFile    file = read_mechanism("forearm.toml")            the declared joint (mechanism/file.h)
-///     SynthesisResult  synthesis = synthesise(file.mechanism)           θ(α) → both pitch curves (profile/synthesis.h)
-///     Pulley           pulley = make_pulley(file.mechanism, synthesis)  → one checked solid (solid/pulley.h)
-///     RewindResult     as_built = rewind(file.mechanism, floor1, floor2)  θ(α) of the part as made (profile/rewind.h)
+///     MechanismFile    file = read_mechanism("forearm.toml")            the declared joint (fusee/mechanism_file.h)
+///     SynthesisResult  synthesis = synthesise(file.mechanism)           θ(α) → both pitch curves (fusee/profile.h)
+///     Pulley           pulley = make_pulley(file.mechanism, synthesis)  → one checked solid (fusee/solid.h)
+///     RewindResult     as_built = rewind(file.mechanism, floor1, floor2)  θ(α) of the part as made (fusee/profile.h)
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "fusee/analysis/analysis.h"
-#include "fusee/base/check.h"
-#include "fusee/base/files.h"
-#include "fusee/base/run_context.h"
-#include "fusee/export/drawings.h"
-#include "fusee/export/product.h"
-#include "fusee/mechanism/file.h"
-#include "fusee/pipeline/calibrate.h"
-#include "fusee/pipeline/optimize.h"
-#include "fusee/pipeline/plan.h"
-#include "fusee/pipeline/simulate.h"
-#include "fusee/solid/mesh.h"
-#include "fusee/solid/placement.h"
+#include "fusee/analysis.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/optimize.h"
+#include "fusee/profile.h"
+#include "fusee/solid.h"
 
 namespace fusee {
+
+// ---- Optimization ---------------------------------------------------------------------------------------------------
+// Options and result of fusee optimize.
+
+/// Search methods, in the order of OptimizeResult::search.
+enum class SearchMethod { certified, genetic, pareto };
+
+/// The most rigorous method that supports the objectives and variables of [optimize].
+SearchMethod strongest_method(const MechanismFile& file);
+
+struct OptimizeOptions {
+  std::optional<SearchMethod> method;  ///< default: strongest_method()
+  std::optional<Objective> then;       ///< certified: second objective that selects among tied designs
+  GeneticOptions genetic;              ///< for genetic and pareto
+  /// settings with which the file was read; numbers among them go into the new files
+  std::vector<Setting> settings;
+  std::filesystem::path new_file;      ///< path of the mechanism with the new numbers; empty: none
+  std::filesystem::path front_folder;  ///< folder of the front's mechanisms; empty: none
+  bool force = false;
+  bool dry_run = false;  ///< everything except publishing
+};
+
+struct OptimizeResult {
+  Problem problem;
+  std::variant<CertifiedResult, GeneticResult, ParetoResult> search;
+  std::optional<CertifiedResult> then;  ///< the second search of OptimizeOptions::then
+  bool found = false;
+  bool stopped = false;  ///< by RunContext::stop: the best design so far
+  std::string reason;    ///< if nothing was found: the most frequent cause
+  Design design;         ///< best design, in the file's declared numbers; for a front its most balanced point
+  double value = 0;      ///< of the first objective
+  double theta = 0;      ///< θ at which the objective takes its value, rad; not for a front
+  Evaluation before;     ///< first objective of the unchanged file
+  std::string new_text;  ///< text of the file with the design's numbers; empty if not requested
+  std::vector<OutputFile> front_files;
+  std::vector<Diagnostic> warnings;  ///< plausibility warnings about the file, and settings that the new files omit
+  bool published = false;
+
+  SearchMethod method() const { return static_cast<SearchMethod>(search.index()); }
+};
+
+// ---- Calibration ----------------------------------------------------------------------------------------------------
+// Calibration: measured runs → causes of the error, and the file of a better pulley.
+
+struct CalibrateOptions {
+  MeasurementOptions columns;
+  std::vector<std::filesystem::path> hold_out;  ///< runs for validation only
+  std::filesystem::path folder;                 ///< folder of the output files
+  bool force = false;
+  bool dry_run = false;  ///< everything except writing
+  bool audit = true;     ///< CalibrationOptions::audit
+};
+
+struct CalibrateResult {
+  CalibrationProduct product;
+  std::vector<OutputFile> outputs;  ///< manifest.json last
+  bool published = false;
+  /// corrected.toml has every key, because the text of `file.path` differs from the mechanism (--set)
+  bool rewritten = false;
+};
+
+/// Reads the runs, compares them with the joint of `file`, and writes calibration.json, corrected.toml (with the CSV of
+/// a law table), compensation.csv, report.html and manifest.json. Inconclusive data give a verdict. Throws InputError
+/// for unreadable input, and OutputError before the work if the output may not be written. A run that is both fitted
+/// and held out is held out. corrected.toml keeps the text of `file.path` with comments if it describes
+/// `file.mechanism`.
+CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::filesystem::path>& runs,
+                          const CalibrateOptions& options, const RunContext& context = {});
+
+// ---- Comparison -----------------------------------------------------------------------------------------------------
+// Comparison: measured runs of two states of one joint → the changes between them.
+
+struct CompareOptions {
+  MeasurementOptions columns;
+  std::filesystem::path folder;  ///< folder of the output files; empty: no files
+  bool force = false;
+  bool dry_run = false;  ///< everything except writing
+};
+
+struct CompareResult {
+  ComparisonProduct product;
+  std::vector<OutputFile> outputs;  ///< manifest.json last; empty without a folder
+  bool published = false;
+};
+
+/// Reads the runs of both states, compares them with the joint of `file`, and writes comparison.json, report.html and
+/// manifest.json. Files that are not two states of one joint give a verdict and the same files. Throws InputError for
+/// unreadable input and for a repeated run, and OutputError before the work if the output may not be written.
+CompareResult compare(const MechanismFile& file, const std::vector<std::filesystem::path>& before,
+                      const std::vector<std::filesystem::path>& after, const CompareOptions& options,
+                      const RunContext& context = {});
+
+// ---- Experiment design ----------------------------------------------------------------------------------------------
+// Experiment design: plan.json, a page for the bench and empty run files.
+
+struct PlanFilesOptions {
+  PlanOptions plan;
+  std::filesystem::path folder;  ///< folder of the output files
+  bool force = false;
+  bool dry_run = false;  ///< everything except writing
+};
+
+struct PlanResult {
+  /// Reason why there is nothing to plan: the law does not exist over the range. Empty if it does.
+  std::optional<SynthesisResult> without_law;
+  PlanProduct product;
+  std::vector<OutputFile> outputs;  ///< manifest.json last; empty if no run fits into the minutes
+  bool published = false;
+};
+
+/// Plans the shortest set of runs for the joint of `file`, given the values in [prior]: plan.json, plan.html, and
+/// run_1.csv … in the format of `fusee calibrate`, without θ. If no run fits into the minutes, the plan has no steps
+/// and lists what more minutes would add. Throws InputError and OutputError.
+PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options, const RunContext& context = {});
+
+// ---- Test rig -------------------------------------------------------------------------------------------------------
+// Test rig: parts to print and to cut, and a page with the assembly.
+
+struct KitOptions {
+  double chord_error_mm = 0.01;  ///< largest distance of a facet of the pulley from its curve (sagitta)
+  DxfVersion dxf = DxfVersion::ac1015;
+  std::filesystem::path folder;  ///< folder of the output files
+  bool force = false;
+  bool dry_run = false;  ///< everything except publishing
+};
+
+enum class KitEnding { done, no_pulley, no_kit, check_failed };
+
+struct KitResult {
+  KitEnding ending = KitEnding::done;
+  KitProduct product;
+  Advice advice;                    ///< if parts would collide: changes that make room
+  std::vector<OutputFile> outputs;  ///< manifest.json last; empty without a pulley or a rig
+  bool published = false;
+};
+
+/// Designs the test rig. Every mesh and drawing is read back and checked. An infeasible pulley, colliding parts and
+/// failed checks are values; throws InputError and OutputError. Failed checks are published only if they replace no
+/// earlier run, or with `force`.
+KitResult kit(const MechanismFile& file, const KitOptions& options, const RunContext& context = {});
+
+/// Smallest distances between the assembled parts over the range, measured on their meshes, as checks.
+std::vector<Check> kit_fit_checks(const KitPlan& plan);
+
+// ---- Models ---------------------------------------------------------------------------------------------------------
+// The joint for other programs: simulators (MuJoCo), descriptions of robots (URDF, ros2_control), firmware (tables).
+
+/// Largest accepted --max-error-deg, deg.
+constexpr double k_largest_limit_deg = 45;
+
+struct ModelOptions {
+  /// Largest error of θ in joint.xml, rad. The paper's mechanism leaves 0.064° and a printed pulley is checked to
+  /// 0.05°, so a coarser polynomial does not describe the joint.
+  double most_error = radians(0.1);
+  /// Largest error of θ in the tables, in both directions, rad: 1/20 of a step of a 14-bit encoder.
+  double most_table_error = radians(0.001);
+  MotorUnit unit;
+  bool declared = false;        ///< ignore identified effects
+  bool with_polynomial = true;  ///< false: no joint.xml
+  /// compensation.csv. Not set: the file next to the mechanism that calibrate() wrote with it. Empty: none.
+  std::optional<std::filesystem::path> compensation;
+  std::string prefix;  ///< of the names in joint_table.h; empty: derived from the joint's name
+  std::filesystem::path folder;
+  bool force = false;
+  bool dry_run = false;  ///< everything except publishing
+};
+
+enum class ModelEnding {
+  done,
+  no_law,          ///< θ(α) does not exist or does not grow; see `without_law`
+  no_equilibrium,  ///< the identified joint has no equilibrium under its declared load
+  polynomial_off,  ///< the error of joint.xml would exceed most_error
+  table_off,       ///< the error of k_most_pieces pieces exceeds most_table_error
+  check_failed,
+};
+
+/// A change that makes a refused model possible.
+struct ModelChange {
+  std::string words;       ///< "--max-error-deg 0.13"
+  std::string key = {};    ///< of the mechanism file; empty for an option
+  std::string value = {};  ///< value of that key, as TOML
+};
+
+struct ModelResult {
+  ModelEnding ending = ModelEnding::done;
+  ModelProduct product;
+  std::optional<SynthesisResult> without_law;
+  std::vector<ModelChange> changes;  ///< tested changes
+  std::vector<OutputFile> outputs;   ///< manifest.json last; empty if refused
+  bool published = false;
+};
+
+/// Writes the models. A missing law, an insufficient polynomial or table, and failed checks are values; throws
+/// InputError and OutputError.
+ModelResult model(const MechanismFile& file, const ModelOptions& options, const RunContext& context = {});
+
+// ---- Simulation -----------------------------------------------------------------------------------------------------
+// Simulation: logged motor angles, loads and times → joint angle, tendon tensions and motor torque.
+
+struct SimulateOptions {
+  MeasurementOptions columns;
+  /// true: simulates the corrected pulley that build() makes of this file; false: the pulley of the declared mechanism,
+  /// on which [identified] was measured.
+  bool corrected = false;
+  double noise = 0;        ///< standard deviation of noise added to the joint sensor, rad
+  std::uint64_t seed = 1;  ///< of that noise
+};
+
+struct SimulateResult {
+  /// Reason why there is nothing to simulate: the law does not exist over the range. Empty if it does.
+  std::optional<SynthesisResult> without_law;
+  Simulation simulation;
+};
+
+/// Simulates the identified joint of `file` row by row, for a log or a run of plan(). Rows without an equilibrium are
+/// marked. Throws InputError for unreadable input.
+SimulateResult simulate(const MechanismFile& file, const std::filesystem::path& log,
+                        const SimulateOptions& options = {}, const RunContext& context = {});
 
 /// Largest deviations of the pulley as built that pass the checks.
 struct AsBuiltLimits {

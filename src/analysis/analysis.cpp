@@ -1,4 +1,4 @@
-#include "fusee/analysis/analysis.h"
+#include "fusee/analysis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "fusee/analysis/stroke.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/mechanism/fields.h"
+#include "base/text.h"
+#include "mechanism/catalogue.h"
+#include "fusee/mechanism_file.h"
 #include "transmission/alpha_range.h"
 
 namespace fusee {
@@ -155,7 +154,7 @@ Strength with_knots(double tension, const Tendon& tendon, const std::string& sou
   return {tension, tension * tendon.knot_efficiency, source};
 }
 
-/// At C every tendon ends in an unrelieved knot; on the pulley the wrap relieves it (solid/holding.h).
+/// At C every tendon ends in an unrelieved knot; on the pulley the wrap relieves it (fusee/solid.h).
 std::optional<double> breaking_place(const AnalysisResult& result) {
   if (!result.strength) return std::nullopt;
   if (result.largest_at_joint.value > result.strength->at_knot) return result.largest_at_joint.alpha;

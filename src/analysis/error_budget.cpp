@@ -4,9 +4,8 @@
 
 #include "analysis/rigid_joint.h"
 #include "base/normal_numbers.h"
-#include "fusee/analysis/analysis.h"
-#include "fusee/analysis/stroke.h"
-#include "fusee/transmission/guide_friction.h"
+#include "fusee/analysis.h"
+#include "fusee/transmission.h"
 #include "transmission/alpha_range.h"
 
 namespace fusee {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fusee/mechanism/mechanism.h"
+#include "fusee/mechanism.h"
 
 namespace fusee {
 

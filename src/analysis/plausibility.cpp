@@ -1,9 +1,9 @@
-#include "fusee/analysis/plausibility.h"
+#include "analysis/plausibility.h"
 
 #include "analysis/input_warning.h"
-#include "fusee/analysis/analysis.h"
-#include "fusee/joint/as_it_is.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/analysis.h"
+#include "fusee/joint.h"
+#include "fusee/profile.h"
 #include "transmission/alpha_range.h"
 
 namespace fusee {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/joint/joint_model.h"
+#include "fusee/joint.h"
 
 namespace fusee {
 

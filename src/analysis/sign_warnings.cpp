@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "analysis/input_warning.h"
-#include "fusee/base/text.h"
-#include "fusee/profile/synthesis.h"
+#include "base/text.h"
+#include "fusee/profile.h"
 
 namespace fusee {
 namespace {

@@ -1,4 +1,4 @@
-#include "fusee/analysis/stroke.h"
+#include "fusee/analysis.h"
 
 #include <algorithm>
 #include <cmath>

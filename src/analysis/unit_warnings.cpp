@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "analysis/input_warning.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 namespace {

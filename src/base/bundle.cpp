@@ -9,8 +9,8 @@
 
 #include "base/json.h"
 #include "base/zip.h"
-#include "fusee/base/files.h"
-#include "fusee/base/text.h"
+#include "fusee/base.h"
+#include "base/text.h"
 
 namespace fusee {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

@@ -1,4 +1,4 @@
-#include "fusee/base/check.h"
+#include "fusee/base.h"
 
 #include <algorithm>
 

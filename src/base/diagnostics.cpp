@@ -1,4 +1,4 @@
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 #include <algorithm>
 #include <numeric>

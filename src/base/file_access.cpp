@@ -1,4 +1,4 @@
-#include "fusee/base/file_access.h"
+#include "fusee/base.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,7 +10,6 @@
 #include <memory>
 
 #include "base/descriptor.h"
-#include "fusee/base/diagnostics.h"
 
 namespace fusee {
 namespace {

@@ -1,4 +1,4 @@
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 #include <fmt/format.h>
 #define OPENSSL_SUPPRESS_DEPRECATED
@@ -8,7 +8,6 @@
 #include <cstdlib>
 
 #include "base/output_list.h"
-#include "fusee/base/diagnostics.h"
 
 namespace fusee {
 namespace {

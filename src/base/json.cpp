@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

@@ -12,7 +12,7 @@
 #include "base/descriptor.h"
 #include "base/json.h"
 #include "base/staging.h"
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

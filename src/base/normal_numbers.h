@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

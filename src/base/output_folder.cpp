@@ -9,8 +9,7 @@
 
 #include "base/leftovers.h"
 #include "base/staging.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 // Atomic publishing of a set of files rests on one system call that replaces a folder:
 // 1. The new files are staged in a private folder next to the output folder.

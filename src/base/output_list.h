@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/json.h"
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

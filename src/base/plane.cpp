@@ -1,4 +1,4 @@
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 #include <algorithm>
 #include <limits>

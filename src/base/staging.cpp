@@ -12,8 +12,7 @@
 #include <future>
 #include <thread>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace fs = std::filesystem;

@@ -1,4 +1,4 @@
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 

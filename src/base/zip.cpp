@@ -6,8 +6,8 @@
 
 #include <array>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
+#include "fusee/base.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

@@ -11,8 +11,8 @@
 #include "calibration/thresholds.h"
 #include "calibration/unmodelled_alternatives.h"
 #include "calibration/verdict.h"
-#include "fusee/calibration/calibration.h"
-#include "fusee/joint/simulate.h"
+#include "fusee/calibration.h"
+#include "fusee/joint.h"
 
 namespace fusee {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "fusee/joint/joint_effects.h"
+#include "joint/joint_effects.h"
 #include "measurement/seen_span.h"
 
 namespace fusee {

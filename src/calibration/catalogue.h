@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fusee/measurement/measurement.h"
-#include "fusee/mechanism/effect.h"
+#include "fusee/measurement.h"
+#include "mechanism/effect.h"
 
 namespace fusee {
 

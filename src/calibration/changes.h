@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "calibration/fit.h"
-#include "fusee/calibration/calibration.h"
-#include "fusee/mechanism/effect.h"
+#include "fusee/calibration.h"
+#include "mechanism/effect.h"
 
 namespace fusee {
 

@@ -1,10 +1,10 @@
-#include "fusee/calibration/comparison.h"
+#include "fusee/calibration.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "calibration/thresholds.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "measurement/seen_span.h"
 
 // The earlier joint is identified from its own runs. Then all runs are explained together, the earlier ones by that

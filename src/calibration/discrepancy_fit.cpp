@@ -7,7 +7,7 @@
 #include "base/decompositions.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "measurement/seen_span.h"
 #include "measurement/strokes.h"
 

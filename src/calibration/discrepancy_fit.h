@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calibration/fit.h"
-#include "fusee/calibration/calibration.h"
+#include "fusee/calibration.h"
 
 namespace fusee {
 

@@ -7,7 +7,7 @@
 
 #include "calibration/intervals.h"
 #include "calibration/thresholds.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 namespace {

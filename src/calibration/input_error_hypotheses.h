@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/calibration/slips.h"
+#include "fusee/calibration.h"
 
 namespace fusee {
 

@@ -5,8 +5,8 @@
 #include "calibration/fit.h"
 #include "calibration/input_error_hypotheses.h"
 #include "calibration/thresholds.h"
-#include "fusee/base/text.h"
-#include "fusee/calibration/slips.h"
+#include "base/text.h"
+#include "fusee/calibration.h"
 #include "transmission/declared_law.h"
 
 namespace fusee {

@@ -5,10 +5,10 @@
 
 #include "calibration/explanation.h"
 #include "calibration/thresholds.h"
-#include "fusee/base/text.h"
-#include "fusee/joint/joint_effects.h"
-#include "fusee/joint/simulate.h"
-#include "fusee/plan/plan.h"
+#include "base/text.h"
+#include "joint/joint_effects.h"
+#include "fusee/joint.h"
+#include "fusee/plan.h"
 #include "measurement/seen_span.h"
 
 // Each proposal is simulated with the found effects and with each alternative, as fitted. Proposals produce inputs of

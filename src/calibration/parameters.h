@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calibration/evidence.h"
-#include "fusee/mechanism/effect.h"
+#include "mechanism/effect.h"
 
 namespace fusee {
 

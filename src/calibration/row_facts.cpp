@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/joint/bench_log.h"
+#include "fusee/joint.h"
 #include "measurement/seen_span.h"
 
 namespace fusee {

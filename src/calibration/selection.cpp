@@ -13,7 +13,7 @@
 #include "calibration/discrepancy_fit.h"
 #include "calibration/thresholds.h"
 #include "calibration/validation.h"
-#include "fusee/calibration/words.h"
+#include "calibration/words.h"
 
 // Bayesian model selection over subsets of the effect catalogue: score(S) = log p(data | S) + log p(S), the discrepancy
 // marginalised (Kennedy and O'Hagan 2001). Search: (1) each effect alone; (2) beam search without discrepancy, since

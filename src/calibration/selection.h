@@ -10,7 +10,7 @@
 #include "calibration/fitter_pool.h"
 #include "calibration/posterior.h"
 #include "calibration/statistics.h"
-#include "fusee/calibration/calibration.h"
+#include "fusee/calibration.h"
 
 namespace fusee {
 

@@ -13,8 +13,8 @@
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 #include "calibration/unmodelled_effects.h"
-#include "fusee/base/text.h"
-#include "fusee/calibration/words.h"
+#include "base/text.h"
+#include "calibration/words.h"
 
 // The discrepancy is smooth: a kink, a step, a bump or a short wave requires many of its columns, so that an absent
 // effect with a bend at about that place would be likelier. Shapes of few parameters complete it here, each with the

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "calibration/thresholds.h"
-#include "fusee/joint/simulate.h"
+#include "fusee/joint.h"
 
 namespace fusee {
 namespace {

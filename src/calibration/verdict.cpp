@@ -6,7 +6,7 @@
 
 #include "calibration/statistics.h"
 #include "calibration/unmodelled_alternatives.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "measurement/seen_span.h"
 
 namespace fusee {

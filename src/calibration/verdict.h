@@ -6,7 +6,7 @@
 
 #include "calibration/discrepancy_fit.h"
 #include "calibration/selection.h"
-#include "fusee/calibration/calibration.h"
+#include "fusee/calibration.h"
 
 namespace fusee {
 

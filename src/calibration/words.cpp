@@ -1,9 +1,9 @@
-#include "fusee/calibration/words.h"
+#include "calibration/words.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 

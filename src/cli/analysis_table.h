@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/reply.h"
-#include "fusee/analysis/analysis.h"
+#include "fusee/analysis.h"
 
 namespace fusee::cli {
 

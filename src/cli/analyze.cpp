@@ -7,9 +7,9 @@
 #include "cli/command.h"
 #include "cli/pins.h"
 #include "cli/table.h"
-#include "fusee/base/files.h"
-#include "fusee/base/text.h"
-#include "fusee/export/analysis.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "export/report/analysis.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "cli/command.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
+#include "fusee/base.h"
+#include "base/text.h"
 
 namespace fusee::cli {
 namespace {

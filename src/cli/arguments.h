@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee::cli {
 

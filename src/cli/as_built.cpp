@@ -1,7 +1,7 @@
 #include "cli/as_built.h"
 
 #include "cli/table.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include "cli/pins.h"
 #include "cli/table.h"
 #include "export/report/tendon_lengths.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {

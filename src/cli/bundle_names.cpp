@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/bundle.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/command.h"
 #include "cli/measured_columns.h"
 #include "cli/table.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {

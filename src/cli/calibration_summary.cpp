@@ -4,8 +4,8 @@
 
 #include "cli/table.h"
 #include "export/report/calibration_words.h"
-#include "fusee/base/text.h"
-#include "fusee/calibration/words.h"
+#include "base/text.h"
+#include "calibration/words.h"
 
 namespace fusee::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fusee/export/calibration.h"
+#include "fusee/export.h"
 
 namespace fusee::cli {
 

@@ -1,6 +1,6 @@
 #include "cli/as_built.h"
 #include "cli/command.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {

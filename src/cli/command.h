@@ -10,7 +10,7 @@
 #include "cli/arguments.h"
 #include "cli/console.h"
 #include "cli/reply.h"
-#include "fusee/base/run_context.h"
+#include "fusee/base.h"
 
 namespace fusee::cli {
 

@@ -1,4 +1,4 @@
-#include "fusee/pipeline/compare.h"
+#include "fusee/pipeline.h"
 
 #include <filesystem>
 #include <optional>
@@ -7,8 +7,8 @@
 #include "cli/command.h"
 #include "cli/measured_columns.h"
 #include "cli/table.h"
-#include "fusee/base/text.h"
-#include "fusee/export/calibration.h"
+#include "base/text.h"
+#include "fusee/export.h"
 
 namespace fusee::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "cli/interrupt.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee::cli {
 

@@ -1,5 +1,5 @@
 #include "cli/command.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee::cli {
 namespace {

@@ -3,9 +3,9 @@
 #include "base/output_list.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "fusee/pipeline.h"
-#include "fusee/pipeline/kit.h"
+#include "mechanism/catalogue.h"
 
 namespace fusee::cli {
 namespace {

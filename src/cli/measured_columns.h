@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/arguments.h"
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 
 namespace fusee::cli {
 

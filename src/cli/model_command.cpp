@@ -4,9 +4,9 @@
 #include "base/output_list.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/pipeline/model.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/pipeline.h"
 
 namespace fusee::cli {
 namespace {

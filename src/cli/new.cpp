@@ -1,7 +1,7 @@
 #include "cli/command.h"
 #include "cli/questions.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/file.h"
+#include "base/text.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee::cli {
 namespace {

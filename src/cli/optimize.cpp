@@ -3,7 +3,7 @@
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/optimize_text.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {

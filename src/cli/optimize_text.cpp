@@ -5,7 +5,7 @@
 
 #include "cli/pins.h"
 #include "cli/table.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee::cli {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cli/reply.h"
-#include "fusee/pipeline/optimize.h"
+#include "fusee/pipeline.h"
 
 namespace fusee::cli {
 

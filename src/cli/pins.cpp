@@ -1,6 +1,6 @@
 #include "cli/pins.h"
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee::cli {
 

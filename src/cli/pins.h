@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cli/reply.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee::cli {
 

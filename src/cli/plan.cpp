@@ -5,8 +5,8 @@
 
 #include "cli/command.h"
 #include "cli/table.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {

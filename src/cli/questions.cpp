@@ -9,11 +9,10 @@
 #include <optional>
 
 #include "cli/arguments.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/file.h"
-#include "fusee/solid/pulley.h"
+#include "base/text.h"
+#include "mechanism/catalogue.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/solid.h"
 #include "mechanism/field_text.h"
 
 namespace fusee::cli {

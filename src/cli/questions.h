@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "cli/console.h"
-#include "fusee/mechanism/mechanism.h"
-#include "fusee/profile/advice.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/mechanism.h"
+#include "fusee/profile.h"
 
 namespace fusee::cli {
 

@@ -8,8 +8,8 @@
 #include "base/leftovers.h"
 #include "base/staging.h"
 #include "cli/interrupt.h"
-#include "fusee/base/files.h"
-#include "fusee/base/text.h"
+#include "fusee/base.h"
+#include "base/text.h"
 
 namespace fusee::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/bundle.h"
 #include "cli/bundle_names.h"
 #include "cli/run.h"
-#include "fusee/base/file_access.h"
+#include "fusee/base.h"
 
 namespace fusee::cli {
 

@@ -13,8 +13,8 @@
 #include "cli/command.h"
 #include "cli/recording.h"
 #include "cli/run.h"
-#include "fusee/base/files.h"
-#include "fusee/base/text.h"
+#include "fusee/base.h"
+#include "base/text.h"
 
 // A bundle runs again in this process, in its own folder. It reads only files of the bundle, whatever its command line
 // names, and writes only into that folder. So a hostile bundle can do no more than fusee can do to its own files.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee::cli {
 namespace {

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "base/json.h"
-#include "fusee/base/check.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/base.h"
+#include "fusee/profile.h"
 
 namespace fusee::cli {
 

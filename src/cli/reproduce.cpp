@@ -1,7 +1,7 @@
 #include "cli/command.h"
-#include "fusee/base/files.h"
-#include "fusee/base/text.h"
-#include "fusee/export/paper.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "export/report/paper.h"
 
 namespace fusee::cli {
 namespace {

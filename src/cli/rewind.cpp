@@ -4,7 +4,7 @@
 #include "cli/as_built.h"
 #include "cli/command.h"
 #include "cli/table.h"
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {

@@ -15,7 +15,7 @@
 #include "cli/interrupt.h"
 #include "cli/lack_of_memory.h"
 #include "cli/recording.h"
-#include "fusee/base/file_access.h"
+#include "fusee/base.h"
 
 namespace fusee::cli {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "cli/console.h"
 #include "cli/reply.h"
-#include "fusee/base/run_context.h"
+#include "fusee/base.h"
 
 namespace fusee::cli {
 

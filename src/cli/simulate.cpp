@@ -4,8 +4,8 @@
 
 #include "cli/command.h"
 #include "cli/measured_columns.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {

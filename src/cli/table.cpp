@@ -4,7 +4,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee::cli {
 namespace {

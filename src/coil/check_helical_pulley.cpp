@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "coil/half_planes.h"
-#include "fusee/coil/helical_pulley.h"
-#include "fusee/solid/mesh.h"
+#include "fusee/coil.h"
+#include "fusee/solid.h"
 #include "solid/euler.h"
 #include "solid/place.h"
 

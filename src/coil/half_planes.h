@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/caps.h"
 
 // The outer surface is a fan of columns, one for each common direction of the normal. A column holds, upwards: the

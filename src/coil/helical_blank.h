@@ -3,10 +3,9 @@
 #pragma once
 
 #include "coil/winding.h"
-#include "fusee/base/plane.h"
-#include "fusee/solid/layout.h"
-#include "fusee/solid/mesh.h"
-#include "fusee/transmission/tendon_path.h"
+#include "fusee/base.h"
+#include "fusee/solid.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 

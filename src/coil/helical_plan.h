@@ -7,7 +7,7 @@
 #include "coil/helical_blank.h"
 #include "coil/run_out.h"
 #include "coil/winding.h"
-#include "fusee/coil/helical_pulley.h"
+#include "fusee/coil.h"
 
 namespace fusee {
 

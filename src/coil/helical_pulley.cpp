@@ -1,4 +1,4 @@
-#include "fusee/coil/helical_pulley.h"
+#include "fusee/coil.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 #include "coil/helical_plan.h"
 #include "coil/run_out.h"
 #include "coil/winding.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 #include "solid/boolean.h"
 #include "solid/bore.h"
 #include "solid/condition_list.h"

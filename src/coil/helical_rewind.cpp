@@ -1,4 +1,4 @@
-#include "fusee/coil/helical_rewind.h"
+#include "fusee/coil.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,8 @@
 #include <utility>
 
 #include "coil/half_planes.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
+#include "base/text.h"
 #include "profile/string_above.h"
 
 // Independent check of the synthesis. A string is laid on the groove floors that half-planes found. In plan it goes

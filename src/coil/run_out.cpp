@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/boolean.h"
 #include "solid/nearest_float.h"
 #include "solid/tools.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "coil/winding.h"
-#include "fusee/base/plane.h"
-#include "fusee/coil/helical_pulley.h"
+#include "fusee/base.h"
+#include "fusee/coil.h"
 
 namespace fusee {
 

@@ -1,13 +1,13 @@
-#include "fusee/correction/correction.h"
+#include "fusee/correction.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "calibration/evidence.h"
-#include "fusee/joint/simulate.h"
-#include "fusee/mechanism/effect.h"
-#include "fusee/transmission/guide_friction.h"
+#include "fusee/joint.h"
+#include "mechanism/effect.h"
+#include "fusee/transmission.h"
 #include "measurement/seen_span.h"
 #include "transmission/declared_law.h"
 

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/calibration/words.h"
-#include "fusee/correction/correction.h"
-#include "fusee/mechanism/edit.h"
-#include "fusee/mechanism/fields.h"
+#include "base/text.h"
+#include "calibration/words.h"
+#include "fusee/correction.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 namespace {

@@ -1,12 +1,12 @@
-#include "fusee/correction/rehearsal.h"
+#include "fusee/correction.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/units.h"
-#include "fusee/joint/simulate.h"
-#include "fusee/mechanism/effect.h"
-#include "fusee/transmission/load.h"
+#include "fusee/base.h"
+#include "fusee/joint.h"
+#include "mechanism/effect.h"
+#include "transmission/load.h"
 
 namespace fusee {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "profile/feasibility.h"
 #include "profile/pitch_curve.h"
 #include "profile/place_conditions.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/helix/synthesis.h"
+#include "fusee/helix.h"
 #include "helix/winding.h"
 
 namespace fusee {

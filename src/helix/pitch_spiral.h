@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "fusee/helix/spiral.h"
+#include "fusee/helix.h"
 #include "profile/take_off.h"
 
 namespace fusee {

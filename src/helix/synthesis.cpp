@@ -1,4 +1,4 @@
-#include "fusee/helix/synthesis.h"
+#include "fusee/helix.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 
-#include "fusee/helix/synthesis.h"
+#include "fusee/helix.h"
 #include "helix/pitch_spiral.h"
 
 namespace fusee {

@@ -1,4 +1,4 @@
-#include "fusee/joint/as_it_is.h"
+#include "fusee/joint.h"
 
 #include "joint/compensating_law.h"
 

@@ -1,4 +1,4 @@
-#include "fusee/joint/bench_log.h"
+#include "fusee/joint.h"
 
 #include <limits>
 

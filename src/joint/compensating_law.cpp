@@ -8,9 +8,9 @@
 
 #include "base/decompositions.h"
 #include "base/golden_section.h"
-#include "fusee/joint/simulate.h"
-#include "fusee/transmission/guide_friction.h"
-#include "fusee/transmission/load.h"
+#include "fusee/joint.h"
+#include "fusee/transmission.h"
+#include "transmission/load.h"
 #include "joint/imperfect_joint.h"
 
 namespace fusee {

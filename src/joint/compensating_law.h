@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/joint/as_it_is.h"
+#include "fusee/joint.h"
 
 namespace fusee {
 

@@ -1,4 +1,4 @@
-#include "fusee/joint/equilibrium.h"
+#include "fusee/joint.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "fusee/base/plane.h"
-#include "fusee/transmission/load.h"
+#include "fusee/base.h"
+#include "transmission/load.h"
 #include "joint/tendon_balance.h"
 #include "joint/threaded_balance.h"
 #include "joint/upper_span_table.h"

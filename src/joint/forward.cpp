@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "fusee/joint/simulate.h"
-#include "fusee/mechanism/effect.h"
+#include "fusee/joint.h"
+#include "mechanism/effect.h"
 #include "joint/lower_path_table.h"
 #include "joint/rubbing_cable.h"
 #include "joint/sensors.h"

@@ -8,9 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/joint/equilibrium.h"
-#include "fusee/joint/joint_model.h"
-#include "fusee/joint/simulate.h"
+#include "fusee/joint.h"
 #include "joint/creep_memory.h"
 #include "joint/imperfect_joint.h"
 

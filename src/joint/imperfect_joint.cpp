@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "fusee/transmission/load.h"
+#include "transmission/load.h"
 #include "joint/outline_error.h"
 
 namespace fusee {

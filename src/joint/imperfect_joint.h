@@ -2,8 +2,7 @@
 /// Statics of an imperfect joint: imperfect pulleys made for the declaration, in the mechanism as mounted.
 #pragma once
 
-#include "fusee/joint/as_it_is.h"
-#include "fusee/joint/joint_model.h"
+#include "fusee/joint.h"
 
 namespace fusee {
 

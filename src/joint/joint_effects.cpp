@@ -1,6 +1,6 @@
-#include "fusee/joint/joint_effects.h"
+#include "joint/joint_effects.h"
 
-#include "fusee/transmission/tendon_path.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 namespace {

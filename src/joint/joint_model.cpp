@@ -1,10 +1,10 @@
-#include "fusee/joint/joint_model.h"
+#include "fusee/joint.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "fusee/transmission/load.h"
+#include "transmission/load.h"
 #include "joint/upper_span_table.h"
 
 namespace fusee {

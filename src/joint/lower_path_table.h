@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "fusee/joint/joint_model.h"
+#include "fusee/joint.h"
 
 namespace fusee {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/joint/as_it_is.h"
-#include "fusee/transmission/tendon_path.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/joint.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 namespace {

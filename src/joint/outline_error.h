@@ -3,7 +3,7 @@
 /// drawing.
 #pragma once
 
-#include "fusee/mechanism/imperfections.h"
+#include "fusee/mechanism.h"
 
 namespace fusee {
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "fusee/mechanism/imperfections.h"
+#include "fusee/mechanism.h"
 
 namespace fusee {
 

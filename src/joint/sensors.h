@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "fusee/joint/bench_log.h"
-#include "fusee/mechanism/imperfections.h"
+#include "fusee/joint.h"
+#include "fusee/mechanism.h"
 
 namespace fusee {
 

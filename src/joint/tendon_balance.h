@@ -3,7 +3,7 @@
 /// that crosses the pin.
 #pragma once
 
-#include "fusee/joint/equilibrium.h"
+#include "fusee/joint.h"
 
 namespace fusee {
 

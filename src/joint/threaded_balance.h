@@ -11,7 +11,7 @@
 #include <array>
 #include <cstddef>
 
-#include "fusee/joint/equilibrium.h"
+#include "fusee/joint.h"
 
 namespace fusee {
 

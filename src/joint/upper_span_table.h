@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "fusee/mechanism/imperfections.h"
-#include "fusee/transmission/tendon_path.h"
+#include "fusee/mechanism.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 

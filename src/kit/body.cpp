@@ -1,11 +1,10 @@
-#include "fusee/kit/body.h"
+#include "fusee/kit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/caps.h"
 
 namespace fusee {

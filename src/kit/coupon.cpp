@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/kit/kit.h"
+#include "base/text.h"
+#include "fusee/kit.h"
 #include "kit/parts.h"
 
 namespace fusee {

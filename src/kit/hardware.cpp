@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 

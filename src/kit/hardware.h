@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "fusee/kit/kit.h"
+#include "fusee/kit.h"
 
 namespace fusee {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "fusee/base/text.h"
-#include "fusee/mechanism/catalogue.h"
+#include "base/text.h"
+#include "mechanism/catalogue.h"
 #include "kit/hardware.h"
 #include "kit/parts.h"
 

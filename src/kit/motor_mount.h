@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/kit/kit.h"
+#include "fusee/kit.h"
 
 namespace fusee {
 

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 #include "kit/hardware.h"
 #include "kit/motor_mount.h"
+#include "mechanism/catalogue.h"
 
 namespace fusee {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "fusee/kit/kit.h"
+#include "fusee/kit.h"
 
 namespace fusee {
 

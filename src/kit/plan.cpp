@@ -3,13 +3,14 @@
 #include <limits>
 #include <optional>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/kit/kit.h"
-#include "fusee/transmission/transmission.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/kit.h"
+#include "fusee/transmission.h"
 #include "kit/hardware.h"
 #include "kit/motor_mount.h"
 #include "kit/parts.h"
+#include "mechanism/catalogue.h"
 
 namespace fusee {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "fusee/base/text.h"
-#include "fusee/kit/kit.h"
-#include "fusee/transmission/tendon_path.h"
+#include "base/text.h"
+#include "fusee/kit.h"
+#include "fusee/transmission.h"
 #include "kit/hardware.h"
 #include "kit/motor_mount.h"
 #include "kit/parts.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "measurement/row_reader.h"
 #include "measurement/strokes.h"
 

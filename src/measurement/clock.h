@@ -2,7 +2,7 @@
 /// Internal: repairs the clock of a log.
 #pragma once
 
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 #include "measurement/repair.h"
 
 namespace fusee {

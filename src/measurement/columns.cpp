@@ -4,7 +4,7 @@
 #include <iterator>
 #include <map>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "measurement/words.h"
 
 namespace fusee {

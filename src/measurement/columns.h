@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 #include "measurement/units.h"
 
 namespace fusee {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "measurement/words.h"
 
 namespace fusee {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 
 namespace fusee {
 namespace {

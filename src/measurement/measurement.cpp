@@ -1,9 +1,9 @@
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "measurement/clock.h"
 #include "measurement/columns.h"
 #include "measurement/repair.h"

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <optional>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/measurement/measurement.h"
-#include "fusee/transmission/transmission.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/measurement.h"
+#include "fusee/transmission.h"
 #include "measurement/strokes.h"
 #include "transmission/declared_law.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 #include "measurement/seen_span.h"
 #include "measurement/strokes.h"
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 #include "measurement/row_reader.h"
 #include "measurement/strokes.h"
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 
 namespace fusee {
 

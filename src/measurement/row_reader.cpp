@@ -5,8 +5,8 @@
 #include <limits>
 #include <set>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 #include "measurement/cells.h"
 #include "measurement/columns.h"
 #include "measurement/csv_text.h"

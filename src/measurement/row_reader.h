@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 
 namespace fusee {
 

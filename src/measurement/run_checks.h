@@ -2,7 +2,7 @@
 /// Internal: checks whether the runs can be evaluated at all, before any model is involved.
 #pragma once
 
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 #include "measurement/repair.h"
 
 namespace fusee {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 
 namespace fusee {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 #include "measurement/columns.h"
 #include "measurement/words.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 #include "measurement/segments.h"
 
 namespace fusee {

@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "fusee/base/units.h"
-#include "fusee/transmission/load.h"
+#include "fusee/base.h"
+#include "transmission/load.h"
 #include "measurement/words.h"
 
 namespace fusee {

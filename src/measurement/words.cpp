@@ -1,6 +1,6 @@
 #include "measurement/words.h"
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

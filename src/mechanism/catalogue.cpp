@@ -1,11 +1,11 @@
-#include "fusee/mechanism/catalogue.h"
+#include "mechanism/catalogue.h"
 
 #include <toml++/toml.h>
 
 #include <algorithm>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/embedded.h"
 
 namespace fusee {

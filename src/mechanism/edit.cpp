@@ -1,12 +1,11 @@
-#include "fusee/mechanism/edit.h"
+#include "fusee/mechanism_file.h"
 
 #include <toml++/toml.h>
 
 #include <algorithm>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/base.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

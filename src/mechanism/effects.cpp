@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "fusee/mechanism/effect.h"
+#include "mechanism/effect.h"
 #include "mechanism/effect_list.h"
 
 namespace fusee {

@@ -1,10 +1,9 @@
 #include <algorithm>
 
 #include "base/json.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/file.h"
+#include "base/text.h"
+#include "mechanism/catalogue.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/field_text.h"
 
 namespace fusee {

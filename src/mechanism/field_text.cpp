@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 

@@ -1,13 +1,13 @@
-#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism_file.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/mechanism/effect.h"
+#include "fusee/base.h"
+#include "mechanism/catalogue.h"
+#include "mechanism/effect.h"
 
 namespace fusee {
 namespace {

@@ -1,7 +1,7 @@
 #include "mechanism/horn_faults.h"
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

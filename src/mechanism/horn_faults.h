@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/mechanism/mechanism.h"
+#include "fusee/mechanism.h"
 
 namespace fusee {
 

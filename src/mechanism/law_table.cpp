@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "mechanism/field_text.h"
 
 namespace fusee {

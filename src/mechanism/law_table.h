@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/mechanism/mechanism.h"
+#include "fusee/base.h"
+#include "fusee/mechanism.h"
 
 namespace fusee {
 

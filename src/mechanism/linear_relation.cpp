@@ -1,11 +1,11 @@
-#include "fusee/mechanism/linear_relation.h"
+#include "mechanism/linear_relation.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/field_text.h"
 
 namespace fusee {

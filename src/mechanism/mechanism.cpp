@@ -1,4 +1,4 @@
-#include "fusee/mechanism/mechanism.h"
+#include "fusee/mechanism.h"
 
 #include <utility>
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

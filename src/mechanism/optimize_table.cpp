@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "fusee/base/text.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/linear_relation.h"
+#include "base/text.h"
+#include "fusee/mechanism_file.h"
+#include "mechanism/linear_relation.h"
 #include "mechanism/field_text.h"
 
 namespace fusee {

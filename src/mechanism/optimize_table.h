@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/mechanism/mechanism.h"
+#include "fusee/base.h"
+#include "fusee/mechanism.h"
 
 namespace fusee {
 

@@ -7,11 +7,10 @@
 #include <optional>
 #include <tuple>
 
-#include "fusee/base/files.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "mechanism/catalogue.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/field_text.h"
 #include "mechanism/horn_faults.h"
 #include "mechanism/law_table.h"

@@ -1,9 +1,8 @@
 #include <charconv>
 
 #include "base/json.h"
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/file.h"
+#include "mechanism/catalogue.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/field_text.h"
 
 namespace fusee {

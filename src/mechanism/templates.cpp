@@ -1,4 +1,4 @@
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/embedded.h"
 #include "mechanism/field_text.h"
 

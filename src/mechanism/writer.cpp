@@ -3,9 +3,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/file.h"
+#include "base/text.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/field_text.h"
 
 namespace fusee {

@@ -1,10 +1,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/model/model.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "fusee/model.h"
 
 namespace fusee {
 namespace {

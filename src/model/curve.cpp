@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/joint/as_it_is.h"
-#include "fusee/joint/simulate.h"
-#include "fusee/mechanism/effect.h"
-#include "fusee/model/model.h"
+#include "fusee/base.h"
+#include "fusee/joint.h"
+#include "mechanism/effect.h"
+#include "fusee/model.h"
 
 namespace fusee {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/model/model.h"
+#include "fusee/base.h"
+#include "fusee/model.h"
 
 namespace fusee {
 namespace {

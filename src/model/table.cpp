@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/units.h"
-#include "fusee/model/model.h"
-#include "fusee/transmission/load.h"
+#include "fusee/base.h"
+#include "fusee/model.h"
+#include "transmission/load.h"
 
 namespace fusee {
 namespace {

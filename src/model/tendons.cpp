@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/model/model.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/model.h"
 
 namespace fusee {
 namespace {

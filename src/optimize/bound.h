@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/optimize/problem.h"
+#include "fusee/optimize.h"
 #include "optimize/objective_at.h"
 #include "optimize/relaxation.h"
 

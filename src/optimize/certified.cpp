@@ -1,12 +1,12 @@
-#include "fusee/optimize/certified.h"
+#include "fusee/optimize.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <queue>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
+#include "fusee/base.h"
+#include "base/text.h"
 #include "optimize/bound.h"
 #include "optimize/random.h"
 #include "optimize/search_progress.h"

@@ -1,4 +1,4 @@
-#include "fusee/optimize/genetic.h"
+#include "fusee/optimize.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/module.h"
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 #include "optimize/evolution.h"
 #include "optimize/random.h"
 #include "optimize/search_progress.h"

@@ -3,8 +3,8 @@
 /// and for intervals with derivatives, so that the proven formulas are the evaluated ones.
 #pragma once
 
-#include "fusee/mechanism/mechanism.h"
-#include "fusee/optimize/objectives.h"
+#include "fusee/mechanism.h"
+#include "fusee/optimize.h"
 #include "optimize/sharp.h"
 #include "optimize/wide_path.h"
 #include "transmission/equations.h"

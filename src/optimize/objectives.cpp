@@ -1,12 +1,12 @@
-#include "fusee/optimize/objectives.h"
+#include "fusee/optimize.h"
 
 #include <array>
 
 #include "base/golden_section.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/transmission/tension.h"
-#include "fusee/transmission/torque.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "fusee/transmission.h"
+#include "transmission/torque.h"
 #include "optimize/objective_at.h"
 #include "profile/take_off.h"
 

@@ -1,4 +1,4 @@
-#include "fusee/optimize/problem.h"
+#include "fusee/optimize.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,11 @@
 #include <string>
 #include <utility>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/profile.h"
+#include "mechanism/linear_relation.h"
 #include "optimize/random.h"
 #include "profile/feasibility.h"
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "fusee/optimize/problem.h"
+#include "fusee/optimize.h"
 
 namespace fusee {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "fusee/base/run_context.h"
-#include "fusee/base/text.h"
+#include "fusee/base.h"
+#include "base/text.h"
 
 namespace fusee {
 

@@ -1,7 +1,7 @@
 /// \file
 /// Internal: the upper path of a tendon of a joint that is not the paper's, from a separate attachment and possibly
 /// over a drum on the joint. For numbers and for intervals with derivatives; equivalent to upper_span() of
-/// transmission/tendon_path.h, which has the derivation.
+/// fusee/transmission.h, which has the derivation.
 ///
 /// In the frame of a tendon's end (the link's frame rotated by the end's twist τ) an attachment is a lever point. The
 /// equations and enclosures for C apply to it, with its distance from O for R and θ + τ for θ. On the drum the line to
@@ -13,7 +13,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "fusee/mechanism/mechanism.h"
+#include "fusee/mechanism.h"
 #include "optimize/sharp.h"
 
 namespace fusee {

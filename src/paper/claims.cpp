@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/optimize/certified.h"
-#include "fusee/profile/outline.h"
-#include "fusee/profile/rewind.h"
-#include "fusee/profile/synthesis.h"
+#include "base/text.h"
+#include "fusee/optimize.h"
+#include "fusee/profile.h"
 #include "paper/steps.h"
 #include "paper/windows.h"
 

@@ -1,10 +1,10 @@
-#include "fusee/paper/reproduction.h"
+#include "paper/reproduction.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/optimize/certified.h"
+#include "base/text.h"
+#include "fusee/optimize.h"
 #include "paper/steps.h"
 #include "paper/windows.h"
 #include "profile/take_off.h"

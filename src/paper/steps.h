@@ -2,8 +2,8 @@
 /// Internal: the parts of the reproduction.
 #pragma once
 
-#include "fusee/paper/reproduction.h"
-#include "fusee/transmission/tension.h"
+#include "paper/reproduction.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 

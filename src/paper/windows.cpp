@@ -1,6 +1,6 @@
 #include "paper/windows.h"
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

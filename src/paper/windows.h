@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "fusee/paper/reproduction.h"
+#include "paper/reproduction.h"
 
 namespace fusee {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "fusee/base/check.h"
-#include "fusee/solid/mesh.h"
+#include "fusee/base.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

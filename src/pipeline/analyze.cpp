@@ -1,7 +1,7 @@
 #include <utility>
 
-#include "fusee/analysis/plausibility.h"
-#include "fusee/joint/as_it_is.h"
+#include "analysis/plausibility.h"
+#include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "pipeline/several_turns.h"
 

@@ -1,8 +1,8 @@
-#include "fusee/pipeline/calibrate.h"
+#include "fusee/pipeline.h"
 
 #include <set>
 
-#include "fusee/joint/as_it_is.h"
+#include "fusee/joint.h"
 #include "pipeline/law_table_copy.h"
 #include "pipeline/several_turns.h"
 

@@ -1,6 +1,6 @@
-#include "fusee/pipeline/compare.h"
+#include "fusee/pipeline.h"
 
-#include "fusee/joint/as_it_is.h"
+#include "fusee/joint.h"
 #include "pipeline/several_turns.h"
 
 namespace fusee {

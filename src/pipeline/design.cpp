@@ -1,8 +1,8 @@
 #include "pipeline/design.h"
 
 #include "base/run_async.h"
-#include "fusee/export/drawings.h"
-#include "fusee/joint/as_it_is.h"
+#include "fusee/export.h"
+#include "fusee/joint.h"
 #include "fusee/pipeline.h"
 
 namespace fusee {

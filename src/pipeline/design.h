@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "fusee/base/run_context.h"
-#include "fusee/export/product.h"
-#include "fusee/solid/pulley.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

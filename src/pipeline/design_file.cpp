@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -2,8 +2,8 @@
 /// Internal: writes a design into the user's file.
 #pragma once
 
-#include "fusee/mechanism/file.h"
-#include "fusee/optimize/problem.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/optimize.h"
 
 namespace fusee {
 

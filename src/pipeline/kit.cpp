@@ -1,15 +1,14 @@
-#include "fusee/pipeline/kit.h"
+#include "fusee/pipeline.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/run_async.h"
-#include "fusee/analysis/plausibility.h"
-#include "fusee/base/text.h"
-#include "fusee/export/mesh_files.h"
-#include "fusee/joint/as_it_is.h"
-#include "fusee/pipeline.h"
-#include "fusee/solid/print.h"
+#include "analysis/plausibility.h"
+#include "base/text.h"
+#include "export/mesh_files/mesh_files.h"
+#include "fusee/joint.h"
+#include "solid/print.h"
 #include "pipeline/agreement.h"
 #include "pipeline/design.h"
 #include "pipeline/several_turns.h"

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "fusee/base/files.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 

@@ -1,10 +1,10 @@
-#include "fusee/pipeline/model.h"
+#include "fusee/pipeline.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/joint/as_it_is.h"
+#include "base/text.h"
+#include "fusee/joint.h"
 #include "pipeline/design.h"
 #include "pipeline/several_turns.h"
 #include "pipeline/without_law.h"

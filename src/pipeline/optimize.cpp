@@ -2,8 +2,8 @@
 #include <cmath>
 #include <utility>
 
-#include "fusee/analysis/plausibility.h"
-#include "fusee/joint/as_it_is.h"
+#include "analysis/plausibility.h"
+#include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "pipeline/design_file.h"
 #include "pipeline/several_turns.h"

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "fusee/base/text.h"
-#include "fusee/export/drawings.h"
-#include "fusee/export/mesh_files.h"
+#include "base/text.h"
+#include "fusee/export.h"
+#include "export/mesh_files/mesh_files.h"
 #include "fusee/pipeline.h"
 
 namespace fusee {

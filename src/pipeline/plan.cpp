@@ -1,4 +1,4 @@
-#include "fusee/pipeline/plan.h"
+#include "fusee/pipeline.h"
 
 #include "pipeline/several_turns.h"
 #include "pipeline/without_law.h"

@@ -3,12 +3,12 @@
 #include <limits>
 #include <optional>
 
-#include "fusee/base/text.h"
-#include "fusee/export/drawings.h"
-#include "fusee/joint/as_it_is.h"
+#include "base/text.h"
+#include "fusee/export.h"
+#include "fusee/joint.h"
 #include "fusee/pipeline.h"
-#include "fusee/profile/rewind.h"
-#include "fusee/solid/layout.h"
+#include "fusee/profile.h"
+#include "fusee/solid.h"
 #include "pipeline/several_turns.h"
 
 namespace fusee {

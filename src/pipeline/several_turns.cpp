@@ -5,16 +5,15 @@
 #include <cmath>
 #include <utility>
 
-#include "fusee/analysis/plausibility.h"
-#include "fusee/base/text.h"
-#include "fusee/coil/helical_pulley.h"
-#include "fusee/coil/helical_rewind.h"
-#include "fusee/helix/synthesis.h"
-#include "fusee/joint/as_it_is.h"
-#include "fusee/mechanism/fields.h"
+#include "analysis/plausibility.h"
+#include "base/text.h"
+#include "fusee/coil.h"
+#include "fusee/helix.h"
+#include "fusee/joint.h"
+#include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
-#include "fusee/solid/print.h"
-#include "fusee/solid/pulley.h"
+#include "solid/print.h"
+#include "fusee/solid.h"
 #include "pipeline/design.h"
 #include "solid/groove.h"
 

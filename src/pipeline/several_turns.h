@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "fusee/export/product.h"
-#include "fusee/kit/kit.h"
+#include "fusee/export.h"
+#include "fusee/kit.h"
 #include "fusee/pipeline.h"
-#include "fusee/profile/advice.h"
+#include "fusee/profile.h"
 
 namespace fusee {
 

@@ -1,8 +1,8 @@
-#include "fusee/pipeline/simulate.h"
+#include "fusee/pipeline.h"
 
 #include "base/normal_numbers.h"
-#include "fusee/joint/as_it_is.h"
-#include "fusee/mechanism/effect.h"
+#include "fusee/joint.h"
+#include "mechanism/effect.h"
 #include "pipeline/several_turns.h"
 #include "pipeline/without_law.h"
 #include "transmission/declared_law.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

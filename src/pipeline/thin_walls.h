@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/export/product.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
 
 namespace fusee {
 

@@ -1,6 +1,6 @@
 #include "pipeline/without_law.h"
 
-#include "fusee/transmission/transmission.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 

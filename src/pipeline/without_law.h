@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "fusee/profile/synthesis.h"
+#include "fusee/profile.h"
 
 namespace fusee {
 

@@ -1,10 +1,10 @@
-#include "fusee/plan/bench_run.h"
+#include "fusee/plan.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/joint/joint_effects.h"
+#include "base/text.h"
+#include "joint/joint_effects.h"
 #include "plan/thresholds.h"
 
 namespace fusee {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/analysis/analysis.h"
-#include "fusee/joint/simulate.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/analysis.h"
+#include "fusee/joint.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/plan/plan.h"
+#include "fusee/plan.h"
 
 namespace fusee {
 

@@ -1,10 +1,10 @@
-#include "fusee/plan/plan.h"
+#include "fusee/plan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "plan/false_positives.h"
 #include "plan/separation.h"
 #include "plan/thresholds.h"

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/joint/as_it_is.h"
-#include "fusee/joint/joint_effects.h"
-#include "fusee/joint/simulate.h"
+#include "fusee/joint.h"
+#include "joint/joint_effects.h"
 #include "joint/forward.h"
 #include "plan/thresholds.h"
 #include "transmission/declared_law.h"

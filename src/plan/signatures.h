@@ -7,8 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "fusee/plan/plan.h"
+#include "fusee/plan.h"
 #include "joint/forward.h"
+#include "mechanism/effect.h"
 #include "plan/candidates.h"
 
 namespace fusee {

@@ -1,4 +1,4 @@
-#include "fusee/profile/advice.h"
+#include "fusee/profile.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,8 @@
 #include <utility>
 
 #include "base/run_async.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/profile/synthesis.h"
+#include "base/text.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 namespace {

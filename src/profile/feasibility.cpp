@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "base/golden_section.h"
-#include "fusee/base/text.h"
-#include "fusee/transmission/torque.h"
+#include "base/text.h"
+#include "transmission/torque.h"
 #include "profile/pitch_curve.h"
 #include "profile/place_conditions.h"
 

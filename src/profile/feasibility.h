@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/profile/synthesis.h"
+#include "fusee/profile.h"
 #include "profile/closing_arc.h"
 #include "profile/take_off.h"
 

@@ -1,9 +1,9 @@
-#include "fusee/profile/outline.h"
+#include "fusee/profile.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

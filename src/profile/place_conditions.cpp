@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 namespace fusee {
 namespace {

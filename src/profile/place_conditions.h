@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/profile/synthesis.h"
+#include "fusee/profile.h"
 #include "profile/take_off.h"
 
 namespace fusee {

@@ -1,12 +1,12 @@
-#include "fusee/profile/rewind.h"
+#include "fusee/profile.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "fusee/transmission.h"
 #include "profile/string_above.h"
 #include "transmission/alpha_range.h"
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "fusee/profile/outline.h"
+#include "fusee/profile.h"
 #include "profile/pitch_curve.h"
 
 namespace fusee {

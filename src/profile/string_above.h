@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include "fusee/base/plane.h"
-#include "fusee/base/units.h"
-#include "fusee/mechanism/mechanism.h"
+#include "fusee/base.h"
+#include "fusee/mechanism.h"
 
 namespace fusee {
 

@@ -1,9 +1,9 @@
-#include "fusee/profile/synthesis.h"
+#include "fusee/profile.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "profile/feasibility.h"
 #include "profile/polar_curve.h"
 #include "profile/sampling.h"

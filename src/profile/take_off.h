@@ -6,7 +6,7 @@
 /// frame: P1 is the mirror image (x → −x, α → −α, θ → −θ) of what is computed here for it.
 #pragma once
 
-#include "fusee/transmission/transmission.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee::python {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "fusee/base/file_access.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee::python {
 

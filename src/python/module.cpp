@@ -9,11 +9,9 @@
 #include <stop_token>
 #include <tuple>
 
-#include "fusee/joint/as_it_is.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/joint.h"
+#include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
-#include "fusee/pipeline/compare.h"
-#include "fusee/pipeline/kit.h"
 #include "python/carried.h"
 #include "python/values.h"
 

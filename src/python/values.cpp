@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "fusee/base/units.h"
-#include "fusee/export/simulation.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
 
 namespace fusee::python {
 namespace {

@@ -11,8 +11,6 @@
 #include <vector>
 
 #include "fusee/pipeline.h"
-#include "fusee/pipeline/compare.h"
-#include "fusee/pipeline/kit.h"
 
 namespace fusee::python {
 

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/profile/outline.h"
+#include "fusee/profile.h"
 #include "solid/plane_distance.h"
 
 namespace fusee {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "fusee/profile/outline.h"
-#include "fusee/solid/layout.h"
+#include "fusee/profile.h"
+#include "fusee/solid.h"
 #include "solid/rings.h"
 
 namespace fusee {

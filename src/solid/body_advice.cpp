@@ -4,9 +4,9 @@
 #include <array>
 #include <iterator>
 
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/solid/pulley.h"
+#include "mechanism/catalogue.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/solid.h"
 #include "solid/plan.h"
 #include "solid/size.h"
 

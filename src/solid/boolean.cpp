@@ -11,8 +11,7 @@
 #include <utility>
 
 #include "base/run_async.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/corefinement.h"
 #include "solid/disjoint_sets.h"
 #include "solid/nearest_float.h"

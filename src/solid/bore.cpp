@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/catalogue.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "mechanism/catalogue.h"
 #include "solid/condition_list.h"
 
 namespace fusee {

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/nearest_segment.h"
 
 namespace fusee {

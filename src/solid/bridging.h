@@ -2,7 +2,7 @@
 /// Internal: support of too flat ceilings over air, by bridges along one direction and by overhangs beyond them. mm.
 #pragma once
 
-#include "fusee/solid/print.h"
+#include "solid/print.h"
 #include "solid/overhangs.h"
 
 namespace fusee {

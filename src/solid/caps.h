@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

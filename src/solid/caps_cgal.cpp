@@ -5,7 +5,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 #include "solid/caps.h"
 
 namespace fusee {

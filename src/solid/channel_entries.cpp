@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/plane_distance.h"
 
 namespace fusee {

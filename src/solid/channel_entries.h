@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "fusee/base/units.h"
-#include "fusee/solid/layout.h"
+#include "fusee/base.h"
+#include "fusee/solid.h"
 #include "solid/anchors.h"
 
 namespace fusee {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/run_async.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/solid/mesh.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/solid.h"
 #include "solid/disjoint_sets.h"
 #include "solid/faulty_facets.h"
 #include "solid/place.h"

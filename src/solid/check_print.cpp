@@ -4,8 +4,8 @@
 #include <tuple>
 #include <utility>
 
-#include "fusee/base/text.h"
-#include "fusee/solid/print.h"
+#include "base/text.h"
+#include "solid/print.h"
 #include "solid/bridging.h"
 #include "solid/nearest_float.h"
 #include "solid/overhangs.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/solid/pulley.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "fusee/solid.h"
 #include "solid/euler.h"
 #include "solid/nearest_float.h"
 #include "solid/nearest_segment.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fusee/profile/synthesis.h"
+#include "fusee/profile.h"
 
 namespace fusee {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/base/text.h"
-#include "fusee/mechanism/catalogue.h"
+#include "base/text.h"
+#include "mechanism/catalogue.h"
 #include "solid/bore.h"
 #include "solid/condition_list.h"
 #include "solid/hub.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

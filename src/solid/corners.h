@@ -2,7 +2,7 @@
 /// Internal: restores a hole's outline from a section of a mesh. mm.
 #pragma once
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

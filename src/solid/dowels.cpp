@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/bore.h"
 #include "solid/plane_distance.h"
 #include "solid/tools.h"

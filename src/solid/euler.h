@@ -2,7 +2,7 @@
 /// Internal: the Euler number of a mesh.
 #pragma once
 
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "fusee/solid/layout.h"
+#include "fusee/solid.h"
 #include "solid/anchors.h"
 
 namespace fusee {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/solid/layout.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/units.h"
-#include "fusee/solid/placement.h"
+#include "fusee/base.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 #include "solid/bore.h"
 #include "solid/channel_entries.h"
 #include "solid/groove.h"

@@ -2,7 +2,7 @@
 /// Internal: sections of both grooves, and all heights along the axis. mm, rad.
 #pragma once
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/body.h"
 
 namespace fusee {

@@ -1,4 +1,4 @@
-#include "fusee/solid/holding.h"
+#include "fusee/solid.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "fusee/analysis/stroke.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/transmission/load.h"
+#include "fusee/analysis.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "transmission/load.h"
 #include "solid/plan.h"
 #include "solid/wrap.h"
 

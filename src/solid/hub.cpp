@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "solid/condition_list.h"
 #include "solid/set_screw.h"
 

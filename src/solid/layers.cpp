@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/run_async.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/downward_faces.h"
 #include "solid/nearest_segment.h"
 #include "solid/plane_distance.h"

@@ -1,10 +1,10 @@
-#include "fusee/solid/layout.h"
+#include "fusee/solid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/plan.h"
 
 namespace fusee {

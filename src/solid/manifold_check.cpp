@@ -3,7 +3,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <string>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

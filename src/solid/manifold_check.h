@@ -1,7 +1,7 @@
 /// \file
 #pragma once
 
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -1,4 +1,4 @@
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 
 #include <algorithm>
 #include <bit>

@@ -7,8 +7,7 @@
 #include <numeric>
 
 #include "base/decompositions.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/nearest_float.h"
 
 namespace fusee {

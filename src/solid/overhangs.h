@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fusee/base/plane.h"
-#include "fusee/solid/mesh.h"
+#include "fusee/base.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

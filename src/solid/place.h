@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "fusee/base/plane.h"
-#include "fusee/base/text.h"
+#include "fusee/base.h"
+#include "base/text.h"
 
 namespace fusee {
 

@@ -1,4 +1,4 @@
-#include "fusee/solid/placement.h"
+#include "fusee/solid.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/decompositions.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/corners.h"
 #include "solid/disjoint_sets.h"
 #include "solid/outline_fit.h"

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-#include "fusee/mechanism/catalogue.h"
+#include "mechanism/catalogue.h"
 #include "solid/bore.h"
 #include "solid/conditions.h"
 #include "solid/dowels.h"

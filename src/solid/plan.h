@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/solid/pulley.h"
+#include "fusee/solid.h"
 #include "solid/body.h"
 #include "solid/tie_offs.h"
 

@@ -2,7 +2,7 @@
 /// Internal: distances between bars and walls in the plane. mm.
 #pragma once
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

@@ -1,4 +1,4 @@
-#include "fusee/solid/pulley.h"
+#include "fusee/solid.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/run_async.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
+#include "fusee/base.h"
+#include "base/text.h"
 #include "solid/body.h"
 #include "solid/boolean.h"
 #include "solid/channel_entries.h"

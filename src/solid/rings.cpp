@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 #include "solid/caps.h"
 #include "solid/nearest_float.h"
 #include "solid/plane_distance.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/base/plane.h"
-#include "fusee/solid/mesh.h"
+#include "fusee/base.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/solid/mesh.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

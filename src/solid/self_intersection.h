@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/run_async.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/box_tree.h"
 #include "solid/self_intersection.h"
 

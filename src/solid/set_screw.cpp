@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fusee/solid/layout.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

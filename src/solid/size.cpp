@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

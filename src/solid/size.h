@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "fusee/profile/synthesis.h"
-#include "fusee/solid/layout.h"
+#include "fusee/profile.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

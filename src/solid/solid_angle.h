@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 

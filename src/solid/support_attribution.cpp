@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "fusee/solid/print.h"
+#include "solid/print.h"
 #include "solid/overhangs.h"
 #include "solid/place.h"
 #include "solid/plane_distance.h"

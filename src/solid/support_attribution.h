@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 #include "solid/body.h"
 #include "solid/layers.h"
 #include "solid/plan.h"

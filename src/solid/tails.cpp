@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
+#include "base/text.h"
+#include "fusee/base.h"
 #include "solid/bore.h"
 #include "solid/plane_distance.h"
 #include "solid/set_screw.h"

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/boolean.h"
 #include "solid/bore.h"
 #include "solid/channel_entries.h"

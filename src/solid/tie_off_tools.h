@@ -2,7 +2,7 @@
 /// Internal: volumes that tie-offs remove from the body. mm, not yet scaled.
 #pragma once
 
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 #include "solid/channel_entries.h"
 #include "solid/plan.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/run_async.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/face_holes.h"
 
 namespace fusee {

@@ -7,8 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "fusee/solid/layout.h"
-#include "fusee/solid/pulley.h"
+#include "fusee/solid.h"
 #include "solid/anchors.h"
 #include "solid/body.h"
 #include "solid/channel_entries.h"

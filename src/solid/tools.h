@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "fusee/solid/layout.h"
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 
 namespace fusee {
 

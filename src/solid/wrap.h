@@ -2,7 +2,7 @@
 /// Internal: arcs of an outline in its winding direction: counter-clockwise on P1, clockwise on P2. mm, rad.
 #pragma once
 
-#include "fusee/profile/outline.h"
+#include "fusee/profile.h"
 
 namespace fusee {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "fusee/transmission/transmission.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "fusee/transmission/transmission.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 

@@ -1,4 +1,4 @@
-#include "fusee/transmission/guide_friction.h"
+#include "fusee/transmission.h"
 
 #include <algorithm>
 #include <cmath>

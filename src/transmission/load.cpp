@@ -1,4 +1,4 @@
-#include "fusee/transmission/load.h"
+#include "transmission/load.h"
 
 #include <cmath>
 

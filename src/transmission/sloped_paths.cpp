@@ -1,8 +1,8 @@
-#include "fusee/transmission/sloped_paths.h"
+#include "fusee/transmission.h"
 
 #include <cmath>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

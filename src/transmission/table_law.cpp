@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <unsupported/Eigen/Splines>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

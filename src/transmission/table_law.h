@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "fusee/transmission/transmission.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 

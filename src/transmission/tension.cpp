@@ -1,10 +1,9 @@
-#include "fusee/transmission/tension.h"
+#include "fusee/transmission.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/transmission/guide_friction.h"
-#include "fusee/transmission/load.h"
+#include "transmission/load.h"
 #include "transmission/equations.h"
 
 namespace fusee {

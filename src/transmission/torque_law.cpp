@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/transmission/load.h"
+#include "transmission/load.h"
 
 namespace fusee {
 namespace {

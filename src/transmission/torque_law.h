@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/transmission/torque.h"
-#include "fusee/transmission/transmission.h"
+#include "transmission/torque.h"
+#include "fusee/transmission.h"
 #include "transmission/table_law.h"
 
 namespace fusee {

@@ -1,9 +1,9 @@
-#include "fusee/transmission/transmission.h"
+#include "fusee/transmission.h"
 
 #include <algorithm>
 #include <array>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 #include "transmission/equations.h"
 #include "transmission/table_law.h"
 #include "transmission/torque_law.h"

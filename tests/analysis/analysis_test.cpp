@@ -1,8 +1,8 @@
-#include "fusee/analysis/analysis.h"
+#include "fusee/analysis.h"
 
 #include <gmock/gmock.h>
 
-#include "fusee/joint/joint_model.h"
+#include "fusee/joint.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

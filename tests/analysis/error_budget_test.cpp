@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/rigid_joint.h"
-#include "fusee/analysis/analysis.h"
+#include "fusee/analysis.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

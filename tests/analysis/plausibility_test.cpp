@@ -1,13 +1,13 @@
 // Plausibility warnings: each has a file that triggers it and a similar one that must not.
-#include "fusee/analysis/plausibility.h"
+#include "analysis/plausibility.h"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <iostream>
 
-#include "fusee/analysis/analysis.h"
-#include "fusee/mechanism/catalogue.h"
+#include "fusee/analysis.h"
+#include "mechanism/catalogue.h"
 #include "laws/random_mechanism.h"
 #include "support/mechanisms.h"
 

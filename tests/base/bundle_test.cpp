@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "base/zip.h"
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

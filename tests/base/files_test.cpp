@@ -1,4 +1,4 @@
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 #include <gmock/gmock.h>
 #include <sched.h>
@@ -13,7 +13,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "fusee/base/diagnostics.h"
 
 namespace fusee {
 namespace {

@@ -16,8 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 namespace {
 

@@ -1,9 +1,8 @@
 // Formulas of the plane, compared with known values.
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 #include <gmock/gmock.h>
 
-#include "fusee/base/units.h"
 
 namespace fusee {
 namespace {

@@ -1,5 +1,5 @@
 // Number formatting and text sanitizing.
-#include "fusee/base/text.h"
+#include "base/text.h"
 
 #include <gmock/gmock.h>
 

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <string>
 
-#include "fusee/export/mesh_files.h"
-#include "fusee/export/report.h"
+#include "export/mesh_files/mesh_files.h"
+#include "export/report/report.h"
 #include "fusee/pipeline.h"
 
 namespace {

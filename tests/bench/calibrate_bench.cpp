@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <iterator>
 
-#include "fusee/base/text.h"
-#include "fusee/calibration/words.h"
-#include "fusee/correction/correction.h"
-#include "fusee/joint/simulate.h"
-#include "fusee/mechanism/file.h"
-#include "fusee/transmission/transmission.h"
+#include "base/text.h"
+#include "calibration/words.h"
+#include "fusee/correction.h"
+#include "fusee/joint.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/transmission.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "fusee/joint/equilibrium.h"
+#include "fusee/joint.h"
 #include "support/mechanisms.h"
 
 namespace {

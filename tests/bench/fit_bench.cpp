@@ -12,10 +12,9 @@
 #include <vector>
 
 #include "calibration/fit.h"
-#include "fusee/base/plane.h"
-#include "fusee/joint/as_it_is.h"
-#include "fusee/joint/simulate.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "fusee/joint.h"
+#include "fusee/mechanism_file.h"
 
 namespace {
 

@@ -5,8 +5,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "fusee/optimize/certified.h"
-#include "fusee/optimize/genetic.h"
+#include "fusee/optimize.h"
 #include "optimize/objective_at.h"
 #include "optimize/problem_text.h"
 

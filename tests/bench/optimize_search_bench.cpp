@@ -2,9 +2,8 @@
 // one and two threads.
 #include <benchmark/benchmark.h>
 
-#include "fusee/optimize/certified.h"
-#include "fusee/optimize/genetic.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/optimize.h"
+#include "fusee/profile.h"
 #include "optimize/problem_text.h"
 #include "optimize/random.h"
 

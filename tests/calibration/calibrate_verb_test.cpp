@@ -7,7 +7,8 @@
 #include <sstream>
 
 #include "fusee/pipeline.h"
-#include "fusee/plan/plan.h"
+#include "fusee/plan.h"
+#include "mechanism/effect.h"
 #include "pipeline/law_table_copy.h"
 
 namespace fusee {

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "calibration/contract_effects.h"
-#include "fusee/base/files.h"
-#include "fusee/mechanism/effect.h"
+#include "fusee/base.h"
+#include "mechanism/effect.h"
 
 namespace fusee {
 namespace {

@@ -1,5 +1,5 @@
 // Two states of one joint: changes are found, both ways round, and nothing is where nothing changed.
-#include "fusee/calibration/comparison.h"
+#include "fusee/calibration.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "calibration/changes.h"
-#include "fusee/joint/simulate.h"
+#include "fusee/joint.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

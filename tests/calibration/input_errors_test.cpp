@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/calibration/slips.h"
-#include "fusee/mechanism/file.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/calibration.h"
+#include "fusee/mechanism_file.h"
 #include "rig/random.h"
 #include "rig/truths.h"
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "calibration/fit.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee::linear {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "fusee/calibration/calibration.h"
-#include "fusee/joint/simulate.h"
+#include "fusee/calibration.h"
+#include "fusee/joint.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "fusee/base/text.h"
-#include "fusee/calibration/calibration.h"
-#include "fusee/mechanism/file.h"
+#include "base/text.h"
+#include "fusee/calibration.h"
+#include "fusee/mechanism_file.h"
 #include "rig/bench.h"
 #include "rig/random.h"
 

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "fusee/base/units.h"
-#include "fusee/calibration/calibration.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "fusee/calibration.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 namespace {

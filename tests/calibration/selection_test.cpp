@@ -7,11 +7,11 @@
 #include <random>
 
 #include "calibration/contract_effects.h"
-#include "fusee/base/units.h"
-#include "fusee/calibration/calibration.h"
-#include "fusee/joint/simulate.h"
-#include "fusee/mechanism/effect.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "fusee/calibration.h"
+#include "fusee/joint.h"
+#include "mechanism/effect.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "calibration/linear_joint.h"
 #include "calibration/reported_parameters.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee::linear {
 namespace {

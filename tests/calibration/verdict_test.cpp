@@ -8,7 +8,7 @@
 #include "calibration/linear_joint.h"
 #include "calibration/next_measurements.h"
 #include "calibration/thresholds.h"
-#include "fusee/calibration/words.h"
+#include "calibration/words.h"
 
 namespace fusee::linear {
 namespace {

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/files.h"
-#include "fusee/calibration/words.h"
-#include "fusee/mechanism/file.h"
-#include "fusee/profile/synthesis.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/base.h"
+#include "calibration/words.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/profile.h"
+#include "fusee/transmission.h"
 
 namespace fusee::rig {
 namespace {

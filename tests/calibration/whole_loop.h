@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fusee/correction/correction.h"
+#include "fusee/correction.h"
 #include "rig/rig.h"
 
 namespace fusee::rig {

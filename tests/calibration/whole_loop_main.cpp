@@ -4,10 +4,9 @@
 #include <filesystem>
 
 #include "calibration/whole_loop.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/files.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee::rig {
 namespace {

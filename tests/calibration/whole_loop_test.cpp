@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "fusee/base/files.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::rig {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "calibration/whole_loop.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee::rig {
 namespace {

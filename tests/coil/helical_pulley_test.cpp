@@ -1,5 +1,5 @@
 // Helical grooves as meshes, on spirals with a closed form.
-#include "fusee/coil/helical_pulley.h"
+#include "fusee/coil.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "coil/spirals.h"
-#include "fusee/solid/print.h"
+#include "solid/print.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 

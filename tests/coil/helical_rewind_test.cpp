@@ -1,13 +1,13 @@
 // Strings wound on helical grooves in meshes, against closed forms.
-#include "fusee/coil/helical_rewind.h"
+#include "fusee/coil.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "coil/spirals.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/base.h"
+#include "fusee/transmission.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 

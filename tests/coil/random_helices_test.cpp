@@ -8,9 +8,8 @@
 #include <string>
 
 #include "coil/spirals.h"
-#include "fusee/coil/helical_pulley.h"
-#include "fusee/coil/helical_rewind.h"
-#include "fusee/solid/print.h"
+#include "fusee/coil.h"
+#include "solid/print.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 

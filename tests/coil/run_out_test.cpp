@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/self_intersection.h"
 
 namespace fusee {

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <functional>
 
-#include "fusee/base/plane.h"
-#include "fusee/base/units.h"
-#include "fusee/coil/helical_pulley.h"
-#include "fusee/helix/spiral.h"
+#include "fusee/base.h"
+#include "fusee/coil.h"
+#include "fusee/helix.h"
 
 namespace fusee::testing {
 

@@ -1,16 +1,15 @@
-#include "fusee/correction/correction.h"
+#include "fusee/correction.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "fusee/base/text.h"
-#include "fusee/joint/simulate.h"
-#include "fusee/mechanism/file.h"
-#include "fusee/profile/rewind.h"
-#include "fusee/profile/synthesis.h"
-#include "fusee/transmission/transmission.h"
+#include "base/text.h"
+#include "fusee/joint.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/profile.h"
+#include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

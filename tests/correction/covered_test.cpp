@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "fusee/correction/correction.h"
-#include "fusee/joint/simulate.h"
+#include "fusee/correction.h"
+#include "fusee/joint.h"
 #include "rig/judge.h"
 #include "rig/truths.h"
 

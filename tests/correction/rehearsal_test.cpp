@@ -1,13 +1,13 @@
 // Each slider of the report shows the effect's influence, compared with independent equations where they exist.
-#include "fusee/correction/rehearsal.h"
+#include "fusee/correction.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "fusee/base/units.h"
-#include "fusee/mechanism/file.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "fusee/export/mesh_files.h"
-#include "fusee/solid/mesh.h"
+#include "export/mesh_files/mesh_files.h"
+#include "fusee/solid.h"
 
 namespace {
 

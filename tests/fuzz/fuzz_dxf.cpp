@@ -2,8 +2,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/export/drawings.h"
+#include "fusee/base.h"
+#include "fusee/export.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

@@ -7,9 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/mechanism/edit.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism_file.h"
 
 namespace {
 

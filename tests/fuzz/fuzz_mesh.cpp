@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/export/mesh_files.h"
+#include "fusee/base.h"
+#include "export/mesh_files/mesh_files.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

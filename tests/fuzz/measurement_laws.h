@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 
 namespace fusee::testing {
 

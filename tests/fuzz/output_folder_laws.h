@@ -17,8 +17,7 @@
 #include <vector>
 
 #include "base/staging.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 namespace fusee::testing {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -3,9 +3,9 @@
 /// Shares no equation with the synthesis: its length is summed from row to row.
 #pragma once
 
-#include "fusee/helix/spiral.h"
-#include "fusee/mechanism/mechanism.h"
-#include "fusee/transmission/tendon_path.h"
+#include "fusee/helix.h"
+#include "fusee/mechanism.h"
+#include "fusee/transmission.h"
 
 namespace fusee {
 

@@ -1,4 +1,4 @@
-#include "fusee/helix/synthesis.h"
+#include "fusee/helix.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/joint/equilibrium.h"
+#include "fusee/joint.h"
 #include "joint/rubbing_cable.h"
 #include "support/mechanisms.h"
 #include "support/rubbed_chain.h"

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "fusee/joint/equilibrium.h"
+#include "fusee/joint.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

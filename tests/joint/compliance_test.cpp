@@ -1,8 +1,8 @@
 // Compliance and friction other than the tendons': pins, the joint's bearing, a loose joint.
 #include <gtest/gtest.h>
 
-#include "fusee/joint/equilibrium.h"
-#include "fusee/transmission/tendon_path.h"
+#include "fusee/joint.h"
+#include "fusee/transmission.h"
 #include "joint/creep_memory.h"
 #include "support/mechanisms.h"
 

@@ -6,10 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "fusee/joint/equilibrium.h"
-#include "fusee/transmission/tendon_path.h"
-#include "fusee/transmission/tension.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/joint.h"
+#include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

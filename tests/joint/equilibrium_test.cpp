@@ -1,9 +1,9 @@
-#include "fusee/joint/equilibrium.h"
+#include "fusee/joint.h"
 
 #include <gtest/gtest.h>
 
-#include "fusee/transmission/load.h"
-#include "fusee/transmission/tension.h"
+#include "transmission/load.h"
+#include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

@@ -1,7 +1,7 @@
 // Effects of imperfections of a joint with tendons on its sensor readings.
 #include <gtest/gtest.h>
 
-#include "fusee/joint/simulate.h"
+#include "fusee/joint.h"
 #include "joint/creep_memory.h"
 #include "joint/forward.h"
 #include "support/mechanisms.h"

@@ -1,12 +1,12 @@
 // Simulation along a log: agreement with predict(), and the other results.
-#include "fusee/joint/simulate.h"
+#include "fusee/joint.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "fusee/mechanism/effect.h"
-#include "fusee/transmission/transmission.h"
+#include "mechanism/effect.h"
+#include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

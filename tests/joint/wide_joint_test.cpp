@@ -3,10 +3,8 @@
 
 #include <cmath>
 
-#include "fusee/joint/equilibrium.h"
-#include "fusee/joint/joint_model.h"
-#include "fusee/transmission/guide_friction.h"
-#include "fusee/transmission/tension.h"
+#include "fusee/joint.h"
+#include "fusee/transmission.h"
 #include "joint/upper_span_table.h"
 #include "support/mechanisms.h"
 

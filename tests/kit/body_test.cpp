@@ -1,12 +1,12 @@
 // Stacks of convex shapes, whose volumes follow from their outlines.
-#include "fusee/kit/body.h"
+#include "fusee/kit.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "fusee/base/units.h"
-#include "fusee/solid/print.h"
+#include "fusee/base.h"
+#include "solid/print.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // An assembled rig as meshes, cut at many heights and at many places of the stroke. The tests use the positions of
 // parts and the tendons' paths on the sampled outlines, and none of the sizes that the plan checked.
-#include "fusee/kit/kit.h"
+#include "fusee/kit.h"
 
 #include <gmock/gmock.h>
 
@@ -9,11 +9,11 @@
 #include <set>
 
 #include "export/report/tendon_trace.h"
-#include "fusee/base/units.h"
-#include "fusee/joint/as_it_is.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/base.h"
+#include "fusee/joint.h"
+#include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
-#include "fusee/pipeline/kit.h"
+#include "mechanism/catalogue.h"
 
 namespace {
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/profile/rewind.h"
-#include "fusee/profile/synthesis.h"
-#include "fusee/transmission/load.h"
+#include "fusee/profile.h"
+#include "transmission/load.h"
 #include "laws/random_mechanism.h"
 
 namespace fusee {

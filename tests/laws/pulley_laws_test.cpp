@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "fusee/profile/rewind.h"
-#include "fusee/solid/pulley.h"
+#include "fusee/profile.h"
+#include "fusee/solid.h"
 #include "laws/random_mechanism.h"
 
 namespace fusee {

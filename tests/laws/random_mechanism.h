@@ -11,9 +11,8 @@
 #include <sstream>
 #include <string>
 
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/file.h"
-#include "fusee/transmission/load.h"
+#include "fusee/mechanism_file.h"
+#include "transmission/load.h"
 
 namespace fusee::testing {
 

@@ -7,11 +7,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "fusee/joint/equilibrium.h"
-#include "fusee/joint/joint_model.h"
-#include "fusee/profile/synthesis.h"
-#include "fusee/transmission/tendon_path.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/joint.h"
+#include "fusee/profile.h"
+#include "fusee/transmission.h"
 #include "laws/random_mechanism.h"
 #include "support/brute_string.h"
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 #include "fuzz/measurement_laws.h"
 
 namespace fusee {

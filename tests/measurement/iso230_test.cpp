@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 
 namespace fusee {
 namespace {

@@ -1,4 +1,4 @@
-#include "fusee/measurement/measurement.h"
+#include "fusee/measurement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <fstream>
 #include <functional>
 
-#include "fusee/base/text.h"
-#include "fusee/transmission/transmission.h"
+#include "base/text.h"
+#include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

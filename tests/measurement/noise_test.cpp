@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "fusee/base/units.h"
-#include "fusee/measurement/measurement.h"
+#include "fusee/base.h"
+#include "fusee/measurement.h"
 
 namespace fusee {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "fusee/base/text.h"
-#include "fusee/measurement/measurement.h"
+#include "base/text.h"
+#include "fusee/measurement.h"
 #include "measurement/cells.h"
 #include "measurement/units.h"
 #include "support/mechanisms.h"

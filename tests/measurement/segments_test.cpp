@@ -5,8 +5,8 @@
 #include <functional>
 #include <random>
 
-#include "fusee/base/text.h"
-#include "fusee/measurement/measurement.h"
+#include "base/text.h"
+#include "fusee/measurement.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

@@ -1,11 +1,11 @@
-#include "fusee/mechanism/catalogue.h"
+#include "mechanism/catalogue.h"
 
 #include <gmock/gmock.h>
 
 #include <sstream>
 
-#include "fusee/base/files.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/horn_faults.h"
 
 namespace fusee {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "fusee/base/files.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 namespace {

@@ -1,8 +1,7 @@
-#include "fusee/mechanism/edit.h"
+#include "fusee/mechanism_file.h"
 
 #include <gmock/gmock.h>
 
-#include "fusee/mechanism/file.h"
 #include "mechanism/mechanism_text.h"
 
 namespace fusee {

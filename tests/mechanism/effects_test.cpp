@@ -3,8 +3,8 @@
 
 #include <set>
 
-#include "fusee/mechanism/effect.h"
-#include "fusee/mechanism/fields.h"
+#include "mechanism/effect.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 namespace {

@@ -5,11 +5,10 @@
 #include <regex>
 #include <sstream>
 
-#include "fusee/base/files.h"
-#include "fusee/base/text.h"
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "mechanism/catalogue.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 namespace {

@@ -1,11 +1,10 @@
-#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism_file.h"
 
 #include <gmock/gmock.h>
 
 #include <random>
 #include <set>
 
-#include "fusee/mechanism/file.h"
 #include "mechanism/mechanism_text.h"
 
 namespace fusee {

@@ -2,7 +2,7 @@
 // messages.
 #include <gmock/gmock.h>
 
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/mechanism_text.h"
 
 namespace fusee {

@@ -1,8 +1,8 @@
-#include "fusee/mechanism/linear_relation.h"
+#include "mechanism/linear_relation.h"
 
 #include <gmock/gmock.h>
 
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/mechanism_text.h"
 
 namespace fusee {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/mechanism_text.h"
 
 namespace fusee {

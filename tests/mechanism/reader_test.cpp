@@ -4,9 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "fusee/base/files.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/mechanism_text.h"
 
 namespace fusee {

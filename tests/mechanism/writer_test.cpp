@@ -6,9 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/file.h"
+#include "mechanism/catalogue.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/mechanism_text.h"
 
 namespace fusee {

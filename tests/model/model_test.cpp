@@ -1,13 +1,13 @@
 // Models for simulators and firmware, compared with independent results: polynomials with known best fits, P1's radius
 // as the rate at which its tendon is wound, and a string pulled taut in steps. Damaged files must be rejected.
-#include "fusee/pipeline/model.h"
+#include "fusee/pipeline.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "fusee/base/units.h"
-#include "fusee/joint/as_it_is.h"
+#include "fusee/base.h"
+#include "fusee/joint.h"
 
 namespace {
 

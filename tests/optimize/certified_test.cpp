@@ -1,10 +1,9 @@
-#include "fusee/optimize/certified.h"
+#include "fusee/optimize.h"
 
 #include <gmock/gmock.h>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/optimize/genetic.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/base.h"
+#include "fusee/profile.h"
 #include "optimize/bound.h"
 #include "optimize/problem_text.h"
 #include "optimize/random.h"

@@ -1,10 +1,10 @@
-#include "fusee/optimize/objectives.h"
+#include "fusee/optimize.h"
 
 #include <gmock/gmock.h>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/transmission/tension.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/transmission.h"
 #include "optimize/objective_at.h"
 #include "optimize/problem_text.h"
 #include "support/mechanisms.h"

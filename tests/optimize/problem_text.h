@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fusee/optimize/problem.h"
+#include "fusee/optimize.h"
 
 namespace fusee::testing {
 

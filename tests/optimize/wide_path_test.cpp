@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fusee/transmission/tendon_path.h"
+#include "fusee/transmission.h"
 #include "optimize/random.h"
 
 namespace fusee {

@@ -1,8 +1,8 @@
-#include "fusee/paper/reproduction.h"
+#include "paper/reproduction.h"
 
 #include <gmock/gmock.h>
 
-#include "fusee/optimize/certified.h"
+#include "fusee/optimize.h"
 #include "paper/windows.h"
 
 namespace fusee {

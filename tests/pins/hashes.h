@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 namespace fusee::pins {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <map>
 
-#include "fusee/export/step.h"
+#include "export/step/step.h"
 #include "pins/hashes.h"
 #include "pins/runs.h"
 

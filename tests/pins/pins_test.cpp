@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "fusee/export/step.h"
+#include "export/step/step.h"
 #include "pins/hashes.h"
 #include "pins/runs.h"
 

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
-#include "fusee/export/analysis.h"
-#include "fusee/export/paper.h"
-#include "fusee/mechanism/edit.h"
-#include "fusee/optimize/certified.h"
+#include "base/text.h"
+#include "fusee/base.h"
+#include "export/report/analysis.h"
+#include "export/report/paper.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/optimize.h"
 #include "fusee/pipeline.h"
-#include "fusee/pipeline/kit.h"
-#include "fusee/pipeline/model.h"
 
 namespace fusee::pins {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 namespace fusee::pins {
 

@@ -14,10 +14,10 @@
 #include <random>
 #include <set>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/kit/kit.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "fusee/kit.h"
+#include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
 
 namespace {

@@ -50,7 +50,7 @@ std::string room_of(const std::string& target) {
   return std::regex_search(target, match, pattern) && flow().count(match[1]) ? match[1].str() : "";
 }
 
-/// include/fusee/solid/mesh.h and src/solid/mesh.cpp → "solid"; export/stl.cpp → "export".
+/// include/fusee/solid.h and src/solid/mesh.cpp → "solid"; export/stl.cpp → "export".
 std::string home_of(const fs::path& file) {
   const std::string path = file.generic_string();
   for (const std::string prefix : {"include/", "src/", ""}) {
@@ -59,7 +59,7 @@ std::string home_of(const fs::path& file) {
   return "";
 }
 
-/// "export/report/svg.h", "fusee/export/report.h", "include/fusee/export/paper.h" → "report"; "" for others.
+/// "export/report/svg.h", "fusee/export/report.h", "export/report/paper.h" → "report"; "" for others.
 std::string inner_room_of(const std::string& path) {
   static const std::regex pattern("^(?:include/)?(?:fusee/)?export/([a-z_]+)(?:/|\\.h$)");
   std::smatch match;
@@ -214,7 +214,7 @@ TEST(Modules, AreReadFromPaths) {
   EXPECT_EQ(home_of("src/profile/outline_cgal.cpp"), "profile");
   EXPECT_EQ(inner_room_of("export/mesh_files/stl.cpp"), "mesh_files");
   EXPECT_EQ(inner_room_of("fusee/export/drawings.h"), "drawings");
-  EXPECT_EQ(inner_room_of("include/fusee/export/calibration.h"), "report");
+  EXPECT_EQ(inner_room_of("include/fusee/export.h"), "report");
   EXPECT_EQ(inner_room_of("fusee/export/product.h"), "product");
   EXPECT_EQ(inner_room_of("export/tool.h"), "");
 }

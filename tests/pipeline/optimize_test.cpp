@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
-#include "fusee/base/files.h"
-#include "fusee/joint/as_it_is.h"
+#include "fusee/base.h"
+#include "fusee/joint.h"
 #include "fusee/pipeline.h"
-#include "fusee/transmission/tension.h"
+#include "fusee/transmission.h"
 #include "optimize/problem_text.h"
 #include "support/mechanisms.h"
 

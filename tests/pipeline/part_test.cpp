@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "fusee/pipeline.h"
-#include "fusee/solid/layout.h"
+#include "fusee/solid.h"
 #include "pipeline/agreement.h"
 
 namespace {

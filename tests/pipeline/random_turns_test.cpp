@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 #include "fusee/pipeline.h"
 
 namespace {

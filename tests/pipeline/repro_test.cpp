@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "fusee/base/text.h"
-#include "fusee/mechanism/fields.h"
+#include "base/text.h"
+#include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
 
 namespace {

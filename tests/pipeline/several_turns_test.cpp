@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "export/report/tendon_trace.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/coil/helical_rewind.h"
-#include "fusee/export/drawings.h"
-#include "fusee/export/mesh_files.h"
-#include "fusee/joint/as_it_is.h"
+#include "fusee/base.h"
+#include "fusee/coil.h"
+#include "fusee/export.h"
+#include "export/mesh_files/mesh_files.h"
+#include "fusee/joint.h"
 #include "fusee/pipeline.h"
-#include "fusee/pipeline/kit.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/transmission.h"
 
 namespace {
 

@@ -32,7 +32,7 @@ TEST(Types, AreUniqueInNamespace) {
 }
 
 TEST(Types, AreFoundInSources) {
-  std::vector<TypeName> types = types_of({"mechanism.h", text_of("include/fusee/mechanism/mechanism.h")});
+  std::vector<TypeName> types = types_of({"mechanism.h", text_of("include/fusee/mechanism.h")});
   EXPECT_TRUE(std::any_of(types.begin(), types.end(), [](const TypeName& type) {
     return type.scope == "fusee" && type.name == "Mechanism" && !type.one_file;
   }));

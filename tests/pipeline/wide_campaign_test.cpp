@@ -15,10 +15,9 @@
 #include <string>
 #include <string_view>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/units.h"
-#include "fusee/kit/kit.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/base.h"
+#include "fusee/kit.h"
+#include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
 
 namespace {

@@ -1,12 +1,13 @@
 // Bench runs as rows, and the next measurements.
-#include "fusee/plan/bench_run.h"
+#include "fusee/plan.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism_file.h"
 #include "joint/sensors.h"
+#include "mechanism/effect.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

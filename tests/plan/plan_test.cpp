@@ -1,11 +1,12 @@
 // Laws of a plan that hold for every joint.
-#include "fusee/plan/plan.h"
+#include "fusee/plan.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 
-#include "fusee/joint/simulate.h"
+#include "fusee/joint.h"
+#include "mechanism/effect.h"
 #include "plan/candidates.h"
 #include "plan/separation.h"
 #include "support/mechanisms.h"

@@ -1,4 +1,4 @@
-#include "fusee/profile/advice.h"
+#include "fusee/profile.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <chrono>
 #include <thread>
 
-#include "fusee/profile/synthesis.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

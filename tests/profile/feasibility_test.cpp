@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "fusee/mechanism/fields.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/profile.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

@@ -1,10 +1,9 @@
-#include "fusee/profile/outline.h"
+#include "fusee/profile.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "fusee/profile/synthesis.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

@@ -1,9 +1,8 @@
-#include "fusee/profile/rewind.h"
+#include "fusee/profile.h"
 
 #include <gtest/gtest.h>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/base.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

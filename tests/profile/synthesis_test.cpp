@@ -1,8 +1,7 @@
-#include "fusee/profile/synthesis.h"
+#include "fusee/profile.h"
 
 #include <gtest/gtest.h>
 
-#include "fusee/profile/rewind.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee::rig {
 

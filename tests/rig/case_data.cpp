@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "base/json.h"
-#include "fusee/base/diagnostics.h"
-#include "fusee/calibration/words.h"
-#include "fusee/joint/joint_effects.h"
-#include "fusee/joint/simulate.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "calibration/words.h"
+#include "joint/joint_effects.h"
+#include "fusee/joint.h"
+#include "fusee/mechanism_file.h"
 #include "rig/sharpness.h"
 
 namespace fusee::rig {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "fusee/base/units.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 #include "rig/bench.h"
 #include "rig/rig.h"
 

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee::rig {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <mutex>
 
-#include "fusee/base/text.h"
+#include "base/text.h"
 #include "rig/command.h"
 #include "rig/judge.h"
 #include "rig/state_pairs.h"

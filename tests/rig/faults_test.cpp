@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "fusee/joint/joint_model.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/joint.h"
+#include "fusee/transmission.h"
 #include "rig/bench.h"
 #include "rig/test_joints.h"
 #include "rig/truths.h"

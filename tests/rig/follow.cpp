@@ -1,7 +1,8 @@
 #include <algorithm>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/mechanism/fields.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
+#include "mechanism/effect.h"
 #include "rig/truths.h"
 
 namespace fusee::rig {

@@ -1,7 +1,8 @@
 // Further measurements on the rig.
 #include <gmock/gmock.h>
 
-#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism_file.h"
+#include "mechanism/effect.h"
 #include "rig/judge.h"
 #include "rig/test_joints.h"
 #include "rig/truths.h"

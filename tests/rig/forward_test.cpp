@@ -5,8 +5,8 @@
 #include <ostream>
 #include <string>
 
-#include "fusee/joint/simulate.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/joint.h"
+#include "fusee/mechanism_file.h"
 #include "rig/rig.h"
 #include "support/mechanisms.h"
 

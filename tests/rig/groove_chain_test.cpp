@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee::rig {
 namespace {

@@ -7,10 +7,10 @@
 #include <set>
 #include <utility>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/calibration/words.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "calibration/words.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee::rig {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "fusee/calibration/calibration.h"
+#include "fusee/calibration.h"
 #include "rig/truths.h"
 
 namespace fusee::rig {

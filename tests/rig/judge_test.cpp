@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "calibration/contract_effects.h"
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee::rig {
 namespace {

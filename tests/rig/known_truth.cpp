@@ -10,7 +10,7 @@
 #include <mutex>
 #include <utility>
 
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism_file.h"
 #include "rig/command.h"
 #include "rig/judge.h"
 #include "rig/sharpness.h"

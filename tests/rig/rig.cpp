@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/helix/synthesis.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "fusee/helix.h"
+#include "fusee/profile.h"
 #include "rig/bench.h"
 #include "rig/random.h"
 

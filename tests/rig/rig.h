@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "fusee/helix/spiral.h"
-#include "fusee/mechanism/mechanism.h"
-#include "fusee/profile/outline.h"
+#include "fusee/helix.h"
+#include "fusee/mechanism.h"
+#include "fusee/profile.h"
 #include "rig/action.h"
 #include "rig/way.h"
 

@@ -11,11 +11,11 @@
 #include <set>
 #include <sstream>
 
-#include "fusee/joint/joint_model.h"
-#include "fusee/measurement/measurement.h"
-#include "fusee/mechanism/file.h"
-#include "fusee/transmission/load.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/joint.h"
+#include "fusee/measurement.h"
+#include "fusee/mechanism_file.h"
+#include "transmission/load.h"
+#include "fusee/transmission.h"
 #include "rig/bench.h"
 #include "rig/random.h"
 #include "rig/string_geometry.h"

@@ -6,8 +6,9 @@
 #include <limits>
 #include <numeric>
 
-#include "fusee/base/text.h"
-#include "fusee/joint/simulate.h"
+#include "base/text.h"
+#include "fusee/joint.h"
+#include "mechanism/effect.h"
 
 namespace fusee::rig {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee::rig {
 namespace {

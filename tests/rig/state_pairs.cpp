@@ -5,7 +5,7 @@
 #include <fstream>
 #include <functional>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 
 namespace fusee::rig {
 namespace {

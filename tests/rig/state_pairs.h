@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fusee/calibration/comparison.h"
+#include "fusee/calibration.h"
 #include "rig/truths.h"
 
 namespace fusee::rig {

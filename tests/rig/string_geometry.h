@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fusee/base/plane.h"
+#include "fusee/base.h"
 
 namespace fusee::rig {
 

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/joint/joint_effects.h"
-#include "fusee/mechanism/fields.h"
-#include "fusee/mechanism/file.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/base.h"
+#include "base/text.h"
+#include "joint/joint_effects.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/transmission.h"
 
 namespace fusee::rig {
 namespace {

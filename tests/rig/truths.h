@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fusee/plan/bench_run.h"
+#include "fusee/plan.h"
 #include "rig/faults.h"
 #include "rig/random.h"
 #include "rig/rig.h"

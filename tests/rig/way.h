@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee::rig {
 

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/check.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/tools.h"
 
 namespace fusee {

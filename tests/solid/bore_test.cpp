@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base/units.h"
-#include "fusee/mechanism/catalogue.h"
+#include "fusee/base.h"
+#include "mechanism/catalogue.h"
 #include "support/shapes.h"
 
 namespace fusee {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fusee/solid/mesh.h"
+#include "fusee/solid.h"
 
 namespace fusee::testing {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/base/diagnostics.h"
+#include "fusee/base.h"
 #include "solid/broken.h"
 
 namespace fusee {

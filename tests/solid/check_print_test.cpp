@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-#include "fusee/solid/print.h"
+#include "solid/print.h"
 #include "solid/broken.h"
 
 namespace fusee {

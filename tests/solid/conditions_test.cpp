@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <regex>
 
-#include "fusee/mechanism/fields.h"
-#include "fusee/solid/pulley.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/solid.h"
 #include "solid/size.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"

@@ -1,12 +1,12 @@
 // Loads of the knots, compared with tendons laid over polygons step by step.
-#include "fusee/solid/holding.h"
+#include "fusee/solid.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <optional>
 
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism_file.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 

@@ -4,9 +4,9 @@
 
 #include <map>
 
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/mechanism/file.h"
-#include "fusee/solid/pulley.h"
+#include "mechanism/catalogue.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/solid.h"
 #include "solid/broken.h"
 #include "support/shapes.h"
 

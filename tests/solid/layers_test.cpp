@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/broken.h"
 #include "solid/plan.h"
 #include "solid/plane_distance.h"

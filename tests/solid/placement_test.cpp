@@ -1,13 +1,12 @@
 // Finds parts that a slicer moved, and identifies parts that were damaged on purpose.
-#include "fusee/solid/placement.h"
+#include "fusee/solid.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <map>
 
-#include "fusee/base/units.h"
-#include "fusee/solid/pulley.h"
+#include "fusee/base.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 

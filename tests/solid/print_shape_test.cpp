@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "fusee/solid/placement.h"
-#include "fusee/solid/print.h"
-#include "fusee/solid/pulley.h"
+#include "fusee/solid.h"
+#include "solid/print.h"
 #include "solid/broken.h"
 #include "support/shapes.h"
 

@@ -1,11 +1,11 @@
 // Complete bodies with all features, and a damaged part for each check.
-#include "fusee/solid/pulley.h"
+#include "fusee/solid.h"
 
 #include <gmock/gmock.h>
 
-#include "fusee/base/text.h"
-#include "fusee/mechanism/catalogue.h"
-#include "fusee/mechanism/file.h"
+#include "base/text.h"
+#include "mechanism/catalogue.h"
+#include "fusee/mechanism_file.h"
 #include "solid/broken.h"
 #include "support/shapes.h"
 

@@ -3,8 +3,8 @@
 
 #include <cstdlib>
 
-#include "fusee/mechanism/file.h"
-#include "fusee/solid/pulley.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/solid.h"
 #include "solid/broken.h"
 #include "solid/plan.h"
 #include "solid/plane_distance.h"

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "fusee/base/units.h"
-#include "fusee/transmission/tendon_path.h"
+#include "fusee/base.h"
+#include "fusee/transmission.h"
 
 namespace fusee::testing {
 

@@ -2,7 +2,7 @@
 /// Mechanisms that many tests use.
 #pragma once
 
-#include "fusee/mechanism/mechanism.h"
+#include "fusee/mechanism.h"
 
 namespace fusee::testing {
 

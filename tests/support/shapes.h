@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "fusee/profile/synthesis.h"
+#include "fusee/profile.h"
 
 namespace fusee::testing {
 

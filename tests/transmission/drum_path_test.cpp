@@ -9,8 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "fusee/transmission/tendon_path.h"
-#include "fusee/transmission/transmission.h"
+#include "fusee/transmission.h"
 #include "support/brute_string.h"
 #include "support/mechanisms.h"
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "fusee/transmission/load.h"
-#include "fusee/transmission/tension.h"
+#include "transmission/load.h"
+#include "fusee/transmission.h"
 #include "support/mechanisms.h"
 #include "transmission/interval.h"
 

@@ -1,4 +1,4 @@
-#include "fusee/transmission/tendon_path.h"
+#include "fusee/transmission.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fusee/transmission/tension.h"
+#include "fusee/transmission.h"
 
 #include <gtest/gtest.h>
 

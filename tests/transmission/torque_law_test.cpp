@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include "fusee/transmission/load.h"
-#include "fusee/transmission/torque.h"
-#include "fusee/transmission/transmission.h"
+#include "transmission/load.h"
+#include "transmission/torque.h"
+#include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

@@ -1,4 +1,4 @@
-#include "fusee/transmission/transmission.h"
+#include "fusee/transmission.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "fusee/mechanism/effect.h"
+#include "mechanism/effect.h"
 #include "mechanism/effects/by_hand.h"
 
 namespace fusee {

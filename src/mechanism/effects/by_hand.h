@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/mechanism/effect.h"
+#include "mechanism/effect.h"
 
 namespace fusee {
 

@@ -1,6 +1,6 @@
 #include <string>
 
-#include "fusee/mechanism/effect.h"
+#include "mechanism/effect.h"
 #include "mechanism/effects/by_hand.h"
 
 namespace fusee {

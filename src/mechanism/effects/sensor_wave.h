@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "fusee/mechanism/effect.h"
+#include "mechanism/effect.h"
 
 namespace fusee {
 

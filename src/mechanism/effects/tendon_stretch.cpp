@@ -1,4 +1,4 @@
-#include "fusee/mechanism/effect.h"
+#include "mechanism/effect.h"
 
 namespace fusee {
 namespace {

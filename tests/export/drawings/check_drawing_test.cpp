@@ -3,7 +3,7 @@
 
 #include "drawing_tools.h"
 #include "export/drawings/dxf_writer.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fusee/export/drawings.h"
+#include "fusee/export.h"
 #include "support/shapes.h"
 
 namespace fusee::testing {

@@ -4,7 +4,7 @@
 #include "drawing_tools.h"
 #include "export/drawings/cut_shapes.h"
 #include "export/drawings/fitted_arcs.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "solid/nearest_segment.h"
 #include "support/shapes.h"
 

@@ -8,7 +8,7 @@
 #include "drawing_tools.h"
 #include "export/drawings/dxf_writer.h"
 #include "export/drawings/plane_shapes.h"
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

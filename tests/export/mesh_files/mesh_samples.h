@@ -9,9 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "fusee/base/diagnostics.h"
-#include "fusee/base/units.h"
-#include "fusee/export/mesh_files.h"
+#include "fusee/base.h"
+#include "export/mesh_files/mesh_files.h"
 
 namespace fusee::testing {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "fusee/base/files.h"
+#include "fusee/base.h"
 #include "mesh_samples.h"
 
 namespace fusee {

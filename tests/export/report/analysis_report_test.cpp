@@ -4,7 +4,7 @@
 #include <pugixml.hpp>
 
 #include "export/report/tables.h"
-#include "fusee/export/analysis.h"
+#include "export/report/analysis.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

@@ -1,7 +1,7 @@
 // Numbers that were found, in words.
 #include <gtest/gtest.h>
 
-#include "fusee/export/calibration.h"
+#include "fusee/export.h"
 
 namespace fusee {
 namespace {

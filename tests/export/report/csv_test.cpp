@@ -3,7 +3,7 @@
 #include <charconv>
 #include <sstream>
 
-#include "fusee/export/report.h"
+#include "export/report/report.h"
 #include "support/shapes.h"
 
 namespace fusee {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "export/report/tendon_lengths.h"
-#include "fusee/export/report.h"
+#include "export/report/report.h"
 #include "support/shapes.h"
 
 namespace fusee {

@@ -5,7 +5,7 @@
 #include <pugixml.hpp>
 
 #include "export/report/drawing.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

@@ -1,5 +1,5 @@
 // report.html: one well-formed, self-contained and complete page for any text and any number.
-#include "fusee/export/report.h"
+#include "export/report/report.h"
 
 #include <gmock/gmock.h>
 

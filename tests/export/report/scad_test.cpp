@@ -4,7 +4,7 @@
 #include <cmath>
 #include <regex>
 
-#include "fusee/export/report.h"
+#include "export/report/report.h"
 #include "support/shapes.h"
 
 namespace fusee {

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "fusee/base/units.h"
-#include "fusee/profile/synthesis.h"
+#include "fusee/base.h"
+#include "fusee/profile.h"
 #include "support/mechanisms.h"
 
 namespace fusee {

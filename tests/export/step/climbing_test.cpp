@@ -12,7 +12,7 @@
 #include "export/step/climbing_curve.h"
 #include "export/step/normal_spline.h"
 #include "export/step/skin.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 

@@ -1,5 +1,5 @@
 // pulley.step, if this fusee can write it. FreeCAD checks it in tests/oracle/judge_step.py.
-#include "fusee/export/step.h"
+#include "export/step/step.h"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -7,8 +7,7 @@
 #include <filesystem>
 
 #include "export/step/step_build.h"
-#include "fusee/base/files.h"
-#include "fusee/base/units.h"
+#include "fusee/base.h"
 #include "fusee/pipeline.h"
 #include "pipeline/design.h"
 #include "pipeline/several_turns.h"

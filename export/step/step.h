@@ -1,0 +1,38 @@
+/// \file
+/// pulley.step: the part as a solid of exact surfaces, AP214, mm, for CAD. OpenCASCADE writes it, in the module
+/// `fusee-step`, which is loaded on demand. A fusee may be built or installed without it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fusee/base.h"
+#include "fusee/coil.h"
+#include "fusee/export.h"
+
+namespace fusee {
+
+/// The reason why this fusee cannot write STEP; empty if it can. Loads the module.
+std::optional<std::string> step_missing();
+
+struct StepFile {
+  std::string bytes;
+  std::string complaint;  ///< OpenCASCADE's error, if there are no bytes
+};
+/// Grooves are B-splines within 1e-4 mm of the curves. Throws InputError if they require more pieces than a CAD part
+/// may have ("too large for STEP: …"). The same part gives the same bytes.
+StepFile step_file(const Product& product);
+
+/// Result of reading a written file back: its checks and its groove floors, as printed at the part's heights, or, for
+/// several turns, all helical floors as finished.
+struct StepInspection {
+  std::vector<Check> checks;
+  Polygon floor1, floor2;
+  std::vector<FloorLine> climbing;
+};
+/// `tolerance`: of the mesh that the volume is compared with, mm.
+StepInspection inspect_step(const std::filesystem::path& path, const Product& product, double tolerance);
+
+}  // namespace fusee

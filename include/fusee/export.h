@@ -1,0 +1,357 @@
+/// \file
+/// Contents of the output files, as bytes or text. The same input gives the same bytes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "fusee/base.h"
+#include "fusee/calibration.h"
+#include "fusee/coil.h"
+#include "fusee/correction.h"
+#include "fusee/helix.h"
+#include "fusee/joint.h"
+#include "fusee/kit.h"
+#include "fusee/measurement.h"
+#include "fusee/mechanism_file.h"
+#include "fusee/model.h"
+#include "fusee/plan.h"
+#include "fusee/profile.h"
+#include "fusee/solid.h"
+
+namespace fusee {
+
+// ---- Product --------------------------------------------------------------------------------------------------------
+// The input of drawings and reports.
+
+/// Additional data of a multi-turn pulley, whose curves are no outlines and whose grooves lie in no plane.
+struct HelixProduct {
+  HelixSynthesis synthesis;
+  HelicalPulley pulley;  ///< its mesh and conditions are in Product::pulley
+  HelicalRewind as_built;
+
+  /// Heights above the part's lower face of the tendons' ends on the joint, or of their guides' collars.
+  TendonsLaid laid(bool collar) const {
+    return tendons_laid(pulley, synthesis.sides[0].spiral, synthesis.sides[1].spiral, synthesis.sides[0].attachment_z,
+                        synthesis.sides[1].attachment_z, collar);
+  }
+};
+
+/// The complete data of a finished pulley.
+struct Product {
+  MechanismFile file;  ///< as read
+  JointAsItIs joint;   ///< the identified joint that the pulley was designed for
+  SynthesisResult synthesis;
+  Pulley pulley;
+  std::optional<BodyLayout> cut_layout;  ///< layout for cutting, without shrinkage and chamfer, if known
+  Holding holding;                       ///< of its tendons
+  RewindResult as_built;
+  std::vector<Check> checks;
+  std::optional<HelixProduct> helix = {};  ///< several turns; `synthesis` then has no outlines and `pulley` no anchors
+};
+
+// ---- Drawings -------------------------------------------------------------------------------------------------------
+// Writes and reads drawings as DXF, and checks them for faults that stop a workshop's machine. The same input gives
+// the same bytes.
+
+enum class DxfVersion { ac1015, r12 };
+
+/// The body's sizes without shrinkage and hole compensation, which apply to prints only.
+BodyLayout layout_to_cut(Mechanism mechanism, const SynthesisResult& synthesis);
+
+/// The pulley's curves at true size about the axis, with marks of its home position.
+std::string profile_dxf(const Product& product, DxfVersion version);
+/// The part as a stack of plates to cut, nested on sheets.
+std::string plates_dxf(const Product& product, DxfVersion version);
+
+/// One closed or open path of a drawing. Arcs and circles are points within 0.001 mm.
+struct DrawingPath {
+  std::string layer;
+  std::string entity;  ///< "LWPOLYLINE", "CIRCLE" …
+  int line = 0;        ///< line in the file
+  bool closed = false;
+  Polygon points;
+  bool in_space = false;                          ///< `points` is its plan
+  std::optional<double> diameter = std::nullopt;  ///< of a whole circle: the exact value, not that of the points
+};
+
+/// An unusual entity without effect; entities of one kind are combined.
+struct DrawingRemark {
+  int line = 0;  ///< of the first one
+  std::string text;
+  std::size_t count = 1;
+};
+/// The reason why an entity was omitted.
+struct UndrawnEntity {
+  int line = 0;
+  std::string why;
+};
+
+struct Drawing {
+  std::string version;               ///< "AC1015", "AC1009" …
+  bool millimetres = false;          ///< $INSUNITS = 4, or absent in R12
+  std::vector<DrawingPath> paths;    ///< in mm; paths that meet on one layer are joined
+  std::vector<std::string> ignored;  ///< kinds of entity that were skipped
+  std::vector<DrawingRemark> remarks = {};
+  std::size_t undrawn = 0;  ///< entities whose values draw no curve
+  UndrawnEntity first_undrawn = {};
+};
+
+/// Reads ASCII DXF, R12 to R2018. Entities that cannot be drawn are counted and skipped. Throws InputError with the
+/// line if the file as a whole cannot be read.
+Drawing read_dxf(std::string_view bytes, const std::string& file_name);
+
+/// Checks for drawable entities, closed contours, meeting ends, self-crossings, duplicate lines and the smallest
+/// feature: one Check each. Duplicate lines are tested once, and checks that an earlier fault makes meaningless are
+/// omitted.
+std::vector<Check> check_drawing(const Drawing& drawing);
+
+// ---- Plan -----------------------------------------------------------------------------------------------------------
+// The outputs of `fusee plan`, as bytes.
+
+/// A plan and its inputs.
+struct PlanProduct {
+  MechanismFile file;
+  double noise = 0;    ///< rad
+  double minutes = 0;  ///< available minutes
+  Plan plan;
+};
+
+/// "run_2.csv"; "" for a step that is no run.
+std::string run_file_name(const Plan& plan, std::size_t step);
+/// The rows to drive in the format of `fusee calibrate`, with θ empty and the instructions in comments.
+std::string run_csv(const PlanProduct& product, std::size_t step);
+std::string plan_json(const PlanProduct& product);
+/// A page for the bench: A4, boxes to tick, no network.
+std::string plan_html(const PlanProduct& product);
+/// The page and run files of a calibration's next measurements. `measured`: the runs that it had.
+std::string next_html(const PlanProduct& product, const std::vector<std::string>& measured);
+/// The sections with instructions, for another page that has plan.css.
+std::string plan_steps_html(const PlanProduct& product);
+std::string plan_manifest_json(const PlanProduct& product, const std::vector<OutputFile>& outputs);
+
+// Texts for page and terminal.
+
+/// "hang 1.02 kg on a cord …"; "" without load.
+std::string hanging_words(const PlanProduct& product, const PlannedRun& run);
+/// The expected false-positive rate in words, for simulated joints.
+std::vector<std::string> false_positive_words(const Plan& plan);
+/// The predicted gain of a step over the steps before it, such as "sees creep; tells … from …".
+std::string gain_words(const PlanStep& step);
+/// The predicted gain of the first minutes, such as "by minute 3: 3 cycles, slow …; tells …".
+std::string minute_words(const PlanStep& step, const std::string& gain);
+std::vector<std::string> minute_words(const std::vector<PlanStep>& steps);
+
+// ---- Test rig -------------------------------------------------------------------------------------------------------
+// The outputs of `fusee kit`, as bytes. The same input gives the same bytes.
+
+/// A test rig, and the pulley that it is for.
+struct KitProduct {
+  Product pulley;  ///< file, joint, curves and body, not written
+  KitPlan plan;
+  PlanProduct bench;  ///< the measurements to be made on it
+  std::vector<Check> checks;
+};
+
+/// File name such as "base_plate.stl".
+std::string kit_file_name(const KitPart& part, const std::string& ending);
+
+/// Length of a tendon to be cut.
+struct KitCut {
+  Side side = Side::left;
+  double between_knots = 0;  ///< from the pulley's knot to its fastening at the joint, taut, at home, mm
+  double cut = 0;            ///< including both ends, in whole 5 mm
+};
+std::vector<KitCut> kit_cuts(const KitProduct& product);
+
+/// The parts that can be cut from sheets, nested flat: layers CUT_OUTER, CUT_INNER, ENGRAVE.
+std::string kit_dxf(const KitProduct& product, DxfVersion version);
+/// The columns count,item,use.
+std::string bom_csv(const KitProduct& product);
+/// The assembly page: pictures of each step, tendons, parts to buy, the coupon, the measuring plan.
+std::string kit_html(const KitProduct& product);
+std::string kit_manifest_json(const KitProduct& product, const std::vector<OutputFile>& outputs);
+
+// ---- Models ---------------------------------------------------------------------------------------------------------
+// The outputs of `fusee model`, as text. The same input gives the same bytes.
+
+/// The complete model of a joint.
+struct ModelProduct {
+  MechanismFile file;   ///< as read
+  Mechanism mechanism;  ///< the identified mechanism
+  JointCurves curves;
+  std::string compensation;  ///< source file of curves.sensed; empty: none
+  EqualityFit equality;
+  EqualityFit line;
+  std::optional<TendonModel> tendons;
+  std::string without_tendons;  ///< why there is no tendon model
+  bool with_polynomial = true;  ///< true if joint.xml is written
+  double most_error = 0;        ///< allowed error of a simulator's joint, rad
+  double most_table_error = 0;  ///< allowed error of tables, rad
+  JointTable table;
+  std::string prefix;  ///< prefix of the names in the header
+  std::vector<Check> checks;
+  std::vector<std::string> notes;
+};
+
+/// A valid C prefix derived from the joint's name.
+std::string c_prefix(const std::string& name);
+
+/// MuJoCo: hinges alpha and theta, coupled by a joint equality.
+std::string mujoco_joint_xml(const ModelProduct& product);
+/// MuJoCo: both hinges, coupled by a tendon that is wrapped over its pin. Requires product.tendons.
+std::string mujoco_tendons_xml(const ModelProduct& product);
+/// Joints alpha and theta; the second one mimics the first.
+std::string joint_urdf(const ModelProduct& product);
+/// For ros2_control: joint theta, and a transmission from the motor to it.
+std::string ros2_control_urdf(const ModelProduct& product);
+std::string joint_table_h(const ModelProduct& product);
+std::string joint_table_json(const ModelProduct& product);
+std::string model_manifest_json(const ModelProduct& product, const std::vector<OutputFile>& outputs);
+
+/// True if a fusee manifest lists a file with these bytes.
+bool names_output(const std::string& manifest, const std::string& name, const std::string& sha256);
+
+/// Reads the written files back and compares them with the joint's curves.
+std::vector<Check> check_model(const ModelProduct& product, const std::vector<OutputFile>& outputs);
+
+// ---- Calibration ----------------------------------------------------------------------------------------------------
+// Outputs of `fusee calibrate`, as bytes.
+
+/// All that is known after a calibration.
+struct CalibrationProduct {
+  MechanismFile file;
+  Measurement measurement;
+  Calibration calibration;
+  std::vector<LikelyInputError> slips;  ///< of the file or of the data, that would explain what no effect does
+  Correction correction;
+  Rehearsal rehearsal;  ///< of what was found
+};
+
+std::string calibration_json(const CalibrationProduct& product);
+/// The measurements to make next, for the bench: a page and the run files, "next/run_6.csv". None where nothing is asked
+/// for.
+std::vector<OutputFile> next_files(const CalibrationProduct& product);
+/// The file of calibration.next[i]: "next/run_6.csv", numbered after the runs that were read; "" where it is no run.
+std::string next_file_name(const CalibrationProduct& product, std::size_t i);
+/// The number of the first run file of a plan beside runs of these names: one more than the largest of "run_5.csv".
+int first_free_run(const std::vector<std::string>& names);
+/// Names of next_files() with so many runs.
+std::vector<std::string> next_file_names(int first_run, int runs);
+std::string calibration_report_html(const CalibrationProduct& product);
+/// Names the files beside it, so that the next run knows them as ours.
+std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs);
+
+// What a person reads first.
+
+/// 60 words at most, without identifiers.
+struct Headline {
+  std::string problem;  ///< what the joint does wrong, and by how much
+  std::string cause;    ///< one, or two or three candidates; "" where there is none
+  std::string action;   ///< what to do now
+};
+Headline headline(const CalibrationProduct& product);
+
+/// A number of a cause. Share and remedy are empty for its further numbers, and for causes that may be in its place.
+struct CauseRow {
+  std::string cause;
+  std::string size;
+  std::string interval;      ///< 95 %, if this is the only cause
+  std::string share;         ///< of the error on rows that were not fitted
+  std::string corrected_by;  ///< "pulley", "table" or "–"
+
+  /// Titles of the columns, in the order of the members.
+  static constexpr std::array<const char*, 5> k_titles = {"cause", "size", "95 % if alone", "share", "corrected by"};
+};
+std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
+
+// In words, for the page and for a terminal alike.
+
+/// "EA = 4515 N (95 %: 4479 … 4551 if nothing else is there, else 4420 … 4610)": the unit is taken from the end of the
+/// name; `load_unit` is that of the load column.
+std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit);
+/// The group without the effect itself.
+std::vector<std::string> rivals_of(const FoundEffect& effect);
+/// Says that P1 stays round, and by how much it misses its law.
+std::string round_words(const Correction& correction);
+/// Why no corrected pulley can be made, of a correction that says so.
+std::string infeasible_words(const Correction& correction);
+/// The assembly angle of a corrected pulley, if the correction requires another than 0.
+std::string tied_words(const Correction& correction);
+/// Effects that were not found by the smallest size that would have shown, rad; what is equal to two digits stands
+/// together. Smallest first.
+std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration);
+/// The part of the unmodelled residual that the table covers, and where that holds; or why it covers none. "" if
+/// nothing is unmodelled.
+std::string curve_words(const CalibrationProduct& product);
+/// All measurements to make next, the most decisive first.
+std::vector<std::string> next_texts(const Calibration& calibration);
+/// slip_words() of every input error that would explain the data.
+std::vector<std::string> slips_words(const CalibrationProduct& product);
+/// Two of the notes that say the same of many files, and the number of others.
+std::vector<std::string> shortened_notes(const std::vector<std::string>& notes);
+
+// ---- Comparison -----------------------------------------------------------------------------------------------------
+// What `fusee compare` says and leaves behind, as words and bytes.
+
+/// All that is known after a comparison.
+struct ComparisonProduct {
+  MechanismFile file;
+  Measurement measurement;      ///< the runs before, then the runs after
+  std::size_t runs_before = 0;  ///< how many of them
+  Comparison comparison;
+};
+
+std::string comparison_json(const ComparisonProduct& product);
+std::string comparison_report_html(const ComparisonProduct& product);
+/// Names the files beside it, so that the next run knows them as ours.
+std::string comparison_manifest_json(const ComparisonProduct& product, const std::vector<OutputFile>& outputs);
+
+/// The answer in at most 60 words, without identifiers: what changed, by how much, what to do.
+std::string comparison_words(const ComparisonProduct& product);
+/// The largest of the changes that would just have been seen, rms at the joint, rad; 0 where none was asked for.
+double least_seen(const Comparison& comparison);
+
+/// A row of the table of changes.
+struct ChangeRow {
+  std::string cause;      ///< "pretension of tendon 1"
+  std::string change;     ///< "−4.20 N"
+  std::string states;     ///< "20.0 → 15.8"
+  std::string interval;   ///< "−4.60 … −3.80 N"
+  std::string share;      ///< how much of the difference between the states, "" but in an effect's first row
+  std::string as_likely;  ///< the other members of its group, "" but in an effect's first row
+};
+std::vector<ChangeRow> change_rows(const ComparisonProduct& product);
+
+// ---- Simulation -----------------------------------------------------------------------------------------------------
+// The outputs of `fusee simulate`, as bytes.
+
+/// A joint moved through a log.
+struct Simulation {
+  MechanismFile file;
+  Measurement log;                 ///< one run that drove the joint
+  std::vector<JointState> states;  ///< parallel to its rows
+};
+
+/// A column of the table, whose name ends with its unit; NaN for missing numbers.
+struct SimulationColumn {
+  std::string name;
+  std::vector<double> values;
+};
+/// In the order of the table, which ends with `status`. theta_deg: reading of the joint's sensor. joint_deg: true joint
+/// angle. loose_deg: range about it without a restoring torque. tension1_N and tension2_N: between pulley and pin;
+/// tension1_joint_N and tension2_joint_N: between pin and joint. The motor's torque is positive towards +α. time_s,
+/// temperature_C and the encoder offsets appear if they were logged. A joint declared by a ratio has no tensions and no
+/// torque.
+std::vector<SimulationColumn> simulation_columns(const Simulation& simulation);
+/// "held", "loose" (both tendons are slack), "no_equilibrium" (no joint angle carries the load).
+std::string_view word(EquilibriumStatus status);
+/// A table that `fusee calibrate` reads.
+std::string simulation_csv(const Simulation& simulation);
+
+}  // namespace fusee

@@ -1,0 +1,211 @@
+/// \file
+/// A joint for other programs: θ(α) in the forms of simulators and firmware, each with its error. rad, mm.
+///
+/// Simulators use polynomials of degree 4, robot descriptions a straight line, firmware tables of 32-bit floats. The
+/// source is a JointCurve: the law that the file declares, the motion of an identified joint in each direction, or a
+/// compensation.csv.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusee/base.h"
+#include "fusee/mechanism.h"
+#include "fusee/transmission.h"
+
+namespace fusee {
+
+// ---- curves of the joint --------------------------------------------------------------------------------------------
+
+/// θ(α) and its inverse, both increasing. Constant beyond the ends.
+struct AngleMap {
+  double alpha_min = 0, alpha_max = 0;  ///< rad
+  double theta_min = 0, theta_max = 0;  ///< rad
+  std::function<double(double alpha)> theta;
+  std::function<double(double theta)> alpha;
+  std::function<double(double alpha)> slope;  ///< dθ/dα
+};
+
+/// Requires a law that exists and increases.
+AngleMap angle_map(const Transmission& law);
+/// Linear interpolation between rows. Both columns must increase.
+AngleMap angle_map(std::vector<LawRow> rows);
+
+/// Motor angles for the joint angle `theta`: moving up, and moving down. rad
+struct TwoWayRow {
+  double theta = 0;
+  double up = 0;
+  double down = 0;
+};
+
+enum class CurveSource {
+  law,           ///< the declared θ(α), equal in both directions
+  identified,    ///< the joint with its [identified] numbers, simulated in both directions under its declared load
+  compensation,  ///< a compensation.csv
+};
+
+struct JointCurve {
+  CurveSource source = CurveSource::law;
+  AngleMap middle;                              ///< mean of both directions; the law itself
+  std::optional<std::array<AngleMap, 2>> ways;  ///< from below (α increases), from above
+  double half_hysteresis = 0;                   ///< half of the largest hysteresis at the joint, rad
+};
+
+/// Requires that all three columns of the rows increase.
+JointCurve two_way_curve(const std::vector<TwoWayRow>& rows, CurveSource source);
+
+/// The joint for simulators and for firmware.
+struct JointCurves {
+  JointCurve physical;  ///< with the true θ, for simulators
+  /// With θ as the joint sensor shows it, for firmware; α is the motor sensor's reading in both curves
+  JointCurve sensed;
+};
+
+/// Uses the pulley that `fusee build` makes of the file. The law must exist and increase (grows()). Empty if the
+/// identified joint has no equilibrium on its way.
+std::optional<JointCurves> joint_curves(const DeclaredMechanism& declared);
+
+/// True if θ increases with α over the whole range. The law must exist.
+bool grows(const Transmission& law);
+
+/// Parses compensation.csv. Throws InputError with all errors.
+std::vector<TwoWayRow> read_compensation(const std::string& text, const std::string& name);
+/// Adds rows in which the motor's offset from the law is interpolated linearly, so that the law keeps its shape.
+/// Returns the rows unchanged if they reach far beyond the law.
+std::vector<TwoWayRow> refined(const std::vector<TwoWayRow>& rows, const Transmission& law);
+
+// ---- polynomials ----------------------------------------------------------------------------------------------------
+
+/// The polynomial c[0] + c[1] x + …
+struct Polynomial {
+  std::vector<double> c;
+
+  double operator()(double x) const;
+  double slope(double x) const;
+};
+
+/// A sample to be fitted, whose error is multiplied by `weight`.
+struct FitPoint {
+  double x = 0;
+  double y = 0;
+  double weight = 1;
+};
+
+struct PolynomialFit {
+  Polynomial p;
+  double error = 0;  ///< largest weight · |p(x) − y|
+};
+
+/// The minimax polynomial of the points (exchange algorithm of Remez and Stiefel), up to rounding. `points`: increasing
+/// in x, more than degree + 2.
+PolynomialFit least_largest_error(const std::vector<FitPoint>& points, int degree);
+
+/// A joint equality in MuJoCo's form.
+struct EqualityFit {
+  bool of_alpha = true;    ///< θ = p(α); false: α = p(θ), if its error is smaller
+  Polynomial p;            ///< rad
+  double error = 0;        ///< largest error of θ over the range, rad
+  double slope_error = 0;  ///< largest relative error of dθ/dα, which is the error of torques
+};
+
+constexpr int k_equality_degree = 4;  ///< degree of polycoef in MuJoCo's joint and tendon equalities
+
+EqualityFit fit_equality(const AngleMap& map);
+/// The straight line θ = p(α) with the least largest error.
+EqualityFit fit_line(const AngleMap& map);
+/// Computes error and slope_error by solving the equality.
+EqualityFit measured(EqualityFit fit, const AngleMap& map);
+
+// ---- tendons --------------------------------------------------------------------------------------------------------
+
+/// A tendon from its end on the link over its pin to a fixed point, for a simulator that wraps tendons around
+/// cylinders. In the mechanism's frame with the joint at home, mm.
+struct WrappedTendon {
+  Side side = Side::left;
+  Vec2 end{0, 0};  ///< on the link
+  Vec2 pin{0, 0};
+  double rho = 0;          ///< radius of the cylinder to the tendon's centre line; 0: a point
+  Vec2 anchor{0, 0};       ///< the fixed point below the pin, or the entrance of the sheath
+  Vec2 outer{0, 0};        ///< a point on the side of the pin that the tendon passes
+  double home_length = 0;  ///< length from its end to the anchor, or to the far exit of its sheath
+  double most_wrap = 0;    ///< largest wrap angle at the pin over the range, rad
+  /// Radius of the link's drum about O, to the tendon's centre line, if the tendon lies on it at every angle of the
+  /// range; 0 otherwise.
+  double drum = 0;
+  std::vector<Vec2> on_drum;  ///< points of the link that it always covers, from its end on, with short chords
+  Vec2 drum_outer{0, 0};      ///< a point on the side of the drum that it passes after them
+  Vec2 off_drum{0, 0};        ///< a fixed point on its straight way from drum to pin
+  std::optional<Vec2> sheath_exit = std::nullopt;  ///< exit of its sheath, beside the pulley
+};
+
+/// The law by tendons. Above the pin they are wrapped; the length that the pulley takes in of one of them is a
+/// polynomial of α.
+struct TendonModel {
+  std::array<WrappedTendon, 2> tendons;
+  std::array<std::string, 2> omission;  ///< reason why a simulator cannot represent a tendon; "": it can
+  Side constrained = Side::left;        ///< the tendon whose length is constrained to the polynomial
+  Polynomial length;                    ///< of that tendon, minus home_length; mm over rad
+  double error = 0;                     ///< largest error of θ over the range, rad
+};
+
+/// Empty, with the reason in `why_not`, if neither tendon can be represented. Tendons are excluded if they leave the
+/// drum within the range, or if they wrap nearly half round the pin or further round the drum than simulators allow.
+std::optional<TendonModel> tendon_model(const Mechanism& mounted, const AngleMap& map, std::string& why_not);
+
+/// Largest error of θ, rad, if a tendon's length is constrained to `length`(α). Found by moving the joint until the
+/// lengths agree.
+double tendon_error(const WrappedTendon& tendon, const Polynomial& length, const AngleMap& map);
+
+// ---- tables ---------------------------------------------------------------------------------------------------------
+
+/// The unit of the motor's angle in a table.
+struct MotorUnit {
+  double per_turn = 360;  ///< degrees, or counts of an encoder; negative if they decrease as α increases
+  bool ticks = false;
+  double zero = 0;  ///< reading at α = 0
+
+  double of(double alpha) const;
+  double alpha(double shown) const;
+};
+
+/// The tables of one direction, evenly spaced from the first to the last place.
+struct OneWayTable {
+  float first = 0, last = 0;  ///< motor angle in its unit minus its zero; the first is the smaller one
+  std::vector<float> theta;   ///< deg, as a function of the motor angle
+  std::vector<float> motor;   ///< motor angle minus its zero, as a function of θ
+};
+
+struct TableErrors {
+  double theta = 0;     ///< error of θ read from α, rad
+  double returned = 0;  ///< error of θ at the motor angle read from θ, rad
+  double motor = 0;     ///< error of that motor angle, rad
+};
+
+struct JointTable {
+  MotorUnit unit;
+  int pieces = 0;                         ///< number of linear pieces of each table
+  float theta_first = 0, theta_last = 0;  ///< deg
+  std::vector<OneWayTable> ways;          ///< one, or two: from below and from above
+  std::vector<float> slope;               ///< dθ/dα of the mean curve, over the first way's angles
+  std::vector<float> holding;  ///< motor torque that holds the declared load without friction, N·mm; may be empty
+  TableErrors errors;          ///< in 32-bit arithmetic, for the worse direction
+};
+
+constexpr int k_most_pieces = 4096;
+
+/// The shortest table (a power of two) whose error of θ is at most `most`, rad, in both directions of conversion. Empty
+/// if k_most_pieces are too few.
+std::optional<JointTable> joint_table(const JointCurve& curve, const Mechanism& mechanism, const MotorUnit& unit,
+                                      double most);
+/// Errors of a table with respect to its curve, in 32-bit arithmetic.
+TableErrors measured(const JointTable& table, const JointCurve& curve);
+
+/// Interpolates as the generated header does. `at`: pieces from the first entry.
+float interpolated(const std::vector<float>& table, float at);
+
+}  // namespace fusee

@@ -1,0 +1,114 @@
+/// \file
+/// Catalogue of parts and materials, as data with sources: profiles/catalogue/*.toml, compiled in.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusee/base.h"
+#include "fusee/mechanism.h"
+
+namespace fusee {
+
+struct HornType {
+  std::string name;
+  std::string description;
+  std::string source;
+  Horn horn;
+};
+
+/// The shaft of a motor.
+struct ShaftType {
+  std::string name;
+  std::string description;
+  std::string source;
+  Bore bore = Bore::round;
+  double diameter = 0;  ///< mm
+  double flat = 0;      ///< D shaft: from the flat to the far side, mm
+};
+
+struct TendonType {
+  std::string name;
+  std::string description;
+  std::string source;
+  double diameter = 0;           ///< mm
+  double modulus = 0;            ///< over the full section of the diameter, MPa
+  double breaking_strength = 0;  ///< N, without a knot
+  double bend_ratio = 0;         ///< minimum bend diameter / tendon diameter
+};
+
+struct MaterialType {
+  std::string name;
+  std::string description;
+  std::string source;
+  double shrinkage_least = 0;  ///< percent
+  double shrinkage_typical = 0;
+  double shrinkage_most = 0;
+};
+
+/// A deep-groove ball bearing for the joint of a test rig. mm
+struct BearingType {
+  std::string name;
+  std::string description;
+  std::string source;
+  double bore = 0;
+  double outer = 0;
+  double width = 0;
+  double spacer = 0;  ///< outer diameter of a ring that touches the inner race only
+};
+
+/// A sensor board that reads a magnet's angle, with the chip in its middle. mm
+struct BoardType {
+  std::string name;
+  std::string description;
+  std::string source;
+  Vec2 size{0, 0};
+  double thickness = 0;
+  Vec2 pitch{0, 0};  ///< spacing of its four holes
+  double hole = 0;
+  double chip = 0;    ///< height of the chip above the board
+  double magnet = 0;  ///< diameter of the diametrically magnetized disc
+  double magnet_height = 0;
+  double gap = 0;  ///< between magnet and chip
+};
+
+/// The motor of a test rig. Coordinates are relative to its shaft axis; height 0 is the face that lies against a plate
+/// from below. mm
+struct MotorType {
+  std::string name;
+  std::string description;
+  std::string source;
+  std::vector<std::string> fits;  ///< names of horns and shafts
+  double shaft = 0;               ///< diameter; 0: it has a horn
+  double shaft_length = 0;        ///< shaft length above that face
+  double face = 0;                ///< height of the horn's face above it
+  double front = 0, back = 0;     ///< extent of the motor along its long side; front is the nearer end
+  double side = 0;                ///< extent to each side
+  double depth = 0;               ///< extent below that face
+  /// Diameter of the round boss on the face; 0: the motor's body passes through the plate.
+  double pilot = 0;
+  bool two_holes = false;  ///< screws at ±x only; otherwise at ±x, both at the front and at the back
+  double hole_x = 0, hole_front = 0, hole_back = 0;
+  double hole = 0;  ///< diameter
+  double head = 0;  ///< height of the screws' heads
+};
+
+const std::vector<HornType>& horns();
+const std::vector<ShaftType>& shafts();
+const std::vector<TendonType>& tendon_types();
+const std::vector<MaterialType>& material_types();
+const std::vector<BearingType>& bearing_types();  ///< the largest first
+const std::vector<BoardType>& board_types();
+const std::vector<MotorType>& motor_types();
+
+/// Finds an entry by name; null when there is none.
+const HornType* find_horn(std::string_view name);
+const ShaftType* find_shaft(std::string_view name);
+
+/// The value of body.horn that selects Mechanism::horn.
+inline constexpr std::string_view k_own_horn = "own";
+/// The horn of the mechanism, for body.bore = "horn". Throws InputError for an unknown name.
+const Horn& horn_of(const Mechanism& mechanism);
+
+}  // namespace fusee

@@ -1,0 +1,111 @@
+/// \file
+/// Reproduction of the paper's tables, figures and claims: its statements, the results of its equations [1]-[12], and
+/// the assumed numbers.
+///
+/// The paper states no r1, EF, BG, F_c, μ and no unit of length; PaperAssumptions supplies them. The windows of these
+/// numbers in which a claim holds are computed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fusee/base.h"
+#include "fusee/optimize.h"
+
+namespace fusee {
+
+struct PaperAssumptions {
+  double unit = 100;  ///< length of the paper's unit, mm
+  double r1 = 20;     ///< mm
+  double EF = 60;     ///< mm
+  double mu = 0.2;
+  double tip_force = 20;  ///< F_c, N
+  double diameter = 4;    ///< the paper's tendon, mm
+  double modulus = 3000;  ///< the paper's tendon, MPa
+};
+
+/// The paper's mechanism with point pins and these lengths, in mm, and its optimization problem.
+Mechanism paper_mechanism(const PaperAssumptions& assumptions, double R, double ED, double OE);
+MechanismFile paper_problem_file(const PaperAssumptions& assumptions);
+
+/// An interval of one assumed number, the others fixed, in which a claim holds.
+struct Window {
+  double low = 0;
+  double high = 0;
+  bool open_low = false;  ///< the claim holds at the end of the searched range
+  bool open_high = false;
+};
+struct ParameterWindows {
+  std::string parameter;  ///< "mu", "r1", "EF"
+  std::string unit;
+  double searched_low = 0;
+  double searched_high = 0;
+  std::vector<Window> windows;
+};
+
+enum class Verdict { holds, holds_only_if, does_not_hold };
+std::string_view verdict_text(Verdict verdict);
+
+struct Claim {
+  std::string name;  ///< snake_case
+  std::string paper_says;
+  std::string equations_give;
+  Verdict verdict = Verdict::does_not_hold;
+  std::vector<ParameterWindows> windows;  ///< for mu, r1, EF; empty where no assumed number matters
+};
+
+/// One row of Table 4.
+struct OptimumRow {
+  std::string symbol;
+  double lower = 0;
+  double upper = 0;
+  double paper = 0;     ///< mm, in the assumed unit
+  double computed = 0;  ///< the certified optimum
+};
+
+struct Curve {
+  std::string name;
+  std::vector<Vec2> points;
+};
+struct PaperFigure {
+  int number = 0;
+  std::string title;
+  std::string reading;  ///< assumed content of the figure
+  std::string x_name, x_unit, y_name, y_unit;
+  std::vector<Curve> curves;
+};
+
+/// Comparison of both laws on the paper's optimum.
+struct LawCost {
+  std::string law;
+  /// Largest distance of θ(α) from its best straight line, deg.
+  double nonlinearity = 0;
+  double r1_least = 0, r1_most = 0, r2_least = 0, r2_most = 0;  ///< mm
+  double bend_radius = 0;                                       ///< minimum on P1 or P2; negative: hollow, mm
+  double tension = 0;                                           ///< largest T_b/F_c
+  double torque = 0;                                            ///< largest T_b r2/F_c, mm
+  double torque_ripple = 0;                                     ///< maximum / minimum torque
+};
+
+/// Windows of μ in which Table 4 is the optimum, for one r1 and EF.
+struct MuWindow {
+  double r1 = 0;
+  double EF = 0;
+  std::vector<Window> windows;
+};
+
+struct Reproduction {
+  PaperAssumptions assumptions;
+  std::vector<OptimumRow> table_4;
+  double optimum = 0;  ///< max T_b/F_c, certified
+  double relative_gap = 0;
+  std::vector<Claim> claims;
+  std::vector<PaperFigure> figures;
+  std::vector<LawCost> laws;
+  std::vector<MuWindow> mu_windows;
+};
+
+/// Throws Stopped between steps.
+Reproduction reproduce_paper(const PaperAssumptions& assumptions = {}, const RunContext& context = {});
+
+}  // namespace fusee

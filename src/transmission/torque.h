@@ -1,0 +1,22 @@
+/// \file
+/// Requirements of law = torque: the wanted motor torque and the load that it has to hold.
+#pragma once
+
+#include "fusee/mechanism.h"
+
+namespace fusee {
+
+/// One joint angle. Without friction the motor turns by load/motor per joint angle.
+struct TorqueMatch {
+  double theta = 0;  ///< rad
+  double load = 0;   ///< torque of [load] and [spring] against +θ, N·mm
+  double motor = 0;  ///< wanted motor torque towards +α, N·mm
+
+  double slope() const { return load / motor; }  ///< dα/dθ
+};
+
+/// The joint angle of the range where dα/dθ of law = torque is smallest. The law does not exist where it is not
+/// positive. An angle without a value comes first.
+TorqueMatch tightest_torque(const Mechanism& mechanism);
+
+}  // namespace fusee
