@@ -95,16 +95,4 @@ std::map<std::string, std::set<std::string>> links() {
   return links;
 }
 
-std::set<std::string> reached_from(const std::string& room, const std::map<std::string, std::set<std::string>>& links) {
-  std::set<std::string> reached = {room};
-  for (std::vector<std::string> ways = {room}; !ways.empty();) {
-    const std::string from = ways.back();
-    ways.pop_back();
-    for (const std::string& next : links.at(from)) {
-      if (reached.insert(next).second) ways.push_back(next);
-    }
-  }
-  return reached;
-}
-
 }  // namespace fusee::house

@@ -22,7 +22,5 @@ std::vector<std::string> list_in(std::string_view text, const std::string& comma
 
 /// Module → the modules that its CMakeLists.txt links.
 std::map<std::string, std::set<std::string>> links();
-/// `room` and all modules that it links, directly or indirectly.
-std::set<std::string> reached_from(const std::string& room, const std::map<std::string, std::set<std::string>>& links);
 
 }  // namespace fusee::house
