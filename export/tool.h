@@ -4,9 +4,9 @@
 
 #include <string_view>
 
-namespace fusee {
+namespace fusee::formats {
 
 /// "fusee 0.2.0". base/files.cpp recognises an earlier run by the first word of a manifest's "tool".
 inline constexpr std::string_view k_tool = "fusee " FUSEE_VERSION;
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -16,14 +16,14 @@
 #include <set>
 #include <utility>
 
+#include "base/text.h"
 #include "export/drawings/cut_shapes.h"
 #include "export/drawings/end_points.h"
 #include "export/drawings/plane_shapes.h"
 #include "export/drawings/polygon_cgal.h"
-#include "base/text.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_clean_feature = 1.0;  // mm, the narrowest feature that a laser cuts cleanly in common sheet
@@ -483,4 +483,4 @@ std::vector<Check> check_drawing(const Drawing& drawing) {
   return checks;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -7,7 +7,7 @@
 #include "export/drawings/polygon_cgal.h"
 #include "solid/bore.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 /// The first edge that an excessive offset has inverted; the number of edges if there is none.
@@ -58,26 +58,26 @@ bool near_an_edge(const Polygon& polygon, const Vec2& point, double margin) {
 
 }  // namespace
 
-BodyLayout layout_to_cut(Mechanism mechanism, const SynthesisResult& synthesis) {
+solid::BodyLayout layout_to_cut(Mechanism mechanism, const profile::SynthesisResult& synthesis) {
   mechanism.material.shrinkage = 0;
   mechanism.material.hole_compensation = 0;
   mechanism.material.elephant_foot = 0;
-  return resolve_layout(mechanism, synthesis);
+  return solid::resolve_layout(mechanism, synthesis);
 }
 
 // The knots keep their places from the printed pulley. Recomputed automatic sizes (without the chamfer at the bed)
 // could be larger pockets or a larger bore than fit there.
-BodyLayout layout_to_cut(const Product& product) {
-  BodyLayout layout =
+solid::BodyLayout layout_to_cut(const Product& product) {
+  solid::BodyLayout layout =
       product.cut_layout ? *product.cut_layout : layout_to_cut(product.joint.mechanism, product.synthesis);
   layout.pocket_radius = std::min(layout.pocket_radius, product.pulley.layout.pocket_radius);
-  const BoreLayout& printed = product.pulley.layout.bore;
+  const solid::BoreLayout& printed = product.pulley.layout.bore;
   if (printed.shaft > 0 && printed.shaft < layout.bore.shaft)
-    layout.bore = bore_of_shaft(product.joint.mechanism, printed);
+    layout.bore = solid::bore_of_shaft(product.joint.mechanism, printed);
   return layout;
 }
 
-Contour bore_contour(const BoreLayout& bore) {
+Contour bore_contour(const solid::BoreLayout& bore) {
   if (bore.circle) return circle_contour(*bore.circle);
   return {bore.outline, std::nullopt, bore.arc_points};
 }
@@ -114,7 +114,8 @@ Polygon cut_round(const Polygon& outline, double distance) {
 std::optional<Contour> cut_hole(const Contour& hole, double kerf) {
   Polygon path = offset_edges(hole.points, -0.5 * kerf);
   if (turned_edge(hole.points, path) < path.size() || !is_simple(path)) return std::nullopt;
-  if (hole.circle) return Contour{std::move(path), RoundHole{hole.circle->centre, hole.circle->diameter - kerf}, 0};
+  if (hole.circle)
+    return Contour{std::move(path), solid::RoundHole{hole.circle->centre, hole.circle->diameter - kerf}, 0};
   if (hole.arc_points > 0) put_on_arc(path, hole.arc_points, hole.points.front().norm() - 0.5 * kerf);
   return Contour{std::move(path), std::nullopt, hole.arc_points};
 }
@@ -165,4 +166,4 @@ bool Material2d::holds_box(const Vec2& low, const Vec2& size, double margin) con
   return true;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

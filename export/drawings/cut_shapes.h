@@ -9,13 +9,13 @@
 #include "fusee/base.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// The layout of the product for cutting.
-BodyLayout layout_to_cut(const Product& product);
+solid::BodyLayout layout_to_cut(const Product& product);
 
 /// The bore as it is cut: a circle, arcs and flats, or corners.
-Contour bore_contour(const BoreLayout& bore);
+Contour bore_contour(const solid::BoreLayout& bore);
 
 /// Moves every edge outward by `distance` (inward if negative) with mitred corners, exactly for the polygon. Input and
 /// output are counter-clockwise. An edge shorter than its reduction is inverted, which is_simple() and the area show.
@@ -50,4 +50,4 @@ class Material2d {
   std::vector<Edges> holes_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -5,12 +5,12 @@
 #include <optional>
 #include <set>
 
+#include "base/text.h"
 #include "export/drawings/entity_curves.h"
 #include "export/drawings/join_paths.h"
 #include "fusee/base.h"
-#include "base/text.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_sagitta = 0.0007;  // of sampled curves, mm; 0.001 is guaranteed
@@ -211,4 +211,4 @@ class DxfDrawer {
 
 Drawing draw_dxf(const DxfFile& dxf, const std::string& file) { return DxfDrawer(dxf, file).draw(); }
 
-}  // namespace fusee
+}  // namespace fusee::formats

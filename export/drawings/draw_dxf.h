@@ -7,10 +7,10 @@
 #include "export/drawings/dxf_file.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Paths in the order of the file, with ends not yet joined. Blocks nest at most 16 deep, and excessive expansion is
 /// rejected. Throws InputError.
 Drawing draw_dxf(const DxfFile& dxf, const std::string& file);
 
-}  // namespace fusee
+}  // namespace fusee::formats

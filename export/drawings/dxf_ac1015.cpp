@@ -3,7 +3,7 @@
 
 #include "export/drawings/dxf_versions.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // Every object of AC1015 has a handle and names its owner's. Handles that other objects name are fixed here. Table
@@ -233,7 +233,7 @@ class Ac1015Writer {
     tags_.text(8, path.layer);
   }
 
-  void write_circle(const std::string& layer, const RoundHole& circle) {
+  void write_circle(const std::string& layer, const solid::RoundHole& circle) {
     begin_entity("CIRCLE", "AcDbCircle", k_model_record, layer);
     write_circle_values(tags_, circle);
   }
@@ -335,4 +335,4 @@ class Ac1015Writer {
 
 std::string ac1015_text(const DxfDocument& document) { return Ac1015Writer(document).write(); }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -1,6 +1,6 @@
 #include "export/drawings/dxf_file.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 bool is(const DxfTag& tag, std::string_view keyword) { return tag.code == 0 && tag.value == keyword; }
@@ -142,4 +142,4 @@ double DxfFile::unit_in_mm() const {
 
 DxfFile read_dxf_file(std::string_view bytes, const std::string& file) { return DxfFileReader(bytes, file).read(); }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -10,7 +10,7 @@
 
 #include "export/drawings/dxf_tags.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// One entity of the file, with the vertices of an old POLYLINE.
 struct DxfEntity {
@@ -40,4 +40,4 @@ struct DxfFile {
 /// Throws InputError if the structure is damaged or the ENTITIES section is missing.
 DxfFile read_dxf_file(std::string_view bytes, const std::string& file);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -1,7 +1,7 @@
 // AC1009 for laser shops: no handles, no owners, and polylines with separate vertices.
 #include "export/drawings/dxf_versions.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 void write_r12_tables(DxfTagWriter& tags, const DxfDocument& document) {
@@ -56,7 +56,7 @@ void write_r12_polyline(DxfTagWriter& tags, const DxfPath& path) {
   tags.text(8, path.layer);
 }
 
-void write_r12_circle(DxfTagWriter& tags, const std::string& layer, const RoundHole& circle) {
+void write_r12_circle(DxfTagWriter& tags, const std::string& layer, const solid::RoundHole& circle) {
   tags.text(0, "CIRCLE");
   tags.text(8, layer);
   write_circle_values(tags, circle);
@@ -85,4 +85,4 @@ std::string r12_text(const DxfDocument& document) {
   return tags.take();
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 void DxfTagWriter::text(int code, std::string_view value) {
   fmt::format_to(std::back_inserter(out_), "{:>3}\n{}\n", code, value);
@@ -47,4 +47,4 @@ void DxfTagWriter::begin_section(std::string_view name) {
   text(2, name);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

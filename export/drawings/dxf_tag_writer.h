@@ -9,7 +9,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 class DxfTagWriter {
  public:
@@ -31,4 +31,4 @@ class DxfTagWriter {
   std::string out_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -6,7 +6,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 std::string_view trimmed(std::string_view text) {
@@ -104,4 +104,4 @@ int DxfValues::integer(int code, int fallback) const {
   return static_cast<int>(value);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

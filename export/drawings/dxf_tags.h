@@ -9,7 +9,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 struct DxfTag {
   int code = 0;
@@ -65,4 +65,4 @@ class DxfValues {
   const std::vector<DxfTag>& tags_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -8,7 +8,7 @@
 #include "export/drawings/dxf_tag_writer.h"
 #include "export/drawings/dxf_writer.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 std::string r12_text(const DxfDocument& document);
 std::string ac1015_text(const DxfDocument& document);
@@ -19,8 +19,8 @@ void write_remarks(DxfTagWriter& tags, const DxfDocument& document);
 /// Header variables of both versions: version, extents, units.
 void write_variables(DxfTagWriter& tags, std::string_view version, const Box2d& box);
 /// Writes centre and radius.
-void write_circle_values(DxfTagWriter& tags, const RoundHole& circle);
+void write_circle_values(DxfTagWriter& tags, const solid::RoundHole& circle);
 /// The values of the one text style, which no text uses.
 void write_style_values(DxfTagWriter& tags);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -4,7 +4,7 @@
 #include "export/drawings/stroke_font.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_box_sagitta = 0.001;  // mm; the box is for display only
@@ -40,7 +40,7 @@ void write_variables(DxfTagWriter& tags, std::string_view version, const Box2d& 
   tags.integer(70, 4);
 }
 
-void write_circle_values(DxfTagWriter& tags, const RoundHole& circle) {
+void write_circle_values(DxfTagWriter& tags, const solid::RoundHole& circle) {
   tags.point3(10, circle.centre.x(), circle.centre.y(), 0);
   tags.real(40, 0.5 * circle.diameter);
 }
@@ -114,4 +114,4 @@ Box2d bounding_box(const std::vector<DxfPath>& paths) {
   return bounding_box(corners);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -11,7 +11,7 @@
 #include "fusee/base.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 struct DxfLayer {
   std::string name;
@@ -23,7 +23,7 @@ struct DxfPath {
   std::string layer;
   std::vector<BulgeVertex> vertices;  ///< empty for a circle
   bool closed = true;
-  std::optional<RoundHole> circle;
+  std::optional<solid::RoundHole> circle;
   std::vector<double> heights = {};  ///< heights of the vertices, for a polyline in space
 };
 
@@ -47,4 +47,4 @@ std::string dxf_text(const DxfDocument& document, DxfVersion version);
 /// The box around all points of all paths.
 Box2d bounding_box(const std::vector<DxfPath>& paths);
 
-}  // namespace fusee
+}  // namespace fusee::formats

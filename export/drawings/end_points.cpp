@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::formats {
 
 std::size_t EndPoints::CellHash::operator()(const Cell& cell) const {
   const auto x = static_cast<std::uint64_t>(cell.x) * 0x9E3779B97F4A7C15u;
@@ -30,4 +30,4 @@ std::size_t EndPoints::number(const Vec2& point) {
   return points_.size() - 1;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -9,7 +9,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Largest distance of ends that meet. A reader of drawings may merge them without changing a part.
 inline constexpr double k_joined = 1e-4;
@@ -33,4 +33,4 @@ class EndPoints {
   std::vector<Vec2> points_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::formats

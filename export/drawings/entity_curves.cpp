@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_largest = 1e9;  // radius or axis
@@ -135,4 +135,4 @@ EntityCurve curve_of(const DxfEntity& entity, const std::string& file, const Dra
   return {};
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

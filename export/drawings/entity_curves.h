@@ -8,7 +8,7 @@
 #include "export/drawings/dxf_file.h"
 #include "export/drawings/sampled_curves.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Drawings with more points are rejected.
 inline constexpr std::size_t k_most_points = 4'000'000;
@@ -23,4 +23,4 @@ struct EntityCurve {
 /// `sagitta`: largest distance of chords from the curve, mm. Throws InputError for numbers that define no curve.
 EntityCurve curve_of(const DxfEntity& entity, const std::string& file, const DrawingPlacement& place, double sagitta);
 
-}  // namespace fusee
+}  // namespace fusee::formats

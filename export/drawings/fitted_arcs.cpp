@@ -5,7 +5,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_most_turn = 1.5;          // rad, of one biarc
@@ -57,8 +57,8 @@ std::optional<Biarc> biarc_between(const Knot& from, const Knot& to) {
 
 class ArcFit {
  public:
-  ArcFit(const Outline& outline, double distance, double tolerance)
-      : outline_(outline), points_(parallel(outline, distance)), tolerance_(tolerance) {}
+  ArcFit(const profile::Outline& outline, double distance, double tolerance)
+      : outline_(outline), points_(profile::parallel(outline, distance)), tolerance_(tolerance) {}
 
   std::vector<BulgeVertex> fit() const {
     std::vector<BulgeVertex> vertices;
@@ -97,24 +97,24 @@ class ArcFit {
     return biarc;
   }
 
-  const Outline& outline_;
+  const profile::Outline& outline_;
   Polygon points_;
   double tolerance_;
 };
 
 }  // namespace
 
-std::optional<RoundHole> circle_about_axis(const Polygon& points) {
+std::optional<solid::RoundHole> circle_about_axis(const Polygon& points) {
   constexpr double k_round = 1e-6;  // mm
   if (points.empty()) return std::nullopt;
   const double radius = points.front().norm();
   const bool is_round = std::all_of(points.begin(), points.end(),
                                     [radius](const Vec2& point) { return std::abs(point.norm() - radius) <= k_round; });
-  return is_round ? std::optional<RoundHole>({Vec2::Zero(), 2 * radius}) : std::nullopt;
+  return is_round ? std::optional<solid::RoundHole>({Vec2::Zero(), 2 * radius}) : std::nullopt;
 }
 
-std::vector<BulgeVertex> fitted_arcs(const Outline& outline, double distance, double tolerance) {
+std::vector<BulgeVertex> fitted_arcs(const profile::Outline& outline, double distance, double tolerance) {
   return ArcFit(outline, distance, tolerance).fit();
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -9,13 +9,13 @@
 #include "fusee/profile.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// The circle about the axis through all of these points; empty if there is none.
-std::optional<RoundHole> circle_about_axis(const Polygon& points);
+std::optional<solid::RoundHole> circle_about_axis(const Polygon& points);
 
 /// parallel(outline, distance) as arcs with common tangents: biarcs through some of its points, each as long as it
 /// stays within `tolerance` (mm) of the points between. Edges without such arcs stay straight. Closed.
-std::vector<BulgeVertex> fitted_arcs(const Outline& outline, double distance, double tolerance);
+std::vector<BulgeVertex> fitted_arcs(const profile::Outline& outline, double distance, double tolerance);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -6,7 +6,7 @@
 
 #include "export/drawings/end_points.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 /// One end of an open path.
@@ -97,4 +97,4 @@ void close_where_ends_meet(DrawingPath& path) {
 
 std::vector<DrawingPath> joined_paths(std::vector<DrawingPath> paths) { return PathJoiner(paths).join(); }
 
-}  // namespace fusee
+}  // namespace fusee::formats

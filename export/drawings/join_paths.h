@@ -6,7 +6,7 @@
 
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Closes a path whose end is within k_joined (end_points.h) of its start, and removes the last point.
 void close_where_ends_meet(DrawingPath& path);
@@ -15,4 +15,4 @@ void close_where_ends_meet(DrawingPath& path);
 /// continuation is ambiguous.
 std::vector<DrawingPath> joined_paths(std::vector<DrawingPath> paths);
 
-}  // namespace fusee
+}  // namespace fusee::formats

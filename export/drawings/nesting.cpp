@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace fusee {
+namespace fusee::formats {
 
 std::vector<NestedPlace> nest(const std::vector<Vec2>& sizes, const Vec2& sheet, double gap) {
   std::vector<std::size_t> order(sizes.size());
@@ -30,4 +30,4 @@ std::vector<NestedPlace> nest(const std::vector<Vec2>& sizes, const Vec2& sheet,
   return places;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

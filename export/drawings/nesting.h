@@ -6,7 +6,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 struct NestedPlace {
   int sheet = 0;
@@ -18,4 +18,4 @@ struct NestedPlace {
 /// between rectangles and to the edge. Returns one place for each size, in their order.
 std::vector<NestedPlace> nest(const std::vector<Vec2>& sizes, const Vec2& sheet, double gap);
 
-}  // namespace fusee
+}  // namespace fusee::formats

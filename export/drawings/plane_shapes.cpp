@@ -5,7 +5,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 Polygon rectangle(const Vec2& low, const Vec2& high) { return {low, {high.x(), low.y()}, high, {low.x(), high.y()}}; }
 
@@ -23,7 +23,9 @@ double turn_between(const Vec2& from, const Vec2& to) {
   return turn > 0 ? turn : turn + k_two_pi;
 }
 
-Contour circle_contour(const RoundHole& hole) { return {circle_polygon(hole.centre, 0.5 * hole.diameter), hole, 0}; }
+Contour circle_contour(const solid::RoundHole& hole) {
+  return {circle_polygon(hole.centre, 0.5 * hole.diameter), hole, 0};
+}
 
 std::vector<BulgeVertex> vertices_of(const Contour& contour) {
   std::vector<BulgeVertex> vertices;
@@ -48,4 +50,4 @@ Box2d bounding_box(const Polygon& points) {
   return box;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -10,7 +10,7 @@
 #include "fusee/base.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// The axis-parallel square or rectangle from `low` to `high`, counter-clockwise.
 Polygon rectangle(const Vec2& low, const Vec2& high);
@@ -21,11 +21,11 @@ Polygon circle_polygon(const Vec2& centre, double radius);
 /// A closed contour: the polygon for measurements, and its round parts for drawing.
 struct Contour {
   Polygon points;
-  std::optional<RoundHole> circle;  ///< the whole contour is this circle
-  std::size_t arc_points = 0;       ///< number of the first points that lie on one arc about the origin
+  std::optional<solid::RoundHole> circle;  ///< the whole contour is this circle
+  std::size_t arc_points = 0;              ///< number of the first points that lie on one arc about the origin
 };
 
-Contour circle_contour(const RoundHole& hole);
+Contour circle_contour(const solid::RoundHole& hole);
 /// The vertices of a contour that is no circle, with the arc as one edge with a bulge.
 std::vector<BulgeVertex> vertices_of(const Contour& contour);
 /// The angle from `from` to `to` about the origin, counter-clockwise, in (0, 2π]. rad.
@@ -39,4 +39,4 @@ struct Box2d {
 /// The smallest box around all points; both corners at the origin if there are none.
 Box2d bounding_box(const Polygon& points);
 
-}  // namespace fusee
+}  // namespace fusee::formats

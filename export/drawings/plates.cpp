@@ -7,17 +7,17 @@
 #include <numeric>
 #include <optional>
 
+#include "base/text.h"
 #include "export/drawings/cut_shapes.h"
 #include "export/drawings/nesting.h"
 #include "export/drawings/plane_shapes.h"
 #include "export/drawings/polygon_cgal.h"
 #include "export/drawings/stroke_font.h"
-#include "base/text.h"
 #include "fusee/base.h"
 #include "solid/body.h"
 #include "solid/dowels.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_least_wall = 1.0;     // least material between cuts, mm
@@ -29,10 +29,10 @@ constexpr double k_engraving_margin = 0.5;
 struct Stock {
   const Product& product;
   const Mechanism& mechanism;
-  BodyLayout layout;
+  solid::BodyLayout layout;
   Contour bore;
   std::vector<Contour> screw_holes;
-  FlangeRims rims;
+  solid::FlangeRims rims;
   Polygon floor1;
   Polygon floor2;
   double wall;
@@ -42,20 +42,22 @@ struct Stock {
         mechanism(made.joint.mechanism),
         layout(layout_to_cut(made)),
         bore(bore_contour(layout.bore)),
-        rims(flange_rims(made.synthesis.p1, made.synthesis.p2, mechanism.tendon.diameter, layout.groove_depth,
-                         mechanism.body.flange)),
-        floor1(parallel(made.synthesis.p1, -0.5 * mechanism.tendon.diameter)),
-        floor2(parallel(made.synthesis.p2, -0.5 * mechanism.tendon.diameter)),
+        rims(solid::flange_rims(made.synthesis.p1, made.synthesis.p2, mechanism.tendon.diameter, layout.groove_depth,
+                                mechanism.body.flange)),
+        floor1(profile::parallel(made.synthesis.p1, -0.5 * mechanism.tendon.diameter)),
+        floor2(profile::parallel(made.synthesis.p2, -0.5 * mechanism.tendon.diameter)),
         wall(std::max(layout.min_wall, k_least_wall)) {
     std::vector<Polygon> holes = layout.bore.screw_holes;
     // A recess goes through all plates and includes the centre hole above it.
     if (layout.bore.horn_recess > 0) holes.erase(holes.begin());
-    for (const Polygon& hole : holes) screw_holes.push_back(circle_contour(circle_within(hole)));
+    for (const Polygon& hole : holes) screw_holes.push_back(circle_contour(solid::circle_within(hole)));
   }
 
-  Contour pocket(const Anchor& anchor) const { return circle_contour({anchor.pocket, 2 * layout.pocket_radius}); }
+  Contour pocket(const solid::Anchor& anchor) const {
+    return circle_contour({anchor.pocket, 2 * layout.pocket_radius});
+  }
   /// The cuts into a plate's edge: channel and pocket in the groove's plate, or a slot to the face in its flange's.
-  std::vector<Polygon> in_edge(const Anchor& anchor) const {
+  std::vector<Polygon> in_edge(const solid::Anchor& anchor) const {
     std::vector<Polygon> parts{anchor.channel};
     if (!anchor.seat) parts.push_back(pocket(anchor).points);
     return parts;
@@ -71,7 +73,7 @@ Material2d common_material(const Stock& stock) {
   material.add_outline(stock.floor2);
   material.add_hole(stock.bore.points);
   for (const Contour& hole : stock.screw_holes) material.add_hole(hole.points);
-  for (const Anchor& anchor : stock.product.pulley.anchors) {
+  for (const solid::Anchor& anchor : stock.product.pulley.anchors) {
     if (anchor.channel.size() > 2) material.add_hole(anchor.channel);
     if (stock.layout.pocket_radius > 0 && !anchor.seat) material.add_hole(stock.pocket(anchor).points);
   }
@@ -79,8 +81,8 @@ Material2d common_material(const Stock& stock) {
 }
 
 std::optional<std::pair<Vec2, Vec2>> dowel_places(const Stock& stock, const Material2d& material, double diameter) {
-  return pin_places(circumradius(stock.floor1), diameter, stock.wall,
-                    [&](const Vec2& place) { return material.holds(place, 0.5 * diameter + stock.wall); });
+  return solid::pin_places(circumradius(stock.floor1), diameter, stock.wall,
+                           [&](const Vec2& place) { return material.holds(place, 0.5 * diameter + stock.wall); });
 }
 
 void place_dowels(Plates& plates, const Stock& stock) {
@@ -119,19 +121,19 @@ class LayerMaker {
   LayerMaker(Plates& plates, const Stock& stock) : plates_(plates), stock_(stock), kerf_(stock.mechanism.cut.kerf) {}
 
   /// `channels`: anchors that are cut into this plate's edge; `pockets`: those whose pocket is a hole in it.
-  void add(const std::string& name, int count, const Polygon& outline, const std::vector<const Anchor*>& channels,
-           const std::vector<const Anchor*>& pockets) {
+  void add(const std::string& name, int count, const Polygon& outline,
+           const std::vector<const solid::Anchor*>& channels, const std::vector<const solid::Anchor*>& pockets) {
     PlateLayer layer;
     layer.name = name;
     layer.count = count;
     layer.outer = {outline};
     layer.cut_outer = {cut_round(outline, 0.5 * kerf_)};
-    for (const Anchor* anchor : channels) cut_channel(layer, *anchor);
+    for (const solid::Anchor* anchor : channels) cut_channel(layer, *anchor);
     add_hole(layer, stock_.bore, "bore");
     for (const Contour& hole : stock_.screw_holes) add_hole(layer, hole, "screw hole");
     for (const Vec2& dowel : plates_.dowels)
       add_hole(layer, circle_contour({dowel, plates_.dowel_diameter}), "dowel hole");
-    for (const Anchor* anchor : pockets) add_hole(layer, stock_.pocket(*anchor), "knot pocket");
+    for (const solid::Anchor* anchor : pockets) add_hole(layer, stock_.pocket(*anchor), "knot pocket");
     plates_.layers.push_back(std::move(layer));
   }
 
@@ -154,7 +156,7 @@ class LayerMaker {
 
   /// Half a kerf is subtracted before channel and pocket are cut out. Parallel edges stay parallel, and their corners
   /// are the mitres.
-  void cut_channel(PlateLayer& layer, const Anchor& anchor) {
+  void cut_channel(PlateLayer& layer, const solid::Anchor& anchor) {
     std::vector<Polygon> finished;
     std::vector<Polygon> path;
     for (const Polygon& part : stock_.in_edge(anchor)) {
@@ -200,21 +202,21 @@ void add_layers(Plates& plates, const Stock& stock) {
   const double t = stock.mechanism.cut.plate;
   const int flange = plates_for(stock.layout.flange_thickness, t);
   const int core = plates_for(k_groove_room * stock.mechanism.tendon.diameter, t);
-  const auto anchors_of = [&stock](Side side, bool through_face) {
-    std::vector<const Anchor*> anchors;
+  const auto anchors_of = [&stock](transmission::Side side, bool through_face) {
+    std::vector<const solid::Anchor*> anchors;
     if (stock.layout.pocket_radius <= 0) return anchors;
-    for (const Anchor& anchor : stock.product.pulley.anchors) {
+    for (const solid::Anchor& anchor : stock.product.pulley.anchors) {
       if (anchor.side == side && anchor.seat.has_value() == through_face) anchors.push_back(&anchor);
     }
     return anchors;
   };
-  const auto left = anchors_of(Side::left, false), right = anchors_of(Side::right, false);
+  const auto left = anchors_of(transmission::Side::left, false), right = anchors_of(transmission::Side::right, false);
   LayerMaker maker(plates, stock);
-  maker.add("FLANGE 1", flange, stock.rims.lower, anchors_of(Side::left, true), left);
+  maker.add("FLANGE 1", flange, stock.rims.lower, anchors_of(transmission::Side::left, true), left);
   maker.add("P1 CORE", core, stock.floor1, left, {});
   maker.add("MIDDLE", flange, stock.rims.middle, {}, {});
   maker.add("P2 CORE", core, stock.floor2, right, {});
-  maker.add("FLANGE 2", flange, stock.rims.upper, anchors_of(Side::right, true), right);
+  maker.add("FLANGE 2", flange, stock.rims.upper, anchors_of(transmission::Side::right, true), right);
   if (stock.layout.hub_radius > 0) {
     maker.add("HUB", plates_for(stock.layout.z_hub - stock.layout.z_top, t),
               circle_polygon({0, 0}, hub_radius(stock, plates)), {}, {});
@@ -302,7 +304,7 @@ void describe_stack(Plates& plates, const Stock& stock) {
   lines.push_back(fmt::format("the grooves are {} mm wide for a tendon of {} mm", rounded(room), rounded(d)));
   if (stock.layout.set_screw.present) lines.push_back("the plates have no set screw: drill it across the hub");
   if (std::any_of(stock.product.pulley.anchors.begin(), stock.product.pulley.anchors.end(),
-                  [](const Anchor& anchor) { return anchor.tail.has_value(); }))
+                  [](const solid::Anchor& anchor) { return anchor.tail.has_value(); }))
     lines.push_back("the plates have no slots for the tendons' tails: glue the tails down");
   if (stock.layout.bore.horn_recess > 0)
     lines.push_back(fmt::format("the horn's recess goes through all plates; it would be {} mm deep",
@@ -391,4 +393,4 @@ Plates make_plates(const Product& product) {
   return plates;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

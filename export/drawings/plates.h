@@ -10,7 +10,7 @@
 #include "fusee/base.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// The engraved label, depending on the space: "3/8 P1 CORE", "3/8", "3".
 enum class LabelKind { name, count, number };
@@ -56,4 +56,4 @@ Plates make_plates(const Product& product);
 /// The label engraved on a plate.
 std::string plate_label(const Plates& plates, const PlacedPlate& plate);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -3,14 +3,14 @@
 /// a plate that is cut free may move.
 #include <algorithm>
 
+#include "base/text.h"
 #include "export/drawings/dxf_writer.h"
 #include "export/drawings/plane_shapes.h"
 #include "export/drawings/plates.h"
 #include "export/drawings/stroke_font.h"
-#include "base/text.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_text_height = 3;
@@ -77,4 +77,4 @@ std::string plates_dxf(const Product& product, DxfVersion version) {
   return dxf_text(drawing, version);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

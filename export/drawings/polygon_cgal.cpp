@@ -12,7 +12,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
@@ -68,4 +68,4 @@ std::vector<Polygon> difference(const Polygon& plate, const std::vector<Polygon>
   return loops;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

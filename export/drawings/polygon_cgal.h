@@ -6,7 +6,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// +1 if a, b, c turn left, −1 if right, 0 if they are exactly collinear.
 int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
@@ -18,4 +18,4 @@ bool is_simple(const Polygon& polygon);
 /// largest first.
 std::vector<Polygon> difference(const Polygon& plate, const std::vector<Polygon>& cutters);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -6,16 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "export/drawings/cut_shapes.h"
 #include "export/drawings/dxf_writer.h"
 #include "export/drawings/fitted_arcs.h"
 #include "export/drawings/plane_shapes.h"
-#include "base/text.h"
 #include "fusee/base.h"
 #include "fusee/export.h"
 #include "solid/bore.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_label_height = 2.5;
@@ -38,21 +38,23 @@ std::vector<DxfLayer> layers() {
 }
 
 /// A circle if the pulley is round, otherwise arcs.
-void add_curve(DxfDocument& drawing, const char* layer, const Outline& outline, double distance) {
-  if (const auto circle = circle_about_axis(parallel(outline, distance))) {
+void add_curve(DxfDocument& drawing, const char* layer, const profile::Outline& outline, double distance) {
+  if (const auto circle = circle_about_axis(profile::parallel(outline, distance))) {
     drawing.closed(layer, circle_contour(*circle));
   } else {
     drawing.closed_arcs(layer, fitted_arcs(outline, distance, k_arc_tolerance));
   }
 }
 
-void add_contours(DxfDocument& drawing, const SynthesisResult& synthesis, double d, const BodyLayout& layout) {
+void add_contours(DxfDocument& drawing, const profile::SynthesisResult& synthesis, double d,
+                  const solid::BodyLayout& layout) {
   add_curve(drawing, "P1_PITCH", synthesis.p1, 0);
   add_curve(drawing, "P1_FLOOR", synthesis.p1, -0.5 * d);
   add_curve(drawing, "P2_PITCH", synthesis.p2, 0);
   add_curve(drawing, "P2_FLOOR", synthesis.p2, -0.5 * d);
   drawing.closed("BORE", bore_contour(layout.bore));
-  for (const Polygon& hole : layout.bore.screw_holes) drawing.closed("BORE", circle_contour(circle_within(hole)));
+  for (const Polygon& hole : layout.bore.screw_holes)
+    drawing.closed("BORE", circle_contour(solid::circle_within(hole)));
 }
 
 void add_axis_and_home(DxfDocument& drawing, double bore_radius, double radius) {
@@ -74,11 +76,11 @@ double positive(double angle) {
 }
 
 /// The point of the outline whose outward normal points in direction `psi`.
-Vec2 contact(const Outline& outline, double psi) {
+Vec2 contact(const profile::Outline& outline, double psi) {
   const std::size_t n = outline.points.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const OutlinePoint& a = outline.points[i];
-    const OutlinePoint& b = outline.points[(i + 1) % n];
+    const profile::OutlinePoint& a = outline.points[i];
+    const profile::OutlinePoint& b = outline.points[(i + 1) % n];
     const double step = positive(b.psi - a.psi);
     const double part = positive(psi - a.psi);
     if (part < step) return a.position + part / step * (b.position - a.position);
@@ -98,12 +100,12 @@ void add_take_off(DxfDocument& drawing, const Vec2& place, double normal, const 
 
 /// Ticks over the grooves at both ends of the active arcs. If both pulleys are alike, ticks of P1 and P2 may coincide,
 /// and the line is drawn once.
-void add_active_ends(DxfDocument& drawing, const SynthesisResult& synthesis, double d, double depth) {
+void add_active_ends(DxfDocument& drawing, const profile::SynthesisResult& synthesis, double d, double depth) {
   constexpr double k_same = 1e-6;
   std::vector<Vec2> drawn;  // start points of drawn ticks
-  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+  for (const profile::Outline* outline : {&synthesis.p1, &synthesis.p2}) {
     for (const std::size_t i : {outline->active_first, outline->active_last}) {
-      const OutlinePoint& point = outline->points[i];
+      const profile::OutlinePoint& point = outline->points[i];
       const Vec2 from = point.position - 0.5 * d * point.normal;
       const auto is_there = [&from](const Vec2& other) { return (other - from).norm() < k_same; };
       if (std::any_of(drawn.begin(), drawn.end(), is_there)) continue;
@@ -113,10 +115,10 @@ void add_active_ends(DxfDocument& drawing, const SynthesisResult& synthesis, dou
   }
 }
 
-void add_anchors(DxfDocument& drawing, const std::vector<Anchor>& anchors, const BodyLayout& layout) {
-  for (const Anchor& anchor : anchors) {
+void add_anchors(DxfDocument& drawing, const std::vector<solid::Anchor>& anchors, const solid::BodyLayout& layout) {
+  for (const solid::Anchor& anchor : anchors) {
     if (anchor.channel.size() > 2) drawing.closed("MARK_ANCHOR", anchor.channel);
-    const double radius = pocket_radius(anchor, layout);
+    const double radius = solid::pocket_radius(anchor, layout);
     if (radius > 0) drawing.closed("MARK_ANCHOR", circle_contour({anchor.pocket, 2 * radius}));
   }
 }
@@ -142,20 +144,20 @@ std::vector<DxfLayer> spiral_layers() {
   return all;
 }
 
-std::vector<Vec3> climbing(const Spiral& spiral, const SpiralPlace& place, std::size_t first, std::size_t last,
-                           double outward) {
+std::vector<Vec3> climbing(const helix::Spiral& spiral, const coil::SpiralPlace& place, std::size_t first,
+                           std::size_t last, double outward) {
   std::vector<Vec3> points;
   for (std::size_t i = first; i <= last; ++i) {
-    const SpiralRow& row = spiral.rows[i];
+    const helix::SpiralRow& row = spiral.rows[i];
     const Vec2 plan = Vec2(row.x, row.y) + outward * unit(row.turn);
     points.emplace_back(plan.x(), plan.y(), place.height(row.z));
   }
   return points;
 }
 
-void add_spiral(DxfDocument& drawing, const std::string& pulley, const HelixSide& side, const SpiralPlace& place,
-                double half) {
-  const Spiral& spiral = side.spiral;
+void add_spiral(DxfDocument& drawing, const std::string& pulley, const helix::HelixSide& side,
+                const coil::SpiralPlace& place, double half) {
+  const helix::Spiral& spiral = side.spiral;
   const std::size_t last = spiral.rows.size() - 1;
   const auto curve = [&](const char* layer, std::size_t from, std::size_t to, double outward) {
     if (from < to) drawing.in_space(pulley + layer, climbing(spiral, place, from, to, outward));
@@ -167,25 +169,25 @@ void add_spiral(DxfDocument& drawing, const std::string& pulley, const HelixSide
 }
 
 /// The row of the take-off at home.
-const SpiralRow& home_row(const HelixSide& side, std::size_t home) {
+const helix::SpiralRow& home_row(const helix::HelixSide& side, std::size_t home) {
   const double z = side.stroke[home].z;
   return *std::min_element(
       side.spiral.rows.begin(), side.spiral.rows.end(),
-      [z](const SpiralRow& a, const SpiralRow& b) { return std::abs(a.z - z) < std::abs(b.z - z); });
+      [z](const helix::SpiralRow& a, const helix::SpiralRow& b) { return std::abs(a.z - z) < std::abs(b.z - z); });
 }
 
-double reach_of(const Spiral& spiral) {
+double reach_of(const helix::Spiral& spiral) {
   double reach = 0;
-  for (const SpiralRow& row : spiral.rows) reach = std::max(reach, std::hypot(row.x, row.y));
+  for (const helix::SpiralRow& row : spiral.rows) reach = std::max(reach, std::hypot(row.x, row.y));
   return reach;
 }
 
 void add_home_take_offs(DxfDocument& drawing, const Product& product) {
-  const TransmissionPoint* home = product.synthesis.home();
+  const transmission::TransmissionPoint* home = product.synthesis.home();
   if (home == nullptr) return;
   const auto index = static_cast<std::size_t>(home - product.synthesis.stroke.data());
   for (const std::size_t i : {0, 1}) {
-    const SpiralRow& row = home_row(product.helix->synthesis.sides.at(i), index);
+    const helix::SpiralRow& row = home_row(product.helix->synthesis.sides.at(i), index);
     add_take_off(drawing, {row.x, row.y}, row.turn, i == 0 ? "1" : "2");
   }
 }
@@ -196,7 +198,7 @@ std::string spirals_dxf(const Product& product, DxfVersion version) {
   const HelixProduct& helix = *product.helix;
   const double half = 0.5 * mechanism.tendon.diameter;
   const auto& sides = helix.synthesis.sides;
-  const BoreLayout bore = bore_of_shaft(mechanism, product.pulley.layout.bore);
+  const solid::BoreLayout bore = solid::bore_of_shaft(mechanism, product.pulley.layout.bore);
   const std::vector<std::string> legend = {mechanism.name + ": axis at 0, 0 - home is +y, towards the joint - mm, 1:1",
                                            "z: height above the part's lower face; P1 " + rounded(sides[0].turns, 3) +
                                                " turns, lead " + rounded(sides[0].lead, 3) + "; P2 " +
@@ -210,12 +212,12 @@ std::string spirals_dxf(const Product& product, DxfVersion version) {
   add_spiral(drawing, "P1", sides[0], helix.pulley.p1, half);
   add_spiral(drawing, "P2", sides[1], helix.pulley.p2, half);
   drawing.closed("BORE", bore_contour(bore));
-  for (const Polygon& hole : bore.screw_holes) drawing.closed("BORE", circle_contour(circle_within(hole)));
+  for (const Polygon& hole : bore.screw_holes) drawing.closed("BORE", circle_contour(solid::circle_within(hole)));
   add_axis_and_home(
       drawing, bore.radius,
       std::max(reach_of(sides[0].spiral), reach_of(sides[1].spiral)) + product.pulley.layout.groove_depth);
   add_home_take_offs(drawing, product);
-  for (const HelicalAnchor& anchor : helix.pulley.anchors)
+  for (const coil::HelicalAnchor& anchor : helix.pulley.anchors)
     drawing.closed("MARK_ANCHOR", circle_contour({anchor.pocket.head<2>(), 2 * anchor.pocket_radius}));
   add_legend(drawing, legend);
   return dxf_text(drawing, version);
@@ -226,8 +228,8 @@ std::string spirals_dxf(const Product& product, DxfVersion version) {
 std::string profile_dxf(const Product& product, DxfVersion version) {
   if (product.helix) return spirals_dxf(product, version);
   const Mechanism& mechanism = product.joint.mechanism;
-  const SynthesisResult& synthesis = product.synthesis;
-  const BodyLayout layout = layout_to_cut(product);
+  const profile::SynthesisResult& synthesis = product.synthesis;
+  const solid::BodyLayout layout = layout_to_cut(product);
   const double d = mechanism.tendon.diameter;
   const std::vector<std::string> legend = {mechanism.name + ": axis at 0, 0 - home is +y, towards the joint - mm, 1:1",
                                            "floor = pitch curve - " + rounded(0.5 * d) + " mm (half of the tendon)",
@@ -238,8 +240,9 @@ std::string profile_dxf(const Product& product, DxfVersion version) {
   add_contours(drawing, synthesis, d, layout);
   add_axis_and_home(
       drawing, layout.bore.radius,
-      std::max(circumradius(parallel(synthesis.p1, 0)), circumradius(parallel(synthesis.p2, 0))) + layout.groove_depth);
-  if (const TransmissionPoint* home = synthesis.home()) {
+      std::max(circumradius(profile::parallel(synthesis.p1, 0)), circumradius(profile::parallel(synthesis.p2, 0))) +
+          layout.groove_depth);
+  if (const transmission::TransmissionPoint* home = synthesis.home()) {
     add_take_off(drawing, contact(synthesis.p1, home->t1.lower_normal), home->t1.lower_normal, "1");
     add_take_off(drawing, contact(synthesis.p2, home->t2.lower_normal), home->t2.lower_normal, "2");
   }
@@ -249,4 +252,4 @@ std::string profile_dxf(const Product& product, DxfVersion version) {
   return dxf_text(drawing, version);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -14,7 +14,7 @@
 #include "export/drawings/join_paths.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 void refuse_other_formats(std::string_view bytes, const std::string& file) {
@@ -36,4 +36,4 @@ Drawing read_dxf(std::string_view bytes, const std::string& file_name) {
   return drawing;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

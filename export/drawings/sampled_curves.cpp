@@ -5,7 +5,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr int k_most_steps = 20'000;  // per arc
@@ -164,4 +164,4 @@ SampledCurve sampled_spline(const BSpline& spline, double sagitta, std::size_t m
   return curve;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -9,7 +9,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 struct SampledCurve {
   Polygon points;
@@ -55,4 +55,4 @@ struct BSpline {
 /// Stops early with more than `most_points` points.
 SampledCurve sampled_spline(const BSpline& spline, double sagitta, std::size_t most_points);
 
-}  // namespace fusee
+}  // namespace fusee::formats

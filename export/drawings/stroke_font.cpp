@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // A glyph on a grid 4 wide and 6 high: each pair of digits is a point (x, y), a space lifts the pen.
@@ -101,4 +101,4 @@ double stroke_text_width(std::string_view text, double height) {
   return height / k_glyph_height * (k_advance * static_cast<double>(text.size() - 1) + k_glyph_width);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

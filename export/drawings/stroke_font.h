@@ -7,7 +7,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Strokes of one line of text with its lower left corner at `origin` and capitals of height `height`. Lower case is
 /// drawn as capitals. A character without a glyph leaves a space.
@@ -15,4 +15,4 @@ std::vector<Polygon> stroke_text(std::string_view text, const Vec2& origin, doub
 /// Width of that line.
 double stroke_text_width(std::string_view text, double height);
 
-}  // namespace fusee
+}  // namespace fusee::formats

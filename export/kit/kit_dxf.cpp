@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "export/drawings/cut_shapes.h"
 #include "export/drawings/dxf_writer.h"
 #include "export/drawings/nesting.h"
 #include "export/drawings/plates.h"
 #include "export/drawings/stroke_font.h"
-#include "base/text.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_sheet_margin = 4;
@@ -24,16 +24,17 @@ constexpr double k_least_cut = 1.0;         // narrowest feature that a laser cu
 struct KitPlate {
   std::string label;
   int count = 1;
-  DiscHull rim;
-  std::vector<DiscHull> holes;
-  std::vector<DiscHull> lines;  ///< engraved
+  kit::DiscHull rim;
+  std::vector<kit::DiscHull> holes;
+  std::vector<kit::DiscHull> lines;  ///< engraved
   double height = 0;
 };
 
-bool is_same(const DiscHull& a, const DiscHull& b) { return outline_of(a) == outline_of(b); }
+bool is_same(const kit::DiscHull& a, const kit::DiscHull& b) { return kit::outline_of(a) == kit::outline_of(b); }
 
-bool has_hole(const KitPlate& plate, const DiscHull& hull) {
-  return std::any_of(plate.holes.begin(), plate.holes.end(), [&](const DiscHull& hole) { return is_same(hole, hull); });
+bool has_hole(const KitPlate& plate, const kit::DiscHull& hull) {
+  return std::any_of(plate.holes.begin(), plate.holes.end(),
+                     [&](const kit::DiscHull& hole) { return is_same(hole, hull); });
 }
 
 std::string capitals(std::string name) {
@@ -42,11 +43,11 @@ std::string capitals(std::string name) {
 }
 
 /// Adds the slabs of a part that consist of one piece each, bottom to top.
-void add_plates(std::vector<KitPlate>& plates, const KitPart& part, double thickness) {
+void add_plates(std::vector<KitPlate>& plates, const kit::KitPart& part, double thickness) {
   const std::size_t first = plates.size();
-  for (const Slab& slab : part.body.slabs) {
-    std::vector<const SlabLoop*> rims;
-    for (const SlabLoop& loop : slab.loops) {
+  for (const kit::Slab& slab : part.body.slabs) {
+    std::vector<const kit::SlabLoop*> rims;
+    for (const kit::SlabLoop& loop : slab.loops) {
       if (!loop.hole) rims.push_back(&loop);
     }
     if (rims.size() != 1) break;  // the tensioner's guide on the link is printed
@@ -55,7 +56,7 @@ void add_plates(std::vector<KitPlate>& plates, const KitPart& part, double thick
     plate.rim = rims.front()->hull;
     plate.height = slab.high - slab.low;
     const bool engraved = plates.size() > first && plate.height < k_engraving_depth;
-    for (const SlabLoop& loop : slab.loops) {
+    for (const kit::SlabLoop& loop : slab.loops) {
       if (!loop.hole) continue;
       if (!engraved)
         plate.holes.push_back(loop.hull);
@@ -74,25 +75,25 @@ void add_plates(std::vector<KitPlate>& plates, const KitPart& part, double thick
   }
 }
 
-Contour contour_of(const DiscHull& hull, double grow) {
+Contour contour_of(const kit::DiscHull& hull, double grow) {
   if (hull.discs.size() == 1)
     return circle_contour({hull.discs.front().centre, 2 * (hull.discs.front().radius + grow)});
-  return {outline_of(hull, grow), {}, 0};
+  return {kit::outline_of(hull, grow), {}, 0};
 }
 
-double thinnest(const DiscHull& hull) {
-  const Box2d bounding = bounding_box(outline_of(hull));
+double thinnest(const kit::DiscHull& hull) {
+  const Box2d bounding = bounding_box(kit::outline_of(hull));
   return bounding.size().minCoeff();
 }
 
 /// A place for the plate's name, searched from its lower left upwards.
 std::optional<Vec2> label_corner(const KitPlate& plate) {
   Material2d material;
-  material.add_outline(outline_of(plate.rim));
-  for (const DiscHull& hole : plate.holes) material.add_hole(outline_of(hole));
-  for (const DiscHull& line : plate.lines) material.add_hole(outline_of(line));
+  material.add_outline(kit::outline_of(plate.rim));
+  for (const kit::DiscHull& hole : plate.holes) material.add_hole(kit::outline_of(hole));
+  for (const kit::DiscHull& line : plate.lines) material.add_hole(kit::outline_of(line));
   const Vec2 size(stroke_text_width(plate.label, k_note_height), k_note_height);
-  const Box2d all = bounding_box(outline_of(plate.rim));
+  const Box2d all = bounding_box(kit::outline_of(plate.rim));
   for (double y = all.low.y() + 1; y + size.y() < all.high.y(); y += 2) {
     for (double x = all.low.x() + 1; x + size.x() < all.high.x(); x += 2) {
       if (material.holds_box({x, y}, size, 1.0)) return Vec2(x, y);
@@ -114,7 +115,7 @@ class KitSheets {
     for (const KitPlate& plate : plates) {
       for (int i = 0; i < plate.count; ++i) {
         placed_.push_back({&plate, {0, 0}});
-        boxes.push_back(bounding_box(outline_of(plate.rim, 0.5 * cut.kerf)));
+        boxes.push_back(bounding_box(kit::outline_of(plate.rim, 0.5 * cut.kerf)));
         sizes.push_back(boxes.back().size());
         sheet_ = sheet_.cwiseMax(sizes.back() + Vec2(2 * k_sheet_margin, 2 * k_sheet_margin));
       }
@@ -153,7 +154,7 @@ std::vector<std::string> remarks_of(const KitProduct& product, const std::vector
           " mm) outside, holes half a kerf inside; the square is 10 mm wide",
       "sheets of " + rounded(mechanism.cut.plate) + " mm; plates of one name are glued one upon another"};
   for (const KitPlate& plate : plates) {
-    for (const DiscHull& hole : plate.holes) {
+    for (const kit::DiscHull& hole : plate.holes) {
       if (thinnest(hole) - mechanism.cut.kerf < k_least_cut)
         remarks.push_back(plate.label + ": a hole of " + rounded(thinnest(hole), 3) + " mm is omitted: drill it");
     }
@@ -166,7 +167,7 @@ std::vector<std::string> remarks_of(const KitProduct& product, const std::vector
 std::string kit_dxf(const KitProduct& product, DxfVersion version) {
   const Cut& cut = product.pulley.joint.mechanism.cut;
   std::vector<KitPlate> plates;
-  for (const KitPart& part : product.plan.parts) {
+  for (const kit::KitPart& part : product.plan.parts) {
     if (part.plate) add_plates(plates, part, cut.plate);
   }
   const KitSheets sheets(plates, cut);
@@ -175,18 +176,18 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version) {
                     {"SHEET", 8, false}, {"NOTES", 8, false}, {"CHECK_10MM", 9, false}};
   drawing.remarks = remarks_of(product, plates);
   for (const auto& [plate, shift] : sheets.placed()) {
-    for (const DiscHull& line : plate->lines)
+    for (const kit::DiscHull& line : plate->lines)
       drawing.open("ENGRAVE", {line.discs.front().centre + shift, line.discs.back().centre + shift});
     if (const auto corner = label_corner(*plate)) drawing.text("ENGRAVE", plate->label, *corner + shift, k_note_height);
   }
   for (const auto& [plate, shift] : sheets.placed()) {
-    for (const DiscHull& hole : plate->holes) {
+    for (const kit::DiscHull& hole : plate->holes) {
       if (thinnest(hole) - cut.kerf >= k_least_cut)
         drawing.closed("CUT_INNER", contour_of(hole, -0.5 * cut.kerf), shift);
     }
   }
   for (const auto& [plate, shift] : sheets.placed())
-    drawing.closed("CUT_OUTER", moved(outline_of(plate->rim, 0.5 * cut.kerf), shift));
+    drawing.closed("CUT_OUTER", moved(kit::outline_of(plate->rim, 0.5 * cut.kerf), shift));
   sheets.draw(drawing);
   drawing.closed("CHECK_10MM", rectangle({0, -15}, {10, -5}));
   double y = -5 - k_note_height;
@@ -197,4 +198,4 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version) {
   return dxf_text(drawing, version);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -3,41 +3,42 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/text.h"
 #include "export/kit/kit_pictures.h"
 #include "export/kit/kit_style.h"
 #include "export/report/html.h"
 #include "export/report/report_parts.h"
 #include "export/report/tables.h"
 #include "export/report/tendon_lengths.h"
-#include "base/text.h"
 #include "fusee/base.h"
 #include "fusee/export.h"
 #include "mechanism/catalogue.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 std::string mm(double value, int decimals = 1) { return readable(value, decimals) + "\u00a0mm"; }
 
-const KitPart* part_named(const KitPlan& plan, const std::string& name) {
+const kit::KitPart* part_named(const kit::KitPlan& plan, const std::string& name) {
   const auto found =
-      std::find_if(plan.parts.begin(), plan.parts.end(), [&](const KitPart& part) { return part.name == name; });
+      std::find_if(plan.parts.begin(), plan.parts.end(), [&](const kit::KitPart& part) { return part.name == name; });
   return found == plan.parts.end() ? nullptr : &*found;
 }
 
 /// The side of the pulley where a tendon leaves it, and its winding direction.
-std::string winding_words(Side side) {
-  return side == Side::left ? "P1, the lower groove. Seen from above it leaves the pulley on its left, and is wound "
-                              "counter-clockwise from "
-                              "there round the lower side"
-                            : "P2, the upper groove. Seen from above it leaves the pulley on its right, and is wound "
-                              "clockwise from there "
-                              "round the lower side";
+std::string winding_words(transmission::Side side) {
+  return side == transmission::Side::left
+             ? "P1, the lower groove. Seen from above it leaves the pulley on its left, and is wound "
+               "counter-clockwise from "
+               "there round the lower side"
+             : "P2, the upper groove. Seen from above it leaves the pulley on its right, and is wound "
+               "clockwise from there "
+               "round the lower side";
 }
 
 std::vector<KitStep> steps_of(const KitProduct& product) {
-  const KitPlan& plan = product.plan;
-  const KitSizes& sizes = plan.sizes;
+  const kit::KitPlan& plan = product.plan;
+  const kit::KitSizes& sizes = plan.sizes;
   std::vector<KitStep> steps;
   KitStep base;
   base.title = "Base, legs and motor";
@@ -56,13 +57,14 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   pins.title = "Axle, pins and feet";
   pins.parts = {"axle_spacer", "foot_spacer"};
   pins.rods = true;
-  for (const KitPin& pin : plan.pins) {
-    const std::string letter = pin.side == Side::left ? "b" : "d", name = pin.side == Side::left ? "B" : "D";
+  for (const kit::KitPin& pin : plan.pins) {
+    const std::string letter = pin.side == transmission::Side::left ? "b" : "d",
+                      name = pin.side == transmission::Side::left ? "B" : "D";
     for (const char* which : {"spacer", "sleeve", "collar"}) {
       if (part_named(plan, "pin_" + letter + "_" + which)) pins.parts.push_back("pin_" + letter + "_" + which);
     }
     pins.words.push_back(
-        "Pin " + name + (pin.side == Side::left ? " (left): " : " (right): ") +
+        "Pin " + name + (pin.side == transmission::Side::left ? " (left): " : " (right): ") +
         (pin.screw
              ? "the " + std::string(pin.screw->name) + " screw from below, then spacer, sleeve and collar, and the nut."
              : "press the rod in from above, flush below; glue the spacer to the plate, and the collar " +
@@ -136,7 +138,7 @@ std::string pictures(const KitProduct& product) {
 std::string tendon_section(const KitProduct& product) {
   std::string rows;
   for (const KitCut& cut : kit_cuts(product)) {
-    const bool left = cut.side == Side::left;
+    const bool left = cut.side == transmission::Side::left;
     const auto tendon = tendon_lengths(product.pulley);
     const auto own =
         std::find_if(tendon.begin(), tendon.end(), [&](const TendonLength& one) { return one.side == cut.side; });
@@ -165,8 +167,8 @@ std::string tendon_section(const KitProduct& product) {
 
 std::string parts_section(const KitProduct& product) {
   std::string rows;
-  for (const KitPart& part : product.plan.parts) {
-    const Bounds box_of = bounds(mesh_of(part.body));
+  for (const kit::KitPart& part : product.plan.parts) {
+    const solid::Bounds box_of = solid::bounds(kit::mesh_of(part.body));
     const Vec3 size = box_of.high - box_of.low;
     rows += "<tr>" + html_number_cell(std::to_string(part.count)) + html_cell(part.words) +
             html_number_cell(readable(size.x(), 1) + " × " + readable(size.y(), 1) + " × " + readable(size.z(), 1) +
@@ -182,7 +184,7 @@ std::string parts_section(const KitProduct& product) {
 
 std::string items_section(const KitProduct& product) {
   std::string rows;
-  for (const KitItem& item : product.plan.items)
+  for (const kit::KitItem& item : product.plan.items)
     rows +=
         "<tr>" + html_number_cell(std::to_string(item.count)) + html_cell(item.what) + html_cell(item.use) + "</tr>";
   const Mechanism& mechanism = product.pulley.joint.mechanism;
@@ -193,7 +195,7 @@ std::string items_section(const KitProduct& product) {
 
 std::string coupon_section(const Mechanism& mechanism) {
   std::string rows;
-  for (const CouponReading& reading : coupon_readings(mechanism))
+  for (const kit::CouponReading& reading : kit::coupon_readings(mechanism))
     rows += "<tr>" + html_cell(reading.what) + html_cell(reading.read) + html_cell(reading.key) + "</tr>";
   return html_section("coupon", "First: the fit coupon",
                       "<p class=\"lead\">Print fit_coupon.stl on its own. Its columns are numbered 0 to 4; write what "
@@ -204,7 +206,7 @@ std::string coupon_section(const Mechanism& mechanism) {
 
 std::string fit_section(const KitProduct& product) {
   std::string rows;
-  for (const Condition& condition : product.plan.conditions) {
+  for (const profile::Condition& condition : product.plan.conditions) {
     const bool counts = condition.unit != "mm";
     rows += "<tr>" + html_cell(plain_name(condition.name)) +
             html_number_cell(counts ? readable(condition.value, 0) : mm(condition.value, 2)) +
@@ -219,7 +221,7 @@ std::string fit_section(const KitProduct& product) {
 }
 
 std::string key_section(const KitProduct& product) {
-  const KitSizes& sizes = product.plan.sizes;
+  const kit::KitSizes& sizes = product.plan.sizes;
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   KeyNumbers numbers;
   numbers.add("Link R = OC", mm(mechanism.joint.R));
@@ -264,9 +266,9 @@ std::vector<std::string> template_words(const KitProduct& product) {
 
 /// For helical tendons.
 std::string heights_section(const KitProduct& product) {
-  const TendonHeights& heights = *product.plan.heights;
+  const kit::TendonHeights& heights = *product.plan.heights;
   const bool drum = product.pulley.joint.mechanism.joint.drum_radius > 0;
-  const auto between = [](const TendonHeights::Span& span) {
+  const auto between = [](const kit::TendonHeights::Span& span) {
     return span.high - span.low < 0.05 ? mm(span.low) : readable(span.low, 1) + " … " + mm(span.high);
   };
   std::string rows;
@@ -290,7 +292,7 @@ std::string template_sections(const KitProduct& product) {
   for (const KitCut& cut : kit_cuts(product)) {
     const auto own =
         std::find_if(lengths.begin(), lengths.end(), [&](const TendonLength& one) { return one.side == cut.side; });
-    cuts += "<tr>" + html_cell(cut.side == Side::left ? "Tendon 1" : "Tendon 2") +
+    cuts += "<tr>" + html_cell(cut.side == transmission::Side::left ? "Tendon 1" : "Tendon 2") +
             html_number_cell(mm(cut.between_knots)) + html_number_cell(mm(cut.cut, 0)) +
             (climbs ? html_number_cell(readable(own->lap_at_home / k_two_pi, 2)) : std::string()) +
             html_cell(winding_words(cut.side)) + "</tr>";
@@ -298,7 +300,7 @@ std::string template_sections(const KitProduct& product) {
   std::vector<std::string> heads{"", "# taut, at home", "# cut at"};
   if (climbs) heads.emplace_back("# turns on the pulley at home");
   heads.emplace_back("which way it is wound");
-  for (const Condition& condition : product.plan.conditions)
+  for (const profile::Condition& condition : product.plan.conditions)
     rows += "<tr>" + html_cell(plain_name(condition.name)) + html_number_cell(mm(condition.value, 2)) +
             html_number_cell(mm(condition.limit, 2)) + "</tr>";
   return html_section("assembly", "Layout",
@@ -337,4 +339,4 @@ std::string kit_html(const KitProduct& product) {
   return html_page(page);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "export/report/tendon_trace.h"
 #include "base/text.h"
+#include "export/report/tendon_trace.h"
 #include "fusee/base.h"
 #include "mechanism/catalogue.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_picture_width = 520, k_picture_height = 420;
@@ -68,25 +68,26 @@ class Paper {
   Vec2 low_{1e9, 1e9}, high_{-1e9, -1e9};
 };
 
-Polygon at_place(Polygon outline, const KitPlace& place) {
+Polygon at_place(Polygon outline, const kit::KitPlace& place) {
   for (Vec2& p : outline) p = Vec2(place.turned_over ? -p.x() : p.x(), p.y()) + place.shift;
   return outline;
 }
 
-void add_part(std::vector<DrawnSlab>& drawn, const KitPart& part, const std::string& kind) {
-  for (const KitPlace& place : part.places) {
-    for (const Slab& slab : part.body.slabs) {
+void add_part(std::vector<DrawnSlab>& drawn, const kit::KitPart& part, const std::string& kind) {
+  for (const kit::KitPlace& place : part.places) {
+    for (const kit::Slab& slab : part.body.slabs) {
       std::vector<Polygon> holes;
-      for (const SlabLoop& loop : slab.loops) {
+      for (const kit::SlabLoop& loop : slab.loops) {
         if (loop.hole)
-          holes.push_back(at_place(outline_of(loop.hull, place.turned_over ? loop.grow_low : loop.grow_high), place));
+          holes.push_back(
+              at_place(kit::outline_of(loop.hull, place.turned_over ? loop.grow_low : loop.grow_high), place));
       }
       bool first = true;
-      for (const SlabLoop& loop : slab.loops) {
+      for (const kit::SlabLoop& loop : slab.loops) {
         if (loop.hole) continue;
         DrawnSlab one;
-        one.below = at_place(outline_of(loop.hull, loop.grow_low), place);
-        one.above = at_place(outline_of(loop.hull, loop.grow_high), place);
+        one.below = at_place(kit::outline_of(loop.hull, loop.grow_low), place);
+        one.above = at_place(kit::outline_of(loop.hull, loop.grow_high), place);
         one.low = place.z + (place.turned_over ? -slab.high : slab.low);
         one.high = place.z + (place.turned_over ? -slab.low : slab.high);
         if (place.turned_over) std::swap(one.below, one.above);
@@ -99,42 +100,45 @@ void add_part(std::vector<DrawnSlab>& drawn, const KitPart& part, const std::str
   }
 }
 
-void add_upright(std::vector<DrawnSlab>& drawn, const DiscHull& hull, double low, double high,
+void add_upright(std::vector<DrawnSlab>& drawn, const kit::DiscHull& hull, double low, double high,
                  const std::string& kind) {
-  const Polygon outline = outline_of(hull);
+  const Polygon outline = kit::outline_of(hull);
   drawn.push_back({outline, outline, low, high, {}, kind});
 }
 
 void add_motor(std::vector<DrawnSlab>& drawn, const KitProduct& product, const std::string& kind) {
-  const KitSizes& sizes = product.plan.sizes;
+  const kit::KitSizes& sizes = product.plan.sizes;
   if (!sizes.motor) return;
   const MotorType& motor = *sizes.motor;
   const Vec2 axis = pulley_axis(product.pulley.joint.mechanism), front = sizes.motor_front;
   const Vec2 a = axis + motor.front * front, b = axis - motor.back * front;
   const Vec2 side(motor.side, 0);
-  add_upright(drawn, box(a.cwiseMin(b) - side, a.cwiseMax(b) + side, 1), -sizes.base - motor.depth, -sizes.base, kind);
+  add_upright(drawn, kit::box(a.cwiseMin(b) - side, a.cwiseMax(b) + side, 1), -sizes.base - motor.depth, -sizes.base,
+              kind);
   const double shaft = motor.shaft > 0 ? 0.5 * motor.shaft : 3;
-  add_upright(drawn, disc(axis, shaft), -sizes.base,
+  add_upright(drawn, kit::disc(axis, shaft), -sizes.base,
               motor.shaft > 0 ? motor.shaft_length - sizes.base : sizes.pulley_low, kind);
 }
 
-void add_rods(std::vector<DrawnSlab>& drawn, const KitPlan& plan, const std::string& kind) {
-  const KitSizes& sizes = plan.sizes;
-  for (const KitPin& pin : plan.pins)
-    add_upright(drawn, disc(pin.place, pin.screw ? 0.5 * pin.screw->diameter : pin.radius), -sizes.base, pin.top, kind);
-  for (const Vec2& foot : plan.feet)
-    add_upright(drawn, disc(foot, 0.5 * sizes.foot->diameter), -sizes.base - 3, sizes.bracket_low + sizes.bracket + 4,
+void add_rods(std::vector<DrawnSlab>& drawn, const kit::KitPlan& plan, const std::string& kind) {
+  const kit::KitSizes& sizes = plan.sizes;
+  for (const kit::KitPin& pin : plan.pins)
+    add_upright(drawn, kit::disc(pin.place, pin.screw ? 0.5 * pin.screw->diameter : pin.radius), -sizes.base, pin.top,
                 kind);
-  add_upright(drawn, disc({0, 0}, 0.5 * sizes.axle->diameter), -sizes.base - 2, sizes.link_low + sizes.link + 2, kind);
+  for (const Vec2& foot : plan.feet)
+    add_upright(drawn, kit::disc(foot, 0.5 * sizes.foot->diameter), -sizes.base - 3,
+                sizes.bracket_low + sizes.bracket + 4, kind);
+  add_upright(drawn, kit::disc({0, 0}, 0.5 * sizes.axle->diameter), -sizes.base - 2, sizes.link_low + sizes.link + 2,
+              kind);
 }
 
 void add_pulley(std::vector<DrawnSlab>& drawn, const KitProduct& product, const std::string& kind) {
   const Product& pulley = product.pulley;
-  const BodyLayout& layout = pulley.pulley.layout;
+  const solid::BodyLayout& layout = pulley.pulley.layout;
   const double d = pulley.joint.mechanism.tendon.diameter, low = product.plan.sizes.pulley_low;
   const Vec2 axis = pulley_axis(pulley.joint.mechanism);
-  const auto add = [&](const Outline& outline, double offset, double from, double to) {
-    Polygon shape = parallel(outline, offset);
+  const auto add = [&](const profile::Outline& outline, double offset, double from, double to) {
+    Polygon shape = profile::parallel(outline, offset);
     for (Vec2& p : shape) p += axis;
     drawn.push_back({shape, shape, low + from, low + to, {}, kind});
   };
@@ -145,15 +149,15 @@ void add_pulley(std::vector<DrawnSlab>& drawn, const KitProduct& product, const 
   add(pulley.synthesis.p2, -0.5 * d, layout.z_p2 - gap, layout.z_p2 + gap);
   add(pulley.synthesis.p2, groove_edge, layout.z_p2 + gap, layout.z_top);
   if (layout.hub_radius > 0)
-    add_upright(drawn, disc(axis, layout.hub_radius), low + layout.z_top, low + layout.z_hub, kind);
+    add_upright(drawn, kit::disc(axis, layout.hub_radius), low + layout.z_top, low + layout.z_hub, kind);
 }
 
 std::vector<DrawnLine> tendon_lines(const KitProduct& product) {
   std::vector<DrawnLine> lines;
   const Mechanism& mechanism = product.pulley.joint.mechanism;
-  const KitSizes& sizes = product.plan.sizes;
-  for (const Side side : {Side::left, Side::right}) {
-    const bool left = side == Side::left;
+  const kit::KitSizes& sizes = product.plan.sizes;
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const bool left = side == transmission::Side::left;
     const auto trace = trace_tendon(mechanism, left ? product.pulley.synthesis.p1 : product.pulley.synthesis.p2, 0, 0);
     if (!trace) continue;
     DrawnLine line{{}, left ? "kit-tendon p1" : "kit-tendon p2 whole"};
@@ -182,7 +186,7 @@ Figure kit_picture(const KitProduct& product, const std::vector<KitStep>& steps,
   for (std::size_t i = 0; i <= last; ++i) {
     const KitStep& step = steps[i];
     const std::string kind = i == last ? "kit-new" : "kit", bought = i == last ? "kit-bought" : "kit";
-    for (const KitPart& part : product.plan.parts) {
+    for (const kit::KitPart& part : product.plan.parts) {
       if (std::find(step.parts.begin(), step.parts.end(), part.name) != step.parts.end()) add_part(drawn, part, kind);
     }
     if (step.motor) add_motor(drawn, product, bought);
@@ -221,19 +225,19 @@ Figure kit_picture(const KitProduct& product, const std::vector<KitStep>& steps,
 
 Figure kit_plan_view(const KitProduct& product) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
-  const KitPlan& plan = product.plan;
+  const kit::KitPlan& plan = product.plan;
   Paper paper;
   const double from = mechanism.joint.theta_min, to = mechanism.joint.theta_max;
   std::vector<Polygon> links;
-  for (const double theta : {from, 0.0, to}) links.push_back(link_outline(plan, mechanism, theta));
+  for (const double theta : {from, 0.0, to}) links.push_back(kit::link_outline(plan, mechanism, theta));
   const auto up = [](const Vec2& p) { return Vec2(p.x(), -p.y()); };
   const auto shown = [&](const Polygon& points) {
     std::vector<Vec2> result;
     for (const Vec2& p : points) result.push_back(up(p));
     return result;
   };
-  const Polygon scale = scale_outline(plan, mechanism);
-  const Polygon base = outline_of(plan.parts.front().body.slabs.front().loops.front().hull);
+  const Polygon scale = kit::scale_outline(plan, mechanism);
+  const Polygon base = kit::outline_of(plan.parts.front().body.slabs.front().loops.front().hull);
   for (const Polygon& outline : {links[0], links[1], links[2], scale, base}) {
     for (const Vec2& p : shown(outline)) paper.include(p);
   }
@@ -241,20 +245,20 @@ Figure kit_plan_view(const KitProduct& product) {
       k_picture_width, k_picture_height, "From above: the link at home and at both ends of its range", {}, {}};
   figure.body = svg_path("kit-side", paper(shown(base)), true) + svg_path("kit-top", paper(shown(scale)), true);
   const auto circle = [&](const std::string& classes, const Vec2& place, double radius) {
-    figure.body += svg_path(classes, paper(shown(outline_of(disc(place, radius)))), true);
+    figure.body += svg_path(classes, paper(shown(kit::outline_of(kit::disc(place, radius)))), true);
   };
   circle("kit-bought-top", pulley_axis(mechanism), plan.sizes.pulley_radius);
-  for (const KitPin& pin : plan.pins) {
+  for (const kit::KitPin& pin : plan.pins) {
     circle("kit-new-top", pin.place, pin.collar);
     circle("kit-bought-top", pin.place, pin.radius);
   }
   for (const Vec2& foot : plan.feet) circle("kit-new-top", foot, 0.5 * plan.sizes.foot->clearance + 1.2);
-  for (const Side side : {Side::left, Side::right}) {
-    const auto trace =
-        trace_tendon(mechanism, side == Side::left ? product.pulley.synthesis.p1 : product.pulley.synthesis.p2, 0, 0);
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const auto trace = trace_tendon(
+        mechanism, side == transmission::Side::left ? product.pulley.synthesis.p1 : product.pulley.synthesis.p2, 0, 0);
     if (trace)
-      figure.body +=
-          svg_path(side == Side::left ? "kit-tendon p1" : "kit-tendon p2 whole", paper(shown(trace->free_path)));
+      figure.body += svg_path(side == transmission::Side::left ? "kit-tendon p1" : "kit-tendon p2 whole",
+                              paper(shown(trace->free_path)));
   }
   for (const Polygon& link : links) figure.body += svg_path("main", paper(shown(link)), true);
   return figure;
@@ -263,16 +267,16 @@ Figure kit_plan_view(const KitProduct& product) {
 namespace {
 
 /// The pitch curve of a side; for several turns, the turn that its tendon leaves at home.
-Outline at_home(const Product& product, Side side) {
-  if (!product.helix) return side == Side::left ? product.synthesis.p1 : product.synthesis.p2;
-  const HelixSide& helix = product.helix->synthesis.sides.at(side == Side::left ? 0 : 1);
-  const auto home =
-      std::min_element(helix.stroke.begin(), helix.stroke.end(),
-                       [](const HelixPoint& a, const HelixPoint& b) { return std::abs(a.wound) < std::abs(b.wound); });
+profile::Outline at_home(const Product& product, transmission::Side side) {
+  if (!product.helix) return side == transmission::Side::left ? product.synthesis.p1 : product.synthesis.p2;
+  const helix::HelixSide& helix = product.helix->synthesis.sides.at(side == transmission::Side::left ? 0 : 1);
+  const auto home = std::min_element(
+      helix.stroke.begin(), helix.stroke.end(),
+      [](const helix::HelixPoint& a, const helix::HelixPoint& b) { return std::abs(a.wound) < std::abs(b.wound); });
   const double turn = helix.spiral.row_at(home->z).turn;
-  Outline outline;
+  profile::Outline outline;
   outline.side = side;
-  for (const SpiralRow& row : helix.spiral.rows) {
+  for (const helix::SpiralRow& row : helix.spiral.rows) {
     if (std::abs(row.turn - turn) < k_pi)
       outline.points.push_back({row.turn, Vec2(row.x, row.y), unit(row.turn), row.rho});
   }
@@ -281,14 +285,16 @@ Outline at_home(const Product& product, Side side) {
 }
 
 /// In the mechanism's frame.
-std::vector<Vec2> pitch_curve(const Product& product, Side side) {
+std::vector<Vec2> pitch_curve(const Product& product, transmission::Side side) {
   const Vec2 axis = pulley_axis(product.joint.mechanism);
   std::vector<Vec2> points;
   if (product.helix) {
-    for (const SpiralRow& row : product.helix->synthesis.sides.at(side == Side::left ? 0 : 1).spiral.rows)
+    for (const helix::SpiralRow& row :
+         product.helix->synthesis.sides.at(side == transmission::Side::left ? 0 : 1).spiral.rows)
       points.emplace_back(axis + Vec2(row.x, row.y));
   } else {
-    for (const OutlinePoint& point : (side == Side::left ? product.synthesis.p1 : product.synthesis.p2).points)
+    for (const profile::OutlinePoint& point :
+         (side == transmission::Side::left ? product.synthesis.p1 : product.synthesis.p2).points)
       points.emplace_back(axis + point.position);
   }
   return points;
@@ -307,15 +313,15 @@ Figure kit_template_view(const KitProduct& product) {
   };
   std::vector<std::pair<std::string, Polygon>> drawn;
   for (const char* name : {"base_template", "drum", "link_template"}) {
-    for (const KitPart& part : product.plan.parts) {
+    for (const kit::KitPart& part : product.plan.parts) {
       if (part.name != name) continue;
       const bool link = part.places.front().on_link, drum = part.name == "drum";
-      for (const SlabLoop& loop : part.body.slabs.front().loops)
+      for (const kit::SlabLoop& loop : part.body.slabs.front().loops)
         drawn.emplace_back(loop.hole ? "main"
                            : drum    ? "kit-new-top"
                            : link    ? "main"
                                      : "kit-top",
-                           outline_of(loop.hull));
+                           kit::outline_of(loop.hull));
     }
   }
   for (const auto& [classes, outline] : drawn) {
@@ -324,23 +330,23 @@ Figure kit_template_view(const KitProduct& product) {
   Figure figure{k_picture_width, k_picture_height, "From above, at home: base, drum and link with their holes", {}, {}};
   for (const auto& [classes, outline] : drawn) figure.body += svg_path(classes, paper(shown(outline)), true);
   const auto circle = [&](const std::string& classes, const Vec2& place, double radius) {
-    figure.body += svg_path(classes, paper(shown(outline_of(disc(place, radius)))), true);
+    figure.body += svg_path(classes, paper(shown(kit::outline_of(kit::disc(place, radius)))), true);
   };
-  for (const KitPin& pin : product.plan.pins) {
+  for (const kit::KitPin& pin : product.plan.pins) {
     circle("kit-bought-top", pin.place, pin.radius);
     if (mechanism.guides.kind == GuideKind::idler) circle("kit-bought-top", pin.place, mechanism.guides.bearing_radius);
   }
-  for (const Side side : {Side::left, Side::right}) {
-    const Outline outline = at_home(made, side);
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const profile::Outline outline = at_home(made, side);
     figure.body += svg_path("main", paper(shown(pitch_curve(made, side))), !made.helix);
     if (mechanism.sheath.is_there())
       figure.body += "<g class=\"kit-sheath\" style=\"fill:none;stroke:#c9b48a;stroke-width:7\"><path d=\"" +
                      path_data(paper(shown(sheath_curve(mechanism, side))), false) + "\"/></g>";
     if (const auto trace = trace_tendon(mechanism, outline, 0, 0))
-      figure.body +=
-          svg_path(side == Side::left ? "kit-tendon p1" : "kit-tendon p2 whole", paper(shown(trace->free_path)));
+      figure.body += svg_path(side == transmission::Side::left ? "kit-tendon p1" : "kit-tendon p2 whole",
+                              paper(shown(trace->free_path)));
   }
   return figure;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -8,7 +8,7 @@
 #include "export/report/svg.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// A step of the assembly.
 struct KitStep {
@@ -31,4 +31,4 @@ Figure kit_plan_view(const KitProduct& product);
 /// pulley.
 Figure kit_template_view(const KitProduct& product);
 
-}  // namespace fusee
+}  // namespace fusee::formats

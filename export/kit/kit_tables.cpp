@@ -4,14 +4,14 @@
 #include <filesystem>
 
 #include "base/output_list.h"
+#include "base/text.h"
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
-#include "base/text.h"
 #include "fusee/base.h"
 #include "fusee/export.h"
 #include "mechanism/catalogue.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 /// Rounded to a micrometre, because the last digits of a sum are meaningless.
@@ -27,9 +27,9 @@ Json point_json(const Vec2& point) { return {to_hand(point.x()), to_hand(point.y
 
 Json parts_json(const KitProduct& product) {
   Json list = Json::array();
-  for (const KitPart& part : product.plan.parts) {
+  for (const kit::KitPart& part : product.plan.parts) {
     Json places = Json::array();
-    for (const KitPlace& place : part.places)
+    for (const kit::KitPlace& place : part.places)
       places.push_back({{"x_mm", to_hand(place.shift.x())},
                         {"y_mm", to_hand(place.shift.y())},
                         {"z_mm", to_hand(place.z)},
@@ -45,15 +45,15 @@ Json parts_json(const KitProduct& product) {
   return list;
 }
 
-Json heights_json(const TendonHeights& heights) {
-  const auto span = [](const TendonHeights::Span& of) { return Json{to_hand(of.low), to_hand(of.high)}; };
+Json heights_json(const kit::TendonHeights& heights) {
+  const auto span = [](const kit::TendonHeights::Span& of) { return Json{to_hand(of.low), to_hand(of.high)}; };
   return {{"ends", {to_hand(heights.ends[0]), to_hand(heights.ends[1])}},
           {"guides", {span(heights.guides[0]), span(heights.guides[1])}},
           {"drum", span(heights.drum)}};
 }
 
-Json places_json(const KitPlan& plan) {
-  const KitSizes& sizes = plan.sizes;
+Json places_json(const kit::KitPlan& plan) {
+  const kit::KitSizes& sizes = plan.sizes;
   if (plan.drilled) {
     Json places = {{"pins_mm", {point_json(plan.pins[0].place), point_json(plan.pins[1].place)}}};
     if (plan.heights) places["tendon_heights_mm"] = heights_json(*plan.heights);
@@ -75,13 +75,13 @@ Json places_json(const KitPlan& plan) {
 
 }  // namespace
 
-std::string kit_file_name(const KitPart& part, const std::string& ending) { return part.name + "." + ending; }
+std::string kit_file_name(const kit::KitPart& part, const std::string& ending) { return part.name + "." + ending; }
 
 std::vector<KitCut> kit_cuts(const KitProduct& product) {
   std::vector<KitCut> cuts;
   const double end = tendon_end(product.pulley.joint.mechanism.tendon);
   for (const TendonLength& tendon : tendon_lengths(product.pulley)) {
-    const KitTendon& held = product.plan.tendons[tendon.side == Side::left ? 0 : 1];
+    const kit::KitTendon& held = product.plan.tendons[tendon.side == transmission::Side::left ? 0 : 1];
     KitCut cut;
     cut.side = tendon.side;
     cut.between_knots = tendon.between_knots + held.beyond;
@@ -93,9 +93,9 @@ std::vector<KitCut> kit_cuts(const KitProduct& product) {
 
 std::string bom_csv(const KitProduct& product) {
   std::string text = "count,item,use\n";
-  for (const KitItem& item : product.plan.items)
+  for (const kit::KitItem& item : product.plan.items)
     text += std::to_string(item.count) + "," + csv_quoted(item.what) + "," + csv_quoted(item.use) + "\n";
-  for (const KitPart& part : product.plan.parts)
+  for (const kit::KitPart& part : product.plan.parts)
     text += std::to_string(part.count) + "," + csv_quoted("print " + kit_file_name(part, "stl")) + "," +
             csv_quoted(part.words) + "\n";
   return text;
@@ -110,14 +110,14 @@ std::string kit_manifest_json(const KitProduct& product, const std::vector<Outpu
   json["places"] = places_json(product.plan);
   json["parts"] = parts_json(product);
   json["print"] = Json::array();
-  for (const KitPart& part : product.plan.parts) json["print"].push_back({{"file", kit_file_name(part, "stl")}});
+  for (const kit::KitPart& part : product.plan.parts) json["print"].push_back({{"file", kit_file_name(part, "stl")}});
   json["tendons_at_home"] = Json::array();
   for (const KitCut& cut : kit_cuts(product))
-    json["tendons_at_home"].push_back({{"tendon", cut.side == Side::left ? 1 : 2},
+    json["tendons_at_home"].push_back({{"tendon", cut.side == transmission::Side::left ? 1 : 2},
                                        {"between_knots_mm", to_hand(cut.between_knots)},
                                        {"cut_length_mm", to_hand(cut.cut)}});
   json["buy"] = Json::array();
-  for (const KitItem& item : product.plan.items)
+  for (const kit::KitItem& item : product.plan.items)
     json["buy"].push_back({{"count", item.count}, {"item", item.what}, {"use", item.use}});
   json["notes"] = product.plan.notes;
   json["checks"] = Json::array();
@@ -134,4 +134,4 @@ std::string kit_manifest_json(const KitProduct& product, const std::vector<Outpu
   return json_text(json, 1);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

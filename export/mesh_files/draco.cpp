@@ -15,10 +15,10 @@
 #include <optional>
 #include <vector>
 
-#include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/mesh_files.h"
+#include "export/mesh_files/mesh_formats.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // Writing ------------------------------------------------------------------------------------------------------------
@@ -40,13 +40,13 @@ struct Grid {
   }
 };
 
-TriangleMesh snapped(TriangleMesh mesh, const Grid& grid) {
+solid::TriangleMesh snapped(solid::TriangleMesh mesh, const Grid& grid) {
   for (Vec3& vertex : mesh.vertices) vertex = grid.snapped(vertex);
   return mesh;
 }
 
 /// True if every face keeps its orientation. Thin faces may collapse or turn over on a grid that meets the tolerance.
-bool keeps_faces(const TriangleMesh& mesh, const TriangleMesh& on_grid) {
+bool keeps_faces(const solid::TriangleMesh& mesh, const solid::TriangleMesh& on_grid) {
   constexpr double k_least_share = 0.1;  // relative to its area
   const auto area_vector = [](const std::vector<Vec3>& v, const std::array<std::uint32_t, 3>& t) {
     return Vec3((v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]));
@@ -60,17 +60,17 @@ bool keeps_faces(const TriangleMesh& mesh, const TriangleMesh& on_grid) {
 
 /// The coarsest grid within the tolerance that keeps the orientation of every face. Empty if even the finest does not,
 /// and floats are used.
-std::optional<Grid> grid_for(const TriangleMesh& mesh, double tolerance) {
-  const Bounds box = bounds(mesh);
+std::optional<Grid> grid_for(const solid::TriangleMesh& mesh, double tolerance) {
+  const solid::Bounds box = solid::bounds(mesh);
   Grid grid{box.low, (box.high - box.low).maxCoeff(), 1};
   while (grid.bits < k_most_bits && grid.reach() > tolerance) ++grid.bits;
   for (; grid.bits <= k_most_bits; ++grid.bits) {
-    if (keeps_faces(mesh, rounded_to_float(snapped(mesh, grid)))) return grid;
+    if (keeps_faces(mesh, solid::rounded_to_float(snapped(mesh, grid)))) return grid;
   }
   return std::nullopt;
 }
 
-void fill(draco::Mesh& to, const TriangleMesh& mesh) {
+void fill(draco::Mesh& to, const solid::TriangleMesh& mesh) {
   to.SetNumFaces(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
@@ -204,8 +204,8 @@ std::vector<Vec3> positions_of(const Source& source, const draco::Mesh& mesh) {
   fail_at_byte(source, 0, "expected positions of three coordinates, floats or doubles");
 }
 
-TriangleMesh from_draco(const Source& source, const draco::Mesh& mesh) {
-  TriangleMesh soup;
+solid::TriangleMesh from_draco(const Source& source, const draco::Mesh& mesh) {
+  solid::TriangleMesh soup;
   soup.vertices = positions_of(source, mesh);
   soup.triangles.reserve(mesh.num_faces());
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
@@ -219,7 +219,7 @@ TriangleMesh from_draco(const Source& source, const draco::Mesh& mesh) {
   return soup;
 }
 
-std::string encoded(const TriangleMesh& mesh, const std::optional<Grid>& grid) {
+std::string encoded(const solid::TriangleMesh& mesh, const std::optional<Grid>& grid) {
   draco::Mesh to;
   fill(to, mesh);
   draco::Encoder encoder;
@@ -234,7 +234,7 @@ std::string encoded(const TriangleMesh& mesh, const std::optional<Grid>& grid) {
 DracoFile read_back(std::string bytes) {
   DracoFile file{std::move(bytes), {}, {}};
   file.decoded = read_drc({file.bytes, "pulley.drc"});
-  file.checks = check_mesh(file.decoded);
+  file.checks = solid::check_mesh(file.decoded);
   return file;
 }
 
@@ -242,7 +242,7 @@ DracoFile read_back(std::string bytes) {
 
 // A grid is checked on the decoded file: close faces may cross without changing their orientation, and Draco's
 // arithmetic rounds again.
-DracoFile draco_file(const TriangleMesh& mesh, double tolerance) {
+DracoFile draco_file(const solid::TriangleMesh& mesh, double tolerance) {
   for (std::optional<Grid> grid = grid_for(mesh, tolerance); grid && grid->bits <= k_most_bits; ++grid->bits) {
     DracoFile file = read_back(encoded(mesh, grid));
     if (all_ok(file.checks)) return file;
@@ -250,10 +250,10 @@ DracoFile draco_file(const TriangleMesh& mesh, double tolerance) {
   return read_back(encoded(mesh, std::nullopt));
 }
 
-std::string draco_bytes(const TriangleMesh& mesh, double tolerance) { return draco_file(mesh, tolerance).bytes; }
+std::string draco_bytes(const solid::TriangleMesh& mesh, double tolerance) { return draco_file(mesh, tolerance).bytes; }
 
 /// At seams of attributes Draco stores a point for each side. They are welded by position.
-TriangleMesh read_drc(const Source& source) {
+solid::TriangleMesh read_drc(const Source& source) {
   const draco::DracoHeader header = read_header(source);
   draco::Mesh mesh;
   if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
@@ -264,7 +264,7 @@ TriangleMesh read_drc(const Source& source) {
     constexpr std::size_t k_method = 8;
     fail_at_byte(source, k_method, fmt::format("expected Draco's method 0 or 1, found {}", header.encoder_method));
   }
-  return weld(from_draco(source, mesh));
+  return solid::weld(from_draco(source, mesh));
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -9,26 +9,27 @@
 #include "fusee/solid.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::formats {
 
-std::string stl_bytes(const TriangleMesh& mesh, const std::string& name);  ///< binary, true normals, "mm" in the header
+std::string stl_bytes(const solid::TriangleMesh& mesh,
+                      const std::string& name);  ///< binary, true normals, "mm" in the header
 /// "pulley_p1.stl": name for P1 or P2 where they are printed separately.
-std::string part_file_name(Side side);
-std::string obj_text(const TriangleMesh& mesh, const std::string& name);
-std::string threemf_bytes(const TriangleMesh& mesh, const std::string& name);  ///< unit, named object, metadata
+std::string part_file_name(transmission::Side side);
+std::string obj_text(const solid::TriangleMesh& mesh, const std::string& name);
+std::string threemf_bytes(const solid::TriangleMesh& mesh, const std::string& name);  ///< unit, named object, metadata
 /// A Draco file, and the mesh that it decodes to.
 struct DracoFile {
   std::string bytes;
-  TriangleMesh decoded;
+  solid::TriangleMesh decoded;
   std::vector<Check> checks;  ///< check_mesh() of the decoded mesh
 };
 /// Quantised so that no vertex moves by more than `tolerance` (mm) and the mesh stays a solid.
-DracoFile draco_file(const TriangleMesh& mesh, double tolerance);
-std::string draco_bytes(const TriangleMesh& mesh, double tolerance);
+DracoFile draco_file(const solid::TriangleMesh& mesh, double tolerance);
+std::string draco_bytes(const solid::TriangleMesh& mesh, double tolerance);
 
 /// Reads stl (binary and ASCII), obj, 3mf, off, ply (binary and ASCII) and drc, identified by content or, if that is
 /// ambiguous, by the name's ending. Returns the mesh as stored (STL vertices welded), with all defects. Throws
 /// InputError with line or byte offset.
-TriangleMesh read_mesh(std::string_view bytes, const std::string& file_name);
+solid::TriangleMesh read_mesh(std::string_view bytes, const std::string& file_name);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -16,7 +16,7 @@
 #include "fusee/base.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// The bytes of a file, and its name for messages.
 struct Source {
@@ -24,12 +24,12 @@ struct Source {
   std::string name;
 };
 
-TriangleMesh read_stl(const Source& source);  ///< binary and ASCII; vertices welded
-TriangleMesh read_obj(const Source& source);
-TriangleMesh read_off(const Source& source);      ///< OFF, COFF, NOFF, CNOFF, STOFF … in text
-TriangleMesh read_ply(const Source& source);      ///< ascii, binary_little_endian, binary_big_endian
-TriangleMesh read_threemf(const Source& source);  ///< in mm, every build item at its place
-TriangleMesh read_drc(const Source& source);      ///< vertices welded
+solid::TriangleMesh read_stl(const Source& source);  ///< binary and ASCII; vertices welded
+solid::TriangleMesh read_obj(const Source& source);
+solid::TriangleMesh read_off(const Source& source);      ///< OFF, COFF, NOFF, CNOFF, STOFF … in text
+solid::TriangleMesh read_ply(const Source& source);      ///< ascii, binary_little_endian, binary_big_endian
+solid::TriangleMesh read_threemf(const Source& source);  ///< in mm, every build item at its place
+solid::TriangleMesh read_drc(const Source& source);      ///< vertices welded
 
 /// A binary STL gives its number of facets and has exactly the corresponding size.
 bool is_binary_stl(std::string_view bytes);
@@ -46,7 +46,7 @@ void demand_room(const Source& source, std::size_t offset, std::uint64_t count, 
 ///   twice, none more often);
 /// - if the mesh would have more facets than the file has bytes for. A closed mesh of V vertices has 2 V facets and at
 ///   least 3 V corners, which take over 12 bytes a vertex in any of these formats once V needs two bytes.
-[[nodiscard]] std::optional<std::string> add_fan(const Source& source, TriangleMesh& mesh,
+[[nodiscard]] std::optional<std::string> add_fan(const Source& source, solid::TriangleMesh& mesh,
                                                  std::span<const std::uint32_t> corners);
 
-}  // namespace fusee
+}  // namespace fusee::formats

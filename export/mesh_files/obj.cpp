@@ -6,12 +6,12 @@
 #include <array>
 #include <vector>
 
+#include "export/mesh_files/mesh_files.h"
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
 #include "export/tool.h"
-#include "export/mesh_files/mesh_files.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr std::array<std::string_view, 41> k_passed_over = {
@@ -51,7 +51,7 @@ std::int64_t corner_index(const TextScanner& text, std::string_view word, std::s
   return static_cast<std::int64_t>(vertices) + index;
 }
 
-void read_face(TextScanner& text, TriangleMesh& mesh, GreatestIndex& greatest) {
+void read_face(TextScanner& text, solid::TriangleMesh& mesh, GreatestIndex& greatest) {
   std::vector<std::uint32_t> corners;
   for (std::string_view word = statement_word(text); !word.empty(); word = statement_word(text)) {
     const std::int64_t index = corner_index(text, word, mesh.vertices.size());
@@ -71,7 +71,7 @@ void put_line(fmt::memory_buffer& to, const Vec3& v) {
 
 }  // namespace
 
-std::string obj_text(const TriangleMesh& mesh, const std::string& name) {
+std::string obj_text(const solid::TriangleMesh& mesh, const std::string& name) {
   fmt::memory_buffer text;
   text.reserve(64 + 40 * mesh.vertices.size() + 24 * mesh.triangles.size());
   fmt::format_to(std::back_inserter(text), "# {}, unit mm\no {}\n", k_tool, printable(name));
@@ -82,8 +82,8 @@ std::string obj_text(const TriangleMesh& mesh, const std::string& name) {
   return fmt::to_string(text);
 }
 
-TriangleMesh read_obj(const Source& source) {
-  TriangleMesh mesh;
+solid::TriangleMesh read_obj(const Source& source) {
+  solid::TriangleMesh mesh;
   GreatestIndex greatest;
   TextScanner text(source, '#');
   while (text.next_line()) {
@@ -109,4 +109,4 @@ TriangleMesh read_obj(const Source& source) {
   return mesh;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -9,7 +9,7 @@
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 struct OffHeader {
@@ -70,7 +70,7 @@ bool has_a_vertex_a_line(TextScanner text, std::uint64_t vertices) {
   return true;
 }
 
-void read_vertices(TextScanner& text, const OffHeader& header, TriangleMesh& mesh) {
+void read_vertices(TextScanner& text, const OffHeader& header, solid::TriangleMesh& mesh) {
   const bool by_lines = has_a_vertex_a_line(text, header.vertices);
   mesh.vertices.reserve(header.vertices);
   for (std::uint64_t i = 0; i < header.vertices; ++i) {
@@ -83,7 +83,7 @@ void read_vertices(TextScanner& text, const OffHeader& header, TriangleMesh& mes
   }
 }
 
-void read_face(TextScanner& text, TriangleMesh& mesh, std::vector<std::uint32_t>& corners) {
+void read_face(TextScanner& text, solid::TriangleMesh& mesh, std::vector<std::uint32_t>& corners) {
   const std::string_view word = text.flowing_word();
   if (word.empty()) text.fail("a face");
   const std::uint64_t size = count(text, word, "the number of a face's corners");
@@ -98,7 +98,7 @@ void read_face(TextScanner& text, TriangleMesh& mesh, std::vector<std::uint32_t>
 }
 
 /// A colour ends with its line. If there are fewer lines than faces, faces share lines and have no colours.
-void read_faces(TextScanner& text, const OffHeader& header, TriangleMesh& mesh) {
+void read_faces(TextScanner& text, const OffHeader& header, solid::TriangleMesh& mesh) {
   const bool have_lines = text.lines_ahead(header.faces) == header.faces;
   mesh.triangles.reserve(header.faces);
   std::vector<std::uint32_t> corners;
@@ -110,7 +110,7 @@ void read_faces(TextScanner& text, const OffHeader& header, TriangleMesh& mesh) 
 
 }  // namespace
 
-TriangleMesh read_off(const Source& source) {
+solid::TriangleMesh read_off(const Source& source) {
   constexpr std::size_t k_least_vertex = 6;  // "0 0 0 "
   constexpr std::size_t k_least_face = 4;    // "1 0 "
   TextScanner text(source, '#');
@@ -118,10 +118,10 @@ TriangleMesh read_off(const Source& source) {
   // One more for a last line without an end.
   demand_room(source, text.offset(), header.vertices, k_least_vertex - 1, "vertices");
   demand_room(source, text.offset(), header.faces, k_least_face - 1, "faces");
-  TriangleMesh mesh;
+  solid::TriangleMesh mesh;
   read_vertices(text, header, mesh);
   read_faces(text, header, mesh);
   return mesh;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

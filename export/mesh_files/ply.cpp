@@ -11,7 +11,7 @@
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 enum class Scalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -281,7 +281,7 @@ class ElementReader {
   ElementReader(const Source& source, Values values, const Header& header)
       : source_(source), values_(std::move(values)), header_(header) {}
 
-  TriangleMesh read() {
+  solid::TriangleMesh read() {
     for (const Element& element : header_.elements) {
       // Elements without properties take no space in any number.
       if (element.properties.empty()) continue;
@@ -339,13 +339,13 @@ class ElementReader {
   const Source& source_;
   Values values_;
   const Header& header_;
-  TriangleMesh mesh_;
+  solid::TriangleMesh mesh_;
   std::vector<std::uint32_t> corners_;
 };
 
 }  // namespace
 
-TriangleMesh read_ply(const Source& source) {
+solid::TriangleMesh read_ply(const Source& source) {
   TextScanner text(source);
   const Header header = read_header(source, text);
   if (header.encoding == Encoding::ascii)
@@ -354,4 +354,4 @@ TriangleMesh read_ply(const Source& source) {
   return ElementReader(source, BinaryValues(source, text.next_line_offset(), big_endian), header).read();
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -8,14 +8,14 @@
 #include <limits>
 #include <vector>
 
+#include "export/mesh_files/mesh_files.h"
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
-#include "export/mesh_files/mesh_files.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
-using Reader = TriangleMesh (*)(const Source&);
+using Reader = solid::TriangleMesh (*)(const Source&);
 
 struct Ending {
   std::string_view ending;
@@ -70,14 +70,14 @@ void demand_room(const Source& source, std::size_t offset, std::uint64_t count, 
 }
 
 /// Unused vertices do not affect size or position and may be infinite.
-TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
+solid::TriangleMesh without_unused_vertices(const solid::TriangleMesh& mesh) {
   constexpr auto k_unused = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(mesh.vertices.size(), k_unused);
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t corner : triangle) number[corner] = 0;
   }
   if (std::find(number.begin(), number.end(), k_unused) == number.end()) return mesh;
-  TriangleMesh used;
+  solid::TriangleMesh used;
   for (std::size_t i = 0; i < number.size(); ++i) {
     if (number[i] == k_unused) continue;
     number[i] = static_cast<std::uint32_t>(used.vertices.size());
@@ -88,7 +88,8 @@ TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
   return used;
 }
 
-std::optional<std::string> add_fan(const Source& source, TriangleMesh& mesh, std::span<const std::uint32_t> corners) {
+std::optional<std::string> add_fan(const Source& source, solid::TriangleMesh& mesh,
+                                   std::span<const std::uint32_t> corners) {
   constexpr std::size_t k_always = 100'000, k_bytes_a_facet = 6;
   if (corners.empty()) return {};
   const std::uint64_t vertices = std::uint64_t{*std::max_element(corners.begin(), corners.end())} + 1;
@@ -100,7 +101,7 @@ std::optional<std::string> add_fan(const Source& source, TriangleMesh& mesh, std
   return {};
 }
 
-TriangleMesh read_mesh(std::string_view bytes, const std::string& file_name) {
+solid::TriangleMesh read_mesh(std::string_view bytes, const std::string& file_name) {
   if (bytes.empty()) throw InputError(file_name, "the file is empty, expected a mesh");
   const Source source{bytes, file_name};
   Reader reader = reader_by_content(source);
@@ -112,4 +113,4 @@ TriangleMesh read_mesh(std::string_view bytes, const std::string& file_name) {
   return without_unused_vertices(reader(source));
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -11,12 +11,12 @@
 #include <limits>
 #include <optional>
 
+#include "export/mesh_files/mesh_files.h"
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
 #include "export/tool.h"
-#include "export/mesh_files/mesh_files.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "STL floats are copied from memory without a change");
@@ -34,14 +34,14 @@ using Float3 = std::array<float, 3>;
 Float3 to_floats(const Vec3& v) { return {float(v.x()), float(v.y()), float(v.z())}; }
 
 /// Unit normal of a facet; zero for a degenerate one.
-Vec3 facet_normal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+Vec3 facet_normal(const solid::TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   const Vec3& a = mesh.vertices[triangle[0]];
   const Vec3 across = (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
   const double length = across.norm();
   return length > 0 ? Vec3(across / length) : Vec3(Vec3::Zero());
 }
 
-char* put_facet(char* to, const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+char* put_facet(char* to, const solid::TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   std::array<Float3, 4> record;
   record[0] = to_floats(facet_normal(mesh, triangle));
   for (int k = 0; k < 3; ++k) record[k + 1] = to_floats(mesh.vertices[triangle[k]]);
@@ -69,8 +69,8 @@ void tell_from_ascii(std::string& bytes) {
   }
 }
 
-TriangleMesh read_facets(std::string_view bytes, std::size_t count) {
-  TriangleMesh soup;
+solid::TriangleMesh read_facets(std::string_view bytes, std::size_t count) {
+  solid::TriangleMesh soup;
   soup.vertices.reserve(3 * count);
   soup.triangles.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -103,7 +103,7 @@ void pass_normal(TextScanner& text) {
 }
 
 /// The part of a facet after its first word.
-void read_ascii_facet(TextScanner& text, TriangleMesh& soup) {
+void read_ascii_facet(TextScanner& text, solid::TriangleMesh& soup) {
   pass_normal(text);
   expect(text, "loop");
   for (int corner = 0; corner < 3; ++corner) {
@@ -130,8 +130,8 @@ void pass_name(TextScanner& text) {
   }
 }
 
-TriangleMesh read_ascii_stl(const Source& source) {
-  TriangleMesh soup;
+solid::TriangleMesh read_ascii_stl(const Source& source) {
+  solid::TriangleMesh soup;
   TextScanner text(source);
   bool is_open = false;
   for (std::string_view word = text.flowing_word(); is_open || !word.empty(); word = text.flowing_word()) {
@@ -190,9 +190,11 @@ std::optional<std::size_t> binary_facets(std::string_view bytes) {
 
 }  // namespace
 
-std::string part_file_name(Side side) { return side == Side::left ? "pulley_p1.stl" : "pulley_p2.stl"; }
+std::string part_file_name(transmission::Side side) {
+  return side == transmission::Side::left ? "pulley_p1.stl" : "pulley_p2.stl";
+}
 
-std::string stl_bytes(const TriangleMesh& mesh, const std::string& name) {
+std::string stl_bytes(const solid::TriangleMesh& mesh, const std::string& name) {
   std::string bytes(k_facets_start + k_facet_size * mesh.triangles.size(), '\0');
   const std::string header = fmt::format("{}, {}, unit mm", k_tool, printable(name));
   std::copy_n(header.begin(), std::min(header.size(), k_header_size), bytes.begin());
@@ -210,10 +212,10 @@ bool is_binary_stl(std::string_view bytes) {
   return bytes.size() == k_facets_start + std::uint64_t{k_facet_size} * announced_facets(bytes);
 }
 
-TriangleMesh read_stl(const Source& source) {
-  if (starts_with_solid(source) && !is_binary_stl(source.bytes)) return weld(read_ascii_stl(source));
-  if (const auto count = binary_facets(source.bytes)) return weld(read_facets(source.bytes, *count));
+solid::TriangleMesh read_stl(const Source& source) {
+  if (starts_with_solid(source) && !is_binary_stl(source.bytes)) return solid::weld(read_ascii_stl(source));
+  if (const auto count = binary_facets(source.bytes)) return solid::weld(read_facets(source.bytes, *count));
   fail_binary_size(source);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr std::string_view k_byte_order_mark = "\xEF\xBB\xBF";
@@ -140,4 +140,4 @@ std::string printable(std::string_view text) {
   return text.size() > k_longest ? shown + "…" : shown;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

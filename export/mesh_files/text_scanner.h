@@ -8,7 +8,7 @@
 
 #include "export/mesh_files/mesh_formats.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Reads a number independently of the locale ("+1.5", "-2e-3", "inf", "nan"). False unless all of `word` is a number.
 bool parse_number(std::string_view word, double& value);
@@ -69,4 +69,4 @@ class TextScanner {
 /// end of a line it would continue an OBJ statement.
 std::string printable(std::string_view text);
 
-}  // namespace fusee
+}  // namespace fusee::formats

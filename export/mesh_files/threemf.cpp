@@ -12,14 +12,14 @@
 #include <pugixml.hpp>
 #include <vector>
 
+#include "base/text.h"
 #include "base/zip.h"
+#include "export/mesh_files/mesh_files.h"
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
 #include "export/tool.h"
-#include "base/text.h"
-#include "export/mesh_files/mesh_files.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // Writing ------------------------------------------------------------------------------------------------------------
@@ -37,7 +37,7 @@ constexpr std::string_view k_relationships = R"(<?xml version="1.0" encoding="UT
 </Relationships>
 )";
 
-std::string model_xml(const TriangleMesh& mesh, const std::string& name) {
+std::string model_xml(const solid::TriangleMesh& mesh, const std::string& name) {
   fmt::memory_buffer xml;
   xml.reserve(1024 + 60 * mesh.vertices.size() + 48 * mesh.triangles.size());
   const auto put = [&xml](fmt::string_view format, const auto&... values) {
@@ -127,7 +127,7 @@ struct ModelPart {
 class ThreemfReader {
  public:
   explicit ThreemfReader(const Source& source);
-  TriangleMesh read();
+  solid::TriangleMesh read();
 
  private:
   std::string unpacked(const std::string& path);
@@ -158,7 +158,7 @@ class ThreemfReader {
   std::uint64_t unpacked_left_;
   std::uint64_t elements_left_ = 0;
   std::size_t left_out_ = 0;  ///< objects that are not part of the solid
-  TriangleMesh mesh_;
+  solid::TriangleMesh mesh_;
 };
 
 ThreemfReader::ThreemfReader(const Source& source)
@@ -354,7 +354,7 @@ void ThreemfReader::add_triangles(ModelPart& part, const pugi::xml_node& mesh, c
   });
 }
 
-TriangleMesh ThreemfReader::read() {
+solid::TriangleMesh ThreemfReader::read() {
   elements_left_ = k_always_unpacked;
   ModelPart& root = part(model_path());
   const pugi::xml_node model = child(root.xml, "model");
@@ -371,12 +371,12 @@ TriangleMesh ThreemfReader::read() {
 
 }  // namespace
 
-std::string threemf_bytes(const TriangleMesh& mesh, const std::string& name) {
+std::string threemf_bytes(const solid::TriangleMesh& mesh, const std::string& name) {
   const std::string model = model_xml(mesh, name);
   return zip_bytes(
       {{"[Content_Types].xml", k_content_types}, {"_rels/.rels", k_relationships}, {"3D/3dmodel.model", model}});
 }
 
-TriangleMesh read_threemf(const Source& source) { return ThreemfReader(source).read(); }
+solid::TriangleMesh read_threemf(const Source& source) { return ThreemfReader(source).read(); }
 
-}  // namespace fusee
+}  // namespace fusee::formats

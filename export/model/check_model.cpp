@@ -8,11 +8,11 @@
 #include <pugixml.hpp>
 
 #include "base/json.h"
+#include "base/text.h"
 #include "export/model/words.h"
 #include "fusee/base.h"
-#include "base/text.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 const std::string& bytes_of(const std::vector<OutputFile>& outputs, const std::string& name) {
@@ -51,7 +51,8 @@ double error_of_joint_xml(const ModelProduct& product, const std::vector<OutputF
   const pugi::xml_document document = xml_of(outputs, "joint.xml");
   const pugi::xml_node equality = document.child("mujoco").child("equality").child("joint");
   const bool of_alpha = std::string_view(equality.attribute("joint2").value()) == "alpha";
-  return measured({of_alpha, {numbers_in(equality.attribute("polycoef").value())}}, product.curves.physical.middle)
+  return model::measured({of_alpha, {numbers_in(equality.attribute("polycoef").value())}},
+                         product.curves.physical.middle)
       .error;
 }
 
@@ -72,9 +73,10 @@ double error_of_tendons_xml(const ModelProduct& product, const std::vector<Outpu
   const pugi::xml_document document = xml_of(outputs, "joint_tendons.xml");
   const pugi::xml_node root = document.child("mujoco"), world = root.child("worldbody");
   const pugi::xml_node equality = root.child("equality").child("tendon");
-  WrappedTendon tendon;
-  tendon.side = std::string_view(equality.attribute("tendon1").value()) == "tendon_1" ? Side::left : Side::right;
-  const std::string n = tendon.side == Side::left ? "1" : "2";
+  model::WrappedTendon tendon;
+  tendon.side = std::string_view(equality.attribute("tendon1").value()) == "tendon_1" ? transmission::Side::left
+                                                                                      : transmission::Side::right;
+  const std::string n = tendon.side == transmission::Side::left ? "1" : "2";
   const pugi::xml_node spatial = named(root.child("tendon"), "spatial", "tendon_" + n);
   const pugi::xml_node link = named(world, "body", "link");
   tendon.end = point_in(named(link, "site", spatial.child("site").attribute("site").value()));
@@ -87,7 +89,7 @@ double error_of_tendons_xml(const ModelProduct& product, const std::vector<Outpu
   }
   if (tendon.rho == 0) tendon.pin = point_in(named(world, "site", "over_" + n));
   tendon.anchor = point_in(named(world, "site", "anchor_" + n));
-  Polynomial length{numbers_in(equality.attribute("polycoef").value())};
+  model::Polynomial length{numbers_in(equality.attribute("polycoef").value())};
   double arm = 1e3;
   const double coef = named(root.child("tendon"), "fixed", equality.attribute("tendon2").value())
                           .child("joint")
@@ -97,14 +99,14 @@ double error_of_tendons_xml(const ModelProduct& product, const std::vector<Outpu
     c *= arm;
     arm *= coef;
   }
-  return tendon_error(tendon, length, product.curves.physical.middle);
+  return model::tendon_error(tendon, length, product.curves.physical.middle);
 }
 
 double error_of_urdf(const ModelProduct& product, const std::vector<OutputFile>& outputs) {
   const pugi::xml_document document = xml_of(outputs, "joint.urdf");
   const pugi::xml_node mimic = named(document.child("robot"), "joint", "theta").child("mimic");
-  return measured({true, {{mimic.attribute("offset").as_double(), mimic.attribute("multiplier").as_double()}}},
-                  product.curves.physical.middle)
+  return model::measured({true, {{mimic.attribute("offset").as_double(), mimic.attribute("multiplier").as_double()}}},
+                         product.curves.physical.middle)
       .error;
 }
 
@@ -113,7 +115,7 @@ double error_of_ros2_control(const ModelProduct& product, const std::vector<Outp
   const pugi::xml_node joint = document.child("robot").child("ros2_control").child("transmission").child("joint");
   const double reduction = joint.child("mechanical_reduction").text().as_double(),
                offset = joint.child("offset").text().as_double();
-  return measured({true, {{offset, 1 / reduction}}}, product.curves.physical.middle).error;
+  return model::measured({true, {{offset, 1 / reduction}}}, product.curves.physical.middle).error;
 }
 
 // ---- tables ---------------------------------------------------------------------------------------------------------
@@ -124,9 +126,9 @@ std::vector<float> floats_of(const Json& list) {
   return values;
 }
 
-JointTable table_in(const std::string& bytes) {
+model::JointTable table_in(const std::string& bytes) {
   const Json json = parse_json(bytes);
-  JointTable table;
+  model::JointTable table;
   table.unit.per_turn = json["motor_unit"]["per_turn"];
   table.unit.zero = json["motor_unit"]["zero"];
   table.pieces = json["pieces"];
@@ -158,12 +160,12 @@ std::vector<float> entries_in(std::string_view header) {
 }
 
 std::size_t differing_entries(const ModelProduct& product, const std::string& header) {
-  const JointTable& table = product.table;
+  const model::JointTable& table = product.table;
   std::vector<float> expected;
   const auto add = [&](const std::vector<float>& values) {
     expected.insert(expected.end(), values.begin(), values.end());
   };
-  for (const OneWayTable& way : table.ways) {
+  for (const model::OneWayTable& way : table.ways) {
     add(way.theta);
     add(way.motor);
   }
@@ -176,10 +178,10 @@ std::size_t differing_entries(const ModelProduct& product, const std::string& he
 }
 
 /// Number of entries that do not increase (decrease, for counts that decrease as α increases).
-std::size_t standing_still(const JointTable& table) {
+std::size_t standing_still(const model::JointTable& table) {
   std::size_t count = 0;
   const bool falls = table.unit.per_turn < 0;
-  for (const OneWayTable& way : table.ways) {
+  for (const model::OneWayTable& way : table.ways) {
     for (const std::vector<float>* entries : {&way.theta, &way.motor}) {
       for (std::size_t i = 1; i < entries->size(); ++i)
         count += falls ? !((*entries)[i] < (*entries)[i - 1]) : !((*entries)[i] > (*entries)[i - 1]);
@@ -206,8 +208,8 @@ std::vector<Check> check_model(const ModelProduct& product, const std::vector<Ou
   in_degrees("joint_urdf_theta_error", error_of_urdf(product, outputs), product.line.error + k_last_digits);
   in_degrees("joint_ros2_control_urdf_theta_error", error_of_ros2_control(product, outputs),
              product.line.error + k_last_digits);
-  const JointTable read = table_in(bytes_of(outputs, "joint_table.json"));
-  const TableErrors errors = measured(read, product.curves.sensed);
+  const model::JointTable read = table_in(bytes_of(outputs, "joint_table.json"));
+  const model::TableErrors errors = model::measured(read, product.curves.sensed);
   in_degrees("joint_table_json_theta_error", errors.theta, product.most_table_error);
   in_degrees("joint_table_json_returned_theta_error", errors.returned, product.most_table_error);
   checks.push_back(exactly("joint_table_json_not_growing", static_cast<double>(standing_still(read)), 0, "1"));
@@ -217,4 +219,4 @@ std::vector<Check> check_model(const ModelProduct& product, const std::vector<Ou
   return checks;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "export/model/words.h"
 #include "export/tool.h"
-#include "base/text.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using namespace model_words;
@@ -74,12 +74,12 @@ class Header {
   std::string zero() const { return std::to_string(whole(table_.unit.zero)); }
 
   std::string comment() const {
-    const TableErrors& errors = table_.errors;
+    const model::TableErrors& errors = table_.errors;
     std::vector<std::string> lines{"joint_table.h: " + product_.mechanism.name + ", by " + std::string(k_tool) +
                                    " model"};
     const std::vector<std::string> source = of_curve(product_.curves.sensed, product_, true);
     lines.insert(lines.end(), source.begin(), source.end());
-    const AngleMap& map = product_.curves.sensed.middle;
+    const model::AngleMap& map = product_.curves.sensed.middle;
     const auto degs = [](double angle) { return rounded(degrees(angle), 6); };
     lines.push_back("alpha (motor) from " + degs(map.alpha_min) + " to " + degs(map.alpha_max) +
                     " deg, theta (joint) from " + degs(map.theta_min) + " to " + degs(map.theta_max) +
@@ -140,7 +140,7 @@ class Header {
   }
 
   /// The place of the motor's angle in a table.
-  std::string motor_place(const OneWayTable& way) const {
+  std::string motor_place(const model::OneWayTable& way) const {
     std::string value = motor_word();
     if (ticks()) {
       // Clamped just beyond the ends before the subtraction, so that no count overflows.
@@ -158,7 +158,7 @@ class Header {
            " + (int32_t)(count < 0.0f ? count - 0.5f : count + 0.5f);\n";
   }
 
-  std::string both_ways_round(const std::string& way, const OneWayTable& table) const {
+  std::string both_ways_round(const std::string& way, const model::OneWayTable& table) const {
     const std::string theta = p_ + "_theta" + way, motor = p_ + (ticks() ? "_count" : "_alpha") + way;
     return "/* The joint's angle, deg. */\nstatic inline float " + theta + "_deg(" + motor_type() + " " + motor_word() +
            ") {\n  return " + p_ + "_between(" + theta + "_table, " + motor_place(table) +
@@ -221,7 +221,7 @@ class Header {
   }
 
   const ModelProduct& product_;
-  const JointTable& table_;
+  const model::JointTable& table_;
   std::string p_, P_;
 };
 
@@ -229,4 +229,4 @@ class Header {
 
 std::string joint_table_h(const ModelProduct& product) { return Header(product).text(); }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -4,12 +4,12 @@
 #include <filesystem>
 
 #include "base/output_list.h"
+#include "base/text.h"
 #include "export/model/words.h"
 #include "export/tool.h"
-#include "base/text.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using namespace model_words;
@@ -23,7 +23,7 @@ Json list_of(const std::vector<float>& values) {
   return list;
 }
 
-Json coefficients(const Polynomial& p) {
+Json coefficients(const model::Polynomial& p) {
   Json list = Json::array();
   for (const double c : p.c) list.push_back(std::stod(coefficient(c)));
   return list;
@@ -32,13 +32,13 @@ Json coefficients(const Polynomial& p) {
 /// Rounded up, as a bound.
 double bound_deg(double angle) { return std::stod(at_most_deg(angle)); }
 
-std::string_view word(CurveSource source) {
+std::string_view word(model::CurveSource source) {
   switch (source) {
-    case CurveSource::identified:
+    case model::CurveSource::identified:
       return "identified";
-    case CurveSource::compensation:
+    case model::CurveSource::compensation:
       return "compensation";
-    case CurveSource::law:
+    case model::CurveSource::law:
       break;
   }
   return "declared";
@@ -48,7 +48,7 @@ Json input_of(const ModelProduct& product) {
   return {{"file", std::filesystem::path(product.file.path).filename().string()}, {"sha256", product.file.sha256}};
 }
 
-std::string way_word(const JointTable& table, std::size_t way) {
+std::string way_word(const model::JointTable& table, std::size_t way) {
   if (table.ways.size() == 1) return "both";
   return way == 0 ? "up" : "down";
 }
@@ -56,7 +56,7 @@ std::string way_word(const JointTable& table, std::size_t way) {
 }  // namespace
 
 std::string joint_table_json(const ModelProduct& product) {
-  const JointTable& table = product.table;
+  const model::JointTable& table = product.table;
   Json json = {
       {"schema", 1}, {"tool", std::string(k_tool)}, {"input", input_of(product)}, {"name", product.mechanism.name}};
   json["source"] = word(product.curves.sensed.source);
@@ -68,7 +68,7 @@ std::string joint_table_json(const ModelProduct& product) {
   json["theta_deg"] = {short_number(table.theta_first), short_number(table.theta_last)};
   json["ways"] = Json::array();
   for (std::size_t i = 0; i < table.ways.size(); ++i) {
-    const OneWayTable& way = table.ways[i];
+    const model::OneWayTable& way = table.ways[i];
     json["ways"].push_back({{"moving", way_word(table, i)},
                             {"motor", {short_number(way.first), short_number(way.last)}},
                             {"theta_deg_of_motor", list_of(way.theta)},
@@ -117,4 +117,4 @@ std::string model_manifest_json(const ModelProduct& product, const std::vector<O
   return json_text(json, 1);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "base/text.h"
 #include "export/model/words.h"
 #include "export/tool.h"
-#include "base/text.h"
 #include "fusee/base.h"
 #include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using namespace model_words;
@@ -28,13 +28,13 @@ std::string place(const Vec2& at, double z = 0) { return metres(at.x()) + " " + 
 
 std::string numbers(const std::vector<double>& values) {
   std::string text;
-  for (std::size_t i = 0; i <= k_equality_degree; ++i)
+  for (std::size_t i = 0; i <= model::k_equality_degree; ++i)
     text += (i > 0 ? " " : "") + coefficient(i < values.size() ? values[i] : 0.0);
   return text;
 }
 
 /// Converts a polynomial of a length per angle to one per length: `arm` times the angle.
-Polynomial over_arm(Polynomial p, double arm) {
+model::Polynomial over_arm(model::Polynomial p, double arm) {
   double power = 1e-3;
   for (double& c : p.c) {
     c *= power;
@@ -48,7 +48,7 @@ const std::string k_compliance =
     "MuJoCo's equalities are slightly compliant: by about 0.001 deg, driven through the range in 3 s.";
 
 std::vector<std::string> bounds_of(const ModelProduct& product) {
-  const AngleMap& map = product.curves.physical.middle;
+  const model::AngleMap& map = product.curves.physical.middle;
   const auto degs = [](double angle) { return rounded(degrees(angle), 6); };
   return {"alpha (motor) from " + degs(map.alpha_min) + " to " + degs(map.alpha_max) + " deg, theta (joint) from " +
           degs(map.theta_min) + " to " + degs(map.theta_max) + " deg."};
@@ -60,9 +60,9 @@ std::string opening(const ModelProduct& product, const SimulatedBody& body, cons
   for (const auto& more : {of_curve(product.curves.physical, product, false), bounds_of(product), coupling, body.words})
     lines.insert(lines.end(), more.begin(), more.end());
   const double tilt = mechanism.load.tilt;
-  const std::string gravity =
-      body.weighs ? number(-k_gravity * std::sin(tilt)) + " " + number(-k_gravity * std::cos(tilt)) + " 0"
-                  : "0 0 " + number(-k_gravity);
+  const std::string gravity = body.weighs ? number(-transmission::k_gravity * std::sin(tilt)) + " " +
+                                                number(-transmission::k_gravity * std::cos(tilt)) + " 0"
+                                          : "0 0 " + number(-transmission::k_gravity);
   return "<mujoco model=\"" + xml_attribute(mechanism.name) + "\">\n" + xml_comment(lines) +
          "  <compiler angle=\"radian\" autolimits=\"true\"/>\n  <option timestep=\"" + number(body.timestep) +
          "\" integrator=\"implicitfast\" gravity=\"" + gravity + "\"/>\n  <statistic center=\"0 0 0\" extent=\"" +
@@ -74,8 +74,8 @@ std::string opening(const ModelProduct& product, const SimulatedBody& body, cons
 std::string bodies(const ModelProduct& product, const SimulatedBody& body, const std::string& world,
                    const std::string& link) {
   const Mechanism& mechanism = product.mechanism;
-  const AngleMap& map = product.curves.physical.middle;
-  const Vec2 axis = pin_place(mechanism, Side::left, 0).pulley_axis();
+  const model::AngleMap& map = product.curves.physical.middle;
+  const Vec2 axis = transmission::pin_place(mechanism, transmission::Side::left, 0).pulley_axis();
   const std::string thin = number(0.03 * mechanism.joint.R * 1e-3);
   const double J = body.armature, I = body.inertia;
   const std::string spring = body.stiffness == 0 ? ""
@@ -99,7 +99,7 @@ std::string bodies(const ModelProduct& product, const SimulatedBody& body, const
 }
 
 std::string ending(const ModelProduct& product, const SimulatedBody& body) {
-  const AngleMap& map = product.curves.physical.middle;
+  const model::AngleMap& map = product.curves.physical.middle;
   std::string text = "  <actuator>\n    <position name=\"motor\" joint=\"alpha\" kp=\"" + number(body.kp) + "\" kv=\"" +
                      number(body.kv) + "\" ctrlrange=\"" + number(map.alpha_min) + " " + number(map.alpha_max) +
                      "\" forcerange=\"" + number(-body.effort) + " " + number(body.effort) + "\"/>\n";
@@ -112,16 +112,16 @@ std::string ending(const ModelProduct& product, const SimulatedBody& body) {
          "    <actuatorfrc name=\"motor_torque\" actuator=\"motor\"/>\n  </sensor>\n</mujoco>\n";
 }
 
-std::string pin_name(Side side) { return side == Side::left ? "pin_B" : "pin_D"; }
-std::string number_of(Side side) { return side == Side::left ? "1" : "2"; }
+std::string pin_name(transmission::Side side) { return side == transmission::Side::left ? "pin_B" : "pin_D"; }
+std::string number_of(transmission::Side side) { return side == transmission::Side::left ? "1" : "2"; }
 
 std::string pins(const Mechanism& mechanism, double rho_if_none) {
   std::string text;
-  for (const Side side : {Side::left, Side::right}) {
-    const PinPlace at = pin_place(mechanism, side, mechanism.seen_pitch_radius());
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const transmission::PinPlace at = transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius());
     const double radius = std::max(at.rho, rho_if_none);
     text += "    <geom name=\"" + pin_name(side) + "\" type=\"cylinder\" pos=\"" +
-            place({mirror_sign(side) * at.pin().x(), at.pin().y()}) + "\" size=\"" + metres(radius) +
+            place({transmission::mirror_sign(side) * at.pin().x(), at.pin().y()}) + "\" size=\"" + metres(radius) +
             " 0.008\" rgba=\"0.6 0.6 0.6 1\"/>\n";
   }
   return text;
@@ -153,7 +153,7 @@ struct TendonText {
   }
 };
 
-void add_drum(TendonText& text, const WrappedTendon& tendon, const std::string& n, double z) {
+void add_drum(TendonText& text, const model::WrappedTendon& tendon, const std::string& n, double z) {
   for (std::size_t i = 0; i < tendon.on_drum.size(); ++i) {
     const std::string name = "on_drum_" + n + "_" + std::to_string(i + 1);
     text.link += "      <" + site(name, tendon.on_drum[i], z);
@@ -165,10 +165,10 @@ void add_drum(TendonText& text, const WrappedTendon& tendon, const std::string& 
   text.through("off_drum_" + n);
 }
 
-TendonText text_of(const WrappedTendon& tendon, bool ends_in_C) {
+TendonText text_of(const model::WrappedTendon& tendon, bool ends_in_C) {
   TendonText text;
   const std::string n = number_of(tendon.side), end = (ends_in_C ? "C_" : "A_") + n;
-  const double z = tendon.side == Side::left ? -k_tendon_height : k_tendon_height;
+  const double z = tendon.side == transmission::Side::left ? -k_tendon_height : k_tendon_height;
   text.world += "    <" + site("anchor_" + n, tendon.anchor, z);
   text.link += "      <" + site(end, tendon.end, z);
   text.through(end);
@@ -190,7 +190,7 @@ TendonText text_of(const WrappedTendon& tendon, bool ends_in_C) {
 
 /// Describes the tendons' path, and the parts of it that MuJoCo cannot represent.
 std::vector<std::string> way_words(const ModelProduct& product) {
-  const TendonModel& model = *product.tendons;
+  const model::TendonModel& model = *product.tendons;
   const Mechanism& mechanism = product.mechanism;
   const std::string held = number_of(model.constrained);
   const std::string pin = mechanism.guides.kind == GuideKind::idler ? "idler" : "pin";
@@ -230,7 +230,7 @@ std::vector<std::string> way_words(const ModelProduct& product) {
 }  // namespace
 
 std::string mujoco_joint_xml(const ModelProduct& product) {
-  const EqualityFit& fit = product.equality;
+  const model::EqualityFit& fit = product.equality;
   const SimulatedBody body = body_of(product);
   const std::vector<std::string> coupling = {
       std::string(fit.of_alpha ? "theta is a polynomial of alpha" : "alpha is a polynomial of theta") +
@@ -246,7 +246,7 @@ std::string mujoco_joint_xml(const ModelProduct& product) {
 }
 
 std::string mujoco_tendons_xml(const ModelProduct& product) {
-  const TendonModel& model = *product.tendons;
+  const model::TendonModel& model = *product.tendons;
   const Mechanism& mechanism = product.mechanism;
   const SimulatedBody body = body_of(product);
   const std::string held = number_of(model.constrained);
@@ -255,7 +255,7 @@ std::string mujoco_tendons_xml(const ModelProduct& product) {
   std::string world, link = drum(mechanism), tendons;
   for (std::size_t i = 0; i < 2; ++i) {
     if (!model.omission[i].empty()) continue;
-    const WrappedTendon& tendon = model.tendons[i];
+    const model::WrappedTendon& tendon = model.tendons[i];
     const TendonText text = text_of(tendon, !(i == 0 ? mechanism.joint.attachment1 : mechanism.joint.attachment2));
     world += text.world;
     link += text.link;
@@ -274,4 +274,4 @@ std::string mujoco_tendons_xml(const ModelProduct& product) {
          "/>\n  </equality>\n" + ending(product, body);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "base/text.h"
 #include "export/model/words.h"
 #include "export/tool.h"
-#include "base/text.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using namespace model_words;
@@ -35,7 +35,7 @@ std::string hinge(const std::string& name, const std::string& child, const std::
 
 /// The limits of the joint follow from those of the motor.
 std::string theta_joint(const ModelProduct& product, const SimulatedBody& body, const std::string& more) {
-  const AngleMap& map = product.curves.physical.middle;
+  const model::AngleMap& map = product.curves.physical.middle;
   const double slope = product.line.p.c[1];
   return hinge("theta", "link", "0 0 0", map.theta_min, map.theta_max, std::stod(rounded(body.effort / slope)),
                std::stod(rounded(body.speed * slope)), more);
@@ -53,8 +53,8 @@ std::string head(const ModelProduct& product, const std::vector<std::string>& co
 
 std::string joint_urdf(const ModelProduct& product) {
   const SimulatedBody body = body_of(product);
-  const AngleMap& map = product.curves.physical.middle;
-  const Vec2 axis = pin_place(product.mechanism, Side::left, 0).pulley_axis();
+  const model::AngleMap& map = product.curves.physical.middle;
+  const Vec2 axis = transmission::pin_place(product.mechanism, transmission::Side::left, 0).pulley_axis();
   const std::string line = coefficient(product.line.p.c[1]), offset = coefficient(product.line.p.c[0]);
   const std::vector<std::string> coupling = {
       "theta mimics alpha: URDF supports only a straight line. The best one (minimax) misses "
@@ -78,7 +78,7 @@ std::string joint_urdf(const ModelProduct& product) {
 // so the motor is an actuator here and not a joint.
 std::string ros2_control_urdf(const ModelProduct& product) {
   const SimulatedBody body = body_of(product);
-  const AngleMap& map = product.curves.physical.middle;
+  const model::AngleMap& map = product.curves.physical.middle;
   const std::string name = product.prefix;
   const std::vector<std::string> coupling = {
       "For ros2_control: joint theta, and a SimpleTransmission from the actuator to it: theta = "
@@ -111,4 +111,4 @@ std::string ros2_control_urdf(const ModelProduct& product) {
          "</offset>\n      </joint>\n    </transmission>\n  </ros2_control>\n</robot>\n";
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

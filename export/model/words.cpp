@@ -8,7 +8,7 @@
 #include "fusee/base.h"
 #include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 std::string c_prefix(const std::string& name) {
   std::string prefix;
@@ -57,13 +57,13 @@ std::string at_most_deg(double angle) {
   return rounded(std::ceil(value * scale * (1 - 1e-9)) / scale, 3);
 }
 
-std::vector<std::string> of_curve(const JointCurve& curve, const ModelProduct& product, bool shown) {
+std::vector<std::string> of_curve(const model::JointCurve& curve, const ModelProduct& product, bool shown) {
   std::vector<std::string> lines;
   switch (curve.source) {
-    case CurveSource::law:
+    case model::CurveSource::law:
       lines.push_back("The joint as declared: theta(alpha) is the law of the file, equal in both directions.");
       break;
-    case CurveSource::identified:
+    case model::CurveSource::identified:
       lines.push_back(
           "The joint as identified ([identified]), with the pulley that 'fusee build' makes of this file, simulated");
       lines.push_back(
@@ -71,7 +71,7 @@ std::vector<std::string> of_curve(const JointCurve& curve, const ModelProduct& p
           (shown ? "reading of" : "true"));
       lines.push_back(shown ? "the joint's sensor." : "joint angle, mean of both directions.");
       break;
-    case CurveSource::compensation:
+    case model::CurveSource::compensation:
       lines.push_back("From " + product.compensation +
                       ", with the shape of the declared law between its rows. alpha: reading of the");
       lines.push_back("motor's sensor; theta: reading of the joint's sensor.");
@@ -134,23 +134,23 @@ SimulatedBody body_of(const ModelProduct& product) {
   }
   body.load = (load.tip_force * mechanism.joint.R + load.torque) * 1e-3;
   if (body.load != 0) {
-    body.inertia += std::abs(body.load) / k_gravity * R;
+    body.inertia += std::abs(body.load) / transmission::k_gravity * R;
     body.words.push_back("Tip force and torque of [load]: " + rounded(body.load) +
                          " N m against +theta at every angle.");
     body.words.push_back("Assumed: they have the inertia of a weight at C with the same force.");
   }
   add_spring(body, mechanism.spring);
   double most = 0, steepest = 0, heaviest = 0;
-  const AngleMap& map = product.curves.physical.middle;
+  const model::AngleMap& map = product.curves.physical.middle;
   constexpr int looks = 20;
   for (int i = 0; i <= looks; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / looks), g = map.slope(alpha);
     steepest = std::max(steepest, g);
-    const double torque = std::abs(load_torque(mechanism, map.theta(alpha))) * 1e-3;
+    const double torque = std::abs(transmission::load_torque(mechanism, map.theta(alpha))) * 1e-3;
     heaviest = std::max(heaviest, torque);
     most = std::max(most, g * torque);
   }
-  const Transmission law(mechanism);
+  const transmission::Transmission law(mechanism);
   body.pulley_radius = law.at_alpha(0).t1.p * 1e-3;
   // The link's inertia at the motor, plus the rotor of a matched motor, or a small servo's at its output.
   const double link = body.inertia + body.mass * body.lever * body.lever, seen = link * steepest * steepest;
@@ -179,4 +179,4 @@ SimulatedBody body_of(const ModelProduct& product) {
 }
 
 }  // namespace model_words
-}  // namespace fusee
+}  // namespace fusee::formats

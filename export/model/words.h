@@ -7,7 +7,7 @@
 
 #include "fusee/export.h"
 
-namespace fusee::model_words {
+namespace fusee::formats::model_words {
 
 /// Twelve digits.
 std::string number(double value);
@@ -19,7 +19,7 @@ std::string c_float(float value);
 std::string at_most_deg(double angle);
 
 /// The meaning and source of α and θ in these files.
-std::vector<std::string> of_curve(const JointCurve& curve, const ModelProduct& product, bool shown);
+std::vector<std::string> of_curve(const model::JointCurve& curve, const ModelProduct& product, bool shown);
 /// The lines as an XML comment, without the characters that it forbids.
 std::string xml_comment(const std::vector<std::string>& lines);
 std::string xml_attribute(const std::string& text);
@@ -44,4 +44,4 @@ struct SimulatedBody {
 };
 SimulatedBody body_of(const ModelProduct& product);
 
-}  // namespace fusee::model_words
+}  // namespace fusee::formats::model_words

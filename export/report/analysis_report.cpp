@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/text.h"
+#include "export/report/analysis.h"
 #include "export/report/html.h"
 #include "export/report/moving_joint.h"
 #include "export/report/picture.h"
@@ -10,28 +12,26 @@
 #include "export/report/report_parts.h"
 #include "export/report/svg.h"
 #include "export/report/tables.h"
-#include "base/text.h"
 #include "fusee/base.h"
-#include "export/report/analysis.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 std::string at_words(double alpha) { return "at α = " + readable(degrees(alpha), 1) + "°"; }
 
-std::string ranges_words(const std::vector<AlphaRange>& ranges) {
+std::string ranges_words(const std::vector<analysis::AlphaRange>& ranges) {
   std::string words;
-  for (const AlphaRange& range : ranges)
+  for (const analysis::AlphaRange& range : ranges)
     words += (words.empty() ? "α = " : ", ") + readable(degrees(range.from), 1) + "° … " +
              readable(degrees(range.to), 1) + "°";
   return words.empty() ? "nowhere" : words;
 }
 
-std::string key_numbers_of(const AnalysisResult& result, const Mechanism& mechanism) {
-  const TensionExtreme& most = result.largest_tension;
+std::string key_numbers_of(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
+  const analysis::TensionExtreme& most = result.largest_tension;
   KeyNumbers numbers;
   numbers.add("Largest tension", with_unit(most.tension, "N"),
-              place_words(most, mechanism) + ", " + at_words(most.alpha));
+              analysis::place_words(most, mechanism) + ", " + at_words(most.alpha));
   numbers.add("By the paper’s chain", with_unit(result.largest_paper_tension.value, "N"),
               at_words(result.largest_paper_tension.alpha));
   if (result.strength)
@@ -49,9 +49,9 @@ std::string key_numbers_of(const AnalysisResult& result, const Mechanism& mechan
 // Plots ---------------------------------------------------------------------------------------------------------------
 
 template <typename Value>
-std::vector<Vec2> over_rows(const AnalysisResult& result, Value value) {
+std::vector<Vec2> over_rows(const analysis::AnalysisResult& result, Value value) {
   std::vector<Vec2> points;
-  for (const AnalysisRow& row : result.rows) points.emplace_back(degrees(row.declared.alpha), value(row));
+  for (const analysis::AnalysisRow& row : result.rows) points.emplace_back(degrees(row.declared.alpha), value(row));
   return points;
 }
 
@@ -59,7 +59,7 @@ PlotAxis axis_of(const std::string& label, const std::string& unit, double least
   return {label, unit, {}, {}, least_span};
 }
 
-std::vector<Figure> figures(const AnalysisResult& result, const Mechanism& mechanism) {
+std::vector<Figure> figures(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
   const PlotAxis alpha = axis_of("pulley angle α", "°", 1e-6);
   const std::string where = mechanism.sheath.is_there()                 ? "behind the sheaths, at the pulley"
                             : mechanism.guides.kind == GuideKind::idler ? "below the idlers"
@@ -72,7 +72,7 @@ std::vector<Figure> figures(const AnalysisResult& result, const Mechanism& mecha
   torque.series = {{"α growing", Ink::main, over_rows(result, [](const auto& r) { return r.rising.motor_torque; })},
                    {"α falling", Ink::p2, over_rows(result, [](const auto& r) { return r.falling.motor_torque; })}};
   Plot error{"Joint angle less the declared law", alpha, axis_of("Δθ", "°", 1e-3), {}, {}, {}};
-  const auto off = [](const EquilibriumPoint& point, const AnalysisRow& row) {
+  const auto off = [](const joint::EquilibriumPoint& point, const analysis::AnalysisRow& row) {
     return degrees(point.theta - row.declared.theta);
   };
   error.series = {{"α growing", Ink::main, over_rows(result, [&](const auto& r) { return off(r.rising, r); })},
@@ -86,14 +86,14 @@ std::vector<Figure> figures(const AnalysisResult& result, const Mechanism& mecha
   return {plot_figure(tension), plot_figure(torque), plot_figure(error), plot_figure(stiffness)};
 }
 
-std::string plots(const AnalysisResult& result, const Mechanism& mechanism) {
+std::string plots(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
   std::string html;
   for (const Figure& figure : figures(result, mechanism)) html += in_div(figure);
   return "<div class=\"plots\">" + html + "</div>";
 }
 
 /// The figures two by two below the mechanism's name.
-Figure picture_of(const MechanismFile& file, const AnalysisResult& result) {
+Figure picture_of(const MechanismFile& file, const analysis::AnalysisResult& result) {
   constexpr double k_head = 34, k_gap = 24;
   const std::string& name = file.mechanism.name;
   Figure all{0, k_head, name + ": analysis", svg_words("heading", {2, 20}, name), {}};
@@ -114,17 +114,17 @@ Figure picture_of(const MechanismFile& file, const AnalysisResult& result) {
 
 std::string angle_cell(double angle, int decimals) { return html_number_cell(readable(degrees(angle), decimals)); }
 
-std::string sources_table(const std::vector<ErrorSource>& sources) {
+std::string sources_table(const std::vector<analysis::ErrorSource>& sources) {
   std::string rows;
-  for (const ErrorSource& source : sources)
+  for (const analysis::ErrorSource& source : sources)
     rows += "<tr>" + html_cell(source.meaning) + angle_cell(source.least, 4) + angle_cell(source.most, 4) +
             angle_cell(source.worst_at, 1) + "</tr>";
   return html_table({"θ off the declared law by", "#from (°)", "#to (°)", "#worst at α (°)"}, rows);
 }
 
-std::string tolerances_table(const std::vector<ToleranceEffect>& effects) {
+std::string tolerances_table(const std::vector<analysis::ToleranceEffect>& effects) {
   std::string rows;
-  for (const ToleranceEffect& effect : effects)
+  for (const analysis::ToleranceEffect& effect : effects)
     rows += "<tr>" + html_cell(effect.key) + angle_cell(effect.theta_by_derivative, 4) +
             angle_cell(effect.theta_by_monte_carlo, 4) + angle_cell(effect.theta_at, 1) +
             html_number_cell(readable(effect.slack_by_derivative, 4)) +
@@ -140,30 +140,30 @@ std::string said_section(const std::vector<Diagnostic>& said) {
   return "<section class=\"warnings\">" + html_list(lines) + "</section>\n";
 }
 
-std::vector<StrokePoint> stroke_of(const AnalysisResult& result) {
-  std::vector<StrokePoint> stroke;
-  for (const AnalysisRow& row : result.rows) stroke.push_back({row.rising, row.falling});
+std::vector<analysis::StrokePoint> stroke_of(const analysis::AnalysisResult& result) {
+  std::vector<analysis::StrokePoint> stroke;
+  for (const analysis::AnalysisRow& row : result.rows) stroke.push_back({row.rising, row.falling});
   return stroke;
 }
 
 }  // namespace
 
-std::string analysis_svg(const MechanismFile& file, const AnalysisResult& result) {
+std::string analysis_svg(const MechanismFile& file, const analysis::AnalysisResult& result) {
   return standalone_svg(picture_of(file, result));
 }
 
-std::string analysis_png(const MechanismFile& file, const AnalysisResult& result) {
+std::string analysis_png(const MechanismFile& file, const analysis::AnalysisResult& result) {
   const Figure picture = picture_of(file, result);
   return png_of(standalone_svg(picture), picture.width, picture.height);
 }
 
-std::string analysis_pdf(const MechanismFile& file, const AnalysisResult& result) {
+std::string analysis_pdf(const MechanismFile& file, const analysis::AnalysisResult& result) {
   const Figure picture = picture_of(file, result);
   return pdf_of(standalone_svg(picture), picture.width, picture.height);
 }
 
-std::string analysis_html(const MechanismFile& file, const AnalysisResult& result, const AnalysisOptions& options,
-                          const std::vector<Diagnostic>& said) {
+std::string analysis_html(const MechanismFile& file, const analysis::AnalysisResult& result,
+                          const analysis::AnalysisOptions& options, const std::vector<Diagnostic>& said) {
   const std::string moving = moving_joint(file.mechanism, result.synthesis, stroke_of(result));
   return html_page(
       {.title = "analysis",
@@ -185,4 +185,4 @@ std::string analysis_html(const MechanismFile& file, const AnalysisResult& resul
        .scripts = {embedded::readout_js, joint_script(file.mechanism)}});
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -1,28 +1,27 @@
 // calibration.json and manifest.json of a calibration.
 
-#include "fusee/export.h"
-
 #include <cmath>
 #include <filesystem>
 
 #include "base/output_list.h"
+#include "calibration/words.h"
 #include "export/report/calibration_words.h"
 #include "export/tool.h"
 #include "fusee/base.h"
-#include "calibration/words.h"
+#include "fusee/export.h"
 #include "mechanism/effect.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 /// Null where no joints were simulated.
-Json audit_json(const Audit& audit) {
+Json audit_json(const calibration::Audit& audit) {
   return audit.data_sets > 0 ? Json({{"worlds", audit.data_sets}, {"named", audit.false_positives}}) : Json();
 }
 
-Json parameters_json(const std::vector<FittedParameter>& parameters) {
+Json parameters_json(const std::vector<calibration::FittedParameter>& parameters) {
   Json json = Json::object();
-  for (const FittedParameter& parameter : parameters) {
+  for (const calibration::FittedParameter& parameter : parameters) {
     json[parameter.name] = {{"value", nine_digits(parameter.value)},
                             {"ci95_if_only", {nine_digits(parameter.low_if_only), nine_digits(parameter.high_if_only)}},
                             {"ci95", {nine_digits(parameter.low), nine_digits(parameter.high)}}};
@@ -30,31 +29,31 @@ Json parameters_json(const std::vector<FittedParameter>& parameters) {
   return json;
 }
 
-Json effect_json(const FoundEffect& effect) {
+Json effect_json(const calibration::FoundEffect& effect) {
   Json json = {{"name", effect.name},
                {"group", effect.group},
-               {"place", word(effect.place)},
+               {"place", fusee::word(effect.place)},
                {"parameters", parameters_json(effect.parameters)},
                {"rms_drop_deg", angle_json(effect.rms_drop)},
                {"share", nine_digits(effect.share)},
                {"evidence", nine_digits(effect.evidence)},
                {"audit", audit_json(effect.audit)},
-               {"correctable_by", word(effect.correctable_by)}};
+               {"correctable_by", fusee::word(effect.correctable_by)}};
   // Only a group that may be unmodelled has this key.
-  if (effect.group.back() == k_unmodelled) {
+  if (effect.group.back() == calibration::k_unmodelled) {
     json["unmodelled"] = {{"behind", nine_digits(effect.unmodelled.log_odds)}, {"words", unmodelled_words(effect)}};
   }
-  for (const MemberBeside& member : effect.instead)
+  for (const calibration::MemberBeside& member : effect.instead)
     json["instead"].push_back({{"name", member.name}, {"parameters", parameters_json(member.parameters)}});
-  for (const MemberBeside& member : effect.beside)
+  for (const calibration::MemberBeside& member : effect.beside)
     json["beside"].push_back({{"name", member.name}, {"parameters", parameters_json(member.parameters)}});
   return json;
 }
 
 /// Parts of the discrepancy beside the effects.
-Json unknown_json(const std::vector<DiscrepancyComponent>& unknown) {
+Json unknown_json(const std::vector<calibration::DiscrepancyComponent>& unknown) {
   Json list = Json::array();
-  for (const DiscrepancyComponent& part : unknown) {
+  for (const calibration::DiscrepancyComponent& part : unknown) {
     Json json = {{"factor", part.factor},
                  {"rms_deg", angle_json(part.rms)},
                  {"evidence", nine_digits(part.evidence)},
@@ -73,7 +72,7 @@ Json angles_json(const std::vector<double>& angles) {
 
 /// Null if the effects explain the data.
 Json covered_json(const CalibrationProduct& product) {
-  const EmpiricalCurve& curve = product.calibration.curve;
+  const calibration::EmpiricalCurve& curve = product.calibration.curve;
   if (!curve.used && curve.why.empty()) return {};
   Json json = {{"used", curve.used}, {"words", curve_words(product)}};
   if (!curve.used) json["why"] = curve.why;
@@ -87,13 +86,13 @@ Json covered_json(const CalibrationProduct& product) {
   return json;
 }
 
-Json figures_json(const ErrorFigures& figures) {
+Json figures_json(const calibration::ErrorFigures& figures) {
   return {{"rms_deg", angle_json(figures.rms)},
           {"max_deg", angle_json(figures.max)},
           {"held_out_rms_deg", angle_json(figures.held_out_rms)}};
 }
 
-Json iso_json(const Iso230& iso) {
+Json iso_json(const measurement::Iso230& iso) {
   return {{"A_deg", angle_json(iso.A)},
           {"R_deg", angle_json(iso.R)},
           {"B_deg", angle_json(iso.B)},
@@ -101,9 +100,9 @@ Json iso_json(const Iso230& iso) {
           {"M_deg", angle_json(iso.M)}};
 }
 
-Json tried_json(const std::vector<Candidate>& tried) {
+Json tried_json(const std::vector<calibration::Candidate>& tried) {
   Json list = Json::array();
-  for (const Candidate& candidate : tried) {
+  for (const calibration::Candidate& candidate : tried) {
     list.push_back({{"name", candidate.name},
                     {"evidence", nine_digits(candidate.evidence)},
                     {"accepted", candidate.accepted},
@@ -112,9 +111,9 @@ Json tried_json(const std::vector<Candidate>& tried) {
   return list;
 }
 
-Json noise_levels_json(const NoiseFloor& noise) {
+Json noise_levels_json(const measurement::NoiseFloor& noise) {
   Json list = Json::array();
-  for (const NoiseLevel& level : noise.levels) {
+  for (const measurement::NoiseLevel& level : noise.levels) {
     list.push_back({{"load", nine_digits(level.load)},
                     {"speed_deg_per_s", angle_json(level.speed)},
                     {"rms_deg", angle_json(level.rms)},
@@ -123,9 +122,9 @@ Json noise_levels_json(const NoiseFloor& noise) {
   return list;
 }
 
-Json effects_json(const Calibration& calibration) {
+Json effects_json(const calibration::Calibration& calibration) {
   Json list = Json::array();
-  for (const FoundEffect& effect : calibration.effects) list.push_back(effect_json(effect));
+  for (const calibration::FoundEffect& effect : calibration.effects) list.push_back(effect_json(effect));
   return list;
 }
 
@@ -137,28 +136,28 @@ Json numbers_json(const std::vector<double>& values) {
   return list;
 }
 
-Json slips_json(const std::vector<LikelyInputError>& slips) {
+Json slips_json(const std::vector<calibration::LikelyInputError>& slips) {
   Json list = Json::array();
-  for (const LikelyInputError& slip : slips) {
+  for (const calibration::LikelyInputError& slip : slips) {
     list.push_back({{"key", slip.key},
                     {"declared", numbers_json(slip.declared)},
                     {"would_be", numbers_json(slip.would_be)},
                     {"rms_deg", angle_json(slip.rms)},
                     {"pulley_as_declared", slip.pulley_as_declared},
                     {"beside", slip.beside},
-                    {"words", input_error_words(slip)}});
+                    {"words", calibration::input_error_words(slip)}});
   }
   return list;
 }
 
-Json detectable_json(const Calibration& calibration) {
+Json detectable_json(const calibration::Calibration& calibration) {
   Json list = Json::array();
-  for (const Detectable& detectable : calibration.detectable)
+  for (const calibration::Detectable& detectable : calibration.detectable)
     list.push_back({{"name", detectable.name}, {"smallest_deg", angle_json(detectable.smallest)}});
   return list;
 }
 
-Json correctable_json(const Correction& correction) {
+Json correctable_json(const correction::Correction& correction) {
   Json json = {{"by_pulley_rms_deg", angle_json(correction.by_pulley)},
                {"by_table_rms_deg", angle_json(correction.by_table)}};
   if (correction.by_curve > 0) json["by_empirical_curve_rms_deg"] = angle_json(correction.by_curve);
@@ -177,7 +176,7 @@ Json correctable_json(const Correction& correction) {
 Json next_json(const CalibrationProduct& product) {
   Json list = Json::array();
   for (std::size_t i = 0; i < product.calibration.next.size(); ++i) {
-    const NextMeasurement& next = product.calibration.next[i];
+    const plan::NextMeasurement& next = product.calibration.next[i];
     Json json = {{"kind", next.kind()}};
     if (next.run) json["file"] = next_file_name(product, i);
     if (!next.readings.empty()) json["key"] = next.readings.front()->by_hand.key;
@@ -195,8 +194,8 @@ Json next_json(const CalibrationProduct& product) {
 }  // namespace
 
 std::string calibration_json(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
-  Json json = {{"schema", 1}, {"verdict", word(calibration.verdict)}, {"summary", calibration.summary}};
+  const calibration::Calibration& calibration = product.calibration;
+  Json json = {{"schema", 1}, {"verdict", calibration::word(calibration.verdict)}, {"summary", calibration.summary}};
   const Headline first = headline(product);
   json["headline"] = {{"problem", first.problem}, {"cause", first.cause}, {"action", first.action}};
   json["effects"] = effects_json(calibration);
@@ -234,11 +233,11 @@ std::string calibration_manifest_json(const CalibrationProduct& product, const s
   json["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
                    {"sha256", product.file.sha256}};
   json["runs"] = Json::array();
-  for (const Run& run : product.measurement.runs) json["runs"].push_back(run.name);
-  json["verdict"] = word(product.calibration.verdict);
+  for (const measurement::Run& run : product.measurement.runs) json["runs"].push_back(run.name);
+  json["verdict"] = calibration::word(product.calibration.verdict);
   if (product.correction.by_curve > 0) json["empirical"] = {"compensation.csv"};
   json["outputs"] = output_list(outputs);
   return json_text(json, 1);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text.h"
+#include "calibration/words.h"
 #include "export/report/calibration_words.h"
 #include "export/report/svg.h"
-#include "base/text.h"
 #include "fusee/base.h"
-#include "calibration/words.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr std::size_t k_most_candidates = 3;
@@ -46,11 +46,11 @@ struct Patterns {
   double rows = 0, error = 0, squares = 0;
 };
 
-Patterns patterns_of(const Measurement& measurement, const std::vector<std::vector<double>>& residuals) {
+Patterns patterns_of(const measurement::Measurement& measurement, const std::vector<std::vector<double>>& residuals) {
   Patterns all;
   for (std::size_t r = 0; r < std::min(measurement.runs.size(), residuals.size()); ++r) {
-    const Run& run = measurement.runs[r];
-    for (const Stroke& stroke : run.strokes) {
+    const measurement::Run& run = measurement.runs[r];
+    for (const measurement::Stroke& stroke : run.strokes) {
       for (std::size_t i = stroke.first; !stroke.partial && i <= stroke.last; ++i) {
         const double error = residuals[r][i];
         if (!std::isfinite(error)) continue;
@@ -68,10 +68,10 @@ Patterns patterns_of(const Measurement& measurement, const std::vector<std::vect
 
 /// The pattern that makes more than half of the error, or how large it is.
 std::string problem_words(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
+  const calibration::Calibration& calibration = product.calibration;
   const Patterns all = patterns_of(product.measurement, calibration.residuals_before);
   const double size = calibration.before.rms;
-  if (!(all.rows > 0) || calibration.verdict == CalibrationVerdict::no_effect)
+  if (!(all.rows > 0) || calibration.verdict == calibration::CalibrationVerdict::no_effect)
     return "The joint does what its file declares, within " + angle_words(size) + " rms.";
   const double mean = all.error / all.rows;
   const double slope = all.angle.slope(all.rows);
@@ -94,7 +94,7 @@ std::string problem_words(const CalibrationProduct& product) {
 
 // ---- why ------------------------------------------------------------------------------------------------------------
 
-std::string number_words(const FittedParameter& number, const std::string& load_unit) {
+std::string number_words(const calibration::FittedParameter& number, const std::string& load_unit) {
   const auto [name, unit] = name_and_unit(number.name, load_unit);
   return name + " " + readable_rounded(number.value, 3) + unit;
 }
@@ -107,23 +107,25 @@ struct CandidateWords {
 
 /// "both pulleys too small" and "scale −1.2 %"; by its name where the words of the sign stand for a part that they do
 /// not name ("the sensor reads too little").
-CandidateWords candidate_words(const std::string& name, const std::vector<FittedParameter>& numbers,
+CandidateWords candidate_words(const std::string& name, const std::vector<calibration::FittedParameter>& numbers,
                                const std::string& load_unit) {
   if (numbers.empty()) return {open_words(name), {}};
-  const FittedParameter& first = numbers.front();
+  const calibration::FittedParameter& first = numbers.front();
   const bool is_named = first.sense.empty() || first.sense.rfind("it ", 0) == 0;
   return {is_named ? open_words(name) : first.sense, {number_words(first, load_unit)}};
 }
 
-bool may_be_unmodelled(const FoundEffect& effect) { return effect.group.back() == k_unmodelled; }
+bool may_be_unmodelled(const calibration::FoundEffect& effect) {
+  return effect.group.back() == calibration::k_unmodelled;
+}
 
 /// Other candidates, in the order of the group.
-std::vector<CandidateWords> other_candidates(const FoundEffect& effect, const std::string& load_unit) {
+std::vector<CandidateWords> other_candidates(const calibration::FoundEffect& effect, const std::string& load_unit) {
   std::vector<CandidateWords> others;
   for (const std::string& member : rivals_of(effect)) {
-    if (member == k_unmodelled) continue;
+    if (member == calibration::k_unmodelled) continue;
     const auto own = std::find_if(effect.instead.begin(), effect.instead.end(),
-                                  [&](const MemberBeside& other) { return other.name == member; });
+                                  [&](const calibration::MemberBeside& other) { return other.name == member; });
     others.push_back(own == effect.instead.end() ? CandidateWords{open_words(member), {}}
                                                  : candidate_words(member, own->parameters, load_unit));
   }
@@ -131,7 +133,7 @@ std::vector<CandidateWords> other_candidates(const FoundEffect& effect, const st
 }
 
 /// The effect, and others of its group.
-std::string group_words(const FoundEffect& effect, const std::string& load_unit) {
+std::string group_words(const calibration::FoundEffect& effect, const std::string& load_unit) {
   std::vector<CandidateWords> candidates = {candidate_words(effect.name, effect.parameters, load_unit)};
   std::size_t more = 0;
   for (const CandidateWords& other : other_candidates(effect, load_unit)) {
@@ -153,19 +155,21 @@ std::string group_words(const FoundEffect& effect, const std::string& load_unit)
   return text + (may_be_unmodelled(effect) ? ", or an unmodelled cause" : "");
 }
 
-const FoundEffect& largest_effect(const std::vector<FoundEffect>& effects) {
+const calibration::FoundEffect& largest_effect(const std::vector<calibration::FoundEffect>& effects) {
   return *std::max_element(effects.begin(), effects.end(),
-                           [](const FoundEffect& one, const FoundEffect& other) { return one.share < other.share; });
+                           [](const calibration::FoundEffect& one, const calibration::FoundEffect& other) {
+                             return one.share < other.share;
+                           });
 }
 
 std::string cause_words(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
+  const calibration::Calibration& calibration = product.calibration;
   if (calibration.effects.empty()) {
-    if (calibration.verdict != CalibrationVerdict::unexplained) return "";
+    if (calibration.verdict != calibration::CalibrationVerdict::unexplained) return "";
     return std::string("No known cause predicts it") +
            (calibration.discrepancy.empty() ? "." : "; it depends on " + calibration.discrepancy.front().factor + ".");
   }
-  const FoundEffect& first = largest_effect(calibration.effects);
+  const calibration::FoundEffect& first = largest_effect(calibration.effects);
   std::string text = first_upper(group_words(first, product.measurement.load_unit));
   if (calibration.effects.size() > 1)
     text += "; and " + std::to_string(calibration.effects.size() - 1) + " more, below";
@@ -182,7 +186,7 @@ std::string first_clause(const std::string& sentence) {
 }
 
 /// An effect that is taken out where it is.
-std::string repair_words(const FoundEffect& effect, const std::string& load_unit) {
+std::string repair_words(const calibration::FoundEffect& effect, const std::string& load_unit) {
   constexpr std::array<std::pair<const char*, const char*>, 6> k_repairs = {
       {{"zero_offset", "Re-zero the joint sensor"},
        {"motor_offset", "Re-zero the motor sensor"},
@@ -193,17 +197,17 @@ std::string repair_words(const FoundEffect& effect, const std::string& load_unit
   const auto known =
       std::find_if(k_repairs.begin(), k_repairs.end(), [&](const auto& one) { return effect.name == one.first; });
   if (known == k_repairs.end() || effect.parameters.empty()) return "";
-  const FittedParameter& number = effect.parameters.front();
+  const calibration::FittedParameter& number = effect.parameters.front();
   if (effect.name != "zero_offset") return std::string(known->second) + ": " + number_words(number, load_unit) + ".";
   return std::string(known->second) + ": it reads " + readable_rounded(std::abs(number.value), 3) + "° " +
          (number.value > 0 ? "high." : "low.");
 }
 
 std::string action_words(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
+  const calibration::Calibration& calibration = product.calibration;
   if (!product.slips.empty()) return "Check the file first: see below.";
-  if (calibration.verdict == CalibrationVerdict::no_effect) return "Nothing to do.";
-  const bool is_sure = calibration.verdict == CalibrationVerdict::explained;
+  if (calibration.verdict == calibration::CalibrationVerdict::no_effect) return "Nothing to do.";
+  const bool is_sure = calibration.verdict == calibration::CalibrationVerdict::explained;
   if (!is_sure && !calibration.next.empty()) return first_clause(calibration.next.front().words);
   if (!calibration.effects.empty()) {
     const std::string repair = repair_words(largest_effect(calibration.effects), product.measurement.load_unit);
@@ -218,10 +222,10 @@ std::string share_words(double share) {
   return share > 0.995 ? "all" : share < 0.005 ? "< 1 %" : readable_rounded(std::round(100 * share), 2) + " %";
 }
 
-void add_rows(const std::string& cause, const std::vector<FittedParameter>& numbers, const std::string& load_unit,
-              std::vector<CauseRow>& rows) {
+void add_rows(const std::string& cause, const std::vector<calibration::FittedParameter>& numbers,
+              const std::string& load_unit, std::vector<CauseRow>& rows) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const FittedParameter& number = numbers[i];
+    const calibration::FittedParameter& number = numbers[i];
     const std::string unit = name_and_unit(number.name, load_unit).unit;
     // A searched number, such as the order of a harmonic, has no interval.
     const bool has_interval = number.low_if_only < number.high_if_only;
@@ -235,11 +239,11 @@ void add_rows(const std::string& cause, const std::vector<FittedParameter>& numb
 }  // namespace
 
 Headline headline(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
-  if (calibration.verdict == CalibrationVerdict::not_testable)
+  const calibration::Calibration& calibration = product.calibration;
+  if (calibration.verdict == calibration::CalibrationVerdict::not_testable)
     return {"These runs decide nothing.", calibration.summary,
             calibration.next.empty() ? "" : first_clause(calibration.next.front().words)};
-  if (calibration.verdict == CalibrationVerdict::not_repeatable)
+  if (calibration.verdict == calibration::CalibrationVerdict::not_repeatable)
     return {"The joint does not repeat: the same angle, direction and load give other joint angles.", "",
             calibration.next.empty() ? "" : first_clause(calibration.next.front().words)};
   return {problem_words(product), cause_words(product), action_words(product)};
@@ -248,20 +252,21 @@ Headline headline(const CalibrationProduct& product) {
 std::vector<CauseRow> cause_rows(const CalibrationProduct& product) {
   const std::string& load_unit = product.measurement.load_unit;
   std::vector<CauseRow> rows;
-  for (const FoundEffect& effect : product.calibration.effects) {
+  for (const calibration::FoundEffect& effect : product.calibration.effects) {
     const std::size_t first = rows.size();
     add_rows(open_words(effect.name), effect.parameters, load_unit, rows);
     rows[first].share = share_words(effect.share);
-    rows[first].corrected_by = effect.correctable_by == CorrectableBy::nothing ? "–" : word(effect.correctable_by);
+    rows[first].corrected_by =
+        effect.correctable_by == CorrectableBy::nothing ? "–" : fusee::word(effect.correctable_by);
     for (const std::string& member : rivals_of(effect)) {
       const auto own = std::find_if(effect.instead.begin(), effect.instead.end(),
-                                    [&](const MemberBeside& other) { return other.name == member; });
-      const std::vector<FittedParameter> none;
-      add_rows("or " + (member == k_unmodelled ? "an unmodelled cause" : open_words(member)),
+                                    [&](const calibration::MemberBeside& other) { return other.name == member; });
+      const std::vector<calibration::FittedParameter> none;
+      add_rows("or " + (member == calibration::k_unmodelled ? "an unmodelled cause" : open_words(member)),
                own == effect.instead.end() ? none : own->parameters, load_unit, rows);
     }
   }
   return rows;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

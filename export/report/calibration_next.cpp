@@ -5,20 +5,20 @@
 
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 const char* const k_folder = "next/";
 const char* const k_page = "next/bench.html";
 
-std::vector<std::string> names_of(const std::vector<Run>& runs) {
+std::vector<std::string> names_of(const std::vector<measurement::Run>& runs) {
   std::vector<std::string> names;
-  for (const Run& run : runs) names.push_back(run.name);
+  for (const measurement::Run& run : runs) names.push_back(run.name);
   return names;
 }
 
-PlanStep step_of(const NextMeasurement& next, double minutes_before) {
-  PlanStep step;
+plan::PlanStep step_of(const plan::NextMeasurement& next, double minutes_before) {
+  plan::PlanStep step;
   step.run = next.run;
   if (!next.readings.empty()) step.reading = next.readings.front();
   step.words = next.words;
@@ -33,7 +33,7 @@ PlanProduct next_plan(const CalibrationProduct& product) {
   next.file = product.file;
   next.plan.first_run = first_free_run(names_of(product.measurement.runs));
   next.plan.load_unit = product.file.mechanism.transmission ? product.measurement.load_unit : "N";
-  for (const NextMeasurement& one : product.calibration.next) {
+  for (const plan::NextMeasurement& one : product.calibration.next) {
     next.plan.steps.push_back(step_of(one, next.plan.minutes));
     next.plan.minutes = next.plan.steps.back().by;
   }
@@ -73,4 +73,4 @@ std::vector<OutputFile> next_files(const CalibrationProduct& product) {
   return files;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

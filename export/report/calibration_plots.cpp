@@ -7,11 +7,11 @@
 #include <limits>
 #include <optional>
 
-#include "export/report/plot.h"
 #include "base/text.h"
+#include "export/report/plot.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr int k_places = 48;                // of α
@@ -37,9 +37,9 @@ struct Extent {
 
 /// Calls visit(sample index) for the whole strokes of a run in one direction, and then between() after each stroke.
 void for_each_sample(
-    const Run& run, int direction, const std::function<void(std::size_t)>& visit,
+    const measurement::Run& run, int direction, const std::function<void(std::size_t)>& visit,
     const std::function<void()>& between = [] {}) {
-  for (const Stroke& stroke : run.strokes) {
+  for (const measurement::Stroke& stroke : run.strokes) {
     if (stroke.direction != direction || stroke.partial) continue;
     for (std::size_t i = stroke.first; i <= stroke.last && i < run.samples.size(); ++i) visit(i);
     between();
@@ -48,7 +48,7 @@ void for_each_sample(
 
 /// How many runs have residuals of every sample.
 std::size_t judged_runs(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
+  const calibration::Calibration& calibration = product.calibration;
   std::size_t count = 0;
   while (count < product.measurement.runs.size() && count < calibration.residuals_before.size() &&
          count < calibration.residuals_after.size() &&
@@ -59,10 +59,10 @@ std::size_t judged_runs(const CalibrationProduct& product) {
   return count;
 }
 
-Extent alpha_extent(const Measurement& measurement) {
+Extent alpha_extent(const measurement::Measurement& measurement) {
   Extent extent;
-  for (const Run& run : measurement.runs) {
-    for (const Sample& sample : run.samples) extent.include(degrees(sample.alpha));
+  for (const measurement::Run& run : measurement.runs) {
+    for (const measurement::Sample& sample : run.samples) extent.include(degrees(sample.alpha));
   }
   return extent;
 }
@@ -74,7 +74,7 @@ class ProfileSum {
  public:
   explicit ProfileSum(const Extent& alpha) : alpha_(alpha) {}
 
-  void add(const Run& run, const std::vector<double>& residuals, int direction) {
+  void add(const measurement::Run& run, const std::vector<double>& residuals, int direction) {
     for_each_sample(run, direction, [&](std::size_t i) {
       if (!std::isfinite(residuals[i])) return;
       const double place = (degrees(run.samples[i].alpha) - alpha_.low) / (alpha_.high - alpha_.low) * k_places;
@@ -107,7 +107,8 @@ class ProfileSum {
   Profile sums_{}, counts_{};
 };
 
-Profile profile_of(const Run& run, const std::vector<double>& residuals, int direction, const Extent& alpha) {
+Profile profile_of(const measurement::Run& run, const std::vector<double>& residuals, int direction,
+                   const Extent& alpha) {
   ProfileSum sum(alpha);
   sum.add(run, residuals, direction);
   return sum.mean();
@@ -126,7 +127,7 @@ PlotSeries profile_series(const Profile& profile, int direction, const Extent& a
 }
 
 /// Every stroke of a run in one direction, thinned.
-PlotSeries stroke_series(const Run& run, int direction, const std::function<double(std::size_t)>& value) {
+PlotSeries stroke_series(const measurement::Run& run, int direction, const std::function<double(std::size_t)>& value) {
   PlotSeries series{"", direction > 0 ? Ink::p1 : Ink::p2, {}, true};
   const std::size_t step = run.samples.size() / (2 * k_most_points) + 1;
   for_each_sample(
@@ -168,7 +169,7 @@ struct Map {
 Map map_of(const CalibrationProduct& product, const Residuals& residuals, const Extent& alpha) {
   Map map;
   for (std::size_t r = 0; r < judged_runs(product); ++r) {
-    const Run& run = product.measurement.runs[r];
+    const measurement::Run& run = product.measurement.runs[r];
     map.rows.push_back({profile_of(run, residuals[r], 1, alpha), profile_of(run, residuals[r], -1, alpha)});
   }
   return map;
@@ -207,7 +208,7 @@ std::string short_name(const std::string& name, std::size_t most) {
   return name.size() <= most || most < 4 ? name : "…" + name.substr(name.size() - most + 1);
 }
 
-std::string map_label(const Run& run, const std::string& load_unit) {
+std::string map_label(const measurement::Run& run, const std::string& load_unit) {
   if (!run.has_load) return short_name(run.name, 28);
   return short_name(run.name, 16) + ", " + readable_rounded(run.mean_load, 2) +
          (load_unit.empty() ? "" : " " + load_unit);
@@ -269,7 +270,8 @@ struct Level {
   int direction = 1;
 };
 
-std::optional<Level> level_of(const Run& run, const std::vector<double>& residuals, int direction, bool by_load) {
+std::optional<Level> level_of(const measurement::Run& run, const std::vector<double>& residuals, int direction,
+                              bool by_load) {
   double at = 0, sum = 0, count = 0;
   for_each_sample(run, direction, [&](std::size_t i) {
     if (!std::isfinite(residuals[i])) return;
@@ -284,7 +286,7 @@ std::optional<Level> level_of(const Run& run, const std::vector<double>& residua
 std::vector<Level> levels_of(const CalibrationProduct& product, const Residuals& residuals, bool by_load) {
   std::vector<Level> levels;
   for (std::size_t r = 0; r < judged_runs(product); ++r) {
-    const Run& run = product.measurement.runs[r];
+    const measurement::Run& run = product.measurement.runs[r];
     if (by_load ? !run.has_load : !run.has_time) continue;
     for (const int direction : {1, -1}) {
       if (const auto level = level_of(run, residuals[r], direction, by_load)) levels.push_back(*level);
@@ -325,7 +327,7 @@ std::string level_pair(const CalibrationProduct& product, bool by_load) {
 
 // ---- run by run -----------------------------------------------------------------------------------------------------
 
-double rms_of(const Run& run, const std::vector<double>& residuals) {
+double rms_of(const measurement::Run& run, const std::vector<double>& residuals) {
   double squares = 0, count = 0;
   for (const int direction : {1, -1}) {
     for_each_sample(run, direction, [&](std::size_t i) {
@@ -337,8 +339,8 @@ double rms_of(const Run& run, const std::vector<double>& residuals) {
   return count > 0 ? degrees(std::sqrt(squares / count)) : k_gap;
 }
 
-Figure run_figure(const Run& run, const std::vector<double>& residuals, const std::string& title, const Extent& extent,
-                  const Extent& alpha, bool wide) {
+Figure run_figure(const measurement::Run& run, const std::vector<double>& residuals, const std::string& title,
+                  const Extent& extent, const Extent& alpha, bool wide) {
   Plot plot{title,
             {"motor angle α", "°", alpha.low, alpha.high, 1e-6},
             {wide ? "measured less model" : "residual", "°", extent.low, extent.high, 1e-3},
@@ -356,7 +358,7 @@ Figure run_figure(const Run& run, const std::vector<double>& residuals, const st
 
 }  // namespace
 
-std::string run_words(const Run& run, const std::string& load_unit) {
+std::string run_words(const measurement::Run& run, const std::string& load_unit) {
   std::string words = run.name;
   if (run.has_load)
     words += ", load " + readable_rounded(run.mean_load, 3) + (load_unit.empty() ? "" : " " + load_unit);
@@ -393,7 +395,7 @@ std::string residual_runs_html(const CalibrationProduct& product) {
   const bool wide = shown <= k_few_runs;
   std::string html;
   for (std::size_t r = 0; r < shown; ++r) {
-    const Run& run = product.measurement.runs[r];
+    const measurement::Run& run = product.measurement.runs[r];
     const auto& before = product.calibration.residuals_before[r];
     const auto& after = product.calibration.residuals_after[r];
     html += "<div><h3>" + safe_text(run_words(run, product.measurement.load_unit)) + " <small>rms " +
@@ -431,7 +433,7 @@ std::string rest_html(const CalibrationProduct& product) {
   return single(plot);
 }
 
-std::string unknown_html(const DiscrepancyComponent& unknown) {
+std::string unknown_html(const calibration::DiscrepancyComponent& unknown) {
   if (unknown.alpha.size() < 2) return "";
   PlotSeries course{"", Ink::third, {}};
   for (std::size_t i = 0; i < unknown.alpha.size(); ++i)
@@ -448,7 +450,7 @@ std::string unknown_html(const DiscrepancyComponent& unknown) {
 }
 
 std::string curve_html(const CalibrationProduct& product) {
-  const EmpiricalCurve& curve = product.calibration.curve;
+  const calibration::EmpiricalCurve& curve = product.calibration.curve;
   if (!curve.used) return "";
   PlotSeries up{"α growing", Ink::p1, {}}, down{"α falling", Ink::p2, {}};
   for (std::size_t i = 0; i < curve.alpha.size(); ++i) {
@@ -467,15 +469,15 @@ std::string curve_html(const CalibrationProduct& product) {
 }
 
 std::string compensation_html(const CalibrationProduct& product) {
-  const std::vector<CompensationRow>& table = product.correction.table;
+  const std::vector<correction::CompensationRow>& table = product.correction.table;
   const Mechanism& mechanism = product.file.mechanism;
   if (table.size() < 2) return "";
-  const std::optional<Transmission> law =
-      mechanism.transmission ? std::nullopt : std::optional<Transmission>(mechanism);
+  const std::optional<transmission::Transmission> law =
+      mechanism.transmission ? std::nullopt : std::optional<transmission::Transmission>(mechanism);
   if (law && law->dead_centre()) return "";
   PlotSeries up{"from below", Ink::p1, {}}, down{"from above", Ink::p2, {}};
   double constant = 0;
-  for (const CompensationRow& row : table) {
+  for (const correction::CompensationRow& row : table) {
     const double declared = law ? law->alpha(row.theta) : row.theta * mechanism.transmission->ratio;
     up.points.emplace_back(degrees(row.theta), degrees(row.alpha_up - declared));
     down.points.emplace_back(degrees(row.theta), degrees(row.alpha_down - declared));
@@ -496,11 +498,11 @@ std::string compensation_html(const CalibrationProduct& product) {
   return single(plot);
 }
 
-std::string logged_html(const Measurement& measurement) {
+std::string logged_html(const measurement::Measurement& measurement) {
   std::string html;
   const std::size_t shown = std::min<std::size_t>(measurement.runs.size(), k_few_runs);
   for (std::size_t r = 0; r < shown; ++r) {
-    const Run& run = measurement.runs[r];
+    const measurement::Run& run = measurement.runs[r];
     if (run.samples.empty()) continue;
     Plot plot{run_words(run, measurement.load_unit),
               {"motor angle α", "°", {}, {}, 1},
@@ -517,4 +519,4 @@ std::string logged_html(const Measurement& measurement) {
   return html.empty() ? "" : "<div class=\"plots\">" + html + "</div>";
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -6,7 +6,7 @@
 
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// All runs at a glance: a row for each run and direction, a column for each place of α, the mean residual as colour.
 std::string residual_map_html(const CalibrationProduct& product);
@@ -17,15 +17,15 @@ std::string residual_levels_html(const CalibrationProduct& product);
 /// The residual of all runs over α, on an axis of its own with the noise floor.
 std::string rest_html(const CalibrationProduct& product);
 /// An unmodelled part over α.
-std::string unknown_html(const DiscrepancyComponent& unknown);
+std::string unknown_html(const calibration::DiscrepancyComponent& unknown);
 /// The empirical curve over α, both ways; "" where the table has none.
 std::string curve_html(const CalibrationProduct& product);
 /// Required motor angle, minus that of the declared law.
 std::string compensation_html(const CalibrationProduct& product);
 /// θ over α as it was logged: for data that cannot be judged.
-std::string logged_html(const Measurement& measurement);
+std::string logged_html(const measurement::Measurement& measurement);
 
 /// "run_2.csv, 6 N, 12 °/s"
-std::string run_words(const Run& run, const std::string& load_unit);
+std::string run_words(const measurement::Run& run, const std::string& load_unit);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <map>
 
+#include "base/text.h"
+#include "calibration/words.h"
 #include "export/report/calibration_plots.h"
 #include "export/report/calibration_words.h"
 #include "export/report/html.h"
@@ -14,11 +16,9 @@
 #include "export/report/svg.h"
 #include "export/report/tables.h"
 #include "export/tool.h"
-#include "base/text.h"
-#include "calibration/words.h"
 #include "mechanism/effect.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 std::string degree_words(double value) { return with_unit(degrees(value), "deg", 3); }
@@ -30,16 +30,16 @@ struct Sign {
   std::string sign;
 };
 
-Sign sign_of(CalibrationVerdict verdict) {
+Sign sign_of(calibration::CalibrationVerdict verdict) {
   switch (verdict) {
-    case CalibrationVerdict::explained:
-    case CalibrationVerdict::no_effect:
+    case calibration::CalibrationVerdict::explained:
+    case calibration::CalibrationVerdict::no_effect:
       return {"good", "✓"};
-    case CalibrationVerdict::confounded:
-    case CalibrationVerdict::unexplained:
+    case calibration::CalibrationVerdict::confounded:
+    case calibration::CalibrationVerdict::unexplained:
       return {"noted", "?"};
-    case CalibrationVerdict::not_repeatable:
-    case CalibrationVerdict::not_testable:
+    case calibration::CalibrationVerdict::not_repeatable:
+    case calibration::CalibrationVerdict::not_testable:
       break;
   }
   return {"bad", "✗"};
@@ -74,9 +74,9 @@ std::string folded(const std::string& section) {
          "</h2></summary>" + section.substr(end + 5, section.rfind("</section>") - end - 5) + "</details></section>\n";
 }
 
-std::string summary_section(const Calibration& calibration) {
+std::string summary_section(const calibration::Calibration& calibration) {
   return html_section(
-      "verdict", "Verdict: " + open_words(std::string(word(calibration.verdict))),
+      "verdict", "Verdict: " + open_words(std::string(calibration::word(calibration.verdict))),
       "<p>" + safe_text(calibration.summary) + "</p>" +
           (calibration.noise_varies.empty() ? "" : "<p>" + safe_text(calibration.noise_varies) + "</p>"));
 }
@@ -89,7 +89,7 @@ std::string slips_section(const CalibrationProduct& product) {
 }
 
 std::string key_numbers(const CalibrationProduct& product) {
-  const Calibration& c = product.calibration;
+  const calibration::Calibration& c = product.calibration;
   KeyNumbers numbers;
   numbers.add("Error on data not fitted, RMS",
               degree_words(c.before.held_out_rms) + " → " + degree_words(c.after.held_out_rms));
@@ -113,7 +113,7 @@ std::string figures_row(const std::string& name, double before, double after) {
 }
 
 std::string held_out_words(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
+  const calibration::Calibration& calibration = product.calibration;
   const std::size_t runs = product.measurement.runs.size();
   const bool named = calibration.held_out_runs.size() < runs;
   std::string words = "The error on data that were not fitted ";
@@ -127,7 +127,7 @@ std::string held_out_words(const CalibrationProduct& product) {
 }
 
 std::string figures_section(const CalibrationProduct& product) {
-  const Calibration& c = product.calibration;
+  const calibration::Calibration& c = product.calibration;
   const std::string rows =
       figures_row("RMS", c.before.rms, c.after.rms) + figures_row("Largest", c.before.max, c.after.max) +
       figures_row("RMS on data that were not fitted", c.before.held_out_rms, c.after.held_out_rms) +
@@ -149,7 +149,7 @@ std::string figures_section(const CalibrationProduct& product) {
 // ---- what to do -----------------------------------------------------------------------------------------------------
 
 std::vector<std::string> correction_items(const CalibrationProduct& product) {
-  const Correction& correction = product.correction;
+  const correction::Correction& correction = product.correction;
   std::vector<std::string> items;
   if (correction.has_pulley) {
     items.push_back("fusee build corrected.toml makes a pulley that takes away " + degree_words(correction.by_pulley) +
@@ -174,10 +174,10 @@ std::vector<std::string> correction_items(const CalibrationProduct& product) {
   return items;
 }
 
-std::string compensation_table(const Correction& correction) {
+std::string compensation_table(const correction::Correction& correction) {
   const bool has_curve = correction.by_curve > 0;
   std::string rows;
-  for (const CompensationRow& row : correction.table) {
+  for (const correction::CompensationRow& row : correction.table) {
     std::vector<double> angles = {row.theta, row.alpha_up, row.alpha_down, row.alpha_up - row.alpha_down};
     if (has_curve) angles.insert(angles.end(), {row.curve_up, row.curve_down});
     rows += "<tr>";
@@ -191,7 +191,7 @@ std::string compensation_table(const Correction& correction) {
 }
 
 std::string action_section(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
+  const calibration::Calibration& calibration = product.calibration;
   std::string html;
   if (!calibration.next.empty())
     html += "<h3>Measure next, what tells most first</h3>" + html_list(next_texts(calibration), "ol", "next");
@@ -204,14 +204,15 @@ std::string action_section(const CalibrationProduct& product) {
 
 using Signatures = std::map<std::string, const Effect*>;
 
-std::string effect_card(const FoundEffect& effect, const Signatures& known, const std::string& load_unit) {
-  std::string html = "<div class=\"effect\"><h3>" +
-                     safe_text(first_upper(open_words(effect.name)) + ", at the " + std::string(word(effect.place))) +
-                     "</h3><p class=\"found\">";
+std::string effect_card(const calibration::FoundEffect& effect, const Signatures& known, const std::string& load_unit) {
+  std::string html =
+      "<div class=\"effect\"><h3>" +
+      safe_text(first_upper(open_words(effect.name)) + ", at the " + std::string(fusee::word(effect.place))) +
+      "</h3><p class=\"found\">";
   for (std::size_t i = 0; i < effect.parameters.size(); ++i)
     html += (i > 0 ? "<br/>" : "") + safe_text(parameter_words(effect.parameters[i], load_unit));
   html += "</p><p>Takes " + safe_text(degree_words(effect.rms_drop)) +
-          " rms off the error on data that were not fitted. " + std::string(remedy_words(effect)) + "</p>";
+          " rms off the error on data that were not fitted. " + std::string(calibration::remedy_words(effect)) + "</p>";
   if (const auto found = known.find(effect.name); found != known.end())
     html += "<p>How it shows: " + safe_text(found->second->signature) + ".</p>";
   if (const std::string audit = audit_words(effect); !audit.empty()) html += "<p>" + safe_text(audit) + "</p>";
@@ -219,7 +220,7 @@ std::string effect_card(const FoundEffect& effect, const Signatures& known, cons
     html += "<p>" + safe_text(words) + "</p>";
   if (const std::string words = unmodelled_words(effect); !words.empty()) html += "<p>" + safe_text(words) + "</p>";
   std::vector<std::string> rivals = rivals_of(effect);
-  std::erase(rivals, k_unmodelled);
+  std::erase(rivals, calibration::k_unmodelled);
   if (rivals.empty()) return html + "<p>Nothing else in the catalogue explains these data as well.</p></div>";
   html += "<p><b>Equally likely:</b></p><ul>";
   for (const std::string& rival : rivals) {
@@ -231,11 +232,11 @@ std::string effect_card(const FoundEffect& effect, const Signatures& known, cons
 }
 
 std::string effects_section(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
+  const calibration::Calibration& calibration = product.calibration;
   Signatures known;
   for (const Effect& effect : effects(kind_of(product.file.mechanism))) known[effect.name] = &effect;
   std::string html;
-  for (const FoundEffect& effect : calibration.effects)
+  for (const calibration::FoundEffect& effect : calibration.effects)
     html += effect_card(effect, known, product.measurement.load_unit);
   if (html.empty()) html = "<p>None was accepted.</p>";
   if (!calibration.null_combinations.empty()) {
@@ -261,9 +262,9 @@ std::string moving_section(const CalibrationProduct& product) {
 // ---- residuals ------------------------------------------------------------------------------------------------------
 
 /// Mean and rms of a run's residuals in one direction.
-std::string direction_cells(const Run& run, const std::vector<double>& residuals, int direction) {
+std::string direction_cells(const measurement::Run& run, const std::vector<double>& residuals, int direction) {
   double sum = 0, squares = 0, count = 0;
-  for (const Stroke& stroke : run.strokes) {
+  for (const measurement::Stroke& stroke : run.strokes) {
     if (stroke.direction != direction || stroke.partial) continue;
     for (std::size_t i = stroke.first; i <= stroke.last && i < residuals.size(); ++i) {
       if (!std::isfinite(residuals[i])) continue;
@@ -278,11 +279,11 @@ std::string direction_cells(const Run& run, const std::vector<double>& residuals
 }
 
 std::string run_table(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
+  const calibration::Calibration& calibration = product.calibration;
   std::string rows;
   for (std::size_t r = 0; r < product.measurement.runs.size(); ++r) {
     if (r >= calibration.residuals_before.size() || r >= calibration.residuals_after.size()) break;
-    const Run& run = product.measurement.runs[r];
+    const measurement::Run& run = product.measurement.runs[r];
     rows += "<tr>" + html_cell(run_words(run, product.measurement.load_unit));
     for (const auto* residuals : {&calibration.residuals_before[r], &calibration.residuals_after[r]}) {
       rows += direction_cells(run, *residuals, 1) + direction_cells(run, *residuals, -1);
@@ -313,15 +314,15 @@ std::string covered_html(const CalibrationProduct& product) {
   return "<h3>What of it the table covers</h3><p>" + safe_text(first_upper(words)) + ".</p>" + curve_html(product);
 }
 
-std::string described_html(const std::string& heading, const std::vector<DiscrepancyComponent>& parts) {
+std::string described_html(const std::string& heading, const std::vector<calibration::DiscrepancyComponent>& parts) {
   std::string html = parts.empty() ? "" : "<h3>" + heading + "</h3>";
-  for (const DiscrepancyComponent& part : parts)
+  for (const calibration::DiscrepancyComponent& part : parts)
     html += "<p>" + safe_text(first_upper(unknown_words(part))) + ".</p>" + unknown_html(part);
   return html;
 }
 
 std::string rest_section(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
+  const calibration::Calibration& calibration = product.calibration;
   const std::string plot = rest_html(product);
   if (plot.empty()) return "";
   const std::string words = calibration.unexplained_where.empty()
@@ -339,13 +340,14 @@ std::string rest_section(const CalibrationProduct& product) {
 // ---- evidence -------------------------------------------------------------------------------------------------------
 
 /// True if `name` is in the group of an effect that another names.
-bool is_as_good(const Calibration& calibration, const std::string& name) {
-  return std::any_of(calibration.effects.begin(), calibration.effects.end(), [&](const FoundEffect& effect) {
-    return name != effect.name && std::find(effect.group.begin(), effect.group.end(), name) != effect.group.end();
-  });
+bool is_as_good(const calibration::Calibration& calibration, const std::string& name) {
+  return std::any_of(
+      calibration.effects.begin(), calibration.effects.end(), [&](const calibration::FoundEffect& effect) {
+        return name != effect.name && std::find(effect.group.begin(), effect.group.end(), name) != effect.group.end();
+      });
 }
 
-std::string evidence_row(const Candidate& candidate, double most, bool as_good) {
+std::string evidence_row(const calibration::Candidate& candidate, double most, bool as_good) {
   const double width = most > 0 ? std::clamp(100 * candidate.evidence / most, 0.0, 100.0) : 0;
   return std::string("<tr") +
          (candidate.accepted ? " class=\"taken\""
@@ -357,20 +359,20 @@ std::string evidence_row(const Candidate& candidate, double most, bool as_good) 
                                        : "") +
                    open_words(candidate.name)) +
          "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
-         html_number_cell(std::isfinite(candidate.evidence) ? odds(candidate.evidence) : "–") +
+         html_number_cell(std::isfinite(candidate.evidence) ? calibration::odds(candidate.evidence) : "–") +
          html_cell(candidate.why + (as_good ? "; as good in another's place" : "")) + "</tr>";
 }
 
-std::string evidence_section(const Calibration& calibration) {
-  std::vector<Candidate> all = calibration.tried;
-  std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+std::string evidence_section(const calibration::Calibration& calibration) {
+  std::vector<calibration::Candidate> all = calibration.tried;
+  std::stable_sort(all.begin(), all.end(), [](const calibration::Candidate& a, const calibration::Candidate& b) {
     return a.accepted != b.accepted ? a.accepted : a.evidence > b.evidence;
   });
   double most = 0;
-  for (const Candidate& candidate : all)
+  for (const calibration::Candidate& candidate : all)
     most = std::isfinite(candidate.evidence) ? std::max(most, candidate.evidence) : most;
   std::string rows;
-  for (const Candidate& candidate : all)
+  for (const calibration::Candidate& candidate : all)
     rows += evidence_row(candidate, most, !candidate.accepted && is_as_good(calibration, candidate.name));
   if (rows.empty()) return "";
   return html_section(
@@ -380,7 +382,7 @@ std::string evidence_section(const Calibration& calibration) {
           html_table({"effect", "", "#odds", "why"}, rows));
 }
 
-std::string detectable_section(const Calibration& calibration) {
+std::string detectable_section(const calibration::Calibration& calibration) {
   std::string rows;
   for (const auto& [size, names] : detectable_groups(calibration))
     rows += "<tr>" + html_number_cell(degree_words(size)) + html_cell(open_words(joined(names, ", "))) + "</tr>";
@@ -392,7 +394,7 @@ std::string detectable_section(const Calibration& calibration) {
           html_table({"#at the joint", "effects"}, rows));
 }
 
-std::string data_section(const Measurement& measurement) {
+std::string data_section(const measurement::Measurement& measurement) {
   std::vector<std::string> notes = shortened_notes(measurement.notes);
   std::string html;
   if (!measurement.not_testable.empty())
@@ -405,7 +407,7 @@ std::string data_section(const Measurement& measurement) {
 }  // namespace
 
 std::string calibration_report_html(const CalibrationProduct& product) {
-  const Calibration& calibration = product.calibration;
+  const calibration::Calibration& calibration = product.calibration;
   const std::size_t runs = product.measurement.runs.size();
   Page page{.title = "calibration",
             .kicker = "Calibration report",
@@ -416,7 +418,7 @@ std::string calibration_report_html(const CalibrationProduct& product) {
             .foot = "Angles in degrees at the joint, lengths in mm, forces in N.",
             .styles = {embedded::figure_css, embedded::page_css, embedded::calibration_css},
             .scripts = {embedded::readout_js, joint_script(product.file.mechanism)}};
-  if (calibration.verdict != CalibrationVerdict::not_testable) {
+  if (calibration.verdict != calibration::CalibrationVerdict::not_testable) {
     for (const std::string& section :
          {summary_section(calibration), action_section(product), key_numbers(product), effects_section(product),
           moving_section(product), residuals_section(product), rest_section(product), figures_section(product),
@@ -429,4 +431,4 @@ std::string calibration_report_html(const CalibrationProduct& product) {
   return html_page(page);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -4,13 +4,13 @@
 #include <array>
 #include <map>
 
-#include "export/report/svg.h"
 #include "base/text.h"
-#include "fusee/base.h"
 #include "calibration/words.h"
+#include "export/report/svg.h"
+#include "fusee/base.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 struct NamedUnit {
@@ -54,26 +54,27 @@ std::string first_upper(std::string words) {
   return words;
 }
 
-std::string audit_words(const FoundEffect& effect) {
+std::string audit_words(const calibration::FoundEffect& effect) {
   if (effect.audit.data_sets == 0) return "";
   return "In " + std::to_string(effect.audit.data_sets) + " simulated joints without " + open_words(effect.name) +
          ", these runs would have named it in " + std::to_string(effect.audit.false_positives) + ".";
 }
 
-std::string unmodelled_words(const FoundEffect& effect) {
-  if (effect.group.empty() || effect.group.back() != k_unmodelled) return "";
-  const UnmodelledAlternative& rival = effect.unmodelled;
+std::string unmodelled_words(const calibration::FoundEffect& effect) {
+  if (effect.group.empty() || effect.group.back() != calibration::k_unmodelled) return "";
+  const calibration::UnmodelledAlternative& rival = effect.unmodelled;
   const std::string in_its_place = (rival.words.empty() ? "a smooth curve" : rival.words) +
-                                   " in its place; odds for the named cause " + odds(rival.log_odds);
+                                   " in its place; odds for the named cause " + calibration::odds(rival.log_odds);
   return "Or an unmodelled cause that does the same: " + in_its_place +
          (rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".");
 }
 
-std::string beside_words(const FoundEffect& effect, const std::string& load_unit) {
+std::string beside_words(const calibration::FoundEffect& effect, const std::string& load_unit) {
   std::vector<std::string> members;
-  for (const MemberBeside& member : effect.beside) {
+  for (const calibration::MemberBeside& member : effect.beside) {
     std::vector<std::string> numbers;
-    for (const FittedParameter& own : member.parameters) numbers.push_back(parameter_words(own, load_unit));
+    for (const calibration::FittedParameter& own : member.parameters)
+      numbers.push_back(parameter_words(own, load_unit));
     members.push_back(open_words(member.name) + " (" + joined(numbers, "; ") + ")");
   }
   if (members.empty()) return "";
@@ -82,7 +83,7 @@ std::string beside_words(const FoundEffect& effect, const std::string& load_unit
          "predicted best.";
 }
 
-std::string unknown_words(const DiscrepancyComponent& unknown) {
+std::string unknown_words(const calibration::DiscrepancyComponent& unknown) {
   return rounded(degrees(unknown.rms), 2) + "° rms, " + unknown.factor + ": " + unknown.words;
 }
 
@@ -102,7 +103,7 @@ NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_
   return {open_words(parameter), ""};
 }
 
-std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit) {
+std::string parameter_words(const calibration::FittedParameter& parameter, const std::string& load_unit) {
   const auto [name, unit] = name_and_unit(parameter.name, load_unit);
   const std::string own = readable_rounded(parameter.low_if_only) + " … " + readable_rounded(parameter.high_if_only),
                     all = readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high);
@@ -111,7 +112,7 @@ std::string parameter_words(const FittedParameter& parameter, const std::string&
          (parameter.sense.empty() ? "" : ", " + parameter.sense);
 }
 
-std::vector<std::string> rivals_of(const FoundEffect& effect) {
+std::vector<std::string> rivals_of(const calibration::FoundEffect& effect) {
   std::vector<std::string> rivals;
   for (const std::string& member : effect.group) {
     if (member != effect.name) rivals.push_back(member);
@@ -119,7 +120,7 @@ std::vector<std::string> rivals_of(const FoundEffect& effect) {
   return rivals;
 }
 
-std::string round_words(const Correction& correction) {
+std::string round_words(const correction::Correction& correction) {
   const double error = degrees(correction.round.max_error);
   const std::string radius = "at its best radius of " + rounded(correction.round.r1, 5) + " mm it ";
   const std::string miss = error < 0.001 ? "by less than 0.001°" : "by up to " + rounded(error, 3) + "°";
@@ -128,23 +129,25 @@ std::string round_words(const Correction& correction) {
   return "P1 is shaped and misses nothing; round, " + radius + "would miss the law " + miss;
 }
 
-std::string infeasible_words(const Correction& correction) {
+std::string infeasible_words(const correction::Correction& correction) {
   return "the pulley that would correct this cannot be made: " + correction.infeasible;
 }
 
-std::string tied_words(const Correction& correction) {
+std::string tied_words(const correction::Correction& correction) {
   return "tie its tendons with the unloaded joint at home and the motor at " + rounded(degrees(correction.tied_at), 4) +
          " deg: under its mean load the joint then follows its law; tied at 0 it is off by as much, which "
          "compensation.csv has";
 }
 
-std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration) {
-  std::vector<Detectable> sorted = calibration.detectable;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Detectable& a, const Detectable& b) { return a.smallest < b.smallest; });
+std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(
+    const calibration::Calibration& calibration) {
+  std::vector<calibration::Detectable> sorted = calibration.detectable;
+  std::stable_sort(
+      sorted.begin(), sorted.end(),
+      [](const calibration::Detectable& a, const calibration::Detectable& b) { return a.smallest < b.smallest; });
   std::vector<std::pair<double, std::vector<std::string>>> groups;
   std::string size;
-  for (const Detectable& detectable : sorted) {
+  for (const calibration::Detectable& detectable : sorted) {
     if (const std::string this_size = rounded(degrees(detectable.smallest), 2); groups.empty() || this_size != size) {
       groups.push_back({detectable.smallest, {}});
       size = this_size;
@@ -165,10 +168,10 @@ std::string seen_words(const std::vector<double>& seen, const std::string& unit)
 
 /// Between which angles, loads and speeds.
 std::string where_seen(const CalibrationProduct& product) {
-  const EmpiricalCurve& curve = product.calibration.curve;
+  const calibration::EmpiricalCurve& curve = product.calibration.curve;
   std::vector<double> loads, speeds;
-  for (const Run& run : product.measurement.runs) {
-    for (const Sample& sample : run.samples) {
+  for (const measurement::Run& run : product.measurement.runs) {
+    for (const measurement::Sample& sample : run.samples) {
       if (run.has_load) loads.push_back(sample.load);
     }
     if (run.has_time && run.speed > 0) speeds.push_back(degrees(run.speed));
@@ -182,7 +185,7 @@ std::string where_seen(const CalibrationProduct& product) {
 }  // namespace
 
 std::string curve_words(const CalibrationProduct& product) {
-  const EmpiricalCurve& curve = product.calibration.curve;
+  const calibration::EmpiricalCurve& curve = product.calibration.curve;
   if (product.calibration.identified.ratio_joint.curve != RatioCurve{})
     return "compensation.csv also removes a smooth curve of the angle, with a part proportional to the load: the ratio "
            "changes with the angle, or an unmodelled cause has the same effect";
@@ -196,15 +199,15 @@ std::string curve_words(const CalibrationProduct& product) {
          "another pulley asks for other runs";
 }
 
-std::vector<std::string> next_texts(const Calibration& calibration) {
+std::vector<std::string> next_texts(const calibration::Calibration& calibration) {
   std::vector<std::string> texts;
-  for (const NextMeasurement& next : calibration.next) texts.push_back(next.text());
+  for (const plan::NextMeasurement& next : calibration.next) texts.push_back(next.text());
   return texts;
 }
 
 std::vector<std::string> slips_words(const CalibrationProduct& product) {
   std::vector<std::string> all;
-  for (const LikelyInputError& slip : product.slips) all.push_back(input_error_words(slip));
+  for (const calibration::LikelyInputError& slip : product.slips) all.push_back(calibration::input_error_words(slip));
   return all;
 }
 
@@ -225,4 +228,4 @@ std::vector<std::string> shortened_notes(const std::vector<std::string>& notes) 
   return shown;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -1,13 +1,12 @@
 // Outputs of a comparison of two states: words, comparison.json, manifest.json, report.html.
 
-#include "fusee/export.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 
 #include "base/output_list.h"
+#include "base/text.h"
 #include "export/report/calibration_plots.h"
 #include "export/report/calibration_words.h"
 #include "export/report/html.h"
@@ -15,10 +14,10 @@
 #include "export/report/svg.h"
 #include "export/report/tables.h"
 #include "export/tool.h"
-#include "base/text.h"
 #include "fusee/base.h"
+#include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // ---- words ----------------------------------------------------------------------------------------------------------
@@ -93,23 +92,25 @@ std::string percentage_sign_filled(std::string_view text, const std::string& siz
 }
 
 /// The number that says most: its change by the width of its interval. One without an interval follows from others.
-const ChangedParameter* leading(const StateChange& change) {
-  const auto certainty = [](const ChangedParameter& p) {
+const calibration::ChangedParameter* leading(const calibration::StateChange& change) {
+  const auto certainty = [](const calibration::ChangedParameter& p) {
     return p.high > p.low ? std::abs(p.change()) / (p.high - p.low) : 0.0;
   };
-  const auto most = std::max_element(
-      change.parameters.begin(), change.parameters.end(),
-      [&](const ChangedParameter& a, const ChangedParameter& b) { return certainty(a) < certainty(b); });
+  const auto most =
+      std::max_element(change.parameters.begin(), change.parameters.end(),
+                       [&](const calibration::ChangedParameter& a, const calibration::ChangedParameter& b) {
+                         return certainty(a) < certainty(b);
+                       });
   return most == change.parameters.end() ? nullptr : &*most;
 }
 
-std::string interval_words(const ChangedParameter& parameter, const std::string& unit) {
+std::string interval_words(const calibration::ChangedParameter& parameter, const std::string& unit) {
   return with_sign(parameter.low) + " … " + with_sign(parameter.high) + unit;
 }
 
 /// "Tendon 1 lost 4.2 N of pretension (95 %: −4.6 … −3.8 N)". An interval with both signs has none in words.
-std::string sentence(const StateChange& change, const std::string& load_unit) {
-  const ChangedParameter* number = leading(change);
+std::string sentence(const calibration::StateChange& change, const std::string& load_unit) {
+  const calibration::ChangedParameter* number = leading(change);
   if (number == nullptr) return first_upper(open_words(change.name)) + " changed";
   const auto [name, unit] = name_and_unit(number->name, load_unit);
   const std::string interval = " (95 %: " + interval_words(*number, unit) + ")";
@@ -123,32 +124,34 @@ std::string sentence(const StateChange& change, const std::string& load_unit) {
          " changed by " + with_sign(number->change()) + unit + interval;
 }
 
-std::string remedy(const StateChange& change) {
-  const ChangedParameter* number = leading(change);
+std::string remedy(const calibration::StateChange& change) {
+  const calibration::ChangedParameter* number = leading(change);
   const ChangeWords* words = number == nullptr ? nullptr : find_words(change.name, number->name);
-  return words == nullptr ? "Look at the " + std::string(word(change.place)) : std::string(words->remedy);
+  return words == nullptr ? "Look at the " + std::string(fusee::word(change.place)) : std::string(words->remedy);
 }
 
-std::vector<std::string> others_of(const StateChange& change) {
+std::vector<std::string> others_of(const calibration::StateChange& change) {
   std::vector<std::string> others;
   for (const std::string& member : change.group) {
-    if (member != change.name) others.push_back(member == k_unmodelled ? "an unmodelled cause" : open_words(member));
+    if (member != change.name)
+      others.push_back(member == calibration::k_unmodelled ? "an unmodelled cause" : open_words(member));
   }
   return others;
 }
 
 /// The largest first.
-std::vector<StateChange> by_size(std::vector<StateChange> changes) {
-  std::stable_sort(changes.begin(), changes.end(),
-                   [](const StateChange& a, const StateChange& b) { return a.rms_drop > b.rms_drop; });
+std::vector<calibration::StateChange> by_size(std::vector<calibration::StateChange> changes) {
+  std::stable_sort(
+      changes.begin(), changes.end(),
+      [](const calibration::StateChange& a, const calibration::StateChange& b) { return a.rms_drop > b.rms_drop; });
   return changes;
 }
 
 constexpr std::size_t k_named_others = 3;
 
 std::string changed_words(const ComparisonProduct& product) {
-  const std::vector<StateChange> changes = by_size(product.comparison.found);
-  const StateChange& first = changes.front();
+  const std::vector<calibration::StateChange> changes = by_size(product.comparison.found);
+  const calibration::StateChange& first = changes.front();
   std::string words = sentence(first, product.measurement.load_unit) + ". ";
   std::vector<std::string> others = others_of(first);
   const std::size_t more = others.size() > k_named_others ? others.size() - k_named_others : 0;
@@ -166,9 +169,9 @@ std::string degree_words(double value) { return with_unit(degrees(value), "deg",
 
 // ---- JSON -----------------------------------------------------------------------------------------------------------
 
-Json change_json(const StateChange& change) {
+Json change_json(const calibration::StateChange& change) {
   Json parameters = Json::object();
-  for (const ChangedParameter& parameter : change.parameters) {
+  for (const calibration::ChangedParameter& parameter : change.parameters) {
     parameters[parameter.name] = {{"before", nine_digits(parameter.before)},
                                   {"after", nine_digits(parameter.after)},
                                   {"change", nine_digits(parameter.change())},
@@ -176,7 +179,7 @@ Json change_json(const StateChange& change) {
   }
   return {{"name", change.name},
           {"group", change.group},
-          {"place", word(change.place)},
+          {"place", fusee::word(change.place)},
           {"parameters", parameters},
           {"rms_drop_deg", angle_json(change.rms_drop)},
           {"by_runs", nine_digits(change.by_runs)}};
@@ -193,16 +196,17 @@ Json run_names_json(const ComparisonProduct& product, bool after) {
 // ---- page -----------------------------------------------------------------------------------------------------------
 
 std::string verdict_section(const ComparisonProduct& product) {
-  const ComparisonVerdict verdict = product.comparison.verdict;
-  const bool is_answer = verdict == ComparisonVerdict::changed || verdict == ComparisonVerdict::no_change;
-  const std::string style = verdict == ComparisonVerdict::no_change ? "good" : is_answer ? "noted" : "bad";
-  const std::string sign = verdict == ComparisonVerdict::no_change ? "✓" : is_answer ? "!" : "✗";
+  const calibration::ComparisonVerdict verdict = product.comparison.verdict;
+  const bool is_answer =
+      verdict == calibration::ComparisonVerdict::changed || verdict == calibration::ComparisonVerdict::no_change;
+  const std::string style = verdict == calibration::ComparisonVerdict::no_change ? "good" : is_answer ? "noted" : "bad";
+  const std::string sign = verdict == calibration::ComparisonVerdict::no_change ? "✓" : is_answer ? "!" : "✗";
   return "<section class=\"verdict " + style + "\"><span class=\"sign\">" + sign + "</span><p><b>" +
-         safe_text(first_upper(open_words(std::string(word(verdict))))) + ".</b> " +
+         safe_text(first_upper(open_words(std::string(calibration::word(verdict))))) + ".</b> " +
          safe_text(comparison_words(product)) + "</p></section>\n";
 }
 
-std::string numbers_section(const Comparison& comparison) {
+std::string numbers_section(const calibration::Comparison& comparison) {
   KeyNumbers numbers;
   numbers.add("Difference between the states, RMS", degree_words(comparison.difference.before));
   numbers.add("The same beside the changes", degree_words(comparison.difference.after));
@@ -221,7 +225,7 @@ std::string changes_section(const ComparisonProduct& product) {
       html_table({"cause", "change", "before → after", "95 % interval", "of the difference", "equally likely"}, rows));
 }
 
-std::string detectable_section(const Calibration& calibration) {
+std::string detectable_section(const calibration::Calibration& calibration) {
   std::string rows;
   for (const auto& [size, names] : detectable_groups(calibration))
     rows += "<tr>" + html_number_cell(degree_words(size)) + html_cell(open_words(joined(names, ", "))) + "</tr>";
@@ -248,37 +252,37 @@ std::string residuals_section(const ComparisonProduct& product) {
 
 }  // namespace
 
-double least_seen(const Comparison& comparison) {
+double least_seen(const calibration::Comparison& comparison) {
   double most = 0;
-  for (const Detectable& one : comparison.changes.detectable) most = std::max(most, one.smallest);
+  for (const calibration::Detectable& one : comparison.changes.detectable) most = std::max(most, one.smallest);
   return most;
 }
 
 std::string comparison_words(const ComparisonProduct& product) {
-  const Comparison& comparison = product.comparison;
+  const calibration::Comparison& comparison = product.comparison;
   switch (comparison.verdict) {
-    case ComparisonVerdict::not_testable:
-    case ComparisonVerdict::not_comparable:
+    case calibration::ComparisonVerdict::not_testable:
+    case calibration::ComparisonVerdict::not_comparable:
       return comparison.why;
-    case ComparisonVerdict::no_change:
+    case calibration::ComparisonVerdict::no_change:
       return "Nothing changed that these runs could show" +
              (least_seen(comparison) > 0 ? "; a change of more than " + rounded(degrees(least_seen(comparison)), 2) +
                                                "° at the joint would have been seen."
                                          : std::string("."));
-    case ComparisonVerdict::changed:
+    case calibration::ComparisonVerdict::changed:
       return changed_words(product);
   }
   return "";
 }
 
 std::vector<ChangeRow> change_rows(const ComparisonProduct& product) {
-  const Comparison& comparison = product.comparison;
+  const calibration::Comparison& comparison = product.comparison;
   std::vector<ChangeRow> rows;
-  for (const StateChange& change : by_size(comparison.found)) {
+  for (const calibration::StateChange& change : by_size(comparison.found)) {
     std::string share = degree_words(change.rms_drop), as_likely = joined(others_of(change), ", ");
     if (comparison.difference.before > 0)
       share += " (" + rounded(100 * change.rms_drop / comparison.difference.before, 2) + " %)";
-    for (const ChangedParameter& parameter : change.parameters) {
+    for (const calibration::ChangedParameter& parameter : change.parameters) {
       const auto [name, unit] = name_and_unit(parameter.name, product.measurement.load_unit);
       const ChangeWords* words = find_words(change.name, parameter.name);
       rows.push_back({words != nullptr ? std::string(words->name) : open_words(change.name) + ": " + name,
@@ -293,15 +297,17 @@ std::vector<ChangeRow> change_rows(const ComparisonProduct& product) {
 }
 
 std::string comparison_json(const ComparisonProduct& product) {
-  const Comparison& comparison = product.comparison;
-  Json json = {{"schema", 1}, {"verdict", word(comparison.verdict)}, {"summary", comparison_words(product)}};
+  const calibration::Comparison& comparison = product.comparison;
+  Json json = {
+      {"schema", 1}, {"verdict", calibration::word(comparison.verdict)}, {"summary", comparison_words(product)}};
   json["changes"] = Json::array();
-  for (const StateChange& change : by_size(comparison.found)) json["changes"].push_back(change_json(change));
+  for (const calibration::StateChange& change : by_size(comparison.found))
+    json["changes"].push_back(change_json(change));
   json["difference"] = {{"before_rms_deg", angle_json(comparison.difference.before)},
                         {"after_rms_deg", angle_json(comparison.difference.after)}};
   json["noise_floor_deg"] = angle_json(comparison.changes.noise.rms);
   json["detectable"] = Json::array();
-  for (const Detectable& one : comparison.changes.detectable)
+  for (const calibration::Detectable& one : comparison.changes.detectable)
     json["detectable"].push_back({{"name", one.name}, {"smallest_deg", angle_json(one.smallest)}});
   json["runs"] = {{"before", run_names_json(product, false)}, {"after", run_names_json(product, true)}};
   json["notes"] = product.measurement.notes;
@@ -313,13 +319,13 @@ std::string comparison_manifest_json(const ComparisonProduct& product, const std
   json["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
                    {"sha256", product.file.sha256}};
   json["runs"] = {{"before", run_names_json(product, false)}, {"after", run_names_json(product, true)}};
-  json["verdict"] = word(product.comparison.verdict);
+  json["verdict"] = calibration::word(product.comparison.verdict);
   json["outputs"] = output_list(outputs);
   return json_text(json, 1);
 }
 
 std::string comparison_report_html(const ComparisonProduct& product) {
-  const Comparison& comparison = product.comparison;
+  const calibration::Comparison& comparison = product.comparison;
   const std::size_t after = product.measurement.runs.size() - product.runs_before;
   Page page{.title = "comparison",
             .kicker = "Comparison of two states",
@@ -331,7 +337,8 @@ std::string comparison_report_html(const ComparisonProduct& product) {
             .foot = "Angles in degrees at the joint, lengths in mm, forces in N.",
             .styles = {embedded::figure_css, embedded::page_css, embedded::calibration_css},
             .scripts = {embedded::readout_js}};
-  if (comparison.verdict == ComparisonVerdict::changed || comparison.verdict == ComparisonVerdict::no_change)
+  if (comparison.verdict == calibration::ComparisonVerdict::changed ||
+      comparison.verdict == calibration::ComparisonVerdict::no_change)
     page.body += changes_section(product) + numbers_section(comparison) + residuals_section(product) +
                  detectable_section(comparison.changes);
   if (const std::vector<std::string> notes = shortened_notes(product.measurement.notes); !notes.empty())
@@ -339,4 +346,4 @@ std::string comparison_report_html(const ComparisonProduct& product) {
   return html_page(page);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "export/report/csv_cells.h"
-#include "fusee/base.h"
 #include "export/report/report.h"
+#include "fusee/base.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
@@ -27,10 +27,10 @@ void put_row(std::string& table, std::span<const double> values) {
 }
 
 /// The normal of a closed curve turns once from its first to its last point, and its height is constant.
-void put_outline(std::string& table, const Outline& outline, double z) {
-  const std::string pulley = std::string(pulley_name(outline.side)) + ",";
+void put_outline(std::string& table, const profile::Outline& outline, double z) {
+  const std::string pulley = std::string(transmission::pulley_name(outline.side)) + ",";
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
-    const OutlinePoint& point = outline.points[i];
+    const profile::OutlinePoint& point = outline.points[i];
     const double angle = std::atan2(point.position.y(), point.position.x());
     table += pulley + csv_cell(degrees(angle)) + ',' + csv_cell(point.position.x()) + ',' +
              csv_cell(point.position.y()) + ',' + csv_cell(point.curvature_radius) +
@@ -39,10 +39,11 @@ void put_outline(std::string& table, const Outline& outline, double z) {
   }
 }
 
-void put_spiral(std::string& table, Side side, const Spiral& spiral, const SpiralPlace& place) {
-  const std::string pulley = std::string(pulley_name(side)) + ",";
+void put_spiral(std::string& table, transmission::Side side, const helix::Spiral& spiral,
+                const coil::SpiralPlace& place) {
+  const std::string pulley = std::string(transmission::pulley_name(side)) + ",";
   for (std::size_t i = 0; i < spiral.rows.size(); ++i) {
-    const SpiralRow& row = spiral.rows[i];
+    const helix::SpiralRow& row = spiral.rows[i];
     const bool is_used = i >= spiral.first_used && i <= spiral.last_used;
     table += pulley + csv_cell(degrees(std::atan2(row.y, row.x))) + ',' + csv_cell(row.x) + ',' + csv_cell(row.y) +
              ',' + csv_cell(row.rho) + (is_used ? ",1," : ",0,") +
@@ -52,14 +53,14 @@ void put_spiral(std::string& table, Side side, const Spiral& spiral, const Spira
 }
 
 /// Ratio of a planar force to the tension along the sloped path of the tendon that carries.
-double sloped_cosine(const Product& product, std::size_t i, const PaperForces& forces) {
+double sloped_cosine(const Product& product, std::size_t i, const transmission::PaperForces& forces) {
   if (!product.helix) return 1.0;
   const std::size_t carries = forces.T2 > 0 ? 1 : 0;
   return std::cos(product.helix->synthesis.sides.at(carries).stroke[i].slope);
 }
 
 void add_slopes(std::vector<double>& row, const HelixProduct& helix, std::size_t i) {
-  for (const HelixSide& side : helix.synthesis.sides) {
+  for (const helix::HelixSide& side : helix.synthesis.sides) {
     row.push_back(degrees(side.stroke[i].slope));
     row.push_back(degrees(side.stroke[i].fleet));
   }
@@ -71,10 +72,10 @@ struct AsBuilt {
 };
 
 /// The rewound pulley at `alpha`, interpolated; empty outside its points.
-AsBuilt as_built_at(const std::vector<RewindPoint>& points, double alpha) {
+AsBuilt as_built_at(const std::vector<profile::RewindPoint>& points, double alpha) {
   constexpr double k_same_alpha = 1e-9;
   const auto right = std::lower_bound(points.begin(), points.end(), alpha - k_same_alpha,
-                                      [](const RewindPoint& point, double a) { return point.alpha < a; });
+                                      [](const profile::RewindPoint& point, double a) { return point.alpha < a; });
   if (right == points.end()) return {};
   if (std::abs(right->alpha - alpha) <= k_same_alpha) return {right->theta, right->slack};
   if (right == points.begin()) return {};
@@ -93,8 +94,8 @@ std::string profile_csv(const Product& product) {
   std::string table = "pulley,angle_deg,x_mm,y_mm,radius_of_curvature_mm,active,normal_deg,turn_deg,z_mm\n";
   if (product.helix) {
     const HelixProduct& helix = *product.helix;
-    put_spiral(table, Side::left, helix.synthesis.sides[0].spiral, helix.pulley.p1);
-    put_spiral(table, Side::right, helix.synthesis.sides[1].spiral, helix.pulley.p2);
+    put_spiral(table, transmission::Side::left, helix.synthesis.sides[0].spiral, helix.pulley.p1);
+    put_spiral(table, transmission::Side::right, helix.synthesis.sides[1].spiral, helix.pulley.p2);
     return table;
   }
   put_outline(table, product.synthesis.p1, product.pulley.layout.z_p1);
@@ -104,19 +105,19 @@ std::string profile_csv(const Product& product) {
 
 /// Coordinates as in profile_csv(). Programs that make a closed spline of a table require the first point again at the
 /// end.
-std::string pitch_curve_csv(const Product& product, Side side) {
-  const bool left = side == Side::left;
+std::string pitch_curve_csv(const Product& product, transmission::Side side) {
+  const bool left = side == transmission::Side::left;
   std::string table = "x_mm,y_mm,z_mm\n";
   const auto put = [&table](double x, double y, double z) { put_row(table, std::array{x, y, z}); };
   if (product.helix) {
-    const SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
-    for (const SpiralRow& row : product.helix->synthesis.sides[left ? 0 : 1].spiral.rows)
+    const coil::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
+    for (const helix::SpiralRow& row : product.helix->synthesis.sides[left ? 0 : 1].spiral.rows)
       put(row.x, row.y, place.height(row.z));
     return table;
   }
-  const BodyLayout& layout = product.pulley.layout;
+  const solid::BodyLayout& layout = product.pulley.layout;
   const double z = left ? layout.z_p1 : layout.z_p2;
-  const Polygon curve = parallel(left ? product.synthesis.p1 : product.synthesis.p2, 0);
+  const Polygon curve = profile::parallel(left ? product.synthesis.p1 : product.synthesis.p2, 0);
   for (const Vec2& point : curve) put(point.x(), point.y(), z);
   if (!curve.empty()) put(curve.front().x(), curve.front().y(), z);
   return table;
@@ -133,8 +134,8 @@ std::string transmission_csv(const Product& product) {
     table += "slope1_deg,fleet1_deg,slope2_deg,fleet2_deg\n";
   }
   for (std::size_t i = 0; i < product.synthesis.stroke.size(); ++i) {
-    const TransmissionPoint& point = product.synthesis.stroke[i];
-    const PaperForces forces = paper_forces(product.joint.mechanism, point);
+    const transmission::TransmissionPoint& point = product.synthesis.stroke[i];
+    const transmission::PaperForces forces = transmission::paper_forces(product.joint.mechanism, point);
     const AsBuilt as_built = as_built_at(product.as_built.points, point.alpha);
     const double along = sloped_cosine(product, i, forces);
     std::vector<double> row = {degrees(point.alpha),
@@ -157,4 +158,4 @@ std::string transmission_csv(const Product& product) {
   return table;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

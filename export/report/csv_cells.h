@@ -7,9 +7,9 @@
 
 #include "base/text.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Six decimals; empty for a number that is not finite.
 inline std::string csv_cell(double value) { return std::isfinite(value) ? fixed(value, 6) : std::string(); }
 
-}  // namespace fusee
+}  // namespace fusee::formats

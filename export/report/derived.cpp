@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 bool is_same(const Field& field, const DeclaredMechanism& a, const DeclaredMechanism& b) {
@@ -25,7 +25,7 @@ bool is_same(const Field& field, const DeclaredMechanism& a, const DeclaredMecha
 
 }  // namespace
 
-DerivedNumbers derived_numbers(const DeclaredMechanism& declared, const JointAsItIs& joint) {
+DerivedNumbers derived_numbers(const DeclaredMechanism& declared, const joint::JointAsItIs& joint) {
   DerivedNumbers derived{declared, {}};
   static_cast<Mechanism&>(derived.made) = joint.mechanism;
   if (declared.transmission) return derived;
@@ -45,4 +45,4 @@ std::string field_words(const Field& field, const DeclaredMechanism& mechanism) 
   return field.get_text(mechanism);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

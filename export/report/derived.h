@@ -7,7 +7,7 @@
 #include "fusee/joint.h"
 #include "fusee/mechanism_file.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// The design values, key by key of the file.
 struct DerivedNumbers {
@@ -16,9 +16,9 @@ struct DerivedNumbers {
 };
 
 /// No fields if no identified number differs.
-DerivedNumbers derived_numbers(const DeclaredMechanism& declared, const JointAsItIs& joint);
+DerivedNumbers derived_numbers(const DeclaredMechanism& declared, const joint::JointAsItIs& joint);
 
 /// A field's value in words, such as "-30 to 30 deg" or "table".
 std::string field_words(const Field& field, const DeclaredMechanism& mechanism);
 
-}  // namespace fusee
+}  // namespace fusee::formats

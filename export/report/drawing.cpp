@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "export/report/tendon_trace.h"
 #include "base/text.h"
+#include "export/report/tendon_trace.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // Placing on paper ----------------------------------------------------------------------------------------------------
@@ -49,7 +49,7 @@ std::string curve(std::string_view classes, const View& view, const std::vector<
   return svg_path(classes, thinned(view(points), k_drawing_tolerance), closed);
 }
 
-std::string ink(Side side) { return side == Side::left ? "p1" : "p2"; }
+std::string ink(transmission::Side side) { return side == transmission::Side::left ? "p1" : "p2"; }
 
 /// A round length for a scale bar of about `px` pixels.
 double scale_bar_length(double scale, double px) {
@@ -78,8 +78,8 @@ constexpr double k_detail_height = 230;
 constexpr double k_moving_width = 520;
 constexpr double k_moving_height = 560;
 
-double pulley_reach(const SynthesisResult& synthesis) {
-  return std::max(circumradius(parallel(synthesis.p1, 0)), circumradius(parallel(synthesis.p2, 0)));
+double pulley_reach(const profile::SynthesisResult& synthesis) {
+  return std::max(circumradius(profile::parallel(synthesis.p1, 0)), circumradius(profile::parallel(synthesis.p2, 0)));
 }
 
 /// A box in px.
@@ -93,41 +93,43 @@ View fitted(View view, const PaperBox& frame) {
 }
 
 /// A view that contains the joint at each of these angles.
-View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const std::vector<double>& thetas,
-                    const PaperBox& frame) {
+View mechanism_view(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                    const std::vector<double>& thetas, const PaperBox& frame) {
   View view;
   view.include({0, 0}, 0.06 * mechanism.joint.R);
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     view.include(pin_centre(mechanism, side), mechanism.guide_pitch_radius() + 0.5 * mechanism.tendon.diameter);
   }
   if (mechanism.sheath.is_there()) {
-    for (const Side side : {Side::left, Side::right}) {
+    for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
       for (const Vec2& point : sheath_curve(mechanism, side)) view.include(point, mechanism.tendon.diameter);
     }
   }
   view.include(pulley_axis(mechanism), pulley_reach(synthesis));
   if (mechanism.joint.drum_radius > 0) view.include({0, 0}, mechanism.drum_pitch_radius());
   for (const double theta : thetas) {
-    for (const Side side : {Side::left, Side::right}) view.include(attachment(mechanism, side, theta));
+    for (const transmission::Side side : {transmission::Side::left, transmission::Side::right})
+      view.include(attachment(mechanism, side, theta));
   }
   return fitted(view, frame);
 }
 
 /// The pulley alone, enlarged.
-View pulley_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const PaperBox& frame) {
+View pulley_view(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const PaperBox& frame) {
   View view;
   view.include(pulley_axis(mechanism), pulley_reach(synthesis));
   return fitted(view, frame);
 }
 
 /// A group that turns with the pulley: the outlines at home.
-std::string pulley_group(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, double alpha) {
+std::string pulley_group(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const View& view,
+                         double alpha) {
   const Vec2 axis = pulley_axis(mechanism);
   const Vec2 centre = view(axis);
   std::string svg = "<g class=\"pulley\" transform=\"rotate(" + svg_number(degrees(alpha)) + " " +
                     svg_number(centre.x()) + " " + svg_number(centre.y()) + ")\">";
-  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
-    std::vector<Vec2> points = closed_copy(parallel(*outline, 0));
+  for (const profile::Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+    std::vector<Vec2> points = closed_copy(profile::parallel(*outline, 0));
     for (Vec2& point : points) point += axis;
     svg += curve("thin " + ink(outline->side), view, points);
   }
@@ -136,13 +138,15 @@ std::string pulley_group(const Mechanism& mechanism, const SynthesisResult& synt
   return svg + svg_circle("metal", centre, 3) + "</g>";
 }
 
-std::string tendon_name(Side side) { return side == Side::left ? "tendon1" : "tendon2"; }
+std::string tendon_name(transmission::Side side) { return side == transmission::Side::left ? "tendon1" : "tendon2"; }
 
-std::string tendon_group(const TendonTrace& trace, const View& view, const Mechanism& mechanism, Side side) {
+std::string tendon_group(const TendonTrace& trace, const View& view, const Mechanism& mechanism,
+                         transmission::Side side) {
   const double width = std::max(2.0, mechanism.tendon.diameter * view.scale);
   // Dashes as long as the line is wide, so that tendon 1 is visible below tendon 2.
-  const std::string dashes =
-      side == Side::right ? ";stroke-dasharray:" + svg_number(3 * width) + " " + svg_number(1.6 * width) : "";
+  const std::string dashes = side == transmission::Side::right
+                                 ? ";stroke-dasharray:" + svg_number(3 * width) + " " + svg_number(1.6 * width)
+                                 : "";
   std::string svg =
       "<g class=\"tendon " + tendon_name(side) + "\" style=\"stroke-width:" + svg_number(width) + dashes + "\">";
   svg += curve(ink(side), view, trace.free_path) + curve(ink(side), view, trace.wound_path);
@@ -151,9 +155,9 @@ std::string tendon_group(const TendonTrace& trace, const View& view, const Mecha
 
 std::string joint_group(const Mechanism& mechanism, const View& view, double theta) {
   const Vec2 joint = view({0, 0});
-  const Vec2 end = view(attachment(mechanism, Side::left, theta));
+  const Vec2 end = view(attachment(mechanism, transmission::Side::left, theta));
   if (!mechanism.joint.is_plain()) {
-    const Vec2 other = view(attachment(mechanism, Side::right, theta));
+    const Vec2 other = view(attachment(mechanism, transmission::Side::right, theta));
     std::string svg;
     if (mechanism.joint.drum_radius > 0)
       svg = svg_circle("metal drum", joint, mechanism.joint.drum_radius * view.scale);
@@ -167,7 +171,7 @@ std::string joint_group(const Mechanism& mechanism, const View& view, double the
 
 std::string pins(const Mechanism& mechanism, const View& view) {
   std::string svg;
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     svg += svg_circle("metal", view(pin_centre(mechanism, side)), std::max(1.5, mechanism.guides.radius * view.scale));
     if (mechanism.guides.kind == GuideKind::idler)
       svg += svg_circle("metal", view(pin_centre(mechanism, side)), mechanism.guides.bearing_radius * view.scale);
@@ -182,10 +186,10 @@ std::string sheaths(const Mechanism& mechanism, const View& view) {
   std::string svg =
       "<g class=\"sheath\" style=\"fill:none;stroke:currentColor;stroke-opacity:.22;stroke-width:" + svg_number(width) +
       "\">";
-  for (const Side side : {Side::left, Side::right})
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right})
     svg += "<path d=\"" + path_data(thinned(view(sheath_curve(mechanism, side)), k_drawing_tolerance), false) + "\"/>";
   svg += "</g>";
-  for (const Side side : {Side::left, Side::right})
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right})
     svg += svg_circle("metal", view(sheath_exit(mechanism, side)), 0.4 * width);
   return svg;
 }
@@ -193,8 +197,8 @@ std::string sheaths(const Mechanism& mechanism, const View& view) {
 std::string point_names(const Mechanism& mechanism, const View& view, double theta) {
   const double gap = mechanism.guide_pitch_radius() * view.scale + 12;
   const Vec2 beside = 15 * Vec2(std::sin(theta), -std::cos(theta)) + Vec2(0, 4);
-  const Vec2 c = view(attachment(mechanism, Side::left, theta)),
-             other = view(attachment(mechanism, Side::right, theta));
+  const Vec2 c = view(attachment(mechanism, transmission::Side::left, theta)),
+             other = view(attachment(mechanism, transmission::Side::right, theta));
   const bool plain = mechanism.joint.is_plain(), apart = !plain && (other - c).norm() > 1;
   return svg_words("halo middle name-c", c + beside,
                    plain   ? "C"
@@ -202,15 +206,16 @@ std::string point_names(const Mechanism& mechanism, const View& view, double the
                            : "A1, A2") +
          (apart ? svg_words("halo middle name-c2", other + beside, "A2") : "") +
          svg_words("halo", view({0, 0}) + Vec2(9, 5), "O") +
-         svg_words("halo middle", view(pin_centre(mechanism, Side::left)) + Vec2(gap, 5), "B") +
-         svg_words("halo middle", view(pin_centre(mechanism, Side::right)) + Vec2(-gap, 5), "D") +
+         svg_words("halo middle", view(pin_centre(mechanism, transmission::Side::left)) + Vec2(gap, 5), "B") +
+         svg_words("halo middle", view(pin_centre(mechanism, transmission::Side::right)) + Vec2(-gap, 5), "D") +
          svg_words("halo", view(pulley_axis(mechanism)) + Vec2(7, 15), "G");
 }
 
-std::string scene(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, const Pose& pose) {
+std::string scene(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const View& view,
+                  const Pose& pose) {
   std::string svg = sheaths(mechanism, view) + joint_group(mechanism, view, pose.theta) +
                     pulley_group(mechanism, synthesis, view, pose.alpha) + pins(mechanism, view);
-  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+  for (const profile::Outline* outline : {&synthesis.p1, &synthesis.p2}) {
     if (const auto trace = trace_tendon(mechanism, *outline, pose.alpha, pose.theta)) {
       svg += tendon_group(*trace, view, mechanism, outline->side);
     }
@@ -218,7 +223,7 @@ std::string scene(const Mechanism& mechanism, const SynthesisResult& synthesis, 
   return svg + point_names(mechanism, view, pose.theta);
 }
 
-Figure mechanism_figure(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& whole,
+Figure mechanism_figure(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const View& whole,
                         const View& detail, const Pose& pose) {
   const std::string angles =
       "θ = " + readable(degrees(pose.theta), 1) + "°, α = " + readable(degrees(pose.alpha), 1) + "°";
@@ -237,13 +242,13 @@ Figure mechanism_figure(const Mechanism& mechanism, const SynthesisResult& synth
 // The joint to be moved -----------------------------------------------------------------------------------------------
 
 /// The place nearest to α = 0. `stroke` must not be empty.
-const TransmissionPoint& home_of(const std::vector<TransmissionPoint>& stroke) {
+const transmission::TransmissionPoint& home_of(const std::vector<transmission::TransmissionPoint>& stroke) {
   return *std::min_element(stroke.begin(), stroke.end(),
                            [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
 }
 
-Figure moving_figure(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, const Pose& pose,
-                     const std::string& title) {
+Figure moving_figure(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const View& view,
+                     const Pose& pose, const std::string& title) {
   Figure figure{k_moving_width, k_moving_height, title, {}, {}};
   const Vec2 origin = view({0, 0});
   figure.body = "<g class=\"scene\" data-view=\"" + shortest(view.scale) + " " + shortest(origin.x()) + " " +
@@ -276,7 +281,7 @@ std::string width_dimension(const View& view, double low, double high, double bo
          svg_words("small middle", 0.5 * (left + right) + Vec2(0, 17), words);
 }
 
-std::vector<Vec2> arc_points(const Outline& outline, std::size_t first, std::size_t last) {
+std::vector<Vec2> arc_points(const profile::Outline& outline, std::size_t first, std::size_t last) {
   std::vector<Vec2> points;
   const std::size_t n = outline.points.size();
   for (std::size_t i = first;; i = (i + 1) % n) {
@@ -285,12 +290,12 @@ std::vector<Vec2> arc_points(const Outline& outline, std::size_t first, std::siz
   }
 }
 
-std::string anchors(const View& view, const Pulley& pulley, Side side) {
+std::string anchors(const View& view, const solid::Pulley& pulley, transmission::Side side) {
   std::string svg;
-  for (const Anchor& anchor : pulley.anchors) {
+  for (const solid::Anchor& anchor : pulley.anchors) {
     if (anchor.side != side) continue;
     svg += curve("hole", view, anchor.channel, true) +
-           svg_circle("hole", view(anchor.pocket), pocket_radius(anchor, pulley.layout) * view.scale);
+           svg_circle("hole", view(anchor.pocket), solid::pocket_radius(anchor, pulley.layout) * view.scale);
     if (anchor.tail) {
       svg += curve("hole", view, anchor.tail->outline(), true);
       if (anchor.tail->pilot_diameter > 0)
@@ -302,7 +307,7 @@ std::string anchors(const View& view, const Pulley& pulley, Side side) {
   return svg;
 }
 
-std::string bore(const View& view, const BodyLayout& layout) {
+std::string bore(const View& view, const solid::BodyLayout& layout) {
   std::string svg = curve("hole", view, layout.bore.outline, true);
   for (const Polygon& hole : layout.bore.screw_holes) svg += curve("hole", view, hole, true);
   if (layout.bore.outline.empty()) return svg;
@@ -319,7 +324,7 @@ std::string axes(const View& view, double reach) {
 
 double wrapped(double angle) { return angle - k_two_pi * std::floor(angle / k_two_pi); }
 
-double active_turn(const Outline& outline) {
+double active_turn(const profile::Outline& outline) {
   return wrapped(outline.points[outline.active_last].psi - outline.points[outline.active_first].psi);
 }
 
@@ -338,7 +343,7 @@ std::string legend(const std::vector<LegendEntry>& entries) {
   return svg;
 }
 
-std::string profile_legend(const Outline& outline) {
+std::string profile_legend(const profile::Outline& outline) {
   const std::string colour = ink(outline.side);
   return legend({{"curve " + colour + " whole", "active arc (pitch)"},
                  {"closing " + colour, "closing arc"},
@@ -357,13 +362,14 @@ struct PolarPlace {
 };
 
 /// r against α, as the paper draws it.
-std::vector<PolarPlace> polar_drawing(const std::vector<TransmissionPoint>& stroke, Side side) {
-  const auto tendon = [side](const TransmissionPoint& point) -> const TendonPoint& {
-    return side == Side::left ? point.t1 : point.t2;
+std::vector<PolarPlace> polar_drawing(const std::vector<transmission::TransmissionPoint>& stroke,
+                                      transmission::Side side) {
+  const auto tendon = [side](const transmission::TransmissionPoint& point) -> const transmission::TendonPoint& {
+    return side == transmission::Side::left ? point.t1 : point.t2;
   };
   const double home_normal = tendon(home_of(stroke)).lower_normal;
   std::vector<PolarPlace> places;
-  for (const TransmissionPoint& point : stroke)
+  for (const transmission::TransmissionPoint& point : stroke)
     places.push_back({point.alpha, home_normal + point.alpha, tendon(point).p});
   return places;
 }
@@ -375,7 +381,7 @@ bool is_round(const std::vector<PolarPlace>& drawing) {
 }
 
 /// Radius of the active arc in the direction of `angle`; NaN on the closing arc.
-double radius_towards(const Outline& outline, double angle) {
+double radius_towards(const profile::Outline& outline, double angle) {
   const Vec2 direction = unit(angle);
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
     const Vec2& from = outline.points[i].position;
@@ -400,7 +406,7 @@ double magnification(double difference, double r) {
 
 }  // namespace
 
-std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const SynthesisResult& synthesis,
+std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                                       const std::vector<Pose>& poses) {
   std::vector<double> thetas;
   for (const Pose& pose : poses) thetas.push_back(pose.theta);
@@ -411,24 +417,24 @@ std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const Synthesi
   return figures;
 }
 
-std::vector<Figure> moving_figures(const Mechanism& mechanism, const SynthesisResult& synthesis) {
-  const TransmissionPoint& home = home_of(synthesis.stroke);
+std::vector<Figure> moving_figures(const Mechanism& mechanism, const profile::SynthesisResult& synthesis) {
+  const transmission::TransmissionPoint& home = home_of(synthesis.stroke);
   const Pose pose{home.alpha, home.theta};
   std::vector<double> thetas;
-  for (const TransmissionPoint& point : synthesis.stroke) thetas.push_back(point.theta);
+  for (const transmission::TransmissionPoint& point : synthesis.stroke) thetas.push_back(point.theta);
   const View whole = mechanism_view(mechanism, synthesis, thetas, {40, 30, k_moving_width - 80, k_moving_height - 80});
   const View near = pulley_view(mechanism, synthesis, {60, 60, k_moving_width - 120, k_moving_height - 130});
   return {moving_figure(mechanism, synthesis, whole, pose, "The joint with both tendons, to scale"),
           moving_figure(mechanism, synthesis, near, pose, "The pulley with both tendons, larger")};
 }
 
-Figure profile_figure(const Mechanism& mechanism, const Outline& outline, const Pulley& pulley) {
-  const std::string name(pulley_name(outline.side));
+Figure profile_figure(const Mechanism& mechanism, const profile::Outline& outline, const solid::Pulley& pulley) {
+  const std::string name(transmission::pulley_name(outline.side));
   Figure figure{k_profile_width, k_profile_height, "Profile of " + name, {}, {}};
   if (outline.points.size() < 3) return figure;
   const double radius = 0.5 * mechanism.tendon.diameter;
-  const Polygon floor = parallel(outline, -radius);
-  const Polygon groove_edge = parallel(outline, pulley.layout.groove_depth - radius);
+  const Polygon floor = profile::parallel(outline, -radius);
+  const Polygon groove_edge = profile::parallel(outline, pulley.layout.groove_depth - radius);
   View view;
   for (const Vec2& point : groove_edge) view.include(point);
   const double low = view.low.x(), high = view.high.x();
@@ -450,8 +456,8 @@ Figure profile_figure(const Mechanism& mechanism, const Outline& outline, const 
   return figure;
 }
 
-std::optional<Figure> polar_figure(const SynthesisResult& synthesis, Side side) {
-  const Outline& outline = side == Side::left ? synthesis.p1 : synthesis.p2;
+std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, transmission::Side side) {
+  const profile::Outline& outline = side == transmission::Side::left ? synthesis.p1 : synthesis.p2;
   if (outline.points.size() < 3 || synthesis.stroke.size() < 2) return std::nullopt;
   const std::vector<PolarPlace> drawing = polar_drawing(synthesis.stroke, side);
   if (is_round(drawing)) return std::nullopt;
@@ -471,13 +477,13 @@ std::optional<Figure> polar_figure(const SynthesisResult& synthesis, Side side) 
   for (const PolarPlace& place : apart)
     magnified.push_back((radius_towards(outline, place.angle) + factor * place.r) * unit(place.angle));
 
-  const std::string name(pulley_name(side));
+  const std::string name(transmission::pulley_name(side));
   Figure figure{k_profile_width, k_profile_height, "The polar drawing of " + name + " beside its profile", {}, {}};
   View view;
   for (const std::vector<Vec2>* points : {&drawn, &magnified}) {
     for (const Vec2& point : *points) view.include(point);
   }
-  for (const OutlinePoint& point : outline.points) view.include(point.position);
+  for (const profile::OutlinePoint& point : outline.points) view.include(point.position);
   view.fit(34, 66, k_profile_width - 68, k_profile_height - 118);
   figure.body = svg_words("heading", {4, 18}, name + ": r against α in polar coordinates is another curve") +
                 legend({{"curve whole " + ink(side), "profile"},
@@ -494,4 +500,4 @@ std::optional<Figure> polar_figure(const SynthesisResult& synthesis, Side side) 
   return figure;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

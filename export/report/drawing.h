@@ -12,7 +12,7 @@
 #include "fusee/profile.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// One place of the stroke to draw.
 struct Pose {
@@ -22,21 +22,21 @@ struct Pose {
 
 /// The mechanism at several poses, one figure each, all at one scale. Moving parts are groups (class "joint-link",
 /// "pulley", "tendon"), so that a page can move them.
-std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const SynthesisResult& synthesis,
+std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                                       const std::vector<Pose>& poses);
 
 /// The joint at home, and its pulley enlarged: two figures that moving_joint.js moves. Each has a group "scene" whose
 /// data-view gives the scale in px/mm and the position of the frame's origin. The tendons are the groups "tendon1" and
 /// "tendon2".
-std::vector<Figure> moving_figures(const Mechanism& mechanism, const SynthesisResult& synthesis);
+std::vector<Figure> moving_figures(const Mechanism& mechanism, const profile::SynthesisResult& synthesis);
 
 /// One pulley of the pair seen along its axis at home: pitch curve (active and closing arc), floor, groove edge, bore,
 /// anchors, dimensions.
-Figure profile_figure(const Mechanism& mechanism, const Outline& outline, const Pulley& pulley);
+Figure profile_figure(const Mechanism& mechanism, const profile::Outline& outline, const solid::Pulley& pulley);
 
 /// The polar drawing of one pulley, r against α from the direction of the tendon's normal at home, over its exact
 /// profile, with the difference magnified. The figure of method = "exact". Empty for a round pulley, where both are
 /// equal.
-std::optional<Figure> polar_figure(const SynthesisResult& synthesis, Side side);
+std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, transmission::Side side);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -10,7 +10,7 @@
 #include "export/report/svg.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 inline constexpr std::string_view k_helix_words =
     "<p class=\"lead\">Both tendons are wound several times, and their take-offs move along the axis. "
@@ -29,6 +29,6 @@ std::string helix_heights(const Product& product);
 /// Heights of the take-offs and fleet angles over α.
 std::vector<Plot> helix_plots(const Product& product);
 /// One pitch curve in plan, to scale.
-Figure spiral_figure(const Product& product, Side side);
+Figure spiral_figure(const Product& product, transmission::Side side);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "coil/helical_plan.h"
 #include "coil/winding.h"
 #include "export/report/scad_words.h"
-#include "base/text.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 using namespace scad;
 
@@ -23,39 +23,40 @@ namespace {
 constexpr double k_climbing_sagitta = 0.02;
 
 /// The anchor at the lower face (P1) or the upper face (P2).
-const HelicalAnchor& anchor_of(const Product& product, Side side) {
-  const std::vector<HelicalAnchor>& all = product.helix->pulley.anchors;
-  return *std::find_if(all.begin(), all.end(), [side](const HelicalAnchor& anchor) { return anchor.side == side; });
+const coil::HelicalAnchor& anchor_of(const Product& product, transmission::Side side) {
+  const std::vector<coil::HelicalAnchor>& all = product.helix->pulley.anchors;
+  return *std::find_if(all.begin(), all.end(),
+                       [side](const coil::HelicalAnchor& anchor) { return anchor.side == side; });
 }
 
-Fan coarse_fan(const Product& product) {
+coil::Fan coarse_fan(const Product& product) {
   const HelixProduct& helix = *product.helix;
-  const BodyLayout& layout = product.pulley.layout;
+  const solid::BodyLayout& layout = product.pulley.layout;
   const double half = 0.5 * layout.tendon_diameter;
   // Length of solid around the channel and its pocket.
   double filled = 0;
-  for (const HelicalAnchor& anchor : helix.pulley.anchors)
+  for (const coil::HelicalAnchor& anchor : helix.pulley.anchors)
     filled = std::max(filled, anchor.bend_radius + 2.0 * anchor.pocket_radius + layout.min_wall);
-  return make_fan(SpiralCurve(helix.synthesis.sides[0].spiral, helix.pulley.p1),
-                  SpiralCurve(helix.synthesis.sides[1].spiral, helix.pulley.p2), layout.groove_depth - half, half,
-                  k_climbing_sagitta, filled);
+  return coil::make_fan(coil::SpiralCurve(helix.synthesis.sides[0].spiral, helix.pulley.p1),
+                        coil::SpiralCurve(helix.synthesis.sides[1].spiral, helix.pulley.p2), layout.groove_depth - half,
+                        half, k_climbing_sagitta, filled);
 }
 
 std::string run_out_array(const Product& product) {
   std::string text =
       "// The run-out of each groove's end: bend radius, middle of the knot pocket, its depth.\nrun_outs = [";
-  for (const Side side : {Side::left, Side::right}) {
-    const HelicalAnchor& anchor = anchor_of(product, side);
-    text += fmt::format("{}[{}, {}, {}]", side == Side::left ? "" : ", ", decimal(anchor.bend_radius),
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const coil::HelicalAnchor& anchor = anchor_of(product, side);
+    text += fmt::format("{}[{}, {}, {}]", side == transmission::Side::left ? "" : ", ", decimal(anchor.bend_radius),
                         point_text(anchor.pocket.head<2>()), decimal(anchor.pocket_depth));
   }
   return text + "];\n\n";
 }
 
-std::string rows_array(const char* name, const Winding& winding, double half) {
+std::string rows_array(const char* name, const coil::Winding& winding, double half) {
   std::string text = fmt::format("{} = [", name);
   for (std::size_t j = 0; j < winding.rows.size(); ++j) {
-    const WindingRow& row = winding.rows[j];
+    const coil::WindingRow& row = winding.rows[j];
     const Vec2 floor = row.position - half * row.normal;
     text += (j == 0       ? "\n  "
              : j % 3 == 0 ? ",\n  "
@@ -66,12 +67,12 @@ std::string rows_array(const char* name, const Winding& winding, double half) {
   return text + "];\n";
 }
 
-std::string groove_edges_text(const char* name, const Winding& winding) {
+std::string groove_edges_text(const char* name, const coil::Winding& winding) {
   return fmt::format("{} = [{}, {}];", name, decimal(winding.bulge_low), decimal(winding.bulge_high));
 }
 
 /// `made`: the fan that the part was cut from, which has the projections of its groove edges.
-std::string spiral_arrays(const Fan& fan, const Fan& made, double half) {
+std::string spiral_arrays(const coil::Fan& fan, const coil::Fan& made, double half) {
   return "// The groove floors from end to end: x, y, the direction in which the floor looks, degrees, and the height "
          "of "
          "the tendon's\n// centre line there. A turn has as many rows as the fan has columns.\n" +
@@ -89,7 +90,7 @@ std::string spiral_arrays(const Fan& fan, const Fan& made, double half) {
 /// The groove's dimensions can only be reduced, because the ribs between its turns must remain.
 std::string climbing_parameters(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
-  const BodyLayout& layout = product.pulley.layout;
+  const solid::BodyLayout& layout = product.pulley.layout;
   return fmt::format(
              R"(// {} - a compound pulley for two tendons that are wound several times, in mm.
 // Made by fusee. Bottom to top: flange, helical groove P1, middle flange, helical groove P2, flange, hub. The axis is z,
@@ -110,7 +111,7 @@ std::string climbing_parameters(const Product& product) {
 
 std::string climbing_numbers(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
-  const BodyLayout& layout = product.pulley.layout;
+  const solid::BodyLayout& layout = product.pulley.layout;
   const double compensation = mechanism.material.hole_compensation;
   return "/* [Hidden] */\n" + hidden("tendon", mechanism.tendon.diameter, "its diameter") +
          fmt::format("groove_shape = \"{}\";\n", name_of(mechanism.body.groove)) +
@@ -132,4 +133,4 @@ std::string helix_scad(const Product& product) {
          run_out_array(product) + program_for("several turns");
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

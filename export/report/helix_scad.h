@@ -6,8 +6,8 @@
 
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 std::string helix_scad(const Product& product);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -4,7 +4,7 @@
 #include "export/tool.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 std::string filled_page(std::string_view page, const PageParts& parts) {
   std::string html;
@@ -71,4 +71,4 @@ void KeyNumbers::add(const std::string& term, const std::string& value, const st
   html_ += "</dd></div>";
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fusee {
+namespace fusee::formats {
 
 using PageParts = std::map<std::string, std::string, std::less<>>;
 /// Replaces every {{name}} of the template once. Inserted text (HTML, not escaped) is not scanned again, so that no
@@ -49,4 +49,4 @@ class KeyNumbers {
   std::string html_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::formats

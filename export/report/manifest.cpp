@@ -4,15 +4,15 @@
 #include <filesystem>
 
 #include "base/output_list.h"
+#include "export/mesh_files/mesh_files.h"
 #include "export/report/derived.h"
+#include "export/report/report.h"
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base.h"
-#include "export/mesh_files/mesh_files.h"
-#include "export/report/report.h"
 #include "fusee/mechanism_file.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 /// JSON has no NaN and no infinity.
@@ -89,34 +89,34 @@ Json checks_json(const std::vector<Check>& checks) {
   return list;
 }
 
-Json as_built_json(const RewindResult& as_built) {
+Json as_built_json(const profile::RewindResult& as_built) {
   return {{"max_theta_error_deg", number(degrees(as_built.max_theta_error))},
           {"max_theta_error_at_alpha_deg", number(degrees(as_built.max_theta_error_at))},
           {"max_slack_mm", number(as_built.max_slack)},
           {"max_slack_at_alpha_deg", number(degrees(as_built.max_slack_at))}};
 }
 
-Json fleet_json(const HelicalRewind& as_built) {
+Json fleet_json(const coil::HelicalRewind& as_built) {
   return {{"max_fleet_angle_deg", number(degrees(as_built.max_fleet))},
           {"max_fleet_angle_at_alpha_deg", number(degrees(as_built.max_fleet_at))}};
 }
 
 /// The grooves' planes in the written mesh, with shrinkage compensation.
-Json grooves_json(const BodyLayout& layout) {
+Json grooves_json(const solid::BodyLayout& layout) {
   return {{{"pulley", "P1"}, {"z_mm", number(layout.z_p1 * layout.scale)}},
           {{"pulley", "P2"}, {"z_mm", number(layout.z_p2 * layout.scale)}}};
 }
 
 /// For several turns, also in the written mesh, from its lower face upwards. z_mm: the middle of the working arc.
-Json helical_groove_json(const Product& product, Side which) {
-  const bool left = which == Side::left;
-  const HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);
-  const SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
+Json helical_groove_json(const Product& product, transmission::Side which) {
+  const bool left = which == transmission::Side::left;
+  const helix::HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);
+  const coil::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
   const double scale = product.pulley.layout.scale;
   const auto height = [&](double z) { return number(scale * place.height(z)); };
   const double first = side.spiral.rows.at(side.spiral.first_used).z,
                last = side.spiral.rows.at(side.spiral.last_used).z;
-  return {{"pulley", pulley_name(which)},
+  return {{"pulley", transmission::pulley_name(which)},
           {"z_mm", height(0.5 * (first + last))},
           {"z_first_mm", height(first)},
           {"z_last_mm", height(last)},
@@ -127,15 +127,16 @@ Json helical_groove_json(const Product& product, Side which) {
 }
 
 Json helical_grooves_json(const Product& product) {
-  return {helical_groove_json(product, Side::left), helical_groove_json(product, Side::right)};
+  return {helical_groove_json(product, transmission::Side::left),
+          helical_groove_json(product, transmission::Side::right)};
 }
 
 Json tendons_json(const Product& product) {
   Json list = Json::array();
   for (const TendonLength& tendon : tendon_lengths(product)) {
-    const bool left = tendon.side == Side::left;
+    const bool left = tendon.side == transmission::Side::left;
     list.push_back({{"tendon", left ? 1 : 2},
-                    {"pulley", pulley_name(tendon.side)},
+                    {"pulley", transmission::pulley_name(tendon.side)},
                     {"between_knots_mm", to_micrometre(tendon.between_knots)},
                     {"cut_length_mm", number(tendon.cut)},
                     {"joint_knot_mm", {to_micrometre(tendon.joint_knot.x()), to_micrometre(tendon.joint_knot.y())}},
@@ -148,21 +149,21 @@ Json tendons_json(const Product& product) {
 }
 
 /// The parts to print, in print orientation.
-Json print_json(const Pulley& pulley) {
+Json print_json(const solid::Pulley& pulley) {
   Json list = Json::array();
   if (pulley.parts.empty()) list.push_back({{"file", "pulley.stl"}});
-  for (const PrintedPart& part : pulley.parts)
-    list.push_back({{"file", part_file_name(part.side)}, {"part", pulley_name(part.side)}});
+  for (const solid::PrintedPart& part : pulley.parts)
+    list.push_back({{"file", part_file_name(part.side)}, {"part", transmission::pulley_name(part.side)}});
   return list;
 }
 
 /// The largest loads of the knots on the pulley.
 Json knots_json(const Product& product) {
-  const Holding& holding = product.holding;
+  const solid::Holding& holding = product.holding;
   const auto known = [](const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); };
   Json list = Json::array();
-  for (const KnotHold& knot : holding.knots) {
-    list.push_back({{"tendon", knot.side == Side::left ? 1 : 2},
+  for (const solid::KnotHold& knot : holding.knots) {
+    list.push_back({{"tendon", knot.side == transmission::Side::left ? 1 : 2},
                     {"alpha_deg", number(degrees(knot.alpha))},
                     {"wrap_left_deg", number(degrees(knot.wrap_left))},
                     {"tension_N", number(knot.tension)},
@@ -210,4 +211,4 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
   return json_text(manifest, 1);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string_view>
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_levels = 65535;
@@ -34,7 +34,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-bool is_whole(const TriangleMesh& mesh) {
+bool is_whole(const solid::TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return false;
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t index : triangle) {
@@ -46,7 +46,7 @@ bool is_whole(const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::optional<MeshCode> encode_mesh(const TriangleMesh& mesh) {
+std::optional<MeshCode> encode_mesh(const solid::TriangleMesh& mesh) {
   if (!is_whole(mesh)) return std::nullopt;
   MeshCode code;
   code.low = mesh.vertices[mesh.triangles[0][0]];
@@ -85,4 +85,4 @@ std::optional<MeshCode> encode_mesh(const TriangleMesh& mesh) {
   return code;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -7,7 +7,7 @@
 
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Encodes every triangle of the mesh, in order. Positions are rounded to `step`, with an error of at most step/2 in
 /// each coordinate.
@@ -23,6 +23,6 @@ struct MeshCode {
 };
 
 /// Empty for a mesh that is empty or invalid (an index out of range, a number that is not finite).
-std::optional<MeshCode> encode_mesh(const TriangleMesh& mesh);
+std::optional<MeshCode> encode_mesh(const solid::TriangleMesh& mesh);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "export/report/svg.h"
 #include "base/text.h"
+#include "export/report/svg.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // A drawing requires fewer rows than a part.
@@ -25,11 +25,11 @@ std::string numbers_text(std::size_t count, int decimals, Number number) {
 }
 
 /// x, y, height and turn of rows with a minimum spacing.
-std::string drawn_rows(const Spiral& spiral, const SpiralPlace& place) {
+std::string drawn_rows(const helix::Spiral& spiral, const coil::SpiralPlace& place) {
   std::string text = "[";
   double drawn = -1e9;
   for (std::size_t i = 0; i < spiral.rows.size(); ++i) {
-    const SpiralRow& row = spiral.rows[i];
+    const helix::SpiralRow& row = spiral.rows[i];
     if (row.turn - drawn < k_drawn_turn && i + 1 < spiral.rows.size()) continue;
     drawn = row.turn;
     text += (text.size() > 1 ? ",[" : "[") + number_text(row.x, 3) + "," + number_text(row.y, 3) + "," +
@@ -40,12 +40,12 @@ std::string drawn_rows(const Spiral& spiral, const SpiralPlace& place) {
 
 std::string side_json(const Product& product, std::size_t i) {
   const HelixProduct& helix = *product.helix;
-  const HelixSide& side = helix.synthesis.sides.at(i);
-  const SpiralPlace& place = i == 0 ? helix.pulley.p1 : helix.pulley.p2;
-  const std::vector<TransmissionPoint>& stroke = product.synthesis.stroke;
+  const helix::HelixSide& side = helix.synthesis.sides.at(i);
+  const coil::SpiralPlace& place = i == 0 ? helix.pulley.p1 : helix.pulley.p2;
+  const std::vector<transmission::TransmissionPoint>& stroke = product.synthesis.stroke;
   // Per mm towards the joint, which is shorter than the path in its own plane.
   const auto climb = [&](std::size_t k) {
-    const TendonPoint& tendon = i == 0 ? stroke[k].t1 : stroke[k].t2;
+    const transmission::TendonPoint& tendon = i == 0 ? stroke[k].t1 : stroke[k].t2;
     return -place.direction * std::tan(side.stroke[k].slope) / std::abs(std::cos(tendon.lower_normal));
   };
   return "{\"rows\":" + drawn_rows(side.spiral, place) +
@@ -56,7 +56,7 @@ std::string side_json(const Product& product, std::size_t i) {
 }
 
 std::string data_json(const Product& product) {
-  const std::vector<TransmissionPoint>& stroke = product.synthesis.stroke;
+  const std::vector<transmission::TransmissionPoint>& stroke = product.synthesis.stroke;
   return "{\"alpha\":" + numbers_text(stroke.size(), 5, [&](std::size_t k) { return degrees(stroke[k].alpha); }) +
          ",\"theta\":" + numbers_text(stroke.size(), 5, [&](std::size_t k) { return degrees(stroke[k].theta); }) +
          ",\"pin\":" + number_text(product.joint.mechanism.pulley.EF, 4) +
@@ -71,7 +71,7 @@ std::string shown_number(const std::string& words, const std::string& name) {
 }  // namespace
 
 std::string moving_helix(const Product& product) {
-  const std::vector<TransmissionPoint>& stroke = product.synthesis.stroke;
+  const std::vector<transmission::TransmissionPoint>& stroke = product.synthesis.stroke;
   if (stroke.empty()) return "";
   Figure figure;
   figure.width = 900;
@@ -90,4 +90,4 @@ std::string moving_helix(const Product& product) {
          "</dl><script type=\"application/json\" id=\"climb\">" + data_json(product) + "</script></div>";
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

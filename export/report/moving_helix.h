@@ -7,7 +7,7 @@
 
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// HTML above the drawing.
 inline constexpr std::string_view k_climbing_words =
@@ -18,4 +18,4 @@ inline constexpr std::string_view k_climbing_words =
 /// The HTML inside a section. Requires moving_helix.js and page.css.
 std::string moving_helix(const Product& product);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "export/report/calibration_words.h"
 #include "export/report/drawing.h"
 #include "export/report/report_parts.h"
 #include "export/report/tendon_trace.h"
-#include "base/text.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // Data for the page's computations ------------------------------------------------------------------------------------
@@ -40,41 +40,45 @@ std::string all_of(const Items& items, Text text_of) {
   return text;
 }
 
-std::string json_outline(const Outline& outline) {
-  std::string text = "{\"sign\":" + json_number(mirror_sign(outline.side), 0) +
+std::string json_outline(const profile::Outline& outline) {
+  std::string text = "{\"sign\":" + json_number(transmission::mirror_sign(outline.side), 0) +
                      ",\"end\":" + std::to_string(outline.anchor_end()) + ",\"points\":[";
   for (std::size_t i = 0; i < outline.points.size(); ++i)
     text += (i ? "," : "") + json_point(outline.points[i].position);
   return text + "]}";
 }
 
-bool is_held(const EquilibriumPoint& point) { return point.status != EquilibriumStatus::no_equilibrium; }
+bool is_held(const joint::EquilibriumPoint& point) { return point.status != joint::EquilibriumStatus::no_equilibrium; }
 
 /// The joint under its load, in one direction of the stroke.
-std::string json_way(const std::vector<StrokePoint>& loaded, EquilibriumPoint StrokePoint::*way) {
+std::string json_way(const std::vector<analysis::StrokePoint>& loaded,
+                     joint::EquilibriumPoint analysis::StrokePoint::*way) {
   const auto numbers = [&](const std::string& key, int decimals, auto value) {
-    return json_numbers(key, loaded, decimals, [&](const StrokePoint& point) {
+    return json_numbers(key, loaded, decimals, [&](const analysis::StrokePoint& point) {
       return is_held(point.*way) ? value(point.*way) : std::nan("");
     });
   };
-  const auto tension = [&](const std::string& key, TendonState EquilibriumPoint::*tendon, double TendonState::*part) {
-    return numbers(key, 3, [=](const EquilibriumPoint& point) { return point.*tendon.*part; });
+  const auto tension = [&](const std::string& key, joint::TendonState joint::EquilibriumPoint::*tendon,
+                           double joint::TendonState::*part) {
+    return numbers(key, 3, [=](const joint::EquilibriumPoint& point) { return point.*tendon.*part; });
   };
-  return "{" + tension("upper1", &EquilibriumPoint::t1, &TendonState::upper) + "," +
-         tension("lower1", &EquilibriumPoint::t1, &TendonState::lower) + "," +
-         tension("upper2", &EquilibriumPoint::t2, &TendonState::upper) + "," +
-         tension("lower2", &EquilibriumPoint::t2, &TendonState::lower) + "," +
-         numbers("torque", 2, [](const EquilibriumPoint& point) { return point.motor_torque; }) + "," +
-         numbers("theta", 5, [](const EquilibriumPoint& point) { return degrees(point.theta); }) + "}";
+  return "{" + tension("upper1", &joint::EquilibriumPoint::t1, &joint::TendonState::upper) + "," +
+         tension("lower1", &joint::EquilibriumPoint::t1, &joint::TendonState::lower) + "," +
+         tension("upper2", &joint::EquilibriumPoint::t2, &joint::TendonState::upper) + "," +
+         tension("lower2", &joint::EquilibriumPoint::t2, &joint::TendonState::lower) + "," +
+         numbers("torque", 2, [](const joint::EquilibriumPoint& point) { return point.motor_torque; }) + "," +
+         numbers("theta", 5, [](const joint::EquilibriumPoint& point) { return degrees(point.theta); }) + "}";
 }
 
 /// One entry for each load.
-std::string json_strokes(const std::vector<LoadedStroke>& strokes) {
-  std::string text = json_numbers("loads", strokes, 4, [](const LoadedStroke& stroke) { return stroke.load; });
+std::string json_strokes(const std::vector<correction::LoadedStroke>& strokes) {
+  std::string text =
+      json_numbers("loads", strokes, 4, [](const correction::LoadedStroke& stroke) { return stroke.load; });
   for (const bool rising : {true, false}) {
     text += rising ? ",\"rising\":[" : ",\"falling\":[";
     for (std::size_t i = 0; i < strokes.size(); ++i)
-      text += (i ? "," : "") + json_way(strokes[i].points, rising ? &StrokePoint::rising : &StrokePoint::falling);
+      text += (i ? "," : "") +
+              json_way(strokes[i].points, rising ? &analysis::StrokePoint::rising : &analysis::StrokePoint::falling);
     text += "]";
   }
   return text;
@@ -90,25 +94,26 @@ std::string json_angles(const std::string& name, const std::vector<std::vector<d
   return text + "]";
 }
 
-std::string json_effect(const RehearsedEffect& effect) {
+std::string json_effect(const correction::RehearsedEffect& effect) {
   std::string text = "{\"shares\":[";
   for (std::size_t i = 0; i < effect.shares.size(); ++i) {
-    const RehearsedShare& share = effect.shares[i];
-    text += std::string(i ? "," : "") + "{\"share\":" + json_number(k_rehearsed_shares[i], 2) + "," +
-            json_numbers("numbers", share.parameters, 5, [](const FittedParameter& number) { return number.value; }) +
+    const correction::RehearsedShare& share = effect.shares[i];
+    text += std::string(i ? "," : "") + "{\"share\":" + json_number(correction::k_rehearsed_shares[i], 2) + "," +
+            json_numbers("numbers", share.parameters, 5,
+                         [](const calibration::FittedParameter& number) { return number.value; }) +
             "," + json_angles("rising", share.rising) + "," + json_angles("falling", share.falling) + "}";
   }
   return text + "]}";
 }
 
 /// The end of a tendon, and its angle on the drum at home, which is negative while it is clear of the drum.
-std::string json_end(const Mechanism& mechanism, Side side) {
-  const PinPlace place = pin_place(mechanism, side, mechanism.guide_pitch_radius());
+std::string json_end(const Mechanism& mechanism, transmission::Side side) {
+  const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.guide_pitch_radius());
   double lies = -1e3, normal = 0;
-  if (const auto leaves = lift_off(place)) {
+  if (const auto leaves = transmission::lift_off(place)) {
     lies = *leaves;
-    const double on_drum = upper_span(place, *leaves - 1.0).normal;
-    normal = side == Side::right ? on_drum : k_pi - on_drum;
+    const double on_drum = transmission::upper_span(place, *leaves - 1.0).normal;
+    normal = side == transmission::Side::right ? on_drum : k_pi - on_drum;
   }
   return "{\"at\":" + json_point(attachment(mechanism, side, 0.0)) + ",\"lies\":" + json_number(lies, 6) +
          ",\"normal\":" + json_number(normal, 6) + "}";
@@ -116,36 +121,39 @@ std::string json_end(const Mechanism& mechanism, Side side) {
 
 std::string json_ends(const Mechanism& mechanism) {
   if (mechanism.joint.is_plain()) return "";
-  return "\"drum\":" + json_number(mechanism.drum_pitch_radius(), 6) + ",\"ends\":[" + json_end(mechanism, Side::left) +
-         "," + json_end(mechanism, Side::right) + "],";
+  return "\"drum\":" + json_number(mechanism.drum_pitch_radius(), 6) + ",\"ends\":[" +
+         json_end(mechanism, transmission::Side::left) + "," + json_end(mechanism, transmission::Side::right) + "],";
 }
 
 /// The points at which the sheaths end beside the pulley.
 std::string json_sheaths(const Mechanism& mechanism) {
   if (!mechanism.sheath.is_there()) return "";
-  const auto points_of = [&mechanism](Side side) { return all_of(sheath_curve(mechanism, side), json_point); };
-  return "\"exits\":[" + json_point(sheath_exit(mechanism, Side::left)) + "," +
-         json_point(sheath_exit(mechanism, Side::right)) + "],\"sheaths\":[[" + points_of(Side::left) + "],[" +
-         points_of(Side::right) + "]],";
+  const auto points_of = [&mechanism](transmission::Side side) {
+    return all_of(sheath_curve(mechanism, side), json_point);
+  };
+  return "\"exits\":[" + json_point(sheath_exit(mechanism, transmission::Side::left)) + "," +
+         json_point(sheath_exit(mechanism, transmission::Side::right)) + "],\"sheaths\":[[" +
+         points_of(transmission::Side::left) + "],[" + points_of(transmission::Side::right) + "]],";
 }
 
-std::string motion_json(const Mechanism& mechanism, const SynthesisResult& synthesis,
-                        const std::vector<LoadedStroke>& strokes, const std::vector<RehearsedEffect>& effects) {
-  const std::vector<TransmissionPoint>& stroke = synthesis.stroke;
+std::string motion_json(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                        const std::vector<correction::LoadedStroke>& strokes,
+                        const std::vector<correction::RehearsedEffect>& effects) {
+  const std::vector<transmission::TransmissionPoint>& stroke = synthesis.stroke;
   const auto numbers = [&](const std::string& key, int decimals, auto value) {
     return json_numbers(key, stroke, decimals, value) + ",";
   };
   return "{\"R\":" + json_number(mechanism.joint.R, 6) + ",\"rho\":" + json_number(mechanism.guide_pitch_radius(), 6) +
          "," + json_ends(mechanism) + json_sheaths(mechanism) + "\"axis\":" + json_point(pulley_axis(mechanism)) +
-         ",\"pins\":[" + json_point(pin_centre(mechanism, Side::left)) + "," +
-         json_point(pin_centre(mechanism, Side::right)) + "],\"outlines\":[" + json_outline(synthesis.p1) + "," +
-         json_outline(synthesis.p2) + "]," +
-         numbers("alpha", 6, [](const TransmissionPoint& point) { return degrees(point.alpha); }) +
-         numbers("theta", 6, [](const TransmissionPoint& point) { return degrees(point.theta); }) +
-         numbers("slope", 6, [](const TransmissionPoint& point) { return point.g; }) +
-         numbers("r1", 4, [](const TransmissionPoint& point) { return point.t1.p; }) +
-         numbers("r2", 4, [](const TransmissionPoint& point) { return point.t2.p; }) + json_strokes(strokes) +
-         ",\"effects\":[" + all_of(effects, json_effect) + "]}";
+         ",\"pins\":[" + json_point(pin_centre(mechanism, transmission::Side::left)) + "," +
+         json_point(pin_centre(mechanism, transmission::Side::right)) + "],\"outlines\":[" +
+         json_outline(synthesis.p1) + "," + json_outline(synthesis.p2) + "]," +
+         numbers("alpha", 6, [](const transmission::TransmissionPoint& point) { return degrees(point.alpha); }) +
+         numbers("theta", 6, [](const transmission::TransmissionPoint& point) { return degrees(point.theta); }) +
+         numbers("slope", 6, [](const transmission::TransmissionPoint& point) { return point.g; }) +
+         numbers("r1", 4, [](const transmission::TransmissionPoint& point) { return point.t1.p; }) +
+         numbers("r2", 4, [](const transmission::TransmissionPoint& point) { return point.t2.p; }) +
+         json_strokes(strokes) + ",\"effects\":[" + all_of(effects, json_effect) + "]}";
 }
 
 // Visible elements ----------------------------------------------------------------------------------------------------
@@ -166,29 +174,29 @@ std::string controls(const std::string& inside) {
   return "<div class=\"controls\" hidden=\"hidden\">" + inside + "</div>";
 }
 
-std::string alpha_controls(const SynthesisResult& synthesis) {
+std::string alpha_controls(const profile::SynthesisResult& synthesis) {
   return controls("<button type=\"button\" class=\"play\" aria-pressed=\"false\">Play</button>" +
                   slider("Pulley angle α", "alpha", degrees(synthesis.stroke.front().alpha),
                          degrees(synthesis.stroke.back().alpha), 0));
 }
 
-std::string load_controls(const std::vector<LoadedStroke>& strokes) {
+std::string load_controls(const std::vector<correction::LoadedStroke>& strokes) {
   if (strokes.size() < 2) return "";
   return controls(slider("Load at the tip", "load", strokes.front().load, strokes.back().load, 0));
 }
 
 /// A slider for the size of an effect, where 1 is the identified size.
-std::string effect_controls(const RehearsedEffect& effect, std::size_t number) {
+std::string effect_controls(const correction::RehearsedEffect& effect, std::size_t number) {
   std::string units, names;
-  for (const FittedParameter& parameter : effect.shares.front().parameters) {
+  for (const calibration::FittedParameter& parameter : effect.shares.front().parameters) {
     const auto [words, unit] = name_and_unit(parameter.name, "");
     names += (names.empty() ? "" : "|") + words;
     units += (units.empty() ? "" : "|") + unit;
   }
   return "<div class=\"controls effect-share\" hidden=\"hidden\" data-names=\"" + safe_text(names) +
          "\" data-units=\"" + safe_text(units) + "\">" +
-         slider(safe_text(open_words(effect.name)), "effect" + std::to_string(number), k_rehearsed_shares.front(),
-                k_rehearsed_shares.back(), 1) +
+         slider(safe_text(open_words(effect.name)), "effect" + std::to_string(number),
+                correction::k_rehearsed_shares.front(), correction::k_rehearsed_shares.back(), 1) +
          "</div>";
 }
 
@@ -202,8 +210,9 @@ std::string numbers_list(bool imperfect, const Joint& joint) {
          (imperfect ? number_row("Off the declared law", "off") : "") + "</dl>";
 }
 
-std::string moving(const Mechanism& mechanism, const SynthesisResult& synthesis,
-                   const std::vector<LoadedStroke>& strokes, const std::vector<RehearsedEffect>& effects) {
+std::string moving(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                   const std::vector<correction::LoadedStroke>& strokes,
+                   const std::vector<correction::RehearsedEffect>& effects) {
   std::string html = "<div class=\"moving\">" + alpha_controls(synthesis) + load_controls(strokes);
   for (std::size_t i = 0; i < effects.size(); ++i) html += effect_controls(effects[i], i);
   html += "<div class=\"scenes\">";
@@ -215,8 +224,8 @@ std::string moving(const Mechanism& mechanism, const SynthesisResult& synthesis,
 
 }  // namespace
 
-std::string moving_joint(const Mechanism& mechanism, const SynthesisResult& synthesis,
-                         const std::vector<StrokePoint>& loaded) {
+std::string moving_joint(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                         const std::vector<analysis::StrokePoint>& loaded) {
   if (synthesis.stroke.empty() || loaded.size() != synthesis.stroke.size() || synthesis.p1.points.size() < 3) return "";
   return moving(mechanism, synthesis, {{mechanism.load.tip_force, loaded}}, {});
 }
@@ -259,9 +268,9 @@ std::string_view joint_script(const Mechanism& mechanism) {
   return mechanism.joint.is_plain() ? plain : drum;
 }
 
-std::string moving_joint(const Rehearsal& rehearsal) {
+std::string moving_joint(const correction::Rehearsal& rehearsal) {
   if (rehearsal.effects.empty()) return "";
   return moving(rehearsal.mechanism, rehearsal.synthesis, rehearsal.strokes, rehearsal.effects);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

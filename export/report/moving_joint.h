@@ -10,7 +10,7 @@
 #include "fusee/correction.h"
 #include "fusee/profile.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// HTML above the drawing.
 inline constexpr std::string_view k_moving_words =
@@ -20,11 +20,11 @@ inline constexpr std::string_view k_moving_words =
 
 /// The HTML inside a section. `loaded`: the declared load's cycle at each place of the synthesis' stroke. "" if nothing
 /// can move. Requires joint_script() of this mechanism, and page.css.
-std::string moving_joint(const Mechanism& mechanism, const SynthesisResult& synthesis,
-                         const std::vector<StrokePoint>& loaded);
+std::string moving_joint(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                         const std::vector<analysis::StrokePoint>& loaded);
 /// The moving joint of a rehearsal, with a slider for each effect and for the load.
-std::string moving_joint(const Rehearsal& rehearsal);
+std::string moving_joint(const correction::Rehearsal& rehearsal);
 /// moving_joint.js for this joint. For the paper's layout, the lines for drums and attachments are omitted.
 std::string_view joint_script(const Mechanism& mechanism);
 
-}  // namespace fusee
+}  // namespace fusee::formats

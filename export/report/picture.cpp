@@ -9,7 +9,7 @@
 #include "export/report/report_parts.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 struct RsvgRectangle {
@@ -118,4 +118,4 @@ std::string pdf_of(const std::string& svg, double width, double height) {
   return Renderer().pdf(with_colours(svg), k_points * width, k_points * height);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -1,19 +1,18 @@
 // plan.json, the empty run files and manifest.json of a plan.
 
-#include "fusee/export.h"
-
 #include <cmath>
 #include <filesystem>
 
 #include "base/output_list.h"
+#include "base/text.h"
 #include "export/report/csv_cells.h"
 #include "export/tool.h"
-#include "base/text.h"
 #include "fusee/base.h"
+#include "fusee/export.h"
 #include "fusee/measurement.h"
 #include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 /// Enough for the shape of every stroke, and for a person who sets them one by one.
@@ -22,19 +21,19 @@ constexpr int k_rows_a_stroke = 120;
 /// Four digits, for values with an uncertainty of some tens of per cent.
 Json size(double value) { return std::isfinite(value) ? Json(std::stod(rounded(value, 4))) : Json(); }
 
-std::string_view word(BenchChange change) {
+std::string_view word(plan::BenchChange change) {
   switch (change) {
-    case BenchChange::motor_sensor_turned:
+    case plan::BenchChange::motor_sensor_turned:
       return "motor_sensor_turned";
-    case BenchChange::joint_sensor_turned:
+    case plan::BenchChange::joint_sensor_turned:
       return "joint_sensor_turned";
-    case BenchChange::none:
+    case plan::BenchChange::none:
       break;
   }
   return "none";
 }
 
-void add_run(const PlannedRun& run, const std::string& load_unit, Json& json) {
+void add_run(const plan::PlannedRun& run, const std::string& load_unit, Json& json) {
   json["load" + std::string(load_unit == "N" ? "_N" : "")] = nine_digits(run.load);
   json["speed_deg_per_s"] = angle_json(run.speed);
   json["cycles"] = run.cycles;
@@ -44,7 +43,7 @@ void add_run(const PlannedRun& run, const std::string& load_unit, Json& json) {
   json["bench"] = word(run.change);
 }
 
-Json step_json(const Plan& plan, const PlanStep& step, const std::string& file) {
+Json step_json(const plan::Plan& plan, const plan::PlanStep& step, const std::string& file) {
   Json json = {{"kind", step.run ? "run" : "reading"}};
   if (step.run) {
     json["file"] = file.empty() ? Json() : Json(file);
@@ -62,14 +61,14 @@ Json step_json(const Plan& plan, const PlanStep& step, const std::string& file) 
   return json;
 }
 
-Json steps_json(const Plan& plan, const std::vector<PlanStep>& steps, bool with_files) {
+Json steps_json(const plan::Plan& plan, const std::vector<plan::PlanStep>& steps, bool with_files) {
   Json list = Json::array();
   for (std::size_t i = 0; i < steps.size(); ++i)
     list.push_back(step_json(plan, steps[i], with_files ? run_file_name(plan, i) : ""));
   return list;
 }
 
-Json cause_json(const PlannedCause& cause) {
+Json cause_json(const plan::PlannedCause& cause) {
   return {{"name", cause.name},
           {"usual_deg", size(degrees(cause.usual))},
           {"smallest_deg", size(degrees(cause.smallest))},
@@ -78,7 +77,7 @@ Json cause_json(const PlannedCause& cause) {
           {"confounded_with", cause.rivals}};
 }
 
-Json blame_json(const FalsePositives& blame) {
+Json blame_json(const plan::FalsePositives& blame) {
   return {{"worlds", blame.samples},
           {"falsely_blamed", blame.wrong},
           {"named_alone", blame.alone},
@@ -86,7 +85,7 @@ Json blame_json(const FalsePositives& blame) {
 }
 
 std::string comments(const PlanProduct& product, std::size_t step) {
-  const PlannedRun& run = *product.plan.steps[step].run;
+  const plan::PlannedRun& run = *product.plan.steps[step].run;
   std::string text = "# " + product.file.mechanism.name + ", " + run_file_name(product.plan, step) + ": " +
                      product.plan.steps[step].words + "\n";
   if (const std::string hanging = hanging_words(product, run); !hanging.empty()) text += "# " + hanging + "\n";
@@ -98,18 +97,18 @@ std::string comments(const PlanProduct& product, std::size_t step) {
 
 }  // namespace
 
-std::string run_file_name(const Plan& plan, std::size_t step) {
+std::string run_file_name(const plan::Plan& plan, std::size_t step) {
   if (!plan.steps[step].run) return "";
   int run = plan.first_run - 1;
   for (std::size_t i = 0; i <= step; ++i) run += plan.steps[i].run ? 1 : 0;
   return "run_" + std::to_string(run) + ".csv";
 }
 
-std::string hanging_words(const PlanProduct& product, const PlannedRun& run) {
+std::string hanging_words(const PlanProduct& product, const plan::PlannedRun& run) {
   if (run.load == 0) return "";
   const Mechanism& declared = product.file.mechanism;
   if (declared.transmission) return "load " + rounded(run.load, 4) + " in the unit of your log";
-  const double mass = std::abs(run.load) / k_gravity;
+  const double mass = std::abs(run.load) / transmission::k_gravity;
   return "tip force " + rounded(run.load, 4) + " N, " + (run.load > 0 ? "against" : "along") + " +theta: hang " +
          rounded(mass, 3) + " kg on a cord over a disc of radius " + rounded(declared.joint.R, 4) +
          " mm on the joint's axis (torque " + rounded(std::abs(run.load) * declared.joint.R, 4) +
@@ -117,13 +116,13 @@ std::string hanging_words(const PlanProduct& product, const PlannedRun& run) {
 }
 
 std::string run_csv(const PlanProduct& product, std::size_t step) {
-  const BenchRun driven = fusee::driven(*product.plan.steps[step].run, k_rows_a_stroke);
-  const Mounting& mounting = driven.mounting;
+  const joint::BenchRun driven = fusee::plan::driven(*product.plan.steps[step].run, k_rows_a_stroke);
+  const joint::Mounting& mounting = driven.mounting;
   std::string table = comments(product, step) + "time_s,alpha_deg,load_N,theta_deg";
-  if (mounting.motor_sensor_turned != 0) table += "," + std::string(k_motor_sensor_turned) + "_deg";
-  if (mounting.joint_sensor_turned != 0) table += "," + std::string(k_joint_sensor_turned) + "_deg";
+  if (mounting.motor_sensor_turned != 0) table += "," + std::string(measurement::k_motor_sensor_turned) + "_deg";
+  if (mounting.joint_sensor_turned != 0) table += "," + std::string(measurement::k_joint_sensor_turned) + "_deg";
   table += "\n";
-  for (const BenchRow& row : driven.rows) {
+  for (const joint::BenchRow& row : driven.rows) {
     table += trimmed_fixed(row.time, 3) + "," + trimmed_fixed(degrees(row.alpha), 4) + "," + shortest(row.load) + ",";
     if (mounting.motor_sensor_turned != 0) table += "," + trimmed_fixed(degrees(mounting.motor_sensor_turned), 3);
     if (mounting.joint_sensor_turned != 0) table += "," + trimmed_fixed(degrees(mounting.joint_sensor_turned), 3);
@@ -133,7 +132,7 @@ std::string run_csv(const PlanProduct& product, std::size_t step) {
 }
 
 std::string plan_json(const PlanProduct& product) {
-  const Plan& plan = product.plan;
+  const plan::Plan& plan = product.plan;
   Json json = {{"schema", 1}, {"name", product.file.mechanism.name}};
   json["noise_deg"] = angle_json(product.noise);
   json["minutes"] = nine_digits(product.minutes);
@@ -142,7 +141,7 @@ std::string plan_json(const PlanProduct& product) {
   json["steps"] = steps_json(plan, plan.steps, true);
   json["more_minutes"] = steps_json(plan, plan.beyond, false);
   json["causes"] = Json::array();
-  for (const PlannedCause& cause : plan.causes) json["causes"].push_back(cause_json(cause));
+  for (const plan::PlannedCause& cause : plan.causes) json["causes"].push_back(cause_json(cause));
   json["groups"] = plan.groups;
   json["left_out"] = Json::array();
   for (const auto& [name, why] : plan.left_out) json["left_out"].push_back({{"name", name}, {"why", why}});
@@ -160,4 +159,4 @@ std::string plan_manifest_json(const PlanProduct& product, const std::vector<Out
   return json_text(json, 1);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

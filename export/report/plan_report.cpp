@@ -4,16 +4,16 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/text.h"
 #include "export/report/html.h"
 #include "export/report/report_parts.h"
 #include "export/report/svg.h"
 #include "export/report/tables.h"
 #include "export/tool.h"
-#include "base/text.h"
 #include "fusee/base.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 const char* const k_all_runs = "run_*.csv";
@@ -27,9 +27,9 @@ std::string open_name(std::string name) {
 }
 
 /// Keys of the file keep their names.
-std::vector<std::string> more_items(const std::vector<PlanStep>& steps) {
+std::vector<std::string> more_items(const std::vector<plan::PlanStep>& steps) {
   std::vector<std::string> items;
-  for (const PlanStep& step : steps) items.push_back(minute_words(step, open_name(gain_words(step))));
+  for (const plan::PlanStep& step : steps) items.push_back(minute_words(step, open_name(gain_words(step))));
   return items;
 }
 
@@ -41,10 +41,10 @@ std::string names_of(const std::vector<std::string>& names) {
 
 /// Instructions for a run, in order.
 std::vector<std::string> things_to_do(const PlanProduct& product, std::size_t step) {
-  const PlannedRun& run = *product.plan.steps[step].run;
+  const plan::PlannedRun& run = *product.plan.steps[step].run;
   std::vector<std::string> things;
-  if (run.change != BenchChange::none)
-    things.push_back("first " + std::string(words(run.change)) +
+  if (run.change != plan::BenchChange::none)
+    things.push_back("first " + std::string(plan::words(run.change)) +
                      ", drive to home and set both zeros again; turn it back after the run");
   const std::string hanging = hanging_words(product, run);
   things.push_back(hanging.empty() ? "nothing hangs on the joint" : hanging);
@@ -57,7 +57,7 @@ std::vector<std::string> things_to_do(const PlanProduct& product, std::size_t st
 }
 
 std::string step_item(const PlanProduct& product, std::size_t i) {
-  const PlanStep& step = product.plan.steps[i];
+  const plan::PlanStep& step = product.plan.steps[i];
   std::string html =
       "<li><div class=\"box\"></div><div><h3>" + std::to_string(i + 1) + ". " + safe_text(step.words) + "</h3>";
   if (step.run) {
@@ -92,16 +92,16 @@ std::string steps_section(const PlanProduct& product) {
 std::string after_section(const PlanProduct& product, const std::string& runs) {
   const std::string spec = std::filesystem::path(product.file.path).filename().string();
   const bool reads = std::any_of(product.plan.steps.begin(), product.plan.steps.end(),
-                                 [](const PlanStep& step) { return step.reading != nullptr; });
+                                 [](const plan::PlanStep& step) { return step.reading != nullptr; });
   return html_section(
       "after", "Then",
       (reads ? std::string("<p>Write what was read by hand into <code>[prior]</code> of the file, and</p>") : "") +
           "<p><code>fusee calibrate " + safe_text(spec + " " + runs) + "</code></p>");
 }
 
-std::string causes_section(const Plan& plan) {
+std::string causes_section(const plan::Plan& plan) {
   std::string rows;
-  for (const PlannedCause& cause : plan.causes) {
+  for (const plan::PlannedCause& cause : plan.causes) {
     rows += "<tr><td>" + safe_text(open_name(cause.name)) + "</td><td class=\"number\">" +
             safe_text(size_words(cause.usual)) + "</td><td class=\"number\">" + safe_text(size_words(cause.smallest)) +
             "</td><td class=\"number\">" +
@@ -117,7 +117,7 @@ std::string causes_section(const Plan& plan) {
           rows + "</tbody></table></div>");
 }
 
-std::string left_out_section(const Plan& plan) {
+std::string left_out_section(const plan::Plan& plan) {
   if (plan.left_out.empty()) return "";
   std::vector<std::string> lines;
   for (const auto& [name, why] : plan.left_out) lines.push_back(open_name(name) + ": " + why);
@@ -125,9 +125,9 @@ std::string left_out_section(const Plan& plan) {
 }
 
 std::string key_numbers(const PlanProduct& product) {
-  const Plan& plan = product.plan;
+  const plan::Plan& plan = product.plan;
   std::size_t alone = 0;
-  for (const PlannedCause& cause : plan.causes) alone += cause.smallest_alone.has_value();
+  for (const plan::PlannedCause& cause : plan.causes) alone += cause.smallest_alone.has_value();
   KeyNumbers numbers;
   numbers.add("Minutes", fixed(plan.minutes, 1), "of " + rounded(product.minutes, 4));
   numbers.add("Causes that can be named alone", std::to_string(alone), "of " + std::to_string(plan.causes.size()));
@@ -181,4 +181,4 @@ std::string plan_html(const PlanProduct& product) {
   return html_page(page);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -1,7 +1,7 @@
 #include "base/text.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 std::string joints(int count) { return std::to_string(count) + " simulated joints "; }
@@ -15,7 +15,7 @@ std::string list_of(const std::vector<std::string>& words, const std::string& be
 
 }  // namespace
 
-std::vector<std::string> false_positive_words(const Plan& plan) {
+std::vector<std::string> false_positive_words(const plan::Plan& plan) {
   if (plan.one.samples == 0) return {};
   return {"in " + joints(plan.nothing.samples) + "as declared, these runs would have reported a false cause in " +
               std::to_string(plan.nothing.wrong),
@@ -28,21 +28,21 @@ std::vector<std::string> false_positive_words(const Plan& plan) {
               std::to_string(plan.unmodelled.wrong)};
 }
 
-std::string gain_words(const PlanStep& step) {
+std::string gain_words(const plan::PlanStep& step) {
   std::string text;
   if (!step.sees.empty()) text = "sees " + list_of(step.sees, ", ");
   if (!step.tells.empty()) text += std::string(text.empty() ? "" : "; ") + "tells " + list_of(step.tells, "; ");
   return text.empty() ? "reduces the uncertainty of what is distinguished already" : text;
 }
 
-std::string minute_words(const PlanStep& step, const std::string& gain) {
+std::string minute_words(const plan::PlanStep& step, const std::string& gain) {
   return "by minute " + rounded(step.by, 3) + ": " + step.words + "; " + gain;
 }
 
-std::vector<std::string> minute_words(const std::vector<PlanStep>& steps) {
+std::vector<std::string> minute_words(const std::vector<plan::PlanStep>& steps) {
   std::vector<std::string> words;
-  for (const PlanStep& step : steps) words.push_back(minute_words(step, gain_words(step)));
+  for (const plan::PlanStep& step : steps) words.push_back(minute_words(step, gain_words(step)));
   return words;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

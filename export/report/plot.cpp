@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_small_font = 12;
@@ -274,4 +274,4 @@ Figure plot_figure(const Plot& plot) {
   return figure;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

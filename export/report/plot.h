@@ -10,7 +10,7 @@
 
 #include "export/report/svg.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// A point that breaks the line.
 inline constexpr double k_gap = std::numeric_limits<double>::quiet_NaN();
@@ -75,4 +75,4 @@ BestLine best_line(const std::vector<Vec2>& points);
 /// Number of decimals for a tick label of this step.
 int tick_decimals(double step);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/run_async.h"
+#include "base/text.h"
 #include "export/report/calibration_words.h"
 #include "export/report/derived.h"
 #include "export/report/drawing.h"
@@ -21,11 +22,10 @@
 #include "export/report/tables.h"
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
-#include "base/text.h"
 #include "mechanism/catalogue.h"
 #include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 std::string all_in_divs(const std::vector<Plot>& plots) {
@@ -42,7 +42,7 @@ std::string limit_words(const Check* check) {
 
 std::string as_built_words(const Product& product) {
   if (product.as_built.points.empty()) return "No tendon was wound on this part.";
-  const RewindResult& built = product.as_built;
+  const profile::RewindResult& built = product.as_built;
   return "With tendons wound on the mesh itself, the joint follows the declared θ(α) within " +
          with_unit(degrees(built.max_theta_error), "deg") + limit_words(find_check(product, "theta_error")) +
          ", worst at α = " + readable(degrees(built.max_theta_error_at), 1) +
@@ -104,9 +104,9 @@ struct StrokeRange {
 };
 
 template <typename Value>
-StrokeRange stroke_range(const SynthesisResult& synthesis, Value value) {
+StrokeRange stroke_range(const profile::SynthesisResult& synthesis, Value value) {
   StrokeRange range;
-  for (const TransmissionPoint& point : synthesis.stroke) {
+  for (const transmission::TransmissionPoint& point : synthesis.stroke) {
     range.low = std::fmin(range.low, value(point));
     range.high = std::fmax(range.high, value(point));
   }
@@ -139,7 +139,7 @@ void add_law(KeyNumbers& numbers, const Product& product) {
   if (drive.law == Law::linear) numbers.add("Ratio α / θ", readable_rounded(drive.ratio));
   if (drive.law == Law::torque) {
     const StrokeRange torque = stroke_range(product.synthesis, [&](const auto& p) {
-      return law_load_torque(product.joint.mechanism, p.theta).value * p.g;
+      return transmission::law_load_torque(product.joint.mechanism, p.theta).value * p.g;
     });
     numbers.add("Motor torque",
                 drive.torque_rows.empty() ? with_unit(drive.motor_torque, "N·mm") : range_words(torque, 1, "N·mm"),
@@ -157,14 +157,14 @@ void add_law(KeyNumbers& numbers, const Product& product) {
                           2, "°"));
 }
 
-void add_part(KeyNumbers& numbers, const Pulley& pulley) {
+void add_part(KeyNumbers& numbers, const solid::Pulley& pulley) {
   constexpr double k_pla_density = 1.24;  // g/cm³
   if (pulley.mesh.triangles.empty()) return;
-  const Bounds box = bounds(pulley.mesh);
+  const solid::Bounds box = solid::bounds(pulley.mesh);
   const Vec3 size = box.high - box.low;
   numbers.add("Size of the part",
               readable(size.x(), 1) + " × " + readable(size.y(), 1) + " × " + readable(size.z(), 1) + " mm");
-  const double volume = enclosed_volume(pulley.mesh) / 1000;
+  const double volume = solid::enclosed_volume(pulley.mesh) / 1000;
   numbers.add("Volume", readable_rounded(volume, 3) + " cm³",
               readable_rounded(volume * k_pla_density, 2) + " g if solid PLA");
 }
@@ -233,21 +233,21 @@ struct GrooveBand {
 };
 
 /// For a helical groove, from its first turn to its last one, including the ribs between them.
-GrooveBand groove_band(const Product& product, Side which) {
-  const bool left = which == Side::left;
-  const BodyLayout& layout = product.pulley.layout;
-  const GrooveWalls& walls = left ? layout.p1 : layout.p2;
+GrooveBand groove_band(const Product& product, transmission::Side which) {
+  const bool left = which == transmission::Side::left;
+  const solid::BodyLayout& layout = product.pulley.layout;
+  const solid::GrooveWalls& walls = left ? layout.p1 : layout.p2;
   const double half = 0.98 * std::min(walls.below_width(), walls.above_width());
   if (!product.helix) return {left ? layout.z_p1 : layout.z_p2, half};
-  const SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
-  const std::vector<SpiralRow>& rows = product.helix->synthesis.sides.at(left ? 0 : 1).spiral.rows;
+  const coil::SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
+  const std::vector<helix::SpiralRow>& rows = product.helix->synthesis.sides.at(left ? 0 : 1).spiral.rows;
   const double first = place.height(rows.front().z), last = place.height(rows.back().z);
   return {0.5 * (first + last), 0.5 * std::abs(last - first) + half};
 }
 
 /// Text for tinting a groove, with the least radius of the tint.
-std::string groove_words(const Product& product, Side which) {
-  const BodyLayout& layout = product.pulley.layout;
+std::string groove_words(const Product& product, transmission::Side which) {
+  const solid::BodyLayout& layout = product.pulley.layout;
   const GrooveBand band = groove_band(product, which);
   return vector_words(layout.scale * Vec3(band.middle, band.half, 1.1 * layout.bore.radius));
 }
@@ -258,8 +258,8 @@ std::string part_view(const Product& product) {
   std::string html =
       "<div class=\"stage\"><canvas tabindex=\"0\" aria-label=\"The pulley in three dimensions\" data-low=\"" +
       vector_words(code->low) + "\" data-step=\"" + shortest(code->step) + "\" data-triangles=\"" +
-      std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(product, Side::left) +
-      "\" data-groove2=\"" + groove_words(product, Side::right) + "\"></canvas>";
+      std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(product, transmission::Side::left) +
+      "\" data-groove2=\"" + groove_words(product, transmission::Side::right) + "\"></canvas>";
   html +=
       "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Isometric</button><button "
       "data-view=\"top\">Top</button>"
@@ -275,7 +275,7 @@ std::string part_view(const Product& product) {
 
 // Mechanism -----------------------------------------------------------------------------------------------------------
 
-Pose pose_near(const SynthesisResult& synthesis, double theta) {
+Pose pose_near(const profile::SynthesisResult& synthesis, double theta) {
   const auto nearest = std::min_element(
       synthesis.stroke.begin(), synthesis.stroke.end(),
       [&](const auto& a, const auto& b) { return std::abs(a.theta - theta) < std::abs(b.theta - theta); });
@@ -284,7 +284,7 @@ Pose pose_near(const SynthesisResult& synthesis, double theta) {
 
 /// Both ends, home and one more between; evenly spaced if home is an end.
 std::vector<Pose> poses(const Product& product) {
-  const SynthesisResult& synthesis = product.synthesis;
+  const profile::SynthesisResult& synthesis = product.synthesis;
   if (synthesis.stroke.empty()) return {};
   const double low = product.joint.mechanism.joint.theta_min;
   const double high = product.joint.mechanism.joint.theta_max;
@@ -313,8 +313,8 @@ std::string mechanism_words(const Mechanism& mechanism) {
 }
 
 /// "C → pin B → P1".
-std::string path_words(const Mechanism& mechanism, Side side) {
-  const bool left = side == Side::left;
+std::string path_words(const Mechanism& mechanism, transmission::Side side) {
+  const bool left = side == transmission::Side::left;
   const bool own = (left ? mechanism.joint.attachment1 : mechanism.joint.attachment2).has_value();
   std::string words = !own ? "C" : left ? "A1" : "A2";
   if (mechanism.joint.drum_radius > 0) words += " → drum";
@@ -368,7 +368,7 @@ std::string forces_section(const Product& product) {
 // Making --------------------------------------------------------------------------------------------------------------
 
 std::string tendon_row(const TendonLength& tendon, const Mechanism& mechanism) {
-  const bool left = tendon.side == Side::left;
+  const bool left = tendon.side == transmission::Side::left;
   return "<tr><td>" + std::string(left ? "Tendon 1" : "Tendon 2") + "</td><td>" + path_words(mechanism, tendon.side) +
          "</td><td class=\"number\">" + readable(tendon.between_knots, 1) + " mm</td><td class=\"number\">" +
          readable(tendon.cut, 0) + " mm</td><td class=\"number\">" + readable(degrees(tendon.spare_lap), 0) +
@@ -390,9 +390,9 @@ std::string tendon_table(const Product& product) {
          "5 mm.</p>";
 }
 
-std::string knot_row(const KnotHold& knot, const Holding& holding) {
+std::string knot_row(const solid::KnotHold& knot, const solid::Holding& holding) {
   const std::optional<double> share = holding.share(knot);
-  const bool left = knot.side == Side::left;
+  const bool left = knot.side == transmission::Side::left;
   const auto cell = [](const std::string& words) { return "<td class=\"number\">" + words + "</td>"; };
   return "<tr><td>" + std::string(left ? "Tendon 1, on P1" : "Tendon 2, on P2") + "</td>" +
          cell(readable(degrees(knot.alpha), 1) + "°") + cell(with_unit(knot.tension, "N", 3)) +
@@ -401,7 +401,7 @@ std::string knot_row(const KnotHold& knot, const Holding& holding) {
 }
 
 std::string strength_words(const Product& product) {
-  const std::optional<Strength>& strength = product.holding.strength;
+  const std::optional<analysis::Strength>& strength = product.holding.strength;
   if (!strength) return "The tendon’s strength is not known: set tendon.strength_N.";
   const bool declared = strength->source == "tendon.strength_N";
   return "It bears " + with_unit(strength->tension, "N") + " without a knot (" +
@@ -412,7 +412,7 @@ std::string strength_words(const Product& product) {
 
 std::string knot_table(const Product& product) {
   std::string rows;
-  for (const KnotHold& knot : product.holding.knots) rows += knot_row(knot, product.holding);
+  for (const solid::KnotHold& knot : product.holding.knots) rows += knot_row(knot, product.holding);
   if (rows.empty()) return "";
   return "<h3>Knots on the pulley</h3><div class=\"scroll\"><table><thead><tr><th></th><th class=\"number\">Largest at "
          "α</th><th class=\"number\">Tendon carries</th><th class=\"number\">Wrap</th><th "
@@ -442,7 +442,7 @@ std::string mounting(const Product& product) {
 }
 
 /// Explains why a round bore has corners; "" if it has none.
-std::string polyhole_words(const BoreLayout& bore) {
+std::string polyhole_words(const solid::BoreLayout& bore) {
   if (!bore.circle) return "";
   return " The bore is a polygon of " + std::to_string(bore.outline.size()) +
          " sides on purpose: printed corners cut inside a curve, so a circle would come out too small. Its "
@@ -461,7 +461,7 @@ std::string lead_words(const Mechanism& mechanism) {
 }
 
 std::vector<std::string> steps(const Product& product) {
-  const BodyLayout& layout = product.pulley.layout;
+  const solid::BodyLayout& layout = product.pulley.layout;
   std::vector<std::string> items{
       "Print it on its lower flange, in the orientation of the files: the groove walls require no support. Use enough "
       "walls that grooves and anchors are solid."};
@@ -550,13 +550,14 @@ std::string conditions(const Product& product) {
 std::string profiles(const Product& product) {
   std::string html;
   if (product.helix) {
-    for (const Side side : {Side::left, Side::right}) html += in_div(spiral_figure(product, side));
+    for (const transmission::Side side : {transmission::Side::left, transmission::Side::right})
+      html += in_div(spiral_figure(product, side));
     return html;
   }
-  for (const Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
+  for (const profile::Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
     html += in_div(profile_figure(product.joint.mechanism, *outline, product.pulley));
   }
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     if (const auto figure = polar_figure(product.synthesis, side)) html += in_div(*figure);
   }
   return html;
@@ -604,4 +605,4 @@ std::string report_html(const Product& product) {
       });
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

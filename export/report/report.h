@@ -8,11 +8,11 @@
 #include "fusee/base.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 std::string profile_csv(const Product& product);
 /// One pitch curve as points for a CAD program's spline: x_mm, y_mm, z_mm. Closed curves repeat their first point.
-std::string pitch_curve_csv(const Product& product, Side side);
+std::string pitch_curve_csv(const Product& product, transmission::Side side);
 std::string transmission_csv(const Product& product);
 /// The part as a readable, editable OpenSCAD program.
 std::string scad_text(const Product& product);
@@ -21,4 +21,4 @@ std::string report_html(const Product& product);
 /// `outputs`: the other written files.
 std::string manifest_json(const Product& product, const std::vector<OutputFile>& outputs);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -12,18 +12,19 @@
 
 #include "export/report/tables.h"
 #include "fusee/base.h"
-#include "transmission/load.h"
 #include "fusee/transmission.h"
+#include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 const PlotAxis k_alpha_axis{"pulley angle α", "°", {}, {}, 1e-6};
 
 template <typename Value>
-std::vector<Vec2> over_alpha(const SynthesisResult& synthesis, Value value) {
+std::vector<Vec2> over_alpha(const profile::SynthesisResult& synthesis, Value value) {
   std::vector<Vec2> points;
-  for (const TransmissionPoint& point : synthesis.stroke) points.emplace_back(degrees(point.alpha), value(point));
+  for (const transmission::TransmissionPoint& point : synthesis.stroke)
+    points.emplace_back(degrees(point.alpha), value(point));
   return points;
 }
 
@@ -62,21 +63,24 @@ Plot deviation_plot(const std::vector<Vec2>& theta, const BestLine& line) {
 }
 
 /// Curvature over the unrolled direction of the normal, for the working arc.
-PlotSeries curvature_of_turns(const HelixSide& helix, Side side) {
-  PlotSeries series{std::string(pulley_name(side)), side == Side::left ? Ink::p1 : Ink::p2, {}};
+PlotSeries curvature_of_turns(const helix::HelixSide& helix, transmission::Side side) {
+  PlotSeries series{
+      std::string(transmission::pulley_name(side)), side == transmission::Side::left ? Ink::p1 : Ink::p2, {}};
   for (std::size_t i = helix.spiral.first_used; i <= helix.spiral.last_used; ++i)
     series.points.emplace_back(degrees(helix.spiral.rows[i].turn), helix.spiral.rows[i].rho);
   return series;
 }
 
 /// Points of one arc (active or closing), with a gap for the other one.
-PlotSeries curvature_series(const Outline& outline, bool active) {
-  const bool left = outline.side == Side::left;
-  PlotSeries series{
-      std::string(pulley_name(outline.side)) + (active ? " active" : ""), left ? Ink::p1 : Ink::p2, {}, !active};
+PlotSeries curvature_series(const profile::Outline& outline, bool active) {
+  const bool left = outline.side == transmission::Side::left;
+  PlotSeries series{std::string(transmission::pulley_name(outline.side)) + (active ? " active" : ""),
+                    left ? Ink::p1 : Ink::p2,
+                    {},
+                    !active};
   if (!active) series.name.clear();
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
-    const OutlinePoint& point = outline.points[i];
+    const profile::OutlinePoint& point = outline.points[i];
     series.points.emplace_back(degrees(point.psi), outline.is_active(i) == active ? point.curvature_radius : k_gap);
   }
   return series;
@@ -101,15 +105,15 @@ Plot curvature_plot(const Product& product) {
   std::vector<double> active_radii;
   if (product.helix) {
     plot.title = "Radius of curvature of the pitch curves";
-    plot.series = {curvature_of_turns(product.helix->synthesis.sides[0], Side::left),
-                   curvature_of_turns(product.helix->synthesis.sides[1], Side::right)};
+    plot.series = {curvature_of_turns(product.helix->synthesis.sides[0], transmission::Side::left),
+                   curvature_of_turns(product.helix->synthesis.sides[1], transmission::Side::right)};
     for (const PlotSeries& series : plot.series) {
       for (const Vec2& point : series.points) active_radii.push_back(point.y());
     }
   }
   for (const bool active : {false, true}) {
     if (product.helix) break;
-    for (const Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
+    for (const profile::Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
       plot.series.push_back(curvature_series(*outline, active));
       if (!active) continue;
       for (const Vec2& point : plot.series.back().points) {
@@ -131,10 +135,10 @@ std::vector<PlotLimit> both_limits(const Check* check) {
 
 /// A curve over α of the wound tendons' result, between its limits, with its worst point labelled.
 Plot as_built_plot(const Product& product, const std::string& title, const PlotAxis& y, const Check* check,
-                   const std::function<double(const RewindPoint&)>& value) {
+                   const std::function<double(const profile::RewindPoint&)>& value) {
   Plot plot{title, k_alpha_axis, y, {{title, Ink::main, {}}}, both_limits(check), {}};
   Vec2 worst(0, 0);
-  for (const RewindPoint& point : product.as_built.points) {
+  for (const profile::RewindPoint& point : product.as_built.points) {
     const Vec2 place(degrees(point.alpha), value(point));
     plot.series[0].points.push_back(place);
     if (std::abs(place.y()) > std::abs(worst.y())) worst = place;
@@ -183,7 +187,7 @@ std::vector<Vec2> wanted_torque(const Mechanism& mechanism) {
 /// The torque that balances the load on the pulley as wound: load · dθ/dα, by differences of the wound angles over some
 /// degrees. Over less, the corners of facets, some 0.001° high, would dominate.
 std::vector<Vec2> torque_as_wound(const Product& product) {
-  const std::vector<RewindPoint>& wound = product.as_built.points;
+  const std::vector<profile::RewindPoint>& wound = product.as_built.points;
   constexpr double k_over = radians(4);
   std::vector<Vec2> points;
   for (std::size_t i = 0, first = 0, last = 0; i < wound.size(); ++i) {
@@ -193,16 +197,16 @@ std::vector<Vec2> torque_as_wound(const Product& product) {
     if (wound[i].alpha - wound.front().alpha < k_over) continue;
     const double slope = (wound[last].theta - wound[first].theta) / (wound[last].alpha - wound[first].alpha);
     const double theta = 0.5 * (wound[last].theta + wound[first].theta);
-    points.emplace_back(degrees(theta), law_load_torque(product.joint.mechanism, theta).value * slope);
+    points.emplace_back(degrees(theta), transmission::law_load_torque(product.joint.mechanism, theta).value * slope);
   }
   return points;
 }
 
 std::vector<Vec2> torque_with_friction(const Product& product, bool rising) {
   std::vector<Vec2> points;
-  for (const StrokePoint& at : product.holding.loaded) {
-    const EquilibriumPoint& point = rising ? at.rising : at.falling;
-    const bool held = point.status == EquilibriumStatus::held;
+  for (const analysis::StrokePoint& at : product.holding.loaded) {
+    const joint::EquilibriumPoint& point = rising ? at.rising : at.falling;
+    const bool held = point.status == joint::EquilibriumStatus::held;
     points.emplace_back(degrees(point.theta), held ? point.motor_torque : k_gap);
   }
   return points;
@@ -223,12 +227,12 @@ Plot load_plot(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const auto over_theta = [&](auto value) {
     std::vector<Vec2> points;
-    for (const TransmissionPoint& at : product.synthesis.stroke)
+    for (const transmission::TransmissionPoint& at : product.synthesis.stroke)
       points.emplace_back(degrees(at.theta), value(at.theta));
     return points;
   };
   const auto spring = [&](double theta) { return mechanism.spring.torque(theta); };
-  const auto all = [&](double theta) { return law_load_torque(mechanism, theta).value; };
+  const auto all = [&](double theta) { return transmission::law_load_torque(mechanism, theta).value; };
   Plot plot{"Load at the joint", k_theta_axis, {"torque against +θ", "N·mm", {}, {}, 1}, {}, {}, {}};
   const bool sprung = mechanism.spring != Spring{};
   plot.series = {{sprung ? "weight, force and spring" : "weight and force", Ink::main, over_theta(all)}};
@@ -250,18 +254,20 @@ std::vector<Plot> force_plots(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   if (mechanism.load.tip_force == 0) return {};
   const auto force = [&](auto value) {
-    return over_alpha(product.synthesis, [&](const auto& p) { return value(paper_forces(mechanism, p)); });
+    return over_alpha(product.synthesis,
+                      [&](const auto& p) { return value(transmission::paper_forces(mechanism, p)); });
   };
   const std::string below = mechanism.sheath.is_there()                 ? "Tb, behind the sheath"
                             : mechanism.guides.kind == GuideKind::idler ? "Tb, below the idler"
                                                                         : "Tb, below the pin";
   Plot tension{"Tension of tendon 2 under the tip force", k_alpha_axis, {"tension", "N", 0.0, {}, 0.1}, {}, {}, {}};
-  tension.series = {{mechanism.guides.kind == GuideKind::idler ? "T2, above the idler" : "T2, above the pin", Ink::p2,
-                     force([](const PaperForces& f) { return f.T2; })},
-                    {below + " (with friction)", Ink::main, force([](const PaperForces& f) { return f.Tb; })}};
+  tension.series = {
+      {mechanism.guides.kind == GuideKind::idler ? "T2, above the idler" : "T2, above the pin", Ink::p2,
+       force([](const transmission::PaperForces& f) { return f.T2; })},
+      {below + " (with friction)", Ink::main, force([](const transmission::PaperForces& f) { return f.Tb; })}};
   Plot stretch{"Joint angle lost by stretch", k_alpha_axis, {"Δθ", "°", {}, {}, 1e-3}, {}, {}, {}};
-  stretch.series = {{"Δθ", Ink::p2, force([](const PaperForces& f) { return degrees(f.theta_error); })}};
+  stretch.series = {{"Δθ", Ink::p2, force([](const transmission::PaperForces& f) { return degrees(f.theta_error); })}};
   return {tension, stretch};
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -8,7 +8,7 @@
 #include "export/report/plot.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// r1 and r2, θ with its best straight line and the deviation from it, radius of curvature of both pitch curves.
 std::vector<Plot> transmission_plots(const Product& product);
@@ -24,4 +24,4 @@ std::vector<Plot> torque_plots(const Product& product);
 /// The product's check of this name, or null.
 const Check* find_check(const Product& product, std::string_view name);
 
-}  // namespace fusee
+}  // namespace fusee::formats

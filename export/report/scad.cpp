@@ -9,16 +9,16 @@
 #include <cmath>
 #include <set>
 
-#include "export/report/helix_scad.h"
-#include "export/report/scad_words.h"
 #include "base/text.h"
-#include "fusee/base.h"
+#include "export/report/helix_scad.h"
 #include "export/report/report.h"
+#include "export/report/scad_words.h"
+#include "fusee/base.h"
 #include "solid/body.h"
 #include "solid/bore.h"
 #include "solid/channel_entries.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 using namespace scad;
 
@@ -31,7 +31,8 @@ constexpr double k_widest_turn = radians(4);
 
 /// Indices of points to keep: the furthest from the axis and all extremes in x and y, so that neither a round flange
 /// nor the bounding box shrinks, and between them as many as both curves require.
-std::vector<std::size_t> kept_points(const Outline& p1, const Outline& p2, const FlangeRims& rims) {
+std::vector<std::size_t> kept_points(const profile::Outline& p1, const profile::Outline& p2,
+                                     const solid::FlangeRims& rims) {
   const std::size_t n = p1.points.size();
   std::set<std::size_t> fixed_points{0};
   for (const Polygon& curve : {rims.groove_edge1, rims.groove_edge2, rims.middle}) {
@@ -58,8 +59,9 @@ std::vector<std::size_t> kept_points(const Outline& p1, const Outline& p2, const
   return kept;
 }
 
-std::string floor_array(const char* name, const Outline& outline, double d, const std::vector<std::size_t>& kept) {
-  const Polygon floor = parallel(outline, -0.5 * d);
+std::string floor_array(const char* name, const profile::Outline& outline, double d,
+                        const std::vector<std::size_t>& kept) {
+  const Polygon floor = profile::parallel(outline, -0.5 * d);
   std::string text = fmt::format("{} = [", name);
   for (std::size_t k = 0; k < kept.size(); ++k) {
     const Vec2& p = floor[kept[k]];
@@ -76,7 +78,8 @@ struct RimMargins {
   double lower = 0, middle = 0, upper = 0;
 };
 
-RimMargins rim_margins(const FlangeRims& rims, const Outline& p1, const Outline& p2, double groove_edge, Flange kind) {
+RimMargins rim_margins(const solid::FlangeRims& rims, const profile::Outline& p1, const profile::Outline& p2,
+                       double groove_edge, Flange kind) {
   const double r1 = circumradius(rims.groove_edge1), r2 = circumradius(rims.groove_edge2);
   if (kind == Flange::round)
     return {circumradius(rims.lower) - r1, circumradius(rims.middle) - std::max(r1, r2), circumradius(rims.upper) - r2};
@@ -91,7 +94,7 @@ RimMargins rim_margins(const FlangeRims& rims, const Outline& p1, const Outline&
 std::string parameters(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const Body& body = mechanism.body;
-  const BodyLayout& layout = product.pulley.layout;
+  const solid::BodyLayout& layout = product.pulley.layout;
   std::string text = fmt::format(
       R"(// {} - a compound pulley for two tendons, in mm.
 // Made by fusee. Bottom to top: flange, groove P1, middle flange, groove P2, flange, hub. The axis is z, the joint lies towards +y.
@@ -117,14 +120,16 @@ show = "assembled"; // [assembled, print{}]
   return text + tie_offs_and_printing(product);
 }
 
-std::string flange_numbers(const Product& product, const FlangeRims& rims) {
+std::string flange_numbers(const Product& product, const solid::FlangeRims& rims) {
   const Mechanism& mechanism = product.joint.mechanism;
   const Flange kind = mechanism.body.flange;
-  const BodyLayout& layout = product.pulley.layout;
+  const solid::BodyLayout& layout = product.pulley.layout;
   const double groove_edge = layout.groove_depth - 0.5 * mechanism.tendon.diameter;
   const RimMargins margins = rim_margins(rims, product.synthesis.p1, product.synthesis.p2, groove_edge, kind);
   // A ledge at 45°, as high as it is wide.
-  const auto ledge = [](const Polygon& inner, const Polygon& outer) { return cone_height(inner, outer, radians(45)); };
+  const auto ledge = [](const Polygon& inner, const Polygon& outer) {
+    return solid::cone_height(inner, outer, radians(45));
+  };
   const double ceiling = std::max(layout.p2.below_width(), layout.p2.above_width());
   return fmt::format("flange_shape = \"{}\";  // follow: along the groove; round\n",
                      kind == Flange::follow ? "follow" : "round") +
@@ -134,22 +139,22 @@ std::string flange_numbers(const Product& product, const FlangeRims& rims) {
          hidden("lower_ledge", ledge(rims.groove_edge1, rims.lower), "their largest projection over it") +
          hidden("middle_ledge", ledge(rims.groove_edge1, rims.middle), "the middle one over P1's") +
          hidden("upper_ledge", ledge(rims.groove_edge2, rims.upper), "the upper one over P2's") +
-         hidden("entry_rise", entry_rise(layout) + ceiling - 0.5 * layout.channel_width,
+         hidden("entry_rise", solid::entry_rise(layout) + ceiling - 0.5 * layout.channel_width,
                 "of a channel's ceiling, up to the groove edge") +
          hidden("min_wall", layout.min_wall, "no wall is thinner");
 }
 
-std::string dowel_numbers(const BodyLayout& layout) {
-  const DowelLayout& dowels = layout.dowels;
+std::string dowel_numbers(const solid::BodyLayout& layout) {
+  const solid::DowelLayout& dowels = layout.dowels;
   return fmt::format("dowels = {};  // pins that locate P1 and P2 on each other\n", points_text(dowels.places)) +
          hidden("dowel_pin", dowels.pin_diameter, "diameter") +
          hidden("dowel_end", dowels.places.empty() ? 0 : dowels.z_end - layout.z_p2,
                 "of its hole at most, above groove P2's middle");
 }
 
-std::string hidden_numbers(const Product& product, const FlangeRims& rims) {
+std::string hidden_numbers(const Product& product, const solid::FlangeRims& rims) {
   const Mechanism& mechanism = product.joint.mechanism;
-  const BodyLayout& layout = product.pulley.layout;
+  const solid::BodyLayout& layout = product.pulley.layout;
   const double compensation = mechanism.material.hole_compensation;
   return "/* [Hidden] */\n" +
          hidden("parts", layout.parts == Parts::two ? 2 : 1, "number of printed parts: 2: P1 and P2 separately") +
@@ -165,7 +170,7 @@ std::string array_text(const char* name, const char* words, const std::vector<st
   return fmt::format("\n// {}\n{} = [{}{}];\n", words, name, rows.empty() ? "" : "\n  ", fmt::join(rows, ",\n  "));
 }
 
-int groove_of(const Anchor& anchor) { return anchor.side == Side::left ? 1 : 2; }
+int groove_of(const solid::Anchor& anchor) { return anchor.side == transmission::Side::left ? 1 : 2; }
 
 /// From the start of the channel's straight to the end of its inner edge.
 Vec2 straight_run(const Polygon& inner, const Vec2& pocket) {
@@ -177,7 +182,7 @@ Vec2 straight_run(const Polygon& inner, const Vec2& pocket) {
 }
 
 /// The entry's outline runs along the outer edge and back along the inner one.
-std::string channel_text(const Anchor& anchor) {
+std::string channel_text(const solid::Anchor& anchor) {
   const auto half = static_cast<std::ptrdiff_t>(anchor.entry.size() / 2);
   const Polygon outer(anchor.entry.begin(), anchor.entry.begin() + half);
   const Polygon inner(anchor.entry.rbegin(), anchor.entry.rbegin() + half);
@@ -185,33 +190,34 @@ std::string channel_text(const Anchor& anchor) {
                      points_text(outer), points_text(inner), point_text(straight_run(inner, anchor.pocket)));
 }
 
-std::string face_hole_text(const Anchor& anchor, const Outline& outline) {
+std::string face_hole_text(const solid::Anchor& anchor, const profile::Outline& outline) {
   const auto nearest =
-      std::min_element(outline.points.begin(), outline.points.end(), [&](const OutlinePoint& a, const OutlinePoint& b) {
-        return (a.position - anchor.exit).squaredNorm() < (b.position - anchor.exit).squaredNorm();
-      });
+      std::min_element(outline.points.begin(), outline.points.end(),
+                       [&](const profile::OutlinePoint& a, const profile::OutlinePoint& b) {
+                         return (a.position - anchor.exit).squaredNorm() < (b.position - anchor.exit).squaredNorm();
+                       });
   return fmt::format("[{}, {}, {}, {}, {}, {}]", groove_of(anchor), point_text(anchor.seat->hole),
                      decimal(degrees(nearest->psi)), decimal(anchor.seat->radius), decimal(anchor.seat->depth),
                      decimal(anchor.seat->length));
 }
 
-std::string tail_slot_text(const Anchor& anchor) {
-  const TailSlot& slot = *anchor.tail;
+std::string tail_slot_text(const solid::Anchor& anchor) {
+  const solid::TailSlot& slot = *anchor.tail;
   return fmt::format("[{}, {}, {}, {}, {}]", groove_of(anchor), point_text(slot.from), point_text(slot.to),
                      decimal(slot.depth), decimal(slot.ceiling));
 }
 
-std::string clamp_pilot_text(const Anchor& anchor, double compensation) {
-  const TailSlot& slot = *anchor.tail;
+std::string clamp_pilot_text(const solid::Anchor& anchor, double compensation) {
+  const solid::TailSlot& slot = *anchor.tail;
   return fmt::format("[{}, {}, {}, {}]", groove_of(anchor), point_text(slot.to),
                      decimal(slot.pilot_diameter - compensation), decimal(slot.pilot_depth));
 }
 
 std::string tie_off_arrays(const Product& product) {
   std::vector<std::string> channels, holes, slots, pilots;
-  for (const Anchor& anchor : product.pulley.anchors) {
+  for (const solid::Anchor& anchor : product.pulley.anchors) {
     if (anchor.seat) {
-      const bool left = anchor.side == Side::left;
+      const bool left = anchor.side == transmission::Side::left;
       holes.push_back(face_hole_text(anchor, left ? product.synthesis.p1 : product.synthesis.p2));
     } else {
       channels.push_back(channel_text(anchor));
@@ -234,8 +240,8 @@ std::string tie_off_arrays(const Product& product) {
          array_text("clamp_pilots", "hole of the tail's screw: place, diameter, depth below the face", pilots) + "\n";
 }
 
-std::string floor_arrays(const Product& product, const FlangeRims& rims) {
-  const SynthesisResult& synthesis = product.synthesis;
+std::string floor_arrays(const Product& product, const solid::FlangeRims& rims) {
+  const profile::SynthesisResult& synthesis = product.synthesis;
   const double d = product.joint.mechanism.tendon.diameter;
   const std::vector<std::size_t> kept = kept_points(synthesis.p1, synthesis.p2, rims);
   return "// The groove floors: x, y, and the direction in which the floor looks there, degrees. Point i of both looks "
@@ -248,10 +254,11 @@ std::string floor_arrays(const Product& product, const FlangeRims& rims) {
 std::string scad_text(const Product& product) {
   if (product.helix) return helix_scad(product);
   const Mechanism& mechanism = product.joint.mechanism;
-  const FlangeRims rims = flange_rims(product.synthesis.p1, product.synthesis.p2, mechanism.tendon.diameter,
-                                      product.pulley.layout.groove_depth, mechanism.body.flange);
+  const solid::FlangeRims rims =
+      solid::flange_rims(product.synthesis.p1, product.synthesis.p2, mechanism.tendon.diameter,
+                         product.pulley.layout.groove_depth, mechanism.body.flange);
   return parameters(product) + hidden_numbers(product, rims) + floor_arrays(product, rims) + tie_off_arrays(product) +
          program_for("one turn");
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <vector>
 
-#include "export/report/report_parts.h"
 #include "base/text.h"
+#include "export/report/report_parts.h"
 #include "fusee/base.h"
 #include "solid/bore.h"
 
-namespace fusee::scad {
+namespace fusee::formats::scad {
 namespace {
 
 const char* name_of(Bore bore) {
@@ -34,7 +34,7 @@ const char* name_of(Bore bore) {
 }
 
 /// The shaft's diameter (across flats) that a bore's outline was made for.
-double shaft_diameter(const BoreLayout& bore, double compensation) {
+double shaft_diameter(const solid::BoreLayout& bore, double compensation) {
   const double radius =
       bore.arc_points > 0 ? bore.outline.front().norm() : distance_to_edges(bore.outline, Vec2::Zero());
   return 2 * radius - compensation;
@@ -45,7 +45,7 @@ std::string tick_box(const char* name, const char* words, bool value) {
 }
 
 /// The further parameters of a D bore or a keyway.
-std::string flat_sliders(const BoreLayout& bore, double compensation) {
+std::string flat_sliders(const solid::BoreLayout& bore, double compensation) {
   const double radius = 0.5 * shaft_diameter(bore, compensation);
   const double top = bore.outline.back().y() - 0.5 * compensation;
   if (bore.kind == Bore::d)
@@ -97,8 +97,8 @@ std::string hidden(const char* name, double value, const char* words) {
 
 std::string bore_and_hub(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
-  const BodyLayout& layout = product.pulley.layout;
-  const SetScrewLayout& screw = layout.set_screw;
+  const solid::BodyLayout& layout = product.pulley.layout;
+  const solid::SetScrewLayout& screw = layout.set_screw;
   std::string text;
   if (layout.bore.kind != Bore::horn)
     text += slider_text(
@@ -121,7 +121,7 @@ std::string bore_and_hub(const Product& product) {
 
 std::string tie_offs_and_printing(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
-  const BodyLayout& layout = product.pulley.layout;
+  const solid::BodyLayout& layout = product.pulley.layout;
   std::string text;
   text += "\n/* [Tie-offs] */\n";
   text +=
@@ -136,8 +136,8 @@ std::string tie_offs_and_printing(const Product& product) {
   return text;
 }
 
-std::string screw_numbers(const BodyLayout& layout, double compensation) {
-  const SetScrewLayout& screw = layout.set_screw;
+std::string screw_numbers(const solid::BodyLayout& layout, double compensation) {
+  const solid::SetScrewLayout& screw = layout.set_screw;
   const double bore_edge = 0.5 * (shaft_diameter(layout.bore, compensation) + compensation);
   const double nut_from_bore = screw.nut_trap ? screw.nut_distance - bore_edge : 0;
   const double hub_wall =
@@ -153,10 +153,10 @@ std::string screw_numbers(const BodyLayout& layout, double compensation) {
          hidden("hub_wall", hub_wall, "the hub grows with the bore so that this is left outside of it and of the nut");
 }
 
-std::string bore_numbers(const BoreLayout& bore, double compensation) {
+std::string bore_numbers(const solid::BoreLayout& bore, double compensation) {
   std::string text;
   if (bore.kind == Bore::horn) text += hidden("bore", shaft_diameter(bore, compensation), "of the horn");
-  const Polygon rim = bore.horn_recess > 0 ? recess_cone(bore).rim : bore.outline;
+  const Polygon rim = bore.horn_recess > 0 ? solid::recess_cone(bore).rim : bore.outline;
   text += fmt::format("bore_shape = \"{}\";\n", name_of(bore.kind));
   text += hidden("horn_recess", bore.horn_recess, "depth of a servo horn's pocket; 0: the bore goes through");
   text += fmt::format("horn_rays = [{}];  // degrees: where the pocket's cone has corners\n",
@@ -165,7 +165,7 @@ std::string bore_numbers(const BoreLayout& bore, double compensation) {
                       bore.spline_teeth > 0 ? points_text(rim) : "[]");
   std::vector<std::string> holes;
   for (const Polygon& outline : bore.screw_holes) {
-    const RoundHole hole = circle_within(outline);
+    const solid::RoundHole hole = solid::circle_within(outline);
     holes.push_back(fmt::format("[{}, {}, {}]", decimal(hole.centre.x()), decimal(hole.centre.y()),
                                 decimal(hole.diameter - compensation)));
   }
@@ -192,4 +192,4 @@ std::string program_for(std::string_view turns) {
   return program;
 }
 
-}  // namespace fusee::scad
+}  // namespace fusee::formats::scad

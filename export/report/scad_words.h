@@ -8,7 +8,7 @@
 #include "fusee/base.h"
 #include "fusee/export.h"
 
-namespace fusee::scad {
+namespace fusee::formats::scad {
 
 std::string decimal(double value);
 std::string point_text(const Vec2& p);
@@ -30,10 +30,10 @@ std::string hidden(const char* name, double value, const char* words);
 std::string bore_and_hub(const Product& product);
 std::string tie_offs_and_printing(const Product& product);
 
-std::string bore_numbers(const BoreLayout& bore, double compensation);
-std::string screw_numbers(const BodyLayout& layout, double compensation);
+std::string bore_numbers(const solid::BoreLayout& bore, double compensation);
+std::string screw_numbers(const solid::BodyLayout& layout, double compensation);
 
 /// The part of the file pulley.scad in this folder for these turns: "one turn" or "several turns".
 std::string program_for(std::string_view turns);
 
-}  // namespace fusee::scad
+}  // namespace fusee::formats::scad

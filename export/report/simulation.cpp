@@ -1,72 +1,83 @@
-#include "fusee/export.h"
-
 #include <functional>
 
-#include "export/report/csv_cells.h"
 #include "base/text.h"
+#include "export/report/csv_cells.h"
 #include "fusee/base.h"
+#include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
-using OfRow = std::function<double(const Sample& row, const JointState& state)>;
+using OfRow = std::function<double(const measurement::Sample& row, const joint::JointState& state)>;
 
 std::vector<double> values(const Simulation& simulation, const OfRow& of_row) {
   std::vector<double> all;
-  const std::vector<Sample>& rows = simulation.log.runs.front().samples;
+  const std::vector<measurement::Sample>& rows = simulation.log.runs.front().samples;
   for (std::size_t i = 0; i < rows.size(); ++i) all.push_back(of_row(rows[i], simulation.states[i]));
   return all;
 }
 
 }  // namespace
 
-std::string_view word(EquilibriumStatus status) {
+std::string_view word(joint::EquilibriumStatus status) {
   switch (status) {
-    case EquilibriumStatus::loose:
+    case joint::EquilibriumStatus::loose:
       return "loose";
-    case EquilibriumStatus::no_equilibrium:
+    case joint::EquilibriumStatus::no_equilibrium:
       return "no_equilibrium";
-    case EquilibriumStatus::held:
+    case joint::EquilibriumStatus::held:
       break;
   }
   return "held";
 }
 
 std::vector<SimulationColumn> simulation_columns(const Simulation& simulation) {
-  const Run& run = simulation.log.runs.front();
+  const measurement::Run& run = simulation.log.runs.front();
   const Mechanism& declared = simulation.file.mechanism;
   const std::string& unit = simulation.log.load_unit;
   std::vector<SimulationColumn> columns;
   const auto add = [&](const std::string& name, const OfRow& of_row) {
     columns.push_back({name, values(simulation, of_row)});
   };
-  if (run.has_time) add("time_s", [](const Sample& row, const JointState&) { return row.time; });
-  add("alpha_deg", [](const Sample& row, const JointState&) { return degrees(row.alpha); });
-  add("theta_deg", [](const Sample&, const JointState& state) { return degrees(state.shown); });
+  if (run.has_time) add("time_s", [](const measurement::Sample& row, const joint::JointState&) { return row.time; });
+  add("alpha_deg", [](const measurement::Sample& row, const joint::JointState&) { return degrees(row.alpha); });
+  add("theta_deg", [](const measurement::Sample&, const joint::JointState& state) { return degrees(state.shown); });
   if (run.has_load) {
-    add("load" + (unit.empty() ? "" : "_" + unit), [](const Sample& row, const JointState&) { return row.load; });
+    add("load" + (unit.empty() ? "" : "_" + unit),
+        [](const measurement::Sample& row, const joint::JointState&) { return row.load; });
   } else if (!declared.transmission) {
-    add("load_N", [&](const Sample&, const JointState&) { return declared.load.tip_force; });
+    add("load_N", [&](const measurement::Sample&, const joint::JointState&) { return declared.load.tip_force; });
   }
   if (!declared.transmission) {
-    const auto held = [](const JointState& state) { return state.status != EquilibriumStatus::no_equilibrium; };
-    const auto known = [held](double value, const JointState& state) { return held(state) ? value : std::nan(""); };
-    add("tension1_N", [known](const Sample&, const JointState& state) { return known(state.t1.lower, state); });
-    add("tension2_N", [known](const Sample&, const JointState& state) { return known(state.t2.lower, state); });
-    add("motor_torque_Nmm", [](const Sample&, const JointState& state) { return state.motor_torque; });
-    add("tension1_joint_N", [known](const Sample&, const JointState& state) { return known(state.t1.upper, state); });
-    add("tension2_joint_N", [known](const Sample&, const JointState& state) { return known(state.t2.upper, state); });
-    add("loose_deg", [](const Sample&, const JointState& state) { return degrees(state.loose); });
+    const auto held = [](const joint::JointState& state) {
+      return state.status != joint::EquilibriumStatus::no_equilibrium;
+    };
+    const auto known = [held](double value, const joint::JointState& state) {
+      return held(state) ? value : std::nan("");
+    };
+    add("tension1_N",
+        [known](const measurement::Sample&, const joint::JointState& state) { return known(state.t1.lower, state); });
+    add("tension2_N",
+        [known](const measurement::Sample&, const joint::JointState& state) { return known(state.t2.lower, state); });
+    add("motor_torque_Nmm",
+        [](const measurement::Sample&, const joint::JointState& state) { return state.motor_torque; });
+    add("tension1_joint_N",
+        [known](const measurement::Sample&, const joint::JointState& state) { return known(state.t1.upper, state); });
+    add("tension2_joint_N",
+        [known](const measurement::Sample&, const joint::JointState& state) { return known(state.t2.upper, state); });
+    add("loose_deg", [](const measurement::Sample&, const joint::JointState& state) { return degrees(state.loose); });
   }
-  add("joint_deg", [](const Sample&, const JointState& state) { return degrees(state.theta); });
+  add("joint_deg", [](const measurement::Sample&, const joint::JointState& state) { return degrees(state.theta); });
   // In the logged form, which the next reader requires.
   const auto add_mounting = [&](std::string_view role, double turned) {
     if (turned != 0)
-      add(std::string(role) + "_deg", [turned](const Sample&, const JointState&) { return degrees(turned); });
+      add(std::string(role) + "_deg",
+          [turned](const measurement::Sample&, const joint::JointState&) { return degrees(turned); });
   };
-  add_mounting(k_motor_sensor_turned, run.mounting.motor_sensor_turned);
-  add_mounting(k_joint_sensor_turned, run.mounting.joint_sensor_turned);
-  if (run.has_temperature) add("temperature_C", [](const Sample& row, const JointState&) { return row.temperature; });
+  add_mounting(measurement::k_motor_sensor_turned, run.mounting.motor_sensor_turned);
+  add_mounting(measurement::k_joint_sensor_turned, run.mounting.joint_sensor_turned);
+  if (run.has_temperature)
+    add("temperature_C", [](const measurement::Sample& row, const joint::JointState&) { return row.temperature; });
   return columns;
 }
 
@@ -83,4 +94,4 @@ std::string simulation_csv(const Simulation& simulation) {
   return table;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

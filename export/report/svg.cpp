@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "export/report/report_parts.h"
 #include "base/text.h"
+#include "export/report/report_parts.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr std::string_view k_minus = "\u2212";
@@ -144,4 +144,4 @@ std::string readable_rounded(double value, int digits) {
   return with_true_minus(number.substr(0, exponent)) + "·10" + superscript(std::stoi(number.substr(exponent + 1)));
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

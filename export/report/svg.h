@@ -8,7 +8,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// A finished picture. Its colours are the classes of figure.css, so that it adapts to dark mode and to paper.
 struct Figure {
@@ -49,4 +49,4 @@ std::string readable(double value, int decimals);
 /// A number to significant digits, "9·10⁻⁵" if it is very small or large.
 std::string readable_rounded(double value, int digits = 4);
 
-}  // namespace fusee
+}  // namespace fusee::formats

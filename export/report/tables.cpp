@@ -8,7 +8,7 @@
 #include "export/report/svg.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 /// '#' stands for 1 or 2, '@' for the pin of the same side, B or D. In a name, its last letter may be any of these.
@@ -200,13 +200,13 @@ std::string checks_tables(const std::vector<Check>& checks) {
   return html + "</div>";
 }
 
-std::string conditions_table(const std::vector<Condition>& conditions, bool over_stroke) {
+std::string conditions_table(const std::vector<profile::Condition>& conditions, bool over_stroke) {
   std::string html = "<div class=\"scroll\"><table><thead><tr><th></th><th>Condition</th>";
   if (over_stroke) html += "<th class=\"number\">Tightest at α</th>";
   html +=
       "<th class=\"number\">Value</th><th class=\"number\">Limit</th><th "
       "class=\"number\">Margin</th></tr></thead><tbody>";
-  for (const Condition& condition : conditions) {
+  for (const profile::Condition& condition : conditions) {
     // A condition without numbers: there either is a dead centre or not.
     const bool plain = condition.value == condition.limit;
     const double distance = std::abs(condition.value - condition.limit);
@@ -220,4 +220,4 @@ std::string conditions_table(const std::vector<Condition>& conditions, bool over
   return html + "</tbody></table></div>";
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -9,7 +9,7 @@
 #include "fusee/base.h"
 #include "fusee/profile.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// "free_span_1" → "Free span of tendon 1", from a table of known names. Any other name is shown with spaces for
 /// underscores.
@@ -22,6 +22,6 @@ std::string with_unit(double value, std::string_view unit, int digits = 3);
 /// Grouped by file, with failed checks in a group of their own, first.
 std::string checks_tables(const std::vector<Check>& checks);
 /// `over_stroke`: with a column for the α at which each is tightest.
-std::string conditions_table(const std::vector<Condition>& conditions, bool over_stroke);
+std::string conditions_table(const std::vector<profile::Condition>& conditions, bool over_stroke);
 
-}  // namespace fusee
+}  // namespace fusee::formats

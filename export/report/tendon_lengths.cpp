@@ -6,7 +6,7 @@
 #include "export/report/tendon_trace.h"
 #include "solid/wrap.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // Share of the cut for one end: a stopper knot takes about a dozen diameters (figure-eight; assumed), plus a tail to
@@ -15,13 +15,13 @@ constexpr double k_knot_ratio = 12.0;
 constexpr double k_tail = 50.0;
 constexpr double k_cut_grain = 5.0;
 
-TendonLength length_to(const Product& product, const Anchor& anchor) {
+TendonLength length_to(const Product& product, const solid::Anchor& anchor) {
   const Mechanism& mechanism = product.joint.mechanism;
-  const bool left = anchor.side == Side::left;
-  const Outline& outline = left ? product.synthesis.p1 : product.synthesis.p2;
-  const TransmissionPoint& home = *product.synthesis.home();
-  const TendonPoint& tendon = left ? home.t1 : home.t2;
-  const BodyLayout& layout = product.pulley.layout;
+  const bool left = anchor.side == transmission::Side::left;
+  const profile::Outline& outline = left ? product.synthesis.p1 : product.synthesis.p2;
+  const transmission::TransmissionPoint& home = *product.synthesis.home();
+  const transmission::TendonPoint& tendon = left ? home.t1 : home.t2;
+  const solid::BodyLayout& layout = product.pulley.layout;
 
   const bool sheathed = mechanism.sheath.is_there();
   const double rho = sheathed ? 0.0 : mechanism.seen_pitch_radius();
@@ -29,37 +29,37 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
   const Vec2 axis = pulley_axis(mechanism);
   // The nearest point is sufficient: a step along the tangent is longer on the arc and shorter on the span by the same
   // length.
-  const std::size_t contact = index_at_normal(outline, tendon.lower_normal);
+  const std::size_t contact = solid::index_at_normal(outline, tendon.lower_normal);
   const double to_pin = (pin - axis - outline.points[contact].position).norm();
   const double lower_span = std::sqrt(std::max(0.0, (to_pin - rho) * (to_pin + rho)));
 
   // The channel's centre line leaves the floor; the tendon's centre line, the pitch curve above it.
-  const std::size_t exit = index_at_place(outline, anchor.exit);
+  const std::size_t exit = solid::index_at_place(outline, anchor.exit);
   const double above_pulley = tendon.length - tendon.lower_reach;
   TendonLength result;
   result.side = anchor.side;
   result.joint_knot = attachment(mechanism, anchor.side, 0.0);
   const double groove = left ? layout.z_p1 : layout.z_p2, z = anchor.seat ? anchor.seat->z : groove;
   result.pulley_knot = layout.scale * Vec3(anchor.pocket.x(), anchor.pocket.y(), z);
-  const WoundArc wound = wound_arc(outline, contact, exit);
+  const solid::WoundArc wound = solid::wound_arc(outline, contact, exit);
   result.between_knots =
       above_pulley + lower_span + wound.length + (anchor.pocket - anchor.exit).norm() + std::abs(z - groove);
   result.cut = cut_length(result.between_knots + 2.0 * tendon_end(mechanism.tendon));
   result.lap_at_home = wound.turn;
-  result.spare_lap = wound_arc(outline, outline.anchor_end(), exit).turn;
+  result.spare_lap = solid::wound_arc(outline, outline.anchor_end(), exit).turn;
   return result;
 }
 
 /// Along the sloped path and the groove, and straight from its end to the pocket.
-TendonLength length_on_helix(const Product& product, const HelicalAnchor& anchor) {
-  const bool left = anchor.side == Side::left;
-  const HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);
-  const std::vector<SpiralRow>& rows = side.spiral.rows;
+TendonLength length_on_helix(const Product& product, const coil::HelicalAnchor& anchor) {
+  const bool left = anchor.side == transmission::Side::left;
+  const helix::HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);
+  const std::vector<helix::SpiralRow>& rows = side.spiral.rows;
   const auto home = std::min_element(side.stroke.begin(), side.stroke.end(), [](const auto& a, const auto& b) {
     return std::abs(a.wound) < std::abs(b.wound);
   });
   // P1's tendon stays wound at its spiral's last row, P2's at its first.
-  const SpiralRow& end = left ? rows.back() : rows.front();
+  const helix::SpiralRow& end = left ? rows.back() : rows.front();
   const double climb = end.z - home->z;
   TendonLength result;
   result.side = anchor.side;
@@ -69,7 +69,7 @@ TendonLength length_on_helix(const Product& product, const HelicalAnchor& anchor
       home->free + std::hypot(climb, climb / side.spiral.slope) + (anchor.pocket - anchor.exit).norm();
   result.cut = cut_length(result.between_knots + 2.0 * tendon_end(product.joint.mechanism.tendon));
   result.lap_at_home = std::abs(end.turn - side.spiral.row_at(home->z).turn);
-  const SpiralRow& used = rows.at(left ? side.spiral.last_used : side.spiral.first_used);
+  const helix::SpiralRow& used = rows.at(left ? side.spiral.last_used : side.spiral.first_used);
   result.spare_lap = std::abs(end.turn - used.turn);
   return result;
 }
@@ -83,14 +83,14 @@ std::vector<TendonLength> tendon_lengths(const Product& product) {
   std::vector<TendonLength> lengths;
   if (product.synthesis.stroke.empty()) return lengths;
   if (product.helix) {
-    for (const HelicalAnchor& anchor : product.helix->pulley.anchors)
+    for (const coil::HelicalAnchor& anchor : product.helix->pulley.anchors)
       lengths.push_back(length_on_helix(product, anchor));
     return lengths;
   }
-  for (const Anchor& anchor : product.pulley.anchors) {
+  for (const solid::Anchor& anchor : product.pulley.anchors) {
     if (anchor.wound_end) lengths.push_back(length_to(product, anchor));
   }
   return lengths;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

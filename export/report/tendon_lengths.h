@@ -8,11 +8,11 @@
 #include "fusee/export.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Lengths to be measured off.
 struct TendonLength {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   Vec2 joint_knot;           ///< C, in the frame of the mechanism, mm
   Vec3 pulley_knot;          ///< centre of the knot pocket, in the frame of the mesh, mm
   double between_knots = 0;  ///< along the tendon's centre line, mm
@@ -31,4 +31,4 @@ double cut_length(double needed);
 /// One entry for each tendon whose pulley has an anchor.
 std::vector<TendonLength> tendon_lengths(const Product& product);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -6,7 +6,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 /// Outward normal of the line through `point` that touches the circle and has it on its inner side: the tendon passes
@@ -27,8 +27,8 @@ struct PulleyContact {
 
 /// The common outer tangent of the pin (or of the sheath's exit) and the turned pitch polygon: the outermost of the
 /// tangents from the vertices.
-std::optional<PulleyContact> pulley_contact(const Mechanism& mechanism, const Outline& outline, double alpha) {
-  const double sign = mirror_sign(outline.side);
+std::optional<PulleyContact> pulley_contact(const Mechanism& mechanism, const profile::Outline& outline, double alpha) {
+  const double sign = transmission::mirror_sign(outline.side);
   const bool sheathed = mechanism.sheath.is_there();
   const Vec2 pin = sheathed ? sheath_exit(mechanism, outline.side) : pin_centre(mechanism, outline.side);
   const Vec2 axis = pulley_axis(mechanism);
@@ -52,10 +52,10 @@ std::optional<PulleyContact> pulley_contact(const Mechanism& mechanism, const Ou
 }
 
 /// Vertices from `first` to the anchor's end of the active arc; only `first` if it already lies at or beyond that end.
-std::vector<std::size_t> wound_indices(const Outline& outline, std::size_t first) {
+std::vector<std::size_t> wound_indices(const profile::Outline& outline, std::size_t first) {
   const std::size_t n = outline.points.size();
   const std::size_t last = outline.anchor_end();
-  const bool forward = outline.side == Side::left;
+  const bool forward = outline.side == transmission::Side::left;
   const auto steps_between = [&](std::size_t from, std::size_t to) {
     return forward ? (to + n - from) % n : (from + n - to) % n;
   };
@@ -86,17 +86,19 @@ std::vector<Vec2> arc(const Vec2& centre, double radius, double from, double to)
 
 Vec2 pulley_axis(const Mechanism& mechanism) { return {0, -mechanism.guides.OE - mechanism.pulley.EF}; }
 
-Vec2 pin_centre(const Mechanism& mechanism, Side side) {
+Vec2 pin_centre(const Mechanism& mechanism, transmission::Side side) {
   const Guides& guides = mechanism.guides;
-  return side == Side::left ? Vec2(-guides.EB, -guides.OE) : Vec2(guides.ED, -guides.OE - guides.D_below_B);
+  return side == transmission::Side::left ? Vec2(-guides.EB, -guides.OE)
+                                          : Vec2(guides.ED, -guides.OE - guides.D_below_B);
 }
 
-Vec2 sheath_exit(const Mechanism& mechanism, Side side) {
-  return pulley_axis(mechanism) + Vec2(mirror_sign(side) * mechanism.sheath.exit_across, mechanism.sheath.exit_above);
+Vec2 sheath_exit(const Mechanism& mechanism, transmission::Side side) {
+  return pulley_axis(mechanism) +
+         Vec2(transmission::mirror_sign(side) * mechanism.sheath.exit_across, mechanism.sheath.exit_above);
 }
 
-std::vector<Vec2> sheath_curve(const Mechanism& mechanism, Side side) {
-  const double sign = mirror_sign(side);
+std::vector<Vec2> sheath_curve(const Mechanism& mechanism, transmission::Side side) {
+  const double sign = transmission::mirror_sign(side);
   const Vec2 from = pin_centre(mechanism, side) + Vec2(sign * mechanism.guide_pitch_radius(), 0.0),
              to = sheath_exit(mechanism, side);
   const double reach = 0.5 * (to - from).norm();
@@ -111,20 +113,20 @@ std::vector<Vec2> sheath_curve(const Mechanism& mechanism, Side side) {
   return points;
 }
 
-Vec2 attachment(const Mechanism& mechanism, Side side, double theta) {
+Vec2 attachment(const Mechanism& mechanism, transmission::Side side, double theta) {
   if (mechanism.joint.is_plain()) return mechanism.joint.R * Vec2(std::sin(theta), std::cos(theta));
-  const PinPlace place = pin_place(mechanism, side, mechanism.guide_pitch_radius());
-  const double angle = theta + mirror_sign(side) * place.twist;
+  const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.guide_pitch_radius());
+  const double angle = theta + transmission::mirror_sign(side) * place.twist;
   return place.R * Vec2(std::sin(angle), std::cos(angle));
 }
 
 // The tendon as a taut string over the drawn shapes: the tangent from C to the pin, the common tangent of the pin and
 // the pitch polygon, then along the polygon. Only α and θ come from the transmission. A constant length of the path
 // over the stroke therefore tests both synthesis and drawing.
-std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outline& outline, double alpha,
+std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const profile::Outline& outline, double alpha,
                                         double theta) {
   if (outline.points.size() < 3) return std::nullopt;
-  const double sign = mirror_sign(outline.side);
+  const double sign = transmission::mirror_sign(outline.side);
   const double rho = mechanism.guide_pitch_radius();
   const Vec2 pin = pin_centre(mechanism, outline.side);
   TendonTrace trace;
@@ -133,8 +135,8 @@ std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outlin
   std::vector<Vec2> over_drum;
   double above = 0;
   if (mechanism.joint.drum_radius > 0) {
-    const PinPlace place = pin_place(mechanism, outline.side, rho);
-    const UpperSpan span = upper_span(place, sign * theta);
+    const transmission::PinPlace place = transmission::pin_place(mechanism, outline.side, rho);
+    const transmission::UpperSpan span = transmission::upper_span(place, sign * theta);
     if (span.on_drum > 0) {
       const auto world = [sign](double normal) { return sign > 0 ? normal : k_pi - normal; };
       upper = world(span.normal);
@@ -172,4 +174,4 @@ std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outlin
   return trace;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

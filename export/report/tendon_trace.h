@@ -10,19 +10,19 @@
 #include "fusee/mechanism.h"
 #include "fusee/profile.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// The axis G.
 Vec2 pulley_axis(const Mechanism& mechanism);
 /// The pin B or D.
-Vec2 pin_centre(const Mechanism& mechanism, Side side);
+Vec2 pin_centre(const Mechanism& mechanism, transmission::Side side);
 /// Exit of a tendon's sheath beside the pulley. Requires a sheath.
-Vec2 sheath_exit(const Mechanism& mechanism, Side side);
+Vec2 sheath_exit(const Mechanism& mechanism, transmission::Side side);
 /// The curve of a sheath in drawings: from the pin's outer side, straight down, to its exit. Its true course is
 /// unknown, and its length is the file's.
-std::vector<Vec2> sheath_curve(const Mechanism& mechanism, Side side);
+std::vector<Vec2> sheath_curve(const Mechanism& mechanism, transmission::Side side);
 /// The end of a tendon: C, or its own attachment.
-Vec2 attachment(const Mechanism& mechanism, Side side, double theta);
+Vec2 attachment(const Mechanism& mechanism, transmission::Side side, double theta);
 
 /// One tendon at one place of the stroke, in the frame of the mechanism: C → pin → pulley → along the groove to
 /// `wound_to`.
@@ -41,6 +41,7 @@ struct TendonTrace {
 };
 
 /// Empty if there is no such path: C or the pulley within the pin's circle, or fewer than three points in the outline.
-std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outline& outline, double alpha, double theta);
+std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const profile::Outline& outline, double alpha,
+                                        double theta);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -5,7 +5,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // Turn over which a groove edge grows to its bulge: one column of the grid.
@@ -36,9 +36,10 @@ double integral_of(const std::array<double, 6>& powers, double u) {
 }  // namespace
 
 // The Hermite polynomial of degree 5 with the values h, h' and h'' = ρ − h of both rows.
-ClimbingCurve::ClimbingCurve(const Spiral& spiral, const SpiralPlace& place) : climb_(place.direction * spiral.slope) {
+ClimbingCurve::ClimbingCurve(const helix::Spiral& spiral, const coil::SpiralPlace& place)
+    : climb_(place.direction * spiral.slope) {
   for (std::size_t i = 0; i + 1 < spiral.rows.size(); ++i) {
-    const SpiralRow &a = spiral.rows[i], &b = spiral.rows[i + 1];
+    const helix::SpiralRow &a = spiral.rows[i], &b = spiral.rows[i + 1];
     const double width = b.turn - a.turn;
     const Vec2 from(a.x, a.y), to(b.x, b.y);
     const double h0 = from.dot(unit(a.turn)), h1 = to.dot(unit(b.turn));
@@ -69,7 +70,8 @@ double smooth_step(double share) {
   return t * t * t * (10.0 - t * (15.0 - 6.0 * t));
 }
 
-ClimbingGroove::ClimbingGroove(const Spiral& spiral, const SpiralPlace& place, const Winding& winding)
+ClimbingGroove::ClimbingGroove(const helix::Spiral& spiral, const coil::SpiralPlace& place,
+                               const coil::Winding& winding)
     : curve_(spiral, place),
       begin_(winding.groove_front().turn),
       end_(winding.groove_back().turn),
@@ -102,4 +104,4 @@ Vec2 ClimbingGroove::ring(double direction, bool lowest, double outward) const {
   return at(turn).head<2>() + outward * unit(turn) + late_step(turned / k_two_pi) * gap;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

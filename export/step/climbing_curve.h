@@ -10,13 +10,13 @@
 #include "fusee/coil.h"
 #include "fusee/helix.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Given by its support function h(ψ) over all turns, as in SupportCurve: X = h n + h' t. The height follows from s =
 /// h' + ∫ h dψ.
 class ClimbingCurve {
  public:
-  ClimbingCurve(const Spiral& spiral, const SpiralPlace& place);
+  ClimbingCurve(const helix::Spiral& spiral, const coil::SpiralPlace& place);
 
   /// (x, y, height). The last piece is extrapolated beyond the rows.
   Vec3 at(double turn) const;
@@ -38,7 +38,7 @@ double smooth_step(double share);
 /// A groove of the part, including the continuation of its edges beyond its ends, which follow the turn before.
 class ClimbingGroove {
  public:
-  ClimbingGroove(const Spiral& spiral, const SpiralPlace& place, const Winding& winding);
+  ClimbingGroove(const helix::Spiral& spiral, const coil::SpiralPlace& place, const coil::Winding& winding);
 
   double begin() const { return begin_; }
   double end() const { return end_; }
@@ -58,4 +58,4 @@ class ClimbingGroove {
   double bulge_low_, bulge_high_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 /// Entities without an identity, which can be merged if they are equal. The pieces of a divided edge share one curve,
@@ -168,4 +168,4 @@ std::string compact_step(std::string_view text) {
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Compacts a STEP file: equal values (points, directions, styles) are merged, instances are renumbered
 /// without gaps, and spaces remain in texts only.
 std::string compact_step(std::string_view text);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -5,7 +5,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// Resolution of written poles, mm: a tenth of the file's stated accuracy, which saves a fifth of the bytes.
 inline double rounded_to_grain(double value) {
@@ -18,4 +18,4 @@ inline Vec3 rounded_to_grain(const Vec3& point) {
   return {rounded_to_grain(point.x()), rounded_to_grain(point.y()), rounded_to_grain(point.z())};
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -5,7 +5,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // The straight was constructed to touch the arc, in other arithmetic.
@@ -14,8 +14,8 @@ constexpr double k_touches = 1e-7;
 constexpr double k_widest_seat = radians(150);
 
 /// Angle of one wall's arc before its straight part; empty if the groove edge cuts the arc off.
-std::optional<double> seat_turn(const std::vector<GroovePoint>& wall, double radius) {
-  const GroovePoint &groove_edge = wall.back(), &last = wall[wall.size() - 2];
+std::optional<double> seat_turn(const std::vector<solid::GroovePoint>& wall, double radius) {
+  const solid::GroovePoint &groove_edge = wall.back(), &last = wall[wall.size() - 2];
   const double lean = std::atan2(groove_edge.dz - last.dz, groove_edge.offset - last.offset);
   // The straight touches the arc: its distance from the centre equals the radius.
   const double apart = std::abs((radius - last.offset) * std::sin(lean) + last.dz * std::cos(lean));
@@ -31,7 +31,7 @@ std::vector<double> Seat::angles() const {
   return {-below, 0, above};
 }
 
-std::optional<Seat> seat_of(const GrooveWalls& walls, const Mechanism& mechanism) {
+std::optional<Seat> seat_of(const solid::GrooveWalls& walls, const Mechanism& mechanism) {
   if (mechanism.body.groove != Groove::u) return std::nullopt;
   const double radius = std::max(0.5, mechanism.body.seat_ratio) * mechanism.tendon.diameter;
   const auto below = seat_turn(walls.below, radius), above = seat_turn(walls.above, radius);
@@ -39,4 +39,4 @@ std::optional<Seat> seat_of(const GrooveWalls& walls, const Mechanism& mechanism
   return Seat{radius, *below, *above};
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

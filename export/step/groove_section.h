@@ -8,7 +8,7 @@
 #include "fusee/mechanism.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// The arc of a groove's seat in its section.
 struct Seat {
@@ -20,6 +20,6 @@ struct Seat {
 };
 
 /// Empty if the groove is drawn straight from corner to corner.
-std::optional<Seat> seat_of(const GrooveWalls& walls, const Mechanism& mechanism);
+std::optional<Seat> seat_of(const solid::GrooveWalls& walls, const Mechanism& mechanism);
 
-}  // namespace fusee
+}  // namespace fusee::formats

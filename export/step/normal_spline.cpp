@@ -8,7 +8,7 @@
 #include "fusee/base.h"
 #include "profile/pitch_curve.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr int k_order = k_step_degree + 1;
@@ -69,7 +69,7 @@ std::vector<Break> first_breaks(double from, double to, const std::vector<double
   std::vector<Break> breaks{{from, 1}};
   std::vector<double> inside;
   for (const double kink : kinks) {
-    const double psi = turned_into(from, kink);
+    const double psi = profile::turned_into(from, kink);
     if (psi > from + k_same_kink && psi < to - k_same_kink) inside.push_back(psi);
   }
   std::sort(inside.begin(), inside.end());
@@ -250,7 +250,7 @@ SupportCurve::Look SupportCurve::look(std::size_t interval, double width, double
 }
 
 SupportCurve::Look SupportCurve::look_at(double psi) const {
-  psi = turned_into(psi_.front(), psi);
+  psi = profile::turned_into(psi_.front(), psi);
   const std::size_t i = interval_of(psi);
   const double width = psi_[i + 1] - psi_[i];
   return look(i, width, (psi - psi_[i]) / width);
@@ -271,7 +271,7 @@ std::optional<std::pair<SupportCurve::Sample, SupportCurve::Sample>> SupportCurv
   const Vec2 apart = c1 - c0;
   const double half = 0.5 * k_straight_turn, along = (from.radius - to.radius) / apart.norm();
   if (!(std::abs(along) < 1)) return std::nullopt;
-  const double psi = turned_into(from.psi - 0.5 * k_pi, std::atan2(apart.y(), apart.x()) - std::acos(along));
+  const double psi = profile::turned_into(from.psi - 0.5 * k_pi, std::atan2(apart.y(), apart.x()) - std::acos(along));
   if (psi - from.psi < 2 * half || to.psi - psi < 2 * half) return std::nullopt;
   const auto on = [](const Vec2& centre, double radius, double at) {
     return Sample{at, centre + radius * unit(at), radius};
@@ -349,4 +349,4 @@ std::optional<NormalSpline> fit(const SupportCurve& curve, double from, double t
   return spline;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -12,7 +12,7 @@
 #include "export/step/step_part.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// A curve by its support function h(ψ): its point with the normal n is h n + h' t. Between samples h is a polynomial
 /// with the values h, h' and h'' of both ends. A straight between two samples turns by 0.005° about its own direction.
@@ -89,4 +89,4 @@ std::optional<NormalSpline> fit(const SupportCurve& curve, double from, double t
 /// Point of a spline, by de Boor's algorithm.
 Vec2 point_on(const StepSpline& spline, double psi);
 
-}  // namespace fusee
+}  // namespace fusee::formats

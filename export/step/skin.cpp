@@ -23,7 +23,7 @@
 // Beyond a groove's end its two edges continue as far as the part is filled, and then to the straight between the
 // strands below and above. There, at one more mark, they end on the side of the face that continues.
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr double k_floor_tolerance = 6e-5;
@@ -47,9 +47,9 @@ struct SectionCorner {
   double arc_outward = 0, arc_dz = 0, weight = 1;
 };
 
-std::vector<SectionCorner> section_corners(const HelicalSection& section, const Mechanism& mechanism) {
+std::vector<SectionCorner> section_corners(const coil::HelicalSection& section, const Mechanism& mechanism) {
   const double half = 0.5 * mechanism.tendon.diameter;
-  const GrooveWalls& walls = section.walls;
+  const solid::GrooveWalls& walls = section.walls;
   std::vector<SectionCorner> corners{{walls.below.back().offset - half, -walls.below_width()}};
   const auto seat = seat_of(walls, mechanism);
   if (seat) {
@@ -240,7 +240,7 @@ class SkinBuilder {
 
     const double foot = layout_.elephant_foot;
     if (foot > 0) add_ring({0, true, groove_edge_ - foot, 0});
-    wound_[0].ring_below = add_ring({0, true, groove_edge_, foot > 0 ? rise_of(layout_, foot) : 0.0});
+    wound_[0].ring_below = add_ring({0, true, groove_edge_, foot > 0 ? solid::rise_of(layout_, foot) : 0.0});
     add_groove(0);
     wound_[0].ring_above = add_ring({0, false, groove_edge_, plan_.heights.lower});
     wound_[1].ring_below = add_ring({1, true, groove_edge_, plan_.heights.upper});
@@ -749,8 +749,8 @@ class SkinBuilder {
   }
 
   const Mechanism& mechanism_;
-  const HelicalPlan& plan_;
-  const BodyLayout& layout_;
+  const coil::HelicalPlan& plan_;
+  const solid::BodyLayout& layout_;
   std::vector<SectionCorner> corners_;
   double groove_edge_;
   std::array<ClimbingGroove, 2> grooves_;
@@ -767,14 +767,14 @@ class SkinBuilder {
   StepSkin skin_;
 };
 
-StepTool run_out_pocket(const GrooveEnd& end, const RunOutSizes& sizes) {
+StepTool run_out_pocket(const coil::GrooveEnd& end, const coil::RunOutSizes& sizes) {
   constexpr double k_outside = 1.0;
   const auto z = [&](double in) { return end.face - end.outward * in; };
   Polygon section{{0, z(-k_outside)}, {sizes.pocket_radius, z(-k_outside)}};
-  const std::vector<Vec2> profile = pocket_profile(end, sizes);
+  const std::vector<Vec2> profile = coil::pocket_profile(end, sizes);
   for (const Vec2& corner : profile) section.emplace_back(corner.x(), z(corner.y()));
   section.emplace_back(0, z(profile.back().y()));
-  return {{StepTurned{pocket_place(end, sizes), std::move(section), 0, k_two_pi}}};
+  return {{StepTurned{coil::pocket_place(end, sizes), std::move(section), 0, k_two_pi}}};
 }
 
 }  // namespace
@@ -782,11 +782,11 @@ StepTool run_out_pocket(const GrooveEnd& end, const RunOutSizes& sizes) {
 StepSkin helical_skin(const Product& product) { return SkinBuilder(product).build(); }
 
 std::vector<StepTool> run_out_cuts(const Product& product) {
-  const HelicalPlan& plan = *product.helix->pulley.plan;
+  const coil::HelicalPlan& plan = *product.helix->pulley.plan;
   std::vector<StepTool> tools;
   for (std::size_t i = 0; i < plan.ends.size(); ++i) {
     StepChannel channel;
-    for (const ChannelRing& ring : channel_rings(plan.ends[i], plan.run_outs[i], 0))
+    for (const coil::ChannelRing& ring : coil::channel_rings(plan.ends[i], plan.run_outs[i], 0))
       channel.rings.push_back({ring.middle, ring.level, ring.up, ring.radius, ring.gap, ring.ridge});
     tools.push_back({{std::move(channel)}});
     tools.push_back(run_out_pocket(plan.ends[i], plan.run_outs[i]));
@@ -794,4 +794,4 @@ std::vector<StepTool> run_out_cuts(const Product& product) {
   return tools;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

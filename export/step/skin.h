@@ -5,7 +5,7 @@
 #include "export/step/step_part.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// The body of a multi-turn pulley, not yet scaled. Throws InputError if it is too large.
 StepSkin helical_skin(const Product& product);
@@ -13,4 +13,4 @@ StepSkin helical_skin(const Product& product);
 /// The run-outs to the knots, which are cut in addition to the features of every pulley.
 std::vector<StepTool> run_out_cuts(const Product& product);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -13,7 +13,7 @@
 #include "fusee/base.h"
 #include "solid/nearest_segment.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,10 +43,10 @@ const StepMaker& maker() {
 }
 
 /// Error of the section of a file along the active arc, which no tie-off cuts.
-double floor_error(const Outline& outline, double tendon_diameter, double scale, const Polygon& floor) {
+double floor_error(const profile::Outline& outline, double tendon_diameter, double scale, const Polygon& floor) {
   if (floor.empty()) return std::numeric_limits<double>::infinity();
-  const NearestSegment nearest({floor});
-  const Polygon exact = parallel(outline, -0.5 * tendon_diameter);
+  const solid::NearestSegment nearest({floor});
+  const Polygon exact = profile::parallel(outline, -0.5 * tendon_diameter);
   double worst = 0;
   for (std::size_t i = 0; i < exact.size(); ++i) {
     if (outline.is_active(i)) worst = std::max(worst, nearest.distance(scale * exact[i]));
@@ -57,11 +57,11 @@ double floor_error(const Outline& outline, double tendon_diameter, double scale,
 /// Places on the floors of helical grooves under the tendons: half a tendon inside every row of the spirals.
 std::vector<Vec3> floor_places(const HelixProduct& helix, double tendon_diameter, double scale) {
   std::vector<Vec3> places;
-  const SpiralPlace* const lies[] = {&helix.pulley.p1, &helix.pulley.p2};
+  const coil::SpiralPlace* const lies[] = {&helix.pulley.p1, &helix.pulley.p2};
   for (std::size_t k = 0; k < 2; ++k) {
-    const Spiral& spiral = helix.synthesis.sides[k].spiral;
+    const helix::Spiral& spiral = helix.synthesis.sides[k].spiral;
     for (std::size_t i = spiral.first_used; i <= spiral.last_used; ++i) {
-      const SpiralRow& row = spiral.rows[i];
+      const helix::SpiralRow& row = spiral.rows[i];
       const Vec2 floor = Vec2(row.x, row.y) - 0.5 * tendon_diameter * unit(row.turn);
       places.push_back(scale * Vec3(floor.x(), floor.y(), lies[k]->height(row.z)));
     }
@@ -84,16 +84,16 @@ StepFile step_file(const Product& product) {
 }
 
 StepInspection inspect_step(const fs::path& path, const Product& product, double tolerance) {
-  const BodyLayout& layout = product.pulley.layout;
+  const solid::BodyLayout& layout = product.pulley.layout;
   const double d = product.joint.mechanism.tendon.diameter, scale = layout.scale;
   StepQuestion question;
   StepInspection look;
   if (product.helix) {
     question.places = floor_places(*product.helix, d, scale);
-    question.grounds = [&look, scale](const TriangleMesh& mesh) {
-      look.climbing = helical_floors(mesh, scale);
+    question.grounds = [&look, scale](const solid::TriangleMesh& mesh) {
+      look.climbing = coil::helical_floors(mesh, scale);
       std::vector<Vec3> places;
-      for (const FloorLine& line : look.climbing) {
+      for (const coil::FloorLine& line : look.climbing) {
         for (const Vec3& place : line) places.push_back(scale * place);
       }
       return places;
@@ -119,7 +119,7 @@ StepInspection inspect_step(const fs::path& path, const Product& product, double
   }
   look.checks.push_back(at_most("floor_error", error, k_floor_limit, "mm"));
   auto ground = found.grounds.begin();
-  for (FloorLine& line : look.climbing) {
+  for (coil::FloorLine& line : look.climbing) {
     for (Vec3& place : line) {
       if (ground != found.grounds.end()) place = *ground++ / scale;
     }
@@ -127,4 +127,4 @@ StepInspection inspect_step(const fs::path& path, const Product& product, double
   return look;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -12,7 +12,7 @@
 #include "fusee/coil.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 /// The reason why this fusee cannot write STEP; empty if it can. Loads the module.
 std::optional<std::string> step_missing();
@@ -30,9 +30,9 @@ StepFile step_file(const Product& product);
 struct StepInspection {
   std::vector<Check> checks;
   Polygon floor1, floor2;
-  std::vector<FloorLine> climbing;
+  std::vector<coil::FloorLine> climbing;
 };
 /// `tolerance`: of the mesh that the volume is compared with, mm.
 StepInspection inspect_step(const std::filesystem::path& path, const Product& product, double tolerance);
 
-}  // namespace fusee
+}  // namespace fusee::formats

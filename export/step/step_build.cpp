@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "export/step/grain.h"
 #include "export/step/groove_section.h"
 #include "export/step/normal_spline.h"
 #include "export/step/skin.h"
 #include "export/step/step_shapes.h"
 #include "fusee/base.h"
-#include "base/text.h"
 #include "solid/body.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // A groove's floor is guaranteed within 1e-4 mm. Rims carry no function.
@@ -43,9 +43,9 @@ struct Parallel {
   double z = 0;
 };
 
-Base base_of(const Outline& outline) {
+Base base_of(const profile::Outline& outline) {
   Base base;
-  for (const OutlinePoint& point : outline.points) {
+  for (const profile::OutlinePoint& point : outline.points) {
     base.points.push_back(point.position);
     base.radii.push_back(point.curvature_radius);
   }
@@ -64,7 +64,7 @@ void refuse_beyond(double reach) {
 }
 
 void name_zones(StepPart& part, const Product& product) {
-  const BodyLayout& layout = product.pulley.layout;
+  const solid::BodyLayout& layout = product.pulley.layout;
   part.name = product.joint.mechanism.name;
   part.z_mate = layout.scale * layout.z_mate;
   part.z_top = layout.scale * layout.z_top;
@@ -78,9 +78,10 @@ class StepBuilder {
         layout_(product.pulley.layout),
         p1_(base_of(product.synthesis.p1)),
         p2_(base_of(product.synthesis.p2)) {
-    for (const OutlinePoint& point : product.synthesis.p1.points) psi_.push_back(point.psi);
-    const FlangeRims rims = flange_rims(product.synthesis.p1, product.synthesis.p2, mechanism_.tendon.diameter,
-                                        layout_.groove_depth, mechanism_.body.flange);
+    for (const profile::OutlinePoint& point : product.synthesis.p1.points) psi_.push_back(point.psi);
+    const solid::FlangeRims rims =
+        solid::flange_rims(product.synthesis.p1, product.synthesis.p2, mechanism_.tendon.diameter, layout_.groove_depth,
+                           mechanism_.body.flange);
     middle_.points = rims.middle;
     middle_.tolerance = k_rim_tolerance;
     name_zones(part_, product);
@@ -90,8 +91,8 @@ class StepBuilder {
     for (const Vec2& point : middle_.points) reach_ = std::max(reach_, point.norm());
     refuse_beyond(reach_);
     choose_sectors();
-    const RingStack stack = body_stack(product_.synthesis.p1, product_.synthesis.p2, mechanism_.tendon.diameter,
-                                       mechanism_.body.flange, layout_);
+    const solid::RingStack stack = solid::body_stack(product_.synthesis.p1, product_.synthesis.p2,
+                                                     mechanism_.tendon.diameter, mechanism_.body.flange, layout_);
     for (std::size_t k = 0; k < stack.rings.size(); ++k) {
       const std::size_t rings = add_groove_at(stack, k);
       if (rings > 0)
@@ -109,7 +110,7 @@ class StepBuilder {
     constexpr int k_looks = 360;
     const auto room_at = [&](double psi) {
       double room = k_pi;
-      for (const Anchor& anchor : product_.pulley.anchors) {
+      for (const solid::Anchor& anchor : product_.pulley.anchors) {
         for (const Vec2& place : {anchor.exit, anchor.pocket})
           room = std::min(room, std::abs(std::remainder(psi - std::atan2(place.y(), place.x()), k_two_pi)));
       }
@@ -152,7 +153,7 @@ class StepBuilder {
     return base.fits;
   }
 
-  Parallel parallel_of(const Ring& ring) {
+  Parallel parallel_of(const solid::Ring& ring) {
     const auto& reference = product_.synthesis.p1.points;
     const auto is_parallel = [&](const std::vector<Vec2>* base, double distance) {
       for (std::size_t i = 0; i < ring.points.size(); ++i) {
@@ -173,9 +174,9 @@ class StepBuilder {
 
   /// Adds a groove's rings with a round seat instead of its corners. Returns the number of rings used; 0 if no such
   /// groove begins here.
-  std::size_t add_groove_at(const RingStack& stack, std::size_t k) {
+  std::size_t add_groove_at(const solid::RingStack& stack, std::size_t k) {
     for (const bool left : {true, false}) {
-      const GrooveWalls& walls = left ? layout_.p1 : layout_.p2;
+      const solid::GrooveWalls& walls = left ? layout_.p1 : layout_.p2;
       const double plane = left ? layout_.z_p1 : layout_.z_p2;
       const std::size_t rings = walls.below.size() + walls.above.size() - 2;
       const auto seat = seat_of(walls, mechanism_);
@@ -255,7 +256,7 @@ class StepBuilder {
 
   const Product& product_;
   const Mechanism& mechanism_;
-  const BodyLayout& layout_;
+  const solid::BodyLayout& layout_;
   Base p1_, p2_, middle_;
   std::vector<double> psi_;
   double reach_ = 0;
@@ -265,8 +266,8 @@ class StepBuilder {
 
 StepPart climbing_part(const Product& product) {
   double reach = 0;
-  for (const HelixSide& side : product.helix->synthesis.sides) {
-    for (const SpiralRow& row : side.spiral.rows) reach = std::max(reach, std::hypot(row.x, row.y));
+  for (const helix::HelixSide& side : product.helix->synthesis.sides) {
+    for (const helix::SpiralRow& row : side.spiral.rows) reach = std::max(reach, std::hypot(row.x, row.y));
   }
   refuse_beyond(reach);
   StepPart part;
@@ -313,7 +314,7 @@ void scale(StepChannel& channel, double by) {
   }
 }
 
-void scale(TriangleMesh& mesh, double by) {
+void scale(solid::TriangleMesh& mesh, double by) {
   for (Vec3& vertex : mesh.vertices) vertex *= by;
 }
 
@@ -337,4 +338,4 @@ StepPart step_part(const Product& product) {
   return part;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -85,7 +85,7 @@
 #include "base/golden_section.h"
 #include "export/step/step_part.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 // Tolerance of sewing nearly equal rows: a circle, and the spline over another row's knots that represents it.
@@ -478,7 +478,7 @@ class ToolMaker {
     return solid_of(sewn(faces));
   }
 
-  TopoDS_Shape operator()(const TriangleMesh& mesh) const {
+  TopoDS_Shape operator()(const solid::TriangleMesh& mesh) const {
     std::vector<TopoDS_Face> faces;
     for (const auto& [a, b, c] : mesh.triangles) {
       BRepBuilderAPI_MakePolygon corners(point_at(mesh.vertices[a]), point_at(mesh.vertices[b]),
@@ -789,8 +789,8 @@ Polygon floor_at(const TopoDS_Shape& shape, double z) {
 }
 
 /// Distinct nodes of the faces' meshes, and triangles that face outwards.
-TriangleMesh mesh_of(const TopoDS_Shape& shape) {
-  TriangleMesh mesh;
+solid::TriangleMesh mesh_of(const TopoDS_Shape& shape) {
+  solid::TriangleMesh mesh;
   for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
     const TopoDS_Face face = TopoDS::Face(faces.Current());
     TopLoc_Location place;
@@ -1022,6 +1022,7 @@ StepReading read(const std::string& path, const StepQuestion& question) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats
 
-extern "C" __attribute__((visibility("default"))) const fusee::StepMaker fusee_step_maker_2{fusee::write, fusee::read};
+extern "C" __attribute__((visibility("default")))
+const fusee::formats::StepMaker fusee_step_maker_2{fusee::formats::write, fusee::formats::read};

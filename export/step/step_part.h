@@ -17,7 +17,7 @@
 #include "fusee/base.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 inline constexpr int k_step_degree = 5;
 
@@ -105,7 +105,7 @@ struct StepChannel {
 };
 
 /// Any of these solids.
-using StepSolid = std::variant<StepPrism, StepFrustum, StepTurned, StepChannel, TriangleMesh>;
+using StepSolid = std::variant<StepPrism, StepFrustum, StepTurned, StepChannel, solid::TriangleMesh>;
 struct StepTool {
   std::vector<StepSolid> common;
 };
@@ -184,7 +184,7 @@ struct StepQuestion {
   std::vector<double> planes = {};  ///< heights of sections
   std::vector<Vec3> places = {};    ///< places whose distance from the surface is measured
   /// Approximate places of groove grounds in the file's mesh; null: none.
-  std::function<std::vector<Vec3>(const TriangleMesh& mesh)> grounds = {};
+  std::function<std::vector<Vec3>(const solid::TriangleMesh& mesh)> grounds = {};
 };
 
 /// Properties of a written file after reading it back.
@@ -211,4 +211,4 @@ struct StepMaker {
 };
 inline constexpr const char* k_step_maker = "fusee_step_maker_2";
 
-}  // namespace fusee
+}  // namespace fusee::formats

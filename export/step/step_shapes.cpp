@@ -10,7 +10,7 @@
 #include "solid/set_screw.h"
 #include "solid/tools.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 StepContour contour_of(const Polygon& points) {
@@ -35,7 +35,7 @@ StepTool cylinder(const Vec2& centre, double radius, double low, double high) {
 // ---- along the axis ----
 
 /// The bore's outline; its first points may describe an arc about the axis.
-StepContour bore_contour(const BoreLayout& bore) {
+StepContour bore_contour(const solid::BoreLayout& bore) {
   if (bore.arc_points < 3) return contour_of(bore.outline);
   const auto last = static_cast<std::ptrdiff_t>(bore.arc_points) - 1;
   StepContour contour{bore.outline.front(), {}};
@@ -46,51 +46,52 @@ StepContour bore_contour(const BoreLayout& bore) {
   return contour;
 }
 
-StepTool bore_between(const BoreLayout& bore, double low, double high) {
+StepTool bore_between(const solid::BoreLayout& bore, double low, double high) {
   if (bore.circle) return cylinder(bore.circle->centre, 0.5 * bore.circle->diameter, low, high);
   return prism_between(bore_contour(bore), low, high);
 }
 
 /// The cone above a horn's recess; for a toothed one with the mesh's facets.
-StepTool recess_ceiling(const BoreLayout& bore) {
+StepTool recess_ceiling(const solid::BoreLayout& bore) {
   const double low = bore.horn_recess, high = low + bore.horn_ceiling;
   if (bore.circle) {
-    const RoundHole hole = circle_within(bore.screw_holes.front());
+    const solid::RoundHole hole = solid::circle_within(bore.screw_holes.front());
     return {{StepFrustum{hole.centre, hole.centre, low, high, 0.5 * bore.circle->diameter, 0.5 * hole.diameter}}};
   }
-  const RecessCone cone = recess_cone(bore);
-  return {{strip({at_height(cone.rim, low), at_height(cone.hole, high)})}};
+  const solid::RecessCone cone = solid::recess_cone(bore);
+  return {{solid::strip({solid::at_height(cone.rim, low), solid::at_height(cone.hole, high)})}};
 }
 
-void add_bore(std::vector<StepTool>& tools, const BodyLayout& layout) {
-  const BoreLayout& bore = layout.bore;
-  const double top = layout.z_hub + k_overshoot;
+void add_bore(std::vector<StepTool>& tools, const solid::BodyLayout& layout) {
+  const solid::BoreLayout& bore = layout.bore;
+  const double top = layout.z_hub + solid::k_overshoot;
   if (bore.horn_recess > 0) {
-    tools.push_back(bore_between(bore, -k_overshoot, bore.horn_recess));
+    tools.push_back(bore_between(bore, -solid::k_overshoot, bore.horn_recess));
     if (bore.horn_ceiling > 0) tools.push_back(recess_ceiling(bore));
   } else {
-    tools.push_back(bore_between(bore, -k_overshoot, top));
+    tools.push_back(bore_between(bore, -solid::k_overshoot, top));
   }
   for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) {
-    const RoundHole hole = circle_within(bore.screw_holes[k]);
+    const solid::RoundHole hole = solid::circle_within(bore.screw_holes[k]);
     const bool in_recess = bore.horn_recess > 0 && k == 0;
-    tools.push_back(cylinder(hole.centre, 0.5 * hole.diameter, in_recess ? bore.horn_recess - 0.5 : -k_overshoot, top));
+    tools.push_back(
+        cylinder(hole.centre, 0.5 * hole.diameter, in_recess ? bore.horn_recess - 0.5 : -solid::k_overshoot, top));
   }
 }
 
-void add_dowels(std::vector<StepTool>& tools, const DowelLayout& dowels) {
+void add_dowels(std::vector<StepTool>& tools, const solid::DowelLayout& dowels) {
   constexpr double k_tip = 0.05;
   const double radius = 0.5 * dowels.hole_diameter;
   for (const Vec2& place : dowels.places) {
-    tools.push_back(cylinder(place, radius, -k_overshoot, dowels.z_end));
+    tools.push_back(cylinder(place, radius, -solid::k_overshoot, dowels.z_end));
     if (dowels.ceiling > 0)
       tools.push_back(
           {{StepFrustum{place, place, dowels.z_end, dowels.z_end + dowels.ceiling, radius, k_tip * radius}}});
   }
 }
 
-void add_set_screw(std::vector<StepTool>& tools, const BodyLayout& layout) {
-  const SetScrewLayout& screw = layout.set_screw;
+void add_set_screw(std::vector<StepTool>& tools, const solid::BodyLayout& layout) {
+  const solid::SetScrewLayout& screw = layout.set_screw;
   if (!screw.present) return;
   const Vec2 out = unit(screw.angle), across = turned_left(out);
   const double radius = 0.5 * screw.hole_diameter;
@@ -100,14 +101,14 @@ void add_set_screw(std::vector<StepTool>& tools, const BodyLayout& layout) {
   hole.z = {out.x(), out.y(), 0};
   const Vec2 left = radius * unit(0.5 * k_pi + screw.ceiling_slope),
              right = radius * unit(0.5 * k_pi - screw.ceiling_slope);
-  hole.outer = {left, {{right, Vec2(0, -radius)}, {Vec2(0, teardrop_top(screw)), {}}, {left, {}}}};
-  hole.high = layout.hub_radius + k_overshoot;
+  hole.outer = {left, {{right, Vec2(0, -radius)}, {Vec2(0, solid::teardrop_top(screw)), {}}, {left, {}}}};
+  hole.high = layout.hub_radius + solid::k_overshoot;
   tools.push_back({{hole}});
   if (!screw.nut_trap) return;
   const Vec2 middle = screw.nut_distance * out;
   const Vec2 a = 0.5 * screw.nut_thickness * out, b = 0.5 * screw.nut_width * across;
   tools.push_back(prism_between(contour_of({middle - a - b, middle + a - b, middle + a + b, middle - a + b}),
-                                screw.z - nut_corner(screw), layout.z_hub + k_overshoot));
+                                screw.z - solid::nut_corner(screw), layout.z_hub + solid::k_overshoot));
 }
 
 // ---- tie-offs ----
@@ -120,7 +121,7 @@ struct Upwards {
 };
 
 /// Appends points of a channel's edge as lines and, on the arc about its bend, as arcs.
-void append_edge(StepContour& contour, const Polygon& edge, const ChannelBend& bend, double radius) {
+void append_edge(StepContour& contour, const Polygon& edge, const solid::ChannelBend& bend, double radius) {
   constexpr double k_on_it = 1e-7;
   const auto on_arc = [&](const Vec2& point) { return std::abs((point - bend.centre).norm() - radius) < k_on_it; };
   const auto is_straight = [&](const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -148,8 +149,8 @@ struct ChannelPlan {
   StepContour straight;
 };
 
-ChannelPlan plan_of(const Anchor& anchor, double half_width) {
-  const ChannelBend& bend = *anchor.bend;
+ChannelPlan plan_of(const solid::Anchor& anchor, double half_width) {
+  const solid::ChannelBend& bend = *anchor.bend;
   const auto half = static_cast<std::ptrdiff_t>(anchor.entry.size() / 2);
   const Polygon outer(anchor.entry.begin(), anchor.entry.begin() + half);
   const Polygon inner(anchor.entry.rbegin(), anchor.entry.rbegin() + half);
@@ -174,13 +175,14 @@ ChannelPlan plan_of(const Anchor& anchor, double half_width) {
 }
 
 /// Direction across the straight, away from the bend's centre.
-Vec2 outer_of(const Anchor& anchor) {
+Vec2 outer_of(const solid::Anchor& anchor) {
   return (anchor.pocket - anchor.bend->straight * anchor.bend->heading - anchor.bend->centre).normalized();
 }
 
 /// The channel's ceiling rises from the inner wall outwards: a cone about the bend's centre, and a plane.
-void add_channel(std::vector<StepTool>& tools, const Anchor& anchor, const BodyLayout& layout, const Upwards& z) {
-  const ChannelBend& bend = *anchor.bend;
+void add_channel(std::vector<StepTool>& tools, const solid::Anchor& anchor, const solid::BodyLayout& layout,
+                 const Upwards& z) {
+  const solid::ChannelBend& bend = *anchor.bend;
   const double width = layout.channel_width, half = bend.half_height;
   const double slope = layout.channel_ceiling / width;
   const ChannelPlan plan = plan_of(anchor, 0.5 * width);
@@ -212,32 +214,33 @@ void add_channel(std::vector<StepTool>& tools, const Anchor& anchor, const BodyL
 }
 
 /// A circle, with a tab at the channel's end if the channel's slope would meet the circle too sharply.
-StepContour pocket_contour(const Anchor& anchor, const BodyLayout& layout) {
-  const ChannelBend& bend = *anchor.bend;
+StepContour pocket_contour(const solid::Anchor& anchor, const solid::BodyLayout& layout) {
+  const solid::ChannelBend& bend = *anchor.bend;
   const double radius = layout.pocket_radius;
   const Vec2 outer = outer_of(anchor);
   const auto place = [&](double along, double across) -> Vec2 {
     return anchor.pocket + along * bend.heading + across * outer;
   };
-  if (!(layout.channel_ceiling > 0 && bend.straight > radius + k_deeper))
+  if (!(layout.channel_ceiling > 0 && bend.straight > radius + solid::k_deeper))
     return {place(radius, 0), {{place(-radius, 0), place(0, radius)}, {place(radius, 0), place(0, -radius)}}};
-  const double half = half_tab(layout.channel_width, radius), behind = std::sqrt(radius * radius - half * half);
+  const double half = solid::half_tab(layout.channel_width, radius), behind = std::sqrt(radius * radius - half * half);
   return {place(-behind, half),
-          {{place(-radius - k_deeper, half), {}},
-           {place(-radius - k_deeper, -half), {}},
+          {{place(-radius - solid::k_deeper, half), {}},
+           {place(-radius - solid::k_deeper, -half), {}},
            {place(-behind, -half), {}},
            {place(-behind, half), place(radius, 0)}}};
 }
 
-void add_pocket(std::vector<StepTool>& tools, const Anchor& anchor, const BodyLayout& layout, const Upwards& z) {
-  const bool left = anchor.side == Side::left, turned = left && layout.parts == Parts::two;
-  const double closed = anchor.bend->half_height + k_deeper;
+void add_pocket(std::vector<StepTool>& tools, const solid::Anchor& anchor, const solid::BodyLayout& layout,
+                const Upwards& z) {
+  const bool left = anchor.side == transmission::Side::left, turned = left && layout.parts == Parts::two;
+  const double closed = anchor.bend->half_height + solid::k_deeper;
   if (turned || !left) {
-    const double open = (left ? layout.z_p1 : layout.z_hub - layout.z_p2) + k_overshoot;
+    const double open = (left ? layout.z_p1 : layout.z_hub - layout.z_p2) + solid::k_overshoot;
     tools.push_back(prism_between(pocket_contour(anchor, layout), z.at(-closed), z.at(open)));
     return;
   }
-  StepTool tool = prism_between(pocket_contour(anchor, layout), z.at(-layout.z_p1 - k_overshoot),
+  StepTool tool = prism_between(pocket_contour(anchor, layout), z.at(-layout.z_p1 - solid::k_overshoot),
                                 z.at(closed + layout.pocket_ceiling + 1));
   const double slope = 0.5 * layout.pocket_ceiling / layout.pocket_radius;
   const Vec2 outer = outer_of(anchor);
@@ -258,16 +261,16 @@ struct FromFace {
   double at(double depth) const { return face + in * depth; }
 };
 
-FromFace from_face(Side side, const BodyLayout& layout) {
-  return side == Side::left ? FromFace{0, 1} : FromFace{layout.z_top, -1};
+FromFace from_face(transmission::Side side, const solid::BodyLayout& layout) {
+  return side == transmission::Side::left ? FromFace{0, 1} : FromFace{layout.z_top, -1};
 }
 
-void add_face_hole(std::vector<StepTool>& tools, const Anchor& anchor, const BodyLayout& layout) {
+void add_face_hole(std::vector<StepTool>& tools, const solid::Anchor& anchor, const solid::BodyLayout& layout) {
   constexpr double k_past_plane = 0.03, k_share = 0.9;
-  const FaceSeat& seat = *anchor.seat;
-  const bool left = anchor.side == Side::left;
+  const solid::FaceSeat& seat = *anchor.seat;
+  const bool left = anchor.side == transmission::Side::left;
   const FromFace face = from_face(anchor.side, layout);
-  const double outside = k_overshoot + (left ? 0.0 : layout.z_hub - layout.z_top);
+  const double outside = solid::k_overshoot + (left ? 0.0 : layout.z_hub - layout.z_top);
   const double to_groove = left ? layout.z_p1 : layout.z_top - layout.z_p2;
   const Polygon& slot = anchor.channel;
   const Vec2 normal = (slot.back() - slot.front()).normalized();
@@ -281,7 +284,7 @@ void add_face_hole(std::vector<StepTool>& tools, const Anchor& anchor, const Bod
   tools.push_back(prism_between(contour, face.at(-outside), face.at(to_groove + k_past_plane)));
   if (seat.depth <= 0) return;
   const double deeper = seat.depth * (1.0 + 0.5 * (1.0 - k_share) * radius / (seat.radius - radius));
-  tools.push_back(cylinder(anchor.pocket, seat.radius, face.at(-0.5 * k_overshoot - outside), face.at(0)));
+  tools.push_back(cylinder(anchor.pocket, seat.radius, face.at(-0.5 * solid::k_overshoot - outside), face.at(0)));
   StepFrustum sunk{anchor.pocket, seat.hole, face.at(0), face.at(deeper), seat.radius, k_share * radius};
   if (!left) {
     std::swap(sunk.low_centre, sunk.high_centre);
@@ -291,8 +294,8 @@ void add_face_hole(std::vector<StepTool>& tools, const Anchor& anchor, const Bod
   tools.push_back({{sunk}});
 }
 
-void add_tail(std::vector<StepTool>& tools, const Anchor& anchor, const BodyLayout& layout) {
-  const TailSlot& slot = *anchor.tail;
+void add_tail(std::vector<StepTool>& tools, const solid::Anchor& anchor, const solid::BodyLayout& layout) {
+  const solid::TailSlot& slot = *anchor.tail;
   const FromFace face = from_face(anchor.side, layout);
   const Vec2 along = (slot.to - slot.from).normalized(), across = turned_left(along);
   StepPrism prism;
@@ -300,17 +303,19 @@ void add_tail(std::vector<StepTool>& tools, const Anchor& anchor, const BodyLayo
   prism.x = {across.x(), across.y(), 0};
   prism.z = {along.x(), along.y(), 0};
   const double half = 0.5 * slot.width;
-  Polygon section{{-half, -face.in * k_overshoot}, {half, -face.in * k_overshoot}, {half, face.in * slot.depth}};
+  Polygon section{
+      {-half, -face.in * solid::k_overshoot}, {half, -face.in * solid::k_overshoot}, {half, face.in * slot.depth}};
   if (slot.ceiling > 0) section.emplace_back(0, face.in * (slot.depth + slot.ceiling));
   section.emplace_back(-half, face.in * slot.depth);
   prism.outer = contour_of(section);
   prism.high = (slot.to - slot.from).norm();
   tools.push_back({{prism}});
   if (slot.pilot_diameter > 0)
-    tools.push_back(cylinder(slot.to, 0.5 * slot.pilot_diameter, face.at(-k_overshoot), face.at(slot.pilot_depth)));
+    tools.push_back(
+        cylinder(slot.to, 0.5 * slot.pilot_diameter, face.at(-solid::k_overshoot), face.at(slot.pilot_depth)));
 }
 
-StepTool sign(const Mark& mark, double low, double high) {
+StepTool sign(const solid::Mark& mark, double low, double high) {
   StepTool tool = prism_between(contour_of(mark.loops.front()), low, high);
   for (std::size_t k = 1; k < mark.loops.size(); ++k)
     std::get<StepPrism>(tool.common.front()).inner.push_back(contour_of(mark.loops[k]));
@@ -319,19 +324,19 @@ StepTool sign(const Mark& mark, double low, double high) {
 
 double facets_beyond_circle(double diameter) {
   const double radius = 0.5 * diameter;
-  return std::abs(signed_area(polyhole(diameter, Vec2::Zero()))) - k_pi * radius * radius;
+  return std::abs(signed_area(solid::polyhole(diameter, Vec2::Zero()))) - k_pi * radius * radius;
 }
 
 }  // namespace
 
-std::vector<StepTool> step_cuts(const Mechanism& mechanism, const Pulley& pulley) {
-  const BodyLayout& layout = pulley.layout;
+std::vector<StepTool> step_cuts(const Mechanism& mechanism, const solid::Pulley& pulley) {
+  const solid::BodyLayout& layout = pulley.layout;
   std::vector<StepTool> tools;
   add_bore(tools, layout);
   add_dowels(tools, layout.dowels);
   add_set_screw(tools, layout);
-  for (const Anchor& anchor : pulley.anchors) {
-    const bool left = anchor.side == Side::left;
+  for (const solid::Anchor& anchor : pulley.anchors) {
+    const bool left = anchor.side == transmission::Side::left;
     const Upwards z{left ? layout.z_p1 : layout.z_p2, left && layout.parts == Parts::two ? -1.0 : 1.0};
     if (anchor.seat) add_face_hole(tools, anchor, layout);
     if (anchor.bend) {
@@ -341,19 +346,19 @@ std::vector<StepTool> step_cuts(const Mechanism& mechanism, const Pulley& pulley
     if (anchor.tail) add_tail(tools, anchor, layout);
   }
   const double depth = layout.mark_depth;
-  for (const Mark& mark : pulley.marks) {
-    if (!mark.on_top) tools.push_back(sign(mark, -k_overshoot, depth));
+  for (const solid::Mark& mark : pulley.marks) {
+    if (!mark.on_top) tools.push_back(sign(mark, -solid::k_overshoot, depth));
     if (mark.on_top && mechanism.body.marks == Marks::engraved)
-      tools.push_back(sign(mark, layout.z_top - depth, layout.z_top + k_overshoot));
+      tools.push_back(sign(mark, layout.z_top - depth, layout.z_top + solid::k_overshoot));
   }
   return tools;
 }
 
-std::vector<StepTool> step_raised(const Mechanism& mechanism, const Pulley& pulley) {
-  const BodyLayout& layout = pulley.layout;
+std::vector<StepTool> step_raised(const Mechanism& mechanism, const solid::Pulley& pulley) {
+  const solid::BodyLayout& layout = pulley.layout;
   std::vector<StepTool> raised;
   if (mechanism.body.marks != Marks::raised) return raised;
-  for (const Mark& mark : pulley.marks) {
+  for (const solid::Mark& mark : pulley.marks) {
     if (mark.on_top)
       raised.push_back(
           sign(mark, layout.z_top - 0.5 * layout.flange_thickness, layout.z_top + mechanism.body.mark_depth));
@@ -361,23 +366,23 @@ std::vector<StepTool> step_raised(const Mechanism& mechanism, const Pulley& pull
   return raised;
 }
 
-double round_holes_leave(const Pulley& pulley) {
-  const BodyLayout& layout = pulley.layout;
-  const BoreLayout& bore = layout.bore;
+double round_holes_leave(const solid::Pulley& pulley) {
+  const solid::BodyLayout& layout = pulley.layout;
+  const solid::BoreLayout& bore = layout.bore;
   double volume = 0;
   if (bore.circle)
     volume += facets_beyond_circle(bore.circle->diameter) * (bore.horn_recess > 0 ? bore.horn_recess : layout.z_hub);
   for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) {
     const double below = bore.horn_recess > 0 && k == 0 ? bore.horn_recess + bore.horn_ceiling : 0;
-    volume += facets_beyond_circle(circle_within(bore.screw_holes[k]).diameter) * (layout.z_hub - below);
+    volume += facets_beyond_circle(solid::circle_within(bore.screw_holes[k]).diameter) * (layout.z_hub - below);
   }
   for (std::size_t k = 0; k < layout.dowels.places.size(); ++k)
     volume += facets_beyond_circle(layout.dowels.hole_diameter) * layout.dowels.z_end;
-  for (const Anchor& anchor : pulley.anchors) {
+  for (const solid::Anchor& anchor : pulley.anchors) {
     if (anchor.tail && anchor.tail->pilot_diameter > 0)
       volume += facets_beyond_circle(anchor.tail->pilot_diameter) * anchor.tail->pilot_depth;
   }
   return volume;
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

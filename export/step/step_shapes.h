@@ -8,12 +8,12 @@
 #include "export/step/step_part.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::formats {
 
-std::vector<StepTool> step_cuts(const Mechanism& mechanism, const Pulley& pulley);
-std::vector<StepTool> step_raised(const Mechanism& mechanism, const Pulley& pulley);
+std::vector<StepTool> step_cuts(const Mechanism& mechanism, const solid::Pulley& pulley);
+std::vector<StepTool> step_raised(const Mechanism& mechanism, const solid::Pulley& pulley);
 
 /// Volume between the round holes and the mesh's facets, which are outside them. mm³
-double round_holes_leave(const Pulley& pulley);
+double round_holes_leave(const solid::Pulley& pulley);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -12,7 +12,7 @@
 #include "fusee/profile.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::analysis {
 
 // ---- Analysis -------------------------------------------------------------------------------------------------------
 // Analysis of the transmission and its forces over the range: the paper's formulas, the full model, and the sources of
@@ -27,10 +27,10 @@ struct AnalysisOptions {
 
 /// One point of the stroke. The full model has completed a cycle before, so that its start has no influence.
 struct AnalysisRow {
-  TransmissionPoint declared;
-  PaperForces paper;
-  EquilibriumPoint rising;   ///< full model, α increasing
-  EquilibriumPoint falling;  ///< full model, α decreasing
+  transmission::TransmissionPoint declared;
+  transmission::PaperForces paper;
+  joint::EquilibriumPoint rising;   ///< full model, α increasing
+  joint::EquilibriumPoint falling;  ///< full model, α decreasing
 };
 
 /// A maximum and its position.
@@ -42,7 +42,7 @@ struct Extreme {
 struct TensionExtreme {
   double tension = 0;  ///< N
   double alpha = 0;    ///< rad
-  Side tendon = Side::right;
+  transmission::Side tendon = transmission::Side::right;
   bool below_pin = false;
   bool rising = false;  ///< α increasing
 };
@@ -50,7 +50,7 @@ struct TensionExtreme {
 /// A tendon that rubs on the joint's drum. The tension at its end is that of the span times a factor between 1/ratio
 /// and ratio.
 struct DrumHold {
-  Side tendon = Side::right;
+  transmission::Side tendon = transmission::Side::right;
   double wrap = 0;   ///< maximum wrap angle on the drum, rad
   double ratio = 1;  ///< e^{μφ} at that wrap
   Extreme at_end;    ///< maximum tension at its end, N
@@ -92,13 +92,13 @@ struct Strength {
 struct AnalysisResult {
   /// True if the law and both tendon paths exist over the range. Otherwise only `obstacles` and `advice` are set.
   bool exists = false;
-  std::vector<Condition>
+  std::vector<profile::Condition>
       obstacles;  ///< failed conditions of a pulley; with `exists`, forces are known though no pulley can be made
-  std::vector<Change> advice;  ///< searched only if the law does not exist
+  std::vector<profile::Change> advice;  ///< searched only if the law does not exist
 
   std::vector<AnalysisRow> rows;
-  SynthesisResult synthesis;       ///< the curves, if they can be drawn; its stroke has the same points as the rows
-  TensionExtreme largest_tension;  ///< full model
+  profile::SynthesisResult synthesis;  ///< the curves, if they can be drawn; its stroke has the same points as the rows
+  TensionExtreme largest_tension;      ///< full model
   /// Maximum tension at the ends of both tendons, full model: the load of a knot at C, N.
   Extreme largest_at_joint;
   std::vector<DrumHold> on_drum;   ///< tendons that rub on a drum
@@ -148,11 +148,11 @@ std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const St
 // The full model over a cycle of the declared load, after settling.
 
 struct StrokePoint {
-  EquilibriumPoint rising;   ///< α increasing
-  EquilibriumPoint falling;  ///< α decreasing
+  joint::EquilibriumPoint rising;   ///< α increasing
+  joint::EquilibriumPoint falling;  ///< α decreasing
 };
 
 /// The third cycle from home at each of `alphas` (increasing, with both ends of the range).
 std::vector<StrokePoint> settled_stroke(const Mechanism& mechanism, const std::vector<double>& alphas);
 
-}  // namespace fusee
+}  // namespace fusee::analysis

@@ -15,8 +15,10 @@
 #include "fusee/plan.h"
 
 namespace fusee {
-
 struct Effect;  // mechanism/effect.h
+}  // namespace fusee
+
+namespace fusee::calibration {
 
 // ---- Calibration ----------------------------------------------------------------------------------------------------
 // Identification of joint errors from measurements: named effects with their evidence.
@@ -26,12 +28,12 @@ struct CalibrationOptions {
   bool look_for_effects = true;       ///< false: the file does not describe this joint (is_input_error_obvious())
   bool audit = true;                  ///< count false positives on synthetic data sets
   /// Added to the catalogue, or in the place of an effect of the same name; they must outlive the call.
-  std::vector<const Effect*> more_effects;
+  std::vector<const fusee::Effect*> more_effects;
   std::vector<std::string> without;  ///< names of effects that are excluded from the catalogue
   /// State of the joint in the first runs. Effects are then changes that act in the later runs only; both states share
   /// one discrepancy. Fitted parameters are those of the later state, Calibration::identified is the change, and no
   /// further runs are proposed.
-  std::optional<EarlierState> earlier = {};
+  std::optional<joint::EarlierState> earlier = {};
   RunContext context = {};
 };
 
@@ -169,7 +171,7 @@ struct Calibration {
   std::vector<std::string> dropped;
   std::string noise_varies;  ///< dependence of the noise on load and speed, in a sentence; "" if there is none
   std::vector<Candidate> tried;
-  NoiseFloor noise;
+  measurement::NoiseFloor noise;
   ErrorFigures before, after;
   StateDifference difference;                         ///< given if CalibrationOptions::earlier is
   std::vector<std::vector<double>> residuals_before;  ///< rad, run by run, sample by sample
@@ -183,13 +185,13 @@ struct Calibration {
   std::string unexplained_where;                  ///< α, direction, load or harmonic at which the residual is largest
   std::vector<Detectable> detectable;
   std::vector<std::string> null_combinations;  ///< accepted effects and equally likely rivals, with their numbers
-  std::vector<NextMeasurement> next;           ///< most decisive first
-  Iso230 iso_before, iso_after;
+  std::vector<plan::NextMeasurement> next;     ///< most decisive first
+  measurement::Iso230 iso_before, iso_after;
 };
 
 /// Identifies the effects of the catalogue that the data require. The noise floor is estimated first, from repeats.
 /// Only effects that predict held-out rows are reported.
-Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement,
+Calibration calibrate(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
                       const CalibrationOptions& options = {});
 
 // ---- Likely input errors --------------------------------------------------------------------------------------------
@@ -211,12 +213,12 @@ struct LikelyInputError {
 
 /// Input errors whose correction explains the data, best first, equally likely ones after it. Empty if `found` is an
 /// explanation or no hypothesis is one. `as_read`: runs before the comparison with a joint.
-std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declared, const Measurement& as_read,
-                                                const Calibration& found);
+std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declared,
+                                                const measurement::Measurement& as_read, const Calibration& found);
 
 /// True if the file as it is leaves far more than noise, and one corrected input error, with nothing fitted, leaves
 /// noise or at most a fault beside it. Effects fitted to such a file describe nothing, so the search is omitted.
-bool is_input_error_obvious(const DeclaredMechanism& declared, const Measurement& as_read);
+bool is_input_error_obvious(const DeclaredMechanism& declared, const measurement::Measurement& as_read);
 
 /// "guides.OE_mm = -40 in place of 40 would explain the data to 0.03°: is the sign right?"
 std::string input_error_words(const LikelyInputError& slip);
@@ -264,12 +266,12 @@ struct ComparisonOptions {
 
 /// Runs of two states, compared with the declared joint.
 struct ComparedRuns {
-  Measurement before;
-  Measurement after;
-  Measurement both;  ///< earlier runs, then later runs
+  measurement::Measurement before;
+  measurement::Measurement after;
+  measurement::Measurement both;  ///< earlier runs, then later runs
 };
 
 Comparison compare_states(const DeclaredMechanism& declared, const ComparedRuns& runs,
                           const ComparisonOptions& options = {});
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -13,7 +13,7 @@
 #include "fusee/solid.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::coil {
 
 // ---- Helical pulley -------------------------------------------------------------------------------------------------
 // Two spirals → one closed mesh: P1's helical groove below P2's, stacked along the axis. mm, rad.
@@ -26,7 +26,7 @@ namespace fusee {
 
 /// The groove's cross-section, from which a synthesis chooses a lead.
 struct HelicalSection {
-  GrooveWalls walls;
+  solid::GrooveWalls walls;
   double depth = 0;          ///< height of the groove edge above the floor
   double rib = 0;            ///< thickness of a rib at its top
   double ceiling_slope = 0;  ///< angle of downward faces above the horizontal; 0: printed with supports
@@ -51,7 +51,7 @@ struct SpiralPlace {
 
 /// The fixed end of a tendon.
 struct HelicalAnchor {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   Vec3 exit = Vec3::Zero();    ///< on the tendon's centre line, where the groove ends
   Vec3 pocket = Vec3::Zero();  ///< middle of the knot pocket in the face
   double pocket_radius = 0;
@@ -63,12 +63,12 @@ struct HelicalPlan;  // coil/helical_plan.h
 
 struct HelicalPulley {
   bool made = false;
-  BodyLayout layout;   ///< hub, bore, screw and walls; z_p1 and z_p2: heights of the groove ends at the anchors
-  SpiralPlace p1, p2;  ///< in mm of the finished part, times layout.scale in the mesh
-  TriangleMesh mesh;   ///< coordinates are rounded to float
+  solid::BodyLayout layout;  ///< hub, bore, screw and walls; z_p1 and z_p2: heights of the groove ends at the anchors
+  SpiralPlace p1, p2;        ///< in mm of the finished part, times layout.scale in the mesh
+  solid::TriangleMesh mesh;  ///< coordinates are rounded to float
   std::vector<HelicalAnchor> anchors;
-  std::vector<Condition> conditions;  ///< all conditions, including those that hold
-  double expected_volume = 0;         ///< volume of the blank minus the volume cut from it, mm³
+  std::vector<profile::Condition> conditions;  ///< all conditions, including those that hold
+  double expected_volume = 0;                  ///< volume of the blank minus the volume cut from it, mm³
   int expected_euler = 0;
   std::vector<Check> mesh_checks;           ///< check_mesh() of `mesh`
   std::shared_ptr<const HelicalPlan> plan;  ///< set when `made`
@@ -79,16 +79,16 @@ struct HelicalPulley {
 /// Requires both spirals to be at least a turn long, spare turns included, with rows of strictly growing `turn`.
 /// `tolerance`: largest sagitta of a chord, on the pitch curve and on all its parallels up to the groove edge. A brief
 /// search tries fewer cut variants.
-HelicalPulley make_helical_pulley(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2,
-                                  double tolerance = 0.01, TieOffSearch search = TieOffSearch::thorough);
+HelicalPulley make_helical_pulley(const Mechanism& mechanism, const helix::Spiral& p1, const helix::Spiral& p2,
+                                  double tolerance = 0.01, solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
 /// The conditions that fail, as far as they are known before the cuts.
-std::vector<Condition> helical_obstacles(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2,
-                                         double tolerance = 0.01);
+std::vector<profile::Condition> helical_obstacles(const Mechanism& mechanism, const helix::Spiral& p1,
+                                                  const helix::Spiral& p2, double tolerance = 0.01);
 
 /// Checks of a mesh against its pulley: check_mesh, Euler number and volume. Half-planes through the axis measure the
 /// thinnest rib, the shallowest groove and the thinnest wall to the bore.
-std::vector<Check> check_helical_pulley(const TriangleMesh& mesh, const HelicalPulley& pulley,
+std::vector<Check> check_helical_pulley(const solid::TriangleMesh& mesh, const HelicalPulley& pulley,
                                         const HelicalSection& section, double tolerance = 0.01);
 
 // ---- Rewinding ------------------------------------------------------------------------------------------------------
@@ -101,7 +101,7 @@ using FloorLine = std::vector<Vec3>;
 
 /// All grooves of a mesh that go round the axis for at least half a turn, from below. `scale`: size of the mesh
 /// relative to the finished part. Degenerate facets are skipped. The mesh should be a solid.
-std::vector<FloorLine> helical_floors(const TriangleMesh& mesh, double scale = 1.0, int half_planes = 720);
+std::vector<FloorLine> helical_floors(const solid::TriangleMesh& mesh, double scale = 1.0, int half_planes = 720);
 
 /// Axial positions of the tendons on the part. Heights are above its lower face.
 struct TendonsLaid {
@@ -111,22 +111,23 @@ struct TendonsLaid {
   double spare1 = 0, spare2 = 0;  ///< angle by which the grooves continue past the working arcs to the knots, rad
 };
 /// `attachment1`, `attachment2`: heights in the frames of the spirals.
-TendonsLaid tendons_laid(const HelicalPulley& pulley, const Spiral& p1, const Spiral& p2, double attachment1,
-                         double attachment2, bool collar);
+TendonsLaid tendons_laid(const HelicalPulley& pulley, const helix::Spiral& p1, const helix::Spiral& p2,
+                         double attachment1, double attachment2, bool collar);
 
 struct HelicalRewind {
-  RewindResult result;      ///< as for one-turn pulleys
-  double max_fleet = 0;     ///< largest angle between a span and its groove at the take-off
-  double max_fleet_at = 0;  ///< α
-  Side max_fleet_side = Side::left;
+  profile::RewindResult result;  ///< as for one-turn pulleys
+  double max_fleet = 0;          ///< largest angle between a span and its groove at the take-off
+  double max_fleet_at = 0;       ///< α
+  transmission::Side max_fleet_side = transmission::Side::left;
 };
 
 /// `stroke`: α in growing order through home, with the declared θ. Throws InputError when the mesh does not have
 /// exactly two grooves, or when one ends within the range.
-HelicalRewind rewind_helical(const TriangleMesh& mesh, const Mechanism& mechanism,
-                             const std::vector<TransmissionPoint>& stroke, const TendonsLaid& laid, double scale = 1.0);
+HelicalRewind rewind_helical(const solid::TriangleMesh& mesh, const Mechanism& mechanism,
+                             const std::vector<transmission::TransmissionPoint>& stroke, const TendonsLaid& laid,
+                             double scale = 1.0);
 /// Winds on floors that were found before.
 HelicalRewind rewind_floors(const FloorLine& floor1, const FloorLine& floor2, const Mechanism& mechanism,
-                            const std::vector<TransmissionPoint>& stroke, const TendonsLaid& laid);
+                            const std::vector<transmission::TransmissionPoint>& stroke, const TendonsLaid& laid);
 
-}  // namespace fusee
+}  // namespace fusee::coil

@@ -13,7 +13,7 @@
 #include "fusee/mechanism.h"
 #include "fusee/profile.h"
 
-namespace fusee {
+namespace fusee::correction {
 
 // ---- Correction -----------------------------------------------------------------------------------------------------
 // Corrections from the identified effects: a pulley, and a motor table for the errors that no pulley corrects.
@@ -31,7 +31,7 @@ struct Correction {
   Imperfections identified;  ///< the file's and this calibration's imperfections, combined
   bool has_pulley = false;   ///< an identified effect is corrected by another pulley, and that pulley is feasible
   std::string infeasible;    ///< why it is infeasible; empty if it is feasible or not needed
-  RoundChoice round;
+  joint::RoundChoice round;
   double tied_at = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
   // Rms error of the identified joint from the declared law over the measured strokes, rad, by simulation. For a joint
   // declared by a ratio without the identified zero.
@@ -49,11 +49,12 @@ struct Correction {
 };
 
 /// Computes both corrections. `declared`: the file, with [identified] of earlier calibrations kept apart.
-Correction correct(const DeclaredMechanism& declared, const Measurement& measurement, const Calibration& calibration);
+Correction correct(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
+                   const calibration::Calibration& calibration);
 
 /// The declared file with comments, plus the table [identified] and the effects in words.
 std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared,
-                           const Calibration& calibration, const Correction& correction);
+                           const calibration::Calibration& calibration, const Correction& correction);
 /// Columns theta_deg, alpha_up_deg, alpha_down_deg. With an empirical curve also empirical_up_deg and
 /// empirical_down_deg, the curve's part of both angles.
 std::string compensation_csv(const Correction& correction);
@@ -64,8 +65,8 @@ std::string compensation_csv(const Correction& correction);
 
 /// Stroke of the expected joint under one load.
 struct LoadedStroke {
-  double load = 0;                  ///< tip force, N, positive against +θ
-  std::vector<StrokePoint> points;  ///< along the stroke
+  double load = 0;                            ///< tip force, N, positive against +θ
+  std::vector<analysis::StrokePoint> points;  ///< along the stroke
 };
 
 /// Sizes of an effect, as multiples of the identified size.
@@ -73,8 +74,8 @@ inline constexpr std::array k_rehearsed_shares{0.0, 0.5, 1.0, 1.5, 2.0};
 
 /// Change of the sensed joint angle by the effect alone, rad.
 struct RehearsedShare {
-  std::vector<FittedParameter> parameters;           ///< the effect's parameters at that share
-  std::vector<std::vector<double>> rising, falling;  ///< by load and place
+  std::vector<calibration::FittedParameter> parameters;  ///< the effect's parameters at that share
+  std::vector<std::vector<double>> rising, falling;      ///< by load and place
 };
 
 struct RehearsedEffect {
@@ -83,14 +84,15 @@ struct RehearsedEffect {
 };
 
 struct Rehearsal {
-  Mechanism mechanism;        ///< the expected joint
-  SynthesisResult synthesis;  ///< of the mounted pulley
+  Mechanism mechanism;                 ///< the expected joint
+  profile::SynthesisResult synthesis;  ///< of the mounted pulley
   std::vector<LoadedStroke> strokes;
   std::vector<RehearsedEffect> effects;  ///< effects with an influence on a slow stroke there and back
 };
 
 /// Simulates all effects. Empty for a joint declared by a ratio, or without a feasible pulley. `expected`: from
 /// expected_joint().
-Rehearsal rehearse(const DeclaredMechanism& expected, const Measurement& measurement, const Calibration& calibration);
+Rehearsal rehearse(const DeclaredMechanism& expected, const measurement::Measurement& measurement,
+                   const calibration::Calibration& calibration);
 
-}  // namespace fusee
+}  // namespace fusee::correction

@@ -24,33 +24,33 @@
 #include "fusee/profile.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::formats {
 
 // ---- Product --------------------------------------------------------------------------------------------------------
 // The input of drawings and reports.
 
 /// Additional data of a multi-turn pulley, whose curves are no outlines and whose grooves lie in no plane.
 struct HelixProduct {
-  HelixSynthesis synthesis;
-  HelicalPulley pulley;  ///< its mesh and conditions are in Product::pulley
-  HelicalRewind as_built;
+  helix::HelixSynthesis synthesis;
+  coil::HelicalPulley pulley;  ///< its mesh and conditions are in Product::pulley
+  coil::HelicalRewind as_built;
 
   /// Heights above the part's lower face of the tendons' ends on the joint, or of their guides' collars.
-  TendonsLaid laid(bool collar) const {
-    return tendons_laid(pulley, synthesis.sides[0].spiral, synthesis.sides[1].spiral, synthesis.sides[0].attachment_z,
-                        synthesis.sides[1].attachment_z, collar);
+  coil::TendonsLaid laid(bool collar) const {
+    return coil::tendons_laid(pulley, synthesis.sides[0].spiral, synthesis.sides[1].spiral,
+                              synthesis.sides[0].attachment_z, synthesis.sides[1].attachment_z, collar);
   }
 };
 
 /// The complete data of a finished pulley.
 struct Product {
-  MechanismFile file;  ///< as read
-  JointAsItIs joint;   ///< the identified joint that the pulley was designed for
-  SynthesisResult synthesis;
-  Pulley pulley;
-  std::optional<BodyLayout> cut_layout;  ///< layout for cutting, without shrinkage and chamfer, if known
-  Holding holding;                       ///< of its tendons
-  RewindResult as_built;
+  MechanismFile file;        ///< as read
+  joint::JointAsItIs joint;  ///< the identified joint that the pulley was designed for
+  profile::SynthesisResult synthesis;
+  solid::Pulley pulley;
+  std::optional<solid::BodyLayout> cut_layout;  ///< layout for cutting, without shrinkage and chamfer, if known
+  solid::Holding holding;                       ///< of its tendons
+  profile::RewindResult as_built;
   std::vector<Check> checks;
   std::optional<HelixProduct> helix = {};  ///< several turns; `synthesis` then has no outlines and `pulley` no anchors
 };
@@ -62,7 +62,7 @@ struct Product {
 enum class DxfVersion { ac1015, r12 };
 
 /// The body's sizes without shrinkage and hole compensation, which apply to prints only.
-BodyLayout layout_to_cut(Mechanism mechanism, const SynthesisResult& synthesis);
+solid::BodyLayout layout_to_cut(Mechanism mechanism, const profile::SynthesisResult& synthesis);
 
 /// The pulley's curves at true size about the axis, with marks of its home position.
 std::string profile_dxf(const Product& product, DxfVersion version);
@@ -119,11 +119,11 @@ struct PlanProduct {
   MechanismFile file;
   double noise = 0;    ///< rad
   double minutes = 0;  ///< available minutes
-  Plan plan;
+  plan::Plan plan;
 };
 
 /// "run_2.csv"; "" for a step that is no run.
-std::string run_file_name(const Plan& plan, std::size_t step);
+std::string run_file_name(const plan::Plan& plan, std::size_t step);
 /// The rows to drive in the format of `fusee calibrate`, with θ empty and the instructions in comments.
 std::string run_csv(const PlanProduct& product, std::size_t step);
 std::string plan_json(const PlanProduct& product);
@@ -138,14 +138,14 @@ std::string plan_manifest_json(const PlanProduct& product, const std::vector<Out
 // Texts for page and terminal.
 
 /// "hang 1.02 kg on a cord …"; "" without load.
-std::string hanging_words(const PlanProduct& product, const PlannedRun& run);
+std::string hanging_words(const PlanProduct& product, const plan::PlannedRun& run);
 /// The expected false-positive rate in words, for simulated joints.
-std::vector<std::string> false_positive_words(const Plan& plan);
+std::vector<std::string> false_positive_words(const plan::Plan& plan);
 /// The predicted gain of a step over the steps before it, such as "sees creep; tells … from …".
-std::string gain_words(const PlanStep& step);
+std::string gain_words(const plan::PlanStep& step);
 /// The predicted gain of the first minutes, such as "by minute 3: 3 cycles, slow …; tells …".
-std::string minute_words(const PlanStep& step, const std::string& gain);
-std::vector<std::string> minute_words(const std::vector<PlanStep>& steps);
+std::string minute_words(const plan::PlanStep& step, const std::string& gain);
+std::vector<std::string> minute_words(const std::vector<plan::PlanStep>& steps);
 
 // ---- Test rig -------------------------------------------------------------------------------------------------------
 // The outputs of `fusee kit`, as bytes. The same input gives the same bytes.
@@ -153,17 +153,17 @@ std::vector<std::string> minute_words(const std::vector<PlanStep>& steps);
 /// A test rig, and the pulley that it is for.
 struct KitProduct {
   Product pulley;  ///< file, joint, curves and body, not written
-  KitPlan plan;
+  kit::KitPlan plan;
   PlanProduct bench;  ///< the measurements to be made on it
   std::vector<Check> checks;
 };
 
 /// File name such as "base_plate.stl".
-std::string kit_file_name(const KitPart& part, const std::string& ending);
+std::string kit_file_name(const kit::KitPart& part, const std::string& ending);
 
 /// Length of a tendon to be cut.
 struct KitCut {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   double between_knots = 0;  ///< from the pulley's knot to its fastening at the joint, taut, at home, mm
   double cut = 0;            ///< including both ends, in whole 5 mm
 };
@@ -184,16 +184,16 @@ std::string kit_manifest_json(const KitProduct& product, const std::vector<Outpu
 struct ModelProduct {
   MechanismFile file;   ///< as read
   Mechanism mechanism;  ///< the identified mechanism
-  JointCurves curves;
+  model::JointCurves curves;
   std::string compensation;  ///< source file of curves.sensed; empty: none
-  EqualityFit equality;
-  EqualityFit line;
-  std::optional<TendonModel> tendons;
+  model::EqualityFit equality;
+  model::EqualityFit line;
+  std::optional<model::TendonModel> tendons;
   std::string without_tendons;  ///< why there is no tendon model
   bool with_polynomial = true;  ///< true if joint.xml is written
   double most_error = 0;        ///< allowed error of a simulator's joint, rad
   double most_table_error = 0;  ///< allowed error of tables, rad
-  JointTable table;
+  model::JointTable table;
   std::string prefix;  ///< prefix of the names in the header
   std::vector<Check> checks;
   std::vector<std::string> notes;
@@ -226,11 +226,12 @@ std::vector<Check> check_model(const ModelProduct& product, const std::vector<Ou
 /// All that is known after a calibration.
 struct CalibrationProduct {
   MechanismFile file;
-  Measurement measurement;
-  Calibration calibration;
-  std::vector<LikelyInputError> slips;  ///< of the file or of the data, that would explain what no effect does
-  Correction correction;
-  Rehearsal rehearsal;  ///< of what was found
+  measurement::Measurement measurement;
+  calibration::Calibration calibration;
+  std::vector<calibration::LikelyInputError>
+      slips;  ///< of the file or of the data, that would explain what no effect does
+  correction::Correction correction;
+  correction::Rehearsal rehearsal;  ///< of what was found
 };
 
 std::string calibration_json(const CalibrationProduct& product);
@@ -247,7 +248,7 @@ std::string calibration_report_html(const CalibrationProduct& product);
 /// Names the files beside it, so that the next run knows them as ours.
 std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs);
 
-// What a person reads first.
+// First lines of page and terminal.
 
 /// 60 words at most, without identifiers.
 struct Headline {
@@ -274,23 +275,23 @@ std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
 
 /// "EA = 4515 N (95 %: 4479 … 4551 if nothing else is there, else 4420 … 4610)": the unit is taken from the end of the
 /// name; `load_unit` is that of the load column.
-std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit);
+std::string parameter_words(const calibration::FittedParameter& parameter, const std::string& load_unit);
 /// The group without the effect itself.
-std::vector<std::string> rivals_of(const FoundEffect& effect);
+std::vector<std::string> rivals_of(const calibration::FoundEffect& effect);
 /// Says that P1 stays round, and by how much it misses its law.
-std::string round_words(const Correction& correction);
+std::string round_words(const correction::Correction& correction);
 /// Why no corrected pulley can be made, of a correction that says so.
-std::string infeasible_words(const Correction& correction);
+std::string infeasible_words(const correction::Correction& correction);
 /// The assembly angle of a corrected pulley, if the correction requires another than 0.
-std::string tied_words(const Correction& correction);
+std::string tied_words(const correction::Correction& correction);
 /// Effects that were not found by the smallest size that would have shown, rad; what is equal to two digits stands
 /// together. Smallest first.
-std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration);
+std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const calibration::Calibration& calibration);
 /// The part of the unmodelled residual that the table covers, and where that holds; or why it covers none. "" if
 /// nothing is unmodelled.
 std::string curve_words(const CalibrationProduct& product);
 /// All measurements to make next, the most decisive first.
-std::vector<std::string> next_texts(const Calibration& calibration);
+std::vector<std::string> next_texts(const calibration::Calibration& calibration);
 /// slip_words() of every input error that would explain the data.
 std::vector<std::string> slips_words(const CalibrationProduct& product);
 /// Two of the notes that say the same of many files, and the number of others.
@@ -302,9 +303,9 @@ std::vector<std::string> shortened_notes(const std::vector<std::string>& notes);
 /// All that is known after a comparison.
 struct ComparisonProduct {
   MechanismFile file;
-  Measurement measurement;      ///< the runs before, then the runs after
-  std::size_t runs_before = 0;  ///< how many of them
-  Comparison comparison;
+  measurement::Measurement measurement;  ///< the runs before, then the runs after
+  std::size_t runs_before = 0;           ///< how many of them
+  calibration::Comparison comparison;
 };
 
 std::string comparison_json(const ComparisonProduct& product);
@@ -315,7 +316,7 @@ std::string comparison_manifest_json(const ComparisonProduct& product, const std
 /// The answer in at most 60 words, without identifiers: what changed, by how much, what to do.
 std::string comparison_words(const ComparisonProduct& product);
 /// The largest of the changes that would just have been seen, rms at the joint, rad; 0 where none was asked for.
-double least_seen(const Comparison& comparison);
+double least_seen(const calibration::Comparison& comparison);
 
 /// A row of the table of changes.
 struct ChangeRow {
@@ -334,8 +335,8 @@ std::vector<ChangeRow> change_rows(const ComparisonProduct& product);
 /// A joint moved through a log.
 struct Simulation {
   MechanismFile file;
-  Measurement log;                 ///< one run that drove the joint
-  std::vector<JointState> states;  ///< parallel to its rows
+  measurement::Measurement log;           ///< one run that drove the joint
+  std::vector<joint::JointState> states;  ///< parallel to its rows
 };
 
 /// A column of the table, whose name ends with its unit; NaN for missing numbers.
@@ -350,8 +351,8 @@ struct SimulationColumn {
 /// torque.
 std::vector<SimulationColumn> simulation_columns(const Simulation& simulation);
 /// "held", "loose" (both tendons are slack), "no_equilibrium" (no joint angle carries the load).
-std::string_view word(EquilibriumStatus status);
+std::string_view word(joint::EquilibriumStatus status);
 /// A table that `fusee calibrate` reads.
 std::string simulation_csv(const Simulation& simulation);
 
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -13,7 +13,7 @@
 #include "fusee/profile.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::helix {
 
 // ---- Spirals --------------------------------------------------------------------------------------------------------
 // The pitch curve of a helical groove: the tendon's centre line over several turns.
@@ -69,15 +69,15 @@ struct HelixSide {
 };
 
 struct HelixSynthesis {
-  SynthesisStatus status = SynthesisStatus::infeasible;
-  std::array<HelixSide, 2> sides;         ///< P1, P2
-  std::vector<TransmissionPoint> stroke;  ///< evenly spaced in α over the range, home included
-  std::vector<Condition> conditions;
+  profile::SynthesisStatus status = profile::SynthesisStatus::infeasible;
+  std::array<HelixSide, 2> sides;                       ///< P1, P2
+  std::vector<transmission::TransmissionPoint> stroke;  ///< evenly spaced in α over the range, home included
+  std::vector<profile::Condition> conditions;
   std::vector<std::string> warnings;
   /// Variation over the range of the tendons' lengths in space, by the formulas that the curves are drawn from. mm
   double closure = 0;
 
-  bool made() const { return status == SynthesisStatus::made; }
+  bool made() const { return status == profile::SynthesisStatus::made; }
 };
 
 /// The least axial distance of two neighbouring turns when the later one's radius is larger by `step` (of either sign).
@@ -104,6 +104,7 @@ enum class HelixAccuracy { fine, coarse };
 
 /// Computes no advice.
 HelixSynthesis synthesise_helix(const Mechanism& mechanism, const HelixGroove& groove,
-                                const SynthesisOptions& options = {}, HelixAccuracy accuracy = HelixAccuracy::fine);
+                                const profile::SynthesisOptions& options = {},
+                                HelixAccuracy accuracy = HelixAccuracy::fine);
 
-}  // namespace fusee
+}  // namespace fusee::helix

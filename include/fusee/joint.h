@@ -15,7 +15,7 @@
 #include "fusee/profile.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 // ---- Inputs on the bench --------------------------------------------------------------------------------------------
 // Inputs to a joint on its bench: logged motor angles, loads and temperatures of each run.
@@ -80,16 +80,17 @@ class MadePulleys {
 
   /// Both tendons (left, right) at the pulley angle `alpha`. NaN where a tendon touches a part of the curve outside the
   /// law's range.
-  std::array<LowerPath, 2> paths(const std::array<LowerGuide, 2>& mounted, double alpha) const;
-  std::array<LowerPath, 2> paths(const std::array<PinPlace, 2>& mounted, double alpha) const {
+  std::array<LowerPath, 2> paths(const std::array<transmission::LowerGuide, 2>& mounted, double alpha) const;
+  std::array<LowerPath, 2> paths(const std::array<transmission::PinPlace, 2>& mounted, double alpha) const {
     return paths(std::array{mounted[0].lower(), mounted[1].lower()}, alpha);
   }
-  const Transmission& declared() const { return declared_; }
+  const transmission::Transmission& declared() const { return declared_; }
 
  private:
-  LowerPath path(Side side, const LowerGuide& mounted, double alpha, const TransmissionPoint& first) const;
+  LowerPath path(transmission::Side side, const transmission::LowerGuide& mounted, double alpha,
+                 const transmission::TransmissionPoint& first) const;
 
-  Transmission declared_;
+  transmission::Transmission declared_;
   double offset_ = 0;
 };
 
@@ -102,13 +103,13 @@ struct UpperSpans;  // lookup tables of both upper spans over the joint angle
 
 /// Plain values: a joint with other pins, stiffness or runout is a copy with members or `lower` replaced.
 struct JointModel {
-  std::array<PinPlace, 2> pins;  ///< left, right, as mounted
-  double lever = 0;              ///< OC, at whose end a tip force acts, mm
+  std::array<transmission::PinPlace, 2> pins;  ///< left, right, as mounted
+  double lever = 0;                            ///< OC, at whose end a tip force acts, mm
   std::function<std::array<LowerPath, 2>(double alpha)> lower;
   std::function<double(double alpha)> expected;  ///< approximate θ, as a start for root finding
   double EA = 0;                                 ///< axial stiffness of a tendon: tension per strain, N
-  GuideFriction guide;                           ///< pins or idlers
-  SheathLoad sheath;                             ///< sheath of each tendon
+  transmission::GuideFriction guide;             ///< pins or idlers
+  transmission::SheathLoad sheath;               ///< sheath of each tendon
   double pretension = 0;                         ///< of tendon 1 at home, unloaded, N
   double drum_friction = 0;                      ///< between tendon and drum, like groove_friction
   double slack = 0;                              ///< excess material of each tendon beyond the path, mm
@@ -266,12 +267,13 @@ JointAsItIs as_it_is(const DeclaredMechanism& declared, LawSearch search = LawSe
 DeclaredMechanism expected_joint(const DeclaredMechanism& declared);
 
 /// A curve point displaced so that it comes out of making in its place.
-OutlinePoint drawn_for_making(OutlinePoint point, const OutlineError& outline);
+profile::OutlinePoint drawn_for_making(profile::OutlinePoint point, const OutlineError& outline);
 /// Displaces all points of both curves.
-void draw_for_making(SynthesisResult& synthesis, const OutlineError& outline);
+void draw_for_making(profile::SynthesisResult& synthesis, const OutlineError& outline);
 /// The conditions that displaced curves violate: the correction of a wave may turn a sharp bend inward. One per
 /// affected pulley.
-std::vector<Condition> turns_inward_as_drawn(const SynthesisResult& drawn, const OutlineError& outline);
+std::vector<profile::Condition> turns_inward_as_drawn(const profile::SynthesisResult& drawn,
+                                                      const OutlineError& outline);
 /// Inverse of draw_for_making(): a closed floor as it comes out of making.
 Polygon as_made(Polygon drawn, const OutlineError& outline);
 /// Inverse of draw_for_making() for an open line. Normals are averaged over `beside` points on either side.
@@ -329,4 +331,4 @@ struct JointState {
 std::vector<std::vector<JointState>> simulate(const Mechanism& declared, const Imperfections& imperfections,
                                               const BenchLog& log);
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -9,15 +9,17 @@
 #include <vector>
 
 #include "fusee/base.h"
+#include "fusee/mechanism.h"
 #include "fusee/profile.h"
 #include "fusee/solid.h"
-#include "fusee/mechanism.h"
 
 namespace fusee {
-
 struct BearingType;  // mechanism/catalogue.h
-struct BoardType;
-struct MotorType;
+struct BoardType;    // mechanism/catalogue.h
+struct MotorType;    // mechanism/catalogue.h
+}  // namespace fusee
+
+namespace fusee::kit {
 
 // ---- Bodies ---------------------------------------------------------------------------------------------------------
 // Bodies of a test rig's parts: stacks of slabs with convex outlines and holes. mm.
@@ -67,7 +69,7 @@ struct PrintTrim {
 /// The body as it is printed: holes are widened so that a polygon's sides touch the nominal circle.
 SlabBody trimmed(const SlabBody& body, const PrintTrim& trim);
 /// The mesh with coordinates rounded to float.
-TriangleMesh mesh_of(const SlabBody& body, double scale = 1);
+solid::TriangleMesh mesh_of(const SlabBody& body, double scale = 1);
 /// Exact volume of that mesh before rounding. mm³
 double volume_of(const SlabBody& body, double scale = 1);
 
@@ -92,7 +94,7 @@ struct Thread {
 
 /// A guide pin: a bare rod, or a screw in a sleeve.
 struct KitPin {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   Vec2 place{0, 0};
   const Thread* screw = nullptr;  ///< null: the rod itself is the pin
   double radius = 0;              ///< radius on which the tendon runs
@@ -104,9 +106,9 @@ struct KitPin {
 
 /// Heights and radii of the rig, resolved.
 struct KitSizes {
-  const BearingType* bearing = nullptr;
-  const BoardType* board = nullptr;
-  const MotorType* motor = nullptr;  ///< null: the catalogue has none with this shaft or horn
+  const fusee::BearingType* bearing = nullptr;
+  const fusee::BoardType* board = nullptr;
+  const fusee::MotorType* motor = nullptr;  ///< null: the catalogue has none with this shaft or horn
   const Thread *axle = nullptr, *foot = nullptr, *small = nullptr;
   double base = 0;        ///< thickness of the base plate
   double pulley_low = 0;  ///< height of the pulley's lower face
@@ -161,7 +163,7 @@ struct KitItem {
 
 /// Additional lengths of a tendon in the rig, beyond the knots of the pulley.
 struct KitTendon {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   double beyond = 0;    ///< from C to its end at the joint, along the tendon
   double at_joint = 0;  ///< length used by its fastening there, mm
 };
@@ -185,8 +187,8 @@ struct KitPlan {
   std::array<KitPin, 2> pins;
   std::vector<Vec2> feet;  ///< two: for scale plate and bracket
   std::array<Vec2, 4> legs;
-  std::vector<Condition> conditions;  ///< all distances over the whole range: `value` is at least `limit`
-  std::vector<KitPart> parts;         ///< in the order of assembly, the coupon last; empty if impossible
+  std::vector<profile::Condition> conditions;  ///< all distances over the whole range: `value` is at least `limit`
+  std::vector<KitPart> parts;                  ///< in the order of assembly, the coupon last; empty if impossible
   std::vector<KitItem> items;
   std::array<KitTendon, 2> tendons;
   std::vector<std::string> notes;
@@ -202,9 +204,10 @@ struct KitPlan {
 inline constexpr double k_least_pin = 0.5;
 
 /// Requires a feasible one-turn pulley.
-KitPlan plan_kit(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyLayout& layout);
+KitPlan plan_kit(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                 const solid::BodyLayout& layout);
 /// The kit for a multi-turn pulley.
-KitPlan plan_kit_of_turns(const Mechanism& mechanism, const BodyLayout& layout, const TendonHeights& heights);
+KitPlan plan_kit_of_turns(const Mechanism& mechanism, const solid::BodyLayout& layout, const TendonHeights& heights);
 
 /// The link's outline at a joint angle, in the rig's frame.
 Polygon link_outline(const KitPlan& plan, const Mechanism& mechanism, double theta);
@@ -222,9 +225,9 @@ std::vector<CouponReading> coupon_readings(const Mechanism& mechanism);
 SlabBody coupon_body(const Mechanism& mechanism);
 
 /// The mesh of a part as it is printed.
-TriangleMesh printed_mesh(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout);
-double printed_volume(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout);
+solid::TriangleMesh printed_mesh(const KitPart& part, const Mechanism& mechanism, const solid::BodyLayout& layout);
+double printed_volume(const KitPart& part, const Mechanism& mechanism, const solid::BodyLayout& layout);
 /// The nominal mesh of a part in place at a joint angle.
-TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta);
+solid::TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta);
 
-}  // namespace fusee
+}  // namespace fusee::kit

@@ -15,7 +15,7 @@
 #include "fusee/joint.h"
 #include "fusee/mechanism.h"
 
-namespace fusee {
+namespace fusee::measurement {
 
 /// CSV text as in RFC 4180: UTF-8, Latin-1 or UTF-16; lines end with LF, CR LF or CR; separated by comma, semicolon,
 /// tab or blanks. The header is the first line that names the angles. The unit of a column is taken from the options,
@@ -78,7 +78,7 @@ struct Run {
   double speed = 0;               ///< median |dα/dt|, rad/s; 0 without time and for point-to-point logs
   double mean_load = 0;           ///< mean of the load column; 0 without load
   bool has_time = false, has_load = false, has_temperature = false;
-  Mounting mounting = {};  ///< of the encoders
+  joint::Mounting mounting = {};  ///< of the encoders
 };
 
 struct Measurement {
@@ -122,7 +122,7 @@ std::vector<Segment> segments_of(const Run& run);
 bool is_from_point_to_point(const Run& run);
 
 /// Motor angles, loads, temperatures and times of these runs, as input of a simulation.
-BenchLog bench_log(const Measurement& measurement);
+joint::BenchLog bench_log(const Measurement& measurement);
 
 /// Removes whole turns by which an encoder starts elsewhere (with a note). Converts torques to tip forces if the joint
 /// has tendons (with a note). Adds a reason to `not_testable` if the data cannot come from the declared joint: α and θ
@@ -172,4 +172,4 @@ Iso230 iso230(const std::vector<std::array<std::vector<double>, 2>>& deviations)
 /// `residuals`, rad: one vector a run, parallel to its samples.
 Iso230 iso230(const Measurement& measurement, const std::vector<std::vector<double>>& residuals);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -18,7 +18,7 @@
 #include "fusee/mechanism.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::model {
 
 // ---- curves of the joint --------------------------------------------------------------------------------------------
 
@@ -32,7 +32,7 @@ struct AngleMap {
 };
 
 /// Requires a law that exists and increases.
-AngleMap angle_map(const Transmission& law);
+AngleMap angle_map(const transmission::Transmission& law);
 /// Linear interpolation between rows. Both columns must increase.
 AngleMap angle_map(std::vector<LawRow> rows);
 
@@ -71,13 +71,13 @@ struct JointCurves {
 std::optional<JointCurves> joint_curves(const DeclaredMechanism& declared);
 
 /// True if θ increases with α over the whole range. The law must exist.
-bool grows(const Transmission& law);
+bool grows(const transmission::Transmission& law);
 
 /// Parses compensation.csv. Throws InputError with all errors.
 std::vector<TwoWayRow> read_compensation(const std::string& text, const std::string& name);
 /// Adds rows in which the motor's offset from the law is interpolated linearly, so that the law keeps its shape.
 /// Returns the rows unchanged if they reach far beyond the law.
-std::vector<TwoWayRow> refined(const std::vector<TwoWayRow>& rows, const Transmission& law);
+std::vector<TwoWayRow> refined(const std::vector<TwoWayRow>& rows, const transmission::Transmission& law);
 
 // ---- polynomials ----------------------------------------------------------------------------------------------------
 
@@ -126,7 +126,7 @@ EqualityFit measured(EqualityFit fit, const AngleMap& map);
 /// A tendon from its end on the link over its pin to a fixed point, for a simulator that wraps tendons around
 /// cylinders. In the mechanism's frame with the joint at home, mm.
 struct WrappedTendon {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   Vec2 end{0, 0};  ///< on the link
   Vec2 pin{0, 0};
   double rho = 0;          ///< radius of the cylinder to the tendon's centre line; 0: a point
@@ -148,9 +148,10 @@ struct WrappedTendon {
 struct TendonModel {
   std::array<WrappedTendon, 2> tendons;
   std::array<std::string, 2> omission;  ///< reason why a simulator cannot represent a tendon; "": it can
-  Side constrained = Side::left;        ///< the tendon whose length is constrained to the polynomial
-  Polynomial length;                    ///< of that tendon, minus home_length; mm over rad
-  double error = 0;                     ///< largest error of θ over the range, rad
+  transmission::Side constrained =
+      transmission::Side::left;  ///< the tendon whose length is constrained to the polynomial
+  Polynomial length;             ///< of that tendon, minus home_length; mm over rad
+  double error = 0;              ///< largest error of θ over the range, rad
 };
 
 /// Empty, with the reason in `why_not`, if neither tendon can be represented. Tendons are excluded if they leave the
@@ -208,4 +209,4 @@ TableErrors measured(const JointTable& table, const JointCurve& curve);
 /// Interpolates as the generated header does. `at`: pieces from the first entry.
 float interpolated(const std::vector<float>& table, float at);
 
-}  // namespace fusee
+}  // namespace fusee::model

@@ -14,7 +14,7 @@
 #include "fusee/mechanism.h"
 #include "fusee/mechanism_file.h"
 
-namespace fusee {
+namespace fusee::optimize {
 
 // ---- Objectives -----------------------------------------------------------------------------------------------------
 // Objectives: functions of a mechanism to minimize or maximize. Forces and errors are per newton of tip force, by the
@@ -228,4 +228,4 @@ struct ParetoResult {
 /// Requires two or three objectives; otherwise throws InputError.
 ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options = {}, const RunContext& context = {});
 
-}  // namespace fusee
+}  // namespace fusee::optimize

@@ -37,7 +37,7 @@
 #include "fusee/profile.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 
 // ---- Optimization ---------------------------------------------------------------------------------------------------
 // Options and result of fusee optimize.
@@ -49,9 +49,9 @@ enum class SearchMethod { certified, genetic, pareto };
 SearchMethod strongest_method(const MechanismFile& file);
 
 struct OptimizeOptions {
-  std::optional<SearchMethod> method;  ///< default: strongest_method()
-  std::optional<Objective> then;       ///< certified: second objective that selects among tied designs
-  GeneticOptions genetic;              ///< for genetic and pareto
+  std::optional<SearchMethod> method;       ///< default: strongest_method()
+  std::optional<optimize::Objective> then;  ///< certified: second objective that selects among tied designs
+  optimize::GeneticOptions genetic;         ///< for genetic and pareto
   /// settings with which the file was read; numbers among them go into the new files
   std::vector<Setting> settings;
   std::filesystem::path new_file;      ///< path of the mechanism with the new numbers; empty: none
@@ -61,17 +61,17 @@ struct OptimizeOptions {
 };
 
 struct OptimizeResult {
-  Problem problem;
-  std::variant<CertifiedResult, GeneticResult, ParetoResult> search;
-  std::optional<CertifiedResult> then;  ///< the second search of OptimizeOptions::then
+  optimize::Problem problem;
+  std::variant<optimize::CertifiedResult, optimize::GeneticResult, optimize::ParetoResult> search;
+  std::optional<optimize::CertifiedResult> then;  ///< the second search of OptimizeOptions::then
   bool found = false;
-  bool stopped = false;  ///< by RunContext::stop: the best design so far
-  std::string reason;    ///< if nothing was found: the most frequent cause
-  Design design;         ///< best design, in the file's declared numbers; for a front its most balanced point
-  double value = 0;      ///< of the first objective
-  double theta = 0;      ///< θ at which the objective takes its value, rad; not for a front
-  Evaluation before;     ///< first objective of the unchanged file
-  std::string new_text;  ///< text of the file with the design's numbers; empty if not requested
+  bool stopped = false;         ///< by RunContext::stop: the best design so far
+  std::string reason;           ///< if nothing was found: the most frequent cause
+  optimize::Design design;      ///< best design, in the file's declared numbers; for a front its most balanced point
+  double value = 0;             ///< of the first objective
+  double theta = 0;             ///< θ at which the objective takes its value, rad; not for a front
+  optimize::Evaluation before;  ///< first objective of the unchanged file
+  std::string new_text;         ///< text of the file with the design's numbers; empty if not requested
   std::vector<OutputFile> front_files;
   std::vector<Diagnostic> warnings;  ///< plausibility warnings about the file, and settings that the new files omit
   bool published = false;
@@ -83,7 +83,7 @@ struct OptimizeResult {
 // Calibration: measured runs → causes of the error, and the file of a better pulley.
 
 struct CalibrateOptions {
-  MeasurementOptions columns;
+  measurement::MeasurementOptions columns;
   std::vector<std::filesystem::path> hold_out;  ///< runs for validation only
   std::filesystem::path folder;                 ///< folder of the output files
   bool force = false;
@@ -92,7 +92,7 @@ struct CalibrateOptions {
 };
 
 struct CalibrateResult {
-  CalibrationProduct product;
+  formats::CalibrationProduct product;
   std::vector<OutputFile> outputs;  ///< manifest.json last
   bool published = false;
   /// corrected.toml has every key, because the text of `file.path` differs from the mechanism (--set)
@@ -111,14 +111,14 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
 // Comparison: measured runs of two states of one joint → the changes between them.
 
 struct CompareOptions {
-  MeasurementOptions columns;
+  measurement::MeasurementOptions columns;
   std::filesystem::path folder;  ///< folder of the output files; empty: no files
   bool force = false;
   bool dry_run = false;  ///< everything except writing
 };
 
 struct CompareResult {
-  ComparisonProduct product;
+  formats::ComparisonProduct product;
   std::vector<OutputFile> outputs;  ///< manifest.json last; empty without a folder
   bool published = false;
 };
@@ -134,7 +134,7 @@ CompareResult compare(const MechanismFile& file, const std::vector<std::filesyst
 // Experiment design: plan.json, a page for the bench and empty run files.
 
 struct PlanFilesOptions {
-  PlanOptions plan;
+  plan::PlanOptions plan;
   std::filesystem::path folder;  ///< folder of the output files
   bool force = false;
   bool dry_run = false;  ///< everything except writing
@@ -142,8 +142,8 @@ struct PlanFilesOptions {
 
 struct PlanResult {
   /// Reason why there is nothing to plan: the law does not exist over the range. Empty if it does.
-  std::optional<SynthesisResult> without_law;
-  PlanProduct product;
+  std::optional<profile::SynthesisResult> without_law;
+  formats::PlanProduct product;
   std::vector<OutputFile> outputs;  ///< manifest.json last; empty if no run fits into the minutes
   bool published = false;
 };
@@ -158,7 +158,7 @@ PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options, cons
 
 struct KitOptions {
   double chord_error_mm = 0.01;  ///< largest distance of a facet of the pulley from its curve (sagitta)
-  DxfVersion dxf = DxfVersion::ac1015;
+  formats::DxfVersion dxf = formats::DxfVersion::ac1015;
   std::filesystem::path folder;  ///< folder of the output files
   bool force = false;
   bool dry_run = false;  ///< everything except publishing
@@ -168,8 +168,8 @@ enum class KitEnding { done, no_pulley, no_kit, check_failed };
 
 struct KitResult {
   KitEnding ending = KitEnding::done;
-  KitProduct product;
-  Advice advice;                    ///< if parts would collide: changes that make room
+  formats::KitProduct product;
+  profile::Advice advice;           ///< if parts would collide: changes that make room
   std::vector<OutputFile> outputs;  ///< manifest.json last; empty without a pulley or a rig
   bool published = false;
 };
@@ -180,7 +180,7 @@ struct KitResult {
 KitResult kit(const MechanismFile& file, const KitOptions& options, const RunContext& context = {});
 
 /// Smallest distances between the assembled parts over the range, measured on their meshes, as checks.
-std::vector<Check> kit_fit_checks(const KitPlan& plan);
+std::vector<Check> kit_fit_checks(const kit::KitPlan& plan);
 
 // ---- Models ---------------------------------------------------------------------------------------------------------
 // The joint for other programs: simulators (MuJoCo), descriptions of robots (URDF, ros2_control), firmware (tables).
@@ -194,7 +194,7 @@ struct ModelOptions {
   double most_error = radians(0.1);
   /// Largest error of θ in the tables, in both directions, rad: 1/20 of a step of a 14-bit encoder.
   double most_table_error = radians(0.001);
-  MotorUnit unit;
+  model::MotorUnit unit;
   bool declared = false;        ///< ignore identified effects
   bool with_polynomial = true;  ///< false: no joint.xml
   /// compensation.csv. Not set: the file next to the mechanism that calibrate() wrote with it. Empty: none.
@@ -223,8 +223,8 @@ struct ModelChange {
 
 struct ModelResult {
   ModelEnding ending = ModelEnding::done;
-  ModelProduct product;
-  std::optional<SynthesisResult> without_law;
+  formats::ModelProduct product;
+  std::optional<profile::SynthesisResult> without_law;
   std::vector<ModelChange> changes;  ///< tested changes
   std::vector<OutputFile> outputs;   ///< manifest.json last; empty if refused
   bool published = false;
@@ -238,7 +238,7 @@ ModelResult model(const MechanismFile& file, const ModelOptions& options, const 
 // Simulation: logged motor angles, loads and times → joint angle, tendon tensions and motor torque.
 
 struct SimulateOptions {
-  MeasurementOptions columns;
+  measurement::MeasurementOptions columns;
   /// true: simulates the corrected pulley that build() makes of this file; false: the pulley of the declared mechanism,
   /// on which [identified] was measured.
   bool corrected = false;
@@ -248,8 +248,8 @@ struct SimulateOptions {
 
 struct SimulateResult {
   /// Reason why there is nothing to simulate: the law does not exist over the range. Empty if it does.
-  std::optional<SynthesisResult> without_law;
-  Simulation simulation;
+  std::optional<profile::SynthesisResult> without_law;
+  formats::Simulation simulation;
 };
 
 /// Simulates the identified joint of `file` row by row, for a log or a run of plan(). Rows without an equilibrium are
@@ -266,7 +266,7 @@ struct AsBuiltLimits {
 struct BuildOptions {
   double chord_error_mm = 0.01;  ///< largest distance of a facet from its curve (sagitta)
   AsBuiltLimits limits;
-  DxfVersion dxf = DxfVersion::ac1015;
+  formats::DxfVersion dxf = formats::DxfVersion::ac1015;
   /// Writes pulley.step, too. build() throws InputError if the part is too large for it, or if step_missing().
   bool step = false;
   std::filesystem::path folder;  ///< folder of the output files
@@ -281,8 +281,8 @@ enum class BuildStatus { done, infeasible, check_failed };
 
 struct BuildResult {
   BuildStatus status = BuildStatus::done;
-  Product product;
-  Advice advice;                    ///< for an infeasible design: changes with which the build passes every check
+  formats::Product product;
+  profile::Advice advice;           ///< for an infeasible design: changes with which the build passes every check
   std::vector<OutputFile> outputs;  ///< manifest.json last; empty if infeasible
   bool published = false;
 };
@@ -297,7 +297,8 @@ const std::vector<std::string>& output_names();
 
 /// Forces over the range of the identified joint. Throws InputError for a joint with [transmission], which has no
 /// tendons.
-AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options = {}, const RunContext& context = {});
+analysis::AnalysisResult analyze(const MechanismFile& file, const analysis::AnalysisOptions& options = {},
+                                 const RunContext& context = {});
 
 /// Runs the search of [optimize] on the identified joint, in terms of the declared numbers. A box without a feasible
 /// design and a stopped search are values; throws InputError and OutputError.
@@ -306,7 +307,7 @@ OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& option
 // ---- Parts from files -----------------------------------------------------------------------------------------------
 
 /// Content of a part's file.
-using Part = std::variant<TriangleMesh, Drawing>;
+using Part = std::variant<solid::TriangleMesh, formats::Drawing>;
 /// Reads a mesh (stl obj 3mf off ply drc) or a drawing (dxf), distinguished by content, then by file name. Throws
 /// InputError.
 Part read_part(const std::filesystem::path& path, FileAccess& files = disk());
@@ -323,13 +324,14 @@ PartSize size_of(const Part& part, const std::vector<Check>& checks);
 
 /// Winds tendons on the grooves of a mesh at the mechanism's groove heights, or on the contours P1_FLOOR and P2_FLOOR
 /// of a drawing (P1_PITCH and P2_PITCH without them). Throws InputError if there is no such groove.
-RewindResult rewind_part(const JointAsItIs& joint, const Part& part);
+profile::RewindResult rewind_part(const joint::JointAsItIs& joint, const Part& part);
 /// Winds tendons on a mesh with the known `layout`: after a second plan of the tie-offs its grooves may be at other
 /// heights than the mechanism alone gives.
-RewindResult rewind_made(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh);
+profile::RewindResult rewind_made(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+                                  const solid::TriangleMesh& mesh);
 /// Winds tendons on floors that were measured elsewhere, as printed.
-RewindResult rewind_floors(const JointAsItIs& joint, const BodyLayout& layout, const Polygon& floor1,
-                           const Polygon& floor2);
+profile::RewindResult rewind_floors(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+                                    const Polygon& floor1, const Polygon& floor2);
 
 enum class PartPlace {
   as_made,         ///< it fits in its present position, or nowhere clearly better
@@ -337,20 +339,20 @@ enum class PartPlace {
   not_recognised,  ///< it fits nowhere: wound in its present position
 };
 struct RewoundPart {
-  RewindResult as_built;
+  profile::RewindResult as_built;
   PartPlace place = PartPlace::as_made;
   /// Position of the part, or one each for P1 and P2 if the file has both side by side.
-  std::vector<Placement> placements;
+  std::vector<solid::Placement> placements;
   /// Set if the file has only this pulley: only its tendon is wound, and slack is unknown.
-  std::optional<Side> alone = std::nullopt;
+  std::optional<transmission::Side> alone = std::nullopt;
 };
 /// As rewind_part(), but a mesh that was moved, turned about its axis or turned over is moved back first. Throws
 /// InputError also for a mirrored mesh or one of another size.
-RewoundPart rewind_moved_part(const JointAsItIs& joint, const Part& part);
+RewoundPart rewind_moved_part(const joint::JointAsItIs& joint, const Part& part);
 
 /// Checks "theta_error" and "slack" against their limits. The slack of method = "paper" is expected: it is reported as
 /// "theta_error_reported" and "slack_reported", with the limits 180 deg and the joint's length.
-std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built,
+std::vector<Check> as_built_checks(const Mechanism& mechanism, const profile::RewindResult& as_built,
                                    const AsBuiltLimits& limits);
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

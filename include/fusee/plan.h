@@ -13,8 +13,10 @@
 #include "fusee/joint.h"
 
 namespace fusee {
-
 struct EffectParameter;  // mechanism/effect.h
+}  // namespace fusee
+
+namespace fusee::plan {
 
 // ---- Measurements at the bench --------------------------------------------------------------------------------------
 // Measurements that a person can make at the bench: runs to drive and dimensions to read by hand. `fusee plan` and the
@@ -32,7 +34,7 @@ enum class BenchChange {
 /// The instruction, such as "turn the joint's encoder on its axis by a quarter turn"; "" for none.
 std::string_view words(BenchChange change);
 /// The angles of both encoders on their shafts after that change.
-Mounting mounting_of(BenchChange change);
+joint::Mounting mounting_of(BenchChange change);
 
 /// Strokes between two motor angles, there and back, at constant speed and load.
 struct PlannedRun {
@@ -52,13 +54,13 @@ double setup_minutes_of(const PlannedRun& run);
 /// A phrase such as "3 slow cycles at 5 N". `slow`, rad/s, is the speed that is called slow.
 std::string words(const PlannedRun& run, double slow, const std::string& load_unit);
 /// Simulated rows: `rows_a_stroke` evenly over every stroke, then every dwell.
-BenchRun driven(const PlannedRun& run, int rows_a_stroke);
+joint::BenchRun driven(const PlannedRun& run, int rows_a_stroke);
 
 /// A measurement that distinguishes causes that the runs so far do not.
 struct NextMeasurement {
   std::optional<PlannedRun> run;  ///< a run to drive
   /// Parameters of one effect to read by hand, if there is no run. Without both, see `words`.
-  std::vector<const EffectParameter*> readings;
+  std::vector<const fusee::EffectParameter*> readings;
   std::string words;                   ///< the instruction
   std::string gain;                    ///< "backlash from creep (4 × the uncertainty)"; "" if unknown
   std::vector<std::string> separates;  ///< names of effects; may include "unmodelled"
@@ -71,7 +73,7 @@ struct NextMeasurement {
 /// A run with its instruction and minutes. `slow` and `load_unit` as in words().
 NextMeasurement next_run(const PlannedRun& run, double slow, const std::string& load_unit);
 /// Hand measurements of the parameters of one effect, at least one.
-NextMeasurement next_reading(const std::vector<const EffectParameter*>& readings);
+NextMeasurement next_reading(const std::vector<const fusee::EffectParameter*>& readings);
 /// Any other measurement.
 NextMeasurement next_inspection(const std::string& words);
 
@@ -79,7 +81,7 @@ NextMeasurement next_inspection(const std::string& words);
 double rms_apart(const std::vector<std::vector<double>>& one, const std::vector<std::vector<double>>& other);
 
 /// Parameters of this joint's effects that can be read by hand and that [prior] does not have yet.
-std::vector<const EffectParameter*> unread_numbers(const DeclaredMechanism& declared);
+std::vector<const fusee::EffectParameter*> unread_numbers(const DeclaredMechanism& declared);
 
 // ---- Plan -----------------------------------------------------------------------------------------------------------
 // Experiment design: the shortest set of runs that distinguishes the causes which matter for this joint, the smallest
@@ -103,7 +105,7 @@ struct PlanOptions {
 /// A run, or a dimension to read by hand.
 struct PlanStep {
   std::optional<PlannedRun> run;
-  const EffectParameter* reading = nullptr;
+  const fusee::EffectParameter* reading = nullptr;
   std::string words;
   double minutes = 0;              ///< including the changes on the bench
   double setup = 0;                ///< part of `minutes` that the changes take
@@ -150,4 +152,4 @@ struct Plan {
 /// Plans the runs. The joint's law must exist over its range. If no run fits into the minutes, `steps` is empty.
 Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options = {}, const RunContext& context = {});
 
-}  // namespace fusee
+}  // namespace fusee::plan

@@ -12,7 +12,7 @@
 #include "fusee/mechanism.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::profile {
 
 // ---- Pitch curves ---------------------------------------------------------------------------------------------------
 // A sampled, closed, convex pitch curve: the tendon's centre line on the pulley, in the pulley's frame at home with
@@ -33,14 +33,14 @@ struct OutlinePoint {
 /// than 0.1° apart share a point. The remaining closing arc carries no tendon in range, except the short lap at the
 /// wound end that leads to the anchor.
 struct Outline {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   std::vector<OutlinePoint> points;
   std::size_t active_first = 0;
   std::size_t active_last = 0;
 
   /// The end of the active arc where the tendon stays wound over the whole stroke and continues to its anchor:
   /// active_last for P1 (left), active_first for P2 (right).
-  std::size_t anchor_end() const { return side == Side::left ? active_last : active_first; }
+  std::size_t anchor_end() const { return side == transmission::Side::left ? active_last : active_first; }
   bool is_active(std::size_t i) const;
 };
 
@@ -153,15 +153,15 @@ struct SynthesisResult {
   SynthesisStatus status = SynthesisStatus::infeasible;
   Outline p1;
   Outline p2;
-  std::vector<TransmissionPoint> stroke;  ///< evenly spaced in α over the range, home included
-  std::vector<Condition> conditions;      ///< all of them, passed ones included
-  std::vector<Change> advice;             ///< empty when made, or when no change of one number suffices
+  std::vector<transmission::TransmissionPoint> stroke;  ///< evenly spaced in α over the range, home included
+  std::vector<Condition> conditions;                    ///< all of them, passed ones included
+  std::vector<Change> advice;                           ///< empty when made, or when no change of one number suffices
   /// Issues that do not prevent making: tight bends, slack of method = "paper" …
   std::vector<std::string> warnings;
 
   bool made() const { return status == SynthesisStatus::made; }
   /// The point of the stroke where α is nearest to 0; null without a stroke.
-  const TransmissionPoint* home() const;
+  const transmission::TransmissionPoint* home() const;
   /// Summary in one paragraph: the result, or the failure and the advice.
   std::string brief() const;
 };
@@ -197,6 +197,6 @@ struct RewindResult {
 /// hollows. Throws InputError when a floor does not surround the axis or contains a pin.
 RewindResult rewind(const Mechanism& mechanism, const Polygon& floor1, const Polygon& floor2, int steps = 180);
 /// Winds only the string of `side`, which then determines the joint angle; the slack is reported as 0.
-RewindResult rewind_one(const Mechanism& mechanism, Side side, const Polygon& floor, int steps = 180);
+RewindResult rewind_one(const Mechanism& mechanism, transmission::Side side, const Polygon& floor, int steps = 180);
 
-}  // namespace fusee
+}  // namespace fusee::profile

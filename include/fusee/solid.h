@@ -16,7 +16,7 @@
 #include "fusee/profile.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 // ---- Meshes ---------------------------------------------------------------------------------------------------------
 // A triangle mesh as plain values, and measurements of it. mm.
@@ -160,7 +160,7 @@ double ridge_slope(const BodyLayout& layout);
 
 /// Resolves all sizes. Explicit numbers are kept (make_pulley reports impossible ones) and automatic ones are made to
 /// fit.
-BodyLayout resolve_layout(const Mechanism& mechanism, const SynthesisResult& synthesis);
+BodyLayout resolve_layout(const Mechanism& mechanism, const profile::SynthesisResult& synthesis);
 
 // ---- Pulley ---------------------------------------------------------------------------------------------------------
 // Two pitch curves → one compound body, as a mesh.
@@ -202,7 +202,7 @@ struct ChannelBend {
 /// One tie-off. The tendon leaves the groove floor tangentially through a channel that turns inward to a knot pocket,
 /// or through a slot of the outer flange to its face.
 struct Anchor {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   bool wound_end = true;  ///< the end that carries load; false: the spare one at the other end of the arc
   Vec2 exit;              ///< where the channel's centre line leaves the floor, mm
   Polygon channel;        ///< outline of the channel in the groove's plane, or of the slot in the flange, ccw
@@ -224,7 +224,7 @@ double pocket_radius(const Anchor& anchor, const BodyLayout& layout);
 
 /// P1 or P2 where they are printed separately, in print orientation: the mating face at z = 0, the axis at the origin.
 struct PrintedPart {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   TriangleMesh mesh;           ///< coordinates are floats already
   double expected_volume = 0;  ///< mm³
   int expected_euler = 0;
@@ -239,11 +239,11 @@ struct Pulley {
   TriangleMesh mesh;               ///< the whole pulley; coordinates are floats already
   std::vector<PrintedPart> parts;  ///< P1 and P2 of a pulley in two parts; empty: the whole is printed in one
   std::vector<Anchor> anchors;
-  std::vector<Mark> marks;            ///< engraved, or raised
-  std::vector<Condition> conditions;  ///< walls, bore, pockets …, including those that hold
-  double expected_volume = 0;         ///< exact volume of the discretised part, by areas of sections, mm³
-  int expected_euler = 0;             ///< V − E + F
-  std::vector<Check> mesh_checks;     ///< check_mesh() of `mesh`
+  std::vector<Mark> marks;                     ///< engraved, or raised
+  std::vector<profile::Condition> conditions;  ///< walls, bore, pockets …, including those that hold
+  double expected_volume = 0;                  ///< exact volume of the discretised part, by areas of sections, mm³
+  int expected_euler = 0;                      ///< V − E + F
+  std::vector<Check> mesh_checks;              ///< check_mesh() of `mesh`
 
   bool made() const { return status == PulleyStatus::made; }
   std::string brief() const;
@@ -255,26 +255,26 @@ TriangleMesh plate_of(const Pulley& pulley);
 /// Effort of the search for printable tie-offs. A thorough search finds everything that a brief one finds.
 enum class TieOffSearch { thorough, brief };
 
-Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis,
+Pulley make_pulley(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                    TieOffSearch search = TieOffSearch::thorough);
 
 /// The conditions of a body on these curves that fail. Makes no mesh.
-std::vector<Condition> body_obstacles(const Mechanism& mechanism, const SynthesisResult& synthesis);
+std::vector<profile::Condition> body_obstacles(const Mechanism& mechanism, const profile::SynthesisResult& synthesis);
 /// The conditions of curves and body that fail.
-std::vector<Condition> obstacles(const Mechanism& mechanism);
+std::vector<profile::Condition> obstacles(const Mechanism& mechanism);
 /// True for a number of the body that the file sets and that is used. Changing an automatic number is no advice, and 0
 /// means "automatic", not a small number.
 bool is_written(const Mechanism& mechanism, std::string_view key);
 /// Changes that would make a rejected mechanism possible: numbers of the joint or the body, another screw size, or a
 /// written value left automatic. `judge` tries each. Printing in `refused` parts is excluded, because it was tried
 /// already.
-Advice body_advice(const Mechanism& mechanism, const FeasibilityOracle& judge = {obstacles},
-                   Parts refused = Parts::automatic);
+profile::Advice body_advice(const Mechanism& mechanism, const profile::FeasibilityOracle& judge = {obstacles},
+                            Parts refused = Parts::automatic);
 
 /// Checks of a mesh of this pulley (usually one read back from a file): check_mesh, then Euler number, volume,
 /// deviation from the analytic surface within `tolerance`, thinnest wall, groove depth and width.
-std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism, const SynthesisResult& synthesis,
-                                const Pulley& pulley, double tolerance);
+std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism,
+                                const profile::SynthesisResult& synthesis, const Pulley& pulley, double tolerance);
 /// Checks of one part of two: check_mesh, Euler number and volume.
 std::vector<Check> check_printed_part(const TriangleMesh& mesh, const PrintedPart& part);
 
@@ -289,7 +289,7 @@ inline constexpr double k_safe_knot_share = 0.5;
 /// The knot of one tendon on its pulley at its largest load: over the stroke, in both directions of motion, with and
 /// without the declared load.
 struct KnotHold {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   double alpha = 0;
   double wrap_left = 0;  ///< wrap between take-off and tie-off at `alpha`
   double tension = 0;    ///< tension of the tendon between pulley and pin at `alpha`
@@ -297,10 +297,10 @@ struct KnotHold {
 };
 
 struct Holding {
-  std::vector<KnotHold> knots;       ///< one for each tied tendon
-  std::optional<Strength> strength;  ///< strength of the tendon, if known
+  std::vector<KnotHold> knots;                 ///< one for each tied tendon
+  std::optional<analysis::Strength> strength;  ///< strength of the tendon, if known
   std::vector<std::string> warnings;
-  std::vector<StrokePoint> loaded;  ///< the declared load's cycle at each place of the synthesis' stroke
+  std::vector<analysis::StrokePoint> loaded;  ///< the declared load's cycle at each place of the synthesis' stroke
 
   /// Tension at the knot as a fraction of its strength; empty if the strength is unknown.
   std::optional<double> share(const KnotHold& knot) const;
@@ -308,7 +308,7 @@ struct Holding {
 
 /// Requires a pulley that was made. Each warning lists changes with which all knots bear at most half of their
 /// strength. Each listed change was tried.
-Holding tendon_holding(const Mechanism& mechanism, const SynthesisResult& synthesis, const Pulley& pulley);
+Holding tendon_holding(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const Pulley& pulley);
 
 // ---- Placement of a moved part --------------------------------------------------------------------------------------
 // Finds the position of a pulley in a mesh that was moved: grooves, axis, turn and side, from the mesh alone.
@@ -335,7 +335,7 @@ struct GrooveFloors {
 double outline_deviation(const GrooveFloors& found, const GrooveFloors& expected);
 
 struct PlacedGroove {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   double z = 0;   ///< in the mesh
   Polygon floor;  ///< returned to the axis, at home
 };
@@ -367,4 +367,4 @@ std::vector<TriangleMesh> bodies_of(const TriangleMesh& mesh);
 /// looks the same mirrored and turned over, so it is never reported as mirrored.
 PlacementResult find_placement(const TriangleMesh& mesh, const GrooveFloors& expected, double tendon_diameter);
 
-}  // namespace fusee
+}  // namespace fusee::solid

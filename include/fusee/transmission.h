@@ -12,7 +12,7 @@
 #include "fusee/base.h"
 #include "fusee/mechanism.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 // ---- Path of a tendon above its pin ---------------------------------------------------------------------------------
 // The upper half of a tendon: from its attachment over the joint's drum, if any, and over its guide pin. Moment arm,
@@ -266,4 +266,4 @@ struct PaperForces {
 /// The load is load_torque(): the tip force as in the paper, or any equivalent torque.
 PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& point);
 
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -7,56 +7,57 @@
 #include <utility>
 
 #include "base/text.h"
-#include "mechanism/catalogue.h"
 #include "fusee/mechanism_file.h"
+#include "mechanism/catalogue.h"
 #include "transmission/alpha_range.h"
 
-namespace fusee {
+namespace fusee::analysis {
 namespace {
 
 /// Tension below which a tendon holds nothing. N
 constexpr double k_min_tension = 1e-6;
 
-bool path_exists(const TransmissionPoint& point) {
+bool path_exists(const transmission::TransmissionPoint& point) {
   return std::isfinite(point.theta) && std::isfinite(point.t1.length) && std::isfinite(point.t2.length) &&
          point.t1.p > 0 && point.t2.p > 0;
 }
 
-bool law_exists(const SynthesisResult& synthesis) {
-  const auto grows = [](const Condition& condition) { return condition.ok || condition.name != "law_grows"; };
+bool law_exists(const profile::SynthesisResult& synthesis) {
+  const auto grows = [](const profile::Condition& condition) { return condition.ok || condition.name != "law_grows"; };
   return !synthesis.stroke.empty() && std::all_of(synthesis.stroke.begin(), synthesis.stroke.end(), path_exists) &&
          std::all_of(synthesis.conditions.begin(), synthesis.conditions.end(), grows);
 }
 
-std::vector<Condition> failed(const std::vector<Condition>& conditions) {
-  std::vector<Condition> found;
+std::vector<profile::Condition> failed(const std::vector<profile::Condition>& conditions) {
+  std::vector<profile::Condition> found;
   std::copy_if(conditions.begin(), conditions.end(), std::back_inserter(found),
-               [](const Condition& condition) { return !condition.ok; });
+               [](const profile::Condition& condition) { return !condition.ok; });
   return found;
 }
 
-std::vector<AnalysisRow> rows_of(const Mechanism& mechanism, const std::vector<TransmissionPoint>& stroke) {
+std::vector<AnalysisRow> rows_of(const Mechanism& mechanism,
+                                 const std::vector<transmission::TransmissionPoint>& stroke) {
   std::vector<double> alphas;
-  for (const TransmissionPoint& point : stroke) alphas.push_back(point.alpha);
+  for (const transmission::TransmissionPoint& point : stroke) alphas.push_back(point.alpha);
   const std::vector<StrokePoint> full = settled_stroke(mechanism, alphas);
   std::vector<AnalysisRow> rows;
   for (std::size_t i = 0; i < stroke.size(); ++i) {
-    rows.push_back({stroke[i], paper_forces(mechanism, stroke[i]), full[i].rising, full[i].falling});
+    rows.push_back({stroke[i], transmission::paper_forces(mechanism, stroke[i]), full[i].rising, full[i].falling});
   }
   return rows;
 }
 
-bool held(const EquilibriumPoint& point) { return point.status != EquilibriumStatus::no_equilibrium; }
+bool held(const joint::EquilibriumPoint& point) { return point.status != joint::EquilibriumStatus::no_equilibrium; }
 
 void enlarge(Extreme& extreme, double value, double alpha) {
   if (value > extreme.value) extreme = {value, alpha};
 }
 
-void update_tensions(LargestTensions& largest, const EquilibriumPoint& point, bool rising) {
+void update_tensions(LargestTensions& largest, const joint::EquilibriumPoint& point, bool rising) {
   if (!held(point)) return;
   enlarge(largest.at_joint, std::max(point.t1.end, point.t2.end), point.alpha);
-  for (const Side side : {Side::left, Side::right}) {
-    const TendonState& tendon = side == Side::left ? point.t1 : point.t2;
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const joint::TendonState& tendon = side == transmission::Side::left ? point.t1 : point.t2;
     for (const bool below : {false, true}) {
       const double tension = below ? tendon.lower : tendon.upper;
       if (tension > largest.anywhere.tension) largest.anywhere = {tension, point.alpha, side, below, rising};
@@ -77,7 +78,7 @@ std::vector<AlphaRange> ranges_where(const std::vector<AnalysisRow>& rows, Predi
   return ranges;
 }
 
-bool is_slack(const TendonState& tendon) { return tendon.upper <= k_min_tension; }
+bool is_slack(const joint::TendonState& tendon) { return tendon.upper <= k_min_tension; }
 
 void summarise(AnalysisResult& result) {
   LargestTensions tensions;
@@ -109,14 +110,15 @@ void summarise(AnalysisResult& result) {
 std::vector<DrumHold> drum_holds(const Mechanism& mechanism, const std::vector<AnalysisRow>& rows) {
   std::vector<DrumHold> all;
   if (!(mechanism.joint.drum_mu > 0)) return all;
-  for (const Side side : {Side::left, Side::right}) {
-    const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius());
     DrumHold hold{side, 0, 1, {}};
     for (const AnalysisRow& row : rows) {
-      const double theta = mirror_sign(side) * row.declared.theta;
-      hold.wrap = std::max(hold.wrap, upper_span(place, theta).on_drum);
-      for (const EquilibriumPoint* point : {&row.rising, &row.falling})
-        if (held(*point)) enlarge(hold.at_end, (side == Side::left ? point->t1 : point->t2).end, row.declared.alpha);
+      const double theta = transmission::mirror_sign(side) * row.declared.theta;
+      hold.wrap = std::max(hold.wrap, transmission::upper_span(place, theta).on_drum);
+      for (const joint::EquilibriumPoint* point : {&row.rising, &row.falling})
+        if (held(*point))
+          enlarge(hold.at_end, (side == transmission::Side::left ? point->t1 : point->t2).end, row.declared.alpha);
     }
     hold.ratio = std::exp(mechanism.joint.drum_mu * hold.wrap);
     if (hold.wrap > 0) all.push_back(hold);
@@ -128,14 +130,16 @@ bool stays_taut(Mechanism mechanism, double pretension, const std::vector<double
   mechanism.tendon.pretension = pretension;
   const std::vector<StrokePoint> stroke = settled_stroke(mechanism, alphas);
   return std::all_of(stroke.begin(), stroke.end(), [](const StrokePoint& point) {
-    const auto taut = [](const EquilibriumPoint& at) { return held(at) && !is_slack(at.t1) && !is_slack(at.t2); };
+    const auto taut = [](const joint::EquilibriumPoint& at) {
+      return held(at) && !is_slack(at.t1) && !is_slack(at.t2);
+    };
     return taut(point.rising) && taut(point.falling);
   });
 }
 
 /// The taut pretension within 1 %, rounded up.
 std::optional<double> taut_pretension(const Mechanism& mechanism) {
-  const std::vector<double> alphas = alphas_over_range(Transmission(mechanism), 12);
+  const std::vector<double> alphas = transmission::alphas_over_range(transmission::Transmission(mechanism), 12);
   double slack = mechanism.tendon.pretension;
   double taut = std::max(1.0, slack);
   while (!stays_taut(mechanism, taut, alphas)) {
@@ -165,7 +169,7 @@ std::optional<double> breaking_place(const AnalysisResult& result) {
 }  // namespace
 
 std::string place_words(const TensionExtreme& extreme, const Mechanism& mechanism) {
-  const bool left = extreme.tendon == Side::left;
+  const bool left = extreme.tendon == transmission::Side::left;
   const std::string tendon = left ? "tendon 1 " : "tendon 2 ";
   if (extreme.below_pin && mechanism.sheath.is_there()) return tendon + "between sheath and pulley";
   const std::string pin = mechanism.guides.kind == GuideKind::idler ? "idler " : "pin ";
@@ -233,15 +237,15 @@ std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const St
 
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options, const RunContext& context) {
   AnalysisResult result;
-  SynthesisOptions synthesis_options;
+  profile::SynthesisOptions synthesis_options;
   synthesis_options.stroke_steps = options.steps;
   synthesis_options.advice = false;
-  SynthesisResult synthesis = synthesise(mechanism, synthesis_options);
+  profile::SynthesisResult synthesis = profile::synthesise(mechanism, synthesis_options);
   result.obstacles = failed(synthesis.conditions);
   result.exists = law_exists(synthesis);
   if (!result.exists) {
     synthesis_options.advice = true;
-    result.advice = synthesise(mechanism, synthesis_options).advice;
+    result.advice = profile::synthesise(mechanism, synthesis_options).advice;
     return result;
   }
   result.rows = rows_of(mechanism, synthesis.stroke);
@@ -256,4 +260,4 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::analysis

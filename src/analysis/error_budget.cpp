@@ -8,12 +8,14 @@
 #include "fusee/transmission.h"
 #include "transmission/alpha_range.h"
 
-namespace fusee {
+namespace fusee::analysis {
 namespace {
 
 constexpr int k_places = 8;  ///< steps of the range at which deviations are evaluated
 
-std::vector<double> places_of(const Transmission& transmission) { return alphas_over_range(transmission, k_places); }
+std::vector<double> places_of(const transmission::Transmission& transmission) {
+  return transmission::alphas_over_range(transmission, k_places);
+}
 
 // ---- simplifications -------------------------------------------------------------------------------------------------
 
@@ -26,7 +28,8 @@ void include(ErrorSource& source, double deviation, double alpha) {
 }
 
 /// The joint with pulleys `drawn` for a simplified one, against the law of that drawing.
-ErrorSource ignoring(std::string name, std::string meaning, const Mechanism& mechanism, const MadePulleys& drawn) {
+ErrorSource ignoring(std::string name, std::string meaning, const Mechanism& mechanism,
+                     const joint::MadePulleys& drawn) {
   ErrorSource source{std::move(name), std::move(meaning)};
   const RigidJoint joint(drawn, mechanism);
   for (const double alpha : places_of(drawn.declared()))
@@ -42,7 +45,7 @@ Mechanism exact(Mechanism mechanism) {
 ErrorSource pin_radius_ignored(const Mechanism& mechanism) {
   Mechanism drawn = exact(mechanism);
   drawn.guides.radius = 0;
-  return ignoring("pin_radius_ignored", "pulley drawn for pins without a radius", mechanism, MadePulleys(drawn));
+  return ignoring("pin_radius_ignored", "pulley drawn for pins without a radius", mechanism, joint::MadePulleys(drawn));
 }
 
 /// The groove's floor is placed where the centre line should be.
@@ -50,16 +53,16 @@ ErrorSource thickness_ignored(const Mechanism& mechanism) {
   Mechanism drawn = exact(mechanism);
   drawn.tendon.diameter = 0;
   return ignoring("tendon_thickness_ignored", "pulley drawn for a tendon without thickness", mechanism,
-                  MadePulleys(drawn).offset_by(0.5 * mechanism.tendon.diameter));
+                  joint::MadePulleys(drawn).offset_by(0.5 * mechanism.tendon.diameter));
 }
 
 // ---- compliance -----------------------------------------------------------------------------------------------------
 
 ErrorSource paper_stretch(const Mechanism& mechanism) {
   ErrorSource source{"stretch_paper", "stretch under the load, by [9]-[11]"};
-  const Transmission declared(mechanism);
+  const transmission::Transmission declared(mechanism);
   for (const double alpha : places_of(declared))
-    include(source, -paper_forces(mechanism, declared.at_alpha(alpha)).theta_error, alpha);
+    include(source, -transmission::paper_forces(mechanism, declared.at_alpha(alpha)).theta_error, alpha);
   return source;
 }
 
@@ -67,10 +70,10 @@ ErrorSource paper_stretch(const Mechanism& mechanism) {
 ErrorSource full_model(const char* name, const char* meaning, const Mechanism& mechanism, double rising_share,
                        double falling_share) {
   ErrorSource source{name, meaning};
-  const Transmission declared(mechanism);
+  const transmission::Transmission declared(mechanism);
   for (const StrokePoint& point : settled_stroke(mechanism, places_of(declared))) {
-    if (point.rising.status == EquilibriumStatus::no_equilibrium ||
-        point.falling.status == EquilibriumStatus::no_equilibrium)
+    if (point.rising.status == joint::EquilibriumStatus::no_equilibrium ||
+        point.falling.status == joint::EquilibriumStatus::no_equilibrium)
       continue;
     const double theta = declared.theta(point.rising.alpha);
     include(source, rising_share * (point.rising.theta - theta) + falling_share * (point.falling.theta - theta),
@@ -80,8 +83,8 @@ ErrorSource full_model(const char* name, const char* meaning, const Mechanism& m
 }
 
 ErrorSource full_stretch(const Mechanism& mechanism) {
-  return full_model("stretch", "stretch of both tendons, no friction at the pins", without_friction(mechanism), 0.5,
-                    0.5);
+  return full_model("stretch", "stretch of both tendons, no friction at the pins",
+                    transmission::without_friction(mechanism), 0.5, 0.5);
 }
 
 ErrorSource friction(const Mechanism& mechanism) {
@@ -164,7 +167,7 @@ std::vector<ErrorSource> error_sources(const Mechanism& mechanism) {
 std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options,
                                                const RunContext& context) {
   const Mechanism real = exact(mechanism);
-  const MadePulleys made(real);
+  const joint::MadePulleys made(real);
   const std::vector<double> alphas = places_of(made.declared());
   const RigidJoint joint(made, real);
   const double sigma = 0.5 * options.tolerance;
@@ -192,4 +195,4 @@ std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const
   return effects;
 }
 
-}  // namespace fusee
+}  // namespace fusee::analysis

@@ -7,7 +7,7 @@
 
 #include "fusee/mechanism.h"
 
-namespace fusee {
+namespace fusee::analysis {
 
 struct InputWarning {
   std::string key;      ///< key at which the warning is reported
@@ -28,4 +28,4 @@ std::vector<InputWarning> modulus_warnings(const DeclaredMechanism& mechanism);
 /// guides.OE_mm with the opposite sign.
 std::vector<InputWarning> sign_warnings(const DeclaredMechanism& mechanism);
 
-}  // namespace fusee
+}  // namespace fusee::analysis

@@ -6,7 +6,7 @@
 #include "fusee/profile.h"
 #include "transmission/alpha_range.h"
 
-namespace fusee {
+namespace fusee::analysis {
 namespace {
 
 /// Number of steps for tensions: they change slowly, and strengths are known to 10 % at best.
@@ -31,12 +31,12 @@ std::vector<Diagnostic> likely_input_errors(const MechanismFile& file) {
 
 std::optional<Diagnostic> overloaded_tendon(const MechanismFile& file) {
   if (file.mechanism.transmission) return std::nullopt;
-  const Mechanism mechanism = as_it_is(file.mechanism).mechanism;
-  const Transmission transmission(mechanism);
+  const Mechanism mechanism = joint::as_it_is(file.mechanism).mechanism;
+  const transmission::Transmission transmission(mechanism);
   const std::optional<Strength> strength = likely_strength(mechanism.tendon);
   if (transmission.dead_centre() || !strength) return std::nullopt;
-  std::optional<Diagnostic> warning =
-      tendon_breaks(largest_tensions(mechanism, alphas_over_range(transmission, k_load_steps)), *strength);
+  std::optional<Diagnostic> warning = tendon_breaks(
+      largest_tensions(mechanism, transmission::alphas_over_range(transmission, k_load_steps)), *strength);
   if (!warning) return std::nullopt;
   warning->severity = Severity::warning;
   warning->place = file.place_of("tendon.strength_N");
@@ -45,10 +45,10 @@ std::optional<Diagnostic> overloaded_tendon(const MechanismFile& file) {
 
 std::vector<Diagnostic> tight_bends(const MechanismFile& file) {
   if (file.mechanism.transmission) return {};
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.advice = false;
   std::vector<Diagnostic> warnings;
-  for (const std::string& words : synthesise(as_it_is(file.mechanism).mechanism, options).warnings)
+  for (const std::string& words : profile::synthesise(joint::as_it_is(file.mechanism).mechanism, options).warnings)
     warnings.push_back({Severity::warning, file.place_of("tendon.bend_ratio"), words, {}});
   return warnings;
 }
@@ -65,4 +65,4 @@ MechanismFile with_plausibility_warnings(MechanismFile file) {
   return file;
 }
 
-}  // namespace fusee
+}  // namespace fusee::analysis

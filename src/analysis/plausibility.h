@@ -9,7 +9,7 @@
 #include "fusee/base.h"
 #include "fusee/mechanism_file.h"
 
-namespace fusee {
+namespace fusee::analysis {
 
 /// Likely input errors: degrees for radians, lengths in cm or m, moduli in GPa, the sign of OE. In the order of the
 /// file's tables.
@@ -26,4 +26,4 @@ std::vector<Diagnostic> plausibility_warnings(const MechanismFile& file);
 /// The file with these warnings added.
 MechanismFile with_plausibility_warnings(MechanismFile file);
 
-}  // namespace fusee
+}  // namespace fusee::analysis

@@ -8,7 +8,7 @@
 
 #include "fusee/joint.h"
 
-namespace fusee {
+namespace fusee::analysis {
 
 struct RigidPoint {
   double theta = 0;  ///< tendon 1 taut, rad
@@ -18,19 +18,19 @@ struct RigidPoint {
 /// The joint with tendons of the length that they have at home.
 class RigidJoint {
  public:
-  RigidJoint(const MadePulleys& made, const Mechanism& mounted);
+  RigidJoint(const joint::MadePulleys& made, const Mechanism& mounted);
 
   RigidPoint at(double alpha) const;
-  const std::array<PinPlace, 2>& pins() const { return pins_; }
-  std::array<LowerPath, 2> lower(double alpha) const { return made_.paths(pins_, alpha); }
+  const std::array<transmission::PinPlace, 2>& pins() const { return pins_; }
+  std::array<joint::LowerPath, 2> lower(double alpha) const { return made_.paths(pins_, alpha); }
 
  private:
-  double below(std::size_t side, const LowerPath& path) const {
+  double below(std::size_t side, const joint::LowerPath& path) const {
     return path.reach - pins_[side].rho * pins_[side].off_pin(path.normal) + path.wound;
   }
 
-  MadePulleys made_;
-  std::array<PinPlace, 2> pins_;
+  joint::MadePulleys made_;
+  std::array<transmission::PinPlace, 2> pins_;
   std::array<double, 2> home_;  ///< path length at home, up to a constant
 };
 
@@ -45,18 +45,20 @@ struct Dimension {
   std::string_view key;  ///< key of the field table, or "print_offset"
   void (*alter)(Alteration& joint, double change);
   /// d (path length of tendon `side`)/d change, at fixed θ and α. `theta` and `alpha` of the image.
-  double (*lengthens)(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double alpha);
+  double (*lengthens)(const transmission::PinPlace& pin, const joint::LowerPath& lower, transmission::Side side,
+                      double theta, double alpha);
 };
 
 /// The dimensions of this joint.
 std::vector<Dimension> dimensions(const Mechanism& mechanism);
 
 /// The pulleys `made` for `mechanism` in a joint with one dimension changed (mm).
-RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const Dimension& dimension, double change);
+RigidJoint altered(const joint::MadePulleys& made, const Mechanism& mechanism, const Dimension& dimension,
+                   double change);
 /// The pulleys `made` for `mechanism` in a joint with each of dimensions() changed.
-RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const std::vector<double>& changes);
+RigidJoint altered(const joint::MadePulleys& made, const Mechanism& mechanism, const std::vector<double>& changes);
 
 /// d/d change of the result of at(), in closed form.
 RigidPoint derivative(const RigidJoint& joint, const Dimension& dimension, double alpha);
 
-}  // namespace fusee
+}  // namespace fusee::analysis

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "fusee/profile.h"
 
-namespace fusee {
+namespace fusee::analysis {
 namespace {
 
 /// Radii of the less even pulley over the stroke.
@@ -20,15 +20,15 @@ struct Unevenness {
 };
 
 Unevenness unevenness(const Mechanism& mechanism) {
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.advice = false;
-  const SynthesisResult synthesis = synthesise(mechanism, options);
+  const profile::SynthesisResult synthesis = profile::synthesise(mechanism, options);
   Unevenness worst;
   worst.made = synthesis.made();
   for (const auto& [tendon, pulley] :
-       {std::pair(&TransmissionPoint::t1, "P1"), std::pair(&TransmissionPoint::t2, "P2")}) {
+       {std::pair(&transmission::TransmissionPoint::t1, "P1"), std::pair(&transmission::TransmissionPoint::t2, "P2")}) {
     Unevenness here{worst.made, std::numeric_limits<double>::infinity(), 0, pulley};
-    for (const TransmissionPoint& point : synthesis.stroke) {
+    for (const transmission::TransmissionPoint& point : synthesis.stroke) {
       here.least = std::min(here.least, (point.*tendon).p);
       here.most = std::max(here.most, (point.*tendon).p);
     }
@@ -75,4 +75,4 @@ std::vector<InputWarning> sign_warnings(const DeclaredMechanism& mechanism) {
                (declared.made ? "it varies " : "one can, of a radius that varies ") + fold_text(other)}};
 }
 
-}  // namespace fusee
+}  // namespace fusee::analysis

@@ -1,9 +1,9 @@
-#include "fusee/analysis.h"
-
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+#include "fusee/analysis.h"
+
+namespace fusee::analysis {
 namespace {
 
 /// Maximum step as a fraction of the range: within one step, tensions change linearly.
@@ -12,12 +12,12 @@ constexpr int k_cycles_before = 2;
 
 class StrokeRunner {
  public:
-  explicit StrokeRunner(const Mechanism& mechanism) : motion_(joint_model(mechanism)), load_(mechanism.load) {}
+  explicit StrokeRunner(const Mechanism& mechanism) : motion_(joint::joint_model(mechanism)), load_(mechanism.load) {}
 
   /// Proceeds to `alpha` in short steps.
-  EquilibriumPoint run_to(double alpha, double longest) {
+  joint::EquilibriumPoint run_to(double alpha, double longest) {
     const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(alpha - alpha_) / longest)));
-    EquilibriumPoint point;
+    joint::EquilibriumPoint point;
     for (int i = 1; i <= steps; ++i) {
       point = motion_.to({alpha_ + (alpha - alpha_) * i / steps, load_.tip_force, load_.torque});
     }
@@ -26,7 +26,7 @@ class StrokeRunner {
   }
 
  private:
-  JointMotion motion_;
+  joint::JointMotion motion_;
   Load load_;
   double alpha_ = 0;
 };
@@ -49,4 +49,4 @@ std::vector<StrokePoint> settled_stroke(const Mechanism& mechanism, const std::v
   return points;
 }
 
-}  // namespace fusee
+}  // namespace fusee::analysis

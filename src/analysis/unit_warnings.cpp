@@ -6,11 +6,11 @@
 #include <functional>
 
 #include "analysis/input_warning.h"
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 #include "fusee/mechanism_file.h"
 
-namespace fusee {
+namespace fusee::analysis {
 namespace {
 
 // ---- angles ---------------------------------------------------------------------------------------------------------
@@ -219,4 +219,4 @@ std::vector<InputWarning> modulus_warnings(const DeclaredMechanism& mechanism) {
            "is it in GPa? " + setting_text(key, 1000.0 * modulus) + " MPa would be that"}};
 }
 
-}  // namespace fusee
+}  // namespace fusee::analysis

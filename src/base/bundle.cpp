@@ -8,9 +8,9 @@
 #include <set>
 
 #include "base/json.h"
+#include "base/text.h"
 #include "base/zip.h"
 #include "fusee/base.h"
-#include "base/text.h"
 
 namespace fusee {
 

@@ -1,6 +1,6 @@
-#include "fusee/base.h"
-
 #include <algorithm>
+
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

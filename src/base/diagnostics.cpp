@@ -1,7 +1,7 @@
-#include "fusee/base.h"
-
 #include <algorithm>
 #include <numeric>
+
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

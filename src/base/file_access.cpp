@@ -1,5 +1,3 @@
-#include "fusee/base.h"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -10,6 +8,7 @@
 #include <memory>
 
 #include "base/descriptor.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -1,6 +1,6 @@
-#include "fusee/base.h"
-
 #include <fmt/format.h>
+
+#include "fusee/base.h"
 #define OPENSSL_SUPPRESS_DEPRECATED
 #include <openssl/sha.h>
 

@@ -1,7 +1,7 @@
-#include "fusee/base.h"
-
 #include <algorithm>
 #include <limits>
+
+#include "fusee/base.h"
 
 namespace fusee {
 

@@ -6,8 +6,8 @@
 
 #include <array>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

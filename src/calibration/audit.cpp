@@ -12,7 +12,7 @@
 // so a data set is a vector of sums and a search takes milliseconds. The search adds the best effect, at the penalty of
 // a reported effect. A true cause that would join the group is no false positive.
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr int k_rounds = 4;
@@ -23,7 +23,7 @@ constexpr double k_as_large = 0.5;
 
 /// Columns of an effect's chords over the rows in use.
 struct ChordColumns {
-  const Effect* effect = nullptr;
+  const fusee::Effect* effect = nullptr;
   Eigen::Index first = 0;
   Eigen::Index count = 0;
 };
@@ -33,7 +33,7 @@ double known_size(const Tangent& tangent, Eigen::Index k) {
   return 1.0 / std::sqrt(1.0 / (tangent.prior[k] * tangent.prior[k]) + tangent.caliper_information(k, k));
 }
 
-void count(const Effect* effect, std::vector<std::pair<int, const Effect*>>& counts) {
+void count(const fusee::Effect* effect, std::vector<std::pair<int, const fusee::Effect*>>& counts) {
   const auto known = std::find_if(counts.begin(), counts.end(), [&](const auto& one) { return one.second == effect; });
   if (known == counts.end()) {
     counts.emplace_back(1, effect);
@@ -52,8 +52,8 @@ class Auditor {
   struct SyntheticDataset {
     Eigen::VectorXd projections;  ///< Aᵀ z
     double rr = 0;
-    const Effect* true_cause = nullptr;  ///< true cause in the place of the found effect
-    const Effect* excluded = nullptr;    ///< effect that the search does not know
+    const fusee::Effect* true_cause = nullptr;  ///< true cause in the place of the found effect
+    const fusee::Effect* excluded = nullptr;    ///< effect that the search does not know
     Amplitudes start;
   };
   using Set = std::vector<std::size_t>;
@@ -288,14 +288,14 @@ bool Auditor::is_group_member(const SyntheticDataset& data, const Set& found, st
 }
 
 AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
-  const Effect* named = selection_.best.effects[found];
+  const fusee::Effect* named = selection_.best.effects[found];
   Set others;
   for (std::size_t i = 0; i < chords_.size(); ++i) {
     if (chords_[i].effect != named && contains(selection_.best.effects, *chords_[i].effect)) others.push_back(i);
   }
   const auto data_sets = static_cast<std::size_t>(k_thresholds.data_sets);
   std::vector<char> is_false_positive(data_sets, 0);
-  std::vector<const Effect*> true_cause(data_sets, nullptr);
+  std::vector<const fusee::Effect*> true_cause(data_sets, nullptr);
   pool.each(data_sets, [&](const Fitter&, std::size_t i) {
     const SyntheticDataset data = synthesize(found, i);
     const Set set = search(data, others);
@@ -306,7 +306,7 @@ AuditResult Auditor::audit_effect(std::size_t found, FitterPool& pool) const {
   });
   AuditResult audited;
   audited.counts.data_sets = k_thresholds.data_sets;
-  std::vector<std::pair<int, const Effect*>> causes;
+  std::vector<std::pair<int, const fusee::Effect*>> causes;
   for (std::size_t i = 0; i < data_sets; ++i) {
     if (!is_false_positive[i]) continue;
     ++audited.counts.false_positives;
@@ -334,4 +334,4 @@ std::vector<AuditResult> audit(const Evidence& evidence, FitterPool& pool, const
   return all;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

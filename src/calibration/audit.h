@@ -6,7 +6,7 @@
 
 #include "calibration/selection.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// False positives of an effect on synthetic data sets without it.
 struct AuditResult {
@@ -18,4 +18,4 @@ struct AuditResult {
 /// Audit of each effect of selection.best, in their order.
 std::vector<AuditResult> audit(const Evidence& evidence, FitterPool& pool, const Selection& selection);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

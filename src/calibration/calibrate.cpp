@@ -14,10 +14,10 @@
 #include "fusee/calibration.h"
 #include "fusee/joint.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
-std::vector<std::vector<double>> residuals(const Measurement& measurement, const Readings& model) {
+std::vector<std::vector<double>> residuals(const measurement::Measurement& measurement, const joint::Readings& model) {
   std::vector<std::vector<double>> all;
   for (std::size_t i = 0; i < measurement.runs.size(); ++i) {
     all.emplace_back();
@@ -28,12 +28,13 @@ std::vector<std::vector<double>> residuals(const Measurement& measurement, const
 }
 
 /// Figures over whole strokes.
-ErrorFigures figures(const Measurement& measurement, const std::vector<std::vector<double>>& all, double held_out) {
+ErrorFigures figures(const measurement::Measurement& measurement, const std::vector<std::vector<double>>& all,
+                     double held_out) {
   ErrorFigures error;
   double squares = 0;
   double rows = 0;
   for (std::size_t i = 0; i < measurement.runs.size(); ++i) {
-    for (const Stroke& stroke : measurement.runs[i].strokes) {
+    for (const measurement::Stroke& stroke : measurement.runs[i].strokes) {
       for (std::size_t k = stroke.first; !stroke.partial && k <= stroke.last; ++k) {
         if (!std::isfinite(all[i][k])) continue;
         squares += all[i][k] * all[i][k];
@@ -49,7 +50,7 @@ ErrorFigures figures(const Measurement& measurement, const std::vector<std::vect
 
 void name_held_out(const Evidence& evidence, Calibration& calibration) {
   calibration.held_out_factors = evidence.factors;
-  const std::vector<Run>& runs = evidence.measurement.runs;
+  const std::vector<measurement::Run>& runs = evidence.measurement.runs;
   std::vector<bool> held(runs.size(), false);
   for (const Fold& fold : evidence.run_folds) {
     for (const std::size_t block : fold) held[evidence.blocks[block].run] = true;
@@ -59,7 +60,7 @@ void name_held_out(const Evidence& evidence, Calibration& calibration) {
   }
 }
 
-Calibration not_testable(const DeclaredMechanism& declared, const Measurement& measurement,
+Calibration not_testable(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
                          const std::vector<std::string>& reasons) {
   Calibration calibration;
   calibration.verdict = CalibrationVerdict::not_testable;
@@ -69,48 +70,49 @@ Calibration not_testable(const DeclaredMechanism& declared, const Measurement& m
   return calibration;
 }
 
-bool is_named(const Run& run, const std::vector<std::string>& names) {
+bool is_named(const measurement::Run& run, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), run.name) != names.end();
 }
 
 /// The runs to fit, or those kept for validation.
-Measurement part(const Measurement& measurement, const std::vector<std::string>& hold_out, bool held) {
-  Measurement chosen = measurement;
-  std::erase_if(chosen.runs, [&](const Run& run) { return is_named(run, hold_out) != held; });
+measurement::Measurement part(const measurement::Measurement& measurement, const std::vector<std::string>& hold_out,
+                              bool held) {
+  measurement::Measurement chosen = measurement;
+  std::erase_if(chosen.runs, [&](const measurement::Run& run) { return is_named(run, hold_out) != held; });
   return chosen;
 }
 
 /// Replaces the held-out figures by those of the runs kept for validation.
-void validate(const Mechanism& declared, const Measurement& kept, const ValidatedAnswer& answer,
+void validate(const Mechanism& declared, const measurement::Measurement& kept, const ValidatedAnswer& answer,
               Calibration& calibration) {
   if (kept.runs.empty()) return;
   const auto rms = [&](const Imperfections& at) {
-    return figures(kept, residuals(kept, predict(declared, at, bench_log(kept))), 0).rms;
+    return figures(kept, residuals(kept, joint::predict(declared, at, measurement::bench_log(kept))), 0).rms;
   };
   calibration.before.held_out_rms = rms(answer.declared.fit.at);
   calibration.after.held_out_rms = rms(answer.reported.estimate.fit.at);
   calibration.held_out_runs.clear();
-  for (const Run& run : kept.runs) calibration.held_out_runs.push_back(run.name);
+  for (const measurement::Run& run : kept.runs) calibration.held_out_runs.push_back(run.name);
 }
 
 /// The elastic model of tendons requires a force in N across OC; read_measurement() and compare_with_declared() convert
 /// it.
-bool is_torque(const Mechanism& declared, const Measurement& measurement) {
+bool is_torque(const Mechanism& declared, const measurement::Measurement& measurement) {
   return !declared.transmission && (measurement.load_unit == "Nm" || measurement.load_unit == "Nmm");
 }
 
-std::vector<std::string> why_not_testable(const Mechanism& declared, const Measurement& measurement) {
+std::vector<std::string> why_not_testable(const Mechanism& declared, const measurement::Measurement& measurement) {
   if (measurement.not_testable.empty() && is_torque(declared, measurement))
     return {"The load column holds a torque in " + measurement.load_unit +
             ", and the declared joint takes a tip force: read the runs for this joint."};
   return measurement.not_testable;
 }
 
-void describe_errors(const Evidence& evidence, const Measurement& measurement, const ValidatedAnswer& answer,
-                     Calibration& calibration) {
-  const BenchLog log = bench_log(measurement);
+void describe_errors(const Evidence& evidence, const measurement::Measurement& measurement,
+                     const ValidatedAnswer& answer, Calibration& calibration) {
+  const joint::BenchLog log = measurement::bench_log(measurement);
   const auto residuals_of = [&](const Estimate& estimate) {
-    return residuals(measurement, predict(*evidence.declared, estimate.fit.at, log, evidence.earlier));
+    return residuals(measurement, joint::predict(*evidence.declared, estimate.fit.at, log, evidence.earlier));
   };
   const auto held_out_rms = [&](const Estimate& estimate) {
     if (evidence.earlier) return std::sqrt(std::max(0.0, estimate.fit.by_run.mean_square - estimate.fit.play_square));
@@ -122,16 +124,16 @@ void describe_errors(const Evidence& evidence, const Measurement& measurement, c
   calibration.residuals_after = residuals_of(after);
   calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(before));
   calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(after));
-  calibration.iso_before = iso230(measurement, calibration.residuals_before);
-  calibration.iso_after = iso230(measurement, calibration.residuals_after);
+  calibration.iso_before = measurement::iso230(measurement, calibration.residuals_before);
+  calibration.iso_after = measurement::iso230(measurement, calibration.residuals_after);
 }
 
 /// Measurement minus the declared joint: between sparse rows θ(α) bends by more than noise. As logged if the declared
 /// joint has no equilibrium.
-Measurement about_declared(const Mechanism& declared, const Measurement& measurement,
-                           const std::optional<EarlierState>& earlier) {
-  const Readings model = predict(declared, {}, bench_log(measurement), earlier);
-  Measurement about = measurement;
+measurement::Measurement about_declared(const Mechanism& declared, const measurement::Measurement& measurement,
+                                        const std::optional<joint::EarlierState>& earlier) {
+  const joint::Readings model = joint::predict(declared, {}, measurement::bench_log(measurement), earlier);
+  measurement::Measurement about = measurement;
   for (std::size_t i = 0; i < about.runs.size(); ++i) {
     for (std::size_t k = 0; k < model[i].size(); ++k) {
       if (!std::isfinite(model[i][k])) return measurement;
@@ -174,19 +176,20 @@ void take_audit(const std::vector<AuditResult>& audited, Calibration& calibratio
   for (std::size_t i = 0; i < audited.size(); ++i) {
     FoundEffect& effect = calibration.effects[i];
     effect.audit = audited[i].counts;
-    for (const Effect* other : audited[i].true_causes) {
+    for (const fusee::Effect* other : audited[i].true_causes) {
       if (std::find(effect.group.begin(), effect.group.end(), other->name) == effect.group.end())
         effect.group.push_back(other->name);
     }
   }
 }
 
-Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& measurement,
+Calibration by_catalogue(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
                          const CalibrationOptions& options) {
   if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty())
     return not_testable(declared, measurement, reasons);
-  const Measurement learnt_from = part(measurement, options.hold_out, false);
-  const NoiseFloor noise = noise_floor(about_declared(declared, learnt_from, options.earlier));
+  const measurement::Measurement learnt_from = part(measurement, options.hold_out, false);
+  const measurement::NoiseFloor noise =
+      measurement::noise_floor(about_declared(declared, learnt_from, options.earlier));
   Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9), options.earlier);
   evidence.floor_freedom = noise.degrees_of_freedom;
   if (evidence.blocks.size() < 2)
@@ -203,7 +206,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
          "of one joint."});
   Calibration calibration;
   calibration.noise = noise;
-  const Measurement kept = part(measurement, options.hold_out, true);
+  const measurement::Measurement kept = part(measurement, options.hold_out, true);
   const ValidatedAnswer answer =
       options.earlier ? changes_beside(evidence, selection) : validate_answer(evidence, pool, kept, selection);
   const Fit& numbers = answer.reported.estimate.fit;
@@ -237,14 +240,14 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const Measurement& m
 
 }  // namespace
 
-Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement,
+Calibration calibrate(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
                       const CalibrationOptions& options) {
   if (!options.earlier) return by_catalogue(declared, measurement, options);
   const JointKind kind = kind_of(declared);
-  const std::vector<Effect> changes = changes_from(options.earlier->joint, kind);
+  const std::vector<fusee::Effect> changes = changes_from(options.earlier->joint, kind);
   CalibrationOptions of_changes = options;
-  for (const Effect& effect : effects(kind)) of_changes.without.push_back(effect.name);
-  for (const Effect& change : changes) {
+  for (const fusee::Effect& effect : effects(kind)) of_changes.without.push_back(effect.name);
+  for (const fusee::Effect& change : changes) {
     of_changes.more_effects.push_back(&change);
     std::erase(of_changes.without, change.name);
   }
@@ -252,4 +255,4 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   return by_catalogue(declared, measurement, of_changes);
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

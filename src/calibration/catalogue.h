@@ -9,12 +9,12 @@
 #include "fusee/measurement.h"
 #include "mechanism/effect.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Effects of effects() and `more` except those named in `without`, in the order of the chain. Pointers refer to the
 /// originals.
-std::vector<const Effect*> catalogue(const Mechanism& declared, const Measurement& measurement,
-                                     std::span<const Effect* const> more = {},
-                                     std::span<const std::string> without = {});
+std::vector<const fusee::Effect*> catalogue(const Mechanism& declared, const measurement::Measurement& measurement,
+                                            std::span<const fusee::Effect* const> more = {},
+                                            std::span<const std::string> without = {});
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -6,16 +6,16 @@
 #include <limits>
 #include <map>
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
-bool has_size(const Effect& effect, const Imperfections& joint) {
+bool has_size(const fusee::Effect& effect, const Imperfections& joint) {
   return std::any_of(effect.parameters.begin(), effect.parameters.end(),
                      [&](const EffectParameter& p) { return !p.searched && value_of(joint, p) != 0; });
 }
 
 /// A joint has one order of each wave: an existing wave may change in size and phase only.
-void keep_order(const Imperfections& before, Effect& effect) {
+void keep_order(const Imperfections& before, fusee::Effect& effect) {
   for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
     const EffectParameter& parameter = effect.parameters[k];
     if (!parameter.searched) continue;
@@ -26,7 +26,7 @@ void keep_order(const Imperfections& before, Effect& effect) {
 }
 
 /// Adds starts of the opposite sign for numbers that may shrink.
-void add_opposite_starts(Effect& effect) {
+void add_opposite_starts(fusee::Effect& effect) {
   const std::vector<std::vector<double>> starts = effect.starts;
   for (std::vector<double> start : starts) {
     bool fits = false;
@@ -42,7 +42,7 @@ void add_opposite_starts(Effect& effect) {
   }
 }
 
-Effect change_of(const Imperfections& before, Effect effect) {
+fusee::Effect change_of(const Imperfections& before, fusee::Effect effect) {
   if (has_size(effect, before)) keep_order(before, effect);
   for (EffectParameter& parameter : effect.parameters) {
     if (parameter.searched) continue;
@@ -57,9 +57,9 @@ Effect change_of(const Imperfections& before, Effect effect) {
 
 }  // namespace
 
-std::vector<Effect> changes_from(const Imperfections& before, JointKind kind) {
-  std::vector<Effect> all;
-  for (const Effect& effect : effects(kind)) {
+std::vector<fusee::Effect> changes_from(const Imperfections& before, JointKind kind) {
+  std::vector<fusee::Effect> all;
+  for (const fusee::Effect& effect : effects(kind)) {
     // The model of a slip has one time, so an existing slip excludes a second one.
     if (effect.starts_in_time && has_size(effect, before)) continue;
     all.push_back(change_of(before, effect));
@@ -120,11 +120,11 @@ double size_by_scatter(const Evidence& evidence, const Eigen::VectorXd& done, co
 std::vector<double> sizes_by_scatter(const Evidence& evidence, const Fit& fit) {
   const JointKind kind = kind_of(*evidence.declared);
   const Imperfections& before = evidence.earlier->joint;
-  Forward forward(*evidence.declared, evidence.log);
+  joint::Forward forward(*evidence.declared, evidence.log);
   const Eigen::VectorXd left = fit.residual(evidence.rows()) - shared_discrepancy(evidence, fit);
   const Eigen::VectorXd whole = flat(forward(changed(before, fit.at, kind)));
   std::vector<double> all;
-  for (const Effect* effect : fit.effects)
+  for (const fusee::Effect* effect : fit.effects)
     all.push_back(
         size_by_scatter(evidence, whole - flat(forward(changed(before, without(fit.at, *effect), kind))), left));
   return all;
@@ -148,4 +148,4 @@ StateDifference state_difference(const Evidence& evidence, const Fit& none, cons
   return {std::sqrt(before / rows), std::sqrt(after / rows)};
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

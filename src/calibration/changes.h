@@ -8,11 +8,11 @@
 #include "fusee/calibration.h"
 #include "mechanism/effect.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Every effect of the kind, with bounds and starts shifted so that a number is the change from `before`: play may
 /// shrink by as much as it was. For a joint declared by a ratio the joint sensor's zero is one of them.
-std::vector<Effect> changes_from(const Imperfections& before, JointKind kind);
+std::vector<fusee::Effect> changes_from(const Imperfections& before, JointKind kind);
 
 /// For each effect of `fit`, in their order: 1 / s, with the standard error s of a factor on its contribution (1 as
 /// fitted) by scatter between runs as clusters (Liang and Zeger 1986). The clusters of a state of one run are its
@@ -22,4 +22,4 @@ std::vector<double> sizes_by_scatter(const Evidence& evidence, const Fit& fit);
 /// `none`: fit of the earlier joint, `changed`: fit with the changes.
 StateDifference state_difference(const Evidence& evidence, const Fit& none, const Fit& changed);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -1,21 +1,20 @@
-#include "fusee/calibration.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/thresholds.h"
 #include "base/text.h"
+#include "calibration/thresholds.h"
+#include "fusee/calibration.h"
 #include "measurement/seen_span.h"
 
 // The earlier joint is identified from its own runs. Then all runs are explained together, the earlier ones by that
 // joint, the later ones by that joint with changes, both beside one discrepancy. An error of the identified joint is
 // present in both states, so in the discrepancy, as is the scatter between runs. Changes are selected as effects are.
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 const EffectParameter* find_parameter(const std::string& effect, const std::string& name, JointKind kind) {
-  const Effect* found = find_effect(effect, kind);
+  const fusee::Effect* found = find_effect(effect, kind);
   if (found == nullptr) found = find_effect(effect, JointKind::tendons);  // the zero of a joint declared by its ratio
   if (found == nullptr) return nullptr;
   const auto own = std::find_if(found->parameters.begin(), found->parameters.end(),
@@ -58,7 +57,7 @@ StateChange change_of(const FoundEffect& effect, const DeclaredMechanism& declar
   return change;
 }
 
-std::string range_words(const SeenSpan& span) {
+std::string range_words(const measurement::SeenSpan& span) {
   return rounded(degrees(span.least), 3) + "° … " + rounded(degrees(span.most), 3) + "°";
 }
 
@@ -74,7 +73,8 @@ std::string why_not_comparable(const ComparedRuns& runs) {
     return std::string("The runs ") + (refused_before ? "before" : "after") +
            " cannot be compared with the others: " + (refused_before ? runs.before : runs.after).not_testable.front() +
            one_of_both;
-  const SeenSpan before = seen_span(runs.before, &Sample::alpha), after = seen_span(runs.after, &Sample::alpha);
+  const measurement::SeenSpan before = measurement::seen_span(runs.before, &measurement::Sample::alpha),
+                              after = measurement::seen_span(runs.after, &measurement::Sample::alpha);
   if (!before.any() || !after.any()) return "";
   const double shared = std::min(before.most, after.most) - std::max(before.least, after.least);
   if (shared < k_thresholds.least_shared_way * std::min(before.size(), after.size()))
@@ -105,8 +105,8 @@ double part_of_motion(const ComparedRuns& runs, const std::vector<std::vector<do
   for (std::size_t r = 0; r < about_before.size(); ++r) {
     for (const double residual : about_before[r]) (r < runs.before.runs.size() ? own : later).take(residual);
   }
-  for (const Run& run : runs.after.runs) {
-    for (const Sample& sample : run.samples) motion.take(sample.theta);
+  for (const measurement::Run& run : runs.after.runs) {
+    for (const measurement::Sample& sample : run.samples) motion.take(sample.theta);
   }
   return motion.value() > 0 ? std::sqrt(std::max(0.0, later.value() - own.value()) / motion.value()) : 0.0;
 }
@@ -144,7 +144,7 @@ Comparison compare_states(const DeclaredMechanism& declared, const ComparedRuns&
     return comparison;
   }
   CalibrationOptions of_changes = of_one;
-  of_changes.earlier = EarlierState{comparison.before.identified, runs.before.runs.size()};
+  of_changes.earlier = joint::EarlierState{comparison.before.identified, runs.before.runs.size()};
   comparison.changes = calibrate(declared, runs.both, of_changes);
   if (comparison.changes.verdict == CalibrationVerdict::not_testable) {
     comparison.why = comparison.changes.summary;
@@ -169,4 +169,4 @@ Comparison compare_states(const DeclaredMechanism& declared, const ComparedRuns&
   return comparison;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -1,6 +1,8 @@
+/// \file
+/// Interval of a fitted number.
 #pragma once
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Interval of a fitted x, in its steps.
 struct ConfidenceInterval {
@@ -9,4 +11,4 @@ struct ConfidenceInterval {
   double deviation = 0;  ///< standard deviation
 };
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -15,7 +15,7 @@
 // (a pin's radius) and local ones, and each has its own columns. All other factors multiply these functions: a
 // direction, a load, a speed.
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// Numbers of curves over the measured range: of place and direction, of their products with other factors, of those
@@ -125,7 +125,8 @@ Eigen::MatrixXd transients(const std::vector<RowFacts>& facts, const Part& part)
 
 /// True if a stroke's rows lie at many places. Constants of dwells at one place could explain any data.
 bool strokes_span_places(const Evidence& evidence) {
-  return std::none_of(evidence.measurement.runs.begin(), evidence.measurement.runs.end(), is_from_point_to_point);
+  return std::none_of(evidence.measurement.runs.begin(), evidence.measurement.runs.end(),
+                      measurement::is_from_point_to_point);
 }
 
 }  // namespace
@@ -203,4 +204,4 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
   return std::move(builder).made();
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -10,7 +10,7 @@
 
 #include "calibration/evidence.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Factor that a component of the discrepancy depends on.
 enum class Factor {
@@ -49,4 +49,4 @@ Eigen::VectorXd sum_of_families(const Discrepancy& discrepancy, const Eigen::Vec
 /// Families of all factors that these runs vary. `deflection`: of the declared joint, all rows, rad.
 Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& deflection);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

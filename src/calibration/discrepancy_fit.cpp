@@ -5,13 +5,13 @@
 #include <map>
 
 #include "base/decompositions.h"
+#include "base/text.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
-#include "base/text.h"
 #include "measurement/seen_span.h"
 #include "measurement/strokes.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// Nodes of a drawn component.
@@ -71,13 +71,13 @@ double median_step(const Eigen::VectorXd& angle, const Eigen::VectorXd& motor) {
   for (Eigen::Index i = 1; i < angle.size(); ++i) {
     if (motor[i] != motor[i - 1]) steps.push_back(std::abs(angle[i] - angle[i - 1]));
   }
-  return steps.empty() ? 0.0 : median_of(steps);
+  return steps.empty() ? 0.0 : measurement::median_of(steps);
 }
 
 Angles angles_of(const Evidence& evidence) {
-  std::vector<const Sample*> all;
-  for (const Run& run : evidence.measurement.runs) {
-    for (const Sample& sample : run.samples) all.push_back(&sample);
+  std::vector<const measurement::Sample*> all;
+  for (const measurement::Run& run : evidence.measurement.runs) {
+    for (const measurement::Sample& sample : run.samples) all.push_back(&sample);
   }
   const auto rows = static_cast<Eigen::Index>(evidence.rows_used());
   Angles angles{Eigen::VectorXd(rows), Eigen::VectorXd(rows), Eigen::VectorXd(rows), Eigen::VectorXd(rows)};
@@ -122,10 +122,10 @@ bool has_course(Factor factor) {
 
 /// Draws the largest value of a component at each place.
 void draw(const Angles& angles, const Eigen::VectorXd& part, DiscrepancyComponent& component) {
-  SeenSpan span;
+  measurement::SeenSpan span;
   for (const double alpha : angles.motor) span.take(alpha);
   if (!span.any()) return;
-  const Bins bins{span, k_places};
+  const measurement::Bins bins{span, k_places};
   std::map<int, double> largest;
   for (Eigen::Index i = 0; i < part.size(); ++i) {
     double& most = largest[bins.bin(angles.motor[i])];
@@ -284,4 +284,4 @@ bool is_unexplained(const DiscrepancyFit& unmodelled, double floor) {
   return unmodelled.evidence > k_thresholds.unexplained && unmodelled.rms > k_thresholds.least_residual * floor;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -7,7 +7,7 @@
 #include "calibration/fit.h"
 #include "fusee/calibration.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 struct DiscrepancyFit {
   double evidence = 0;  ///< log Bayes factor of the discrepancy to noise and the model's own error alone
@@ -25,4 +25,4 @@ DiscrepancyFit describe_discrepancy(const Evidence& evidence, const Fit& fit);
 /// True if the residual exceeds noise and the model's own error.
 bool is_unexplained(const DiscrepancyFit& unmodelled, double floor);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

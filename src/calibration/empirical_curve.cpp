@@ -10,7 +10,7 @@
 // The curve is the posterior mean of the discrepancy's families of place and direction, beside all other factors of its
 // description. It is validated on held-out data, run by run and level by level.
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr int k_pieces = 60;
@@ -36,8 +36,8 @@ double widest_gap(const Way& way) {
 }
 
 /// Means over half a segment of the curve, far below its length scale.
-Way smoothed(const Way& way, const SeenSpan& seen) {
-  const Bins bins{seen, 2 * k_pieces};
+Way smoothed(const Way& way, const measurement::SeenSpan& seen) {
+  const measurement::Bins bins{seen, 2 * k_pieces};
   Way means;
   int last = -1;
   double count = 0;
@@ -87,16 +87,16 @@ BothWays ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
 }
 
 /// Range measured in both directions.
-SeenSpan seen_both_ways(const BothWays& ways) {
-  SeenSpan span;
+measurement::SeenSpan seen_both_ways(const BothWays& ways) {
+  measurement::SeenSpan span;
   if (ways.up.size() < 2 || ways.down.size() < 2) return span;
   span.least = std::max(ways.up.front().first, ways.down.front().first);
   span.most = std::min(ways.up.back().first, ways.down.back().first);
   return span;
 }
 
-void draw(const BothWays& ways, const SeenSpan& seen, EmpiricalCurve& curve) {
-  const Bins pieces{seen, k_pieces};
+void draw(const BothWays& ways, const measurement::SeenSpan& seen, EmpiricalCurve& curve) {
+  const measurement::Bins pieces{seen, k_pieces};
   const Way up = smoothed(ways.up, seen), down = smoothed(ways.down, seen);
   for (int i = 0; i <= k_pieces; ++i) {
     const double alpha = pieces.edge(i);
@@ -170,8 +170,9 @@ struct Squares {
   double gain() const { return rows > 0 ? (without - with) / rows : 0.0; }
 };
 
-void add(const Run& run, const std::vector<double>& residuals, const EmpiricalCurve& curve, Squares& squares) {
-  for (const Stroke& stroke : run.strokes) {
+void add(const measurement::Run& run, const std::vector<double>& residuals, const EmpiricalCurve& curve,
+         Squares& squares) {
+  for (const measurement::Stroke& stroke : run.strokes) {
     if (stroke.partial || stroke.direction == 0) continue;
     for (std::size_t i = stroke.first; i <= stroke.last; ++i) {
       const double alpha = run.samples[i].alpha;
@@ -206,7 +207,7 @@ bool depends_on_place(const Discrepancy& discrepancy, const Amplitudes& amplitud
 
 double EmpiricalCurve::at(double place, bool rising) const {
   const std::vector<double>& values = rising ? up : down;
-  const Bins pieces{{alpha.front(), alpha.back()}, static_cast<int>(alpha.size()) - 1};
+  const measurement::Bins pieces{{alpha.front(), alpha.back()}, static_cast<int>(alpha.size()) - 1};
   const auto i = static_cast<std::size_t>(pieces.bin(place));
   const double share = pieces.place(place) - static_cast<double>(i);
   return values[i] + share * (values[i + 1] - values[i]);
@@ -231,7 +232,8 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const D
   }
   const Eigen::VectorXd at_rows = sum_of_families(discrepancy, unmodelled.posterior.coefficients, is_of_place);
   const BothWays ways = ways_of(evidence, at_rows);
-  const SeenSpan seen = seen_both_ways(ways), all = seen_span(evidence.measurement, &Sample::alpha);
+  const measurement::SeenSpan seen = seen_both_ways(ways),
+                              all = measurement::seen_span(evidence.measurement, &measurement::Sample::alpha);
   if (!seen.any() || std::max(widest_gap(ways.up), widest_gap(ways.down)) > k_widest_gap * all.size()) {
     curve.why = "there are places between which nothing was measured both ways";
     return curve;
@@ -250,12 +252,12 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const D
   return curve;
 }
 
-void validate_curve(const Measurement& measurement, const std::vector<std::vector<double>>& residuals,
+void validate_curve(const measurement::Measurement& measurement, const std::vector<std::vector<double>>& residuals,
                     const std::vector<std::string>& kept, EmpiricalCurve& curve) {
   if (!curve.used) return;
   Squares fitted, validate_answer;
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
-    const Run& run = measurement.runs[r];
+    const measurement::Run& run = measurement.runs[r];
     const bool is_kept = std::find(kept.begin(), kept.end(), run.name) != kept.end();
     add(run, residuals[r], curve, is_kept ? validate_answer : fitted);
   }
@@ -270,4 +272,4 @@ void validate_curve(const Measurement& measurement, const std::vector<std::vecto
   if (!(curve.gain > 0)) reject(curve, "it makes the runs worse that were kept for validation");
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -4,7 +4,7 @@
 
 #include "calibration/discrepancy_fit.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Amplitudes of the discrepancy beside `fit`; the error of the model itself grows with the deflection of the fitted
 /// joint.
@@ -14,7 +14,7 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const D
 
 /// Validates a curve on every logged row, of which the fit used a few, and on runs kept for validation, whose figures
 /// are then the held-out ones. `residuals`: measured − model, rad, run by run.
-void validate_curve(const Measurement& measurement, const std::vector<std::vector<double>>& residuals,
+void validate_curve(const measurement::Measurement& measurement, const std::vector<std::vector<double>>& residuals,
                     const std::vector<std::string>& kept, EmpiricalCurve& curve);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -12,7 +12,7 @@
 #include "measurement/strokes.h"
 #include "transmission/declared_law.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// Rows of a run in a fit: enough for the shape of every stroke, few enough for hundreds of fits.
@@ -29,7 +29,7 @@ constexpr std::size_t k_rows_a_dwell = 3;
 constexpr double k_one_way = 0.1;
 
 /// Selects whole cycles, evenly spread, so that each keeps enough rows; of other strokes the ends are kept as history.
-std::vector<bool> select_strokes(const Run& run, std::size_t most_pairs) {
+std::vector<bool> select_strokes(const measurement::Run& run, std::size_t most_pairs) {
   const std::size_t pairs = (run.strokes.size() + 1) / 2;
   std::vector<bool> chosen(run.strokes.size(), true);
   for (std::size_t i = 0; pairs > most_pairs && i < chosen.size(); ++i)
@@ -44,7 +44,7 @@ struct RowSelection {
 };
 
 /// Every n-th row of the selected strokes.
-RowSelection sample_every_nth(const Run& run, std::size_t most) {
+RowSelection sample_every_nth(const measurement::Run& run, std::size_t most) {
   const std::vector<bool> chosen = select_strokes(run, std::max<std::size_t>(1, most / (4 * k_least_rows_a_block)));
   // Rows before, between and after strokes are history if all strokes are selected.
   std::vector<bool> inside(run.samples.size(), std::find(chosen.begin(), chosen.end(), false) == chosen.end());
@@ -61,14 +61,14 @@ RowSelection sample_every_nth(const Run& run, std::size_t most) {
 }
 
 /// Equally many rows of each dwell, however long it is.
-RowSelection sample_each_dwell(const Run& run, std::size_t most) {
+RowSelection sample_each_dwell(const measurement::Run& run, std::size_t most) {
   const auto dwells = static_cast<std::size_t>(
-      std::count_if(run.segments.begin(), run.segments.end(), [](const Segment& s) { return s.held; }));
+      std::count_if(run.segments.begin(), run.segments.end(), [](const measurement::Segment& s) { return s.held; }));
   const std::size_t most_pairs = std::max<std::size_t>(1, most * ((run.strokes.size() + 1) / 2) / dwells);
   const std::vector<bool> chosen = select_strokes(run, most_pairs);
   const std::size_t rows = std::max(most / dwells, k_rows_a_dwell);
   RowSelection selected{std::vector<bool>(run.samples.size(), false), {}};
-  for (const Segment& segment : run.segments) {
+  for (const measurement::Segment& segment : run.segments) {
     if (!chosen[segment.stroke]) continue;
     const std::size_t count = segment.last - segment.first + 1, used = std::min(count, rows);
     for (std::size_t i = 0; i < used; ++i) selected.counted[segment.first + (2 * i + 1) * count / (2 * used)] = true;
@@ -78,7 +78,7 @@ RowSelection sample_each_dwell(const Run& run, std::size_t most) {
 }
 
 /// Strokes whose history play and friction require: all, or, of very many, the selected ones and two before each.
-std::vector<bool> strokes_kept(const Run& run, const RowSelection& selected, std::size_t most) {
+std::vector<bool> strokes_kept(const measurement::Run& run, const RowSelection& selected, std::size_t most) {
   std::vector<bool> kept(run.strokes.size(), 2 * run.segments.size() <= 10 * most);
   for (std::size_t s = 0; s < run.strokes.size(); ++s) {
     const auto first = selected.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].first),
@@ -91,18 +91,19 @@ std::vector<bool> strokes_kept(const Run& run, const RowSelection& selected, std
 
 /// Thins a run, and keeps both ends of each segment as history. `counted`: rows in the residual, in which ends would
 /// weigh too much.
-Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
+measurement::Run thinned(const measurement::Run& run, std::size_t most, std::vector<bool>& counted) {
   if (run.samples.size() <= most) {
     counted.insert(counted.end(), run.samples.size(), true);
     return run;
   }
-  RowSelection selected = is_from_point_to_point(run) ? sample_each_dwell(run, most) : sample_every_nth(run, most);
+  RowSelection selected =
+      measurement::is_from_point_to_point(run) ? sample_each_dwell(run, most) : sample_every_nth(run, most);
   const std::vector<bool> strokes = strokes_kept(run, selected, most);
-  const std::vector<Segment> segments = segments_of(run);
-  for (const Segment& segment : segments) {
+  const std::vector<measurement::Segment> segments = measurement::segments_of(run);
+  for (const measurement::Segment& segment : segments) {
     if (strokes[segment.stroke]) selected.kept[segment.first] = selected.kept[segment.last] = true;
   }
-  Run thin = run;
+  measurement::Run thin = run;
   thin.samples.clear();
   thin.strokes.clear();
   thin.segments.clear();
@@ -117,12 +118,12 @@ Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
   for (std::size_t s = 0; s < run.strokes.size(); ++s) {
     stroke_place[s] = thin.strokes.size();
     if (!strokes[s]) continue;
-    Stroke stroke = run.strokes[s];
+    measurement::Stroke stroke = run.strokes[s];
     stroke.first = place[stroke.first];
     stroke.last = place[stroke.last];
     thin.strokes.push_back(stroke);
   }
-  for (Segment segment : segments) {
+  for (measurement::Segment segment : segments) {
     if (!strokes[segment.stroke]) continue;
     segment.first = place[segment.first];
     segment.last = place[segment.last];
@@ -151,7 +152,7 @@ class LoadLevel {
   std::size_t count_ = 0;
 };
 
-LoadLevel level_of(const Run& run, std::size_t first, std::size_t last) {
+LoadLevel level_of(const measurement::Run& run, std::size_t first, std::size_t last) {
   LoadLevel level;
   for (std::size_t i = first; run.has_load && i <= last; ++i) level.take(run.samples[i].load);
   return level;
@@ -182,14 +183,14 @@ std::vector<bool> have_their_own_load(const Evidence& evidence) {
   std::vector<double> loads;
   for (const Block& block : evidence.blocks) loads.push_back(block.load);
   const double tolerance = load_tolerance(loads);
-  std::map<std::pair<std::size_t, int>, SeenSpan> spans;
+  std::map<std::pair<std::size_t, int>, measurement::SeenSpan> spans;
   const auto key = [&](const Block& block) {
     return std::pair(block.run, evidence.measurement.runs[block.run].strokes[block.stroke].direction);
   };
   for (const Block& block : evidence.blocks) spans[key(block)].take(block.load);
   std::vector<bool> own;
   for (const Block& block : evidence.blocks) {
-    const SeenSpan& span = spans[key(block)];
+    const measurement::SeenSpan& span = spans[key(block)];
     const double largest = std::max(std::abs(span.least), std::abs(span.most));
     own.push_back(span.any() && span.size() > std::max(2 * tolerance, 0.1 * largest));
   }
@@ -200,7 +201,7 @@ std::vector<bool> have_their_own_load(const Evidence& evidence) {
 std::vector<Fold> load_levels(const Evidence& evidence) {
   const std::vector<bool> own = have_their_own_load(evidence);
   std::vector<double> runs, loads;
-  for (const Run& run : evidence.measurement.runs)
+  for (const measurement::Run& run : evidence.measurement.runs)
     runs.push_back(run.samples.empty() ? 0 : level_of(run, 0, run.samples.size() - 1).load());
   for (std::size_t b = 0; b < evidence.blocks.size(); ++b)
     loads.push_back(own[b] ? evidence.blocks[b].load : runs[evidence.blocks[b].run]);
@@ -212,11 +213,11 @@ std::vector<Fold> speed_levels(const Evidence& evidence) {
   constexpr double held = -20;
   std::vector<double> speeds;
   for (const Block& block : evidence.blocks) {
-    const Run& run = evidence.measurement.runs[block.run];
-    speeds.push_back(!run.has_time                 ? 0.0
-                     : run.speed > 0               ? std::log(run.speed)
-                     : is_from_point_to_point(run) ? held
-                                                   : 0.0);
+    const measurement::Run& run = evidence.measurement.runs[block.run];
+    speeds.push_back(!run.has_time                              ? 0.0
+                     : run.speed > 0                            ? std::log(run.speed)
+                     : measurement::is_from_point_to_point(run) ? held
+                                                                : 0.0);
   }
   return levels(speeds, 0.15);
 }
@@ -277,7 +278,7 @@ std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::
     std::vector<double> near;
     const std::size_t from = i >= first + 2 ? i - 2 : first;
     for (std::size_t j = from; j <= std::min(last, i + 2); ++j) near.push_back(residual[static_cast<Eigen::Index>(j)]);
-    const double middle = median_of(near);
+    const double middle = measurement::median_of(near);
     double spread = 0;
     for (const double value : near)
       spread = std::max(spread, value == residual[static_cast<Eigen::Index>(i)] ? 0.0 : std::abs(value - middle));
@@ -291,7 +292,7 @@ std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::
 
 std::vector<HandReading> hand_readings(const DeclaredMechanism& declared) {
   std::vector<HandReading> readings;
-  for (const Effect& effect : effects(kind_of(declared))) {
+  for (const fusee::Effect& effect : effects(kind_of(declared))) {
     for (const EffectParameter& parameter : effect.parameters) {
       if (parameter.by_hand.readings == nullptr) continue;
       for (const CaliperReading& reading : parameter.by_hand.readings(declared))
@@ -303,7 +304,7 @@ std::vector<HandReading> hand_readings(const DeclaredMechanism& declared) {
 
 }  // namespace
 
-Eigen::VectorXd flat(const Readings& readings) {
+Eigen::VectorXd flat(const joint::Readings& readings) {
   std::size_t count = 0;
   for (const auto& run : readings) count += run.size();
   Eigen::VectorXd all(static_cast<Eigen::Index>(count));
@@ -340,19 +341,20 @@ std::size_t Evidence::rows_used() const {
 namespace {
 
 /// Thins all runs to the rows that many fits can afford.
-Measurement thinned(const Mechanism& declared, Measurement measurement, std::vector<bool>& counted) {
+measurement::Measurement thinned(const Mechanism& declared, measurement::Measurement measurement,
+                                 std::vector<bool>& counted) {
   const std::size_t runs = std::max<std::size_t>(1, measurement.runs.size());
   const std::size_t cheaper = declared.transmission ? k_cheaper : 1;
   const std::size_t most = cheaper * std::min(k_rows_a_run, std::max<std::size_t>(60, k_most_rows / runs));
-  for (Run& run : measurement.runs) run = thinned(run, most, counted);
+  for (measurement::Run& run : measurement.runs) run = thinned(run, most, counted);
   return measurement;
 }
 
-Eigen::VectorXd measured_theta(const Measurement& measurement) {
-  Readings theta;
-  for (const Run& run : measurement.runs) {
+Eigen::VectorXd measured_theta(const measurement::Measurement& measurement) {
+  joint::Readings theta;
+  for (const measurement::Run& run : measurement.runs) {
     theta.emplace_back();
-    for (const Sample& sample : run.samples) theta.back().push_back(sample.theta);
+    for (const measurement::Sample& sample : run.samples) theta.back().push_back(sample.theta);
   }
   return flat(theta);
 }
@@ -369,13 +371,15 @@ struct SegmentKind {
 class BlockMaker {
  public:
   BlockMaker(const Evidence& evidence, const std::vector<bool>& counted)
-      : evidence_(evidence), counted_(counted), alphas_(seen_span(evidence.measurement, &Sample::alpha)) {
-    SeenSpan loads;
-    for (const Run& run : evidence.measurement.runs) {
-      for (const Sample& sample : run.samples) loads.take(run.has_load ? sample.load : 0.0);
+      : evidence_(evidence),
+        counted_(counted),
+        alphas_(measurement::seen_span(evidence.measurement, &measurement::Sample::alpha)) {
+    measurement::SeenSpan loads;
+    for (const measurement::Run& run : evidence.measurement.runs) {
+      for (const measurement::Sample& sample : run.samples) loads.take(run.has_load ? sample.load : 0.0);
     }
     load_tolerance_ = loads.any() ? 0.12 * loads.size() : 0;
-    Forward forward(*evidence.declared, evidence.log, evidence.earlier);
+    joint::Forward forward(*evidence.declared, evidence.log, evidence.earlier);
     residual_ = evidence.theta - flat(forward({}));
   }
 
@@ -392,10 +396,10 @@ class BlockMaker {
   };
 
   void add_run(std::size_t i) {
-    const Run& run = evidence_.measurement.runs[i];
+    const measurement::Run& run = evidence_.measurement.runs[i];
     kinds_.clear();
     pending_.clear();
-    for (const Segment& segment : segments_of(run)) {
+    for (const measurement::Segment& segment : measurement::segments_of(run)) {
       if (is_settling(run, segment)) continue;
       const std::size_t first = offset_ + segment.first, last = offset_ + segment.last;
       Block block{i, segment.stroke, without_outliers(residual_, first, last, evidence_.floor)};
@@ -423,9 +427,10 @@ class BlockMaker {
 
   /// The state of the play at the beginning of the log is unknown. The first stroke determines it, or the move to the
   /// second dwell.
-  static bool is_settling(const Run& run, const Segment& segment) {
+  static bool is_settling(const measurement::Run& run, const measurement::Segment& segment) {
     if (run.strokes[segment.stroke].partial) return true;
-    if (is_from_point_to_point(run)) return segment.first == run.segments.front().first && run.segments.size() > 2;
+    if (measurement::is_from_point_to_point(run))
+      return segment.first == run.segments.front().first && run.segments.size() > 2;
     return segment.stroke == 0 && run.strokes.size() > 2;
   }
 
@@ -465,7 +470,7 @@ class BlockMaker {
 
   const Evidence& evidence_;
   const std::vector<bool>& counted_;
-  SeenSpan alphas_;
+  measurement::SeenSpan alphas_;
   double load_tolerance_ = 0;
   Eigen::VectorXd residual_;  ///< residual of the declared joint
   std::size_t offset_ = 0;
@@ -480,19 +485,19 @@ namespace {
 
 /// Deflection of the declared joint, all rows, rad. For a joint declared by its ratio, which is rigid, the load.
 Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& declared) {
-  const DeclaredLaw law(*evidence.declared);
+  const transmission::DeclaredLaw law(*evidence.declared);
   Eigen::VectorXd deflection = declared;
   if (evidence.declared->transmission) {
     Eigen::Index at = 0;
-    for (const Run& run : evidence.measurement.runs) {
-      for (const Sample& sample : run.samples) deflection[at++] = run.has_load ? sample.load : 0.0;
+    for (const measurement::Run& run : evidence.measurement.runs) {
+      for (const measurement::Sample& sample : run.samples) deflection[at++] = run.has_load ? sample.load : 0.0;
     }
     return deflection;
   }
   if (!law.exists()) return {};
   Eigen::Index row = 0;
-  for (const Run& run : evidence.measurement.runs) {
-    for (const Sample& sample : run.samples) deflection[row++] -= law.theta_extrapolated(sample.alpha);
+  for (const measurement::Run& run : evidence.measurement.runs) {
+    for (const measurement::Sample& sample : run.samples) deflection[row++] -= law.theta_extrapolated(sample.alpha);
   }
   for (double& angle : deflection) angle = std::isfinite(angle) ? angle : 0.0;
   return deflection;
@@ -515,7 +520,7 @@ double autocorrelation_of(const Evidence& evidence, const Eigen::VectorXd& resid
 }  // namespace
 
 void weigh(Evidence& evidence) {
-  Forward forward(*evidence.declared, evidence.log, evidence.earlier);
+  joint::Forward forward(*evidence.declared, evidence.log, evidence.earlier);
   const Eigen::VectorXd declared = flat(forward({}));
   Discrepancy discrepancy = discrepancy_of(evidence, deflection(evidence, declared));
   const Eigen::VectorXd left = (evidence.theta - declared)(evidence.rows());
@@ -530,21 +535,21 @@ void weigh(Evidence& evidence) {
       white, (1.0 - autocorrelation) / (1.0 + autocorrelation), explained.amplitudes);
 }
 
-Measurement with_fewer_rows(Measurement measurement, std::size_t most_a_run) {
+measurement::Measurement with_fewer_rows(measurement::Measurement measurement, std::size_t most_a_run) {
   std::vector<bool> counted;
-  for (Run& run : measurement.runs) run = thinned(run, most_a_run, counted);
+  for (measurement::Run& run : measurement.runs) run = thinned(run, most_a_run, counted);
   return measurement;
 }
 
-Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor,
-                const std::optional<EarlierState>& earlier) {
+Evidence gather(const DeclaredMechanism& declared, const measurement::Measurement& measurement, double floor,
+                const std::optional<joint::EarlierState>& earlier) {
   Evidence evidence;
   evidence.declared = &declared;
   evidence.earlier = earlier;
   evidence.floor = floor;
   std::vector<bool> counted;
   evidence.measurement = thinned(declared, measurement, counted);
-  evidence.log = bench_log(evidence.measurement);
+  evidence.log = measurement::bench_log(evidence.measurement);
   evidence.theta = measured_theta(evidence.measurement);
   evidence.blocks = BlockMaker(evidence, counted).made();
   evidence.run_folds = run_folds(evidence);
@@ -554,4 +559,4 @@ Evidence gather(const DeclaredMechanism& declared, const Measurement& measuremen
   return evidence;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

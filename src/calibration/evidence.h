@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "fusee/measurement.h"
-#include "mechanism/effect.h"
 #include "joint/forward.h"
+#include "mechanism/effect.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Dwells within this share of the range of α are at one place.
 inline constexpr double k_dwell_tolerance = 0.02;
@@ -42,10 +42,10 @@ class EvidenceModel;
 
 struct Evidence {
   const DeclaredMechanism* declared = nullptr;
-  std::optional<EarlierState> earlier;  ///< state in the first runs; effects are changes from it
-  Measurement measurement;              ///< thinned
-  BenchLog log;                         ///< motion and load of the measurement
-  Eigen::VectorXd theta;                ///< joint angle of all runs, one after another
+  std::optional<joint::EarlierState> earlier;  ///< state in the first runs; effects are changes from it
+  measurement::Measurement measurement;        ///< thinned
+  joint::BenchLog log;                         ///< motion and load of the measurement
+  Eigen::VectorXd theta;                       ///< joint angle of all runs, one after another
   std::vector<Block> blocks;
   std::vector<Fold> run_folds;       ///< whole runs; the blocks of a single run
   std::vector<Fold> factor_folds;    ///< whole levels of load and speed if the data vary them, otherwise as run_folds
@@ -63,16 +63,16 @@ struct Evidence {
   std::vector<std::string> run_names(const Fold& fold) const;
 };
 
-Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor,
-                const std::optional<EarlierState>& earlier = {});
+Evidence gather(const DeclaredMechanism& declared, const measurement::Measurement& measurement, double floor,
+                const std::optional<joint::EarlierState>& earlier = {});
 
 /// Fills `marginal` from all other members.
 void weigh(Evidence& evidence);
 
 /// Thins each run to a number of rows, evenly over its strokes.
-Measurement with_fewer_rows(Measurement measurement, std::size_t most_a_run);
+measurement::Measurement with_fewer_rows(measurement::Measurement measurement, std::size_t most_a_run);
 
 /// Joint angles of all runs, one after another.
-Eigen::VectorXd flat(const Readings& readings);
+Eigen::VectorXd flat(const joint::Readings& readings);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

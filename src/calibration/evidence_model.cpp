@@ -9,7 +9,7 @@
 // (Woodbury), x by Laplace's method at the summit, and λ and σ are set where the data are likeliest (MacKay 1992: the
 // amplitude of a family is its mean square over as many columns as the data determine).
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr double k_settled = 0.02;  // nats
@@ -287,4 +287,4 @@ double EvidenceModel::log_density_at(const Tangent& tangent, const ScaledDiscrep
   return density;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

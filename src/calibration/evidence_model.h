@@ -8,7 +8,7 @@
 #include "base/decompositions.h"
 #include "calibration/discrepancy.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Amplitudes of the discrepancy's families and of the noise, rad.
 struct Amplitudes {
@@ -145,4 +145,4 @@ class EvidenceModel {
 /// rare large faults, and keep pairs of large numbers that cancel from being cheap.
 double log_prior(double x, double prior);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -9,7 +9,7 @@
 // With known sizes alone an effect of four numbers would be penalised for all joints on which it is large, and lose to
 // an effect of one number on a joint where both are small.
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// Chords over the known sizes; empty if the joint cannot be simulated.
@@ -42,4 +42,4 @@ std::map<const EffectParameter*, double> expected_sizes(const EffectSet& catalog
   return sizes;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

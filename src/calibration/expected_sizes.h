@@ -7,11 +7,11 @@
 
 #include "calibration/fitter_pool.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// For numbers whose known size would move the reading by more than that, the size that would not, in steps of the
 /// parameter (Evidence::sizes).
 std::map<const EffectParameter*, double> expected_sizes(const EffectSet& catalogue, const Evidence& evidence,
                                                         FitterPool& pool);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

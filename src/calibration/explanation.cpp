@@ -5,11 +5,11 @@
 #include <tuple>
 #include <utility>
 
+#include "base/text.h"
 #include "calibration/intervals.h"
 #include "calibration/thresholds.h"
-#include "base/text.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// Intervals of each number of a fit: with other effects marginalised, and if there are none.
@@ -25,7 +25,7 @@ std::pair<double, double> range_of(const EffectParameter& own, const ConfidenceI
 
 /// `ranges`: intervals of the parameters of `fit`.
 std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit, const Ranges& ranges,
-                                               const Effect& effect) {
+                                               const fusee::Effect& effect) {
   std::vector<FittedParameter> fitted;
   for (const EffectParameter& own : effect.parameters) {
     FittedParameter& number = fitted.emplace_back();
@@ -52,7 +52,7 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
   return fitted;
 }
 
-std::string with_numbers(const Evidence& evidence, const Fit& fit, const Effect& effect) {
+std::string with_numbers(const Evidence& evidence, const Fit& fit, const fusee::Effect& effect) {
   std::string numbers;
   for (const EffectParameter& own : effect.parameters) {
     numbers +=
@@ -78,7 +78,7 @@ double share(const Selection& selection, std::size_t place) {
 }
 
 /// True if `effect`, as fitted, moves the rows in use by less than noise would, fitted with as many numbers.
-bool moves_nothing(const Evidence& evidence, const Fit& fit, const Effect& effect) {
+bool moves_nothing(const Evidence& evidence, const Fit& fit, const fusee::Effect& effect) {
   const std::vector<Eigen::Index> places = places_of(fit, effect);
   const Eigen::VectorXd moved = fit.J(evidence.rows(), places) * fit.x(places);
   const double seen = moved.squaredNorm() * evidence.evidence_model->independent_share();
@@ -86,7 +86,8 @@ bool moves_nothing(const Evidence& evidence, const Fit& fit, const Effect& effec
 }
 
 /// Removes rivals that do nothing in the place of `effect` from the group of `found`.
-void drop_idle_members(const Evidence& evidence, const Selection& selection, const Effect& effect, FoundEffect& found) {
+void drop_idle_members(const Evidence& evidence, const Selection& selection, const fusee::Effect& effect,
+                       FoundEffect& found) {
   for (const Rival& rival : selection.rivals) {
     if (rival.accepted != &effect || !moves_nothing(evidence, rival.fit, *rival.rival)) continue;
     found.idle_did_as_well |= std::erase(found.group, rival.rival->name) > 0;
@@ -98,7 +99,7 @@ void place_beside(const Evidence& evidence, const Selection& selection, const Fi
                   std::vector<FoundEffect>& found) {
   const std::vector<ConfidenceInterval> both = intervals(numbers);
   const Ranges ranges{both, both};
-  for (const Effect* effect : numbers.effects) {
+  for (const fusee::Effect* effect : numbers.effects) {
     if (contains(selection.best.effects, *effect)) continue;
     const auto group = std::find_if(selection.groups.begin(), selection.groups.end(),
                                     [&](const CredibleGroup& own) { return contains(own.members, *effect); });
@@ -127,13 +128,13 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
   const Ranges ranges{intervals(selection), intervals_if_only(selection)};
   const std::vector<const Rival*> rivals = rivals_as_good(evidence, selection);
   std::vector<FoundEffect> all;
-  for (const Effect* effect : best.effects) {
+  for (const fusee::Effect* effect : best.effects) {
     FoundEffect found;
     found.name = effect->name;
     found.place = effect->place;
     found.correctable_by = effect->correctable_by;
     found.parameters = fitted_parameters(evidence, numbers, ranges, *effect);
-    for (const Effect* member : selection.groups[all.size()].members) found.group.push_back(member->name);
+    for (const fusee::Effect* member : selection.groups[all.size()].members) found.group.push_back(member->name);
     for (const Rival* rival : rivals) {
       const bool in_group = std::count(found.group.begin(), found.group.end(), rival->rival->name) > 0;
       if (rival->accepted == effect && !in_group) found.group.push_back(rival->rival->name);
@@ -169,7 +170,7 @@ std::vector<std::string> null_combinations(const Evidence& evidence, const Selec
 std::vector<Detectable> detectable_sizes(const Evidence& evidence, FitterPool& pool, const Selection& selection) {
   const Fit& best = selection.best;
   EffectSet others = selection.catalogue;
-  std::erase_if(others, [&](const Effect* effect) { return contains(best.effects, *effect); });
+  std::erase_if(others, [&](const fusee::Effect* effect) { return contains(best.effects, *effect); });
   std::vector<double> sizes(others.size(), -1);
   pool.each(others.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit wider = fitter.add_slopes(best, *others[i]);
@@ -191,4 +192,4 @@ std::vector<Detectable> detectable_sizes(const Evidence& evidence, FitterPool& p
   return found;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

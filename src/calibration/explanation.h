@@ -7,7 +7,7 @@
 
 #include "calibration/selection.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Found effects in the order of selection.best.effects. `numbers`: the same set with the reported parameters.
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection, const Fit& numbers);
@@ -22,4 +22,4 @@ std::vector<std::string> null_combinations(const Evidence& evidence, const Selec
 /// Smallest detectable error of every effect that was not found, at the joint.
 std::vector<Detectable> detectable_sizes(const Evidence& evidence, FitterPool& pool, const Selection& selection);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -12,7 +12,7 @@
 // of the effect are computed at every step. It costs a dozen simulations, whatever the size of the base. If another
 // start explains more without discrepancy, the candidate is fitted from there too, with all slopes.
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr int k_most_steps_down = 8;
@@ -33,10 +33,11 @@ constexpr double k_least_of_squares = 1e-4;
 /// Prior size of a number without known sizes, in its steps.
 constexpr double k_steps_in_practice = 100.0;
 
-double largest_load(const Measurement& measurement) {
+double largest_load(const measurement::Measurement& measurement) {
   double most = 0;
-  for (const Run& run : measurement.runs) {
-    for (const Sample& sample : run.samples) most = std::max(most, run.has_load ? std::abs(sample.load) : 0.0);
+  for (const measurement::Run& run : measurement.runs) {
+    for (const measurement::Sample& sample : run.samples)
+      most = std::max(most, run.has_load ? std::abs(sample.load) : 0.0);
   }
   return most;
 }
@@ -152,7 +153,7 @@ void hold_at_bounds(Fit& fit) {
   }
 }
 
-std::vector<Eigen::Index> places_of(const Fit& fit, const Effect& effect) {
+std::vector<Eigen::Index> places_of(const Fit& fit, const fusee::Effect& effect) {
   std::vector<Eigen::Index> own;
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
     const bool is_own = std::any_of(effect.parameters.begin(), effect.parameters.end(),
@@ -361,7 +362,7 @@ Fit Fitter::prefer_pushed(Fit fit) const {
 }
 
 /// Model residual at each start of `effect` beside `base`, without those that cannot be simulated.
-std::vector<Fit> Fitter::linearize_starts(const Fit& base, const Effect& effect) const {
+std::vector<Fit> Fitter::linearize_starts(const Fit& base, const fusee::Effect& effect) const {
   EffectSet effects = base.effects;
   effects.push_back(&effect);
   std::vector<Fit> all;
@@ -386,13 +387,13 @@ Fitter::PredictedStart Fitter::select_start(const std::vector<Fit>& starts, cons
   return {static_cast<std::size_t>(most - promises.begin()), *most};
 }
 
-Fit Fitter::add_effect_without_discrepancy(const Fit& base, const Effect& effect) const {
+Fit Fitter::add_effect_without_discrepancy(const Fit& base, const fusee::Effect& effect) const {
   const std::vector<Fit> starts = linearize_starts(base, effect);
   if (starts.empty()) return {};
   return fit_effects_first(starts[select_start(starts, amplitudes_without_discrepancy(base)).place]);
 }
 
-Fit Fitter::add_effect(const Fit& base, const Effect& effect) const {
+Fit Fitter::add_effect(const Fit& base, const fusee::Effect& effect) const {
   const std::vector<Fit> starts = linearize_starts(base, effect);
   if (starts.empty()) return {};
   const PredictedStart beside = select_start(starts, base.posterior.amplitudes);
@@ -460,7 +461,7 @@ void Fitter::compute_evidence(Fit& fit) const {
 }
 
 /// `fit` with the numbers of `effect` at zero, searched ones at the start.
-Fit Fitter::extend(const Fit& fit, const Effect& effect, const std::vector<double>& start) const {
+Fit Fitter::extend(const Fit& fit, const fusee::Effect& effect, const std::vector<double>& start) const {
   Fit wider = fit;
   wider.effects.push_back(&effect);
   wider.parameters = model_.varied(wider.effects);
@@ -473,16 +474,16 @@ Fit Fitter::extend(const Fit& fit, const Effect& effect, const std::vector<doubl
 }
 
 /// `fit` with `effect` at its first start.
-Fit Fitter::extend(const Fit& fit, const Effect& effect) const {
+Fit Fitter::extend(const Fit& fit, const fusee::Effect& effect) const {
   const std::vector<std::vector<double>> starts = starts_of(evidence(), fit, effect);
   return extend(fit, effect, starts.empty() ? std::vector<double>() : starts.front());
 }
 
-Eigen::VectorXd Fitter::contribution_of(const Fit& fit, const Effect& effect) const {
+Eigen::VectorXd Fitter::contribution_of(const Fit& fit, const fusee::Effect& effect) const {
   return (residual(without(fit.at, effect), fit.loose_row) - fit.residual)(evidence().rows());
 }
 
-Fit Fitter::add_slopes(const Fit& fit, const Effect& effect) const {
+Fit Fitter::add_slopes(const Fit& fit, const fusee::Effect& effect) const {
   Fit wider = extend(fit, effect);
   take_slopes(wider, fit.x.size());
   compute_evidence(wider);
@@ -499,7 +500,7 @@ void Fitter::take_chord(Fit& wider, Eigen::Index k, double size) const {
   wider.J.col(k) = (wider.residual - model_.evaluate(moved, wider.loose_row).residual) / steps;
 }
 
-Fit Fitter::add_chords(const Fit& fit, const Effect& effect) const {
+Fit Fitter::add_chords(const Fit& fit, const fusee::Effect& effect) const {
   Fit wider = extend(fit, effect);
   wider.J.conservativeResize(wider.residual.size(), wider.x.size());
   for (Eigen::Index k = fit.x.size(); k < wider.x.size(); ++k) {
@@ -510,7 +511,7 @@ Fit Fitter::add_chords(const Fit& fit, const Effect& effect) const {
   return wider;
 }
 
-std::vector<Fit> Fitter::add_chords_of_starts(const Fit& fit, const Effect& effect) const {
+std::vector<Fit> Fitter::add_chords_of_starts(const Fit& fit, const fusee::Effect& effect) const {
   std::vector<Fit> all;
   for (const std::vector<double>& start : starts_that_differ(evidence(), fit, effect)) {
     Fit wider = extend(fit, effect, start);
@@ -527,4 +528,4 @@ std::vector<Fit> Fitter::add_chords_of_starts(const Fit& fit, const Effect& effe
   return all;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -11,7 +11,7 @@
 #include "calibration/model.h"
 #include "calibration/normal_equations.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Fit of a set of effects, with its evidence and held-out errors.
 struct Fit {
@@ -45,12 +45,12 @@ inline double held_out_rms(const Fit& fit) { return std::sqrt(held_out_square(fi
 void hold_at_bounds(Fit& fit);
 
 /// Indices of an effect's parameters in the fit.
-std::vector<Eigen::Index> places_of(const Fit& fit, const Effect& effect);
+std::vector<Eigen::Index> places_of(const Fit& fit, const fusee::Effect& effect);
 
 /// Fits the joint to the evidence, the discrepancy marginalised. For one thread.
 class Fitter {
  public:
-  Fitter(const Evidence& evidence, Forward& forward) : model_(evidence, forward) {}
+  Fitter(const Evidence& evidence, joint::Forward& forward) : model_(evidence, forward) {}
 
   /// Full fit from the parameters of `from`.
   Fit fit(const EffectSet& effects, const Imperfections& from) const;
@@ -61,10 +61,10 @@ class Fitter {
   /// `base` with one effect more, from the best of its starts, close to the optimum: for the comparison of candidates.
   /// Fitted from the likeliest start beside the discrepancy, and from the likeliest start without discrepancy. If the
   /// discrepancy explains everything, all starts beside it are equally likely (held-out seeds 201021, 201201, 202192).
-  Fit add_effect(const Fit& base, const Effect& effect) const;
+  Fit add_effect(const Fit& base, const fusee::Effect& effect) const;
 
   /// `base` with one effect more, fitted without discrepancy.
-  Fit add_effect_without_discrepancy(const Fit& base, const Effect& effect) const;
+  Fit add_effect_without_discrepancy(const Fit& base, const fusee::Effect& effect) const;
 
   /// Residual at `at`, as ModelResidual.
   Eigen::VectorXd residual(const Imperfections& at, LooseRow loose_row) const {
@@ -72,16 +72,16 @@ class Fitter {
   }
 
   /// Contribution of an effect to the rows in use, rad.
-  Eigen::VectorXd contribution_of(const Fit& fit, const Effect& effect) const;
+  Eigen::VectorXd contribution_of(const Fit& fit, const fusee::Effect& effect) const;
 
   /// `fit` with the slopes of `effect` added at zero, and its evidence. No fit.
-  Fit add_slopes(const Fit& fit, const Effect& effect) const;
+  Fit add_slopes(const Fit& fit, const fusee::Effect& effect) const;
 
   /// `fit` with chords of `effect` over its expected sizes in place of slopes, without evidence.
-  Fit add_chords(const Fit& fit, const Effect& effect) const;
+  Fit add_chords(const Fit& fit, const fusee::Effect& effect) const;
   /// add_chords() for every start of the effect. Searched numbers are set to the start, and chords end there. Effects
   /// that begin at zero, or act otherwise when large, show in some starts only.
-  std::vector<Fit> add_chords_of_starts(const Fit& fit, const Effect& effect) const;
+  std::vector<Fit> add_chords_of_starts(const Fit& fit, const fusee::Effect& effect) const;
 
  private:
   const Evidence& evidence() const { return model_.evidence(); }
@@ -91,14 +91,14 @@ class Fitter {
   /// Repeats the descent by the amplitudes found, as long as it predicts a gain.
   Fit refine(Fit fit) const;
   void take_slopes(Fit& fit, Eigen::Index from) const;
-  Fit extend(const Fit& fit, const Effect& effect, const std::vector<double>& start) const;
-  Fit extend(const Fit& fit, const Effect& effect) const;
+  Fit extend(const Fit& fit, const fusee::Effect& effect, const std::vector<double>& start) const;
+  Fit extend(const Fit& fit, const fusee::Effect& effect) const;
   void take_chord(Fit& wider, Eigen::Index k, double size) const;
   Fit at(const Fit& base, const EffectSet& effects, const Imperfections& at) const;
   Fit descend(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const;
   void hold_out_of(Fit& fit) const;
   void compute_evidence(Fit& fit) const;
-  std::vector<Fit> linearize_starts(const Fit& base, const Effect& effect) const;
+  std::vector<Fit> linearize_starts(const Fit& base, const fusee::Effect& effect) const;
   double predict_evidence(const Fit& start, const Amplitudes& amplitudes) const;
   /// Start with the largest predicted evidence beside a discrepancy of these amplitudes.
   struct PredictedStart {
@@ -122,4 +122,4 @@ Tangent tangent_of(const Evidence& evidence, const Fit& fit);
 /// Moves a linearization to `x`.
 Tangent move_tangent(Tangent tangent, const Eigen::VectorXd& x);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr unsigned k_most_threads = 8;
@@ -28,7 +28,7 @@ void FitterPool::each(std::size_t count, const std::function<void(const Fitter&,
     if (!failure) failure = std::current_exception();
     next = count;
   };
-  const auto work = [&](Forward& forward) {
+  const auto work = [&](joint::Forward& forward) {
     try {
       const Fitter fitter(evidence_, forward);
       for (std::size_t i = next++; i < count; i = next++) job(fitter, i);
@@ -51,4 +51,4 @@ void FitterPool::each(std::size_t count, const std::function<void(const Fitter&,
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -7,7 +7,7 @@
 
 #include "calibration/fit.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 class FitterPool {
  public:
@@ -23,7 +23,7 @@ class FitterPool {
 
  private:
   const Evidence& evidence_;
-  std::vector<Forward> forwards_;
+  std::vector<joint::Forward> forwards_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -8,7 +8,7 @@
 #include "calibration/discrepancy_fit.h"
 #include "calibration/fit.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// Share of the information in each direction that must remain without a fold (a delay beside play is determined by the
@@ -203,4 +203,4 @@ HeldOutBeside hold_out_beside(const Evidence& evidence, const Fit& fit, const Am
   return {held.errors(0, nothing), held.errors(1, nothing), held.errors(2, nothing)};
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -6,7 +6,7 @@
 
 #include "calibration/evidence.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 struct Amplitudes;
 struct Fit;
@@ -36,4 +36,4 @@ struct HeldOutBeside {
 HeldOutBeside hold_out_beside(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,
                               const std::vector<Fold>& folds);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

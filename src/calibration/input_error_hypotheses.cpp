@@ -5,7 +5,7 @@
 
 #include "fusee/mechanism_file.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// Relative difference below which values are equal.
@@ -102,4 +102,4 @@ std::vector<InputErrorHypothesis> input_error_hypotheses(const DeclaredMechanism
   return all;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -6,7 +6,7 @@
 
 #include "fusee/calibration.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Corrected input error, before it is compared with data.
 struct InputErrorHypothesis {
@@ -20,4 +20,4 @@ struct InputErrorHypothesis {
 /// Likely input errors of `declared` and its data, one at a time.
 std::vector<InputErrorHypothesis> input_error_hypotheses(const DeclaredMechanism& declared);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

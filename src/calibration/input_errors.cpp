@@ -2,29 +2,29 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text.h"
 #include "calibration/fit.h"
 #include "calibration/input_error_hypotheses.h"
 #include "calibration/thresholds.h"
-#include "base/text.h"
 #include "fusee/calibration.h"
 #include "transmission/declared_law.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// Rows of a run: ten times those of a fit.
 constexpr std::size_t k_rows = 2000;
 
-Measurement corrected_data(Measurement data, const InputErrorHypothesis& hypothesis) {
-  for (Run& run : data.runs) {
-    for (Sample& sample : run.samples) {
+measurement::Measurement corrected_data(measurement::Measurement data, const InputErrorHypothesis& hypothesis) {
+  for (measurement::Run& run : data.runs) {
+    for (measurement::Sample& sample : run.samples) {
       sample.alpha *= hypothesis.alpha;
       sample.theta *= hypothesis.theta;
     }
-    for (Stroke& stroke : run.strokes) stroke.direction *= hypothesis.alpha < 0 ? -1 : 1;
+    for (measurement::Stroke& stroke : run.strokes) stroke.direction *= hypothesis.alpha < 0 ? -1 : 1;
     run.speed *= std::abs(hypothesis.alpha);
   }
-  compare_with_declared(hypothesis.joint, data);
+  measurement::compare_with_declared(hypothesis.joint, data);
   return data;
 }
 
@@ -35,21 +35,24 @@ struct Trial {
   double floor = 0;                                       ///< rad
 };
 
-Trial test_hypothesis(InputErrorHypothesis hypothesis, const Measurement& as_read, double floor) {
+Trial test_hypothesis(InputErrorHypothesis hypothesis, const measurement::Measurement& as_read, double floor) {
   Trial trial{std::move(hypothesis)};
   trial.floor = floor * std::abs(trial.hypothesis.theta);
-  if (!DeclaredLaw(trial.hypothesis.joint).exists() || !DeclaredLaw(trial.hypothesis.drawn).exists()) return trial;
-  const Measurement data = corrected_data(as_read, trial.hypothesis);
+  if (!transmission::DeclaredLaw(trial.hypothesis.joint).exists() ||
+      !transmission::DeclaredLaw(trial.hypothesis.drawn).exists())
+    return trial;
+  const measurement::Measurement data = corrected_data(as_read, trial.hypothesis);
   if (!data.not_testable.empty()) return trial;
   const Evidence evidence = gather(trial.hypothesis.joint, data, trial.floor);
   if (evidence.blocks.size() < 2) return trial;
-  Forward forward(trial.hypothesis.joint, evidence.log, trial.hypothesis.drawn);
+  joint::Forward forward(trial.hypothesis.joint, evidence.log, trial.hypothesis.drawn);
   const Fit fit = Fitter(evidence, forward).fit({}, {});
   if (fit.usable) trial.left = held_out_rms(fit);
   return trial;
 }
 
-std::vector<Trial> test_hypotheses(const DeclaredMechanism& declared, const Measurement& as_read, double floor) {
+std::vector<Trial> test_hypotheses(const DeclaredMechanism& declared, const measurement::Measurement& as_read,
+                                   double floor) {
   std::vector<Trial> all;
   for (InputErrorHypothesis& hypothesis : input_error_hypotheses(declared))
     all.push_back(test_hypothesis(std::move(hypothesis), as_read, floor));
@@ -91,7 +94,7 @@ bool is_clear(const Trial& trial, const Baseline& baseline) {
 }
 
 /// True if the corrected file explains the data, alone or with effects, by the rules of every calibration.
-bool explains(Trial& trial, const Measurement& as_read, const Baseline& baseline) {
+bool explains(Trial& trial, const measurement::Measurement& as_read, const Baseline& baseline) {
   LikelyInputError& error = trial.hypothesis.error;
   error.rms = trial.left;
   if (is_simpler(trial, baseline)) return true;
@@ -117,16 +120,16 @@ std::string beside_text(const std::vector<std::string>& effects) {
 }
 
 /// False for a file that contains identified effects: it was compared with data before.
-bool can_have_input_errors(const DeclaredMechanism& declared, const Measurement& as_read) {
+bool can_have_input_errors(const DeclaredMechanism& declared, const measurement::Measurement& as_read) {
   return as_read.not_testable.empty() && declared.identified == Imperfections{};
 }
 
 }  // namespace
 
-bool is_input_error_obvious(const DeclaredMechanism& declared, const Measurement& as_read) {
+bool is_input_error_obvious(const DeclaredMechanism& declared, const measurement::Measurement& as_read) {
   if (!can_have_input_errors(declared, as_read)) return false;
-  const Measurement data = with_fewer_rows(as_read, k_rows);
-  const double floor = std::max(noise_floor(as_read).rms, 1e-9);
+  const measurement::Measurement data = with_fewer_rows(as_read, k_rows);
+  const double floor = std::max(measurement::noise_floor(as_read).rms, 1e-9);
   const Trial as_it_stands = test_hypothesis({{}, declared, declared}, data, floor);
   if (!std::isfinite(as_it_stands.left) || is_within(as_it_stands, k_thresholds.input_error_large)) return false;
   const std::vector<Trial> all = test_hypotheses(declared, data, floor);
@@ -137,14 +140,14 @@ bool is_input_error_obvious(const DeclaredMechanism& declared, const Measurement
          (is_within(all.front(), k_thresholds.input_error_large) && is_clear(all.front(), baseline));
 }
 
-std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declared, const Measurement& as_read,
-                                                const Calibration& found) {
+std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declared,
+                                                const measurement::Measurement& as_read, const Calibration& found) {
   if (!can_have_input_errors(declared, as_read) || found.verdict == CalibrationVerdict::not_repeatable ||
       found.verdict == CalibrationVerdict::no_effect)
     return {};
   const Baseline baseline = baseline_of(found);
-  const double floor = std::max(noise_floor(as_read).rms, 1e-9);
-  const Measurement data = with_fewer_rows(as_read, k_rows);
+  const double floor = std::max(measurement::noise_floor(as_read).rms, 1e-9);
+  const measurement::Measurement data = with_fewer_rows(as_read, k_rows);
   std::vector<LikelyInputError> errors;
   double best = 0;  // held-out rms of the best
   for (Trial& trial : test_hypotheses(declared, data, floor)) {
@@ -166,4 +169,4 @@ std::string input_error_words(const LikelyInputError& error) {
          error.question;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

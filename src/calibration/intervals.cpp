@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace fusee {
+namespace fusee::calibration {
 
 namespace {
 
@@ -45,4 +45,4 @@ std::vector<ConfidenceInterval> intervals_if_only(const Selection& selection) {
   return intervals(selection, &Selection::Variance::if_only);
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

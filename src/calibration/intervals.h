@@ -7,7 +7,7 @@
 #include "calibration/confidence_interval.h"
 #include "calibration/selection.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Interval of every fitted x, in their order, with the discrepancy marginalised, prior sizes and caliper readings.
 /// `overstated`: as Selection::temperature.
@@ -17,4 +17,4 @@ std::vector<ConfidenceInterval> intervals(const Selection& selection);
 /// Intervals if the effects of `selection.best` are the only ones, at the selection's temperature.
 std::vector<ConfidenceInterval> intervals_if_only(const Selection& selection);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

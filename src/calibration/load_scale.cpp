@@ -13,7 +13,7 @@
 // then fitted anew. So the set without the effect is refitted to the same readings with all loads scaled, over a ladder
 // of factors first, then more closely about the best.
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr std::array k_ladder = {0.5, 0.71, 0.84, 1.19, 1.41, 2.0};
@@ -26,30 +26,30 @@ constexpr double k_slope_share = 0.05;
 
 Evidence with_loads(const Evidence& evidence, double times) {
   Evidence other = evidence;
-  for (BenchRun& run : other.log) {
-    for (BenchRow& row : run.rows) row.load *= times;
+  for (joint::BenchRun& run : other.log) {
+    for (joint::BenchRow& row : run.rows) row.load *= times;
   }
   return other;
 }
 
 bool has_loads(const Evidence& evidence) {
-  return std::any_of(evidence.log.begin(), evidence.log.end(), [](const BenchRun& run) {
+  return std::any_of(evidence.log.begin(), evidence.log.end(), [](const joint::BenchRun& run) {
     return run.has_load &&
-           std::any_of(run.rows.begin(), run.rows.end(), [](const BenchRow& row) { return row.load != 0; });
+           std::any_of(run.rows.begin(), run.rows.end(), [](const joint::BenchRow& row) { return row.load != 0; });
   });
 }
 
 /// Slope of the rows in use over the scale of all loads.
 Eigen::VectorXd load_slope(const Evidence& evidence, const Fit& best) {
   const Evidence other = with_loads(evidence, 1.0 + k_slope_share);
-  Forward logged(*evidence.declared, evidence.log);
-  Forward wrong(*other.declared, other.log);
+  joint::Forward logged(*evidence.declared, evidence.log);
+  joint::Forward wrong(*other.declared, other.log);
   const Eigen::VectorXd moved = (flat(wrong(best.at)) - flat(logged(best.at)))(evidence.rows());
   return moved.allFinite() ? moved : Eigen::VectorXd::Zero(moved.size());
 }
 
 /// Share of the squares of a load scale's slope that an effect of `best` explains.
-double share_of(const Evidence& evidence, const Fit& best, const Effect& effect, const Eigen::VectorXd& slope) {
+double share_of(const Evidence& evidence, const Fit& best, const fusee::Effect& effect, const Eigen::VectorXd& slope) {
   const Tangent tangent = tangent_of(evidence, best);
   const std::vector<Eigen::Index> own = places_of(best, effect);
   if (own.empty() || !(slope.squaredNorm() > 0)) return 0;
@@ -60,7 +60,7 @@ double share_of(const Evidence& evidence, const Fit& best, const Effect& effect,
 
 double score_under(const Evidence& evidence, const Fit& without, double times) {
   const Evidence other = with_loads(evidence, times);
-  Forward forward(*other.declared, other.log);
+  joint::Forward forward(*other.declared, other.log);
   const Fit fit = Fitter(other, forward).fit(without.effects, without.at);
   return fit.usable ? score(fit) - k_thresholds.neg_log_prior_odds - k_thresholds.search_penalty
                     : -std::numeric_limits<double>::infinity();
@@ -92,7 +92,7 @@ std::vector<LoadScaleFit> fit_load_scales(const Evidence& evidence, FitterPool& 
   if (!has_loads(evidence)) return all;
   const Eigen::VectorXd slope = load_slope(evidence, best);
   std::vector<double> shares;
-  for (const Effect* effect : best.effects) shares.push_back(share_of(evidence, best, *effect, slope));
+  for (const fusee::Effect* effect : best.effects) shares.push_back(share_of(evidence, best, *effect, slope));
   const double most = shares.empty() ? 0.0 : *std::max_element(shares.begin(), shares.end());
   pool.each(all.size(), [&](const Fitter&, std::size_t i) {
     const Fit& without = selection.without[i];
@@ -102,4 +102,4 @@ std::vector<LoadScaleFit> fit_load_scales(const Evidence& evidence, FitterPool& 
   return all;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

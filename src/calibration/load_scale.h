@@ -9,7 +9,7 @@
 #include "calibration/fitter_pool.h"
 #include "calibration/selection.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Best set without an effect, on runs with all loads scaled.
 struct LoadScaleFit {
@@ -20,4 +20,4 @@ struct LoadScaleFit {
 /// Result for every accepted effect, in their order.
 std::vector<LoadScaleFit> fit_load_scales(const Evidence& evidence, FitterPool& pool, const Selection& selection);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::calibration {
 
 namespace {
 
@@ -82,4 +82,4 @@ double rms_apart(const Evidence& evidence, const Eigen::VectorXd& one, const Eig
   return rows.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(rows.size()));
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -7,7 +7,7 @@
 #include "calibration/parameters.h"
 #include "joint/forward.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Rest position of a joint that is loose within its play.
 enum class LooseRow {
@@ -24,12 +24,12 @@ struct ModelResidual {
 /// For one thread. Evidence and simulation must outlive it.
 class Model {
  public:
-  Model(const Evidence& evidence, Forward& forward) : evidence_(evidence), forward_(forward) {}
+  Model(const Evidence& evidence, joint::Forward& forward) : evidence_(evidence), forward_(forward) {}
 
   const Evidence& evidence() const { return evidence_; }
   /// Varied numbers: the free offset, then those of the effects. With an earlier state the offset is itself an effect.
   Parameters varied(const EffectSet& effects) const {
-    return evidence_.earlier ? parameters_of(effects) : fusee::varied(*evidence_.declared, effects);
+    return evidence_.earlier ? parameters_of(effects) : fusee::calibration::varied(*evidence_.declared, effects);
   }
   ModelResidual evaluate(const Imperfections& at, LooseRow loose_row) const;
   /// dθ/dx of one parameter by a step of its own size, away from its upper bound; `residual` is that at `at`.
@@ -38,7 +38,7 @@ class Model {
 
  private:
   const Evidence& evidence_;
-  Forward& forward_;
+  joint::Forward& forward_;
 };
 
 /// Correction of the square of a loose row's residual, rad²: floor² (1 − w²) for weight w. Makes mean squares of loose
@@ -58,4 +58,4 @@ LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loo
 /// rms difference over the rows in use, rad.
 double rms_apart(const Evidence& evidence, const Eigen::VectorXd& one, const Eigen::VectorXd& other);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "calibration/explanation.h"
 #include "calibration/thresholds.h"
-#include "base/text.h"
-#include "joint/joint_effects.h"
 #include "fusee/joint.h"
 #include "fusee/plan.h"
+#include "joint/joint_effects.h"
 #include "measurement/seen_span.h"
 
 // Each proposal is simulated with the found effects and with each alternative, as fitted. Proposals produce inputs of
 // calibrate only: a run with its columns, or a number with a key of [prior].
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr std::size_t k_most_proposals = 4;
@@ -29,34 +29,36 @@ constexpr double k_wide = 3.0;
 /// Least useful share of the margin that distinguishes.
 constexpr double k_least_told = 0.6;
 
-const Run& longest(const Measurement& measurement) {
-  return *std::max_element(measurement.runs.begin(), measurement.runs.end(),
-                           [](const Run& a, const Run& b) { return a.samples.size() < b.samples.size(); });
+const measurement::Run& longest(const measurement::Measurement& measurement) {
+  return *std::max_element(
+      measurement.runs.begin(), measurement.runs.end(),
+      [](const measurement::Run& a, const measurement::Run& b) { return a.samples.size() < b.samples.size(); });
 }
 
 double largest_load(const Evidence& evidence) {
   double most = 0;
-  for (const Run& run : evidence.measurement.runs) {
-    for (const Sample& sample : run.samples) most = std::max(most, run.has_load ? std::abs(sample.load) : 0.0);
+  for (const measurement::Run& run : evidence.measurement.runs) {
+    for (const measurement::Sample& sample : run.samples)
+      most = std::max(most, run.has_load ? std::abs(sample.load) : 0.0);
   }
   if (most > 0 || evidence.declared->transmission) return most;
   return std::max(1.0, std::round(k_lever_load * evidence.declared->tendon.pretension));
 }
 
 /// The measured strokes, without load.
-PlannedRun as_before(const Measurement& measurement) {
-  const Run& run = longest(measurement);
-  const SeenSpan seen = seen_span(measurement, &Sample::alpha);
-  PlannedRun before{.from = seen.least, .to = seen.most};
+plan::PlannedRun as_before(const measurement::Measurement& measurement) {
+  const measurement::Run& run = longest(measurement);
+  const measurement::SeenSpan seen = measurement::seen_span(measurement, &measurement::Sample::alpha);
+  plan::PlannedRun before{.from = seen.least, .to = seen.most};
   before.speed = run.has_time && run.speed > 0 ? run.speed : seen.size() / k_slow_stroke;
   return before;
 }
 
 /// True if a run at about this speed and load was measured.
-bool was_measured(const PlannedRun& run, const Measurement& measurement) {
+bool was_measured(const plan::PlannedRun& run, const measurement::Measurement& measurement) {
   constexpr double k_alike = 0.2;
-  if (run.change != BenchChange::none || run.dwell > 0) return false;
-  return std::any_of(measurement.runs.begin(), measurement.runs.end(), [&](const Run& known) {
+  if (run.change != plan::BenchChange::none || run.dwell > 0) return false;
+  return std::any_of(measurement.runs.begin(), measurement.runs.end(), [&](const measurement::Run& known) {
     const double load = known.has_load ? known.mean_load : 0.0;
     const bool is_load = std::abs(load - run.load) <= k_alike * std::max(std::abs(load), std::abs(run.load));
     const bool is_pace = !known.has_time || std::abs(known.speed - run.speed) <= k_alike * run.speed;
@@ -65,40 +67,41 @@ bool was_measured(const PlannedRun& run, const Measurement& measurement) {
 }
 
 /// Possible runs that were not measured, those nearest to the measured ones first.
-std::vector<PlannedRun> proposals(const Evidence& evidence) {
-  const PlannedRun before = as_before(evidence.measurement);
+std::vector<plan::PlannedRun> proposals(const Evidence& evidence) {
+  const plan::PlannedRun before = as_before(evidence.measurement);
   const double load = largest_load(evidence);
-  std::vector<PlannedRun> all;
+  std::vector<plan::PlannedRun> all;
   const auto add = [&](auto change) {
-    PlannedRun run = before;
+    plan::PlannedRun run = before;
     change(run);
     if (!was_measured(run, evidence.measurement)) all.push_back(run);
   };
   for (const double times : {1.0, -1.0, 2.0}) {
-    if (load > 0) add([=](PlannedRun& run) { run.load = times * load; });
+    if (load > 0) add([=](plan::PlannedRun& run) { run.load = times * load; });
   }
-  add([](PlannedRun&) {});
+  add([](plan::PlannedRun&) {});
   if (longest(evidence.measurement).has_time) {
-    add([](PlannedRun& run) { run.speed *= k_faster; });
-    add([](PlannedRun& run) { run.speed *= k_slower, run.cycles = 1; });
-    add([=](PlannedRun& run) { run.load = load, run.cycles = 2, run.dwell = k_long_dwell; });
+    add([](plan::PlannedRun& run) { run.speed *= k_faster; });
+    add([](plan::PlannedRun& run) { run.speed *= k_slower, run.cycles = 1; });
+    add([=](plan::PlannedRun& run) { run.load = load, run.cycles = 2, run.dwell = k_long_dwell; });
   }
   if (evidence.declared->transmission) return all;
-  for (const BenchChange change : {BenchChange::motor_sensor_turned, BenchChange::joint_sensor_turned})
-    add([=](PlannedRun& run) { run.change = change; });
+  for (const plan::BenchChange change :
+       {plan::BenchChange::motor_sensor_turned, plan::BenchChange::joint_sensor_turned})
+    add([=](plan::PlannedRun& run) { run.change = change; });
   return all;
 }
 
 /// Member of a group in the place of the found effect.
 struct Alternative {
-  const Effect* found = nullptr;
+  const fusee::Effect* found = nullptr;
   std::string name;                   ///< name of the member
   const Imperfections* at = nullptr;  ///< joint with the member in its place; without both if it was not fitted
   bool is_fitted = false;
 };
 
 /// Fit of a member in the place of the found effect; null without one.
-const Rival* fitted_in_place(const Selection& selection, const Effect& found, const std::string& member) {
+const Rival* fitted_in_place(const Selection& selection, const fusee::Effect& found, const std::string& member) {
   const auto rival = std::find_if(selection.rivals.begin(), selection.rivals.end(), [&](const Rival& known) {
     return known.accepted == &found && known.rival->name == member && known.fit.usable;
   });
@@ -108,7 +111,7 @@ const Rival* fitted_in_place(const Selection& selection, const Effect& found, co
 std::vector<Alternative> alternatives(const Selection& selection, const std::vector<FoundEffect>& effects) {
   std::vector<Alternative> all;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    const Effect* found = selection.best.effects[i];
+    const fusee::Effect* found = selection.best.effects[i];
     for (const std::string& member : effects[i].group) {
       if (member == found->name) continue;
       if (const Rival* rival = fitted_in_place(selection, *found, member)) {
@@ -123,7 +126,7 @@ std::vector<Alternative> alternatives(const Selection& selection, const std::vec
 
 /// Proposal with the margin by which it distinguishes each alternative: 1 just distinguishes.
 struct Proposal {
-  NextMeasurement next;
+  plan::NextMeasurement next;
   std::vector<double> margins;
 };
 
@@ -131,9 +134,9 @@ class Proposals {
  public:
   Proposals(const Evidence& evidence, const Selection& selection, const std::vector<Alternative>& others)
       : evidence_(evidence), found_(selection.best.at), others_(others) {
-    for (const PlannedRun& run : proposals(evidence)) add(run);
-    const std::vector<const EffectParameter*> unread = unread_numbers(*evidence.declared);
-    for (const Effect* effect : effects_of(*evidence.declared)) {
+    for (const plan::PlannedRun& run : proposals(evidence)) add(run);
+    const std::vector<const EffectParameter*> unread = plan::unread_numbers(*evidence.declared);
+    for (const fusee::Effect* effect : joint::effects_of(*evidence.declared)) {
       std::vector<const EffectParameter*> numbers;
       for (const EffectParameter* number : unread) {
         const auto is = [&](const EffectParameter& own) { return &own == number; };
@@ -144,8 +147,8 @@ class Proposals {
   }
 
   /// Best first, each for an alternative that those before it do not distinguish.
-  std::vector<NextMeasurement> best() {
-    std::vector<NextMeasurement> chosen;
+  std::vector<plan::NextMeasurement> best() {
+    std::vector<plan::NextMeasurement> chosen;
     std::vector<bool> left(others_.size(), true);
     while (chosen.size() < k_most_proposals) {
       const auto next = std::max_element(all_.begin(), all_.end(), [&](const Proposal& one, const Proposal& other) {
@@ -161,34 +164,34 @@ class Proposals {
   }
 
  private:
-  std::vector<std::vector<double>> shown(const Imperfections& at, const PlannedRun& run) const {
-    return predict(*evidence_.declared, at, {driven(run, k_rows_a_stroke)});
+  std::vector<std::vector<double>> shown(const Imperfections& at, const plan::PlannedRun& run) const {
+    return joint::predict(*evidence_.declared, at, {plan::driven(run, k_rows_a_stroke)});
   }
 
   /// rms difference between both in the run, beyond their difference in the slow unloaded run, which the data and a
   /// curve of place determine. An unmodelled cause may have any dependence on load and speed.
-  double rms_from(const Alternative& other, const PlannedRun& run) const {
-    if (!other.is_fitted && run.change == BenchChange::none) return 0;
-    PlannedRun before = run;
+  double rms_from(const Alternative& other, const plan::PlannedRun& run) const {
+    if (!other.is_fitted && run.change == plan::BenchChange::none) return 0;
+    plan::PlannedRun before = run;
     before.load = 0;
-    before.change = BenchChange::none;
+    before.change = plan::BenchChange::none;
     before.speed = as_before(evidence_.measurement).speed;
     const auto found = shown(found_, run), instead = shown(*other.at, run);
     auto expected = shown(found_, before);
     const auto instead_before = shown(*other.at, before);
     for (std::size_t k = 0; k < expected.front().size(); ++k)
       expected.front()[k] = instead.front()[k] + expected.front()[k] - instead_before.front()[k];
-    return rms_apart(found, expected);
+    return plan::rms_apart(found, expected);
   }
 
   /// Margins by the noise of the mean of repeated strokes.
-  void add(const PlannedRun& run) {
+  void add(const plan::PlannedRun& run) {
     const auto found = shown(found_, run);
     const auto stands = [](double angle) { return std::isfinite(angle); };
     if (!std::all_of(found.front().begin(), found.front().end(), stands)) return;
     const double noise = evidence_.floor / std::sqrt(2.0 * run.cycles);
     const std::string unit = evidence_.declared->transmission ? evidence_.measurement.load_unit : "N";
-    Proposal proposal{next_run(run, as_before(evidence_.measurement).speed, unit), {}};
+    Proposal proposal{plan::next_run(run, as_before(evidence_.measurement).speed, unit), {}};
     for (const Alternative& other : others_)
       proposal.margins.push_back(rms_from(other, run) / noise / k_thresholds.distinguished);
     all_.push_back(std::move(proposal));
@@ -196,7 +199,7 @@ class Proposals {
 
   /// Margins of caliper readings, for alternatives with different values of a number.
   void add(const std::vector<const EffectParameter*>& numbers) {
-    Proposal proposal{next_reading(numbers), {}};
+    Proposal proposal{plan::next_reading(numbers), {}};
     for (const Alternative& other : others_) {
       double squares = 0;
       for (const EffectParameter* number : numbers) {
@@ -234,7 +237,7 @@ class Proposals {
   }
 
   void describe(Proposal& proposal) const {
-    const Effect* named = nullptr;
+    const fusee::Effect* named = nullptr;
     std::string distinguished;
     const auto separate = [&](const std::string& name) {
       std::vector<std::string>& names = proposal.next.separates;
@@ -267,12 +270,12 @@ struct Sides {
   bool rising = false, falling = false;
 };
 
-std::vector<Sides> held_points(const Measurement& measurement) {
-  const SeenSpan seen = seen_span(measurement, &Sample::alpha);
+std::vector<Sides> held_points(const measurement::Measurement& measurement) {
+  const measurement::SeenSpan seen = measurement::seen_span(measurement, &measurement::Sample::alpha);
   std::vector<Sides> points;
-  for (const Run& run : measurement.runs) {
-    if (!is_from_point_to_point(run)) continue;
-    for (const Segment& segment : run.segments) {
+  for (const measurement::Run& run : measurement.runs) {
+    if (!measurement::is_from_point_to_point(run)) continue;
+    for (const measurement::Segment& segment : run.segments) {
       const bool is_first = &segment == &run.segments.front();  // its approach was not logged
       if (!segment.held || is_first) continue;
       const double alpha = run.samples[segment.first].alpha;
@@ -289,26 +292,27 @@ std::vector<Sides> held_points(const Measurement& measurement) {
 }
 
 /// Range that a run sweeps in both directions; empty without one.
-SeenSpan swept_both_ways(const Run& run) {
+measurement::SeenSpan swept_both_ways(const measurement::Run& run) {
   const auto goes = [&](int direction) {
-    return std::any_of(run.strokes.begin(), run.strokes.end(),
-                       [&](const Stroke& stroke) { return !stroke.partial && stroke.direction == direction; });
+    return std::any_of(run.strokes.begin(), run.strokes.end(), [&](const measurement::Stroke& stroke) {
+      return !stroke.partial && stroke.direction == direction;
+    });
   };
-  if (is_from_point_to_point(run) || !goes(1) || !goes(-1)) return {};
-  return seen_span(run.samples, &Sample::alpha);
+  if (measurement::is_from_point_to_point(run) || !goes(1) || !goes(-1)) return {};
+  return measurement::seen_span(run.samples, &measurement::Sample::alpha);
 }
 
-void ask(const std::string& words, std::vector<NextMeasurement>& next) {
-  const auto is = [&](const NextMeasurement& one) { return one.words == words; };
-  if (!words.empty() && std::none_of(next.begin(), next.end(), is)) next.push_back(next_inspection(words));
+void ask(const std::string& words, std::vector<plan::NextMeasurement>& next) {
+  const auto is = [&](const plan::NextMeasurement& one) { return one.words == words; };
+  if (!words.empty() && std::none_of(next.begin(), next.end(), is)) next.push_back(plan::next_inspection(words));
 }
 
 }  // namespace
 
-void ask_for_both_sides(const Measurement& measurement, std::vector<NextMeasurement>& next) {
+void ask_for_both_sides(const measurement::Measurement& measurement, std::vector<plan::NextMeasurement>& next) {
   std::vector<Sides> points = held_points(measurement);
-  for (const Run& run : measurement.runs) {
-    const SeenSpan swept = swept_both_ways(run);
+  for (const measurement::Run& run : measurement.runs) {
+    const measurement::SeenSpan swept = swept_both_ways(run);
     std::erase_if(points, [&](const Sides& p) { return p.alpha >= swept.least && p.alpha <= swept.most; });
   }
   const auto both = std::count_if(points.begin(), points.end(), [](const Sides& p) { return p.rising && p.falling; });
@@ -318,24 +322,25 @@ void ask_for_both_sides(const Measurement& measurement, std::vector<NextMeasurem
       next);
 }
 
-std::vector<NextMeasurement> planned_measurements(const DeclaredMechanism& declared) {
-  const Plan plan = plan_runs(declared);
+std::vector<plan::NextMeasurement> planned_measurements(const DeclaredMechanism& declared) {
+  const plan::Plan plan = plan::plan_runs(declared);
   // A law without solution over the range has no motion.
   if (!(plan.slow > 0))
-    return {next_inspection(
+    return {plan::next_inspection(
         "several strokes both ways over the whole range, slowly, at no load and at two loads, and one run faster")};
-  std::vector<NextMeasurement> next;
-  for (const PlanStep& step : plan.steps) {
-    next.push_back(step.run ? next_run(*step.run, plan.slow, plan.load_unit) : next_reading({step.reading}));
+  std::vector<plan::NextMeasurement> next;
+  for (const plan::PlanStep& step : plan.steps) {
+    next.push_back(step.run ? plan::next_run(*step.run, plan.slow, plan.load_unit)
+                            : plan::next_reading({step.reading}));
     next.back().separates = step.sees;
   }
   return next;
 }
 
-std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const Selection& selection,
-                                               const Calibration& calibration) {
+std::vector<plan::NextMeasurement> next_measurements(const Evidence& evidence, const Selection& selection,
+                                                     const Calibration& calibration) {
   const std::vector<Alternative> others = alternatives(selection, calibration.effects);
-  std::vector<NextMeasurement> next;
+  std::vector<plan::NextMeasurement> next;
   if (!others.empty()) next = Proposals(evidence, selection, others).best();
   // No simulated measurement distinguishes them: the effects' own proposals.
   if (next.empty()) {
@@ -345,8 +350,8 @@ std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const S
     if (effect.group.back() == k_unmodelled) ask(effect.unmodelled.separating_run, next);
   }
   if (calibration.verdict == CalibrationVerdict::not_repeatable) {
-    next.insert(next.begin(),
-                next_inspection("tighten what can be loose and repeat one run five times without touching anything"));
+    next.insert(next.begin(), plan::next_inspection(
+                                  "tighten what can be loose and repeat one run five times without touching anything"));
   } else if (calibration.verdict == CalibrationVerdict::unexplained) {
     ask("turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run: what moves with it is the "
         "pulley's",
@@ -355,4 +360,4 @@ std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const S
   return next;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

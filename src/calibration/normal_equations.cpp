@@ -5,7 +5,7 @@
 #include "base/decompositions.h"
 #include "calibration/fit.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// dθ/dx of a row. J of a fit without parameters has no storage.
@@ -98,4 +98,4 @@ bool is_finite(const Evidence& evidence, const Fit& fit) {
   return true;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

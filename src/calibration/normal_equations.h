@@ -7,7 +7,7 @@
 #include "calibration/evidence.h"
 #include "calibration/parameters.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 struct Fit;
 
@@ -44,4 +44,4 @@ NormalEquations sums_of_all(const Evidence& evidence, const Fit& fit);
 /// True if residual and slopes are finite in every row in use.
 bool is_finite(const Evidence& evidence, const Fit& fit);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::calibration {
 
-bool is_searched(const Effect& effect) {
+bool is_searched(const fusee::Effect& effect) {
   return std::any_of(effect.parameters.begin(), effect.parameters.end(),
                      [](const EffectParameter& p) { return p.searched; });
 }
@@ -23,7 +23,7 @@ const EffectParameter* free_offset(const Mechanism& declared) {
 
 Parameters parameters_of(const EffectSet& effects) {
   Parameters parameters;
-  for (const Effect* effect : effects) {
+  for (const fusee::Effect* effect : effects) {
     for (const EffectParameter& parameter : effect->parameters) {
       if (!parameter.searched) parameters.push_back(&parameter);
     }
@@ -37,19 +37,19 @@ Parameters varied(const Mechanism& declared, const EffectSet& effects) {
   return parameters;
 }
 
-Imperfections without(Imperfections at, const Effect& effect) {
+Imperfections without(Imperfections at, const fusee::Effect& effect) {
   for (const EffectParameter& parameter : effect.parameters) reset(at, parameter);
   return at;
 }
 
-EffectSet without(const EffectSet& effects, const Effect& effect) {
+EffectSet without(const EffectSet& effects, const fusee::Effect& effect) {
   EffectSet others;
   std::copy_if(effects.begin(), effects.end(), std::back_inserter(others),
-               [&](const Effect* other) { return other != &effect; });
+               [&](const fusee::Effect* other) { return other != &effect; });
   return others;
 }
 
-bool contains(const EffectSet& effects, const Effect& effect) {
+bool contains(const EffectSet& effects, const fusee::Effect& effect) {
   return std::find(effects.begin(), effects.end(), &effect) != effects.end();
 }
 
@@ -62,4 +62,4 @@ bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
   return at_end(at, parameter) && std::abs(value_of(at, parameter) - parameter.gone) > 1e-9 * parameter.step;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

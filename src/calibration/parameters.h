@@ -7,15 +7,15 @@
 #include "calibration/evidence.h"
 #include "mechanism/effect.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
-using EffectSet = std::vector<const Effect*>;
+using EffectSet = std::vector<const fusee::Effect*>;
 
 /// Parameters in the order of a fit's x.
 using Parameters = std::vector<const EffectParameter*>;
 
 /// True if a parameter is searched for (an order, a time): slopes at its start predict little.
-bool is_searched(const Effect& effect);
+bool is_searched(const fusee::Effect& effect);
 
 /// The free offset of a joint declared as θ = offset + α/ratio; null for any other joint.
 const EffectParameter* free_offset(const Mechanism& declared);
@@ -25,13 +25,13 @@ Parameters parameters_of(const EffectSet& effects);
 Parameters varied(const Mechanism& declared, const EffectSet& effects);
 
 /// `at` without an effect.
-Imperfections without(Imperfections at, const Effect& effect);
-EffectSet without(const EffectSet& effects, const Effect& effect);
-bool contains(const EffectSet& effects, const Effect& effect);
+Imperfections without(Imperfections at, const fusee::Effect& effect);
+EffectSet without(const EffectSet& effects, const fusee::Effect& effect);
+bool contains(const EffectSet& effects, const fusee::Effect& effect);
 
 /// True at either end of the parameter's range.
 bool at_end(const Imperfections& at, const EffectParameter& parameter);
 /// True at an end at which the data require more than any joint has; false if the effect is absent there.
 bool at_bound(const Imperfections& at, const EffectParameter& parameter);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-namespace fusee {
+namespace fusee::calibration {
 
 bool shares(const EffectSet& one, const EffectSet& other) {
-  return std::any_of(one.begin(), one.end(), [&](const Effect* effect) { return contains(other, *effect); });
+  return std::any_of(one.begin(), one.end(), [&](const fusee::Effect* effect) { return contains(other, *effect); });
 }
 
 namespace {
@@ -32,12 +32,12 @@ double doubt_of(const std::vector<Weighed>& sets, const std::vector<double>& wei
 }
 
 /// Effect outside `best` with the most weight among sets without `members`; null without one.
-const Effect* in_their_place(const std::vector<Weighed>& sets, const std::vector<double>& weights,
-                             const EffectSet& members, const EffectSet& best) {
-  std::vector<std::pair<const Effect*, double>> others;
+const fusee::Effect* in_their_place(const std::vector<Weighed>& sets, const std::vector<double>& weights,
+                                    const EffectSet& members, const EffectSet& best) {
+  std::vector<std::pair<const fusee::Effect*, double>> others;
   for (std::size_t i = 0; i < sets.size(); ++i) {
     if (shares(sets[i].effects, members)) continue;
-    for (const Effect* effect : sets[i].effects) {
+    for (const fusee::Effect* effect : sets[i].effects) {
       if (contains(best, *effect)) continue;
       const auto known =
           std::find_if(others.begin(), others.end(), [&](const auto& other) { return other.first == effect; });
@@ -55,12 +55,12 @@ const Effect* in_their_place(const std::vector<Weighed>& sets, const std::vector
 
 }  // namespace
 
-CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& best, const Effect& named,
+CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& best, const fusee::Effect& named,
                              double most_doubt, double least_gain) {
   const std::vector<double> weights = weights_of(sets);
   CredibleGroup group{{&named}, doubt_of(sets, weights, {&named})};
   while (group.doubt > most_doubt) {
-    const Effect* other = in_their_place(sets, weights, group.members, best);
+    const fusee::Effect* other = in_their_place(sets, weights, group.members, best);
     if (other == nullptr) break;
     EffectSet wider = group.members;
     wider.push_back(other);
@@ -71,4 +71,4 @@ CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& 
   return group;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

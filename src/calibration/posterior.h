@@ -7,7 +7,7 @@
 
 #include "calibration/parameters.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// True if the sets have a common effect.
 bool shares(const EffectSet& one, const EffectSet& other);
@@ -27,7 +27,7 @@ struct CredibleGroup {
 /// Group of the effect `named` of the set `best`: effects in its place are added until the doubt is at most
 /// `most_doubt`, or the remaining sets have nothing in its place. `least_gain`: share of the doubt that each further
 /// member must remove.
-CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& best, const Effect& named,
+CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& best, const fusee::Effect& named,
                              double most_doubt, double least_gain = 0);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

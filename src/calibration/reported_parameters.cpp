@@ -13,7 +13,7 @@
 // if the prediction improves further, and the group stays. Effects that the pulley corrects are never included that
 // way, since a part is made from them.
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// Held-out mean squares, rad²: by whole runs, and by levels of load or speed.
@@ -42,7 +42,7 @@ HeldOutErrors held_out_errors_of_mode(const Evidence& evidence, const Estimate& 
 EffectSet table_members(const Selection& selection) {
   EffectSet all;
   for (const CredibleGroup& group : selection.groups) {
-    for (const Effect* member : group.members) {
+    for (const fusee::Effect* member : group.members) {
       if (member->correctable_by == CorrectableBy::table && !contains(selection.best.effects, *member) &&
           !contains(all, *member))
         all.push_back(member);
@@ -68,7 +68,7 @@ Fit add_best_predicting(FitterPool& pool, Fit set, const EffectSet& effects) {
 
 /// Curves that stand for an unmodelled cause: for a joint declared by a ratio, one of its angle.
 EffectSet unmodelled_curves(const Evidence& evidence) {
-  const Effect* curve = find_effect("ratio_curve", kind_of(*evidence.declared));
+  const fusee::Effect* curve = find_effect("ratio_curve", kind_of(*evidence.declared));
   return curve == nullptr ? EffectSet{} : EffectSet{curve};
 }
 
@@ -159,7 +159,7 @@ ReportedParameters choose_reported_parameters(const Evidence& evidence, FitterPo
   return best_answer(evidence, selection, unmodelled, squares);
 }
 
-ValidatedAnswer validate_answer(const Evidence& evidence, FitterPool& pool, const Measurement& kept,
+ValidatedAnswer validate_answer(const Evidence& evidence, FitterPool& pool, const measurement::Measurement& kept,
                                 Selection& selection) {
   ValidatedAnswer answer;
   answer.declared = declared_estimate(pool, selection);
@@ -196,4 +196,4 @@ ValidatedAnswer changes_beside(const Evidence& evidence, const Selection& select
   return answer;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

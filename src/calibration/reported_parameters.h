@@ -9,7 +9,7 @@
 #include "calibration/empirical_curve.h"
 #include "calibration/validation.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 struct ReportedParameters {
   /// The found set, perhaps with another member of a group; without effects the declared joint.
@@ -35,11 +35,11 @@ struct ValidatedAnswer {
 
 /// Removes effects from `selection`, the least predictive first, until held-out rows are predicted no worse than by the
 /// declared joint, over all and at each level of load and speed. `kept`: runs for validation.
-ValidatedAnswer validate_answer(const Evidence& evidence, FitterPool& pool, const Measurement& kept,
+ValidatedAnswer validate_answer(const Evidence& evidence, FitterPool& pool, const measurement::Measurement& kept,
                                 Selection& selection);
 
 /// Changes between two states, as selected, beside the discrepancy that both states share. They are not validated by
 /// prediction: every run has the discrepancy of the earlier state.
 ValidatedAnswer changes_beside(const Evidence& evidence, const Selection& selection);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -6,7 +6,7 @@
 #include "fusee/joint.h"
 #include "measurement/seen_span.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// Time, travel and load changes before a row.
@@ -16,14 +16,14 @@ struct SessionProgress {
 
 /// Progress at each row of each run, as shares of the session's totals.
 std::vector<std::vector<SessionProgress>> session_progress(const Evidence& evidence) {
-  const std::vector<double> clock = bench_clock(evidence.log);
+  const std::vector<double> clock = joint::bench_clock(evidence.log);
   std::vector<std::vector<SessionProgress>> all;
-  const Sample* before = nullptr;
+  const measurement::Sample* before = nullptr;
   SessionProgress so_far;
   double begin = 0;
   for (std::size_t i = 0; i < clock.size(); ++i) {
     std::vector<SessionProgress>& run = all.emplace_back();
-    for (const Sample& sample : evidence.measurement.runs[i].samples) {
+    for (const measurement::Sample& sample : evidence.measurement.runs[i].samples) {
       const double now = clock[i] + sample.time;
       if (before == nullptr) {
         begin = now;
@@ -46,31 +46,31 @@ std::vector<std::vector<SessionProgress>> session_progress(const Evidence& evide
 
 }  // namespace
 
-int place_bin(const RowFacts& row, int count) { return Bins{{0, 1}, count}.bin(row.place); }
+int place_bin(const RowFacts& row, int count) { return measurement::Bins{{0, 1}, count}.bin(row.place); }
 
 std::vector<RowFacts> row_facts(const Evidence& evidence) {
-  const SeenSpan span = seen_span(evidence.measurement, &Sample::alpha);
+  const measurement::SeenSpan span = measurement::seen_span(evidence.measurement, &measurement::Sample::alpha);
   const std::vector<std::vector<SessionProgress>> gone = session_progress(evidence);
   double most_load = 0;
   double most_speed = 0;
   std::vector<std::size_t> offset;
   std::size_t rows = 0;
-  for (const Run& run : evidence.measurement.runs) {
+  for (const measurement::Run& run : evidence.measurement.runs) {
     offset.push_back(rows);
     rows += run.samples.size();
     most_speed = std::max(most_speed, run.has_time ? run.speed : 0.0);
-    for (const Sample& sample : run.samples)
+    for (const measurement::Sample& sample : run.samples)
       most_load = std::max(most_load, run.has_load ? std::abs(sample.load) : 0.0);
   }
   std::vector<RowFacts> facts;
   for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {
     const Block& block = evidence.blocks[b];
-    const Run& run = evidence.measurement.runs[block.run];
+    const measurement::Run& run = evidence.measurement.runs[block.run];
     const double begin = run.samples.front().time;
     const double half = std::max(1e-9, 0.5 * (run.samples.back().time - begin));
     for (const std::size_t row : block.rows) {
       const std::size_t place = row - offset[block.run];
-      const Sample& sample = run.samples[place];
+      const measurement::Sample& sample = run.samples[place];
       const SessionProgress& by = gone[block.run][place];
       const double begun = run.samples[run.strokes[block.stroke].first].alpha;
       facts.push_back({sample.alpha, sample.theta, span.any() ? (sample.alpha - span.least) / span.size() : 0.0,
@@ -86,9 +86,9 @@ std::vector<RowFacts> row_facts(const Evidence& evidence) {
 }
 
 bool varies(const std::vector<RowFacts>& facts, double RowFacts::*number, double least) {
-  SeenSpan span;
+  measurement::SeenSpan span;
   for (const RowFacts& row : facts) span.take(row.*number);
   return span.size() > least;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -7,7 +7,7 @@
 
 #include "calibration/evidence.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 struct RowFacts {
   double alpha = 0, theta = 0;  ///< measured angles, rad
@@ -33,4 +33,4 @@ std::vector<RowFacts> row_facts(const Evidence& evidence);
 /// True if a property varies over the rows by more than `least`.
 bool varies(const std::vector<RowFacts>& facts, double RowFacts::*number, double least);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -23,7 +23,7 @@
 // is fitted only if a linearized candidate predicts a gain. All visited sets are then weighed, each by its likeliest
 // fit. An effect is reported if sets that contain it, or a member of its group, hold nearly all of the weight.
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// score() without the penalty of the discrepancy.
@@ -47,7 +47,7 @@ struct FitWithoutDiscrepancy {
 /// Effect that may be added to a fit, with its predicted score.
 struct LinearizedCandidate {
   const Fit* base = nullptr;
-  const Effect* effect = nullptr;
+  const fusee::Effect* effect = nullptr;
   double predicted_score = -std::numeric_limits<double>::infinity();
   LinearizedEffect linearized = {};  ///< columns by which the score was predicted
 };
@@ -117,7 +117,8 @@ class Selector {
   std::vector<const Fit*> ranked() const;
   double predict_score(const Fit& base, const EffectSet& added, const std::vector<const LinearizedEffect*>& candidates,
                        const Amplitudes& amplitudes) const;
-  std::vector<LinearizedEffect> linearize_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const;
+  std::vector<LinearizedEffect> linearize_beside(const Fitter& fitter, const Fit& base,
+                                                 const fusee::Effect& effect) const;
   using FitOne = Fit (Selector::*)(const Fitter&, const LinearizedCandidate&) const;
   std::vector<Fit> fit_candidates(const std::string& what, const std::vector<LinearizedCandidate>& added,
                                   FitOne fit_one);
@@ -146,9 +147,9 @@ class Selector {
   void add_companions();
   std::optional<double> square_deviation(const Fit& fit, Eigen::Index place) const;
   void estimate_variance();
-  bool is_unsupported(const Effect& effect, const Fit& others) const;
-  CredibleGroup group_of(const std::vector<Weighed>& sets, const Effect& effect) const;
-  bool is_certain_with_group(const std::vector<Weighed>& sets, const Effect& effect) const;
+  bool is_unsupported(const fusee::Effect& effect, const Fit& others) const;
+  CredibleGroup group_of(const std::vector<Weighed>& sets, const fusee::Effect& effect) const;
+  bool is_certain_with_group(const std::vector<Weighed>& sets, const fusee::Effect& effect) const;
   std::vector<Fit> reduce_best() const;
   std::vector<CandidatePair> pairs_beside(const Fit& base, const Amplitudes& amplitudes,
                                           const std::vector<LinearizedCandidate>& candidates) const;
@@ -163,7 +164,7 @@ class Selector {
   void record_candidates();
 
   void report(const std::string& what, double share) const { options_.context.begin_step(what, share); }
-  std::size_t place_of(const Effect& effect) const {
+  std::size_t place_of(const fusee::Effect& effect) const {
     return static_cast<std::size_t>(std::find(selection_.catalogue.begin(), selection_.catalogue.end(), &effect) -
                                     selection_.catalogue.begin());
   }
@@ -182,7 +183,7 @@ class Selector {
 
 Selector::Key Selector::key_of(const EffectSet& effects) const {
   Key key;
-  for (const Effect* effect : effects) key.push_back(place_of(*effect));
+  for (const fusee::Effect* effect : effects) key.push_back(place_of(*effect));
   std::sort(key.begin(), key.end());
   return key;
 }
@@ -247,7 +248,7 @@ Fit Selector::fit_fully(const Fitter& fitter, const LinearizedCandidate& added) 
 /// Every effect of the catalogue, beside none.
 std::vector<LinearizedCandidate> Selector::each_alone() const {
   std::vector<LinearizedCandidate> all;
-  for (const Effect* effect : selection_.catalogue) all.push_back({&selection_.none, effect});
+  for (const fusee::Effect* effect : selection_.catalogue) all.push_back({&selection_.none, effect});
   return all;
 }
 
@@ -289,7 +290,7 @@ double Selector::predict_score(const Fit& base, const EffectSet& added,
 
 /// Linearizations of an effect, by chords over its expected sizes, one for each start.
 std::vector<LinearizedEffect> Selector::linearize_beside(const Fitter& fitter, const Fit& base,
-                                                         const Effect& effect) const {
+                                                         const fusee::Effect& effect) const {
   std::vector<LinearizedEffect> candidates;
   for (const Fit& wider : fitter.add_chords_of_starts(base, effect)) {
     if (!wider.usable) continue;
@@ -304,7 +305,7 @@ std::vector<LinearizedEffect> Selector::linearize_beside(const Fitter& fitter, c
 std::vector<LinearizedCandidate> Selector::rank_by_linearization(const Fitter& fitter, const Fit& base,
                                                                  const Amplitudes& amplitudes, std::size_t most) const {
   EffectSet effects = selection_.catalogue;
-  std::erase_if(effects, [&](const Effect* effect) { return contains(base.effects, *effect); });
+  std::erase_if(effects, [&](const fusee::Effect* effect) { return contains(base.effects, *effect); });
   std::vector<std::vector<LinearizedEffect>> candidates(effects.size());
   std::vector<const LinearizedEffect*> flat;
   for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -490,7 +491,7 @@ void Selector::refit_without_each() {
   if (selection_.without.size() == best.effects.size()) return;
   selection_.without.assign(best.effects.size(), {});
   pool_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
-    const Effect& effect = *best.effects[i];
+    const fusee::Effect& effect = *best.effects[i];
     selection_.without[i] = likeliest_known(fitter.fit(without(best.effects, effect), without(best.at, effect)));
   });
 }
@@ -543,8 +544,8 @@ std::vector<Fit> Selector::reduce_best() const {
   }
   std::vector<Fit> all(pairs.size());
   pool_.each(pairs.size(), [&](const Fitter& fitter, std::size_t k) {
-    const Effect& one = *best.effects[pairs[k].first];
-    const Effect& other = *best.effects[pairs[k].second];
+    const fusee::Effect& one = *best.effects[pairs[k].first];
+    const fusee::Effect& other = *best.effects[pairs[k].second];
     all[k] =
         likeliest_known(fitter.fit(without(without(best.effects, one), other), without(without(best.at, one), other)));
   });
@@ -563,7 +564,7 @@ std::vector<CandidatePair> best_of_each(std::vector<CandidatePair> pairs, std::s
     return a.predicted_score > b.predicted_score;
   });
   std::vector<CandidatePair> best;
-  std::map<const Effect*, std::size_t> times;
+  std::map<const fusee::Effect*, std::size_t> times;
   for (const CandidatePair& pair : pairs) {
     if (best.size() == most) break;
     std::size_t &one = times[pair.one->effect], &other = times[pair.other->effect];
@@ -662,7 +663,7 @@ bool Selector::exchange_members() {
 
 /// True if one of its numbers is at a bound: the data require more of it than any joint has, so another cause. Searched
 /// numbers may end at a bound, and zero is none.
-bool is_at_bound(const Fit& fit, const Effect& effect) {
+bool is_at_bound(const Fit& fit, const fusee::Effect& effect) {
   return std::any_of(effect.parameters.begin(), effect.parameters.end(), [&](const EffectParameter& parameter) {
     return !parameter.searched && value_of(fit.at, parameter) != 0 && !is_idle(parameter, fit.at) &&
            at_bound(fit.at, parameter);
@@ -698,20 +699,20 @@ std::vector<Weighed> Selector::weigh_sets() {
 
 /// True if the set is likelier without it, or it predicts nothing, or only at a bound. Two groups that each contain the
 /// other's effect may both seem certain.
-bool Selector::is_unsupported(const Effect& effect, const Fit& others) const {
+bool Selector::is_unsupported(const fusee::Effect& effect, const Fit& others) const {
   const Fit& best = selection_.best;
   if (!others.usable) return false;
   return score(others) > score(best) || !predicts(evidence_, best, others) || is_at_bound(best, effect);
 }
 
 /// Credible group of an effect. Members that remove hardly any doubt are left out.
-CredibleGroup Selector::group_of(const std::vector<Weighed>& sets, const Effect& effect) const {
+CredibleGroup Selector::group_of(const std::vector<Weighed>& sets, const fusee::Effect& effect) const {
   return credible_group(sets, selection_.best.effects, effect, k_thresholds.complete_group_doubt,
                         k_thresholds.least_gain);
 }
 
 /// True if it, or any effect of the catalogue in its place, is as certain as a reported effect must be.
-bool Selector::is_certain_with_group(const std::vector<Weighed>& sets, const Effect& effect) const {
+bool Selector::is_certain_with_group(const std::vector<Weighed>& sets, const fusee::Effect& effect) const {
   return credible_group(sets, selection_.best.effects, effect, k_thresholds.most_false_positives).doubt <=
          k_thresholds.most_false_positives;
 }
@@ -735,7 +736,7 @@ bool Selector::drop_doubtful() {
   refit_without_each();
   selection_.groups.clear();
   std::vector<std::size_t> doubtful;
-  for (const Effect* effect : selection_.best.effects) {
+  for (const fusee::Effect* effect : selection_.best.effects) {
     const std::size_t place = selection_.groups.size();
     CredibleGroup& group = selection_.groups.emplace_back(group_of(sets, *effect));
     if (is_unsupported(*effect, selection_.without[place])) group.doubt = 1;
@@ -745,7 +746,7 @@ bool Selector::drop_doubtful() {
     return selection_.groups[a].doubt > selection_.groups[b].doubt;
   });
   for (const std::size_t place : doubtful) {
-    const Effect& effect = *selection_.best.effects[place];
+    const fusee::Effect& effect = *selection_.best.effects[place];
     const Fit& others = selection_.without[place];
     const double doubt = others.usable ? selection_.groups[place].doubt : 1.0;
     if (doubt < k_thresholds.most_doubtful && (is_certain_with_group(sets, effect) || is_completed_beside(others)))
@@ -819,7 +820,7 @@ void Selector::add_companions() {
   std::vector<Fit> fits = fit_candidates("looking at what may be there beside it", likely, &Selector::fit_briefly);
   for (Fit& fit : fits) {
     if (!fit.usable || !(score(fit) > least)) continue;
-    const Effect* effect = fit.effects.back();
+    const fusee::Effect* effect = fit.effects.back();
     if (const std::optional<std::size_t> place = find_trading_member(fit)) {
       EffectSet& members = selection_.groups[*place].members;
       if (!contains(members, *effect)) members.push_back(effect);
@@ -907,15 +908,19 @@ Selection Selector::run() {
 
 }  // namespace
 
-double search_penalty(const Effect& effect) { return is_searched(effect) ? k_thresholds.search_penalty : 0.0; }
+double search_penalty(const fusee::Effect& effect) { return is_searched(effect) ? k_thresholds.search_penalty : 0.0; }
 
-double neg_log_prior_odds(const Effect& effect) { return k_thresholds.neg_log_prior_odds + search_penalty(effect); }
+double neg_log_prior_odds(const fusee::Effect& effect) {
+  return k_thresholds.neg_log_prior_odds + search_penalty(effect);
+}
 
-double reporting_penalty(const Effect& effect) { return k_thresholds.reporting_penalty + search_penalty(effect); }
+double reporting_penalty(const fusee::Effect& effect) {
+  return k_thresholds.reporting_penalty + search_penalty(effect);
+}
 
 double neg_log_prior_odds(const EffectSet& effects) {
   double sum = 0;
-  for (const Effect* effect : effects) sum += neg_log_prior_odds(*effect);
+  for (const fusee::Effect* effect : effects) sum += neg_log_prior_odds(*effect);
   return sum;
 }
 
@@ -925,4 +930,4 @@ Selection select_effects(const Evidence& evidence, FitterPool& pool, const Calib
   return Selector(evidence, pool, options).run();
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -12,12 +12,12 @@
 #include "calibration/statistics.h"
 #include "fusee/calibration.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Fit with another effect in the place of an accepted one.
 struct Rival {
-  const Effect* accepted = nullptr;
-  const Effect* rival = nullptr;
+  const fusee::Effect* accepted = nullptr;
+  const fusee::Effect* rival = nullptr;
   Fit fit;
 };
 
@@ -40,10 +40,10 @@ struct Selection {
 };
 
 /// Negative log prior odds of an effect, nats.
-double neg_log_prior_odds(const Effect& effect);
+double neg_log_prior_odds(const fusee::Effect& effect);
 double neg_log_prior_odds(const EffectSet& effects);
 /// Penalty of a reported effect, nats.
-double reporting_penalty(const Effect& effect);
+double reporting_penalty(const fusee::Effect& effect);
 
 /// Log posterior of a set up to a constant: log evidence, and log prior odds of effects and discrepancy.
 double score(const Fit& fit);
@@ -51,4 +51,4 @@ double score(const Fit& fit);
 /// Searches the catalogue. The result has an unusable `none` if the declared joint has no equilibrium.
 Selection select_effects(const Evidence& evidence, FitterPool& pool, const CalibrationOptions& options);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr std::size_t k_slip_times = 4;
@@ -15,9 +15,10 @@ constexpr std::size_t k_tried_times = 96;
 /// Times of the rows in use, by the bench's clock.
 std::vector<double> times_of_rows(const Evidence& evidence) {
   std::vector<double> all, used;
-  const std::vector<double> clock = bench_clock(evidence.log);
+  const std::vector<double> clock = joint::bench_clock(evidence.log);
   for (std::size_t i = 0; i < evidence.measurement.runs.size(); ++i) {
-    for (const Sample& sample : evidence.measurement.runs[i].samples) all.push_back(clock[i] + sample.time);
+    for (const measurement::Sample& sample : evidence.measurement.runs[i].samples)
+      all.push_back(clock[i] + sample.time);
   }
   for (const Eigen::Index row : evidence.rows()) used.push_back(all[static_cast<std::size_t>(row)]);
   return used;
@@ -80,7 +81,7 @@ std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
 
 }  // namespace
 
-std::vector<std::vector<double>> starts_of(const Evidence& evidence, const Fit& base, const Effect& effect) {
+std::vector<std::vector<double>> starts_of(const Evidence& evidence, const Fit& base, const fusee::Effect& effect) {
   std::vector<std::vector<double>> starts = effect.starts;
   if (effect.starts_in_time) {
     for (const double time : steps_in_time(evidence, base)) {
@@ -92,10 +93,11 @@ std::vector<std::vector<double>> starts_of(const Evidence& evidence, const Fit& 
   return starts;
 }
 
-std::vector<std::vector<double>> starts_that_differ(const Evidence& evidence, const Fit& base, const Effect& effect) {
+std::vector<std::vector<double>> starts_that_differ(const Evidence& evidence, const Fit& base,
+                                                    const fusee::Effect& effect) {
   std::vector<std::vector<double>> starts = starts_of(evidence, base, effect);
   if (effect.starts_in_time) std::erase_if(starts, [](const std::vector<double>& start) { return start.front() != 0; });
   return starts;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

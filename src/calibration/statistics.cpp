@@ -7,7 +7,7 @@
 
 #include "calibration/thresholds.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 double mean_of(const std::vector<double>& values) {
@@ -24,10 +24,10 @@ double rms_of(const Eigen::VectorXd& values) {
   return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size())) : 0.0;
 }
 
-Eigen::VectorXd alphas(const Measurement& measurement) {
+Eigen::VectorXd alphas(const measurement::Measurement& measurement) {
   std::vector<double> all;
-  for (const Run& run : measurement.runs) {
-    for (const Sample& sample : run.samples) all.push_back(sample.alpha);
+  for (const measurement::Run& run : measurement.runs) {
+    for (const measurement::Sample& sample : run.samples) all.push_back(sample.alpha);
   }
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
@@ -143,7 +143,7 @@ StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
   return scatter;
 }
 
-bool is_scattering(const NoiseFloor& noise) {
+bool is_scattering(const measurement::NoiseFloor& noise) {
   return noise.from_repeats && noise.within_stroke > 0 &&
          noise.rms > k_thresholds.most_repeat_scatter * noise.within_stroke;
 }
@@ -153,4 +153,4 @@ bool is_walking(const StrokeScatter& scatter) {
          scatter.tilts > k_thresholds.most_stroke_scatter * scatter.about_tilts;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

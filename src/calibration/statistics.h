@@ -4,7 +4,7 @@
 
 #include "calibration/fit.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// True if the evidence of two sets is equal within k_thresholds.as_good.
 bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
@@ -13,7 +13,7 @@ bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
 double rms_of(const Eigen::VectorXd& values);
 
 /// α of all rows, in the order of Block::rows.
-Eigen::VectorXd alphas(const Measurement& measurement);
+Eigen::VectorXd alphas(const measurement::Measurement& measurement);
 
 /// Lag-1 autocorrelation of the residual within blocks, −1 … 1.
 double lag_one_correlation(const Evidence& evidence, const Fit& fit);
@@ -34,9 +34,9 @@ struct StrokeScatter {
 StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit);
 
 /// True if repeats differ by many times the scatter within a stroke, which no noise of a sensor does.
-bool is_scattering(const NoiseFloor& noise);
+bool is_scattering(const measurement::NoiseFloor& noise);
 
 /// True if strokes of one run and direction differ by more than noise.
 bool is_walking(const StrokeScatter& scatter);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

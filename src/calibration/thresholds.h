@@ -8,7 +8,7 @@
 
 #include <cstddef>
 
-namespace fusee {
+namespace fusee::calibration {
 
 struct Thresholds {
   // ---- residual: noise, or an unmodelled cause ----
@@ -149,4 +149,4 @@ struct Thresholds {
 
 inline constexpr Thresholds k_thresholds{};
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -7,13 +7,13 @@
 #include <limits>
 #include <set>
 
+#include "base/text.h"
 #include "calibration/evidence_model.h"
 #include "calibration/load_scale.h"
 #include "calibration/row_facts.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 #include "calibration/unmodelled_effects.h"
-#include "base/text.h"
 #include "calibration/words.h"
 
 // The discrepancy is smooth: a kink, a step, a bump or a short wave requires many of its columns, so that an absent
@@ -22,7 +22,7 @@
 // add shapes. The remaining difference in score is the evidence for the effect itself. Wrong loads are no shape: each
 // effect is tested against them by refits (load_scale.h).
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr int k_most_taken = 3;
@@ -387,7 +387,7 @@ class ShapeSearch {
 
 /// `fit` without one of its effects, the others unchanged. A refit of the others would move them from the values beside
 /// the discrepancy.
-Fit leave_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
+Fit leave_out(const Fitter& fitter, const Fit& fit, const fusee::Effect& effect) {
   Fit others = fit;
   others.effects = without(fit.effects, effect);
   others.at = without(fit.at, effect);
@@ -408,17 +408,18 @@ Fit leave_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
 
 /// True for effects that follow temperature or begin at some time: a drift beside them may follow any course (held-out
 /// seeds 131078 and 131119: thermal_expansion by 101 and 71 nats beside a slipping press fit and a worn pin).
-bool depends_on_time(const Effect& effect) { return effect.needs.temperature || effect.starts_in_time; }
+bool depends_on_time(const fusee::Effect& effect) { return effect.needs.temperature || effect.starts_in_time; }
 
 /// True if the group contains an effect that leaves the joint free within a play, which can absorb any residual.
 bool has_loose_member(const std::vector<std::string>& group, const EffectSet& catalogue) {
-  return std::any_of(catalogue.begin(), catalogue.end(), [&](const Effect* effect) {
+  return std::any_of(catalogue.begin(), catalogue.end(), [&](const fusee::Effect* effect) {
     return effect->loosens && std::count(group.begin(), group.end(), effect->name) > 0;
   });
 }
 
 /// Log odds that an effect requires against the best unmodelled alternative, if no other cause is unexplained.
-double required_log_odds(const Effect& effect, const std::vector<std::string>& group, const EffectSet& catalogue) {
+double required_log_odds(const fusee::Effect& effect, const std::vector<std::string>& group,
+                         const EffectSet& catalogue) {
   const bool has_no_shape = depends_on_time(effect) || has_loose_member(group, catalogue);
   return has_no_shape ? k_thresholds.ahead_without_shape : k_thresholds.ahead_of_unmodelled;
 }
@@ -495,4 +496,4 @@ void add_unmodelled(bool beside_unmodelled, const Selection& selection, std::vec
   }
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

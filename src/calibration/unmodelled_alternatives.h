@@ -8,7 +8,7 @@
 #include "calibration/fitter_pool.h"
 #include "calibration/selection.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Best unmodelled alternative to every accepted effect, in their order.
 std::vector<UnmodelledAlternative> find_unmodelled_alternatives(const Evidence& evidence, FitterPool& pool,
@@ -18,4 +18,4 @@ std::vector<UnmodelledAlternative> find_unmodelled_alternatives(const Evidence& 
 /// `beside_unmodelled`: an unmodelled cause remains beside all effects, and may be the cause of any of them.
 void add_unmodelled(bool beside_unmodelled, const Selection& selection, std::vector<FoundEffect>& effects);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -29,7 +29,7 @@
 // contribution is of that kind, geometry by the part that is equal at a place, friction by the part that is odd in
 // direction: the fits took a quarter of a calibration's time.
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// mm at 57 degrees, a quarter of it at 29: pins, levers and pulleys are off by as much.
@@ -63,8 +63,8 @@ EffectParameter rubbing_number(const char* name, double& (*number)(Imperfections
   return number_of(name, number, 0, 1e5, 0.5, k_usual_rubbing);
 }
 
-Effect longer_paths() {
-  Effect paths;
+fusee::Effect longer_paths() {
+  fusee::Effect paths;
   paths.name = "longer_paths";
   paths.parameters = {path_number("slope1", [](Imperfections& at) -> double& { return at.joint.path1.slope; }),
                       path_number("slope2", [](Imperfections& at) -> double& { return at.joint.path2.slope; }),
@@ -76,8 +76,8 @@ Effect longer_paths() {
   return paths;
 }
 
-Effect rubbing() {
-  Effect friction;
+fusee::Effect rubbing() {
+  fusee::Effect friction;
   friction.name = "rubbing";
   friction.parameters = {
       rubbing_number("by_area_Nmm", [](Imperfections& at) -> double& { return at.joint.rubbing.by_area; }),
@@ -114,7 +114,7 @@ double alike_one_way(const std::vector<RowFacts>& rows, const Eigen::VectorXd& c
 }
 
 struct UnmodelledEffect {
-  Effect effect;
+  fusee::Effect effect;
   double (*of_its_kind)(const std::vector<RowFacts>& rows, const Eigen::VectorXd& contribution);
   const char* words;
   const char* separating_run;
@@ -134,8 +134,8 @@ const std::array<UnmodelledEffect, 2>& unmodelled_effects() {
 }
 
 /// The refit without the first other effect that lowers the score beside `unmodelled`; none without one.
-std::optional<Fit> remove_idle_effect(const Fitter& fitter, const Fit& fit, const Effect& unmodelled) {
-  for (const Effect* effect : fit.effects) {
+std::optional<Fit> remove_idle_effect(const Fitter& fitter, const Fit& fit, const fusee::Effect& unmodelled) {
+  for (const fusee::Effect* effect : fit.effects) {
     if (effect == &unmodelled) continue;
     Fit fewer = fitter.fit(without(fit.effects, *effect), without(fit.at, *effect));
     if (fewer.usable && score(fewer) > score(fit)) return fewer;
@@ -144,7 +144,7 @@ std::optional<Fit> remove_idle_effect(const Fitter& fitter, const Fit& fit, cons
 }
 
 /// `fit` without the effects that lower the score beside `unmodelled`.
-Fit remove_idle_effects(const Fitter& fitter, Fit fit, const Effect& unmodelled) {
+Fit remove_idle_effects(const Fitter& fitter, Fit fit, const fusee::Effect& unmodelled) {
   while (std::optional<Fit> fewer = remove_idle_effect(fitter, fit, unmodelled)) fit = std::move(*fewer);
   return fit;
 }
@@ -152,7 +152,7 @@ Fit remove_idle_effects(const Fitter& fitter, Fit fit, const Effect& unmodelled)
 double score_of_usable(const Fit& fit) { return fit.usable ? score(fit) : -std::numeric_limits<double>::infinity(); }
 
 /// Fit of `others` with the effect, from one of its starts.
-Fit fit_with_unmodelled(const Fitter& fitter, const Fit& others, const Effect& unmodelled,
+Fit fit_with_unmodelled(const Fitter& fitter, const Fit& others, const fusee::Effect& unmodelled,
                         const std::vector<double>& start) {
   EffectSet effects = others.effects;
   effects.push_back(&unmodelled);
@@ -200,7 +200,7 @@ void fit_from_starts(FitterPool& pool, const Selection& selection, std::vector<S
   }
   pool.each(tasks.size(), [&](const Fitter& fitter, std::size_t i) {
     const auto& [substitute, start] = tasks[i];
-    const Effect& unmodelled = substitute->unmodelled->effect;
+    const fusee::Effect& unmodelled = substitute->unmodelled->effect;
     substitute->fits[start] =
         fit_with_unmodelled(fitter, selection.without[substitute->effect], unmodelled, unmodelled.starts[start]);
   });
@@ -237,4 +237,4 @@ std::vector<UnmodelledSubstitute> fit_unmodelled_effects(const Evidence& evidenc
   return found;
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

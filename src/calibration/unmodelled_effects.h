@@ -10,7 +10,7 @@
 #include "calibration/fitter_pool.h"
 #include "calibration/selection.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Best set with an unmodelled effect in an effect's place, and without others that it makes unnecessary.
 struct UnmodelledSubstitute {
@@ -25,4 +25,4 @@ std::vector<UnmodelledSubstitute> fit_unmodelled_effects(const Evidence& evidenc
                                                          const Selection& selection, const std::vector<bool>& asked,
                                                          double enough);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -7,7 +7,7 @@
 #include "calibration/thresholds.h"
 #include "fusee/joint.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 /// Standard errors over strokes by which a level may get worse by chance.
@@ -21,7 +21,8 @@ std::string names_of(const Evidence& evidence, const Fold& fold) {
   return text;
 }
 
-double mean_square(const Run& run, const Stroke& stroke, const std::vector<double>& model, double& rows) {
+double mean_square(const measurement::Run& run, const measurement::Stroke& stroke, const std::vector<double>& model,
+                   double& rows) {
   double squares = 0;
   rows = 0;
   for (std::size_t i = stroke.first; i <= stroke.last; ++i) {
@@ -63,7 +64,7 @@ std::vector<Imperfections> estimates_without(const Evidence& evidence, const Est
   return all;
 }
 
-HeldOutRows::HeldOutRows(const Evidence& evidence, const Estimate& declared, Measurement kept)
+HeldOutRows::HeldOutRows(const Evidence& evidence, const Estimate& declared, measurement::Measurement kept)
     : evidence_(evidence), declared_(declared), kept_(with_fewer_rows(std::move(kept), k_rows_a_kept_run)) {}
 
 HeldOutRows::Level HeldOutRows::level_of(const std::string& name, const Fold& fold, const HeldOut& before,
@@ -85,14 +86,14 @@ std::vector<HeldOutRows::Level> HeldOutRows::left_out(const std::vector<Fold>& f
 
 /// Levels of the kept runs: each run has its load and speed.
 std::vector<HeldOutRows::Level> HeldOutRows::kept_apart(const Estimate& answer) const {
-  const BenchLog log = bench_log(kept_);
-  const Readings before = predict(*evidence_.declared, declared_.fit.at, log),
-                 after = predict(*evidence_.declared, answer.fit.at, log);
+  const joint::BenchLog log = measurement::bench_log(kept_);
+  const joint::Readings before = joint::predict(*evidence_.declared, declared_.fit.at, log),
+                        after = joint::predict(*evidence_.declared, answer.fit.at, log);
   std::vector<Level> levels;
   for (std::size_t r = 0; r < kept_.runs.size(); ++r) {
-    const Run& run = kept_.runs[r];
+    const measurement::Run& run = kept_.runs[r];
     Level& level = levels.emplace_back(Level{run.name, {}});
-    for (const Stroke& stroke : run.strokes) {
+    for (const measurement::Stroke& stroke : run.strokes) {
       Block block;
       if (stroke.partial) continue;
       block.before = mean_square(run, stroke, before[r], block.rows);
@@ -157,12 +158,12 @@ std::string HeldOutRows::worse_at(const Estimate& answer) const {
 }
 
 void drop_effect(FitterPool& pool, std::size_t place, const std::string& why, Selection& selection) {
-  const Effect* gone = selection.best.effects[place];
+  const fusee::Effect* gone = selection.best.effects[place];
   const EffectSet before = selection.best.effects;
   const std::vector<CredibleGroup> groups = std::move(selection.groups);
   selection.best = selection.without[place].usable ? selection.without[place] : selection.none;
   selection.groups.clear();
-  for (const Effect* effect : selection.best.effects) {
+  for (const fusee::Effect* effect : selection.best.effects) {
     const auto own = static_cast<std::size_t>(std::find(before.begin(), before.end(), effect) - before.begin());
     selection.groups.push_back(groups[own]);
   }
@@ -171,7 +172,7 @@ void drop_effect(FitterPool& pool, std::size_t place, const std::string& why, Se
   const Fit& best = selection.best;
   selection.without.assign(best.effects.size(), {});
   pool.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
-    const Effect& effect = *best.effects[i];
+    const fusee::Effect& effect = *best.effects[i];
     selection.without[i] = fitter.fit(without(best.effects, effect), without(best.at, effect));
   });
   for (Candidate& candidate : selection.tried) {
@@ -181,4 +182,4 @@ void drop_effect(FitterPool& pool, std::size_t place, const std::string& why, Se
   }
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -8,7 +8,7 @@
 
 #include "calibration/selection.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Parameters of a set of effects, and their estimator.
 struct Estimate {
@@ -30,7 +30,7 @@ std::vector<Imperfections> estimates_without(const Evidence& evidence, const Est
 class HeldOutRows {
  public:
   /// `kept` may have no runs. All must outlive this.
-  HeldOutRows(const Evidence& evidence, const Estimate& declared, Measurement kept);
+  HeldOutRows(const Evidence& evidence, const Estimate& declared, measurement::Measurement kept);
 
   /// Rows that the answer predicts worse than the declared joint by more than strokes differ: all of them ("all rows"),
   /// or one level of load or speed ("run_3.csv"). Empty: none.
@@ -55,11 +55,11 @@ class HeldOutRows {
 
   const Evidence& evidence_;
   const Estimate& declared_;
-  Measurement kept_;
+  measurement::Measurement kept_;
 };
 
 /// Removes the effect at `place` of the best set; the others as refitted without it. `why` is recorded in
 /// Selection::tried.
 void drop_effect(FitterPool& pool, std::size_t place, const std::string& why, Selection& selection);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 
+#include "base/text.h"
 #include "calibration/statistics.h"
 #include "calibration/unmodelled_alternatives.h"
-#include "base/text.h"
 #include "measurement/seen_span.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr int k_bins = 12;
@@ -31,8 +31,8 @@ std::string list(const std::vector<std::string>& names) {
 /// Means of a residual by place and direction, over all runs.
 class Places {
  public:
-  explicit Places(const Measurement& measurement)
-      : alpha_(alphas(measurement)), bins_{seen_span(measurement, &Sample::alpha), k_bins} {}
+  explicit Places(const measurement::Measurement& measurement)
+      : alpha_(alphas(measurement)), bins_{measurement::seen_span(measurement, &measurement::Sample::alpha), k_bins} {}
 
   void add(std::size_t row, int direction, double residual) {
     Mean& mean = means_[{bins_.bin(alpha_[static_cast<Eigen::Index>(row)]), direction}];
@@ -55,7 +55,7 @@ class Places {
 
  private:
   Eigen::VectorXd alpha_;  ///< α of every row
-  Bins bins_;
+  measurement::Bins bins_;
   std::map<std::pair<int, int>, Mean> means_;  ///< means by place and direction
 };
 
@@ -86,23 +86,25 @@ CalibrationVerdict verdict_of(bool walks, bool above_floor, const std::vector<Fo
                                                                : CalibrationVerdict::explained;
 }
 
-std::string level_words(const NoiseLevel& level, const std::string& load_unit) {
+std::string level_words(const measurement::NoiseLevel& level, const std::string& load_unit) {
   std::string words;
   if (!load_unit.empty()) words += "load " + rounded(level.load, 2) + " " + load_unit;
   if (level.speed > 0) words += (words.empty() ? "" : ", ") + rounded(degrees(level.speed), 2) + "°/s";
   return words;
 }
 
-bool is_quieter(const NoiseLevel& one, const NoiseLevel& other) { return one.rms < other.rms; }
+bool is_quieter(const measurement::NoiseLevel& one, const measurement::NoiseLevel& other) {
+  return one.rms < other.rms;
+}
 
 /// Sentence on scatter between repeats that far exceeds a sensor's noise, with its largest place.
 std::string scatter_words(const Calibration& calibration, const std::string& load_unit) {
-  const NoiseFloor& noise = calibration.noise;
+  const measurement::NoiseFloor& noise = calibration.noise;
   std::string words = "The same angle, direction and load give joint angles that differ by " + in_degrees(noise.rms) +
                       " rms from stroke to stroke, " + rounded(noise.rms / noise.within_stroke, 2) +
                       " times the scatter within a stroke";
   if (!noise.levels.empty()) {
-    const NoiseLevel& most = *std::max_element(noise.levels.begin(), noise.levels.end(), is_quieter);
+    const measurement::NoiseLevel& most = *std::max_element(noise.levels.begin(), noise.levels.end(), is_quieter);
     const std::string level = level_words(most, load_unit);
     words += ", most at alpha " + rounded(degrees(most.largest_at), 3) + "°" + (level.empty() ? "" : ", " + level);
   }
@@ -110,7 +112,7 @@ std::string scatter_words(const Calibration& calibration, const std::string& loa
 }
 
 /// Sentence on noise that differs between loads or speeds by more than chance, and by more than half; "" otherwise.
-std::string noise_words(const NoiseFloor& noise, const std::string& load_unit) {
+std::string noise_words(const measurement::NoiseFloor& noise, const std::string& load_unit) {
   if (noise.levels.size() < 2) return "";
   const auto [least, most] = std::minmax_element(noise.levels.begin(), noise.levels.end(), is_quieter);
   const double ratio = most->rms / least->rms;
@@ -201,4 +203,4 @@ void summarize(const Evidence& evidence, const Selection& selection, Calibration
                         figures(calibration, evidence.floor);
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

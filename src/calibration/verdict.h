@@ -8,7 +8,7 @@
 #include "calibration/selection.h"
 #include "fusee/calibration.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Repeatable structure of the residual.
 struct ResidualStructure {
@@ -25,4 +25,4 @@ void conclude(const Evidence& evidence, const Selection& selection, const Discre
 /// Fills the summary from verdict, effects and next measurements.
 void summarize(const Evidence& evidence, const Selection& selection, Calibration& calibration);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -5,7 +5,7 @@
 
 #include "base/text.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 std::string_view word(CalibrationVerdict verdict) {
   switch (verdict) {
@@ -46,4 +46,4 @@ std::string_view remedy_words(const FoundEffect& effect) {
   return "";
 }
 
-}  // namespace fusee
+}  // namespace fusee::calibration

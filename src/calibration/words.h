@@ -9,7 +9,7 @@
 
 #include "fusee/calibration.h"
 
-namespace fusee {
+namespace fusee::calibration {
 
 /// Key in calibration.json: "not_testable".
 std::string_view word(CalibrationVerdict verdict);
@@ -20,4 +20,4 @@ std::string odds(double log_odds);
 /// Sentence on how the effect can be corrected.
 std::string_view remedy_words(const FoundEffect& effect);
 
-}  // namespace fusee
+}  // namespace fusee::calibration

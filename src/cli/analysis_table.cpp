@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
-#include "cli/table.h"
 #include "base/text.h"
+#include "cli/table.h"
 
 namespace fusee::cli {
 namespace {
@@ -17,17 +17,17 @@ constexpr std::size_t k_short_table = 13;
 /// A named number of a row.
 struct Number {
   std::string_view name;
-  double (*value)(const AnalysisRow&);
+  double (*value)(const analysis::AnalysisRow&);
 };
 
 /// A named number of the full model in either direction.
 struct FullNumber {
   std::string_view name;
-  double (*value)(const EquilibriumPoint&, const AnalysisRow&);
+  double (*value)(const joint::EquilibriumPoint&, const analysis::AnalysisRow&);
 };
 
 const std::vector<Number>& paper_numbers() {
-  using Row = AnalysisRow;
+  using Row = analysis::AnalysisRow;
   static const std::vector<Number> all = {
       {"alpha_deg", [](const Row& row) { return degrees(row.declared.alpha); }},
       {"theta_deg", [](const Row& row) { return degrees(row.declared.theta); }},
@@ -49,8 +49,8 @@ const std::vector<Number>& paper_numbers() {
 }
 
 const std::vector<FullNumber>& full_numbers() {
-  using Point = EquilibriumPoint;
-  using Row = AnalysisRow;
+  using Point = joint::EquilibriumPoint;
+  using Row = analysis::AnalysisRow;
   static const std::vector<FullNumber> all = {
       {"theta_deg", [](const Point& point, const Row&) { return degrees(point.theta); }},
       {"T1_N", [](const Point& point, const Row&) { return point.t1.upper; }},
@@ -71,29 +71,29 @@ const std::vector<FullNumber>& full_numbers() {
   return all;
 }
 
-bool held(const EquilibriumPoint& point) { return point.status != EquilibriumStatus::no_equilibrium; }
+bool held(const joint::EquilibriumPoint& point) { return point.status != joint::EquilibriumStatus::no_equilibrium; }
 
-std::string_view name(EquilibriumStatus status) {
+std::string_view name(joint::EquilibriumStatus status) {
   switch (status) {
-    case EquilibriumStatus::held:
+    case joint::EquilibriumStatus::held:
       return "held";
-    case EquilibriumStatus::loose:
+    case joint::EquilibriumStatus::loose:
       return "loose";
-    case EquilibriumStatus::no_equilibrium:
+    case joint::EquilibriumStatus::no_equilibrium:
       break;
   }
   return "no_equilibrium";
 }
 
-std::string_view name(PinContact contact) {
+std::string_view name(joint::PinContact contact) {
   switch (contact) {
-    case PinContact::stick:
+    case joint::PinContact::stick:
       return "stick";
-    case PinContact::slip_up:
+    case joint::PinContact::slip_up:
       return "slip_up";
-    case PinContact::slip_down:
+    case joint::PinContact::slip_down:
       return "slip_down";
-    case PinContact::slack:
+    case joint::PinContact::slack:
       break;
   }
   return "slack";
@@ -101,20 +101,21 @@ std::string_view name(PinContact contact) {
 
 struct Direction {
   std::string prefix;
-  EquilibriumPoint AnalysisRow::*point;
+  joint::EquilibriumPoint analysis::AnalysisRow::*point;
 };
 
 const std::vector<Direction>& directions() {
-  static const std::vector<Direction> both = {{"rising_", &AnalysisRow::rising}, {"falling_", &AnalysisRow::falling}};
+  static const std::vector<Direction> both = {{"rising_", &analysis::AnalysisRow::rising},
+                                              {"falling_", &analysis::AnalysisRow::falling}};
   return both;
 }
 
 /// Calls number(name, value or nothing) and word(name, word) for every column in order.
 template <typename OnNumber, typename OnWord>
-void for_each_column(const AnalysisRow& row, OnNumber number, OnWord word) {
+void for_each_column(const analysis::AnalysisRow& row, OnNumber number, OnWord word) {
   for (const Number& column : paper_numbers()) number(std::string(column.name), std::optional(column.value(row)));
   for (const Direction& direction : directions()) {
-    const EquilibriumPoint& point = row.*direction.point;
+    const joint::EquilibriumPoint& point = row.*direction.point;
     word(direction.prefix + "status", name(point.status));
     for (const FullNumber& column : full_numbers()) {
       number(direction.prefix + std::string(column.name),
@@ -132,27 +133,27 @@ std::string cell(double value) {
   return std::abs(value) < 1e-9 ? "0" : rounded(value, 4);
 }
 
-std::string full_cell(const EquilibriumPoint& point, double value) { return held(point) ? cell(value) : "-"; }
+std::string full_cell(const joint::EquilibriumPoint& point, double value) { return held(point) ? cell(value) : "-"; }
 
-std::vector<AnalysisRow> thinned(const std::vector<AnalysisRow>& rows, bool all) {
+std::vector<analysis::AnalysisRow> thinned(const std::vector<analysis::AnalysisRow>& rows, bool all) {
   if (all || rows.size() <= k_short_table) return rows;
-  std::vector<AnalysisRow> few;
+  std::vector<analysis::AnalysisRow> few;
   for (std::size_t i = 0; i < k_short_table; ++i) few.push_back(rows[i * (rows.size() - 1) / (k_short_table - 1)]);
   return few;
 }
 
 using Cells = std::vector<std::string>;
 
-std::string columns_of(const std::vector<std::string_view>& titles, const std::vector<AnalysisRow>& rows,
-                       Cells (*cells)(const AnalysisRow&)) {
+std::string columns_of(const std::vector<std::string_view>& titles, const std::vector<analysis::AnalysisRow>& rows,
+                       Cells (*cells)(const analysis::AnalysisRow&)) {
   std::vector<Column> columns;
   for (const std::string_view title : titles) columns.push_back({title, Align::right});
   std::vector<Cells> lines;
-  for (const AnalysisRow& row : rows) lines.push_back(cells(row));
+  for (const analysis::AnalysisRow& row : rows) lines.push_back(cells(row));
   return table(columns, lines);
 }
 
-Cells geometry_cells(const AnalysisRow& row) {
+Cells geometry_cells(const analysis::AnalysisRow& row) {
   return {fixed(degrees(row.declared.alpha), 1),
           fixed(degrees(row.declared.theta), 2),
           fixed(row.declared.t1.p, 3),
@@ -163,8 +164,8 @@ Cells geometry_cells(const AnalysisRow& row) {
           fixed(degrees(row.paper.phi), 2)};
 }
 
-Cells force_cells(const AnalysisRow& row) {
-  const EquilibriumPoint& full = row.rising;
+Cells force_cells(const analysis::AnalysisRow& row) {
+  const joint::EquilibriumPoint& full = row.rising;
   const bool by_first = row.paper.T1 > 0;
   return {fixed(degrees(row.declared.alpha), 1),
           cell(row.paper.T1),
@@ -177,8 +178,8 @@ Cells force_cells(const AnalysisRow& row) {
           full_cell(full, full.motor_torque)};
 }
 
-Cells elastic_cells(const AnalysisRow& row) {
-  const EquilibriumPoint& full = row.rising;
+Cells elastic_cells(const analysis::AnalysisRow& row) {
+  const joint::EquilibriumPoint& full = row.rising;
   const bool by_first = row.paper.T1 > 0;
   const bool both = held(full) && held(row.falling);
   return {fixed(degrees(row.declared.alpha), 1),
@@ -193,8 +194,8 @@ Cells elastic_cells(const AnalysisRow& row) {
 
 }  // namespace
 
-std::string stroke_tables(const std::vector<AnalysisRow>& rows, bool all) {
-  const std::vector<AnalysisRow> shown = thinned(rows, all);
+std::string stroke_tables(const std::vector<analysis::AnalysisRow>& rows, bool all) {
+  const std::vector<analysis::AnalysisRow> shown = thinned(rows, all);
   std::string text = "Geometry (deg, mm)\n";
   text += columns_of({"alpha", "theta", "r1", "r2", "gamma1", "gamma2", "phi1", "phi2"}, shown, geometry_cells);
   text += "\nForces (N, Nmm): the paper's [6]-[8] beside the full model, alpha growing\n";
@@ -204,9 +205,9 @@ std::string stroke_tables(const std::vector<AnalysisRow>& rows, bool all) {
   return text;
 }
 
-std::string stroke_csv(const std::vector<AnalysisRow>& rows) {
+std::string stroke_csv(const std::vector<analysis::AnalysisRow>& rows) {
   std::string text;
-  for (const AnalysisRow& row : rows) {
+  for (const analysis::AnalysisRow& row : rows) {
     std::string names;
     std::string values;
     const auto add = [&](const std::string& name, const std::string& value) {
@@ -222,9 +223,9 @@ std::string stroke_csv(const std::vector<AnalysisRow>& rows) {
   return text;
 }
 
-Json stroke_json(const std::vector<AnalysisRow>& rows) {
+Json stroke_json(const std::vector<analysis::AnalysisRow>& rows) {
   Json list = Json::array();
-  for (const AnalysisRow& row : rows) {
+  for (const analysis::AnalysisRow& row : rows) {
     Json object;
     for_each_column(
         row,

@@ -3,13 +3,13 @@
 #include <cctype>
 #include <filesystem>
 
+#include "base/text.h"
 #include "cli/analysis_table.h"
 #include "cli/command.h"
 #include "cli/pins.h"
 #include "cli/table.h"
-#include "fusee/base.h"
-#include "base/text.h"
 #include "export/report/analysis.h"
+#include "fusee/base.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
@@ -17,14 +17,14 @@ namespace {
 
 std::string alpha_text(double alpha) { return "alpha = " + fixed(degrees(alpha), 1) + " deg"; }
 
-std::string range_text(const AlphaRange& range) {
+std::string range_text(const analysis::AlphaRange& range) {
   if (range.from == range.to) return "at " + alpha_text(range.from);
   return "alpha = " + fixed(degrees(range.from), 1) + " to " + fixed(degrees(range.to), 1) + " deg";
 }
 
-std::string ranges_text(const std::vector<AlphaRange>& ranges) {
+std::string ranges_text(const std::vector<analysis::AlphaRange>& ranges) {
   std::string text;
-  for (const AlphaRange& range : ranges) text += (text.empty() ? "" : ", ") + range_text(range);
+  for (const analysis::AlphaRange& range : ranges) text += (text.empty() ? "" : ", ") + range_text(range);
   return text;
 }
 
@@ -32,15 +32,15 @@ std::string ranges_text(const std::vector<AlphaRange>& ranges) {
 
 std::string line(const std::string& title, const std::string& text) { return titled(title, text, 18); }
 
-std::string tension_line(const AnalysisResult& result, const Mechanism& mechanism) {
-  const TensionExtreme& most = result.largest_tension;
-  return line("largest tension", rounded(most.tension) + " N, " + place_words(most, mechanism) + ", " +
+std::string tension_line(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
+  const analysis::TensionExtreme& most = result.largest_tension;
+  return line("largest tension", rounded(most.tension) + " N, " + analysis::place_words(most, mechanism) + ", " +
                                      alpha_text(most.alpha) + (most.rising ? ", rising" : ", falling")) +
          line("", "(paper: T_b " + rounded(result.largest_paper_tension.value) + " N, " +
                       alpha_text(result.largest_paper_tension.alpha) + ")");
 }
 
-std::string strength_line(const AnalysisResult& result, const Mechanism& mechanism) {
+std::string strength_line(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
   if (!result.strength) return line("tendon bears", "unknown: set tendon.strength_N");
   const std::string source = result.strength->source == "tendon.strength_N"
                                  ? result.strength->source
@@ -54,19 +54,20 @@ std::string strength_line(const AnalysisResult& result, const Mechanism& mechani
                       rounded(result.largest_at_joint.value) + " N");
 }
 
-std::string drum_lines(const AnalysisResult& result) {
+std::string drum_lines(const analysis::AnalysisResult& result) {
   std::string text;
-  for (const DrumHold& hold : result.on_drum)
+  for (const analysis::DrumHold& hold : result.on_drum)
     text += line(
         text.empty() ? "drum friction" : "",
-        "tendon " + std::string(hold.tendon == Side::left ? "1" : "2") + " over up to " + rounded(degrees(hold.wrap)) +
-            " deg: at its end within a factor of " + rounded(hold.ratio) + " of its span" +
+        "tendon " + std::string(hold.tendon == transmission::Side::left ? "1" : "2") + " over up to " +
+            rounded(degrees(hold.wrap)) + " deg: at its end within a factor of " + rounded(hold.ratio) +
+            " of its span" +
             (hold.at_end.value > 0 ? ", up to " + rounded(hold.at_end.value) + " N, " + alpha_text(hold.at_end.alpha)
                                    : ", slack"));
   return text;
 }
 
-std::string slack_lines(const AnalysisResult& result) {
+std::string slack_lines(const analysis::AnalysisResult& result) {
   if (result.slack1.empty() && result.slack2.empty()) return line("slack", "none: both tendons stay taut");
   std::string text;
   if (!result.slack1.empty()) text += line("tendon 1 slack", ranges_text(result.slack1));
@@ -76,9 +77,9 @@ std::string slack_lines(const AnalysisResult& result) {
   return text;
 }
 
-std::string sources_table(const std::vector<ErrorSource>& sources) {
+std::string sources_table(const std::vector<analysis::ErrorSource>& sources) {
   std::vector<std::vector<std::string>> cells;
-  for (const ErrorSource& source : sources) {
+  for (const analysis::ErrorSource& source : sources) {
     cells.push_back({source.meaning, fixed(degrees(source.least), 4), fixed(degrees(source.most), 4),
                      fixed(degrees(source.worst_at), 1)});
   }
@@ -89,9 +90,9 @@ std::string sources_table(const std::vector<ErrorSource>& sources) {
                cells);
 }
 
-std::string tolerances_table(const std::vector<ToleranceEffect>& effects) {
+std::string tolerances_table(const std::vector<analysis::ToleranceEffect>& effects) {
   std::vector<std::vector<std::string>> cells;
-  for (const ToleranceEffect& effect : effects) {
+  for (const analysis::ToleranceEffect& effect : effects) {
     cells.push_back({effect.key, fixed(degrees(effect.theta_by_derivative), 4),
                      fixed(degrees(effect.theta_by_monte_carlo), 4), fixed(degrees(effect.theta_at), 1),
                      fixed(effect.slack_by_derivative, 4), fixed(effect.slack_by_monte_carlo, 4)});
@@ -105,7 +106,8 @@ std::string tolerances_table(const std::vector<ToleranceEffect>& effects) {
                cells);
 }
 
-std::string summary(const AnalysisResult& result, const AnalysisOptions& options, const Mechanism& mechanism) {
+std::string summary(const analysis::AnalysisResult& result, const analysis::AnalysisOptions& options,
+                    const Mechanism& mechanism) {
   std::string text = "Summary\n" + tension_line(result, mechanism) + strength_line(result, mechanism) +
                      drum_lines(result) + slack_lines(result);
   text += line("motor torque",
@@ -120,20 +122,20 @@ std::string summary(const AnalysisResult& result, const AnalysisOptions& options
 
 // ---- JSON -----------------------------------------------------------------------------------------------------------
 
-Json ranges_json(const std::vector<AlphaRange>& ranges) {
+Json ranges_json(const std::vector<analysis::AlphaRange>& ranges) {
   Json list = Json::array();
-  for (const AlphaRange& range : ranges) list.push_back({degrees(range.from), degrees(range.to)});
+  for (const analysis::AlphaRange& range : ranges) list.push_back({degrees(range.from), degrees(range.to)});
   return list;
 }
 
 Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
-Json summary_json(const AnalysisResult& result) {
-  const TensionExtreme& most = result.largest_tension;
+Json summary_json(const analysis::AnalysisResult& result) {
+  const analysis::TensionExtreme& most = result.largest_tension;
   Json json;
   json["largest_tension"] = {{"value_N", most.tension},
                              {"alpha_deg", degrees(most.alpha)},
-                             {"tendon", most.tendon == Side::left ? 1 : 2},
+                             {"tendon", most.tendon == transmission::Side::left ? 1 : 2},
                              {"place", most.below_pin ? "below_pin" : "above_pin"},
                              {"direction", most.rising ? "rising" : "falling"}};
   json["largest_paper_Tb"] = {{"value_N", result.largest_paper_tension.value},
@@ -144,8 +146,8 @@ Json summary_json(const AnalysisResult& result) {
                                      : Json();
   json["largest_at_joint_knot"] = {{"value_N", result.largest_at_joint.value},
                                    {"alpha_deg", degrees(result.largest_at_joint.alpha)}};
-  for (const DrumHold& hold : result.on_drum)
-    json["on_drum"].push_back({{"tendon", hold.tendon == Side::left ? 1 : 2},
+  for (const analysis::DrumHold& hold : result.on_drum)
+    json["on_drum"].push_back({{"tendon", hold.tendon == transmission::Side::left ? 1 : 2},
                                {"wrap_deg", degrees(hold.wrap)},
                                {"ratio", hold.ratio},
                                {"largest_at_end_N", hold.at_end.value},
@@ -160,9 +162,9 @@ Json summary_json(const AnalysisResult& result) {
   return json;
 }
 
-Json sources_json(const std::vector<ErrorSource>& sources) {
+Json sources_json(const std::vector<analysis::ErrorSource>& sources) {
   Json list = Json::array();
-  for (const ErrorSource& source : sources) {
+  for (const analysis::ErrorSource& source : sources) {
     list.push_back({{"name", source.name},
                     {"meaning", source.meaning},
                     {"theta_deg", {degrees(source.least), degrees(source.most)}},
@@ -171,9 +173,9 @@ Json sources_json(const std::vector<ErrorSource>& sources) {
   return list;
 }
 
-Json tolerances_json(const std::vector<ToleranceEffect>& effects) {
+Json tolerances_json(const std::vector<analysis::ToleranceEffect>& effects) {
   Json list = Json::array();
-  for (const ToleranceEffect& effect : effects) {
+  for (const analysis::ToleranceEffect& effect : effects) {
     list.push_back({{"key", effect.key},
                     {"theta_deg",
                      {{"derivative", degrees(effect.theta_by_derivative)},
@@ -189,7 +191,7 @@ Json tolerances_json(const std::vector<ToleranceEffect>& effects) {
 
 // ---- findings -------------------------------------------------------------------------------------------------------
 
-void add_findings(const AnalysisResult& result, const std::string& file, Reply& reply) {
+void add_findings(const analysis::AnalysisResult& result, const std::string& file, Reply& reply) {
   const auto say = [&](Severity severity, const std::string& message, const std::string& hint) {
     Diagnostic diagnostic = about_file(severity, file, message);
     diagnostic.hint = hint;
@@ -202,7 +204,7 @@ void add_findings(const AnalysisResult& result, const std::string& file, Reply& 
         "reduce [load], or use stiffer tendons (tendon.diameter_mm, tendon.modulus_MPa)");
   }
   if (result.breaks_at) {
-    const auto breaks = tendon_breaks({result.largest_tension, result.largest_at_joint}, *result.strength);
+    const auto breaks = analysis::tendon_breaks({result.largest_tension, result.largest_at_joint}, *result.strength);
     say(breaks->severity, breaks->message, breaks->hint);
   }
   const bool declared_loose = result.largest_tension.tension < 1e-6;
@@ -212,14 +214,14 @@ void add_findings(const AnalysisResult& result, const std::string& file, Reply& 
         result.taut_pretension ? "tendon.pretension_N >= " + rounded(*result.taut_pretension, 3) + " keeps both taut"
                                : "raise tendon.pretension_N");
   }
-  for (const Condition& condition : result.obstacles) {
+  for (const profile::Condition& condition : result.obstacles) {
     say(Severity::warning, "forces are known, but the pulley is infeasible: " + condition.message,
         "'fusee build' lists helpful changes");
   }
 }
 
-AnalysisOptions options_from(const Arguments& arguments) {
-  AnalysisOptions options;
+analysis::AnalysisOptions options_from(const Arguments& arguments) {
+  analysis::AnalysisOptions options;
   options.steps = static_cast<int>(arguments.number("--steps", options.steps, 2, 2000, "(steps)"));
   options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0, 10.0, "mm");
   options.samples = static_cast<int>(arguments.number("--samples", options.samples, 10, 100000, "(samples)"));
@@ -244,18 +246,18 @@ void refuse_unknown_ending(const Arguments& arguments) {
                    "use .csv or .json for the table, .html for a page, .svg, .png or .pdf for the plots");
 }
 
-std::string bytes_for(const std::string& ending, const MechanismFile& mechanism, const AnalysisResult& result,
-                      const AnalysisOptions& options, const Reply& reply) {
+std::string bytes_for(const std::string& ending, const MechanismFile& mechanism, const analysis::AnalysisResult& result,
+                      const analysis::AnalysisOptions& options, const Reply& reply) {
   if (ending == ".json") return json_text(stroke_json(result.rows), 1);
-  if (ending == ".html") return analysis_html(mechanism, result, options, reply.diagnostics);
-  if (ending == ".svg") return analysis_svg(mechanism, result);
-  if (ending == ".png") return analysis_png(mechanism, result);
-  if (ending == ".pdf") return analysis_pdf(mechanism, result);
+  if (ending == ".html") return formats::analysis_html(mechanism, result, options, reply.diagnostics);
+  if (ending == ".svg") return formats::analysis_svg(mechanism, result);
+  if (ending == ".png") return formats::analysis_png(mechanism, result);
+  if (ending == ".pdf") return formats::analysis_pdf(mechanism, result);
   return stroke_csv(result.rows);
 }
 
-void write_result(const Arguments& arguments, const MechanismFile& mechanism, const AnalysisResult& result,
-                  const AnalysisOptions& options, FileAccess& files, Reply& reply) {
+void write_result(const Arguments& arguments, const MechanismFile& mechanism, const analysis::AnalysisResult& result,
+                  const analysis::AnalysisOptions& options, FileAccess& files, Reply& reply) {
   const std::optional<std::string> file = arguments.text("--out");
   if (!file) return;
   const std::string bytes = bytes_for(ending_of(*file), mechanism, result, options, reply);
@@ -265,11 +267,11 @@ void write_result(const Arguments& arguments, const MechanismFile& mechanism, co
 
 Reply run_analyze(const Arguments& arguments, Console& console, const RunContext& context) {
   refuse_unknown_ending(arguments);
-  const AnalysisOptions options = options_from(arguments);
+  const analysis::AnalysisOptions options = options_from(arguments);
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
   Reply reply;
   reply.diagnostics = file.warnings;
-  const AnalysisResult result = analyze(file, options, context);
+  const analysis::AnalysisResult result = pipeline::analyze(file, options, context);
   reply.diagnostics.insert(reply.diagnostics.end(), result.warnings.begin(), result.warnings.end());
   if (!result.exists) {
     reply.exit = Exit::infeasible;

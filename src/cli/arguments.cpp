@@ -5,9 +5,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/text.h"
 #include "cli/command.h"
 #include "fusee/base.h"
-#include "base/text.h"
 
 namespace fusee::cli {
 namespace {

@@ -1,7 +1,7 @@
 #include "cli/as_built.h"
 
-#include "cli/table.h"
 #include "base/text.h"
+#include "cli/table.h"
 
 namespace fusee::cli {
 namespace {
@@ -21,19 +21,19 @@ const std::vector<Option>& limit_options() {
   return options;
 }
 
-AsBuiltLimits limits_from(const Arguments& arguments) {
-  AsBuiltLimits limits;
+pipeline::AsBuiltLimits limits_from(const Arguments& arguments) {
+  pipeline::AsBuiltLimits limits;
   limits.theta_error_deg = arguments.number("--max-theta-error-deg", limits.theta_error_deg, 0.0, 180.0, "deg");
   limits.slack = arguments.number("--max-slack-mm", limits.slack, 0.0, 1000.0, "mm");
   return limits;
 }
 
-std::string as_built_text(const RewindResult& as_built) {
+std::string as_built_text(const profile::RewindResult& as_built) {
   return "theta within " + rounded(degrees(as_built.max_theta_error), 2) + " deg, slack within " +
          rounded(as_built.max_slack, 2) + " mm";
 }
 
-Json to_json(const RewindResult& as_built) {
+Json to_json(const profile::RewindResult& as_built) {
   return {{"max_theta_error_deg", degrees(as_built.max_theta_error)},
           {"max_theta_error_at_alpha_deg", degrees(as_built.max_theta_error_at)},
           {"max_slack_mm", as_built.max_slack},

@@ -13,12 +13,12 @@ namespace fusee::cli {
 
 /// --max-theta-error-deg and --max-slack-mm.
 const std::vector<Option>& limit_options();
-AsBuiltLimits limits_from(const Arguments& arguments);
+pipeline::AsBuiltLimits limits_from(const Arguments& arguments);
 
 /// Summary, such as "theta within 0.0012 deg, slack within 0.003 mm".
-std::string as_built_text(const RewindResult& as_built);
+std::string as_built_text(const profile::RewindResult& as_built);
 /// The JSON object of manifest.json.
-Json to_json(const RewindResult& as_built);
+Json to_json(const profile::RewindResult& as_built);
 std::string checks_table(const std::vector<Check>& checks);
 /// Adds an error for each failed check.
 void add_failures(const std::vector<Check>& checks, Reply& reply);

@@ -2,12 +2,12 @@
 #include <filesystem>
 
 #include "base/output_list.h"
+#include "base/text.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
 #include "cli/pins.h"
 #include "cli/table.h"
 #include "export/report/tendon_lengths.h"
-#include "base/text.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
@@ -19,9 +19,9 @@ struct Range {
 };
 
 template <typename Value>
-Range range_over(const std::vector<TransmissionPoint>& stroke, Value value) {
+Range range_over(const std::vector<transmission::TransmissionPoint>& stroke, Value value) {
   Range range{value(stroke.front()), value(stroke.front())};
-  for (const TransmissionPoint& point : stroke) {
+  for (const transmission::TransmissionPoint& point : stroke) {
     range.least = std::min(range.least, value(point));
     range.most = std::max(range.most, value(point));
   }
@@ -32,11 +32,11 @@ struct StrokeRanges {
   Range alpha, theta, r1, r2;  ///< deg, mm
 };
 
-StrokeRanges ranges_of(const std::vector<TransmissionPoint>& stroke) {
-  return {range_over(stroke, [](const TransmissionPoint& point) { return degrees(point.alpha); }),
-          range_over(stroke, [](const TransmissionPoint& point) { return degrees(point.theta); }),
-          range_over(stroke, [](const TransmissionPoint& point) { return point.t1.p; }),
-          range_over(stroke, [](const TransmissionPoint& point) { return point.t2.p; })};
+StrokeRanges ranges_of(const std::vector<transmission::TransmissionPoint>& stroke) {
+  return {range_over(stroke, [](const transmission::TransmissionPoint& point) { return degrees(point.alpha); }),
+          range_over(stroke, [](const transmission::TransmissionPoint& point) { return degrees(point.theta); }),
+          range_over(stroke, [](const transmission::TransmissionPoint& point) { return point.t1.p; }),
+          range_over(stroke, [](const transmission::TransmissionPoint& point) { return point.t2.p; })};
 }
 
 std::string range_text(const Range& range, int decimals, const std::string& unit) {
@@ -47,7 +47,7 @@ std::string size_text(std::size_t bytes) {
   return bytes < 10000 ? std::to_string(bytes) + " B" : std::to_string((bytes + 500) / 1000) + " kB";
 }
 
-std::string files_text(const BuildResult& built, const BuildOptions& options) {
+std::string files_text(const pipeline::BuildResult& built, const pipeline::BuildOptions& options) {
   if (options.dry_run) return titled("files", "none written (--dry-run)");
   if (!built.published) return titled("files", "none written: " + options.folder.string() + " keeps its earlier run");
   std::string text = titled("files", "in " + options.folder.string());
@@ -65,27 +65,27 @@ std::string checks_line(const std::vector<Check>& checks) {
   return titled("checks", std::to_string(passed) + " of " + std::to_string(checks.size()) + " passed");
 }
 
-std::string tendons_text(const Product& product) {
+std::string tendons_text(const formats::Product& product) {
   std::string text;
-  for (const TendonLength& tendon : tendon_lengths(product))
-    text += (text.empty() ? "cut " : ", ") + std::string(tendon.side == Side::left ? "1" : "2") + " at " +
+  for (const formats::TendonLength& tendon : formats::tendon_lengths(product))
+    text += (text.empty() ? "cut " : ", ") + std::string(tendon.side == transmission::Side::left ? "1" : "2") + " at " +
             fixed(tendon.cut, 0) + " mm";
   return text.empty() ? text : titled("tendons", text + ", with knots and two 50 mm tails");
 }
 
-std::string knots_text(const Holding& holding) {
+std::string knots_text(const solid::Holding& holding) {
   std::string text;
-  for (const KnotHold& knot : holding.knots) {
+  for (const solid::KnotHold& knot : holding.knots) {
     const std::optional<double> share = holding.share(knot);
     const std::string of_what = text.empty() ? " % of its strength)" : " %)";
-    text += (text.empty() ? "" : ", ") + std::string(knot.side == Side::left ? "1" : "2") + " up to " +
+    text += (text.empty() ? "" : ", ") + std::string(knot.side == transmission::Side::left ? "1" : "2") + " up to " +
             rounded(knot.at_knot, 3) + " N" + (share ? " (" + rounded(100.0 * *share, 2) + of_what : "");
   }
   return text.empty() ? text : titled("knots", text);
 }
 
-std::string summary(const BuildResult& built, const BuildOptions& options, bool verbose) {
-  const Product& product = built.product;
+std::string summary(const pipeline::BuildResult& built, const pipeline::BuildOptions& options, bool verbose) {
+  const formats::Product& product = built.product;
   const StrokeRanges ranges = ranges_of(product.synthesis.stroke);
   std::string text = product.joint.mechanism.name + "\n";
   text += titled("alpha", range_text(ranges.alpha, 2, "deg at the pulley"));
@@ -101,8 +101,8 @@ std::string summary(const BuildResult& built, const BuildOptions& options, bool 
 
 Json range_json(const Range& range) { return {range.least, range.most}; }
 
-Json product_json(const BuildResult& built, const BuildOptions& options) {
-  const Product& product = built.product;
+Json product_json(const pipeline::BuildResult& built, const pipeline::BuildOptions& options) {
+  const formats::Product& product = built.product;
   const StrokeRanges ranges = ranges_of(product.synthesis.stroke);
   Json json;
   json["name"] = product.joint.mechanism.name;
@@ -119,19 +119,20 @@ Json product_json(const BuildResult& built, const BuildOptions& options) {
 }
 
 /// Adds the reasons why the pulley is infeasible, with places and advice.
-void explain_infeasible(const BuildResult& built, Reply& reply) {
-  const Product& product = built.product;
+void explain_infeasible(const pipeline::BuildResult& built, Reply& reply) {
+  const formats::Product& product = built.product;
   const bool has_curves = product.synthesis.made();
-  const std::vector<Condition>& conditions = has_curves ? product.pulley.conditions : product.synthesis.conditions;
+  const std::vector<profile::Condition>& conditions =
+      has_curves ? product.pulley.conditions : product.synthesis.conditions;
   add_obstacles(product.file.path, conditions, reply);
   add_advice(built.advice.alone, reply);
   add_advice_together(built.advice.together, reply);
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
   // Numbers and words in separate lists, so that "to" is always a number in the first.
-  std::vector<Change> numbers = built.advice.alone, words;
+  std::vector<profile::Change> numbers = built.advice.alone, words;
   const auto first_word = std::stable_partition(numbers.begin(), numbers.end(),
-                                                [](const Change& change) { return change.to_word.empty(); });
+                                                [](const profile::Change& change) { return change.to_word.empty(); });
   words.assign(first_word, numbers.end());
   numbers.erase(first_word, numbers.end());
   reply.fields["advice"] = to_json(numbers);
@@ -139,7 +140,7 @@ void explain_infeasible(const BuildResult& built, Reply& reply) {
   if (!built.advice.together.empty()) reply.fields["advice_together"] = to_json(built.advice.together);
 }
 
-void add_failed_checks(const BuildResult& built, const BuildOptions& options, Reply& reply) {
+void add_failed_checks(const pipeline::BuildResult& built, const pipeline::BuildOptions& options, Reply& reply) {
   reply.exit = Exit::check_failed;
   add_failures(built.product.checks, reply);
   if (!built.published && !options.dry_run) {
@@ -149,7 +150,7 @@ void add_failed_checks(const BuildResult& built, const BuildOptions& options, Re
   }
 }
 
-void add_warnings(const Product& product, Reply& reply) {
+void add_warnings(const formats::Product& product, Reply& reply) {
   reply.diagnostics.insert(reply.diagnostics.end(), product.file.warnings.begin(), product.file.warnings.end());
   const auto add = [&](Severity severity, const std::vector<std::string>& texts) {
     for (const std::string& text : texts) reply.diagnostics.push_back(about_file(severity, product.file.path, text));
@@ -159,10 +160,10 @@ void add_warnings(const Product& product, Reply& reply) {
   if (product.pulley.made()) add(Severity::note, product.pulley.layout.notes);
 }
 
-DxfVersion dxf_version(const Arguments& arguments) {
+formats::DxfVersion dxf_version(const Arguments& arguments) {
   const std::string name = arguments.text("--dxf").value_or("ac1015");
-  if (name == "ac1015") return DxfVersion::ac1015;
-  if (name == "r12") return DxfVersion::r12;
+  if (name == "ac1015") return formats::DxfVersion::ac1015;
+  if (name == "r12") return formats::DxfVersion::r12;
   throw UsageError("--dxf must be ac1015 or r12; '" + name + "' is not");
 }
 
@@ -172,8 +173,8 @@ std::filesystem::path default_folder(const std::filesystem::path& spec) {
   return "out" / (stem == "." || stem == ".." ? spec.filename() : stem);
 }
 
-BuildOptions build_options_from(const Arguments& arguments) {
-  BuildOptions options;
+pipeline::BuildOptions build_options_from(const Arguments& arguments) {
+  pipeline::BuildOptions options;
   options.chord_error_mm = arguments.number("--tolerance-mm", options.chord_error_mm, 0.0005, 1.0, "mm");
   options.limits = limits_from(arguments);
   options.dxf = dxf_version(arguments);
@@ -185,19 +186,19 @@ BuildOptions build_options_from(const Arguments& arguments) {
 }
 
 Reply run_build(const Arguments& arguments, Console& console, const RunContext& context) {
-  const BuildOptions options = build_options_from(arguments);
+  const pipeline::BuildOptions options = build_options_from(arguments);
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
-  const BuildResult built = build(file, options, context);
+  const pipeline::BuildResult built = pipeline::build(file, options, context);
   Reply reply;
   add_warnings(built.product, reply);
   add_pins_note(file, reply);
-  if (built.status == BuildStatus::infeasible) {
+  if (built.status == pipeline::BuildStatus::infeasible) {
     explain_infeasible(built, reply);
     return reply;
   }
   reply.text = summary(built, options, console.verbose());
   if (arguments.has("--json")) reply.fields = product_json(built, options);
-  if (built.status == BuildStatus::check_failed) add_failed_checks(built, options, reply);
+  if (built.status == pipeline::BuildStatus::check_failed) add_failed_checks(built, options, reply);
   return reply;
 }
 

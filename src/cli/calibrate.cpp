@@ -4,11 +4,11 @@
 #include <set>
 
 #include "base/output_list.h"
+#include "base/text.h"
 #include "cli/calibration_summary.h"
 #include "cli/command.h"
 #include "cli/measured_columns.h"
 #include "cli/table.h"
-#include "base/text.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
@@ -37,10 +37,10 @@ std::string files_text(const std::vector<OutputFile>& outputs, const std::string
          folder + "\n";
 }
 
-void add_notes(const CalibrateResult& result, bool verbose, Reply& reply) {
+void add_notes(const pipeline::CalibrateResult& result, bool verbose, Reply& reply) {
   const std::vector<std::string>& notes = result.product.measurement.notes;
   reply.diagnostics = result.product.file.warnings;
-  for (const std::string& words : verbose ? notes : shortened_notes(notes))
+  for (const std::string& words : verbose ? notes : formats::shortened_notes(notes))
     reply.diagnostics.push_back(note(Severity::note, words));
   if (result.rewritten)
     reply.diagnostics.push_back(
@@ -48,8 +48,8 @@ void add_notes(const CalibrateResult& result, bool verbose, Reply& reply) {
              "corrected.toml includes the values of --set and has every key; comments of the file are omitted"));
 }
 
-CalibrateOptions options_from(const Arguments& arguments, const std::filesystem::path& spec) {
-  CalibrateOptions options;
+pipeline::CalibrateOptions options_from(const Arguments& arguments, const std::filesystem::path& spec) {
+  pipeline::CalibrateOptions options;
   options.columns = columns_from(arguments);
   options.hold_out = paths(arguments.texts("--hold-out"));
   options.folder =
@@ -62,15 +62,15 @@ CalibrateOptions options_from(const Arguments& arguments, const std::filesystem:
 
 Reply run_calibrate(const Arguments& arguments, Console& console, const RunContext& context) {
   const std::filesystem::path spec = arguments.positionals().front();
-  const CalibrateOptions options = options_from(arguments, spec);
+  const pipeline::CalibrateOptions options = options_from(arguments, spec);
   const std::vector<std::filesystem::path> runs = runs_from(arguments);
   const MechanismFile file = read_mechanism(spec, arguments.settings(), *context.files);
-  const CalibrateResult result = calibrate(file, runs, options, context);
+  const pipeline::CalibrateResult result = pipeline::calibrate(file, runs, options, context);
   Reply reply;
   add_notes(result, console.verbose(), reply);
   reply.text = calibration_summary(result.product, console.verbose()) +
                files_text(result.outputs, options.folder.string(), result.published);
-  reply.fields = parse_json(calibration_json(result.product));
+  reply.fields = parse_json(formats::calibration_json(result.product));
   reply.fields["folder"] = options.folder.string();
   reply.fields["published"] = result.published;
   reply.fields["outputs"] = output_list(result.outputs);

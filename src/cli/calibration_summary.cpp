@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "cli/table.h"
-#include "export/report/calibration_words.h"
 #include "base/text.h"
 #include "calibration/words.h"
+#include "cli/table.h"
+#include "export/report/calibration_words.h"
 
 namespace fusee::cli {
 namespace {
@@ -20,7 +20,7 @@ std::string items(const std::string& title, const std::vector<std::string>& all)
 
 std::string deg(double value) { return fixed(degrees(value), 4); }
 
-std::string figures_table(const Calibration& c) {
+std::string figures_table(const calibration::Calibration& c) {
   const auto row = [](const std::string& name, double before, double after) {
     return std::vector<std::string>{name, deg(before), deg(after)};
   };
@@ -33,66 +33,67 @@ std::string figures_table(const Calibration& c) {
        row("  ISO 230-2 M", c.iso_before.M, c.iso_after.M)});
 }
 
-std::string headline_text(const CalibrationProduct& product) {
-  const Headline first = headline(product);
+std::string headline_text(const formats::CalibrationProduct& product) {
+  const formats::Headline first = formats::headline(product);
   std::string text;
   for (const std::string& line : {first.problem, first.cause, first.action})
     text += line.empty() ? "" : wrapped(line, "", "");
   return text;
 }
 
-std::string causes_table(const CalibrationProduct& product) {
+std::string causes_table(const formats::CalibrationProduct& product) {
   std::vector<std::vector<std::string>> rows;
-  for (const CauseRow& row : cause_rows(product))
+  for (const formats::CauseRow& row : formats::cause_rows(product))
     rows.push_back({row.cause, row.size, row.interval, row.share, row.corrected_by});
   if (rows.empty()) return "";
-  const auto& titles = CauseRow::k_titles;
+  const auto& titles = formats::CauseRow::k_titles;
   return "\n" + table({{titles[0]}, {titles[1]}, {titles[2]}, {titles[3], Align::right}, {titles[4]}}, rows);
 }
 
-std::string noise_text(const Calibration& c) {
+std::string noise_text(const calibration::Calibration& c) {
   std::string words =
       "noise floor " + deg(c.noise.rms) + (c.noise.from_repeats ? " deg, from repeats" : " deg or more: no repeats");
   if (c.noise.rms > 0) words += "; the residual is " + rounded(c.after.rms / c.noise.rms, 3) + " times that";
   return wrapped(words, "  ", "  ") + (c.noise_varies.empty() ? "" : wrapped(c.noise_varies, "  ", "  "));
 }
 
-std::string effect_text(const FoundEffect& effect, const std::string& load_unit) {
+std::string effect_text(const calibration::FoundEffect& effect, const std::string& load_unit) {
   std::string words = effect.name + " (" + std::string(word(effect.place)) + ")";
   for (std::size_t i = 0; i < effect.parameters.size(); ++i)
-    words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i], load_unit);
+    words += (i == 0 ? ": " : "; ") + formats::parameter_words(effect.parameters[i], load_unit);
   words += ". Takes " + deg(effect.rms_drop) + " deg rms off";
-  std::vector<std::string> rivals = rivals_of(effect);
-  std::erase(rivals, k_unmodelled);
-  const std::string unmodelled = unmodelled_words(effect);
-  words += !rivals.empty()      ? "; as good: " + joined(rivals, ", ")
+  std::vector<std::string> rivals = formats::rivals_of(effect);
+  std::erase(rivals, calibration::k_unmodelled);
+  const std::string unmodelled = formats::unmodelled_words(effect);
+  words += !rivals.empty()      ? "; as good: " + formats::joined(rivals, ", ")
            : unmodelled.empty() ? "; nothing else does as well"
                                 : "; no other name does as well";
   std::string sentences;
-  for (const std::string& more : {audit_words(effect), beside_words(effect, load_unit), unmodelled})
+  for (const std::string& more : {formats::audit_words(effect), formats::beside_words(effect, load_unit), unmodelled})
     sentences += more.empty() ? "" : (sentences.empty() ? ". " : " ") + more;
   return words + sentences;
 }
 
-std::vector<std::string> effect_texts(const Calibration& c, const std::string& load_unit) {
+std::vector<std::string> effect_texts(const calibration::Calibration& c, const std::string& load_unit) {
   std::vector<std::string> texts;
-  for (const FoundEffect& effect : c.effects) texts.push_back(effect_text(effect, load_unit));
+  for (const calibration::FoundEffect& effect : c.effects) texts.push_back(effect_text(effect, load_unit));
   if (texts.empty()) texts.push_back("none accepted");
   if (!c.unexplained_where.empty())
     texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms beyond the noise, " + c.unexplained_where);
-  for (const DiscrepancyComponent& unknown : c.discrepancy) texts.push_back("unmodelled: " + unknown_words(unknown));
+  for (const calibration::DiscrepancyComponent& unknown : c.discrepancy)
+    texts.push_back("unmodelled: " + formats::unknown_words(unknown));
   return texts;
 }
 
-std::vector<std::string> correction_texts(const CalibrationProduct& product) {
-  const Correction& correction = product.correction;
+std::vector<std::string> correction_texts(const formats::CalibrationProduct& product) {
+  const correction::Correction& correction = product.correction;
   std::vector<std::string> texts;
   if (correction.has_pulley) {
     texts.push_back("the pulley of corrected.toml takes away " + deg(correction.by_pulley) + " deg rms");
-    if (correction.round.r1 > 0) texts.push_back(round_words(correction));
-    if (correction.tied_at != 0) texts.push_back(tied_words(correction));
+    if (correction.round.r1 > 0) texts.push_back(formats::round_words(correction));
+    if (correction.tied_at != 0) texts.push_back(formats::tied_words(correction));
   } else if (!correction.infeasible.empty()) {
-    texts.push_back(infeasible_words(correction));
+    texts.push_back(formats::infeasible_words(correction));
   } else if (correction.why_no_pulley_file.empty()) {
     texts.push_back("nothing was identified that another pulley would take out");
   }
@@ -102,21 +103,23 @@ std::vector<std::string> correction_texts(const CalibrationProduct& product) {
   if (!correction.table.empty())
     texts.push_back("compensation.csv takes away " + deg(correction.by_table) + " deg rms" +
                     (correction.has_pulley ? " beyond that" : ""));
-  if (const std::string curve = curve_words(product); !curve.empty()) texts.push_back(curve);
+  if (const std::string curve = formats::curve_words(product); !curve.empty()) texts.push_back(curve);
   return texts;
 }
 
-std::vector<std::string> detectable_texts(const Calibration& c) {
+std::vector<std::string> detectable_texts(const calibration::Calibration& c) {
   std::vector<std::string> texts;
-  for (const auto& [size, names] : detectable_groups(c)) texts.push_back(deg(size) + " deg: " + joined(names, ", "));
+  for (const auto& [size, names] : formats::detectable_groups(c))
+    texts.push_back(deg(size) + " deg: " + formats::joined(names, ", "));
   return texts;
 }
 
-std::string tried_table(const Calibration& c) {
+std::string tried_table(const calibration::Calibration& c) {
   if (c.tried.empty()) return "";
   std::vector<std::vector<std::string>> rows;
-  for (const Candidate& candidate : c.tried) {
-    rows.push_back({"  " + candidate.name, std::isfinite(candidate.evidence) ? odds(candidate.evidence) : "–",
+  for (const calibration::Candidate& candidate : c.tried) {
+    rows.push_back({"  " + candidate.name,
+                    std::isfinite(candidate.evidence) ? calibration::odds(candidate.evidence) : "–",
                     candidate.accepted ? "taken" : ""});
   }
   return "\n" + table({{"Tried"}, {"odds", Align::right}, {""}}, rows);
@@ -124,16 +127,17 @@ std::string tried_table(const Calibration& c) {
 
 }  // namespace
 
-std::string calibration_summary(const CalibrationProduct& product, bool verbose) {
-  const Calibration& c = product.calibration;
+std::string calibration_summary(const formats::CalibrationProduct& product, bool verbose) {
+  const calibration::Calibration& c = product.calibration;
   std::string text = headline_text(product) + causes_table(product) + "\n" + product.file.mechanism.name + ": " +
-                     std::string(word(c.verdict)) + "\n" + wrapped(c.summary, "  ", "  ");
-  text += items("A slip of the file or of the log?", slips_words(product));
-  if (c.verdict == CalibrationVerdict::not_testable) return text + items("Measure next", next_texts(c));
+                     std::string(calibration::word(c.verdict)) + "\n" + wrapped(c.summary, "  ", "  ");
+  text += items("A slip of the file or of the log?", formats::slips_words(product));
+  if (c.verdict == calibration::CalibrationVerdict::not_testable)
+    return text + items("Measure next", formats::next_texts(c));
   text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
   text += items("Not distinguished by these data", c.null_combinations) +
-          items("Correction", correction_texts(product)) + items("Measure next", next_texts(c));
-  if (verbose || c.verdict == CalibrationVerdict::no_effect)
+          items("Correction", correction_texts(product)) + items("Measure next", formats::next_texts(c));
+  if (verbose || c.verdict == calibration::CalibrationVerdict::no_effect)
     text += items("Would have been seen, at the joint, rms", detectable_texts(c));
   return verbose ? text + tried_table(c) : text;
 }

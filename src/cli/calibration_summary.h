@@ -9,6 +9,6 @@
 namespace fusee::cli {
 
 /// Verdict, figures, effects, corrections and next measurements. `verbose` adds detectable sizes and rejected effects.
-std::string calibration_summary(const CalibrationProduct& product, bool verbose);
+std::string calibration_summary(const formats::CalibrationProduct& product, bool verbose);
 
 }  // namespace fusee::cli

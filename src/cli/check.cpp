@@ -1,17 +1,17 @@
+#include "base/text.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
-#include "base/text.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
 namespace {
 
-std::string what_it_is(const Part& part) {
-  if (const auto* mesh = std::get_if<TriangleMesh>(&part)) {
+std::string what_it_is(const pipeline::Part& part) {
+  if (const auto* mesh = std::get_if<solid::TriangleMesh>(&part)) {
     return "a mesh of " + std::to_string(mesh->triangles.size()) + " triangles and " +
            std::to_string(mesh->vertices.size()) + " vertices";
   }
-  const auto& drawing = std::get<Drawing>(part);
+  const auto& drawing = std::get<formats::Drawing>(part);
   return "a drawing (" + drawing.version + ") of " + std::to_string(drawing.paths.size()) + " paths";
 }
 
@@ -24,7 +24,7 @@ std::string by_three(const Vec3& extent, bool is_flat, double factor) {
   return text + " mm";
 }
 
-std::string size_text(const PartSize& size) {
+std::string size_text(const pipeline::PartSize& size) {
   if (!size.extent) return "size: none, the part is empty";
   if (size.contours)
     return "size " + by_three(*size.extent, true, 1) + ", " + std::to_string(*size.contours) + " closed " +
@@ -35,7 +35,7 @@ std::string size_text(const PartSize& size) {
 }
 
 /// Files have no unit, or a wrong one; the size shows it.
-void add_unit_warning(const std::string& file, const PartSize& size, Reply& reply) {
+void add_unit_warning(const std::string& file, const pipeline::PartSize& size, Reply& reply) {
   if (!size.extent) return;
   const bool is_flat = size.contours.has_value();
   const double largest = size.extent->maxCoeff();
@@ -53,16 +53,16 @@ void add_unit_warning(const std::string& file, const PartSize& size, Reply& repl
 }
 
 /// Unusual entities that are harmless here but may not be in other programs.
-void add_remarks(const std::string& file, const Part& part, Reply& reply) {
-  const auto* drawing = std::get_if<Drawing>(&part);
+void add_remarks(const std::string& file, const pipeline::Part& part, Reply& reply) {
+  const auto* drawing = std::get_if<formats::Drawing>(&part);
   if (drawing == nullptr) return;
-  for (const DrawingRemark& remark : drawing->remarks) {
+  for (const formats::DrawingRemark& remark : drawing->remarks) {
     const std::string others = remark.count > 1 ? " (" + std::to_string(remark.count) + " such entities)" : "";
     reply.diagnostics.push_back({Severity::warning, {file, remark.line, 0}, remark.text + others, {}});
   }
 }
 
-void add_size(const PartSize& size, Reply& reply) {
+void add_size(const pipeline::PartSize& size, Reply& reply) {
   if (size.extent) {
     reply.fields["size_mm"] = {size.extent->x(), size.extent->y()};
     if (!size.contours) reply.fields["size_mm"].push_back(size.extent->z());
@@ -74,16 +74,16 @@ void add_size(const PartSize& size, Reply& reply) {
 Reply run_check(const Arguments& arguments, Console&, const RunContext& context) {
   const std::string& file = arguments.positionals().front();
   context.begin_step("reading the file");
-  const Part part = read_part(file, *context.files);
+  const pipeline::Part part = pipeline::read_part(file, *context.files);
   context.begin_step("checking");
-  const std::vector<Check> checks = check_part(part);
-  const PartSize size = size_of(part, checks);
+  const std::vector<Check> checks = pipeline::check_part(part);
+  const pipeline::PartSize size = pipeline::size_of(part, checks);
   Reply reply;
   const bool ok = all_ok(checks);
   reply.text = file + ": " + what_it_is(part) + "\n" + size_text(size) + "\n\n" + checks_table(checks) + "\n" +
                (ok ? "valid" : "not valid") + "\n";
   reply.fields["file"] = file;
-  reply.fields["kind"] = std::holds_alternative<Drawing>(part) ? "drawing" : "mesh";
+  reply.fields["kind"] = std::holds_alternative<formats::Drawing>(part) ? "drawing" : "mesh";
   add_size(size, reply);
   reply.fields["checks"] = to_json(checks);
   add_unit_warning(file, size, reply);

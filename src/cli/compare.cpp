@@ -1,14 +1,13 @@
-#include "fusee/pipeline.h"
-
 #include <filesystem>
 #include <optional>
 
 #include "base/output_list.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/measured_columns.h"
 #include "cli/table.h"
-#include "base/text.h"
 #include "fusee/export.h"
+#include "fusee/pipeline.h"
 
 namespace fusee::cli {
 namespace {
@@ -21,15 +20,15 @@ std::vector<std::filesystem::path> runs_of(const Arguments& arguments, const std
   return {names.begin(), names.end()};
 }
 
-std::string changes_table(const ComparisonProduct& product) {
+std::string changes_table(const formats::ComparisonProduct& product) {
   std::vector<std::vector<std::string>> rows;
-  for (const ChangeRow& row : change_rows(product))
+  for (const formats::ChangeRow& row : formats::change_rows(product))
     rows.push_back({"  " + row.cause, row.change, row.interval, row.share});
   if (rows.empty()) return "";
   return "\n" + table({{"Cause"}, {"change"}, {"95 %"}, {"of the difference"}}, rows);
 }
 
-std::string difference_text(const Comparison& comparison) {
+std::string difference_text(const calibration::Comparison& comparison) {
   const auto deg = [](double value) { return fixed(degrees(value), 4); };
   return "\n" + table({{"deg at the joint, rms"}, {"", Align::right}},
                       {{"  difference between the states", deg(comparison.difference.before)},
@@ -37,24 +36,25 @@ std::string difference_text(const Comparison& comparison) {
                        {"  noise floor", deg(comparison.changes.noise.rms)}});
 }
 
-std::string detectable_text(const Comparison& comparison) {
+std::string detectable_text(const calibration::Comparison& comparison) {
   std::vector<std::vector<std::string>> rows;
-  for (const Detectable& one : comparison.changes.detectable)
+  for (const calibration::Detectable& one : comparison.changes.detectable)
     rows.push_back({"  " + one.name, fixed(degrees(one.smallest), 4)});
   if (rows.empty()) return "";
   return "\n" + table({{"Detectable size, deg rms"}, {"", Align::right}}, rows);
 }
 
-std::string summary(const ComparisonProduct& product, bool verbose) {
-  const Comparison& comparison = product.comparison;
-  std::string text = wrapped(comparison_words(product), "", "");
-  if (comparison.verdict != ComparisonVerdict::changed && comparison.verdict != ComparisonVerdict::no_change)
+std::string summary(const formats::ComparisonProduct& product, bool verbose) {
+  const calibration::Comparison& comparison = product.comparison;
+  std::string text = wrapped(formats::comparison_words(product), "", "");
+  if (comparison.verdict != calibration::ComparisonVerdict::changed &&
+      comparison.verdict != calibration::ComparisonVerdict::no_change)
     return text;
   text += changes_table(product) + difference_text(comparison);
   return verbose ? text + detectable_text(comparison) : text;
 }
 
-std::string files_text(const CompareResult& result, const std::string& folder) {
+std::string files_text(const pipeline::CompareResult& result, const std::string& folder) {
   if (result.outputs.empty()) return "";
   std::vector<std::vector<std::string>> rows;
   for (const OutputFile& file : result.outputs)
@@ -63,19 +63,20 @@ std::string files_text(const CompareResult& result, const std::string& folder) {
          "  in " + folder + "\n";
 }
 
-Reply reply_of(const CompareResult& result, const std::string& folder, bool verbose) {
-  const ComparisonProduct& product = result.product;
+Reply reply_of(const pipeline::CompareResult& result, const std::string& folder, bool verbose) {
+  const formats::ComparisonProduct& product = result.product;
   Reply reply;
   reply.diagnostics = product.file.warnings;
-  for (const std::string& words : verbose ? product.measurement.notes : shortened_notes(product.measurement.notes))
+  for (const std::string& words :
+       verbose ? product.measurement.notes : formats::shortened_notes(product.measurement.notes))
     reply.diagnostics.push_back(note(Severity::note, words));
-  reply.fields = parse_json(comparison_json(product));
+  reply.fields = parse_json(formats::comparison_json(product));
   if (!result.outputs.empty()) {
     reply.fields["folder"] = folder;
     reply.fields["published"] = result.published;
     reply.fields["outputs"] = output_list(result.outputs);
   }
-  if (product.comparison.verdict == ComparisonVerdict::not_comparable) {
+  if (product.comparison.verdict == calibration::ComparisonVerdict::not_comparable) {
     reply.exit = Exit::bad_input;
     reply.diagnostics.push_back(note(Severity::error, product.comparison.why));
     return reply;
@@ -87,13 +88,13 @@ Reply reply_of(const CompareResult& result, const std::string& folder, bool verb
 Reply run_compare(const Arguments& arguments, Console& console, const RunContext& context) {
   const std::filesystem::path spec = arguments.positionals().front();
   const auto before = runs_of(arguments, "--before"), after = runs_of(arguments, "--after");
-  CompareOptions options;
+  pipeline::CompareOptions options;
   options.columns = columns_from(arguments);
   options.folder = arguments.text("--out").value_or("");
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
-  const CompareResult result =
-      compare(read_mechanism(spec, arguments.settings(), *context.files), before, after, options, context);
+  const pipeline::CompareResult result =
+      pipeline::compare(read_mechanism(spec, arguments.settings(), *context.files), before, after, options, context);
   return reply_of(result, options.folder.string(), console.verbose());
 }
 

@@ -8,8 +8,8 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "cli/interrupt.h"
 #include "base/text.h"
+#include "cli/interrupt.h"
 
 namespace fusee::cli {
 namespace {

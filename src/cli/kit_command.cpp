@@ -1,22 +1,22 @@
 #include <filesystem>
 
 #include "base/output_list.h"
+#include "base/text.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
-#include "base/text.h"
 #include "fusee/pipeline.h"
 #include "mechanism/catalogue.h"
 
 namespace fusee::cli {
 namespace {
 
-KitOptions kit_options_from(const Arguments& arguments) {
-  KitOptions options;
+pipeline::KitOptions kit_options_from(const Arguments& arguments) {
+  pipeline::KitOptions options;
   options.chord_error_mm = arguments.number("--tolerance-mm", options.chord_error_mm, 0.0005, 1.0, "mm");
   const std::string version = arguments.text("--dxf").value_or("ac1015");
   if (version != "ac1015" && version != "r12")
     throw UsageError("--dxf must be ac1015 or r12; '" + version + "' is not");
-  options.dxf = version == "r12" ? DxfVersion::r12 : DxfVersion::ac1015;
+  options.dxf = version == "r12" ? formats::DxfVersion::r12 : formats::DxfVersion::ac1015;
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
   const std::filesystem::path spec = arguments.positionals().front();
@@ -26,15 +26,16 @@ KitOptions kit_options_from(const Arguments& arguments) {
 }
 
 /// Explains why the pulley is infeasible, as build does.
-void explain_no_pulley(const MechanismFile& file, const KitOptions& options, const RunContext& context, Reply& reply) {
-  BuildOptions build_options;
+void explain_no_pulley(const MechanismFile& file, const pipeline::KitOptions& options, const RunContext& context,
+                       Reply& reply) {
+  pipeline::BuildOptions build_options;
   build_options.chord_error_mm = options.chord_error_mm;
   build_options.dry_run = true;
   build_options.folder = options.folder;
   build_options.force = true;
-  const BuildResult built = build(file, build_options, context.without_progress());
+  const pipeline::BuildResult built = pipeline::build(file, build_options, context.without_progress());
   const bool has_curves = built.product.synthesis.made();
-  const std::vector<Condition>& conditions =
+  const std::vector<profile::Condition>& conditions =
       has_curves ? built.product.pulley.conditions : built.product.synthesis.conditions;
   add_obstacles(file.path, conditions, reply);
   add_advice(built.advice.alone, reply);
@@ -44,13 +45,13 @@ void explain_no_pulley(const MechanismFile& file, const KitOptions& options, con
   reply.fields["advice"] = to_json(built.advice.alone);
 }
 
-std::string kit_summary(const KitResult& made, const KitOptions& options) {
-  const KitProduct& product = made.product;
-  const KitSizes& sizes = product.plan.sizes;
+std::string kit_summary(const pipeline::KitResult& made, const pipeline::KitOptions& options) {
+  const formats::KitProduct& product = made.product;
+  const kit::KitSizes& sizes = product.plan.sizes;
   int printed = 0;
-  for (const KitPart& part : product.plan.parts) printed += part.count;
-  const Condition* tightest = nullptr;
-  for (const Condition& condition : product.plan.conditions) {
+  for (const kit::KitPart& part : product.plan.parts) printed += part.count;
+  const profile::Condition* tightest = nullptr;
+  for (const profile::Condition& condition : product.plan.conditions) {
     if (condition.unit == "mm" && (!tightest || condition.value - condition.limit < tightest->value - tightest->limit))
       tightest = &condition;
   }
@@ -62,8 +63,9 @@ std::string kit_summary(const KitResult& made, const KitOptions& options) {
     text += "  motor       " + (sizes.motor ? sizes.motor->name : "your own: no motor of the catalogue fits") + "\n";
     text += "  joint       two bearings " + sizes.bearing->name + ", " + sizes.board->name + " over the axis\n";
   }
-  for (const KitCut& cut : kit_cuts(product))
-    text += "  tendon " + std::string(cut.side == Side::left ? "1" : "2") + "    cut at " + fixed(cut.cut, 0) + " mm\n";
+  for (const formats::KitCut& cut : formats::kit_cuts(product))
+    text += "  tendon " + std::string(cut.side == transmission::Side::left ? "1" : "2") + "    cut at " +
+            fixed(cut.cut, 0) + " mm\n";
   if (tightest)
     text += "  tightest    " + tightest->name + ", " + fixed(tightest->value, 2) + " mm (at least " +
             fixed(tightest->limit, 2) + ")\n";
@@ -74,18 +76,18 @@ std::string kit_summary(const KitResult& made, const KitOptions& options) {
 }
 
 Reply run_kit(const Arguments& arguments, Console&, const RunContext& context) {
-  const KitOptions options = kit_options_from(arguments);
+  const pipeline::KitOptions options = kit_options_from(arguments);
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
-  const KitResult made = kit(file, options, context);
+  const pipeline::KitResult made = pipeline::kit(file, options, context);
   Reply reply;
   reply.diagnostics = made.product.pulley.file.warnings;
-  if (made.ending == KitEnding::no_pulley) {
+  if (made.ending == pipeline::KitEnding::no_pulley) {
     explain_no_pulley(file, options, context, reply);
     return reply;
   }
-  const KitPlan& plan = made.product.plan;
+  const kit::KitPlan& plan = made.product.plan;
   reply.fields["conditions"] = to_json(plan.conditions);
-  if (made.ending == KitEnding::no_kit) {
+  if (made.ending == pipeline::KitEnding::no_kit) {
     add_obstacles(file.path, plan.conditions, reply);
     add_advice(made.advice.alone, reply);
     add_advice_together(made.advice.together, reply);
@@ -100,7 +102,7 @@ Reply run_kit(const Arguments& arguments, Console&, const RunContext& context) {
   reply.fields["published"] = made.published;
   reply.fields["checks"] = to_json(made.product.checks);
   reply.fields["outputs"] = output_list(made.outputs);
-  if (made.ending == KitEnding::check_failed) {
+  if (made.ending == pipeline::KitEnding::check_failed) {
     reply.exit = Exit::check_failed;
     add_failures(made.product.checks, reply);
   }

@@ -68,15 +68,15 @@ std::vector<Option> with_reading_options(std::vector<Option> options) {
   return options;
 }
 
-MeasurementOptions columns_from(const Arguments& arguments) {
-  MeasurementOptions options;
+measurement::MeasurementOptions columns_from(const Arguments& arguments) {
+  measurement::MeasurementOptions options;
   std::vector<std::string> roles;
-  for (const auto& [role, column] : column_roles()) roles.push_back(role);
+  for (const auto& [role, column] : measurement::column_roles()) roles.push_back(role);
   for (const auto& [role, name] : role_values(arguments, "--column", "load=tau_out_Nm", roles))
     options.columns[role] = name;
   for (const auto& [role, unit] : role_values(arguments, "--unit", "time=ms", roles)) {
-    if (unit_for(role, unit).empty())
-      throw UsageError("--unit: " + role + " has no unit '" + unit + "'", "units: " + units_for(role));
+    if (measurement::unit_for(role, unit).empty())
+      throw UsageError("--unit: " + role + " has no unit '" + unit + "'", "units: " + measurement::units_for(role));
     options.units[role] = unit;
   }
   const std::vector<std::string> angles = {"alpha", "theta"};

@@ -12,6 +12,6 @@ namespace fusee::cli {
 /// `options` with the reading options appended.
 std::vector<Option> with_reading_options(std::vector<Option> options);
 /// Throws UsageError for an invalid role, unit or number of counts.
-MeasurementOptions columns_from(const Arguments& arguments);
+measurement::MeasurementOptions columns_from(const Arguments& arguments);
 
 }  // namespace fusee::cli

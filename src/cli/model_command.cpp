@@ -2,9 +2,9 @@
 #include <filesystem>
 
 #include "base/output_list.h"
+#include "base/text.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
-#include "base/text.h"
 #include "fusee/base.h"
 #include "fusee/pipeline.h"
 
@@ -25,19 +25,19 @@ double whole_number(const Arguments& arguments, std::string_view option, double 
 std::string prefix_from(const Arguments& arguments) {
   const std::string prefix = arguments.text("--prefix").value_or("");
   constexpr std::size_t k_longest = 40;
-  if (arguments.has("--prefix") && (prefix != c_prefix(prefix) || prefix.size() > k_longest))
+  if (arguments.has("--prefix") && (prefix != formats::c_prefix(prefix) || prefix.size() > k_longest))
     throw UsageError(
         "--prefix must be a name of C of letters, digits and single '_', at most 40; '" + prefix + "' is not",
-        "for example: --prefix " + c_prefix(prefix));
+        "for example: --prefix " + formats::c_prefix(prefix));
   return prefix;
 }
 
-ModelOptions model_options_from(const Arguments& arguments) {
-  ModelOptions options;
+pipeline::ModelOptions model_options_from(const Arguments& arguments) {
+  pipeline::ModelOptions options;
   options.most_error = radians(arguments.number("--max-error-deg", degrees(options.most_error), k_smallest_limit_deg,
-                                                k_largest_limit_deg, "deg"));
+                                                pipeline::k_largest_limit_deg, "deg"));
   options.most_table_error = radians(arguments.number("--max-table-error-deg", degrees(options.most_table_error),
-                                                      k_smallest_limit_deg, k_largest_limit_deg, "deg"));
+                                                      k_smallest_limit_deg, pipeline::k_largest_limit_deg, "deg"));
   if (arguments.has("--ticks-per-turn")) {
     options.unit = {whole_number(arguments, "--ticks-per-turn", 0, k_most_ticks), true,
                     whole_number(arguments, "--zero-ticks", 0, 1e9)};
@@ -70,9 +70,9 @@ std::string deg_text(double angle) {
 
 // ---- reply ----------------------------------------------------------------------------------------------------------
 
-void add_changes(const std::vector<ModelChange>& changes, Reply& reply) {
+void add_changes(const std::vector<pipeline::ModelChange>& changes, Reply& reply) {
   Json list = Json::array();
-  for (const ModelChange& change : changes) {
+  for (const pipeline::ModelChange& change : changes) {
     Diagnostic diagnostic = note(Severity::note, "try " + change.words);
     reply.diagnostics.push_back(diagnostic);
     Json entry = {{"text", change.words}};
@@ -86,45 +86,45 @@ void add_changes(const std::vector<ModelChange>& changes, Reply& reply) {
 }
 
 /// Explains why there is no model; false if there is one.
-bool explain_refusal(const ModelResult& result, const ModelOptions& options, Reply& reply) {
-  const ModelProduct& product = result.product;
+bool explain_refusal(const pipeline::ModelResult& result, const pipeline::ModelOptions& options, Reply& reply) {
+  const formats::ModelProduct& product = result.product;
   const auto refuse = [&](const std::string& words) {
     reply.diagnostics.push_back(about_file(Severity::error, product.file.path, words));
     reply.exit = Exit::infeasible;
     add_changes(result.changes, reply);
   };
   switch (result.ending) {
-    case ModelEnding::no_law:
+    case pipeline::ModelEnding::no_law:
       explain_without_law(product.file.path, *result.without_law, reply);
       return true;
-    case ModelEnding::no_equilibrium:
+    case pipeline::ModelEnding::no_equilibrium:
       refuse(
           "the identified joint has no equilibrium under its declared load. 'fusee analyze' shows "
           "where; --declared ignores the identified effects");
       return true;
-    case ModelEnding::polynomial_off:
+    case pipeline::ModelEnding::polynomial_off:
       reply.fields["polynomial_error_deg"] = degrees(product.equality.error);
       refuse("the theta error of joint.xml would be " + deg_text(product.equality.error) +
              ": MuJoCo's polynomials end at degree 4, and --max-error-deg is " + rounded(degrees(options.most_error)));
       return true;
-    case ModelEnding::table_off:
-      refuse("a table of " + std::to_string(k_most_pieces) + " pieces has an error above " +
+    case pipeline::ModelEnding::table_off:
+      refuse("a table of " + std::to_string(model::k_most_pieces) + " pieces has an error above " +
              rounded(degrees(options.most_table_error)) + " deg (--max-table-error-deg)");
       return true;
-    case ModelEnding::done:
-    case ModelEnding::check_failed:
+    case pipeline::ModelEnding::done:
+    case pipeline::ModelEnding::check_failed:
       break;
   }
   return false;
 }
 
-std::string model_summary(const ModelResult& made, const ModelOptions& options) {
-  const ModelProduct& product = made.product;
-  const JointTable& table = product.table;
+std::string model_summary(const pipeline::ModelResult& made, const pipeline::ModelOptions& options) {
+  const formats::ModelProduct& product = made.product;
+  const model::JointTable& table = product.table;
   std::string text = product.mechanism.name + ": the joint for other programs\n";
   text += std::string("  table             ") +
-          (product.curves.sensed.source == CurveSource::law ? "of the declared law"
-           : product.curves.sensed.source == CurveSource::identified
+          (product.curves.sensed.source == model::CurveSource::law ? "of the declared law"
+           : product.curves.sensed.source == model::CurveSource::identified
                ? "of the identified joint, in both directions"
                : "of " + product.compensation + ", in both directions") +
           "\n";
@@ -132,11 +132,11 @@ std::string model_summary(const ModelResult& made, const ModelOptions& options) 
   if (product.with_polynomial)
     text += "    joint.xml       " + deg_text(product.equality.error) + " (polynomial of degree 4)\n";
   if (product.tendons)
-    text +=
-        "    joint_tendons.xml " + deg_text(product.tendons->error) + " (tendon " +
-        (product.tendons->constrained == Side::left ? "1" : "2") +
-        (product.tendons->tendons[product.tendons->constrained == Side::left ? 0 : 1].drum > 0 ? " on the drum)\n"
-                                                                                               : " over its pin)\n");
+    text += "    joint_tendons.xml " + deg_text(product.tendons->error) + " (tendon " +
+            (product.tendons->constrained == transmission::Side::left ? "1" : "2") +
+            (product.tendons->tendons[product.tendons->constrained == transmission::Side::left ? 0 : 1].drum > 0
+                 ? " on the drum)\n"
+                 : " over its pin)\n");
   text += "    joint.urdf      " + deg_text(product.line.error) + " (a straight line; joint_ros2_control.urdf too)\n";
   text += "    joint_table.h   " + deg_text(std::max(table.errors.theta, table.errors.returned)) + " (" +
           std::to_string(table.pieces + 1) + " entries; joint_table.json too)\n";
@@ -149,7 +149,7 @@ std::string model_summary(const ModelResult& made, const ModelOptions& options) 
   return text + "  files             in " + options.folder.string() + "\n";
 }
 
-Json errors_json(const ModelProduct& product) {
+Json errors_json(const formats::ModelProduct& product) {
   Json json = Json::object();
   if (product.with_polynomial) json["joint.xml"] = degrees(product.equality.error);
   if (product.tendons) json["joint_tendons.xml"] = degrees(product.tendons->error);
@@ -160,10 +160,10 @@ Json errors_json(const ModelProduct& product) {
 }
 
 Reply run_model(const Arguments& arguments, Console&, const RunContext& context) {
-  const ModelOptions options = model_options_from(arguments);
+  const pipeline::ModelOptions options = model_options_from(arguments);
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
-  const ModelResult made = model(file, options, context);
-  const ModelProduct& product = made.product;
+  const pipeline::ModelResult made = pipeline::model(file, options, context);
+  const formats::ModelProduct& product = made.product;
   Reply reply;
   reply.diagnostics = product.file.warnings;
   if (explain_refusal(made, options, reply)) return reply;
@@ -177,7 +177,7 @@ Reply run_model(const Arguments& arguments, Console&, const RunContext& context)
   reply.fields["loop_deg"] = degrees(product.curves.physical.half_hysteresis);
   reply.fields["checks"] = to_json(product.checks);
   reply.fields["outputs"] = output_list(made.outputs);
-  if (made.ending == ModelEnding::check_failed) {
+  if (made.ending == pipeline::ModelEnding::check_failed) {
     reply.exit = Exit::check_failed;
     add_failures(product.checks, reply);
   }

@@ -1,6 +1,6 @@
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/questions.h"
-#include "base/text.h"
 #include "fusee/mechanism_file.h"
 
 namespace fusee::cli {
@@ -32,7 +32,7 @@ Reply ask_questions(const Arguments& arguments, Console& console, FileAccess& fi
         write_mechanism(parse_mechanism(reply.text, "your answers", ".", settings, &reply.diagnostics, nullptr, files));
   for (const std::string& change : asked.changed)
     reply.diagnostics.push_back(note(Severity::note, "changed to make a pulley feasible: " + change));
-  for (const Condition& condition : asked.obstacles)
+  for (const profile::Condition& condition : asked.obstacles)
     reply.diagnostics.push_back(note(Severity::warning, "no pulley yet: " + condition.message));
   if (!asked.obstacles.empty())
     add_advice(asked.advice, reply);

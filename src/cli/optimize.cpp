@@ -1,9 +1,9 @@
 #include <cmath>
 
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/optimize_text.h"
-#include "base/text.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
@@ -12,20 +12,20 @@ namespace {
 /// Names in the order of SearchMethod.
 constexpr std::string_view k_methods[] = {"certified", "ga", "pareto"};
 
-std::optional<SearchMethod> asked_method(const Arguments& arguments) {
+std::optional<pipeline::SearchMethod> asked_method(const Arguments& arguments) {
   const auto name = arguments.text("--method");
   if (!name) return std::nullopt;
   for (std::size_t i = 0; i < std::size(k_methods); ++i) {
-    if (*name == k_methods[i]) return static_cast<SearchMethod>(i);
+    if (*name == k_methods[i]) return static_cast<pipeline::SearchMethod>(i);
   }
   throw UsageError("--method must be ga, certified or pareto; '" + *name + "' is not");
 }
 
-std::optional<Objective> second_objective(const Arguments& arguments) {
+std::optional<optimize::Objective> second_objective(const Arguments& arguments) {
   const auto name = arguments.text("--then");
   if (!name) return std::nullopt;
   std::vector<std::string> names;
-  for (const ObjectiveInfo& candidate : objectives()) {
+  for (const optimize::ObjectiveInfo& candidate : optimize::objectives()) {
     if (candidate.name == *name) return candidate.objective;
     names.emplace_back(candidate.name);
   }
@@ -43,8 +43,8 @@ RunContext::Progress search_bar(Console& console) {
   };
 }
 
-OptimizeOptions optimize_options_from(const Arguments& arguments) {
-  OptimizeOptions options;
+pipeline::OptimizeOptions optimize_options_from(const Arguments& arguments) {
+  pipeline::OptimizeOptions options;
   options.method = asked_method(arguments);
   options.then = second_objective(arguments);
   options.genetic.seed = static_cast<unsigned>(arguments.number("--seed", 1, 0, 4e9, ""));
@@ -60,20 +60,22 @@ OptimizeOptions optimize_options_from(const Arguments& arguments) {
 }
 
 /// Checks options that belong to one method before the search, so that a refusal costs no time.
-void demand_agreement(const MechanismFile& file, const OptimizeOptions& options) {
+void demand_agreement(const MechanismFile& file, const pipeline::OptimizeOptions& options) {
   if (!options.then && options.front_folder.empty()) return;
-  const SearchMethod method = options.method ? *options.method : strongest_method(file);
-  if (options.then && method != SearchMethod::certified) throw UsageError("--then requires --method certified");
-  if (!options.front_folder.empty() && method != SearchMethod::pareto)
+  const pipeline::SearchMethod method = options.method ? *options.method : pipeline::strongest_method(file);
+  if (options.then && method != pipeline::SearchMethod::certified)
+    throw UsageError("--then requires --method certified");
+  if (!options.front_folder.empty() && method != pipeline::SearchMethod::pareto)
     throw UsageError("--front requires --method pareto");
 }
 
 Reply run_optimize(const Arguments& arguments, Console& console, const RunContext& context) {
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
-  const OptimizeOptions options = optimize_options_from(arguments);
+  const pipeline::OptimizeOptions options = optimize_options_from(arguments);
   demand_agreement(file, options);
   prevent_exit_by_signal();
-  const OptimizeResult result = optimize(file, options, {search_bar(console), context.stop, context.files});
+  const pipeline::OptimizeResult result =
+      pipeline::optimize(file, options, {search_bar(console), context.stop, context.files});
   Reply reply;
   reply.diagnostics = file.warnings;
   reply.fields["method"] = k_methods[result.search.index()];

@@ -3,37 +3,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "cli/pins.h"
 #include "cli/table.h"
-#include "base/text.h"
 
 namespace fusee::cli {
 namespace {
 
 std::string unit_text(std::string_view unit) { return unit.empty() ? "" : " " + std::string(unit); }
-std::string value_text(Objective objective, double value) {
-  return rounded(value, 7) + unit_text(info(objective).unit);
+std::string value_text(optimize::Objective objective, double value) {
+  return rounded(value, 7) + unit_text(optimize::info(objective).unit);
 }
 
 // ---- a design -------------------------------------------------------------------------------------------------------
 
-Json design_json(const Problem& problem, const Design& design) {
+Json design_json(const optimize::Problem& problem, const optimize::Design& design) {
   Json json = Json::object();
-  for (const ValueEdit& edit : edits_of(problem, design)) json[edit.key] = edit.value;
+  for (const ValueEdit& edit : optimize::edits_of(problem, design)) json[edit.key] = edit.value;
   return json;
 }
 
 bool is_near(double a, double b, double range) { return std::abs(a - b) <= 1e-6 * range; }
 
-std::string design_text(const Problem& problem, const Design& design) {
+std::string design_text(const optimize::Problem& problem, const optimize::Design& design) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < problem.moving.size(); ++i) {
-    const MovingKey& moving = problem.moving[i];
+    const optimize::MovingKey& moving = problem.moving[i];
     const Field& field = *moving.number.field;
     const double value = moving.value(design);
     std::string where = i < design.size() ? "" : "tied";
     if (i < design.size()) {
-      const Variable& variable = problem.variables[i];
+      const optimize::Variable& variable = problem.variables[i];
       const double range = variable.upper - variable.lower;
       if (is_near(value, variable.lower, range))
         where = "at its lower bound";
@@ -47,9 +47,9 @@ std::string design_text(const Problem& problem, const Design& design) {
 }
 
 /// States how pins and identified effects are treated.
-void add_joint(const OptimizeResult& result, Reply& reply) {
-  const Problem& problem = result.problem;
-  const Mechanism joint = judged(problem, mechanism_at(problem, result.design));
+void add_joint(const pipeline::OptimizeResult& result, Reply& reply) {
+  const optimize::Problem& problem = result.problem;
+  const Mechanism joint = optimize::judged(problem, optimize::mechanism_at(problem, result.design));
   reply.fields["pins"] = pins_json(joint);
   reply.text += titled("pins", pins_text(joint));
   if (!problem.as_it_is) return;
@@ -57,25 +57,26 @@ void add_joint(const OptimizeResult& result, Reply& reply) {
   reply.text += titled("joint", "identified: [identified] is added to these numbers");
 }
 
-void add_value(const OptimizeResult& result, Reply& reply) {
-  const Objective objective = result.problem.objectives.front();
-  const Evaluation& now = result.before;
-  reply.fields["objective"] = info(objective).name;
-  reply.fields["unit"] = info(objective).unit;
+void add_value(const pipeline::OptimizeResult& result, Reply& reply) {
+  const optimize::Objective objective = result.problem.objectives.front();
+  const optimize::Evaluation& now = result.before;
+  reply.fields["objective"] = optimize::info(objective).name;
+  reply.fields["unit"] = optimize::info(objective).unit;
   reply.fields["value"] = result.value;
   reply.fields["theta_deg"] = degrees(result.theta);
   if (now.possible) reply.fields["value_before"] = now.value;
   reply.fields["design"] = design_json(result.problem, result.design);
   const std::string before = now.possible ? "; the file as it is: " + value_text(objective, now.value) : "";
-  reply.text += titled(std::string(info(objective).name), value_text(objective, result.value) + " at theta = " +
-                                                              rounded(degrees(result.theta), 4) + " deg" + before);
+  reply.text += titled(
+      std::string(optimize::info(objective).name),
+      value_text(objective, result.value) + " at theta = " + rounded(degrees(result.theta), 4) + " deg" + before);
   add_joint(result, reply);
   reply.text += design_text(result.problem, result.design);
 }
 
 // ---- the three methods ----------------------------------------------------------------------------------------------
 
-void say_none(const std::string& path, const OptimizeResult& result, bool proven, Reply& reply) {
+void say_none(const std::string& path, const pipeline::OptimizeResult& result, bool proven, Reply& reply) {
   reply.exit = Exit::infeasible;
   Diagnostic error = about_file(
       Severity::error, path,
@@ -89,25 +90,25 @@ void say_none(const std::string& path, const OptimizeResult& result, bool proven
 }
 
 /// Text such as "24 of 100 generations of 48".
-std::string generations_text(const GeneticOptions& options, std::size_t finished) {
+std::string generations_text(const optimize::GeneticOptions& options, std::size_t finished) {
   const std::string all = std::to_string(options.generations);
   return (finished < options.generations ? std::to_string(finished) + " of " + all : all) + " generations of " +
          std::to_string(options.population);
 }
 
 /// Generations after the random first one, or the boxes of a certified search.
-std::string progress_text(const OptimizeOptions& options, const OptimizeResult& result) {
-  if (const auto* genetic = std::get_if<GeneticResult>(&result.search)) {
+std::string progress_text(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result) {
+  if (const auto* genetic = std::get_if<optimize::GeneticResult>(&result.search)) {
     const std::size_t finished = genetic->generations.size();
     return generations_text(options.genetic, finished > 0 ? finished - 1 : 0);
   }
-  if (const auto* pareto = std::get_if<ParetoResult>(&result.search))
+  if (const auto* pareto = std::get_if<optimize::ParetoResult>(&result.search))
     return generations_text(options.genetic, pareto->generations);
-  const auto& certified = std::get<CertifiedResult>(result.search);
+  const auto& certified = std::get<optimize::CertifiedResult>(result.search);
   return std::to_string(certified.boxes) + " boxes";
 }
 
-void say_stopped(const OptimizeOptions& options, const OptimizeResult& result, Reply& reply) {
+void say_stopped(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result, Reply& reply) {
   reply.exit = Exit::interrupted;
   reply.diagnostics.push_back(note(
       Severity::warning, "interrupted after " + progress_text(options, result) +
@@ -115,68 +116,69 @@ void say_stopped(const OptimizeOptions& options, const OptimizeResult& result, R
   reply.fields["stopped"] = true;
 }
 
-std::string box_text(const Problem& problem, const TieSet& ties) {
+std::string box_text(const optimize::Problem& problem, const optimize::TieSet& ties) {
   std::string text;
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    const Variable& variable = problem.variables[i];
+    const optimize::Variable& variable = problem.variables[i];
     text += (text.empty() ? "" : ", ") + variable.symbol + " " + rounded(ties.known.lower[i], 5) + " to " +
             rounded(ties.known.upper[i], 5) + unit_text(variable.unit);
   }
   return text;
 }
 
-Json ties_json(const TieSet& ties) {
+Json ties_json(const optimize::TieSet& ties) {
   Json json;
   json["wide"] = ties.wide;
   json["known"] = {ties.known.lower, ties.known.upper};
   json["hull"] = {ties.hull.lower, ties.hull.upper};
   json["share"] = ties.share;
   json["boxes"] = Json::array();
-  for (const DesignBox& box : ties.boxes) json["boxes"].push_back({box.lower, box.upper});
+  for (const optimize::DesignBox& box : ties.boxes) json["boxes"].push_back({box.lower, box.upper});
   return json;
 }
 
-void add_ties(const Problem& problem, const TieSet& ties, bool broken, Reply& reply) {
+void add_ties(const optimize::Problem& problem, const optimize::TieSet& ties, bool broken, Reply& reply) {
   reply.fields["ties"] = ties_json(ties);
   if (!ties.wide || broken) return;
   reply.text += titled("ties", "within 0.1 %: " + box_text(problem, ties));
-  const Objective first = problem.objectives.front();
-  const Objective other = first != Objective::footprint && has_footprint(problem) ? Objective::footprint
-                          : first != Objective::max_tension                       ? Objective::max_tension
-                                                                                  : Objective::max_error;
+  const optimize::Objective first = problem.objectives.front();
+  const optimize::Objective other = first != optimize::Objective::footprint && optimize::has_footprint(problem)
+                                        ? optimize::Objective::footprint
+                                    : first != optimize::Objective::max_tension ? optimize::Objective::max_tension
+                                                                                : optimize::Objective::max_error;
   reply.diagnostics.push_back(
       note(Severity::note, "many designs tie within 0.1 %: " + box_text(problem, ties),
-           "--then " + std::string(info(other).name) + " selects the best of them by a second objective"));
+           "--then " + std::string(optimize::info(other).name) + " selects the best of them by a second objective"));
 }
 
-std::string then_line(Objective objective, const CertifiedResult& second) {
-  return titled("then", std::string(info(objective).name) + " " + value_text(objective, second.value) +
+std::string then_line(optimize::Objective objective, const optimize::CertifiedResult& second) {
+  return titled("then", std::string(optimize::info(objective).name) + " " + value_text(objective, second.value) +
                             " among the designs within 0.1 % (gap " + rounded(second.relative_gap, 2) + ")");
 }
 
-void add_then(Objective objective, const CertifiedResult& second, Reply& reply) {
-  reply.fields["then"] = {{"objective", info(objective).name},
+void add_then(optimize::Objective objective, const optimize::CertifiedResult& second, Reply& reply) {
+  reply.fields["then"] = {{"objective", optimize::info(objective).name},
                           {"value", second.value},
                           {"lower_bound", second.lower_bound},
                           {"relative_gap", second.relative_gap}};
 }
 
 /// Adds the certified result. `then` is missing if the search stopped before it.
-void add_certified(const OptimizeOptions& options, const OptimizeResult& result, const CertifiedResult& search,
-                   Reply& reply) {
-  const Objective objective = result.problem.objectives.front();
+void add_certified(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result,
+                   const optimize::CertifiedResult& search, Reply& reply) {
+  const optimize::Objective objective = result.problem.objectives.front();
   if (result.then) add_then(*options.then, *result.then, reply);
   reply.fields["boxes"] = search.boxes;
   reply.fields["evaluations"] = search.evaluations;
-  reply.text = std::string(info(objective).name) + " of " + result.problem.base.name +
+  reply.text = std::string(optimize::info(objective).name) + " of " + result.problem.base.name +
                (search.proven ? ", proven by branch and bound\n" : ", by branch and bound, not finished\n");
   add_value(result, reply);
   reply.fields["found"] = true;
   reply.fields["lower_bound"] = search.lower_bound;
   reply.fields["relative_gap"] = search.relative_gap;
   reply.fields["proven"] = search.proven;
-  reply.text += titled(search.proven ? "proven" : "bound",
-                       "no design is below " + rounded(search.lower_bound, 8) + unit_text(info(objective).unit));
+  reply.text += titled(search.proven ? "proven" : "bound", "no design is below " + rounded(search.lower_bound, 8) +
+                                                               unit_text(optimize::info(objective).unit));
   reply.text += titled("searched",
                        std::to_string(search.boxes) + " boxes, " + std::to_string(search.evaluations) + " evaluations");
   if (result.problem.feasible)
@@ -196,10 +198,10 @@ void add_certified(const OptimizeOptions& options, const OptimizeResult& result,
            "narrow the bounds, or use fewer variables"));
 }
 
-void add_genetic(const OptimizeOptions& options, const OptimizeResult& result, const GeneticResult& search,
-                 Reply& reply) {
+void add_genetic(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result,
+                 const optimize::GeneticResult& search, Reply& reply) {
   reply.fields["evaluations"] = search.evaluations;
-  reply.text = std::string(info(result.problem.objectives.front()).name) + " of " + result.problem.base.name +
+  reply.text = std::string(optimize::info(result.problem.objectives.front()).name) + " of " + result.problem.base.name +
                ", by the genetic algorithm (not proven)\n";
   add_value(result, reply);
   reply.text += titled("searched", progress_text(options, result) + ", seed " + std::to_string(options.genetic.seed) +
@@ -207,16 +209,17 @@ void add_genetic(const OptimizeOptions& options, const OptimizeResult& result, c
   reply.fields["found"] = true;
   reply.fields["seed"] = options.genetic.seed;
   reply.fields["generations"] = Json::array();
-  for (const Generation& generation : search.generations) {
+  for (const optimize::Generation& generation : search.generations) {
     reply.fields["generations"].push_back(
         {{"number", generation.number}, {"best", generation.best}, {"mean", generation.mean}});
   }
 }
 
-std::string front_table(const Problem& problem, const std::vector<FrontPoint>& front) {
+std::string front_table(const optimize::Problem& problem, const std::vector<optimize::FrontPoint>& front) {
   std::vector<Column> columns{{"  point"}};
-  for (const Objective objective : problem.objectives) columns.push_back({info(objective).name, Align::right});
-  for (const Variable& variable : problem.variables) columns.push_back({variable.symbol, Align::right});
+  for (const optimize::Objective objective : problem.objectives)
+    columns.push_back({optimize::info(objective).name, Align::right});
+  for (const optimize::Variable& variable : problem.variables) columns.push_back({variable.symbol, Align::right});
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < front.size(); ++i) {
     std::vector<std::string> row{"  " + std::to_string(i + 1)};
@@ -227,8 +230,9 @@ std::string front_table(const Problem& problem, const std::vector<FrontPoint>& f
   return table(columns, rows);
 }
 
-void add_front(const GeneticOptions& options, const OptimizeResult& result, const ParetoResult& search, Reply& reply) {
-  const Problem& problem = result.problem;
+void add_front(const optimize::GeneticOptions& options, const pipeline::OptimizeResult& result,
+               const optimize::ParetoResult& search, Reply& reply) {
+  const optimize::Problem& problem = result.problem;
   reply.fields["evaluations"] = search.evaluations;
   reply.text = "front of " + problem.base.name + ", " + std::to_string(search.front.size()) +
                " points by NSGA-II (not proven)\n" + front_table(problem, search.front);
@@ -236,17 +240,17 @@ void add_front(const GeneticOptions& options, const OptimizeResult& result, cons
   reply.fields["found"] = true;
   reply.fields["seed"] = options.seed;
   reply.fields["front"] = Json::array();
-  for (const FrontPoint& point : search.front) {
+  for (const optimize::FrontPoint& point : search.front) {
     Json values = Json::object();
     for (std::size_t k = 0; k < point.values.size(); ++k)
-      values[std::string(info(problem.objectives[k]).name)] = point.values[k];
+      values[std::string(optimize::info(problem.objectives[k]).name)] = point.values[k];
     reply.fields["front"].push_back({{"values", values}, {"design", design_json(problem, point.design)}});
   }
   reply.fields["design"] = design_json(problem, result.design);
 }
 
-void add_nothing(const std::string& path, const OptimizeResult& result, Reply& reply) {
-  const auto* certified = std::get_if<CertifiedResult>(&result.search);
+void add_nothing(const std::string& path, const pipeline::OptimizeResult& result, Reply& reply) {
+  const auto* certified = std::get_if<optimize::CertifiedResult>(&result.search);
   if (certified) reply.fields["boxes"] = certified->boxes;
   reply.fields["evaluations"] = std::visit([](const auto& search) { return search.evaluations; }, result.search);
   if (result.stopped) return;
@@ -255,19 +259,20 @@ void add_nothing(const std::string& path, const OptimizeResult& result, Reply& r
 
 }  // namespace
 
-void add_answer(const std::string& path, const OptimizeOptions& options, const OptimizeResult& result, Reply& reply) {
+void add_answer(const std::string& path, const pipeline::OptimizeOptions& options,
+                const pipeline::OptimizeResult& result, Reply& reply) {
   if (!result.found)
     add_nothing(path, result, reply);
-  else if (const auto* certified = std::get_if<CertifiedResult>(&result.search))
+  else if (const auto* certified = std::get_if<optimize::CertifiedResult>(&result.search))
     add_certified(options, result, *certified, reply);
-  else if (const auto* genetic = std::get_if<GeneticResult>(&result.search))
+  else if (const auto* genetic = std::get_if<optimize::GeneticResult>(&result.search))
     add_genetic(options, result, *genetic, reply);
   else
-    add_front(options.genetic, result, std::get<ParetoResult>(result.search), reply);
+    add_front(options.genetic, result, std::get<optimize::ParetoResult>(result.search), reply);
   if (result.stopped) say_stopped(options, result, reply);
 }
 
-void add_files(const OptimizeOptions& options, const OptimizeResult& result, Reply& reply) {
+void add_files(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result, Reply& reply) {
   reply.diagnostics.insert(reply.diagnostics.end(), result.warnings.begin(), result.warnings.end());
   if (!result.published) return;
   if (!result.front_files.empty())

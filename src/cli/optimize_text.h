@@ -8,8 +8,9 @@
 namespace fusee::cli {
 
 /// Adds the design, or the reason why there is none. `path`: the mechanism file.
-void add_answer(const std::string& path, const OptimizeOptions& options, const OptimizeResult& result, Reply& reply);
+void add_answer(const std::string& path, const pipeline::OptimizeOptions& options,
+                const pipeline::OptimizeResult& result, Reply& reply);
 /// Adds the written files.
-void add_files(const OptimizeOptions& options, const OptimizeResult& result, Reply& reply);
+void add_files(const pipeline::OptimizeOptions& options, const pipeline::OptimizeResult& result, Reply& reply);
 
 }  // namespace fusee::cli

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/table.h"
-#include "base/text.h"
 #include "fusee/base.h"
 #include "fusee/pipeline.h"
 
@@ -46,9 +46,9 @@ std::vector<double> list_from(const Arguments& arguments, std::string_view optio
   return values;
 }
 
-PlanFilesOptions plan_options_from(const Arguments& arguments, const std::filesystem::path& spec) {
-  PlanFilesOptions options;
-  PlanOptions& plan = options.plan;
+pipeline::PlanFilesOptions plan_options_from(const Arguments& arguments, const std::filesystem::path& spec) {
+  pipeline::PlanFilesOptions options;
+  plan::PlanOptions& plan = options.plan;
   plan.noise = radians(arguments.number("--noise-deg", degrees(plan.noise), 1e-6, 45, "deg"));
   plan.minutes = arguments.number("--minutes", plan.minutes, 0, k_most_minutes, "min");
   plan.loads = list_from(arguments, "--loads", -k_most_load, k_most_load);
@@ -69,20 +69,20 @@ PlanFilesOptions plan_options_from(const Arguments& arguments, const std::filesy
 
 // ---- reply ----------------------------------------------------------------------------------------------------------
 
-std::string steps_text(const Plan& plan) {
+std::string steps_text(const plan::Plan& plan) {
   std::string text;
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-    const PlanStep& step = plan.steps[i];
-    const std::string file = step.run ? run_file_name(plan, i) + ", " : "";
+    const plan::PlanStep& step = plan.steps[i];
+    const std::string file = step.run ? formats::run_file_name(plan, i) + ", " : "";
     text += wrapped(file + step.words + " (" + fixed(step.minutes, 1) + " min)", "  " + std::to_string(i + 1) + ". ",
                     "     ");
   }
   return text;
 }
 
-std::string causes_text(const Plan& plan) {
+std::string causes_text(const plan::Plan& plan) {
   std::vector<std::vector<std::string>> rows;
-  for (const PlannedCause& cause : plan.causes) {
+  for (const plan::PlannedCause& cause : plan.causes) {
     rows.push_back({"  " + cause.name, rounded(degrees(cause.usual), 2), rounded(degrees(cause.smallest), 2),
                     cause.smallest_alone ? rounded(degrees(*cause.smallest_alone), 2) : "–"});
   }
@@ -100,7 +100,7 @@ std::string listed(const std::string& title, const std::vector<std::string>& lin
   return text;
 }
 
-std::vector<std::string> group_words(const Plan& plan) {
+std::vector<std::string> group_words(const plan::Plan& plan) {
   std::vector<std::string> lines;
   for (const std::vector<std::string>& group : plan.groups) {
     std::string line;
@@ -110,20 +110,20 @@ std::vector<std::string> group_words(const Plan& plan) {
   return lines;
 }
 
-std::string summary(const PlanProduct& product) {
-  const Plan& plan = product.plan;
+std::string summary(const formats::PlanProduct& product) {
+  const plan::Plan& plan = product.plan;
   std::size_t alone = 0;
-  for (const PlannedCause& cause : plan.causes) alone += cause.smallest_alone.has_value();
+  for (const plan::PlannedCause& cause : plan.causes) alone += cause.smallest_alone.has_value();
   std::string text = product.file.mechanism.name + ": " + fixed(plan.minutes, 1) + " of " + rounded(product.minutes) +
                      " minutes, " + std::to_string(alone) + " of " + std::to_string(plan.causes.size()) +
                      " causes can be identified alone\n" + steps_text(plan) + "\n" + causes_text(plan);
   text += listed("Not resolved", group_words(plan));
-  text += listed("More minutes", minute_words(plan.beyond));
-  return text + listed("False-positive rate", false_positive_words(plan));
+  text += listed("More minutes", formats::minute_words(plan.beyond));
+  return text + listed("False-positive rate", formats::false_positive_words(plan));
 }
 
-void refuse_short_time(const PlanResult& result, const std::string& path, Reply& reply) {
-  const std::vector<PlanStep>& first = result.product.plan.beyond;
+void refuse_short_time(const pipeline::PlanResult& result, const std::string& path, Reply& reply) {
+  const std::vector<plan::PlanStep>& first = result.product.plan.beyond;
   reply.exit = Exit::bad_input;
   const std::string given = rounded(result.product.minutes) + (result.product.minutes == 1 ? " minute" : " minutes");
   if (first.empty()) {
@@ -136,21 +136,22 @@ void refuse_short_time(const PlanResult& result, const std::string& path, Reply&
       "nothing can be measured in " + given + ": the first run takes " + rounded(first.front().minutes, 3) + " minutes",
       "--minutes " + rounded(std::ceil(first.front().minutes)) + " or more, or a higher --speeds");
   reply.diagnostics.push_back(error);
-  for (const std::string& words : minute_words(first)) reply.diagnostics.push_back(note(Severity::note, words));
+  for (const std::string& words : formats::minute_words(first))
+    reply.diagnostics.push_back(note(Severity::note, words));
 }
 
 Reply run_plan(const Arguments& arguments, Console&, const RunContext& context) {
   const std::filesystem::path spec = arguments.positionals().front();
-  const PlanFilesOptions options = plan_options_from(arguments, spec);
+  const pipeline::PlanFilesOptions options = plan_options_from(arguments, spec);
   const MechanismFile file = read_mechanism(spec, arguments.settings(), *context.files);
-  const PlanResult result = plan(file, options, context);
+  const pipeline::PlanResult result = pipeline::plan(file, options, context);
   Reply reply;
   reply.diagnostics = result.product.file.warnings;
   if (result.without_law) {
     explain_without_law(file.path, *result.without_law, reply);
     return reply;
   }
-  reply.fields = parse_json(plan_json(result.product));
+  reply.fields = parse_json(formats::plan_json(result.product));
   reply.fields["folder"] = options.folder.string();
   reply.fields["published"] = result.published;
   if (result.product.plan.steps.empty()) {

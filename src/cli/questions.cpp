@@ -8,11 +8,11 @@
 #include <functional>
 #include <optional>
 
-#include "cli/arguments.h"
 #include "base/text.h"
-#include "mechanism/catalogue.h"
+#include "cli/arguments.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/solid.h"
+#include "mechanism/catalogue.h"
 #include "mechanism/field_text.h"
 
 namespace fusee::cli {
@@ -237,12 +237,12 @@ std::string file_of(const DeclaredMechanism& mechanism, const std::vector<std::s
   return text;
 }
 
-bool was_asked(const Change& change) {
+bool was_asked(const profile::Change& change) {
   return change.key.starts_with("joint.") || change.key == "tendon.diameter_mm" ||
          change.key == "body.bore_diameter_mm";
 }
 
-void turn(DeclaredMechanism& mechanism, const Change& change) {
+void turn(DeclaredMechanism& mechanism, const profile::Change& change) {
   DeclaredMechanism changed = mechanism;
   const Field& field = *find_field(change.key);
   if (change.to_word.empty())
@@ -260,9 +260,9 @@ AskedMechanism ask_for_mechanism(Console& console) {
   // Numbers without a question may be changed freely.
   constexpr int k_most_changes = 4;
   for (int changes = 0;; ++changes) {
-    asked_for.obstacles = obstacles(asked_for.mechanism);
+    asked_for.obstacles = solid::obstacles(asked_for.mechanism);
     if (asked_for.obstacles.empty()) break;
-    asked_for.advice = body_advice(asked_for.mechanism).alone;
+    asked_for.advice = solid::body_advice(asked_for.mechanism).alone;
     const auto ours = std::find_if_not(asked_for.advice.begin(), asked_for.advice.end(), was_asked);
     if (ours == asked_for.advice.end() || changes == k_most_changes) break;
     turn(asked_for.mechanism, *ours);

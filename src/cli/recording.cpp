@@ -7,9 +7,9 @@
 
 #include "base/leftovers.h"
 #include "base/staging.h"
+#include "base/text.h"
 #include "cli/interrupt.h"
 #include "fusee/base.h"
-#include "base/text.h"
 
 namespace fusee::cli {
 namespace {

@@ -9,12 +9,12 @@
 #include "base/bundle.h"
 #include "base/leftovers.h"
 #include "base/staging.h"
+#include "base/text.h"
 #include "cli/bundle_names.h"
 #include "cli/command.h"
 #include "cli/recording.h"
 #include "cli/run.h"
 #include "fusee/base.h"
-#include "base/text.h"
 
 // A bundle runs again in this process, in its own folder. It reads only files of the bundle, whatever its command line
 // names, and writes only into that folder. So a hostile bundle can do no more than fusee can do to its own files.

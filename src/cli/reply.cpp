@@ -45,9 +45,9 @@ Json to_json(const std::vector<Check>& checks) {
   return list;
 }
 
-Json to_json(const std::vector<Condition>& conditions) {
+Json to_json(const std::vector<profile::Condition>& conditions) {
   Json list = Json::array();
-  for (const Condition& condition : conditions) {
+  for (const profile::Condition& condition : conditions) {
     list.push_back({{"name", condition.name},
                     {"ok", condition.ok},
                     {"alpha_deg", degrees(condition.alpha)},
@@ -59,9 +59,9 @@ Json to_json(const std::vector<Condition>& conditions) {
   return list;
 }
 
-Json to_json(const std::vector<Change>& advice) {
+Json to_json(const std::vector<profile::Change>& advice) {
   Json list = Json::array();
-  for (const Change& change : advice) {
+  for (const profile::Change& change : advice) {
     Json entry{
         {"key", change.key}, {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"text", change.text}};
     if (!change.to_word.empty()) {
@@ -73,8 +73,8 @@ Json to_json(const std::vector<Change>& advice) {
   return list;
 }
 
-void add_obstacles(const std::string& file, const std::vector<Condition>& conditions, Reply& reply) {
-  for (const Condition& condition : conditions) {
+void add_obstacles(const std::string& file, const std::vector<profile::Condition>& conditions, Reply& reply) {
+  for (const profile::Condition& condition : conditions) {
     if (!condition.ok) reply.diagnostics.push_back(about_file(Severity::error, file, condition.message));
   }
 }
@@ -82,7 +82,7 @@ void add_obstacles(const std::string& file, const std::vector<Condition>& condit
 namespace {
 
 /// "pulley.r1_mm = 18.9 or less (now 20)".
-std::string setting_of(const Change& change) {
+std::string setting_of(const profile::Change& change) {
   if (!change.to_word.empty()) return change.text + " (now \"" + change.from_word + "\")";
   if (change.key == "joint.range_deg") {
     const auto around_home = [](double end) { return "[" + rounded(-end) + ", " + rounded(end) + "]"; };
@@ -94,21 +94,22 @@ std::string setting_of(const Change& change) {
 
 }  // namespace
 
-void add_advice(const std::vector<Change>& advice, Reply& reply) {
-  for (const Change& change : advice) reply.diagnostics.push_back(note(Severity::note, "try " + setting_of(change)));
-  const auto is_number = [](const Change& change) { return change.to_word.empty(); };
+void add_advice(const std::vector<profile::Change>& advice, Reply& reply) {
+  for (const profile::Change& change : advice)
+    reply.diagnostics.push_back(note(Severity::note, "try " + setting_of(change)));
+  const auto is_number = [](const profile::Change& change) { return change.to_word.empty(); };
   if (std::none_of(advice.begin(), advice.end(), is_number))
     reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it feasible"));
 }
 
-void add_advice_together(const std::vector<Change>& advice, Reply& reply) {
+void add_advice_together(const std::vector<profile::Change>& advice, Reply& reply) {
   if (advice.empty()) return;
   std::string both;
-  for (const Change& change : advice) both += (both.empty() ? "" : " together with ") + setting_of(change);
+  for (const profile::Change& change : advice) both += (both.empty() ? "" : " together with ") + setting_of(change);
   reply.diagnostics.push_back(note(Severity::note, "try " + both));
 }
 
-void explain_without_law(const std::string& file, const SynthesisResult& without_law, Reply& reply) {
+void explain_without_law(const std::string& file, const profile::SynthesisResult& without_law, Reply& reply) {
   reply.exit = Exit::infeasible;
   add_obstacles(file, without_law.conditions, reply);
   add_advice(without_law.advice, reply);

@@ -34,17 +34,17 @@ std::string document(const Reply& reply, const std::string& command);
 
 Json to_json(const Check& check);
 Json to_json(const std::vector<Check>& checks);
-Json to_json(const std::vector<Condition>& conditions);
-Json to_json(const std::vector<Change>& advice);
+Json to_json(const std::vector<profile::Condition>& conditions);
+Json to_json(const std::vector<profile::Change>& advice);
 
 /// Adds an error for each failed condition, and a note for each change that would help.
-void add_obstacles(const std::string& file, const std::vector<Condition>& conditions, Reply& reply);
-void add_advice(const std::vector<Change>& advice, Reply& reply);
+void add_obstacles(const std::string& file, const std::vector<profile::Condition>& conditions, Reply& reply);
+void add_advice(const std::vector<profile::Change>& advice, Reply& reply);
 /// Adds a note for changes that only help together; nothing if there are none.
-void add_advice_together(const std::vector<Change>& advice, Reply& reply);
+void add_advice_together(const std::vector<profile::Change>& advice, Reply& reply);
 
 /// Explains that a joint has no law θ(α): Exit::infeasible, conditions and advice.
-void explain_without_law(const std::string& file, const SynthesisResult& without_law, Reply& reply);
+void explain_without_law(const std::string& file, const profile::SynthesisResult& without_law, Reply& reply);
 
 /// A diagnostic without file position. about_file() makes one for a whole file.
 Diagnostic note(Severity severity, std::string message, std::string hint = {});

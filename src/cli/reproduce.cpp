@@ -1,14 +1,14 @@
-#include "cli/command.h"
-#include "fusee/base.h"
 #include "base/text.h"
+#include "cli/command.h"
 #include "export/report/paper.h"
+#include "fusee/base.h"
 
 namespace fusee::cli {
 namespace {
 
-std::string table_4_text(const Reproduction& all) {
+std::string table_4_text(const paper::Reproduction& all) {
   std::string text = "Table 4: paper and certified optimum, max T_b/F_c " + fixed(all.optimum, 4) + "\n";
-  for (const OptimumRow& row : all.table_4) {
+  for (const paper::OptimumRow& row : all.table_4) {
     std::string symbol = row.symbol;
     symbol.resize(8, ' ');
     text += "  " + symbol + rounded(row.paper) + " mm, computed " + rounded(row.computed, 6) + " mm (bounds " +
@@ -25,15 +25,15 @@ std::string beside(std::string_view heading, std::string_view words) {
   return wrapped(words, first, k_indent);
 }
 
-std::string claim_text(const Claim& claim) {
-  return "\n" + claim.name + ": " + std::string(verdict_text(claim.verdict)) + "\n" +
+std::string claim_text(const paper::Claim& claim) {
+  return "\n" + claim.name + ": " + std::string(paper::verdict_text(claim.verdict)) + "\n" +
          beside("paper", claim.paper_says) + beside("equations", claim.equations_give) +
-         beside("holds for", claim_windows_text(claim));
+         beside("holds for", formats::claim_windows_text(claim));
 }
 
-std::string laws_text(const Reproduction& all) {
+std::string laws_text(const paper::Reproduction& all) {
   std::string text = "\nboth laws on the paper's optimum\n";
-  for (const LawCost& law : all.laws) {
+  for (const paper::LawCost& law : all.laws) {
     text +=
         beside(law.law, "theta within " + fixed(law.nonlinearity, 2) + " deg of a line, r2 up to " +
                             rounded(law.r2_most) + " mm, bend radius " + rounded(law.bend_radius, 3) + " mm, T_b/F_c " +
@@ -42,16 +42,16 @@ std::string laws_text(const Reproduction& all) {
   return text;
 }
 
-std::string assumed_text(const PaperAssumptions& a) {
+std::string assumed_text(const paper::PaperAssumptions& a) {
   return "assumed: unit " + rounded(a.unit) + " mm, r1 " + rounded(a.r1) + " mm, EF " + rounded(a.EF) + " mm, mu " +
          rounded(a.mu) + ", F_c " + rounded(a.tip_force) + " N\n\n";
 }
 
-Json windows_json(const std::vector<ParameterWindows>& windows) {
+Json windows_json(const std::vector<paper::ParameterWindows>& windows) {
   Json json = Json::object();
-  for (const ParameterWindows& of : windows) {
+  for (const paper::ParameterWindows& of : windows) {
     json[of.parameter] = Json::array();
-    for (const Window& window : of.windows) {
+    for (const paper::Window& window : of.windows) {
       json[of.parameter].push_back(
           {{"low", window.low}, {"high", window.high}, {"open_low", window.open_low}, {"open_high", window.open_high}});
     }
@@ -59,24 +59,24 @@ Json windows_json(const std::vector<ParameterWindows>& windows) {
   return json;
 }
 
-Json reproduction_json(const Reproduction& all) {
-  const PaperAssumptions& a = all.assumptions;
+Json reproduction_json(const paper::Reproduction& all) {
+  const paper::PaperAssumptions& a = all.assumptions;
   Json json;
   json["assumptions"] = {
       {"unit_mm", a.unit}, {"r1_mm", a.r1}, {"EF_mm", a.EF}, {"mu", a.mu}, {"tip_force_N", a.tip_force}};
   json["optimum"] = all.optimum;
   json["relative_gap"] = all.relative_gap;
-  for (const OptimumRow& row : all.table_4) {
+  for (const paper::OptimumRow& row : all.table_4) {
     json["table_4"].push_back({{"symbol", row.symbol}, {"paper_mm", row.paper}, {"computed_mm", row.computed}});
   }
-  for (const Claim& claim : all.claims) {
+  for (const paper::Claim& claim : all.claims) {
     json["claims"].push_back({{"name", claim.name},
-                              {"verdict", verdict_text(claim.verdict)},
+                              {"verdict", paper::verdict_text(claim.verdict)},
                               {"paper_says", claim.paper_says},
                               {"equations_give", claim.equations_give},
                               {"windows", windows_json(claim.windows)}});
   }
-  for (const LawCost& law : all.laws) {
+  for (const paper::LawCost& law : all.laws) {
     json["laws"].push_back({{"law", law.law},
                             {"nonlinearity_deg", law.nonlinearity},
                             {"r2_most_mm", law.r2_most},
@@ -84,7 +84,7 @@ Json reproduction_json(const Reproduction& all) {
                             {"tension", law.tension},
                             {"torque_mm", law.torque}});
   }
-  for (const MuWindow& window : all.mu_windows) {
+  for (const paper::MuWindow& window : all.mu_windows) {
     json["mu_windows"].push_back({{"r1_mm", window.r1},
                                   {"EF_mm", window.EF},
                                   {"windows", windows_json({{"mu", "", 0, 0, window.windows}})["mu"]}});
@@ -100,14 +100,14 @@ std::vector<std::string> names_of(const std::vector<OutputFile>& files) {
 
 Reply run_reproduce(const Arguments& arguments, Console&, const RunContext& context) {
   const auto folder = arguments.text("--out");
-  const Reproduction all = reproduce_paper({}, context);
+  const paper::Reproduction all = paper::reproduce_paper({}, context);
   Reply reply;
   reply.text = assumed_text(all.assumptions) + table_4_text(all);
-  for (const Claim& claim : all.claims) reply.text += claim_text(claim);
+  for (const paper::Claim& claim : all.claims) reply.text += claim_text(claim);
   reply.text += laws_text(all);
   reply.fields = reproduction_json(all);
   if (!folder || arguments.has("--dry-run")) return reply;
-  const std::vector<OutputFile> files = paper_files(all);
+  const std::vector<OutputFile> files = formats::paper_files(all);
   OutputFolder out(*folder, arguments.has("--force"), context);
   out.claim(names_of(files));
   for (const OutputFile& file : files) out.stage(file);

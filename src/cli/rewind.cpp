@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/text.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
 #include "cli/table.h"
-#include "base/text.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
@@ -13,11 +13,11 @@ namespace {
 /// Rows of the terminal table; --json and --verbose have all points.
 constexpr std::size_t k_points_in_table = 13;
 
-std::string points_table(const std::vector<RewindPoint>& points, bool all) {
+std::string points_table(const std::vector<profile::RewindPoint>& points, bool all) {
   const std::size_t rows = all ? points.size() : std::min(points.size(), k_points_in_table);
   std::vector<std::vector<std::string>> cells;
   for (std::size_t row = 0; row < rows; ++row) {
-    const RewindPoint& point = points[rows < 2 ? 0 : row * (points.size() - 1) / (rows - 1)];
+    const profile::RewindPoint& point = points[rows < 2 ? 0 : row * (points.size() - 1) / (rows - 1)];
     cells.push_back({fixed(degrees(point.alpha), 2), fixed(degrees(point.theta_declared), 3),
                      fixed(degrees(point.theta), 3), fixed(degrees(point.theta - point.theta_declared), 4),
                      fixed(point.slack, 4)});
@@ -30,9 +30,9 @@ std::string points_table(const std::vector<RewindPoint>& points, bool all) {
                cells);
 }
 
-Json points_json(const std::vector<RewindPoint>& points) {
+Json points_json(const std::vector<profile::RewindPoint>& points) {
   Json list = Json::array();
-  for (const RewindPoint& point : points) {
+  for (const profile::RewindPoint& point : points) {
     list.push_back({{"alpha_deg", degrees(point.alpha)},
                     {"theta_declared_deg", degrees(point.theta_declared)},
                     {"theta_deg", degrees(point.theta)},
@@ -43,16 +43,16 @@ Json points_json(const std::vector<RewindPoint>& points) {
 
 // ---- placement ---------------------------------------------------------------------------------
 
-std::string_view word(Side side) { return side == Side::left ? "P1" : "P2"; }
+std::string_view word(transmission::Side side) { return side == transmission::Side::left ? "P1" : "P2"; }
 
-std::string grooves_text(const Placement& placement) {
+std::string grooves_text(const solid::Placement& placement) {
   std::string text;
-  for (const PlacedGroove& groove : placement.grooves)
+  for (const solid::PlacedGroove& groove : placement.grooves)
     text += (text.empty() ? "" : ", ") + std::string(word(groove.side)) + " at z = " + fixed(groove.z, 3) + " mm";
   return text;
 }
 
-std::string turn_text(const Placement& placement) {
+std::string turn_text(const solid::Placement& placement) {
   std::string text = placement.turned_over ? ", upside down" : "";
   // The angle of a round part is undetermined.
   if (placement.tells_turn) text += ", turned by " + trimmed_fixed(degrees(placement.turn), 3) + "° about it";
@@ -60,7 +60,7 @@ std::string turn_text(const Placement& placement) {
 }
 
 /// Text such as "its axis at (12.3, -4) mm, turned by 90° about it; grooves P1 at z = …".
-std::string placement_text(const Placement& placement) {
+std::string placement_text(const solid::Placement& placement) {
   std::string text = "its axis at (" + trimmed_fixed(placement.axis.x(), 3) + ", " +
                      trimmed_fixed(placement.axis.y(), 3) + ") mm" + turn_text(placement) + "; " +
                      (placement.grooves.size() == 1 ? "groove " : "grooves ") + grooves_text(placement) +
@@ -71,44 +71,44 @@ std::string placement_text(const Placement& placement) {
   return text;
 }
 
-std::string place_text(const RewoundPart& part) {
+std::string place_text(const pipeline::RewoundPart& part) {
   std::string text;
-  for (const Placement& placement : part.placements)
+  for (const solid::Placement& placement : part.placements)
     text += wrapped("found from its grooves: " + placement_text(placement), "  ", "  ");
   if (part.alone)
     text += wrapped("the file has only " + std::string(word(*part.alone)) + ": only tendon " +
-                        (*part.alone == Side::left ? "1" : "2") + " was wound, and the slack is unknown",
+                        (*part.alone == transmission::Side::left ? "1" : "2") + " was wound, and the slack is unknown",
                     "  ", "  ");
   return text;
 }
 
-void add_place_notes(const std::string& file, const RewoundPart& part, Reply& reply) {
+void add_place_notes(const std::string& file, const pipeline::RewoundPart& part, Reply& reply) {
   const auto add = [&](Severity severity, const std::string& words, const std::string& hint) {
     Diagnostic diagnostic = about_file(severity, file, words);
     diagnostic.hint = hint;
     reply.diagnostics.push_back(diagnostic);
   };
-  if (part.place == PartPlace::found)
+  if (part.place == pipeline::PartPlace::found)
     add(Severity::note, "the part was moved after the build: its grooves were found elsewhere",
         "--as-is winds it in its present position");
-  const auto may_be_mirrored = [](const Placement& placement) {
+  const auto may_be_mirrored = [](const solid::Placement& placement) {
     return placement.grooves.size() == 1 && placement.turned_over && placement.tells_turn;
   };
   if (std::any_of(part.placements.begin(), part.placements.end(), may_be_mirrored))
     add(Severity::warning,
         "a single groove upside down cannot be distinguished from a mirrored one: upside down is assumed",
         "check that the file is not mirrored");
-  if (part.place == PartPlace::not_recognised)
+  if (part.place == pipeline::PartPlace::not_recognised)
     add(Severity::warning,
         "the grooves of this part do not fit those of the mechanism anywhere: it is wound in its present position",
         "check that it is the pulley of this mechanism file, with its axis along z");
 }
 
-Json placements_json(const RewoundPart& part) {
+Json placements_json(const pipeline::RewoundPart& part) {
   Json list = Json::array();
-  for (const Placement& placement : part.placements) {
+  for (const solid::Placement& placement : part.placements) {
     Json grooves = Json::array();
-    for (const PlacedGroove& groove : placement.grooves)
+    for (const solid::PlacedGroove& groove : placement.grooves)
       grooves.push_back({{"pulley", word(groove.side)}, {"z_mm", groove.z}});
     list.push_back({{"axis_mm", {placement.axis.x(), placement.axis.y()}},
                     {"turned_deg", degrees(placement.turn)},
@@ -124,12 +124,14 @@ Json placements_json(const RewoundPart& part) {
 // ---- command -----------------------------------------------------------------------------------
 
 /// Reads and rewinds a part; faults are reported with its file name.
-RewoundPart rewind_file(const JointAsItIs& joint, const std::string& file, bool as_is, const RunContext& context) {
+pipeline::RewoundPart rewind_file(const joint::JointAsItIs& joint, const std::string& file, bool as_is,
+                                  const RunContext& context) {
   context.begin_step("reading the part");
-  const Part part = read_part(file, *context.files);
+  const pipeline::Part part = pipeline::read_part(file, *context.files);
   context.begin_step("winding tendons on it");
   try {
-    return as_is ? RewoundPart{rewind_part(joint, part), PartPlace::as_made, {}} : rewind_moved_part(joint, part);
+    return as_is ? pipeline::RewoundPart{pipeline::rewind_part(joint, part), pipeline::PartPlace::as_made, {}}
+                 : pipeline::rewind_moved_part(joint, part);
   } catch (const InputError& error) {
     std::vector<Diagnostic> diagnostics = error.diagnostics();
     for (Diagnostic& diagnostic : diagnostics) diagnostic.place.file = file;
@@ -138,23 +140,24 @@ RewoundPart rewind_file(const JointAsItIs& joint, const std::string& file, bool 
 }
 
 /// With only one tendon the slack is unknown.
-std::vector<Check> checks_of(const Mechanism& mechanism, const RewoundPart& part, const AsBuiltLimits& limits) {
-  std::vector<Check> checks = as_built_checks(mechanism, part.as_built, limits);
+std::vector<Check> checks_of(const Mechanism& mechanism, const pipeline::RewoundPart& part,
+                             const pipeline::AsBuiltLimits& limits) {
+  std::vector<Check> checks = pipeline::as_built_checks(mechanism, part.as_built, limits);
   if (part.alone) checks.erase(checks.begin() + 1, checks.end());
   return checks;
 }
 
-std::string result_text(const RewoundPart& part) {
+std::string result_text(const pipeline::RewoundPart& part) {
   if (!part.alone) return as_built_text(part.as_built);
   return "theta within " + rounded(degrees(part.as_built.max_theta_error), 2) + " deg";
 }
 
 Reply run_rewind(const Arguments& arguments, Console& console, const RunContext& context) {
-  const AsBuiltLimits limits = limits_from(arguments);
+  const pipeline::AsBuiltLimits limits = limits_from(arguments);
   const MechanismFile spec = read_mechanism(arguments.positionals()[0], arguments.settings(), *context.files);
   const std::string& file = arguments.positionals()[1];
-  const JointAsItIs joint = as_it_is(spec.mechanism);
-  const RewoundPart part = rewind_file(joint, file, arguments.has("--as-is"), context);
+  const joint::JointAsItIs joint = joint::as_it_is(spec.mechanism);
+  const pipeline::RewoundPart part = rewind_file(joint, file, arguments.has("--as-is"), context);
   const std::vector<Check> checks = checks_of(joint.mechanism, part, limits);
   Reply reply;
   reply.diagnostics = spec.warnings;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <optional>
 
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/measured_columns.h"
-#include "base/text.h"
 #include "fusee/base.h"
 #include "fusee/pipeline.h"
 
@@ -13,8 +13,8 @@ namespace {
 
 constexpr double k_most_noise = 45.0;  // deg; larger noise is no angle sensor's
 
-SimulateOptions simulate_options_from(const Arguments& arguments) {
-  SimulateOptions options;
+pipeline::SimulateOptions simulate_options_from(const Arguments& arguments) {
+  pipeline::SimulateOptions options;
   options.columns = columns_from(arguments);
   options.corrected = arguments.has("--corrected");
   options.noise = radians(arguments.number("--noise-deg", 0, 0, k_most_noise, "deg"));
@@ -25,32 +25,35 @@ SimulateOptions simulate_options_from(const Arguments& arguments) {
 std::string rows_words(std::size_t count) { return std::to_string(count) + (count == 1 ? " row" : " rows"); }
 
 /// Place of the first row with that status, for lookup in the log.
-std::string first_place(const Simulation& simulation, EquilibriumStatus status) {
+std::string first_place(const formats::Simulation& simulation, joint::EquilibriumStatus status) {
   const auto row = std::find_if(simulation.states.begin(), simulation.states.end(),
-                                [&](const JointState& state) { return state.status == status; });
-  const Sample& sample = simulation.log.runs.front().samples[static_cast<std::size_t>(row - simulation.states.begin())];
+                                [&](const joint::JointState& state) { return state.status == status; });
+  const measurement::Sample& sample =
+      simulation.log.runs.front().samples[static_cast<std::size_t>(row - simulation.states.begin())];
   const std::string time = simulation.log.runs.front().has_time ? " (" + rounded(sample.time) + " s)" : "";
   return "alpha = " + fixed(degrees(sample.alpha), 2) + " deg" + time;
 }
 
-std::size_t count_of(const Simulation& simulation, EquilibriumStatus status) {
-  return static_cast<std::size_t>(std::count_if(simulation.states.begin(), simulation.states.end(),
-                                                [&](const JointState& state) { return state.status == status; }));
+std::size_t count_of(const formats::Simulation& simulation, joint::EquilibriumStatus status) {
+  return static_cast<std::size_t>(
+      std::count_if(simulation.states.begin(), simulation.states.end(),
+                    [&](const joint::JointState& state) { return state.status == status; }));
 }
 
-void add_findings(const Simulation& simulation, Reply& reply) {
+void add_findings(const formats::Simulation& simulation, Reply& reply) {
   for (const std::string& words : simulation.log.notes) reply.diagnostics.push_back(note(Severity::note, words));
-  if (const std::size_t rows = count_of(simulation, EquilibriumStatus::loose); rows > 0) {
+  if (const std::size_t rows = count_of(simulation, joint::EquilibriumStatus::loose); rows > 0) {
     reply.diagnostics.push_back(note(Severity::warning,
                                      "the joint is loose in " + rows_words(rows) + ", first at " +
-                                         first_place(simulation, EquilibriumStatus::loose) + ": both tendons are slack",
+                                         first_place(simulation, joint::EquilibriumStatus::loose) +
+                                         ": both tendons are slack",
                                      "their status is loose, and loose_deg is the range of possible angles"));
   }
-  if (const std::size_t rows = count_of(simulation, EquilibriumStatus::no_equilibrium); rows > 0) {
+  if (const std::size_t rows = count_of(simulation, joint::EquilibriumStatus::no_equilibrium); rows > 0) {
     reply.exit = Exit::check_failed;
     reply.diagnostics.push_back(note(Severity::error,
                                      "there is no equilibrium in " + rows_words(rows) + ", first at " +
-                                         first_place(simulation, EquilibriumStatus::no_equilibrium),
+                                         first_place(simulation, joint::EquilibriumStatus::no_equilibrium),
                                      "the motor exceeds the pulley's range, or the load is too large"));
   }
 }
@@ -58,8 +61,8 @@ void add_findings(const Simulation& simulation, Reply& reply) {
 struct RangeText {
   std::string least = "–", most = "–";
 };
-RangeText range_of(const Simulation& simulation, std::string_view name) {
-  for (const SimulationColumn& column : simulation_columns(simulation)) {
+RangeText range_of(const formats::Simulation& simulation, std::string_view name) {
+  for (const formats::SimulationColumn& column : formats::simulation_columns(simulation)) {
     if (column.name != name) continue;
     std::vector<double> known;
     std::copy_if(column.values.begin(), column.values.end(), std::back_inserter(known),
@@ -71,7 +74,7 @@ RangeText range_of(const Simulation& simulation, std::string_view name) {
   return {};
 }
 
-std::string summary(const Simulation& simulation, const std::string& file) {
+std::string summary(const formats::Simulation& simulation, const std::string& file) {
   const RangeText theta = range_of(simulation, "theta_deg");
   const RangeText torque = range_of(simulation, "motor_torque_Nmm");
   const RangeText first = range_of(simulation, "tension1_N");
@@ -86,23 +89,23 @@ std::string summary(const Simulation& simulation, const std::string& file) {
 }
 
 /// NaN becomes null, as JSON has no NaN.
-Json columns_json(const Simulation& simulation) {
+Json columns_json(const formats::Simulation& simulation) {
   Json columns = Json::object();
-  for (const SimulationColumn& column : simulation_columns(simulation)) {
+  for (const formats::SimulationColumn& column : formats::simulation_columns(simulation)) {
     Json values = Json::array();
     for (const double value : column.values) values.push_back(std::isfinite(value) ? Json(value) : Json());
     columns[column.name] = std::move(values);
   }
   columns["status"] = Json::array();
-  for (const JointState& state : simulation.states) columns["status"].push_back(word(state.status));
+  for (const joint::JointState& state : simulation.states) columns["status"].push_back(formats::word(state.status));
   return columns;
 }
 
 Reply run_simulate(const Arguments& arguments, Console&, const RunContext& context) {
-  const SimulateOptions options = simulate_options_from(arguments);
+  const pipeline::SimulateOptions options = simulate_options_from(arguments);
   const std::vector<std::string>& names = arguments.positionals();
   const MechanismFile file = read_mechanism(names[0], arguments.settings(), *context.files);
-  const SimulateResult result = simulate(file, names[1], options, context);
+  const pipeline::SimulateResult result = pipeline::simulate(file, names[1], options, context);
   Reply reply;
   reply.diagnostics = result.simulation.file.warnings;
   if (result.without_law) {
@@ -110,14 +113,14 @@ Reply run_simulate(const Arguments& arguments, Console&, const RunContext& conte
     return reply;
   }
   add_findings(result.simulation, reply);
-  const std::string table = simulation_csv(result.simulation);
+  const std::string table = formats::simulation_csv(result.simulation);
   const std::optional<std::string> target = arguments.text("--out");
   if (target && !arguments.has("--dry-run")) write_file(*target, table, arguments.has("--force"), *context.files);
   reply.text = target ? summary(result.simulation, *target) : table;
   reply.fields["name"] = file.mechanism.name;
   reply.fields["rows"] = result.simulation.states.size();
-  reply.fields["loose"] = count_of(result.simulation, EquilibriumStatus::loose);
-  reply.fields["no_equilibrium"] = count_of(result.simulation, EquilibriumStatus::no_equilibrium);
+  reply.fields["loose"] = count_of(result.simulation, joint::EquilibriumStatus::loose);
+  reply.fields["no_equilibrium"] = count_of(result.simulation, joint::EquilibriumStatus::no_equilibrium);
   if (target) reply.fields["output"] = *target;
   reply.fields["columns"] = columns_json(result.simulation);
   return reply;

@@ -10,7 +10,7 @@
 #include "solid/euler.h"
 #include "solid/place.h"
 
-namespace fusee {
+namespace fusee::coil {
 namespace {
 
 constexpr std::size_t k_gauge_planes = 360;
@@ -34,14 +34,14 @@ struct Minimum {
     at = {r * std::cos(angle), r * std::sin(angle), z};
   }
   Check check(const std::string& name, double limit) const {
-    return at_least(name, value, limit, "mm", value >= limit ? std::string() : "at " + place_of(at));
+    return at_least(name, value, limit, "mm", value >= limit ? std::string() : "at " + solid::place_of(at));
   }
 };
 
 // Measures thicknesses in the finished part's sizes.
 class PartGauge {
  public:
-  PartGauge(const TriangleMesh& mesh, const HelicalPulley& pulley, const HelicalSection& section)
+  PartGauge(const solid::TriangleMesh& mesh, const HelicalPulley& pulley, const HelicalSection& section)
       : layout_(pulley.layout), section_(section) {
     auto cuts = half_plane_cuts(mesh, k_gauge_planes);
     std::vector<std::vector<OutlinePiece>> outlines;
@@ -107,22 +107,22 @@ class PartGauge {
     return furthest;
   }
 
-  const BodyLayout& layout_;
+  const solid::BodyLayout& layout_;
   const HelicalSection& section_;
   Minimum rib_, depth_, wall_;
 };
 
 }  // namespace
 
-std::vector<Check> check_helical_pulley(const TriangleMesh& mesh, const HelicalPulley& pulley,
+std::vector<Check> check_helical_pulley(const solid::TriangleMesh& mesh, const HelicalPulley& pulley,
                                         const HelicalSection& section, double tolerance) {
-  std::vector<Check> checks = check_mesh(mesh);
+  std::vector<Check> checks = solid::check_mesh(mesh);
   if (!all_ok(checks)) return checks;
-  checks.push_back(exactly("euler_number", euler_number(mesh), pulley.expected_euler, "1"));
-  const double off = std::abs(enclosed_volume(mesh) - pulley.expected_volume);
+  checks.push_back(exactly("euler_number", solid::euler_number(mesh), pulley.expected_euler, "1"));
+  const double off = std::abs(solid::enclosed_volume(mesh) - pulley.expected_volume);
   checks.push_back(at_most("volume", off, k_volume_grain * pulley.expected_volume, "mm³"));
   PartGauge(mesh, pulley, section).add_checks(checks, tolerance);
   return checks;
 }
 
-}  // namespace fusee
+}  // namespace fusee::coil

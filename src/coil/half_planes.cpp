@@ -7,7 +7,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::coil {
 namespace {
 
 // Pieces shorter than this along the axis count as level.
@@ -121,7 +121,7 @@ double half_plane_angle(std::size_t k, std::size_t count) {
   return k_two_pi * (static_cast<double>(k) + 0.3719) / static_cast<double>(count);
 }
 
-std::vector<std::vector<OutlinePiece>> half_plane_cuts(const TriangleMesh& mesh, std::size_t count) {
+std::vector<std::vector<OutlinePiece>> half_plane_cuts(const solid::TriangleMesh& mesh, std::size_t count) {
   std::vector<std::vector<OutlinePiece>> cuts(count);
   std::vector<Vec2> directions;
   for (std::size_t k = 0; k < count; ++k) directions.push_back(unit(half_plane_angle(k, count)));
@@ -217,4 +217,4 @@ std::vector<FloorTrace> floor_traces(const std::vector<std::vector<FloorPlace>>&
   return FloorJoiner(floors).traces();
 }
 
-}  // namespace fusee
+}  // namespace fusee::coil

@@ -7,7 +7,7 @@
 
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::coil {
 
 /// A straight piece of an outline in a half-plane: distance from the axis over height.
 struct OutlinePiece {
@@ -17,7 +17,7 @@ struct OutlinePiece {
 /// The angle of half-plane `k` of `count`, evenly spaced. None coincides with an angle that drawings favour.
 double half_plane_angle(std::size_t k, std::size_t count);
 /// The outline pieces of the mesh in each half-plane, unordered. Level pieces are omitted.
-std::vector<std::vector<OutlinePiece>> half_plane_cuts(const TriangleMesh& mesh, std::size_t count);
+std::vector<std::vector<OutlinePiece>> half_plane_cuts(const solid::TriangleMesh& mesh, std::size_t count);
 /// The outermost pieces at every height, from below, without gaps within the part.
 std::vector<OutlinePiece> outermost(std::vector<OutlinePiece> pieces);
 
@@ -40,4 +40,4 @@ struct FloorTrace {
 /// because a half-plane does not cut a complete groove section there. `floors`: those of each half-plane.
 std::vector<FloorTrace> floor_traces(const std::vector<std::vector<FloorPlace>>& floors);
 
-}  // namespace fusee
+}  // namespace fusee::coil

@@ -18,7 +18,7 @@
 // ladder of bands, section by section and rib by rib. A rib belongs to both the turn below it and the turn above it.
 // Where a groove begins or ends, one side of a strip has two more corners, and a wall closes the groove's section.
 
-namespace fusee {
+namespace fusee::coil {
 namespace {
 
 using Index = std::uint32_t;
@@ -60,7 +60,8 @@ std::vector<Vec2> ring_about(const Winding& winding, std::size_t columns, bool l
 
 class BlankBuilder {
  public:
-  BlankBuilder(const Fan& fan, const HelicalSection& section, const BodyLayout& layout, const RingHeights& heights)
+  BlankBuilder(const Fan& fan, const HelicalSection& section, const solid::BodyLayout& layout,
+               const RingHeights& heights)
       : fan_(fan),
         layout_(layout),
         heights_(heights),
@@ -72,7 +73,7 @@ class BlankBuilder {
     for (std::size_t k = 1; k < above.size(); ++k) section_.push_back(above[k]);
   }
 
-  TriangleMesh build() {
+  solid::TriangleMesh build() {
     std::vector<Feature> ladder = features();
     for (std::size_t i = 0; i < columns_; ++i) add_strip(ladder, i);
     triangulate_bands();
@@ -115,7 +116,7 @@ class BlankBuilder {
       for (std::size_t k = 0; k < section_.size(); ++k) {
         const bool is_groove_edge = k == 0 || k + 1 == section_.size();
         if (winding.is_filled(j) && !is_groove_edge) continue;
-        const GroovePoint& point = section_[k];
+        const solid::GroovePoint& point = section_[k];
         const double bulge = winding.is_filled(j) ? bulge_of(winding, j, k == 0) : 0.0;
         add(row.position + (point.offset + bulge - 0.5 * layout_.tendon_diameter) * row.normal, row.height + point.dz);
       }
@@ -132,7 +133,8 @@ class BlankBuilder {
     const double foot = layout_.elephant_foot;
     if (foot > 0) all.push_back(ring(ring_about(fan_.p1, columns_, true, groove_edge_ - foot), 0.0));
     lowest_ = 0;
-    all.push_back(ring(ring_about(fan_.p1, columns_, true, groove_edge_), foot > 0 ? rise_of(layout_, foot) : 0.0));
+    all.push_back(
+        ring(ring_about(fan_.p1, columns_, true, groove_edge_), foot > 0 ? solid::rise_of(layout_, foot) : 0.0));
     all.push_back(groove(fan_.p1));
     all.push_back(ring(ring_about(fan_.p1, columns_, false, groove_edge_), heights_.lower));
     all.push_back(ring(ring_about(fan_.p2, columns_, true, groove_edge_), heights_.upper));
@@ -371,7 +373,7 @@ class BlankBuilder {
         index.push_back(v);
       }
     }
-    for (const auto& [a, b, c] : triangulate(polygons)) {
+    for (const auto& [a, b, c] : solid::triangulate(polygons)) {
       if (up)
         triangle(index[a], index[b], index[c]);
       else
@@ -432,12 +434,12 @@ class BlankBuilder {
   }
 
   const Fan& fan_;
-  const BodyLayout& layout_;
+  const solid::BodyLayout& layout_;
   const RingHeights& heights_;
   std::size_t columns_;
   double groove_edge_;
-  std::vector<GroovePoint> section_;  // upwards, offsets from the floor
-  TriangleMesh mesh_;
+  std::vector<solid::GroovePoint> section_;  // upwards, offsets from the floor
+  solid::TriangleMesh mesh_;
   std::vector<Band> bands_;
   std::vector<Index> rings_;
   Index lowest_ = 0, highest_ = 0;
@@ -445,9 +447,9 @@ class BlankBuilder {
 
 }  // namespace
 
-Polygon rim_of(const Fan& fan, Side side, double groove_edge) {
-  return side == Side::left ? ring_about(fan.p1, fan.columns(), true, groove_edge)
-                            : ring_about(fan.p2, fan.columns(), false, groove_edge);
+Polygon rim_of(const Fan& fan, transmission::Side side, double groove_edge) {
+  return side == transmission::Side::left ? ring_about(fan.p1, fan.columns(), true, groove_edge)
+                                          : ring_about(fan.p2, fan.columns(), false, groove_edge);
 }
 
 double middle_step(const Fan& fan, double groove_edge) {
@@ -458,9 +460,9 @@ double middle_step(const Fan& fan, double groove_edge) {
   return step;
 }
 
-TriangleMesh helical_blank(const Fan& fan, const HelicalSection& section, const BodyLayout& layout,
-                           const RingHeights& heights) {
+solid::TriangleMesh helical_blank(const Fan& fan, const HelicalSection& section, const solid::BodyLayout& layout,
+                                  const RingHeights& heights) {
   return BlankBuilder(fan, section, layout, heights).build();
 }
 
-}  // namespace fusee
+}  // namespace fusee::coil

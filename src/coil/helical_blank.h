@@ -7,7 +7,7 @@
 #include "fusee/solid.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::coil {
 
 /// Heights of the rings that bound the grooves. The lowest ring is chamfered.
 struct RingHeights {
@@ -18,13 +18,13 @@ struct RingHeights {
 };
 
 /// Outline of the lower face (P1) or the upper face (P2).
-Polygon rim_of(const Fan& fan, Side side, double groove_edge);
+Polygon rim_of(const Fan& fan, transmission::Side side, double groove_edge);
 
 /// Largest projection of the middle flange's upper ring over its lower one, mm. The cone between them supports it.
 double middle_step(const Fan& fan, double groove_edge);
 
 /// In mm of the finished part, not scaled and not rounded to float.
-TriangleMesh helical_blank(const Fan& fan, const HelicalSection& section, const BodyLayout& layout,
-                           const RingHeights& heights);
+solid::TriangleMesh helical_blank(const Fan& fan, const HelicalSection& section, const solid::BodyLayout& layout,
+                                  const RingHeights& heights);
 
-}  // namespace fusee
+}  // namespace fusee::coil

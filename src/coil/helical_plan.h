@@ -9,7 +9,7 @@
 #include "coil/winding.h"
 #include "fusee/coil.h"
 
-namespace fusee {
+namespace fusee::coil {
 
 struct HelicalPlan {
   Fan fan;
@@ -19,4 +19,4 @@ struct HelicalPlan {
   std::array<RunOutSizes, 2> run_outs;
 };
 
-}  // namespace fusee
+}  // namespace fusee::coil

@@ -1,5 +1,3 @@
-#include "fusee/coil.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,12 +8,13 @@
 #include <optional>
 #include <utility>
 
+#include "base/text.h"
 #include "coil/helical_blank.h"
 #include "coil/helical_plan.h"
 #include "coil/run_out.h"
 #include "coil/winding.h"
-#include "base/text.h"
 #include "fusee/base.h"
+#include "fusee/coil.h"
 #include "solid/boolean.h"
 #include "solid/bore.h"
 #include "solid/condition_list.h"
@@ -29,7 +28,7 @@
 #include "solid/size.h"
 #include "solid/support_attribution.h"
 #include "solid/tools.h"
-namespace fusee {
+namespace fusee::coil {
 namespace {
 
 // A rib of two lines of a 0.4 mm nozzle, plus the loss of a typical printer.
@@ -54,8 +53,8 @@ constexpr double k_grain = 1e-6;
 // Minimum height of the cone between the middle flange's two rings, which keeps them distinct.
 constexpr double k_least_cone = 0.2;
 
-Condition condition_of(std::string name, bool ok, double value, double limit, std::string message) {
-  Condition condition;
+profile::Condition condition_of(std::string name, bool ok, double value, double limit, std::string message) {
+  profile::Condition condition;
   condition.name = std::move(name);
   condition.ok = ok;
   condition.value = value;
@@ -69,7 +68,7 @@ std::string mm(double value) { return rounded(value, 3) + " mm"; }
 
 class Planner {
  public:
-  Planner(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2, double tolerance)
+  Planner(const Mechanism& mechanism, const helix::Spiral& p1, const helix::Spiral& p2, double tolerance)
       : mechanism_(mechanism),
         p1_(p1),
         p2_(p2),
@@ -77,16 +76,16 @@ class Planner {
         d_(mechanism.tendon.diameter),
         section_(helical_section(mechanism)) {}
 
-  HelicalPulley make(TieOffSearch search) {
-    if (plan().empty()) cut(search == TieOffSearch::brief ? k_brief_cut_variants : k_cut_variants);
+  HelicalPulley make(solid::TieOffSearch search) {
+    if (plan().empty()) cut(search == solid::TieOffSearch::brief ? solid::k_brief_cut_variants : solid::k_cut_variants);
     return std::move(pulley_);
   }
 
   /// Returns the conditions that fail.
-  std::vector<Condition> plan() {
-    if (!spirals_are_whole()) return failed_of(pulley_.conditions);
+  std::vector<profile::Condition> plan() {
+    if (!spirals_are_whole()) return profile::failed_of(pulley_.conditions);
     lay_out();
-    const BodyLayout layout = pulley_.layout;
+    const solid::BodyLayout layout = pulley_.layout;
     for (const double share : k_pocket_shares) {
       pulley_.layout = layout;
       size_run_outs(share);
@@ -94,7 +93,7 @@ class Planner {
       if (mechanism_.body.knot_pocket > 0 || pockets_fit()) break;
     }
     conditions();
-    return failed_of(pulley_.conditions);
+    return profile::failed_of(pulley_.conditions);
   }
 
  private:
@@ -103,37 +102,38 @@ class Planner {
   }
 
   bool spirals_are_whole() {
-    for (const Side side : {Side::left, Side::right}) {
-      const std::vector<SpiralRow>& rows = spiral(side).rows;
-      const auto stands_still = [](const SpiralRow& a, const SpiralRow& b) { return !(b.turn > a.turn); };
+    for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+      const std::vector<helix::SpiralRow>& rows = spiral(side).rows;
+      const auto stands_still = [](const helix::SpiralRow& a, const helix::SpiralRow& b) { return !(b.turn > a.turn); };
       const bool grows = rows.size() >= 2 && std::adjacent_find(rows.begin(), rows.end(), stands_still) == rows.end();
       const double turn = grows ? rows.back().turn - rows.front().turn : 0.0;
       // Slightly more than a turn, so that every column has a row.
       constexpr double k_least_turn = k_two_pi + radians(10);
-      Condition condition = condition_of(
-          fmt::format("whole_turn_{}", pulley_name(side)), turn >= k_least_turn, degrees(turn), degrees(k_least_turn),
+      profile::Condition condition = condition_of(
+          fmt::format("whole_turn_{}", transmission::pulley_name(side)), turn >= k_least_turn, degrees(turn),
+          degrees(k_least_turn),
           grows ? fmt::format("{}'s groove is {:.0f}° long, a helical one requires {:.0f}°. Increase body.spare_turns",
-                              pulley_name(side), degrees(turn), degrees(k_least_turn))
+                              transmission::pulley_name(side), degrees(turn), degrees(k_least_turn))
                 : fmt::format("{}'s pitch curve is straight at one place: a helical groove cannot follow it yet",
-                              pulley_name(side)));
+                              transmission::pulley_name(side)));
       condition.unit = "deg";
       pulley_.conditions.push_back(condition);
       const double reach = circumradius(spiral(side));
-      if (auto far = too_far_out(side, reach, reach)) pulley_.conditions.push_back(std::move(*far));
+      if (auto far = solid::too_far_out(side, reach, reach)) pulley_.conditions.push_back(std::move(*far));
     }
-    return failed_of(pulley_.conditions).empty();
+    return profile::failed_of(pulley_.conditions).empty();
   }
 
-  const Spiral& spiral(Side side) const { return side == Side::left ? p1_ : p2_; }
+  const helix::Spiral& spiral(transmission::Side side) const { return side == transmission::Side::left ? p1_ : p2_; }
 
-  static double circumradius(const Spiral& spiral) {
+  static double circumradius(const helix::Spiral& spiral) {
     double most = 0;
-    for (const SpiralRow& row : spiral.rows) most = std::max(most, std::hypot(row.x, row.y));
+    for (const helix::SpiralRow& row : spiral.rows) most = std::max(most, std::hypot(row.x, row.y));
     return most;
   }
-  double floor_radius(const Spiral& spiral) const {
+  double floor_radius(const helix::Spiral& spiral) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const SpiralRow& row : spiral.rows)
+    for (const helix::SpiralRow& row : spiral.rows)
       least = std::min(least, (Vec2(row.x, row.y) - 0.5 * d_ * unit(row.turn)).norm());
     return least - tolerance_;
   }
@@ -141,7 +141,7 @@ class Planner {
 
   // Sets the layout except heights, bore and hub.
   void lay_out() {
-    BodyLayout& layout = pulley_.layout;
+    solid::BodyLayout& layout = pulley_.layout;
     layout.parts = Parts::one;
     layout.tendon_diameter = d_;
     layout.ceiling_slope = section_.ceiling_slope;
@@ -152,14 +152,15 @@ class Planner {
     layout.min_wall = mechanism_.body.min_wall > 0
                           ? mechanism_.body.min_wall
                           : std::clamp(k_wall_of_radius * least_floor(), k_thinnest_wall, k_most_wall);
-    layout.elephant_foot = std::clamp(std::min(section_.depth - k_least_groove_edge,
-                                               (layout.flange_thickness - k_least_groove_edge) / rise_of(layout, 1.0)),
-                                      0.0, mechanism_.material.elephant_foot);
+    layout.elephant_foot =
+        std::clamp(std::min(section_.depth - k_least_groove_edge,
+                            (layout.flange_thickness - k_least_groove_edge) / solid::rise_of(layout, 1.0)),
+                   0.0, mechanism_.material.elephant_foot);
     layout.notes.push_back("multi-turn pulleys have no marks and no slots for the tails");
   }
 
   void size_run_outs(double share) {
-    BodyLayout& layout = pulley_.layout;
+    solid::BodyLayout& layout = pulley_.layout;
     const RunOutSizes sizes = run_out_sizes(mechanism_, layout, share);
     run_outs_ = {sizes, sizes};
     layout.channel_width = 2.0 * sizes.channel_radius;
@@ -171,7 +172,7 @@ class Planner {
 
   // Both heights fall as the turn grows. The ends that stay wound, P1's last and P2's first, are therefore the outer
   // ones.
-  SpiralPlace placed(const Spiral& spiral, double lowest_at) const {
+  SpiralPlace placed(const helix::Spiral& spiral, double lowest_at) const {
     SpiralPlace place;
     place.direction = spiral.slope > 0 ? -1.0 : 1.0;
     place.offset = lowest_at - place.direction * spiral.rows.back().z;
@@ -179,7 +180,7 @@ class Planner {
   }
 
   void place_along_axis() {
-    BodyLayout& layout = pulley_.layout;
+    solid::BodyLayout& layout = pulley_.layout;
     const double flange = layout.flange_thickness, groove_edge = section_.depth - 0.5 * d_;
     const double filled = run_outs_[0].bend_radius + 2.0 * layout.pocket_radius + layout.min_wall;
     const double fall1 = std::abs(p1_.slope) * filled, fall2 = std::abs(p2_.slope) * filled;
@@ -187,8 +188,8 @@ class Planner {
     pulley_.p2 = placed(p2_, 0.0);
     fan_ =
         make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), groove_edge, 0.5 * d_, tolerance_, filled);
-    ends_ = {GrooveEnd{Side::left, fan_.p1.groove_back(), 1.0, -1.0, 0.0},
-             GrooveEnd{Side::right, fan_.p2.groove_front(), -1.0, 1.0, 0.0}};
+    ends_ = {GrooveEnd{transmission::Side::left, fan_.p1.groove_back(), 1.0, -1.0, 0.0},
+             GrooveEnd{transmission::Side::right, fan_.p2.groove_front(), -1.0, 1.0, 0.0}};
     for (std::size_t i = 0; i < ends_.size(); ++i)
       run_outs_[i] = fitted_into(rim_of(fan_, ends_[i].side, groove_edge), ends_[i], run_outs_[i], layout.min_wall);
 
@@ -196,7 +197,7 @@ class Planner {
     raise(fan_.p1, pulley_.p1, layout.z_p1);
     heights_.lower = fan_.p1.rows.front().height + section_.walls.above_width() + 0.5 * flange;
     layout.middle_cone =
-        layout.ceiling_slope > 0 ? rise_of(layout, std::max(0.0, middle_step(fan_, groove_edge))) : 0.0;
+        layout.ceiling_slope > 0 ? solid::rise_of(layout, std::max(0.0, middle_step(fan_, groove_edge))) : 0.0;
     heights_.upper = heights_.lower + std::max(layout.middle_cone, k_least_cone);
     raise(fan_.p2, pulley_.p2,
           heights_.upper + 0.5 * flange + section_.walls.below_width() - fan_.p2.rows.back().height);
@@ -211,7 +212,7 @@ class Planner {
     ends_[1].face = layout.z_top;
     cover_channels();
     choose_bore();
-    choose_hub(layout, mechanism_, std::min(upper_rim(), pocket_inside(1)));
+    solid::choose_hub(layout, mechanism_, std::min(upper_rim(), pocket_inside(1)));
     heights_.hub_top = layout.z_hub;
   }
 
@@ -219,10 +220,10 @@ class Planner {
   // It therefore widens along the way, and the groove edges over its entry project as far as the faces below support
   // them.
   void cover_channels() {
-    const BodyLayout& layout = pulley_.layout;
+    const solid::BodyLayout& layout = pulley_.layout;
     const double groove_edge = section_.depth - 0.5 * d_;
     const auto carried = [&](double rise) {
-      return layout.ceiling_slope > 0 ? rise / rise_of(layout, 1.0) : std::numeric_limits<double>::max();
+      return layout.ceiling_slope > 0 ? rise / solid::rise_of(layout, 1.0) : std::numeric_limits<double>::max();
     };
     const std::array<double, 2> carried_low = {
         carried(layout.z_p1 - section_.walls.below_width() - layout.flange_thickness),
@@ -256,7 +257,7 @@ class Planner {
     for (std::size_t j = 0; j < winding.filled_front && j + fan_.columns() < winding.rows.size(); ++j) {
       const WindingRow &above = winding.rows[j], &below = winding.rows[j + fan_.columns()];
       const double growth = (above.position - below.position).dot(above.normal);
-      least = std::min(least, above.height - below.height - section_.width() - rise_of(pulley_.layout, growth));
+      least = std::min(least, above.height - below.height - section_.width() - solid::rise_of(pulley_.layout, growth));
     }
     return least;
   }
@@ -268,14 +269,17 @@ class Planner {
 
   // Radius within which every turn of P2 and the upper face's rim lie. That rim leaves the outermost turn.
   double upper_rim() const {
-    double room = face_rim(Side::right);
+    double room = face_rim(transmission::Side::right);
     for (const WindingRow& row : fan_.p2.rows) room = std::min(room, row.position.norm() + section_.depth - 0.5 * d_);
     return room;
   }
-  double face_rim(Side side) const { return inradius(rim_of(fan_, side, section_.depth - 0.5 * d_)); }
+  double face_rim(transmission::Side side) const {
+    return solid::inradius(rim_of(fan_, side, section_.depth - 0.5 * d_));
+  }
   // Largest radius available to the bore.
   double least_radius() const {
-    return std::min({least_floor(), face_rim(Side::left) - pulley_.layout.elephant_foot, face_rim(Side::right)});
+    return std::min({least_floor(), face_rim(transmission::Side::left) - pulley_.layout.elephant_foot,
+                     face_rim(transmission::Side::right)});
   }
 
   // Minimum distance of a pocket from the axis.
@@ -287,11 +291,11 @@ class Planner {
   }
 
   void choose_bore() {
-    BodyLayout& layout = pulley_.layout;
+    solid::BodyLayout& layout = pulley_.layout;
     const bool is_given = mechanism_.body.bore_diameter > 0 || mechanism_.body.bore == Bore::horn;
     for (const double diameter : k_bore_diameters) {
-      layout.bore = bore_layout(mechanism_, is_given ? std::max(mechanism_.body.bore_diameter, 0.0) : diameter);
-      if (is_given || (reach() <= room_for_bore() && !flat_off_shaft(mechanism_.body, layout.bore.shaft))) {
+      layout.bore = solid::bore_layout(mechanism_, is_given ? std::max(mechanism_.body.bore_diameter, 0.0) : diameter);
+      if (is_given || (reach() <= room_for_bore() && !solid::flat_off_shaft(mechanism_.body, layout.bore.shaft))) {
         if (!is_given && diameter < k_bore_diameters.front())
           layout.notes.push_back(
               fmt::format("no room for a bore of {} mm: made {} mm", k_bore_diameters.front(), diameter));
@@ -308,20 +312,21 @@ class Planner {
   }
 
   void conditions() {
-    const BodyLayout& layout = pulley_.layout;
-    neighbours(fan_.p1, Side::left);
-    neighbours(fan_.p2, Side::right);
-    free_end(Side::left, p1_.rows[p1_.first_used].s - p1_.rows.front().s, p1_.rows[p1_.first_used].rho);
-    free_end(Side::right, p2_.rows.back().s - p2_.rows[p2_.last_used].s, p2_.rows[p2_.last_used].rho);
+    const solid::BodyLayout& layout = pulley_.layout;
+    neighbours(fan_.p1, transmission::Side::left);
+    neighbours(fan_.p2, transmission::Side::right);
+    free_end(transmission::Side::left, p1_.rows[p1_.first_used].s - p1_.rows.front().s, p1_.rows[p1_.first_used].rho);
+    free_end(transmission::Side::right, p2_.rows.back().s - p2_.rows[p2_.last_used].s, p2_.rows[p2_.last_used].rho);
     const double bore_wall = least_radius() - reach();
     add("bore_wall", bore_wall, layout.min_wall,
         fmt::format(
             "the bore leaves {} to a groove's floor or a face's rim, at least {} is required (body.min_wall_mm)",
-            wall_words(bore_wall), mm(layout.min_wall)));
-    if (auto flat = flat_off_shaft(mechanism_.body, layout.bore.shaft)) pulley_.conditions.push_back(std::move(*flat));
-    for (Condition& condition : hub_conditions(mechanism_, layout, upper_rim()))
+            solid::wall_words(bore_wall), mm(layout.min_wall)));
+    if (auto flat = solid::flat_off_shaft(mechanism_.body, layout.bore.shaft))
+      pulley_.conditions.push_back(std::move(*flat));
+    for (profile::Condition& condition : solid::hub_conditions(mechanism_, layout, upper_rim()))
       pulley_.conditions.push_back(std::move(condition));
-    if (auto tall = too_tall(layout)) pulley_.conditions.push_back(std::move(*tall));
+    if (auto tall = solid::too_tall(layout)) pulley_.conditions.push_back(std::move(*tall));
     for (std::size_t i = 0; i < ends_.size(); ++i) knot_pocket(i);
     add("groove_depth_at_knot", section_.depth, k_least_depth_of_tendon * d_,
         fmt::format("a groove of {} (body.groove_depth_mm) leaves the channel to the knot open, at least two thirds of "
@@ -338,8 +343,8 @@ class Planner {
   }
 
   double wall_inside(std::size_t i) const {
-    const BodyLayout& layout = pulley_.layout;
-    const double hub = ends_[i].side == Side::right ? layout.hub_radius : 0.0;
+    const solid::BodyLayout& layout = pulley_.layout;
+    const double hub = ends_[i].side == transmission::Side::right ? layout.hub_radius : 0.0;
     return pocket_inside(i) - std::max(reach(), hub > 0 ? hub - layout.min_wall : 0.0);
   }
   double wall_outside(std::size_t i) const {
@@ -351,19 +356,19 @@ class Planner {
   }
 
   void knot_pocket(std::size_t i) {
-    const BodyLayout& layout = pulley_.layout;
-    const auto pulley = pulley_name(ends_[i].side);
+    const solid::BodyLayout& layout = pulley_.layout;
+    const auto pulley = transmission::pulley_name(ends_[i].side);
     const auto one = [&](const std::string& name, double wall, const std::string& to) {
       add(fmt::format("{}_{}", name, pulley), wall, layout.min_wall - k_grain,
           fmt::format("{}'s knot pocket of {} (body.knot_pocket_mm) leaves {} to {}, at least {} is required "
                       "(body.min_wall_mm)",
-                      pulley, mm(2.0 * layout.pocket_radius), wall_words(wall), to, mm(layout.min_wall)));
+                      pulley, mm(2.0 * layout.pocket_radius), solid::wall_words(wall), to, mm(layout.min_wall)));
     };
     one("knot_pocket", wall_inside(i), "the bore or the hub");
     one("knot_pocket_rim", wall_outside(i), "the rim");
   }
 
-  void neighbours(const Winding& winding, Side side) {
+  void neighbours(const Winding& winding, transmission::Side side) {
     double least = std::numeric_limits<double>::infinity(), lead = 0, needed = 0;
     const WindingRow* place = nullptr;
     for (std::size_t j = 0; j + fan_.columns() < winding.rows.size(); ++j) {
@@ -378,47 +383,48 @@ class Planner {
       place = low;
     }
     if (place == nullptr) return;
-    add(fmt::format("neighbouring_turns_{}", pulley_name(side)), lead, needed - k_grain,
+    add(fmt::format("neighbouring_turns_{}", transmission::pulley_name(side)), lead, needed - k_grain,
         fmt::format(
             "{}'s turns are {} apart at {:.0f}°, a groove, its rib and the step between them require {} (body.lead_mm)",
-            pulley_name(side), mm(lead), degrees(std::remainder(place->turn, k_two_pi)), mm(needed)));
+            transmission::pulley_name(side), mm(lead), degrees(std::remainder(place->turn, k_two_pi)), mm(needed)));
   }
 
   // The straight tendon must rise above the groove edge before the groove ends.
-  void free_end(Side side, double there, double rho) {
+  void free_end(transmission::Side side, double there, double rho) {
     const double rise = section_.depth, needed = std::sqrt(rise * (2.0 * rho + rise));
-    add(fmt::format("free_end_{}", pulley_name(side)), there, needed,
+    add(fmt::format("free_end_{}", transmission::pulley_name(side)), there, needed,
         fmt::format(
             "{}'s groove ends {} beyond the tendon's working arc, at least {} is required for the tendon to clear the "
             "end (body.spare_turns)",
-            pulley_name(side), mm(there), mm(needed)));
+            transmission::pulley_name(side), mm(there), mm(needed)));
   }
 
-  TriangleMesh scaled(TriangleMesh mesh) const {
+  solid::TriangleMesh scaled(solid::TriangleMesh mesh) const {
     for (Vec3& vertex : mesh.vertices) vertex *= pulley_.layout.scale;
-    return rounded_to_float(std::move(mesh));
+    return solid::rounded_to_float(std::move(mesh));
   }
 
   void cut(int wanted_ways) {
-    const BodyLayout& layout = pulley_.layout;
-    const TriangleMesh blank = scaled(helical_blank(fan_, section_, layout, heights_));
-    const double volume = enclosed_volume(blank);
+    const solid::BodyLayout& layout = pulley_.layout;
+    const solid::TriangleMesh blank = scaled(helical_blank(fan_, section_, layout, heights_));
+    const double volume = solid::enclosed_volume(blank);
     const bool screw = layout.set_screw.present;
     pulley_.expected_euler = 2 - 2 * (1 + static_cast<int>(layout.bore.screw_holes.size() + ends_.size()) +
                                       (screw ? (layout.set_screw.nut_trap ? 2 : 1) : 0));
-    const int ways = cut_variants(blank.triangles.size(), wanted_ways);
+    const int ways = solid::cut_variants(blank.triangles.size(), wanted_ways);
     for (int variant = 0; variant < ways; ++variant) {
-      std::vector<TriangleMesh> tools;
+      std::vector<solid::TriangleMesh> tools;
       for (std::size_t i = 0; i < ends_.size(); ++i) {
         auto tool = run_out_tool(ends_[i], run_outs_[i], variant);
         if (tool) tools.push_back(std::move(*tool));
       }
       if (tools.size() < ends_.size()) continue;
-      if (screw) tools.push_back(set_screw_tool(layout.set_screw, layout.hub_radius, layout.z_hub, variant));
+      if (screw) tools.push_back(solid::set_screw_tool(layout.set_screw, layout.hub_radius, layout.z_hub, variant));
       if (cut_with(blank, volume, tools)) return;
     }
     if (!unprintable_.empty()) {
-      pulley_.conditions.push_back(does_not_print(mechanism_.name, unprintable_, "for any variant of its run-outs"));
+      pulley_.conditions.push_back(
+          solid::does_not_print(mechanism_.name, unprintable_, "for any variant of its run-outs"));
       return;
     }
     pulley_.conditions.push_back(
@@ -428,19 +434,19 @@ class Planner {
                                  ways)));
   }
 
-  bool cut_with(const TriangleMesh& blank, double volume, const std::vector<TriangleMesh>& tools) {
-    std::vector<TriangleMesh> cutters;
-    for (const TriangleMesh& tool : tools) {
+  bool cut_with(const solid::TriangleMesh& blank, double volume, const std::vector<solid::TriangleMesh>& tools) {
+    std::vector<solid::TriangleMesh> cutters;
+    for (const solid::TriangleMesh& tool : tools) {
       cutters.push_back(scaled(tool));
       // Boolean operations with a self-intersecting cutter may not terminate.
-      if (find_crossing(cutters.back()).facets) return false;
+      if (solid::find_crossing(cutters.back()).facets) return false;
     }
-    auto cut = subtract_each(blank, cutters);
+    auto cut = solid::subtract_each(blank, cutters);
     if (!cut) return false;
     for (const double common : cut->common_volumes) volume -= common;
-    std::vector<Check> checks = check_mesh(cut->mesh);
+    std::vector<Check> checks = solid::check_mesh(cut->mesh);
     // Reject a cut that detaches a chip or opens an unplanned passage.
-    if (!all_ok(checks) || euler_number(cut->mesh) != pulley_.expected_euler || !prints(cut->mesh)) return false;
+    if (!all_ok(checks) || solid::euler_number(cut->mesh) != pulley_.expected_euler || !prints(cut->mesh)) return false;
     pulley_.mesh = std::move(cut->mesh);
     pulley_.mesh_checks = std::move(checks);
     pulley_.expected_volume = volume;
@@ -450,15 +456,15 @@ class Planner {
     return true;
   }
 
-  bool prints(const TriangleMesh& mesh) {
+  bool prints(const solid::TriangleMesh& mesh) {
     if (mechanism_.print.supports) return true;
-    unprintable_ = unprintable_places(mesh, Piece::whole, pulley_.layout, mechanism_.print.overhang + k_drawn_coarsely,
-                                      Corners::round);
+    unprintable_ = solid::unprintable_places(mesh, solid::Piece::whole, pulley_.layout,
+                                             mechanism_.print.overhang + k_drawn_coarsely, solid::Corners::round);
     return unprintable_.empty();
   }
 
   const Mechanism& mechanism_;
-  const Spiral &p1_, &p2_;
+  const helix::Spiral &p1_, &p2_;
   double tolerance_, d_;
   HelicalSection section_;
   HelicalPulley pulley_;
@@ -475,10 +481,11 @@ HelicalSection helical_section(const Mechanism& mechanism) {
   HelicalSection section;
   section.depth = mechanism.groove_depth();
   section.rib = k_rib;
-  section.ceiling_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin + k_drawn_coarsely;
+  section.ceiling_slope =
+      mechanism.print.supports ? 0.0 : mechanism.print.overhang + solid::k_slope_margin + k_drawn_coarsely;
   const double lean = 0.5 * mechanism.body.groove_angle;
   const auto half = [&](double angle) {
-    return groove_half(mechanism.body, angle, mechanism.tendon.diameter, section.depth);
+    return solid::groove_half(mechanism.body, angle, mechanism.tendon.diameter, section.depth);
   };
   section.walls = {half(lean), half(std::max(lean, section.ceiling_slope))};
   return section;
@@ -493,20 +500,20 @@ std::string HelicalPulley::brief() const {
   if (made)
     return fmt::format("a multi-turn body, {} facets, {:.1f} cm³", mesh.triangles.size(), expected_volume / 1000.0);
   std::string text = "this multi-turn body cannot be built";
-  for (const Condition& condition : conditions) {
+  for (const profile::Condition& condition : conditions) {
     if (!condition.ok) text += "; " + condition.message;
   }
   return text;
 }
 
-std::vector<Condition> helical_obstacles(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2,
-                                         double tolerance) {
+std::vector<profile::Condition> helical_obstacles(const Mechanism& mechanism, const helix::Spiral& p1,
+                                                  const helix::Spiral& p2, double tolerance) {
   return Planner(mechanism, p1, p2, tolerance).plan();
 }
 
-HelicalPulley make_helical_pulley(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2, double tolerance,
-                                  TieOffSearch search) {
+HelicalPulley make_helical_pulley(const Mechanism& mechanism, const helix::Spiral& p1, const helix::Spiral& p2,
+                                  double tolerance, solid::TieOffSearch search) {
   return Planner(mechanism, p1, p2, tolerance).make(search);
 }
 
-}  // namespace fusee
+}  // namespace fusee::coil

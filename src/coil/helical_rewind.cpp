@@ -1,20 +1,19 @@
-#include "fusee/coil.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "base/text.h"
 #include "coil/half_planes.h"
 #include "fusee/base.h"
-#include "base/text.h"
+#include "fusee/coil.h"
 #include "profile/string_above.h"
 
 // Independent check of the synthesis. A string is laid on the groove floors that half-planes found. In plan it goes
 // round the corners of an open polygon at half its thickness; along the axis it has the height of the floor's band. Its
 // free path is straight when unrolled.
 
-namespace fusee {
+namespace fusee::coil {
 namespace {
 
 // Least depth of a groove. Shallower minima are chamfer edges or chords.
@@ -73,8 +72,8 @@ class HelicalString {
     for (std::size_t i = 0; i + 1 < floor_.size(); ++i) {
       const Vec2 edge = plan(i + 1) - plan(i);
       along_.push_back(along_.back() + edge.norm());
-      const double normal = direction(edge) - 0.5 * k_pi;
-      edge_normals_.push_back(i == 0 ? normal : turned_near(normal, edge_normals_.back()));
+      const double normal = profile::direction(edge) - 0.5 * k_pi;
+      edge_normals_.push_back(i == 0 ? normal : profile::turned_near(normal, edge_normals_.back()));
     }
     lay_centre_line();
     start(home_from_knot);
@@ -87,7 +86,7 @@ class HelicalString {
     alpha_ = alpha;
     const Vec2 pin = above_.guide_seen_from_pulley(alpha);
     find_corner(pin);
-    normal_ = turned_near(tangent_normal(pin), edge_normals_[corner_]);
+    normal_ = profile::turned_near(tangent_normal(pin), edge_normals_[corner_]);
     span_ = above_.lower_span(pin, plan(corner_));
     if (!(span_ > 0)) throw InputError("", "the guide pin of " + pulley() + " lies inside its groove floor");
     take_off_ = centre_line_at(along_[corner_] + half_ * normal_);
@@ -110,7 +109,9 @@ class HelicalString {
     double slope = 0;  // of the centre line, per planar length
   };
 
-  std::string pulley() const { return std::string(pulley_name(hand_ > 0 ? Side::right : Side::left)); }
+  std::string pulley() const {
+    return std::string(transmission::pulley_name(hand_ > 0 ? transmission::Side::right : transmission::Side::left));
+  }
   Vec2 plan(std::size_t i) const { return floor_[i].head<2>(); }
 
   double length(double theta) const {
@@ -155,7 +156,7 @@ class HelicalString {
     for (int round = 0; round < 3; ++round) {
       const auto edge = std::lower_bound(edge_normals_.begin(), edge_normals_.end(), normal);
       corner_ = static_cast<std::size_t>(edge - edge_normals_.begin());
-      normal = turned_near(tangent_normal(above_.guide_seen_from_pulley(0.0)), wanted);
+      normal = profile::turned_near(tangent_normal(above_.guide_seen_from_pulley(0.0)), wanted);
     }
   }
 
@@ -167,7 +168,7 @@ class HelicalString {
       if (corner_ == 0 || corner_ + 1 >= floor_.size())
         throw InputError(
             "", "the groove of " + pulley() + " ends within the range, at α = " + rounded(degrees(alpha_), 4) + "°");
-      const double normal = turned_near(tangent_normal(pin), edge_normals_[corner_]);
+      const double normal = profile::turned_near(tangent_normal(pin), edge_normals_[corner_]);
       if (normal < edge_normals_[corner_ - 1])
         --corner_;
       else if (normal > edge_normals_[corner_])
@@ -180,7 +181,7 @@ class HelicalString {
 
   FloorLine floor_;
   double hand_, half_;
-  StringAbove above_;
+  profile::StringAbove above_;
   double end_height_;
   bool collar_;
   std::vector<double> along_, edge_normals_;  // in plan; of the edge that leaves each corner
@@ -217,15 +218,15 @@ class Winder {
  public:
   Winder(HelicalString first, HelicalString second) : strings_{std::move(first), std::move(second)} {}
 
-  HelicalRewind wind(const std::vector<TransmissionPoint>& stroke) {
-    for (const TransmissionPoint& place : stroke) wind_at(place);
+  HelicalRewind wind(const std::vector<transmission::TransmissionPoint>& stroke) {
+    for (const transmission::TransmissionPoint& place : stroke) wind_at(place);
     return std::move(rewind_);
   }
 
  private:
-  void wind_at(const TransmissionPoint& place) {
+  void wind_at(const transmission::TransmissionPoint& place) {
     turn_to(place.alpha);
-    RewindPoint point{place.alpha, place.theta, 0, 0};
+    profile::RewindPoint point{place.alpha, place.theta, 0, 0};
     point.theta = taut_angle(strings_[0], place.alpha, place.theta);
     point.slack = -strings_[1].excess(point.theta);
     note(point);
@@ -234,7 +235,7 @@ class Winder {
       if (fleet < rewind_.max_fleet) continue;
       rewind_.max_fleet = fleet;
       rewind_.max_fleet_at = place.alpha;
-      rewind_.max_fleet_side = string.hand() > 0 ? Side::right : Side::left;
+      rewind_.max_fleet_side = string.hand() > 0 ? transmission::Side::right : transmission::Side::left;
     }
   }
 
@@ -247,8 +248,8 @@ class Winder {
     alpha_ = alpha;
   }
 
-  void note(const RewindPoint& point) {
-    RewindResult& result = rewind_.result;
+  void note(const profile::RewindPoint& point) {
+    profile::RewindResult& result = rewind_.result;
     result.points.push_back(point);
     const double error = std::abs(point.theta - point.theta_declared);
     if (error >= result.max_theta_error) {
@@ -268,7 +269,7 @@ class Winder {
 
 }  // namespace
 
-std::vector<FloorLine> helical_floors(const TriangleMesh& mesh, double scale, int half_planes) {
+std::vector<FloorLine> helical_floors(const solid::TriangleMesh& mesh, double scale, int half_planes) {
   const auto planes = static_cast<std::size_t>(half_planes);
   std::vector<std::vector<FloorPlace>> floors;
   for (auto& cut : half_plane_cuts(mesh, planes)) floors.push_back(floors_of(outermost(std::move(cut)), k_least_depth));
@@ -283,8 +284,8 @@ std::vector<FloorLine> helical_floors(const TriangleMesh& mesh, double scale, in
   return lines;
 }
 
-TendonsLaid tendons_laid(const HelicalPulley& pulley, const Spiral& p1, const Spiral& p2, double attachment1,
-                         double attachment2, bool collar) {
+TendonsLaid tendons_laid(const HelicalPulley& pulley, const helix::Spiral& p1, const helix::Spiral& p2,
+                         double attachment1, double attachment2, bool collar) {
   TendonsLaid laid;
   laid.z1 = pulley.p1.height(attachment1);
   laid.z2 = pulley.p2.height(attachment2);
@@ -295,7 +296,7 @@ TendonsLaid tendons_laid(const HelicalPulley& pulley, const Spiral& p1, const Sp
 }
 
 HelicalRewind rewind_floors(const FloorLine& floor1, const FloorLine& floor2, const Mechanism& mechanism,
-                            const std::vector<TransmissionPoint>& stroke, const TendonsLaid& laid) {
+                            const std::vector<transmission::TransmissionPoint>& stroke, const TendonsLaid& laid) {
   demand(!stroke.empty(), "a stroke without places");
   const double alpha_min = stroke.front().alpha, alpha_max = stroke.back().alpha;
   return Winder(HelicalString(floor1, mechanism, -1.0, laid.z1, laid.collar, laid.spare1 + alpha_max),
@@ -303,8 +304,9 @@ HelicalRewind rewind_floors(const FloorLine& floor1, const FloorLine& floor2, co
       .wind(stroke);
 }
 
-HelicalRewind rewind_helical(const TriangleMesh& mesh, const Mechanism& mechanism,
-                             const std::vector<TransmissionPoint>& stroke, const TendonsLaid& laid, double scale) {
+HelicalRewind rewind_helical(const solid::TriangleMesh& mesh, const Mechanism& mechanism,
+                             const std::vector<transmission::TransmissionPoint>& stroke, const TendonsLaid& laid,
+                             double scale) {
   const std::vector<FloorLine> floors = helical_floors(mesh, scale);
   if (floors.size() != 2)
     throw InputError(
@@ -314,4 +316,4 @@ HelicalRewind rewind_helical(const TriangleMesh& mesh, const Mechanism& mechanis
   return rewind_floors(floors[0], floors[1], mechanism, stroke, laid);
 }
 
-}  // namespace fusee
+}  // namespace fusee::coil

@@ -10,7 +10,7 @@
 #include "solid/nearest_float.h"
 #include "solid/tools.h"
 
-namespace fusee {
+namespace fusee::coil {
 namespace {
 
 // Narrower channels close in the print (the bound of one-turn pulleys' channels).
@@ -106,11 +106,11 @@ std::vector<Vec3> points_of(const ChannelRing& ring, int facets) {
   return points;
 }
 
-TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
+solid::TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
   std::vector<std::vector<Vec3>> sections;
   for (const ChannelRing& ring : channel_rings(end, sizes, variant))
     sections.push_back(points_of(ring, k_channel_facets + variant));
-  return strip(sections);
+  return solid::strip(sections);
 }
 
 // A thick flange makes the pocket deeper.
@@ -118,15 +118,15 @@ double pocket_depth(const GrooveEnd& end, const RunOutSizes& sizes) {
   return std::abs(end.face - end.row.height) - sizes.cone - sizes.inward;
 }
 
-TriangleMesh pocket_of(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
+solid::TriangleMesh pocket_of(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
   const Vec2 place = pocket_place(end, sizes);
   const auto ring_at = [&](double radius, double in) {
     return ring_of({place.x(), place.y(), end.face - end.outward * in}, Vec3::UnitX(), Vec3::UnitY(), radius,
                    k_pocket_facets + variant, 0.23);
   };
-  std::vector<std::vector<Vec3>> sections{ring_at(sizes.pocket_radius, -k_overshoot)};
+  std::vector<std::vector<Vec3>> sections{ring_at(sizes.pocket_radius, -solid::k_overshoot)};
   for (const Vec2& corner : pocket_profile(end, sizes)) sections.push_back(ring_at(corner.x(), corner.y()));
-  return strip(sections);
+  return solid::strip(sections);
 }
 
 // The entry stays slightly inside the groove's section. The channel then cuts the groove's end wall only, and none of
@@ -144,7 +144,7 @@ void set_entry(RunOutSizes& sizes, const Body& body, double d) {
 
 }  // namespace
 
-RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout, double share) {
+RunOutSizes run_out_sizes(const Mechanism& mechanism, const solid::BodyLayout& layout, double share) {
   const double d = mechanism.tendon.diameter;
   RunOutSizes sizes;
   sizes.channel_radius =
@@ -153,9 +153,9 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout, 
   sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket
                                                        : share * std::max(1.75 * d, 2.0 * sizes.channel_radius);
   sizes.pocket_depth = sizes.pocket_radius;
-  sizes.ceiling_slope = std::max(ridge_slope(layout), k_flattest_gable);
-  sizes.cone = rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
-  sizes.tip = rise_of(layout, (1.0 - k_tip) * std::min(sizes.pocket_radius, sizes.channel_radius));
+  sizes.ceiling_slope = std::max(solid::ridge_slope(layout), k_flattest_gable);
+  sizes.cone = solid::rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
+  sizes.tip = solid::rise_of(layout, (1.0 - k_tip) * std::min(sizes.pocket_radius, sizes.channel_radius));
   // The pocket leaves a wall to the rim.
   const double to_rim = sizes.pocket_radius + layout.min_wall - (layout.groove_depth - 0.5 * d);
   sizes.sharpest_bend = std::max(k_sharpest_bend * d, k_bend_of_channel * sizes.channel_radius);
@@ -168,7 +168,7 @@ std::vector<Vec2> pocket_profile(const GrooveEnd& end, const RunOutSizes& sizes)
   const double depth = pocket_depth(end, sizes), neck = std::min(sizes.pocket_radius, sizes.channel_radius);
   std::vector<Vec2> profile{{sizes.pocket_radius, depth}};
   // A pocket no wider than its channel has no cone.
-  if (sizes.cone > k_float_grain) profile.emplace_back(neck, depth + sizes.cone);
+  if (sizes.cone > solid::k_float_grain) profile.emplace_back(neck, depth + sizes.cone);
   if (end.outward < 0 && sizes.tip > 0) profile.emplace_back(k_tip * neck, depth + sizes.cone + sizes.tip);
   return profile;
 }
@@ -261,11 +261,11 @@ std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& 
   return rings;
 }
 
-std::optional<TriangleMesh> run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
-  const auto both =
-      unite(rounded_to_float(channel_of(end, sizes, variant)), rounded_to_float(pocket_of(end, sizes, variant)));
+std::optional<solid::TriangleMesh> run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
+  const auto both = solid::unite(solid::rounded_to_float(channel_of(end, sizes, variant)),
+                                 solid::rounded_to_float(pocket_of(end, sizes, variant)));
   if (!both) return std::nullopt;
   return both->mesh;
 }
 
-}  // namespace fusee
+}  // namespace fusee::coil

@@ -11,7 +11,7 @@
 #include "fusee/base.h"
 #include "fusee/coil.h"
 
-namespace fusee {
+namespace fusee::coil {
 
 /// Dimensions of a run-out.
 struct RunOutSizes {
@@ -35,11 +35,11 @@ struct RunOutSizes {
 
 /// The sizes for a pulley of large radius. On smaller ones the rim bends towards the pocket. `share`: fraction of the
 /// automatic pocket size.
-RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout, double share);
+RunOutSizes run_out_sizes(const Mechanism& mechanism, const solid::BodyLayout& layout, double share);
 
 /// The end of a groove, seen along the tendon towards its knot.
 struct GrooveEnd {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   WindingRow row;
   double along = 1;    ///< the tendon continues counter-clockwise (+1) or clockwise (−1)
   double outward = 1;  ///< direction of the face along z: −1 for the lower one
@@ -80,6 +80,6 @@ struct ChannelRing {
 /// Sections along the channel, from the open groove into the pocket's cone. The first two lie in the entry.
 std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& sizes, int variant);
 /// The volume to cut, as a closed mesh; empty if channel and pocket do not join. Each `variant` has different facets.
-std::optional<TriangleMesh> run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant);
+std::optional<solid::TriangleMesh> run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant);
 
-}  // namespace fusee
+}  // namespace fusee::coil

@@ -5,7 +5,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::coil {
 namespace {
 
 // Groove ends closer than this share a column: a narrower column would be a sliver, and the difference is negligible
@@ -126,10 +126,10 @@ void fill_front(Winding& winding, std::size_t columns, double length) {
 }  // namespace
 
 SpiralCurve::Between SpiralCurve::between(double turn) const {
-  const std::vector<SpiralRow>& rows = spiral_.rows;
+  const std::vector<helix::SpiralRow>& rows = spiral_.rows;
   const auto after = std::upper_bound(rows.begin() + 1, rows.end() - 1, turn,
-                                      [](double value, const SpiralRow& row) { return value < row.turn; });
-  const SpiralRow &a = *(after - 1), &b = *after;
+                                      [](double value, const helix::SpiralRow& row) { return value < row.turn; });
+  const helix::SpiralRow &a = *(after - 1), &b = *after;
   return {a, b, b.turn - a.turn, (turn - a.turn) / (b.turn - a.turn)};
 }
 
@@ -179,4 +179,4 @@ Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, doubl
   return fan;
 }
 
-}  // namespace fusee
+}  // namespace fusee::coil

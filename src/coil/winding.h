@@ -9,7 +9,7 @@
 #include "fusee/coil.h"
 #include "fusee/helix.h"
 
-namespace fusee {
+namespace fusee::coil {
 
 /// A point on the pitch curve, in the part's frame.
 struct WindingRow {
@@ -23,7 +23,7 @@ struct WindingRow {
 /// A spiral evaluated at any turn: cubic through the positions, tangents and radii of curvature of its rows.
 class SpiralCurve {
  public:
-  SpiralCurve(const Spiral& spiral, const SpiralPlace& place) : spiral_(spiral), place_(place) {}
+  SpiralCurve(const helix::Spiral& spiral, const SpiralPlace& place) : spiral_(spiral), place_(place) {}
 
   double begin() const { return spiral_.rows.front().turn; }
   double end() const { return spiral_.rows.back().turn; }
@@ -35,14 +35,14 @@ class SpiralCurve {
  private:
   /// Two neighbouring rows, the turn between them, and the fraction of it at a place.
   struct Between {
-    const SpiralRow &a, &b;
+    const helix::SpiralRow &a, &b;
     double step, u;
 
     double rho() const;
   };
   Between between(double turn) const;
 
-  const Spiral& spiral_;
+  const helix::Spiral& spiral_;
   SpiralPlace place_;
 };
 
@@ -83,4 +83,4 @@ struct Fan {
 Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double tolerance,
              double filled);
 
-}  // namespace fusee
+}  // namespace fusee::coil

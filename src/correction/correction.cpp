@@ -6,16 +6,16 @@
 
 #include "calibration/evidence.h"
 #include "fusee/joint.h"
-#include "mechanism/effect.h"
 #include "fusee/transmission.h"
 #include "measurement/seen_span.h"
+#include "mechanism/effect.h"
 #include "transmission/declared_law.h"
 
 // All errors are simulated with predict(), for the identified joint with its present pulley and with the pulley of
 // corrected.toml. The error is the deviation from the declared θ(α). The error that the corrected pulley leaves goes
 // into the table.
 
-namespace fusee {
+namespace fusee::correction {
 namespace {
 
 using Angles = std::vector<std::vector<double>>;
@@ -23,10 +23,10 @@ using Angles = std::vector<std::vector<double>>;
 // ---- identified joint -----------------------------------------------------------------------------------------------
 
 /// Mean logged tip force; the declared one if no load was logged.
-double mean_load(const Measurement& measurement, const Mechanism& declared) {
+double mean_load(const measurement::Measurement& measurement, const Mechanism& declared) {
   double sum = 0, count = 0;
-  for (const Run& run : measurement.runs) {
-    for (const Sample& sample : run.samples) {
+  for (const measurement::Run& run : measurement.runs) {
+    for (const measurement::Sample& sample : run.samples) {
       sum += run.has_load ? sample.load : declared.load.tip_force;
       count += 1;
     }
@@ -62,9 +62,9 @@ bool has_same_exits(const Sheath& one, const Sheath& other) {
 
 /// True if both mechanisms have the same pulley. Friction moves the joint, not the curves.
 bool has_same_pulley(const DeclaredMechanism& a, const DeclaredMechanism& b) {
-  JointAsItIs one = as_it_is(a), other = as_it_is(b);
-  one.mechanism = without_friction(std::move(one.mechanism));
-  other.mechanism = without_friction(std::move(other.mechanism));
+  joint::JointAsItIs one = joint::as_it_is(a), other = joint::as_it_is(b);
+  one.mechanism = transmission::without_friction(std::move(one.mechanism));
+  other.mechanism = transmission::without_friction(std::move(other.mechanism));
   return one.outline == other.outline && one.mechanism.joint == other.mechanism.joint &&
          one.mechanism.guides == other.mechanism.guides &&
          has_same_exits(one.mechanism.sheath, other.mechanism.sheath) &&
@@ -72,19 +72,19 @@ bool has_same_pulley(const DeclaredMechanism& a, const DeclaredMechanism& b) {
 }
 
 std::string why_infeasible(const DeclaredMechanism& corrected) {
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.advice = false;
-  const Mechanism mechanism = as_it_is(corrected).mechanism;
-  const SynthesisResult made = synthesise(mechanism, options);
+  const Mechanism mechanism = joint::as_it_is(corrected).mechanism;
+  const profile::SynthesisResult made = profile::synthesise(mechanism, options);
   // The build decides whether a pulley of several turns is feasible.
-  const bool may_be_multi_turn = need_several_turns(made) && !kept_to_one_turn(mechanism);
+  const bool may_be_multi_turn = profile::need_several_turns(made) && !profile::kept_to_one_turn(mechanism);
   return made.made() || may_be_multi_turn ? "" : made.brief();
 }
 
 // ---- errors ---------------------------------------------------------------------------------------------------------
 
 /// Deviation of simulated angles from the declared law.
-Angles errors(const Measurement& measurement, const DeclaredLaw& law, Angles theta) {
+Angles errors(const measurement::Measurement& measurement, const transmission::DeclaredLaw& law, Angles theta) {
   for (std::size_t r = 0; r < theta.size(); ++r) {
     for (std::size_t i = 0; i < theta[r].size(); ++i) theta[r][i] -= law.theta(measurement.runs[r].samples[i].alpha);
   }
@@ -93,9 +93,9 @@ Angles errors(const Measurement& measurement, const DeclaredLaw& law, Angles the
 
 /// Calls visit(run index, sample index, stroke) for every sample with known play state.
 template <typename Visit>
-void for_each_known(const Measurement& measurement, Visit visit) {
+void for_each_known(const measurement::Measurement& measurement, Visit visit) {
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
-    for (const Stroke& stroke : measurement.runs[r].strokes) {
+    for (const measurement::Stroke& stroke : measurement.runs[r].strokes) {
       if (stroke.partial) continue;
       for (std::size_t i = stroke.first; i <= stroke.last; ++i) visit(r, i, stroke);
     }
@@ -103,9 +103,9 @@ void for_each_known(const Measurement& measurement, Visit visit) {
 }
 
 /// Rms about `zero`.
-double rms(const Measurement& measurement, const Angles& error, double zero) {
+double rms(const measurement::Measurement& measurement, const Angles& error, double zero) {
   double squares = 0, count = 0;
-  for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke&) {
+  for_each_known(measurement, [&](std::size_t r, std::size_t i, const measurement::Stroke&) {
     if (!std::isfinite(error[r][i])) return;
     const double off = error[r][i] - zero;
     squares += off * off;
@@ -121,11 +121,11 @@ double removed_rms(double all, double rest) { return std::sqrt(std::max(0.0, all
 
 /// Piecewise linear function of α at even distances, constant beyond its ends.
 struct Curve {
-  SeenSpan seen;
+  measurement::SeenSpan seen;
   std::vector<double> values;
 
   double at(double alpha) const {
-    const Bins pieces{seen, static_cast<int>(values.size()) - 1};
+    const measurement::Bins pieces{seen, static_cast<int>(values.size()) - 1};
     const auto i = static_cast<std::size_t>(pieces.bin(alpha));
     const double share = pieces.place(alpha) - static_cast<double>(i);
     return values[i] + share * (values[i + 1] - values[i]);
@@ -135,7 +135,7 @@ struct Curve {
 /// Mean in bins of α; empty bins take their nearest neighbour's value.
 class BinnedMean {
  public:
-  explicit BinnedMean(const SeenSpan& seen)
+  explicit BinnedMean(const measurement::SeenSpan& seen)
       : bins_{seen, k_places}, sums_(k_places + 1, 0), weights_(k_places + 1, 0) {}
 
   /// Distributes the value over the two bins next to `alpha`.
@@ -165,7 +165,7 @@ class BinnedMean {
 
  private:
   static constexpr int k_places = 40;
-  Bins bins_;
+  measurement::Bins bins_;
   std::vector<double> sums_, weights_;
 };
 
@@ -175,11 +175,11 @@ struct DirectionalCurves {
   Curve up, down;
 };
 
-DirectionalCurves directional_curves(const Measurement& measurement, const Angles& error, double play) {
-  const SeenSpan seen = seen_span(measurement, &Sample::alpha);
+DirectionalCurves directional_curves(const measurement::Measurement& measurement, const Angles& error, double play) {
+  const measurement::SeenSpan seen = measurement::seen_span(measurement, &measurement::Sample::alpha);
   BinnedMean up(seen), down(seen);
-  for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
-    const std::vector<Sample>& samples = measurement.runs[r].samples;
+  for_each_known(measurement, [&](std::size_t r, std::size_t i, const measurement::Stroke& stroke) {
+    const std::vector<measurement::Sample>& samples = measurement.runs[r].samples;
     const bool taken_up = std::abs(samples[i].alpha - samples[stroke.first].alpha) > play;
     if (std::isfinite(error[r][i]) && taken_up) (stroke.direction > 0 ? up : down).add(samples[i].alpha, error[r][i]);
   });
@@ -187,8 +187,8 @@ DirectionalCurves directional_curves(const Measurement& measurement, const Angle
 }
 
 /// Error that remains if the motor follows the table.
-Angles with_table(const Measurement& measurement, Angles error, const DirectionalCurves& table) {
-  for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
+Angles with_table(const measurement::Measurement& measurement, Angles error, const DirectionalCurves& table) {
+  for_each_known(measurement, [&](std::size_t r, std::size_t i, const measurement::Stroke& stroke) {
     error[r][i] -= (stroke.direction > 0 ? table.up : table.down).at(measurement.runs[r].samples[i].alpha);
   });
   return error;
@@ -206,8 +206,8 @@ double alpha_at(const std::vector<LawRow>& rows, double theta) {
 /// Error of the joint: from effects, and from the empirical curve of the unmodelled error.
 struct JointDeviation {
   const DirectionalCurves& effects;
-  const EmpiricalCurve* curve;  ///< null if there is none
-  SeenSpan seen;                ///< range in which both are known
+  const calibration::EmpiricalCurve* curve;  ///< null if there is none
+  measurement::SeenSpan seen;                ///< range in which both are known
 
   double at(double alpha, bool rising) const {
     const double known = (rising ? effects.up : effects.down).at(alpha);
@@ -215,8 +215,8 @@ struct JointDeviation {
   }
 };
 
-SeenSpan common_span(const DirectionalCurves& effects, const EmpiricalCurve* curve) {
-  SeenSpan seen = effects.up.seen;
+measurement::SeenSpan common_span(const DirectionalCurves& effects, const calibration::EmpiricalCurve* curve) {
+  measurement::SeenSpan seen = effects.up.seen;
   if (curve == nullptr) return seen;
   seen.least = std::max(seen.least, curve->alpha.front());
   seen.most = std::min(seen.most, curve->alpha.back());
@@ -224,7 +224,7 @@ SeenSpan common_span(const DirectionalCurves& effects, const EmpiricalCurve* cur
 }
 
 /// Motion of the joint in one direction, by growing θ.
-std::vector<LawRow> motion_rows(const DeclaredLaw& law, const JointDeviation& deviation, bool rising) {
+std::vector<LawRow> motion_rows(const transmission::DeclaredLaw& law, const JointDeviation& deviation, bool rising) {
   constexpr int places = 800;
   std::vector<LawRow> rows;
   for (int i = 0; i <= places; ++i) {
@@ -248,12 +248,12 @@ struct MotorPath {
   double of_curve(double theta) const { return alpha_at(all, theta) - alpha_at(effects, theta); }
 };
 
-MotorPath motion_of(const DeclaredLaw& law, const JointDeviation& deviation, bool rising) {
+MotorPath motion_of(const transmission::DeclaredLaw& law, const JointDeviation& deviation, bool rising) {
   return {motion_rows(law, deviation, rising),
           motion_rows(law, {deviation.effects, nullptr, deviation.effects.up.seen}, rising)};
 }
 
-std::vector<CompensationRow> compensation_rows(const DeclaredLaw& law, const JointDeviation& deviation) {
+std::vector<CompensationRow> compensation_rows(const transmission::DeclaredLaw& law, const JointDeviation& deviation) {
   const MotorPath rising = motion_of(law, deviation, true), falling = motion_of(law, deviation, false);
   if (!rising.any() || !falling.any()) return {};
   const double low = std::max(rising.all.front().theta, falling.all.front().theta),
@@ -282,18 +282,20 @@ struct CorrectedJoint {
   bool has_pulley = false;
   double tie = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
 
-  Angles now(const Imperfections& at, const BenchLog& log) const { return predict(expected_joint(declared), at, log); }
-  Angles then(const Imperfections& at, const BenchLog& log) const {
+  Angles now(const Imperfections& at, const joint::BenchLog& log) const {
+    return joint::predict(joint::expected_joint(declared), at, log);
+  }
+  Angles then(const Imperfections& at, const joint::BenchLog& log) const {
     if (!has_pulley) return now(at, log);
     Imperfections rest = beyond_mechanism(at, kind_of(declared));
     rest.motor.offset -= tie;
-    return predict(expected_joint(corrected), rest, log);
+    return joint::predict(joint::expected_joint(corrected), rest, log);
   }
 };
 
-DirectionalCurves table_of(const CorrectedJoint& joint, const Measurement& measurement, const DeclaredLaw& law,
-                           const Imperfections& at) {
-  return directional_curves(measurement, errors(measurement, law, joint.then(at, bench_log(measurement))),
+DirectionalCurves table_of(const CorrectedJoint& joint, const measurement::Measurement& measurement,
+                           const transmission::DeclaredLaw& law, const Imperfections& at) {
+  return directional_curves(measurement, errors(measurement, law, joint.then(at, measurement::bench_log(measurement))),
                             lost_motion(at, joint.declared, mean_load(measurement, joint.declared)));
 }
 
@@ -301,9 +303,9 @@ DirectionalCurves table_of(const CorrectedJoint& joint, const Measurement& measu
 struct HeldOutSquares {
   double now = 0, with_pulley = 0, with_table = 0, rows = 0;
 
-  void add(const Measurement& held, const Angles& error, const Angles& change, const DirectionalCurves& table,
-           double zero) {
-    for_each_known(held, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
+  void add(const measurement::Measurement& held, const Angles& error, const Angles& change,
+           const DirectionalCurves& table, double zero) {
+    for_each_known(held, [&](std::size_t r, std::size_t i, const measurement::Stroke& stroke) {
       const double off = error[r][i] - zero, with = off + change[r][i];
       if (!std::isfinite(with)) return;
       const double taken = (stroke.direction > 0 ? table.up : table.down).at(held.runs[r].samples[i].alpha) - zero;
@@ -321,22 +323,23 @@ struct HeldOutSquares {
   }
 };
 
-Measurement some_runs(Measurement measurement, const std::vector<std::string>& names, bool those) {
-  std::erase_if(measurement.runs, [&](const Run& run) {
+measurement::Measurement some_runs(measurement::Measurement measurement, const std::vector<std::string>& names,
+                                   bool those) {
+  std::erase_if(measurement.runs, [&](const measurement::Run& run) {
     return (std::find(names.begin(), names.end(), run.name) != names.end()) != those;
   });
   return measurement;
 }
 
 /// Evaluates each run with the parameters and table from the other runs. With a single run the table is made from it.
-HeldOutSquares measured(const CorrectedJoint& joint, const Measurement& measurement, const DeclaredLaw& law,
-                        const std::vector<LeftOut>& left_out) {
-  const Measurement thin = with_fewer_rows(measurement, k_rows_a_run);
+HeldOutSquares measured(const CorrectedJoint& joint, const measurement::Measurement& measurement,
+                        const transmission::DeclaredLaw& law, const std::vector<calibration::LeftOut>& left_out) {
+  const measurement::Measurement thin = calibration::with_fewer_rows(measurement, k_rows_a_run);
   HeldOutSquares all;
-  for (const LeftOut& left : left_out) {
-    const Measurement held = some_runs(thin, left.runs, true), others = some_runs(thin, left.runs, false);
+  for (const calibration::LeftOut& left : left_out) {
+    const measurement::Measurement held = some_runs(thin, left.runs, true), others = some_runs(thin, left.runs, false);
     const DirectionalCurves table = table_of(joint, others.runs.empty() ? held : others, law, left.identified);
-    const BenchLog log = bench_log(held);
+    const joint::BenchLog log = measurement::bench_log(held);
     Angles theta, change = joint.then(left.identified, log);
     const Angles now = joint.now(left.identified, log);
     for (std::size_t r = 0; r < held.runs.size(); ++r) {
@@ -353,7 +356,7 @@ HeldOutSquares measured(const CorrectedJoint& joint, const Measurement& measurem
 }
 
 /// Fills the reasons for which a file is not written.
-void fill_reasons(const Calibration& calibration, Correction& correction) {
+void fill_reasons(const calibration::Calibration& calibration, Correction& correction) {
   if (calibration.effects.empty()) {
     correction.why_no_pulley_file = "no effect was found that the declared file lacks";
   } else if (!(calibration.after.held_out_rms < calibration.before.held_out_rms)) {
@@ -369,15 +372,16 @@ void fill_reasons(const Calibration& calibration, Correction& correction) {
 
 }  // namespace
 
-Correction correct(const DeclaredMechanism& declared, const Measurement& measurement, const Calibration& calibration) {
+Correction correct(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
+                   const calibration::Calibration& calibration) {
   const Imperfections& found = calibration.identified;
   Correction correction;
   correction.identified = composed(declared, found);
   const bool gives_way = found.tendon.stretch != 0 || found.sheath.give != 0 || found.joint.weight != WeightError{};
   if (gives_way && !declared.transmission)
     correction.identified.joint.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
-  const DeclaredLaw law(declared);
-  if (!seen_span(measurement, &Sample::alpha).any() || !law.exists()) {
+  const transmission::DeclaredLaw law(declared);
+  if (!measurement::seen_span(measurement, &measurement::Sample::alpha).any() || !law.exists()) {
     fill_reasons(calibration, correction);
     return correction;
   }
@@ -391,16 +395,17 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
     return measured({declared, corrected, correction.has_pulley, tie}, measurement, law, calibration.left_out);
   };
   if (correction.has_pulley) {
-    correction.by_pulley = held_out_rows(tied_at(corrected)).removed_by_pulley();
+    correction.by_pulley = held_out_rows(joint::tied_at(corrected)).removed_by_pulley();
     correction.has_pulley = correction.by_pulley > 0;
     if (!correction.has_pulley) correction.why_no_pulley_file = k_no_better;
   }
   correction.by_table = held_out_rows(0).removed_by_table();
-  if (correction.has_pulley && declared.pulley.law == Law::compensate) correction.round = round_choice(corrected);
-  if (correction.has_pulley) correction.tied_at = tied_at(corrected);
+  if (correction.has_pulley && declared.pulley.law == Law::compensate)
+    correction.round = joint::round_choice(corrected);
+  if (correction.has_pulley) correction.tied_at = joint::tied_at(corrected);
 
   const CorrectedJoint joint{declared, corrected, correction.has_pulley};
-  const BenchLog log = bench_log(measurement);
+  const joint::BenchLog log = measurement::bench_log(measurement);
   const Angles now = errors(measurement, law, joint.now(found, log)),
                then = errors(measurement, law, joint.then(found, log));
   const DirectionalCurves table =
@@ -410,7 +415,7 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
   correction.error_now = rms(measurement, now, zero);
   correction.error_with_pulley = rms(measurement, then, zero);
   correction.error_with_table = rms(measurement, with_table(measurement, then, table), 0.0);
-  const EmpiricalCurve* curve = calibration.curve.used ? &calibration.curve : nullptr;
+  const calibration::EmpiricalCurve* curve = calibration.curve.used ? &calibration.curve : nullptr;
   if (curve != nullptr) correction.by_curve = curve->gain;
   correction.by_table = std::hypot(correction.by_table, correction.by_curve);
   correction.table = compensation_rows(law, {table, curve, common_span(table, curve)});
@@ -418,4 +423,4 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
   return correction;
 }
 
-}  // namespace fusee
+}  // namespace fusee::correction

@@ -6,7 +6,7 @@
 #include "fusee/correction.h"
 #include "fusee/mechanism_file.h"
 
-namespace fusee {
+namespace fusee::correction {
 namespace {
 
 std::string one_line(std::string text) {
@@ -16,23 +16,23 @@ std::string one_line(std::string text) {
   return text;
 }
 
-std::string number_text(const FittedParameter& parameter) {
+std::string number_text(const calibration::FittedParameter& parameter) {
   return ": " + parameter.name + " = " + rounded(parameter.value) + ", 95 % within " + rounded(parameter.low) + " to " +
          rounded(parameter.high);
 }
 
-std::string found_text(const FoundEffect& effect) {
+std::string found_text(const calibration::FoundEffect& effect) {
   std::string text = "# " + effect.name + " (" + std::string(word(effect.place)) + ")";
-  for (const FittedParameter& parameter : effect.parameters) text += number_text(parameter);
+  for (const calibration::FittedParameter& parameter : effect.parameters) text += number_text(parameter);
   if (effect.group.size() < 2) return text;
   text += "; or";
   for (const std::string& rival : effect.group) {
     if (rival != effect.name) text += " " + rival;
   }
   text += ": these data do not distinguish them";
-  for (const MemberBeside& member : effect.beside) {
+  for (const calibration::MemberBeside& member : effect.beside) {
     text += "; perhaps with " + member.name + "";
-    for (const FittedParameter& parameter : member.parameters) text += number_text(parameter);
+    for (const calibration::FittedParameter& parameter : member.parameters) text += number_text(parameter);
   }
   return text;
 }
@@ -56,9 +56,9 @@ std::string without_earlier_words(std::string text) {
   return text.erase(title, end - title);
 }
 
-std::string words_of(const Calibration& calibration, const Correction& correction) {
-  std::string words = std::string(k_title) + "# verdict: " + std::string(word(calibration.verdict)) + "\n";
-  for (const FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
+std::string words_of(const calibration::Calibration& calibration, const Correction& correction) {
+  std::string words = std::string(k_title) + "# verdict: " + std::string(calibration::word(calibration.verdict)) + "\n";
+  for (const calibration::FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
   if (calibration.effects.empty()) words += "# no effect was found that the declared file lacks\n";
   if (correction.by_curve > 0) {
     words += "# compensation.csv corrects the unmodelled error by an empirical curve of place and direction: " +
@@ -104,7 +104,7 @@ std::size_t below_header(const std::string& text) {
 
 // Comment and numbers stand inside the table: deleting the table restores the declared file byte for byte.
 std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared,
-                           const Calibration& calibration, const Correction& correction) {
+                           const calibration::Calibration& calibration, const Correction& correction) {
   std::string text = without_earlier_words(std::string(declared_text));
   const std::vector<ValueEdit> edits = identified_edits(declared, correction.identified);
   if (edits.empty() && below_header(text) == std::string::npos)
@@ -132,4 +132,4 @@ std::string compensation_csv(const Correction& correction) {
   return text;
 }
 
-}  // namespace fusee
+}  // namespace fusee::correction

@@ -1,14 +1,13 @@
-#include "fusee/correction.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "fusee/base.h"
+#include "fusee/correction.h"
 #include "fusee/joint.h"
 #include "mechanism/effect.h"
 #include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::correction {
 namespace {
 
 constexpr int k_places = 60;            ///< intervals of the stroke
@@ -16,12 +15,12 @@ constexpr double k_pace = radians(20);  ///< motor speed, 1/s: slow, as on a ben
 constexpr double k_seen = radians(1e-3);
 
 /// No load, and the largest logged loads in both directions; without logged loads the declared one.
-std::vector<double> loads_of(const Measurement& measurement, const Mechanism& expected) {
+std::vector<double> loads_of(const measurement::Measurement& measurement, const Mechanism& expected) {
   double low = 0, high = 0;
   bool logged = false;
-  for (const Run& run : measurement.runs) {
+  for (const measurement::Run& run : measurement.runs) {
     logged = logged || (run.has_load && measurement.load_unit == "N");
-    for (const Sample& sample : run.samples) {
+    for (const measurement::Sample& sample : run.samples) {
       if (!run.has_load) continue;
       low = std::min(low, sample.load);
       high = std::max(high, sample.load);
@@ -43,13 +42,13 @@ class Drive {
  public:
   Drive(const Mechanism& expected, const std::vector<double>& alphas, double load)
       : expected_(expected), count_(alphas.size()) {
-    BenchRun run;
+    joint::BenchRun run;
     run.has_load = true;
     double time = 0, at = 0;
     const auto go = [&](double alpha) {
       time += std::abs(alpha - at) / k_pace;
       at = alpha;
-      BenchRow row;
+      joint::BenchRow row;
       row.time = time;
       row.alpha = alpha;
       row.load = load;
@@ -78,7 +77,7 @@ class Drive {
 
  private:
   DirectionalResponse shown(const Imperfections& imperfections) const {
-    const std::vector<double> theta = predict(expected_, imperfections, log_).front();
+    const std::vector<double> theta = joint::predict(expected_, imperfections, log_).front();
     const auto from = theta.begin() + static_cast<std::ptrdiff_t>(first_ + 2 * count_);
     const auto turn = from + static_cast<std::ptrdiff_t>(count_);
     DirectionalResponse ways{{from, turn}, {turn, turn + static_cast<std::ptrdiff_t>(count_)}};
@@ -89,7 +88,7 @@ class Drive {
   const Mechanism& expected_;
   std::size_t count_;
   std::size_t first_ = 0;
-  BenchLog log_;
+  joint::BenchLog log_;
   DirectionalResponse without_;
 };
 
@@ -104,10 +103,11 @@ Imperfections share_of(const Effect& effect, const Imperfections& found, double 
   return joint;
 }
 
-std::vector<FittedParameter> numbers_of(const Effect& effect, const Imperfections& joint, const Mechanism& expected) {
-  std::vector<FittedParameter> numbers;
+std::vector<calibration::FittedParameter> numbers_of(const Effect& effect, const Imperfections& joint,
+                                                     const Mechanism& expected) {
+  std::vector<calibration::FittedParameter> numbers;
   for (const EffectParameter& parameter : effect.parameters) {
-    FittedParameter number;
+    calibration::FittedParameter number;
     number.name = parameter.name;
     number.value = shown_value(parameter, joint, expected);
     numbers.push_back(number);
@@ -143,24 +143,25 @@ RehearsedEffect rehearsed(const Effect& effect, const DeclaredMechanism& expecte
 
 }  // namespace
 
-Rehearsal rehearse(const DeclaredMechanism& expected, const Measurement& measurement, const Calibration& calibration) {
+Rehearsal rehearse(const DeclaredMechanism& expected, const measurement::Measurement& measurement,
+                   const calibration::Calibration& calibration) {
   Rehearsal rehearsal;
   if (expected.transmission || calibration.effects.empty()) return rehearsal;
-  SynthesisResult synthesis = synthesise(expected, {.advice = false, .stroke_steps = k_places});
+  profile::SynthesisResult synthesis = profile::synthesise(expected, {.advice = false, .stroke_steps = k_places});
   if (!synthesis.made()) return rehearsal;
   std::vector<double> alphas;
-  for (const TransmissionPoint& point : synthesis.stroke) alphas.push_back(point.alpha);
+  for (const transmission::TransmissionPoint& point : synthesis.stroke) alphas.push_back(point.alpha);
   std::vector<Drive> drives;
   for (const double load : loads_of(measurement, expected)) {
     Mechanism loaded = expected;
-    keep_law(loaded);
+    transmission::keep_law(loaded);
     loaded.load.tip_force = load;
-    rehearsal.strokes.push_back({load, settled_stroke(loaded, alphas)});
+    rehearsal.strokes.push_back({load, analysis::settled_stroke(loaded, alphas)});
     drives.emplace_back(expected, alphas, load);
   }
   for (const Effect& effect : effects(kind_of(expected))) {
     const bool found = std::any_of(calibration.effects.begin(), calibration.effects.end(),
-                                   [&](const FoundEffect& one) { return one.name == effect.name; });
+                                   [&](const calibration::FoundEffect& one) { return one.name == effect.name; });
     if (!found) continue;
     RehearsedEffect one = rehearsed(effect, expected, calibration.identified, drives);
     if (largest(one.shares.back()) > k_seen) rehearsal.effects.push_back(std::move(one));
@@ -170,4 +171,4 @@ Rehearsal rehearse(const DeclaredMechanism& expected, const Measurement& measure
   return rehearsal;
 }
 
-}  // namespace fusee
+}  // namespace fusee::correction

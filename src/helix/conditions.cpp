@@ -8,13 +8,13 @@
 #include "profile/pitch_curve.h"
 #include "profile/place_conditions.h"
 
-namespace fusee {
+namespace fusee::helix {
 namespace {
 
-constexpr std::array<Side, 2> k_sides = {Side::left, Side::right};
+constexpr std::array<transmission::Side, 2> k_sides = {transmission::Side::left, transmission::Side::right};
 
-Condition at_most(std::string name, double alpha, double value, double limit, std::string unit) {
-  Condition condition;
+profile::Condition at_most(std::string name, double alpha, double value, double limit, std::string unit) {
+  profile::Condition condition;
   condition.name = std::move(name);
   condition.alpha = alpha;
   condition.value = value;
@@ -24,14 +24,14 @@ Condition at_most(std::string name, double alpha, double value, double limit, st
   return condition;
 }
 
-Condition number_of_turns(const Transmission& planar, Side side) {
-  const TakeOffs take_offs(planar, side);
-  const double first = take_offs.at(mirror_sign(side) * planar.theta(planar.alpha_min())).curve.psi;
-  const double last = take_offs.at(mirror_sign(side) * planar.theta(planar.alpha_max())).curve.psi;
+profile::Condition number_of_turns(const transmission::Transmission& planar, transmission::Side side) {
+  const profile::TakeOffs take_offs(planar, side);
+  const double first = take_offs.at(transmission::mirror_sign(side) * planar.theta(planar.alpha_min())).curve.psi;
+  const double last = take_offs.at(transmission::mirror_sign(side) * planar.theta(planar.alpha_max())).curve.psi;
   const double turns = std::abs(last - first) / k_two_pi;
   const double furthest = std::abs(planar.alpha_min()) > planar.alpha_max() ? planar.alpha_min() : planar.alpha_max();
-  const std::string pulley(pulley_name(side));
-  Condition condition = at_most("turns_" + pulley, furthest, turns, k_most_turns, "1");
+  const std::string pulley(transmission::pulley_name(side));
+  profile::Condition condition = at_most("turns_" + pulley, furthest, turns, k_most_turns, "1");
   if (!condition.ok) {
     condition.message = pulley + " would wind " + rounded(turns, 3) + " turns over the range: at most " +
                         rounded(k_most_turns) + " are supported, " + rounded(100.0 * k_most_turns / turns, 2) +
@@ -42,15 +42,17 @@ Condition number_of_turns(const Transmission& planar, Side side) {
 
 /// A straight tendon rises by a groove's depth h over the length √(2ρh) and moves aside by that length times tan δ.
 /// Above the limiting fleet angle it touches the groove edge.
-Condition fleet(const HelixSide& side, Side which, const HelixGroove& groove, double largest_radius) {
+profile::Condition fleet(const HelixSide& side, transmission::Side which, const HelixGroove& groove,
+                         double largest_radius) {
   constexpr double k_none = 1e-9;  // tolerance of rounding about zero
   const double limit =
       std::max(k_none, std::atan(groove.room_at_groove_edge / std::sqrt(2.0 * largest_radius * groove.groove_edge)));
-  const std::string number = which == Side::left ? "1" : "2";
-  Condition condition = at_most("fleet_angle_" + number, side.fleet_at, degrees(side.fleet), degrees(limit), "deg");
+  const std::string number = which == transmission::Side::left ? "1" : "2";
+  profile::Condition condition =
+      at_most("fleet_angle_" + number, side.fleet_at, degrees(side.fleet), degrees(limit), "deg");
   if (!condition.ok) {
     condition.message = "tendon " + number + " leaves its groove at a fleet angle of " +
-                        rounded(degrees(side.fleet), 3) + "° at " + at_alpha_text(side.fleet_at) + ": above " +
+                        rounded(degrees(side.fleet), 3) + "° at " + profile::at_alpha_text(side.fleet_at) + ": above " +
                         rounded(degrees(limit), 3) +
                         "° it touches the groove edge. Increase pulley.EF_mm, reduce body.lead_mm or the number of "
                         "turns, or increase body.groove_angle_deg";
@@ -58,9 +60,9 @@ Condition fleet(const HelixSide& side, Side which, const HelixGroove& groove, do
   return condition;
 }
 
-Condition room_for_turns(const Mechanism& mechanism, const HelixGeometry& geometry, Side side) {
-  const std::string pulley(pulley_name(side));
-  Condition condition;
+profile::Condition room_for_turns(const Mechanism& mechanism, const HelixGeometry& geometry, transmission::Side side) {
+  const std::string pulley(transmission::pulley_name(side));
+  profile::Condition condition;
   condition.name = "neighbouring_turns_" + pulley;
   condition.value = geometry.slope * geometry.circumference;
   condition.limit = geometry.needed_lead;
@@ -74,13 +76,13 @@ Condition room_for_turns(const Mechanism& mechanism, const HelixGeometry& geomet
   return condition;
 }
 
-Condition spare_turns(const Mechanism& mechanism, const Spiral& spiral, Side side) {
+profile::Condition spare_turns(const Mechanism& mechanism, const Spiral& spiral, transmission::Side side) {
   const double half = 0.5 * mechanism.tendon.diameter;
-  const std::string pulley(pulley_name(side));
-  Condition condition;
+  const std::string pulley(transmission::pulley_name(side));
+  profile::Condition condition;
   condition.name = "spare_turns_" + pulley;
   condition.unit = "mm";
-  condition.limit = k_least_floor_radius;
+  condition.limit = profile::k_least_floor_radius;
   condition.value = 1e300;
   for (const SpiralRow& row : spiral.rows) condition.value = std::min(condition.value, row.rho - half);
   condition.ok = condition.value > condition.limit;
@@ -93,9 +95,9 @@ Condition spare_turns(const Mechanism& mechanism, const Spiral& spiral, Side sid
   return condition;
 }
 
-Condition closure(const Windings& windings) {
+profile::Condition closure(const Windings& windings) {
   constexpr double k_limit = 0.002;
-  Condition condition = at_most("sloped_paths_close", 0, windings.closure, k_limit, "mm");
+  profile::Condition condition = at_most("sloped_paths_close", 0, windings.closure, k_limit, "mm");
   if (!condition.ok) {
     condition.message = "the tendon lengths along the sloped paths do not converge: the residual is " +
                         rounded(windings.closure, 3) + " mm (a law with sharp bends, or a path too steep)";
@@ -105,16 +107,16 @@ Condition closure(const Windings& windings) {
 
 }  // namespace
 
-std::vector<Condition> turn_conditions(const Mechanism& mechanism, const Transmission& planar) {
-  std::vector<Condition> conditions;
-  for (const Side side : k_sides) {
+std::vector<profile::Condition> turn_conditions(const Mechanism& mechanism, const transmission::Transmission& planar) {
+  std::vector<profile::Condition> conditions;
+  for (const transmission::Side side : k_sides) {
     conditions.push_back(number_of_turns(planar, side));
-    for (const double kink : lift_offs(mechanism, planar, side)) {
-      Condition condition;
+    for (const double kink : profile::lift_offs(mechanism, planar, side)) {
+      profile::Condition condition;
       condition.name = "on_drum_all_the_way";
-      condition.alpha = planar.alpha(mirror_sign(side) * kink);
+      condition.alpha = planar.alpha(transmission::mirror_sign(side) * kink);
       condition.ok = false;
-      condition.message = "a tendon leaves the joint's drum at " + at_alpha_text(condition.alpha) +
+      condition.message = "a tendon leaves the joint's drum at " + profile::at_alpha_text(condition.alpha) +
                           ": with a multi-turn pulley it must stay on the drum, or off it, over the whole range";
       conditions.push_back(condition);
     }
@@ -122,11 +124,11 @@ std::vector<Condition> turn_conditions(const Mechanism& mechanism, const Transmi
   return conditions;
 }
 
-std::vector<Condition> helix_conditions(const Mechanism& mechanism, const HelixSynthesis& made,
-                                        const Windings& windings, const HelixGroove& groove) {
-  std::vector<Condition> conditions = {closure(windings)};
-  for (const Side side : k_sides) {
-    const std::size_t i = side == Side::left ? 0 : 1;
+std::vector<profile::Condition> helix_conditions(const Mechanism& mechanism, const HelixSynthesis& made,
+                                                 const Windings& windings, const HelixGroove& groove) {
+  std::vector<profile::Condition> conditions = {closure(windings)};
+  for (const transmission::Side side : k_sides) {
+    const std::size_t i = side == transmission::Side::left ? 0 : 1;
     const HelixSide& helix = made.sides[i];
     double largest = 0;
     for (std::size_t k = helix.spiral.first_used; k <= helix.spiral.last_used; ++k)
@@ -140,15 +142,16 @@ std::vector<Condition> helix_conditions(const Mechanism& mechanism, const HelixS
 
 std::vector<std::string> helix_warnings(const HelixSynthesis& made) {
   std::vector<std::string> warnings;
-  for (const Side side : k_sides) {
-    const HelixSide& helix = made.sides[side == Side::left ? 0 : 1];
+  for (const transmission::Side side : k_sides) {
+    const HelixSide& helix = made.sides[side == transmission::Side::left ? 0 : 1];
     if (helix.fleet <= k_warned_fleet) continue;
     warnings.push_back(
-        "tendon " + std::string(side == Side::left ? "1" : "2") + " leaves its groove at a fleet angle of up to " +
-        rounded(degrees(helix.fleet), 3) + "° (" + at_alpha_text(helix.fleet_at) +
+        "tendon " + std::string(side == transmission::Side::left ? "1" : "2") +
+        " leaves its groove at a fleet angle of up to " + rounded(degrees(helix.fleet), 3) + "° (" +
+        profile::at_alpha_text(helix.fleet_at) +
         "): above 2° it wears and may climb the groove's wall. Increase pulley.EF_mm or reduce body.lead_mm.");
   }
   return warnings;
 }
 
-}  // namespace fusee
+}  // namespace fusee::helix

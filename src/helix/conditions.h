@@ -7,13 +7,13 @@
 #include "fusee/helix.h"
 #include "helix/winding.h"
 
-namespace fusee {
+namespace fusee::helix {
 
 /// Conditions on the number of turns. They need the planar curves only and are checked before winding.
-std::vector<Condition> turn_conditions(const Mechanism& mechanism, const Transmission& planar);
+std::vector<profile::Condition> turn_conditions(const Mechanism& mechanism, const transmission::Transmission& planar);
 /// Conditions on the wound curves.
-std::vector<Condition> helix_conditions(const Mechanism& mechanism, const HelixSynthesis& made,
-                                        const Windings& windings, const HelixGroove& groove);
+std::vector<profile::Condition> helix_conditions(const Mechanism& mechanism, const HelixSynthesis& made,
+                                                 const Windings& windings, const HelixGroove& groove);
 std::vector<std::string> helix_warnings(const HelixSynthesis& made);
 
-}  // namespace fusee
+}  // namespace fusee::helix

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::helix {
 namespace {
 
 struct SpiralSample {
@@ -30,7 +30,7 @@ void add_points(std::vector<SpiralSample>& points, const PitchSpiral& curve, dou
 
 }  // namespace
 
-Spiral draw_spiral(const PitchSpiral& curve, Side side, double slope, const SpiralDrawing& drawing) {
+Spiral draw_spiral(const PitchSpiral& curve, transmission::Side side, double slope, const SpiralDrawing& drawing) {
   std::vector<SpiralSample> points;
   add_points(points, curve, curve.begin(), curve.working_begin(), drawing);
   const std::size_t first = points.size();
@@ -41,7 +41,7 @@ Spiral draw_spiral(const PitchSpiral& curve, Side side, double slope, const Spir
 
   Spiral spiral;
   spiral.slope = slope;
-  const bool left = side == Side::left;
+  const bool left = side == transmission::Side::left;
   const double sigma0 = left ? points.back().point.sigma : points.front().point.sigma;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SpiralPoint& point = points[left ? points.size() - 1 - i : i].point;
@@ -60,4 +60,4 @@ Spiral draw_spiral(const PitchSpiral& curve, Side side, double slope, const Spir
   return spiral;
 }
 
-}  // namespace fusee
+}  // namespace fusee::helix

@@ -4,7 +4,7 @@
 
 #include "helix/pitch_spiral.h"
 
-namespace fusee {
+namespace fusee::helix {
 
 struct SpiralDrawing {
   double tolerance = 0.01;             ///< sagitta, mm
@@ -12,6 +12,6 @@ struct SpiralDrawing {
   double largest_turn = radians(1.5);  ///< largest angle from row to row
 };
 
-Spiral draw_spiral(const PitchSpiral& curve, Side side, double slope, const SpiralDrawing& drawing);
+Spiral draw_spiral(const PitchSpiral& curve, transmission::Side side, double slope, const SpiralDrawing& drawing);
 
-}  // namespace fusee
+}  // namespace fusee::helix

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::helix {
 namespace {
 
 constexpr int k_samples = 192;
@@ -29,21 +29,22 @@ double tapered_integral(double u, double length) {
 
 }  // namespace
 
-PitchSpiral::PitchSpiral(const Mechanism& mechanism, const TakeOffs& take_offs, const ChebyshevSeries* lengthening)
+PitchSpiral::PitchSpiral(const Mechanism& mechanism, const profile::TakeOffs& take_offs,
+                         const transmission::ChebyshevSeries* lengthening)
     : take_offs_(take_offs),
       lengthening_(lengthening),
       collar_(mechanism.guides.collar),
       spare_(k_two_pi * mechanism.body.spare_turns),
       home_(take_offs.at(0.0)) {
-  const double sign = mirror_sign(take_offs.side());
+  const double sign = transmission::mirror_sign(take_offs.side());
   const double first = sign > 0 ? mechanism.joint.theta_min : -mechanism.joint.theta_max;
   const double last = sign > 0 ? mechanism.joint.theta_max : -mechanism.joint.theta_min;
   for (int i = 0; i <= k_samples; ++i)
     samples_.push_back(take_offs.at(i == k_samples ? last : first + (last - first) * i / k_samples));
 }
 
-FreePath PitchSpiral::free_path(const TakeOff& take_off) const {
-  const TendonPoint& tendon = take_offs_.tendon(take_off);
+FreePath PitchSpiral::free_path(const profile::TakeOff& take_off) const {
+  const transmission::TendonPoint& tendon = take_offs_.tendon(take_off);
   FreePath path;
   path.whole = tendon.length - take_off.curve.dh;
   path.sloping = collar_ ? tendon.lower_reach - take_off.curve.dh : path.whole;
@@ -51,7 +52,7 @@ FreePath PitchSpiral::free_path(const TakeOff& take_off) const {
 }
 
 // From the length balance L + σ = q + const.
-double PitchSpiral::sigma(const TakeOff& take_off) const {
+double PitchSpiral::sigma(const profile::TakeOff& take_off) const {
   return lengthened(take_off.stroke.alpha) - lengthened(home_.stroke.alpha) - free_path(take_off).whole +
          free_path(home_).whole;
 }
@@ -60,11 +61,12 @@ SpiralPoint PitchSpiral::at(double psi) const {
   if (psi < working_begin())
     return beyond(working_begin() - psi, {samples_.front().curve, sigma(samples_.front())}, -1);
   if (psi > working_end()) return beyond(psi - working_end(), {samples_.back().curve, sigma(samples_.back())}, 1);
-  const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, psi,
-                                      [](double value, const TakeOff& sample) { return value < sample.curve.psi; });
-  const double sign = mirror_sign(take_offs_.side());
+  const auto above =
+      std::upper_bound(samples_.begin() + 1, samples_.end() - 1, psi,
+                       [](double value, const profile::TakeOff& sample) { return value < sample.curve.psi; });
+  const double sign = transmission::mirror_sign(take_offs_.side());
   double low = sign * (above - 1)->stroke.theta, high = sign * above->stroke.theta;
-  TakeOff found = *(above - 1);
+  profile::TakeOff found = *(above - 1);
   double theta = low;
   for (int i = 0; i < 60; ++i) {
     const double miss = found.curve.psi - psi;
@@ -97,4 +99,4 @@ SpiralPoint PitchSpiral::beyond(double turned, const SpiralPoint& from, double d
   return point;
 }
 
-}  // namespace fusee
+}  // namespace fusee::helix

@@ -9,11 +9,11 @@
 #include "fusee/helix.h"
 #include "profile/take_off.h"
 
-namespace fusee {
+namespace fusee::helix {
 
 /// A point of the curve, and the length of tendon between it and the take-off at home.
 struct SpiralPoint {
-  CurvePoint curve;
+  profile::CurvePoint curve;
   double sigma = 0;  ///< in plan, growing with ψ, mm
 };
 
@@ -28,31 +28,32 @@ struct FreePath {
 class PitchSpiral {
  public:
   /// `lengthening`: q of the side, null for a planar tendon.
-  PitchSpiral(const Mechanism& mechanism, const TakeOffs& take_offs, const ChebyshevSeries* lengthening);
+  PitchSpiral(const Mechanism& mechanism, const profile::TakeOffs& take_offs,
+              const transmission::ChebyshevSeries* lengthening);
 
   double working_begin() const { return samples_.front().curve.psi; }
   double working_end() const { return samples_.back().curve.psi; }
   double begin() const { return working_begin() - spare_; }
   double end() const { return working_end() + spare_; }
-  const std::vector<TakeOff>& samples() const { return samples_; }
+  const std::vector<profile::TakeOff>& samples() const { return samples_; }
   SpiralPoint at_home() const { return {home_.curve, 0.0}; }
 
   /// `psi` within the working arc or the spare turns.
   SpiralPoint at(double psi) const;
   /// Wound length at a take-off, relative to home. mm
-  double sigma(const TakeOff& take_off) const;
-  FreePath free_path(const TakeOff& take_off) const;
+  double sigma(const profile::TakeOff& take_off) const;
+  FreePath free_path(const profile::TakeOff& take_off) const;
 
  private:
   SpiralPoint beyond(double turned, const SpiralPoint& from, double direction) const;
   double lengthened(double alpha) const { return lengthening_ != nullptr ? lengthening_->at(alpha).d0 : 0.0; }
 
-  const TakeOffs& take_offs_;
-  const ChebyshevSeries* lengthening_;
+  const profile::TakeOffs& take_offs_;
+  const transmission::ChebyshevSeries* lengthening_;
   bool collar_;
   double spare_;
-  std::vector<TakeOff> samples_;
-  TakeOff home_;
+  std::vector<profile::TakeOff> samples_;
+  profile::TakeOff home_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::helix

@@ -17,7 +17,7 @@
 
 #include "helix/winding.h"
 
-namespace fusee {
+namespace fusee::helix {
 namespace {
 
 constexpr int k_nodes = 48;
@@ -28,14 +28,14 @@ constexpr double k_spare_lead = 1.005;
 constexpr double k_settled = 1e-10;  // mm
 
 /// Finds the least height from turn to turn, and the lead that the tightest pair requires.
-void set_lead(HelixGeometry& geometry, const PitchSpiral& curve, Side side, const MinLead& least_lead, double wanted,
-              HelixAccuracy accuracy) {
+void set_lead(HelixGeometry& geometry, const PitchSpiral& curve, transmission::Side side, const MinLead& least_lead,
+              double wanted, HelixAccuracy accuracy) {
   const int places = accuracy == HelixAccuracy::coarse ? k_places_of_coarse_turn : k_places_of_turn;
   double least_slope = 0, circumference = 1e300;
   for (double psi = curve.begin(); psi + k_two_pi <= curve.end() + 1e-9; psi += k_two_pi / places) {
     const SpiralPoint here = curve.at(psi), next = curve.at(psi + k_two_pi);
     const double around = next.sigma - here.sigma;
-    const double step = mirror_sign(side) * (next.curve.h - here.curve.h);
+    const double step = transmission::mirror_sign(side) * (next.curve.h - here.curve.h);
     const double needed = least_lead(step) / around;
     circumference = std::min(circumference, around);
     if (needed <= least_slope) continue;
@@ -53,7 +53,7 @@ struct Place {
 };
 
 /// Bisects the rise at home at which the largest positive and negative fleet angles are equal.
-double smallest_fleet(HelixGeometry geometry, Side side, const std::vector<Place>& places) {
+double smallest_fleet(HelixGeometry geometry, transmission::Side side, const std::vector<Place>& places) {
   double low = -1e4, high = 1e4;
   for (int i = 0; i < 100; ++i) {
     geometry.below = 0.5 * (low + high);
@@ -68,7 +68,7 @@ double smallest_fleet(HelixGeometry geometry, Side side, const std::vector<Place
   return 0.5 * (low + high);
 }
 
-double q_of(const HelixGeometry& geometry, Side side, const Place& place) {
+double q_of(const HelixGeometry& geometry, transmission::Side side, const Place& place) {
   const double up = rise(geometry, side, place.sigma);
   const double sloping = std::hypot(place.path.sloping, up);
   const double secant = std::sqrt(1.0 + geometry.slope * geometry.slope);
@@ -81,22 +81,22 @@ struct SideIteration {
   double settled = 0;     ///< largest difference from the previous round's q, relative to home, mm
 };
 
-SideIteration solve_side(const Mechanism& mechanism, const Transmission& transmission, Side side,
-                         const ChebyshevSeries* before, const MinLead& least_lead, const std::vector<double>& nodes,
-                         HelixAccuracy accuracy) {
-  const TakeOffs take_offs(transmission, side);
+SideIteration solve_side(const Mechanism& mechanism, const transmission::Transmission& transmission,
+                         transmission::Side side, const transmission::ChebyshevSeries* before,
+                         const MinLead& least_lead, const std::vector<double>& nodes, HelixAccuracy accuracy) {
+  const profile::TakeOffs take_offs(transmission, side);
   const PitchSpiral curve(mechanism, take_offs, before);
   SideIteration round;
   set_lead(round.geometry, curve, side, least_lead, mechanism.body.lead, accuracy);
-  const auto place_of = [&](const TakeOff& take_off) {
+  const auto place_of = [&](const profile::TakeOff& take_off) {
     return Place{curve.free_path(take_off), curve.sigma(take_off)};
   };
   std::vector<Place> places;
-  for (const TakeOff& sample : curve.samples()) places.push_back(place_of(sample));
+  for (const profile::TakeOff& sample : curve.samples()) places.push_back(place_of(sample));
   round.geometry.below = smallest_fleet(round.geometry, side, places);
   const double home = q_of(round.geometry, side, place_of(take_offs.at(0.0)));
   for (const double alpha : nodes) {
-    const TakeOff take_off = take_offs.at(mirror_sign(side) * transmission.theta(alpha));
+    const profile::TakeOff take_off = take_offs.at(transmission::mirror_sign(side) * transmission.theta(alpha));
     round.q.push_back(q_of(round.geometry, side, place_of(take_off)) - home);
   }
   // Checked between the nodes too, which shows a series too short for the curve.
@@ -110,7 +110,7 @@ SideIteration solve_side(const Mechanism& mechanism, const Transmission& transmi
 
 }  // namespace
 
-HelixPoint helix_point(const HelixGeometry& geometry, Side side, const FreePath& path, double sigma) {
+HelixPoint helix_point(const HelixGeometry& geometry, transmission::Side side, const FreePath& path, double sigma) {
   HelixPoint point;
   const double up = rise(geometry, side, sigma);
   point.slope = std::atan2(up, path.sloping);
@@ -123,28 +123,28 @@ HelixPoint helix_point(const HelixGeometry& geometry, Side side, const FreePath&
 Windings wind(const Mechanism& mechanism, const MinLead& least_lead, HelixAccuracy accuracy) {
   const int rounds = accuracy == HelixAccuracy::coarse ? 2 : 16;
   Windings windings;
-  windings.transmission = std::make_unique<Transmission>(mechanism);
+  windings.transmission = std::make_unique<transmission::Transmission>(mechanism);
   for (int i = 0; i < rounds; ++i) {
-    const Transmission& law = *windings.transmission;
-    const std::vector<double> nodes = ChebyshevSeries::nodes(law.alpha_min(), law.alpha_max(), k_nodes);
-    const SlopedPaths* before = windings.paths.get();
-    const SideIteration left =
-        solve_side(mechanism, law, Side::left, before ? &before->q1 : nullptr, least_lead, nodes, accuracy);
-    const SideIteration right =
-        solve_side(mechanism, law, Side::right, before ? &before->q2 : nullptr, least_lead, nodes, accuracy);
+    const transmission::Transmission& law = *windings.transmission;
+    const std::vector<double> nodes = transmission::ChebyshevSeries::nodes(law.alpha_min(), law.alpha_max(), k_nodes);
+    const transmission::SlopedPaths* before = windings.paths.get();
+    const SideIteration left = solve_side(mechanism, law, transmission::Side::left, before ? &before->q1 : nullptr,
+                                          least_lead, nodes, accuracy);
+    const SideIteration right = solve_side(mechanism, law, transmission::Side::right, before ? &before->q2 : nullptr,
+                                           least_lead, nodes, accuracy);
     const double closure = std::max(left.settled, right.settled);
     const bool no_better = i > 2 && closure > 0.5 * windings.closure;
     windings.geometry = {left.geometry, right.geometry};
     windings.closure = closure;
     if (before != nullptr && (closure < k_settled || no_better)) break;
     constexpr double k_least_coefficient = 1e-12;
-    windings.paths = std::make_shared<SlopedPaths>(
-        SlopedPaths{ChebyshevSeries(law.alpha_min(), law.alpha_max(), left.q, k_least_coefficient),
-                    ChebyshevSeries(law.alpha_min(), law.alpha_max(), right.q, k_least_coefficient)});
-    windings.transmission = std::make_unique<Transmission>(mechanism, windings.paths);
+    windings.paths = std::make_shared<transmission::SlopedPaths>(transmission::SlopedPaths{
+        transmission::ChebyshevSeries(law.alpha_min(), law.alpha_max(), left.q, k_least_coefficient),
+        transmission::ChebyshevSeries(law.alpha_min(), law.alpha_max(), right.q, k_least_coefficient)});
+    windings.transmission = std::make_unique<transmission::Transmission>(mechanism, windings.paths);
   }
   if (accuracy == HelixAccuracy::coarse) windings.closure = 0;
   return windings;
 }
 
-}  // namespace fusee
+}  // namespace fusee::helix

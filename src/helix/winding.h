@@ -9,7 +9,7 @@
 #include "fusee/helix.h"
 #include "helix/pitch_spiral.h"
 
-namespace fusee {
+namespace fusee::helix {
 
 /// The helix of one side.
 struct HelixGeometry {
@@ -21,22 +21,22 @@ struct HelixGeometry {
 };
 
 struct Windings {
-  std::unique_ptr<const Transmission> transmission;
-  std::shared_ptr<const SlopedPaths> paths;  ///< null where the planar curves cannot be
+  std::unique_ptr<const transmission::Transmission> transmission;
+  std::shared_ptr<const transmission::SlopedPaths> paths;  ///< null where the planar curves cannot be
   std::array<HelixGeometry, 2> geometry;
   double closure = 0;  ///< by how much the tendons' lengths vary over the range, mm
 };
 
 /// +1 where the take-off rises as the image's tendon is wound: later turns are further up the spiral on both sides.
-inline double climb_sign(Side side) { return mirror_sign(side); }
+inline double climb_sign(transmission::Side side) { return transmission::mirror_sign(side); }
 /// Rise of the sloping part of a tendon's free path.
-inline double rise(const HelixGeometry& geometry, Side side, double sigma) {
+inline double rise(const HelixGeometry& geometry, transmission::Side side, double sigma) {
   return geometry.below + climb_sign(side) * geometry.slope * sigma;
 }
 /// Slope of the free path and angle to the groove, at a place of the curve, rad.
-HelixPoint helix_point(const HelixGeometry& geometry, Side side, const FreePath& path, double sigma);
+HelixPoint helix_point(const HelixGeometry& geometry, transmission::Side side, const FreePath& path, double sigma);
 
 /// Requires that the law's planar curves exist.
 Windings wind(const Mechanism& mechanism, const MinLead& least_lead, HelixAccuracy accuracy);
 
-}  // namespace fusee
+}  // namespace fusee::helix

@@ -1,5 +1,4 @@
 #include "fusee/joint.h"
-
 #include "joint/compensating_law.h"
 
 // The corrected pulley is drawn so that the identified deviations cancel:
@@ -10,7 +9,7 @@
 // - radius offset, wave of the profile, runout: the curves are drawn with the opposite offset, wave and eccentricity
 //   (draw_for_making).
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 bool changes_geometry(const Imperfections& at) {
@@ -62,4 +61,4 @@ DeclaredMechanism expected_joint(const DeclaredMechanism& declared) {
   return expected;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

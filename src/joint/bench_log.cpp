@@ -1,8 +1,8 @@
-#include "fusee/joint.h"
-
 #include <limits>
 
-namespace fusee {
+#include "fusee/joint.h"
+
+namespace fusee::joint {
 
 std::vector<double> bench_clock(const BenchLog& log) {
   std::vector<double> added;
@@ -15,4 +15,4 @@ std::vector<double> bench_clock(const BenchLog& log) {
   return added;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -10,10 +10,10 @@
 #include "base/golden_section.h"
 #include "fusee/joint.h"
 #include "fusee/transmission.h"
-#include "transmission/load.h"
 #include "joint/imperfect_joint.h"
+#include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 /// Error of the compensating law up to which P1 stays round. It is comparable with that of a drawn outline and small
@@ -41,7 +41,7 @@ bool is_deflected(const Imperfections& at) {
 /// Beyond the end of a table all θ have one α, up to rounding; such rows are skipped. Empty where the law does not
 /// exist.
 std::vector<LawRow> declared_rows(const Mechanism& declared, int count) {
-  const Transmission law(declared);
+  const transmission::Transmission law(declared);
   if (law.dead_centre()) return {};
   const double low = declared.joint.theta_min, high = declared.joint.theta_max;
   const double least_step = 1e-9 * (law.alpha(high) - law.alpha(low));
@@ -58,9 +58,9 @@ std::vector<LawRow> declared_rows(const Mechanism& declared, int count) {
 /// Expresses a torque error as a mass on the lever.
 Load with_weight(Load load, const WeightError& error, double R) {
   if (error == WeightError{}) return load;
-  const Weight weight = with_error({weight_moment(load), load.tilt}, error);
+  const Weight weight = with_error({transmission::weight_moment(load), load.tilt}, error);
   if (load.lever == 0) load.lever = R;
-  load.mass = weight.moment / (k_gravity * load.lever);
+  load.mass = weight.moment / (transmission::k_gravity * load.lever);
   load.tilt = weight.tilt;
   return load;
 }
@@ -159,13 +159,13 @@ std::optional<CompensatingLaw> corrected_law(CompensatingLaw needed, const std::
 /// pulley.
 std::optional<CompensatingLaw> law_under_load(Mechanism joint, const CompensatingLaw& declared, double tip_force,
                                               double reached) {
-  joint = without_friction(std::move(joint));
+  joint = transmission::without_friction(std::move(joint));
   const std::vector<LawRow>& wanted = declared.rows;
   const ChebyshevSmoother smoothed(wanted);
   CompensatingLaw needed = declared;
   for (int i = 0; i < 20; ++i) {
     const Mechanism made = with_law(joint, needed);
-    if (Transmission(made).dead_centre()) return std::nullopt;
+    if (transmission::Transmission(made).dead_centre()) return std::nullopt;
     const std::vector<double> theta = mean_motion(made, from_home(wanted, needed.home), tip_force);
     Eigen::VectorXd miss(static_cast<Eigen::Index>(wanted.size()));
     for (std::size_t k = 0; k < wanted.size(); ++k) miss(static_cast<Eigen::Index>(k)) = theta[k] - wanted[k].theta;
@@ -175,7 +175,7 @@ std::optional<CompensatingLaw> law_under_load(Mechanism joint, const Compensatin
     if (!next) return std::nullopt;
     needed = *next;
     needed.home = 0;
-    needed.home = Transmission(with_law(joint, needed)).alpha(0.0);
+    needed.home = transmission::Transmission(with_law(joint, needed)).alpha(0.0);
     if (miss.cwiseAbs().maxCoeff() < reached) break;
   }
   for (std::size_t k = 0; k < wanted.size(); ++k)
@@ -199,7 +199,7 @@ namespace {
 
 /// Maximum error of a joint with the law of `joint` against the rows; if home may shift, at the best assembly angle.
 double worst_miss(const Mechanism& joint, const CompensatingLaw& needed) {
-  const Transmission law(joint);
+  const transmission::Transmission law(joint);
   constexpr double none = std::numeric_limits<double>::infinity();
   if (law.dead_centre()) return none;
   double least = none, most = -none;
@@ -230,4 +230,4 @@ RoundChoice round_choice(const DeclaredMechanism& declared, const CompensatingLa
   return choice;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -6,7 +6,7 @@
 
 #include "fusee/joint.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 /// The joint with identified geometry and statics, and the declared law's keys.
 Mechanism identified_joint(const DeclaredMechanism& declared);
@@ -29,4 +29,4 @@ Mechanism with_law(Mechanism joint, const CompensatingLaw& needed);
 /// See as_it_is.h.
 RoundChoice round_choice(const DeclaredMechanism& declared, const CompensatingLaw& needed);
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace fusee {
+namespace fusee::joint {
 
 // τ ẋ = driver − x, solved exactly for a constant driver.
 void CreepMemory::hold(double driver, double time) {
@@ -14,4 +14,4 @@ void CreepMemory::hold(double driver, double time) {
 
 double CreepMemory::crept() const { return std::accumulate(elements_.begin(), elements_.end(), 0.0); }
 
-}  // namespace fusee
+}  // namespace fusee::joint

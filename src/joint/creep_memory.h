@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace fusee {
+namespace fusee::joint {
 
 /// A chain of Kelvin elements, one per decade of time, driven by a tension, strain or load. From rest, a constant
 /// driver causes creep of driver · log10(1 + 1.78 t/s) for some hours, within 0.15 of a decade (0.05 after ten
@@ -23,4 +23,4 @@ class CreepMemory {
   std::array<double, k_times.size()> elements_{};
 };
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -1,5 +1,3 @@
-#include "fusee/joint.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,11 +6,12 @@
 #include <utility>
 
 #include "fusee/base.h"
-#include "transmission/load.h"
+#include "fusee/joint.h"
 #include "joint/tendon_balance.h"
 #include "joint/threaded_balance.h"
 #include "joint/upper_span_table.h"
 #include "joint/wound_profile.h"
+#include "transmission/load.h"
 
 // State of a tendon: the material above its reference point on the pin's rim, below it, and on the pulley. Material
 // crosses the reference point only by slipping. The reference point is fixed, so that the tendon pulls with exactly
@@ -28,7 +27,7 @@
 // while paying out, so each cycle would carry material past the pulley and θ would drift by 0.005° a cycle (EA 31 kN, 5
 // N on both, μ 0.15; 0.18° at EA 850 N). The stored profile settles within three cycles.
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 /// Total slack of both tendons above which the joint has play. mm
@@ -58,9 +57,11 @@ double energy_per_material(double tension, double EA) { return 0.5 * tension * t
 
 /// Number of places at which a sheath holds, each in the middle of its part (threaded_balance.h). Without friction one
 /// place suffices.
-std::size_t bends_of(const SheathLoad& sheath) { return sheath.log_ratio > 0 ? ThreadedSpans::k_bends : 1; }
+std::size_t bends_of(const transmission::SheathLoad& sheath) {
+  return sheath.log_ratio > 0 ? ThreadedSpans::k_bends : 1;
+}
 /// Fraction of the sheath that belongs to each end span; each inner piece has twice that.
-double end_share(const SheathLoad& sheath) { return 0.5 / static_cast<double>(bends_of(sheath)); }
+double end_share(const transmission::SheathLoad& sheath) { return 0.5 / static_cast<double>(bends_of(sheath)); }
 
 /// Share of a sheath's compliance that belongs to one span, relative to its length when mounted at home. A spring of c
 /// N⁻¹ equals a tendon of length EA c without temperature and creep (see PinCompliance).
@@ -69,7 +70,7 @@ struct SheathShare {
   double unseen = 0;
   double mounted = 0;  ///< elongation of the spring at home relative to zero tension
 
-  SheathShare(const SheathLoad& sheath, double share, double EA, double home)
+  SheathShare(const transmission::SheathLoad& sheath, double share, double EA, double home)
       : length(share * sheath.length),
         unseen(share * sheath.compliance * EA),
         mounted(share * sheath.compliance * home) {}
@@ -84,7 +85,7 @@ struct InSheath {
 
 /// One tendon in its right-hand image, with its history.
 struct TendonHistory {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   double rim_reference = 0;  ///< normal of the rim's reference point between upper and lower part, rad
   double upper_material = 0;
   double lower_material = 0;
@@ -144,18 +145,18 @@ struct TendonAtAlpha {
 
 /// The drum as a groove that turns with the link, from the tendon's end to the take-off. A free tendon has nothing on
 /// it.
-GroovePlace place_on_drum(const PinPlace& place, double on_drum, double behind) {
+GroovePlace place_on_drum(const transmission::PinPlace& place, double on_drum, double behind) {
   return {on_drum, on_drum > 0 ? place.drum * on_drum : -behind};
 }
 
-GroovePlace place_of(Side side, const LowerPath& path, double alpha) {
-  return {path.normal + mirror_sign(side) * alpha, path.wound};
+GroovePlace place_of(transmission::Side side, const LowerPath& path, double alpha) {
+  return {path.normal + transmission::mirror_sign(side) * alpha, path.wound};
 }
 
 TendonAtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, const JointModel& model,
                        const JointStep& step) {
-  const PinPlace& pin = model.pins[tendon.side == Side::left ? 0 : 1];
-  const double expansion = step.tendon.expansion[tendon.side == Side::left ? 0 : 1];
+  const transmission::PinPlace& pin = model.pins[tendon.side == transmission::Side::left ? 0 : 1];
+  const double expansion = step.tendon.expansion[tendon.side == transmission::Side::left ? 0 : 1];
   TendonAtAlpha at;
   at.path = path;
   at.lower_length = path.reach + pin.rho * (tendon.rim_reference - pin.off_pin(path.normal)) +
@@ -277,7 +278,7 @@ TendonBalance from_ends(const ThreadedBalance& slid) {
 template <typename Balanced>
 void rub_on_drum(Trial& trial, const TendonHistory& tendon, const TendonAtAlpha& at, const JointModel& model,
                  Balanced balanced) {
-  const PinPlace& pin = model.pins[tendon.side == Side::left ? 0 : 1];
+  const transmission::PinPlace& pin = model.pins[tendon.side == transmission::Side::left ? 0 : 1];
   const GroovePlace takes_off = place_on_drum(pin, trial.span.on_drum, tendon.behind_drum);
   trial.upper_length -= takes_off.arc + tendon.behind_drum;
   const double length = trial.spans.upper_length - takes_off.arc - tendon.behind_drum;
@@ -298,11 +299,11 @@ void rub_on_drum(Trial& trial, const TendonHistory& tendon, const TendonAtAlpha&
 
 Trial evaluate_trial(const TendonHistory& tendon, const TendonAtAlpha& at, const UpperSpanTable& upper,
                      const JointModel& model, double theta) {
-  const PinPlace& pin = model.pins[tendon.side == Side::left ? 0 : 1];
+  const transmission::PinPlace& pin = model.pins[tendon.side == transmission::Side::left ? 0 : 1];
   const double off_pin = pin.off_pin(at.path.normal);
   const SheathShare sheath(model.sheath, end_share(model.sheath), at.spans.EA, tendon.home);
   Trial trial;
-  trial.span = upper.at(mirror_sign(tendon.side) * theta);
+  trial.span = upper.at(transmission::mirror_sign(tendon.side) * theta);
   trial.spans = with_slide(at.spans, at);
   trial.upper_length = trial.spans.upper_length = trial.span.length - pin.rho * tendon.rim_reference + sheath.length;
   if (model.pin_compliance > 0)
@@ -392,17 +393,17 @@ std::optional<double> find_root(double start, double least, double most, double 
 }
 
 /// Straight length between drum and tendon end, constant while the tendon lies on the drum.
-double straight_behind(const PinPlace& place) {
-  const auto leaves = lift_off(place);
-  return leaves ? upper_span(place, *leaves - k_before_lift_off).behind_drum : 0.0;
+double straight_behind(const transmission::PinPlace& place) {
+  const auto leaves = transmission::lift_off(place);
+  return leaves ? transmission::upper_span(place, *leaves - k_before_lift_off).behind_drum : 0.0;
 }
 
 /// Samples of the groove over the range; its radius changes little between them.
 constexpr int k_groove_places = 64;
 
 /// The groove of one tendon over the range of the pulley.
-std::shared_ptr<const GrooveArc> groove_of(const JointModel& model, Side side) {
-  const bool right = side == Side::right;
+std::shared_ptr<const GrooveArc> groove_of(const JointModel& model, transmission::Side side) {
+  const bool right = side == transmission::Side::right;
   const double from = right ? model.alpha_least : model.alpha_most;
   const double to = right ? model.alpha_most : model.alpha_least;
   std::vector<GroovePlace> along;
@@ -423,9 +424,9 @@ std::shared_ptr<const GrooveArc> groove_of(const JointModel& model, Side side) {
   return std::make_shared<const GrooveArc>(std::move(along), model.arcs_to_knots[right ? 1 : 0]);
 }
 
-TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path, double tension) {
-  const PinPlace& place = model.pins[side == Side::left ? 0 : 1];
-  const UpperSpan span = upper_span(place, 0.0);
+TendonHistory at_home(transmission::Side side, const JointModel& model, const LowerPath& path, double tension) {
+  const transmission::PinPlace& place = model.pins[side == transmission::Side::left ? 0 : 1];
+  const transmission::UpperSpan span = transmission::upper_span(place, 0.0);
   TendonHistory tendon;
   tendon.side = side;
   const double off_pin = place.off_pin(path.normal), in_sheath = end_share(model.sheath) * model.sheath.length;
@@ -565,14 +566,14 @@ double energy_of_spans(const TendonHistory& tendon, const JointModel& model) {
 double energy_of_pin(const TendonHistory& tendon, const TendonAtAlpha& at, const Trial& trial,
                      const JointModel& model) {
   if (!(model.pin_compliance > 0)) return 0;
-  const PinPlace& place = model.pins[tendon.side == Side::left ? 0 : 1];
+  const transmission::PinPlace& place = model.pins[tendon.side == transmission::Side::left ? 0 : 1];
   const PinDirections pin(trial.span.normal, place.off_pin(at.path.normal));
   return 0.5 * model.pin_compliance *
          (pin.push(tendon.upper, tendon.lower).squaredNorm() - tendon.home_push.squaredNorm());
 }
 
 /// Energy of a compliant sheath, relative to home.
-double energy_of_sheath(const TendonHistory& tendon, const SheathLoad& sheath) {
+double energy_of_sheath(const TendonHistory& tendon, const transmission::SheathLoad& sheath) {
   if (!(sheath.compliance > 0)) return 0;
   const double share = end_share(sheath), at_home = tendon.home * tendon.home;
   double sum = share * (tendon.upper * tendon.upper + tendon.lower * tendon.lower - 2.0 * at_home);
@@ -621,10 +622,10 @@ struct JointMotion::State {
 
 JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
   const std::array<LowerPath, 2> paths = model.lower(0.0);
-  const double arm1 = upper_span(model.pins[0], 0.0).m;
-  const double arm2 = upper_span(model.pins[1], 0.0).m;
-  tendons[0] = at_home(Side::left, model, paths[0], model.pretension);
-  tendons[1] = at_home(Side::right, model, paths[1], model.pretension * arm1 / arm2);
+  const double arm1 = transmission::upper_span(model.pins[0], 0.0).m;
+  const double arm2 = transmission::upper_span(model.pins[1], 0.0).m;
+  tendons[0] = at_home(transmission::Side::left, model, paths[0], model.pretension);
+  tendons[1] = at_home(transmission::Side::right, model, paths[1], model.pretension * arm1 / arm2);
   expected = model.expected(0.0);
   dry = model.dry_friction(model.pretension, model.pretension * arm1 / arm2);
   for (const TendonHistory& tendon : tendons) home_energy += energy_of_spans(tendon, model);
@@ -674,7 +675,7 @@ bool JointMotion::State::update_coupling(std::array<TendonAtAlpha, 2>& at, const
   bool same = true;
   for (std::size_t i = 0; i < 2; ++i) {
     const TendonBalance& balance = now[i].balance;
-    const double next = balance.lower + mirror_sign(tendons[i].side) * move * now[i].lower_slope;
+    const double next = balance.lower + transmission::mirror_sign(tendons[i].side) * move * now[i].lower_slope;
     const double EA = at[i].spans.EA;
     same = update_slide(at[i], tendons[i].wound, balance.lower / EA, next / EA, model) && same;
     if (!(model.pin_compliance > 0 && balance.upper > 0 && balance.lower > 0)) continue;
@@ -837,4 +838,4 @@ std::vector<EquilibriumPoint> follow(const JointModel& model, const std::vector<
   return points;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

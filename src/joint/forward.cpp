@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "fusee/joint.h"
-#include "mechanism/effect.h"
 #include "joint/lower_path_table.h"
 #include "joint/rubbing_cable.h"
 #include "joint/sensors.h"
+#include "mechanism/effect.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 /// Steps from home to the beginning of a run. The motion before the log is unknown; a direct approach from home is the
@@ -340,4 +340,4 @@ Readings predict(const Mechanism& declared, const Imperfections& imperfections, 
   return Forward(declared, log, earlier)(imperfections);
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -12,7 +12,7 @@
 #include "joint/creep_memory.h"
 #include "joint/imperfect_joint.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 /// Creep of both tendons. It persists between runs, in which the joint rests at home without load.
 class TendonCreep {
@@ -95,4 +95,4 @@ class Forward {
   std::size_t next_geometry_ = 0;
 };
 
-}  // namespace fusee
+}  // namespace fusee::joint

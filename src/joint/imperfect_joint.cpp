@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "transmission/load.h"
 #include "joint/outline_error.h"
+#include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 /// Convergence limit for θ, far below sensor noise and the steps of a fit. rad
@@ -57,7 +57,7 @@ void mount_sheath(Sheath& sheath, const SheathError& at) {
 
 MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
   Mechanism mechanism = declared;
-  keep_law(mechanism);
+  transmission::keep_law(mechanism);
   mechanism.joint.R += at.joint.length;
   mount_drum(mechanism.joint, at.joint);
   mechanism.guides.EB += at.pins.left.outward;
@@ -99,10 +99,10 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
       const double c = std::cos(alpha);
       const double s = std::sin(alpha);
       const Vec2 centre(c * x + s * y, c * y - s * x);  // turned clockwise
-      std::array<LowerGuide, 2> seen;
+      std::array<transmission::LowerGuide, 2> seen;
       for (std::size_t i = 0; i < 2; ++i) {
         const double sign = i == 0 ? -1.0 : 1.0;
-        const LowerGuide from = pins[i].lower();
+        const transmission::LowerGuide from = pins[i].lower();
         seen[i] = {(from.across - sign * centre.x()) / scale, (from.above - centre.y()) / scale, from.rho / scale};
       }
       std::array<LowerPath, 2> paths = larger.paths(seen, alpha);
@@ -153,4 +153,4 @@ void set_imperfect_statics(JointModel& model, const Mechanism& declared, const I
   model.tilt = weight.tilt;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -4,7 +4,7 @@
 
 #include "fusee/joint.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 /// The deviations on which the tendon paths depend. Equal values allow a geometry to be reused.
 struct GeometryError {
@@ -36,4 +36,4 @@ Weight with_error(const Weight& declared, const WeightError& error);
 /// Sets stiffness, friction, pretension, slack and weight in a model of that geometry.
 void set_imperfect_statics(JointModel& model, const Mechanism& declared, const Imperfections& imperfections);
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -2,7 +2,7 @@
 
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 struct DrumContact {
@@ -10,17 +10,17 @@ struct DrumContact {
   bool everywhere = false;
 };
 
-DrumContact on_drum(const Mechanism& mechanism, Side side) {
+DrumContact on_drum(const Mechanism& mechanism, transmission::Side side) {
   if (!(mechanism.joint.drum_radius > 0)) return {};
-  const auto leaves = lift_off(pin_place(mechanism, side, mechanism.seen_pitch_radius()));
+  const auto leaves = transmission::lift_off(transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius()));
   if (!leaves) return {};
-  const double least = side == Side::right ? mechanism.joint.theta_min : -mechanism.joint.theta_max;
-  const double most = side == Side::right ? mechanism.joint.theta_max : -mechanism.joint.theta_min;
+  const double least = side == transmission::Side::right ? mechanism.joint.theta_min : -mechanism.joint.theta_max;
+  const double most = side == transmission::Side::right ? mechanism.joint.theta_max : -mechanism.joint.theta_min;
   return {*leaves > least, *leaves >= most};
 }
 
-bool has_free_end(const Mechanism& mechanism, Side side) {
-  const auto& own = side == Side::left ? mechanism.joint.attachment1 : mechanism.joint.attachment2;
+bool has_free_end(const Mechanism& mechanism, transmission::Side side) {
+  const auto& own = side == transmission::Side::left ? mechanism.joint.attachment1 : mechanism.joint.attachment2;
   return own && !on_drum(mechanism, side).everywhere;
 }
 
@@ -32,9 +32,10 @@ bool has_part(const Mechanism& mechanism, const Needs& needs) {
   const bool is_idler = mechanism.guides.kind == GuideKind::idler;
   return !needs.ratio && !(needs.pins && is_idler) && !(needs.idlers && !is_idler) &&
          !(needs.sheath && !mechanism.sheath.is_there()) &&
-         !(needs.drum && !on_drum(mechanism, Side::left).somewhere && !on_drum(mechanism, Side::right).somewhere) &&
-         !(needs.end1 && !has_free_end(mechanism, Side::left)) &&
-         !(needs.end2 && !has_free_end(mechanism, Side::right));
+         !(needs.drum && !on_drum(mechanism, transmission::Side::left).somewhere &&
+           !on_drum(mechanism, transmission::Side::right).somewhere) &&
+         !(needs.end1 && !has_free_end(mechanism, transmission::Side::left)) &&
+         !(needs.end2 && !has_free_end(mechanism, transmission::Side::right));
 }
 
 std::vector<const Effect*> effects_of(const Mechanism& mechanism) {
@@ -45,4 +46,4 @@ std::vector<const Effect*> effects_of(const Mechanism& mechanism) {
   return all;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

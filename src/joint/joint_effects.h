@@ -6,7 +6,7 @@
 
 #include "mechanism/effect.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 /// True when the joint has the part that the effect requires. An attachment whose tendon lies on the drum over the
 /// whole range does not count: moving it changes the tendon length by a constant, which is adjusted at assembly.
@@ -15,4 +15,4 @@ bool has_part(const Mechanism& mechanism, const Needs& needs);
 /// The applicable effects of effects(), in their order.
 std::vector<const Effect*> effects_of(const Mechanism& mechanism);
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -1,22 +1,21 @@
-#include "fusee/joint.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "transmission/load.h"
+#include "fusee/joint.h"
 #include "joint/upper_span_table.h"
+#include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 /// Extension of the range up to which the joint may be pushed, while the moment arms exist.
 constexpr double k_reach = radians(60.0);
 
 /// The first θ from `start` towards `end` at which a moment arm vanishes; `end` if none does.
-double last_with_arms(const std::array<PinPlace, 2>& pins, double start, double end) {
+double last_with_arms(const std::array<transmission::PinPlace, 2>& pins, double start, double end) {
   const auto has_arms = [&](double theta) {
-    return upper_span(pins[0], -theta).m > 0 && upper_span(pins[1], theta).m > 0;
+    return transmission::upper_span(pins[0], -theta).m > 0 && transmission::upper_span(pins[1], theta).m > 0;
   };
   constexpr int steps = 60;
   double good = start;
@@ -48,10 +47,11 @@ struct CurveElement {
 // The tendon is inextensible: its lengths above the pin, between pin and pulley, and on the pulley have a constant sum
 // along the declared law. This gives the arc in closed form: s = −L_up(θ) − (w − h') + ρψ. The contact is at h n + h'
 // t, not at the foot of the axis' perpendicular. From ψ' = 1 + p'/w follows h' = p'/(1 + p'/w).
-CurveElement element(const PinPlace& place, Side side, const TransmissionPoint& at, double offset) {
-  const double sign = mirror_sign(side);
-  const TendonPoint& tendon = side == Side::right ? at.t2 : at.t1;
-  const double lower_normal = side == Side::right ? tendon.lower_normal : k_pi - tendon.lower_normal;
+CurveElement element(const transmission::PinPlace& place, transmission::Side side,
+                     const transmission::TransmissionPoint& at, double offset) {
+  const double sign = transmission::mirror_sign(side);
+  const transmission::TendonPoint& tendon = side == transmission::Side::right ? at.t2 : at.t1;
+  const double lower_normal = side == transmission::Side::right ? tendon.lower_normal : k_pi - tendon.lower_normal;
   CurveElement curve;
   curve.normal = lower_normal + sign * at.alpha;
   curve.support = tendon.p + offset;
@@ -93,12 +93,13 @@ MadePulleys MadePulleys::offset_by(double by) const {
 //   F = c cos(φ − ψ) + ρ − h(ψ_b) = 0.
 // The curve is parametrized by the declared α0 at which each element is touched: ψ_b' = 1 + h'/w0, so F' = w ψ_b' − h'
 // with w = c sin(φ − ψ). If mounted as declared, the start α0 = α is the solution.
-LowerPath MadePulleys::path(Side side, const LowerGuide& mounted, double alpha, const TransmissionPoint& first) const {
-  const PinPlace& place = declared_.place(side);
-  const double sign = mirror_sign(side);
+LowerPath MadePulleys::path(transmission::Side side, const transmission::LowerGuide& mounted, double alpha,
+                            const transmission::TransmissionPoint& first) const {
+  const transmission::PinPlace& place = declared_.place(side);
+  const double sign = transmission::mirror_sign(side);
   const double c = mounted.c();
   const double phi = mounted.phi();
-  TransmissionPoint at = first;
+  transmission::TransmissionPoint at = first;
   for (int i = 0; i < 20; ++i) {
     const CurveElement curve = element(place, side, at, offset_);
     const double normal = curve.normal - sign * alpha;
@@ -115,9 +116,11 @@ LowerPath MadePulleys::path(Side side, const LowerGuide& mounted, double alpha, 
   return {nan, nan, nan, nan};
 }
 
-std::array<LowerPath, 2> MadePulleys::paths(const std::array<LowerGuide, 2>& mounted, double alpha) const {
-  const TransmissionPoint first = declared_.at_alpha(alpha);
-  return {path(Side::left, mounted[0], alpha, first), path(Side::right, mounted[1], alpha, first)};
+std::array<LowerPath, 2> MadePulleys::paths(const std::array<transmission::LowerGuide, 2>& mounted,
+                                            double alpha) const {
+  const transmission::TransmissionPoint first = declared_.at_alpha(alpha);
+  return {path(transmission::Side::left, mounted[0], alpha, first),
+          path(transmission::Side::right, mounted[1], alpha, first)};
 }
 
 JointModel joint_model(const Mechanism& mechanism) {
@@ -128,7 +131,8 @@ JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
   const Mechanism& mounted = in.mechanism;
   const double rho = mounted.seen_pitch_radius();
   JointModel model;
-  model.pins = {pin_place(mounted, Side::left, rho), pin_place(mounted, Side::right, rho)};
+  model.pins = {transmission::pin_place(mounted, transmission::Side::left, rho),
+                transmission::pin_place(mounted, transmission::Side::right, rho)};
   model.lever = mounted.joint.R;
   model.lower = [made, pins = model.pins](double alpha) { return made.paths(pins, alpha); };
   model.expected = [made](double alpha) { return made.declared().theta(alpha); };
@@ -152,14 +156,14 @@ double JointModel::dry_friction(double left, double right) const {
 void set_statics(JointModel& model, const MountedMechanism& in) {
   const Mechanism& mounted = in.mechanism;
   model.EA = section_stiffness(mounted.tendon);
-  model.guide = guide_friction(mounted);
-  model.sheath = sheath_load(mounted);
+  model.guide = transmission::guide_friction(mounted);
+  model.sheath = transmission::sheath_load(mounted);
   model.drum_friction = mounted.joint.drum_mu;
   model.groove_friction = mounted.pulley.mu;
   model.pretension = mounted.tendon.pretension;
-  model.weight = weight_moment(mounted.load);
+  model.weight = transmission::weight_moment(mounted.load);
   model.tilt = mounted.load.tilt;
   model.spring = mounted.spring;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

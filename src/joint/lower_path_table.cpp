@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 constexpr double k_step = 0.024;  // rad
@@ -74,4 +74,4 @@ double LowerPathTable::expected(double alpha) const {
   return expected;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

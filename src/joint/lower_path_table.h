@@ -8,7 +8,7 @@
 
 #include "fusee/joint.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 /// Quintic interpolation over six pulley angles about 1.5° apart, accurate to 1e-7 mm. Outside the table, and where a
 /// tendon has no path, JointModel::lower is called.
@@ -41,4 +41,4 @@ class LowerPathTable {
   std::function<double(double)> exact_expected_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -11,12 +11,12 @@
 #include "fusee/joint.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 /// Displaces a point against the wave of making. Making moves points by w along their normals, which changes the
 /// support of a curve with the radius of curvature ρ by w + w'²/(2ρ) (support_wave).
-void correct_wave(OutlinePoint& point, const OutlineError& outline) {
+void correct_wave(profile::OutlinePoint& point, const OutlineError& outline) {
   if (outline.wave_sin == 0 && outline.wave_cos == 0) return;
   const OutlineWave w = outline_wave(point.psi, outline);
   const double rho = point.curvature_radius;
@@ -42,7 +42,7 @@ struct CornerTurn {
 };
 
 // The smallest left turn of a polygon at a corner.
-CornerTurn least_turn(const std::vector<OutlinePoint>& points) {
+CornerTurn least_turn(const std::vector<profile::OutlinePoint>& points) {
   CornerTurn least;
   const std::size_t n = points.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -78,34 +78,36 @@ SupportWave support_wave(double psi, double support, const OutlineError& outline
   return {w.outward + 0.5 * w.slope * w.slope / support, (c * sine - s * cosine) / n + 0.5 * squares / support};
 }
 
-OutlinePoint drawn_for_making(OutlinePoint point, const OutlineError& outline) {
+profile::OutlinePoint drawn_for_making(profile::OutlinePoint point, const OutlineError& outline) {
   correct_wave(point, outline);
   point.position -= Vec2(outline.runout_x, outline.runout_y) + outline.offset * point.normal;
   point.curvature_radius -= outline.offset;
   return point;
 }
 
-void draw_for_making(SynthesisResult& synthesis, const OutlineError& outline) {
-  for (Outline* curve : {&synthesis.p1, &synthesis.p2}) {
-    for (OutlinePoint& point : curve->points) point = drawn_for_making(point, outline);
+void draw_for_making(profile::SynthesisResult& synthesis, const OutlineError& outline) {
+  for (profile::Outline* curve : {&synthesis.p1, &synthesis.p2}) {
+    for (profile::OutlinePoint& point : curve->points) point = drawn_for_making(point, outline);
   }
 }
 
-std::vector<Condition> turns_inward_as_drawn(const SynthesisResult& drawn, const OutlineError& outline) {
-  std::vector<Condition> failed;
+std::vector<profile::Condition> turns_inward_as_drawn(const profile::SynthesisResult& drawn,
+                                                      const OutlineError& outline) {
+  std::vector<profile::Condition> failed;
   if (outline.wave_sin == 0 && outline.wave_cos == 0) return failed;
-  for (const Outline* curve : {&drawn.p1, &drawn.p2}) {
+  for (const profile::Outline* curve : {&drawn.p1, &drawn.p2}) {
     const auto [turn, at] = least_turn(curve->points);
     if (turn >= -k_most_inward) continue;
-    Condition condition;
-    condition.name = "drawn_convex_" + std::string(pulley_name(curve->side));
+    profile::Condition condition;
+    condition.name = "drawn_convex_" + std::string(transmission::pulley_name(curve->side));
     condition.ok = false;
     condition.value = degrees(turn);
     condition.limit = -degrees(k_most_inward);
     condition.unit = "deg";
     condition.message = "drawn against the wave of its making (identified.profile_sin_mm, identified.profile_cos_mm) " +
-                        std::string(pulley_name(curve->side)) + " turns inward by " + rounded(-degrees(turn), 2) +
-                        "° at a normal of " + fixed(degrees(at), 0) + "°: it bends too sharply there for such a wave";
+                        std::string(transmission::pulley_name(curve->side)) + " turns inward by " +
+                        rounded(-degrees(turn), 2) + "° at a normal of " + fixed(degrees(at), 0) +
+                        "°: it bends too sharply there for such a wave";
     failed.push_back(std::move(condition));
   }
   return failed;
@@ -137,4 +139,4 @@ Mechanism with_inset(const JointAsItIs& joint) {
   return mechanism;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

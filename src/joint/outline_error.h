@@ -5,7 +5,7 @@
 
 #include "fusee/mechanism.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 /// Outward displacement of an outline point along its normal `psi`, s sin nψ + c cos nψ, with derivatives.
 struct OutlineWave {
@@ -23,4 +23,4 @@ struct SupportWave {
 
 SupportWave support_wave(double psi, double support, const OutlineError& outline);
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -6,7 +6,7 @@
 // Eight contacts leave steps of an eighth of the hysteresis. Four or sixteen change the held-out residual of five
 // measured joints by less than 1 %.
 
-namespace fusee {
+namespace fusee::joint {
 
 RubbingCable::RubbingCable(const RatioJointError& joint, double driven) : joint_(joint) { angles_.fill(driven); }
 
@@ -23,4 +23,4 @@ double RubbingCable::to(double driven, double load) {
   return sum / k_contacts;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -6,7 +6,7 @@
 
 #include "fusee/mechanism.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 /// Model of the cable, with its history.
 ///
@@ -32,4 +32,4 @@ class RubbingCable {
   std::array<double, k_contacts> angles_{};  ///< joint angle of each contact, as if it had the whole cable
 };
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 /// Relative motion below which a motor counts as dwelling.
@@ -101,4 +101,4 @@ std::vector<double> sensed(const BenchRun& run, std::vector<double> theta, const
   return theta;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

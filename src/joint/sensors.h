@@ -7,7 +7,7 @@
 #include "fusee/joint.h"
 #include "fusee/mechanism.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 /// The errors of a sensor after it was turned by `angle` and its zero set again.
 MotorSensorError turned(MotorSensorError error, double angle);
@@ -29,4 +29,4 @@ class Play {
 /// Readings of the joint sensor for θ of a run, rad.
 std::vector<double> sensed(const BenchRun& run, std::vector<double> theta, const JointSensorError& error);
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 double tension(double EA, double length, double material) {
@@ -80,4 +80,4 @@ double sliding_rate(const Spans& spans, const TendonBalance& now) {
   return SlidingTendon{spans, now.upper / now.lower}.per_length(now.upper);
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -5,7 +5,7 @@
 
 #include "fusee/joint.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 /// Path lengths and unstretched material. A span of length L with material n has the tension EA (L/n − 1), or is slack.
 struct Spans {
@@ -33,4 +33,4 @@ double stuck_rate(const Spans& spans, const TendonBalance& now);
 /// d upper / d upper_length with pins that slide at the present tension ratio.
 double sliding_rate(const Spans& spans, const TendonBalance& now);
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 constexpr std::size_t k_bends = ThreadedSpans::k_bends;
@@ -177,4 +177,4 @@ double sliding_rate(const ThreadedSpans& spans, const ThreadedBalance& now) {
   return 1.0 / ((1.0 + t / spans.EA) * compliance);
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

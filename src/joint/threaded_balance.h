@@ -13,7 +13,7 @@
 
 #include "fusee/joint.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 /// Spans from the joint to the pulley, with lengths and material as in Spans. `holds[j]`: ln of the tension ratio that
 /// friction sustains at bend j, between the spans j and j + 1. The first includes the pin.
@@ -41,4 +41,4 @@ ThreadedBalance balance(const ThreadedSpans& spans, const std::array<int, Thread
 /// d upper / d its length with all bends sliding at the present tension ratios.
 double sliding_rate(const ThreadedSpans& spans, const ThreadedBalance& now);
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 constexpr std::size_t k_pieces = 160;
@@ -40,7 +40,7 @@ struct Knot {
 };
 
 /// Lengthens the path; the moment arm is minus its derivative by θ.
-UpperSpan made_longer(UpperSpan span, double theta, const PathError& by) {
+transmission::UpperSpan made_longer(transmission::UpperSpan span, double theta, const PathError& by) {
   span.length += (by.slope + (by.square + by.cube * theta) * theta) * theta;
   span.m -= by.slope + (2.0 * by.square + 3.0 * by.cube * theta) * theta;
   span.dm -= 2.0 * by.square + 6.0 * by.cube * theta;
@@ -48,8 +48,8 @@ UpperSpan made_longer(UpperSpan span, double theta, const PathError& by) {
   return span;
 }
 
-Knot knot_at(const PinPlace& place, double theta, double h, const PathError& longer) {
-  const UpperSpan span = made_longer(upper_span(place, theta), theta, longer);
+Knot knot_at(const transmission::PinPlace& place, double theta, double h, const PathError& longer) {
+  const transmission::UpperSpan span = made_longer(transmission::upper_span(place, theta), theta, longer);
   return {{span.length, -h * span.m, -h * h * span.dm},
           {span.m, h * span.dm, h * h * span.d2m},
           {span.normal, h * span.dnormal, h * h * span.d2normal}};
@@ -59,12 +59,13 @@ Knot knot_at(const PinPlace& place, double theta, double h, const PathError& lon
 
 // No interval contains the lift-off angle, where the arm has a kink. Below it the span is linear in θ, or, for an
 // eccentric drum, has its own intervals.
-UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most, const PathError& longer) {
-  if (const auto leaves = lift_off(place); leaves && *leaves > least) {
+UpperSpanTable::UpperSpanTable(const transmission::PinPlace& place, double least, double most,
+                               const PathError& longer) {
+  if (const auto leaves = transmission::lift_off(place); leaves && *leaves > least) {
     // The free branch begins slightly beyond, with its own slopes.
     constexpr double k_hair = 1e-12;
     on_drum_until_ = std::min(*leaves, most);
-    on_drum_ = upper_span(place, least);
+    on_drum_ = transmission::upper_span(place, least);
     on_drum_from_ = least;
     wound_up_ = on_drum_.on_drum + on_drum_.normal + least;
     if (place.drum_offset != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_hair, longer);
@@ -74,7 +75,7 @@ UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most,
   free_ = pieces(place, least, most, longer);
 }
 
-UpperSpanTable::Pieces UpperSpanTable::pieces(const PinPlace& place, double least, double most,
+UpperSpanTable::Pieces UpperSpanTable::pieces(const transmission::PinPlace& place, double least, double most,
                                               const PathError& longer) {
   Pieces all;
   all.least = least;
@@ -110,4 +111,4 @@ UpperSpanTable::Values UpperSpanTable::at(double theta) const {
           on_drum ? std::max(0.0, wound_up_ - within - normal) : 0.0};
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

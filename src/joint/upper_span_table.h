@@ -9,7 +9,7 @@
 #include "fusee/mechanism.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::joint {
 
 /// Quintics between nodes about a degree apart that match values, slopes and curvatures. Accurate to 1e-10 of R, except
 /// near the end of a span.
@@ -17,7 +17,7 @@ class UpperSpanTable {
  public:
   /// Covers joint angles of the right-hand image from `least` to `most`, rad. The part on a drum about the axis is not
   /// lengthened by `longer`.
-  UpperSpanTable(const PinPlace& place, double least, double most, const PathError& longer = {});
+  UpperSpanTable(const transmission::PinPlace& place, double least, double most, const PathError& longer = {});
 
   struct Values {
     double length = 0;   ///< UpperSpan::length, mm
@@ -40,22 +40,22 @@ class UpperSpanTable {
     double step = 1;
     std::vector<Piece> curves;
   };
-  static Pieces pieces(const PinPlace& place, double least, double most, const PathError& longer);
+  static Pieces pieces(const transmission::PinPlace& place, double least, double most, const PathError& longer);
 
   double on_drum_until_ = -std::numeric_limits<double>::infinity();  ///< rad; the table begins there
   double on_drum_from_ = 0;
-  UpperSpan on_drum_;    ///< at on_drum_from_
-  double wound_up_ = 0;  ///< sum of wrap on the drum, normal and θ, rad
-  Pieces over_drum_;     ///< for an eccentric drum only
+  transmission::UpperSpan on_drum_;  ///< at on_drum_from_
+  double wound_up_ = 0;              ///< sum of wrap on the drum, normal and θ, rad
+  Pieces over_drum_;                 ///< for an eccentric drum only
   Pieces free_;
 };
 
 /// Tables of the left tendon's image and of the right tendon.
 struct UpperSpans {
-  UpperSpans(const std::array<PinPlace, 2>& pins, double theta_least, double theta_most,
+  UpperSpans(const std::array<transmission::PinPlace, 2>& pins, double theta_least, double theta_most,
              const std::array<PathError, 2>& longer)
       : left(pins[0], -theta_most, -theta_least, longer[0]), right(pins[1], theta_least, theta_most, longer[1]) {}
   UpperSpanTable left, right;
 };
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -12,7 +12,7 @@
 // Pieces do not follow a grid: a slid part is one piece of any length, a laid part one per step. Over a stroke each
 // piece is pushed and popped once.
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 double strain_of(double density, double swelling) { return std::max(0.0, 1.0 / (swelling * density) - 1.0); }
@@ -321,4 +321,4 @@ WoundContent WoundProfile::accept(const TurnedPulley& turned, const Slide& slide
   return more;
 }
 
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace fusee {
+namespace fusee::joint {
 
 /// A position in the groove.
 struct GroovePlace {
@@ -120,4 +120,4 @@ class WoundProfile {
   std::vector<WoundPiece> pieces_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::joint

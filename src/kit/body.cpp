@@ -1,13 +1,12 @@
-#include "fusee/kit.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "fusee/base.h"
+#include "fusee/kit.h"
 #include "solid/caps.h"
 
-namespace fusee {
+namespace fusee::kit {
 namespace {
 
 bool is_inside(const Polygon& polygon, const Vec2& point) {
@@ -72,7 +71,7 @@ class StackMesh {
     begin({}, body.slabs.empty() ? 0.0 : body.slabs.back().high, before, before_firsts);
   }
 
-  TriangleMesh take() { return std::move(mesh_); }
+  solid::TriangleMesh take() { return std::move(mesh_); }
 
  private:
   std::uint32_t add_ring(const Polygon& points, double z) {
@@ -122,14 +121,14 @@ class StackMesh {
     if (rims.empty()) return next_firsts;
     std::vector<Vec2> corners;
     for (const Polygon& rim : rims) corners.insert(corners.end(), rim.begin(), rim.end());
-    for (const auto& [a, b, c] : triangulate(rims)) {
+    for (const auto& [a, b, c] : solid::triangulate(rims)) {
       const Vec2 middle = (corners[a] + corners[b] + corners[c]) / 3;
       add(vertex[a], vertex[b], vertex[c], !is_within(before, middle));  // beginning loops face down
     }
     return next_firsts;
   }
 
-  TriangleMesh mesh_;
+  solid::TriangleMesh mesh_;
 };
 
 }  // namespace
@@ -196,10 +195,10 @@ SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
   return result;
 }
 
-TriangleMesh mesh_of(const SlabBody& body, double scale) {
-  TriangleMesh mesh = StackMesh(body).take();
+solid::TriangleMesh mesh_of(const SlabBody& body, double scale) {
+  solid::TriangleMesh mesh = StackMesh(body).take();
   for (Vec3& vertex : mesh.vertices) vertex *= scale;
-  return rounded_to_float(std::move(mesh));
+  return solid::rounded_to_float(std::move(mesh));
 }
 
 double volume_of(const SlabBody& body, double scale) {
@@ -216,4 +215,4 @@ double volume_of(const SlabBody& body, double scale) {
   return volume * scale * scale * scale;
 }
 
-}  // namespace fusee
+}  // namespace fusee::kit

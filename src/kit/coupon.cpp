@@ -7,7 +7,7 @@
 #include "fusee/kit.h"
 #include "kit/parts.h"
 
-namespace fusee {
+namespace fusee::kit {
 namespace {
 
 constexpr int k_steps = 5;
@@ -66,4 +66,4 @@ std::vector<CouponReading> coupon_readings(const Mechanism& mechanism) {
        "material.elephant_foot_mm = half of the additional width at the bed"}};
 }
 
-}  // namespace fusee
+}  // namespace fusee::kit

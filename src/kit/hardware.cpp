@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 
-namespace fusee {
+namespace fusee::kit {
 
 const Thread& thread_within(double diameter) {
   const Thread* found = &k_threads.front();
@@ -28,4 +28,4 @@ std::string screw_words(const Thread& thread, double length) {
   return std::string(thread.name) + " × " + rounded(stock_length(length));
 }
 
-}  // namespace fusee
+}  // namespace fusee::kit

@@ -7,7 +7,7 @@
 
 #include "fusee/kit.h"
 
-namespace fusee {
+namespace fusee::kit {
 
 // Clearance: ISO 273, fine (medium for M2). Tapping into plastic: 0.85 of the thread. Heads: ISO 4762. Nuts: ISO 4032.
 inline constexpr std::array<Thread, 5> k_threads{{{"M2", 2, 2.3, 1.7, 1.9, 4.0, 1.6},
@@ -25,4 +25,4 @@ std::string screw_words(const Thread& thread, double length);
 /// The next stock length, mm.
 double stock_length(double length);
 
-}  // namespace fusee
+}  // namespace fusee::kit

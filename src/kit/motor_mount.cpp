@@ -6,33 +6,33 @@
 #include <utility>
 
 #include "base/text.h"
-#include "mechanism/catalogue.h"
 #include "kit/hardware.h"
 #include "kit/parts.h"
+#include "mechanism/catalogue.h"
 
-namespace fusee {
+namespace fusee::kit {
 namespace {
 
-std::string motor_screw(const MotorType& motor, double length) {
+std::string motor_screw(const fusee::MotorType& motor, double length) {
   if (motor.hole < k_threads.front().diameter) return "M1.6 × " + rounded(stock_length(length));
   return screw_words(thread_within(motor.hole), length);
 }
 
 }  // namespace
 
-const MotorType* motor_for(const Mechanism& mechanism, const BodyLayout& layout) {
+const fusee::MotorType* motor_for(const Mechanism& mechanism, const solid::BodyLayout& layout) {
   const Body& body = mechanism.body;
   const bool horn = body.bore == Bore::horn;
   const std::string& name = horn ? body.horn : body.shaft;
-  const auto named = [&](const MotorType& motor) {
+  const auto named = [&](const fusee::MotorType& motor) {
     return std::find(motor.fits.begin(), motor.fits.end(), name) != motor.fits.end();
   };
-  for (const MotorType& motor : motor_types()) {
+  for (const fusee::MotorType& motor : motor_types()) {
     if (named(motor)) return &motor;
   }
   if (horn || body.bore == Bore::hex || body.bore == Bore::square) return nullptr;
   const double shaft = shaft_of(mechanism, layout);
-  for (const MotorType& motor : motor_types()) {
+  for (const fusee::MotorType& motor : motor_types()) {
     if (motor.shaft > 0 && std::abs(motor.shaft - shaft) < 0.05) return &motor;
   }
   return nullptr;
@@ -40,7 +40,7 @@ const MotorType* motor_for(const Mechanism& mechanism, const BodyLayout& layout)
 
 Vec2 motor_front(const Vec2& pulley) { return {0, pulley.y() > 0 ? -1.0 : 1.0}; }
 
-std::vector<SlabLoop> motor_holes(const MotorType& motor, const Vec2& pulley, const Vec2& front) {
+std::vector<SlabLoop> motor_holes(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front) {
   std::vector<SlabLoop> holes;
   const auto through = [&holes](DiscHull hull) { holes.push_back({std::move(hull), true, 0, 0}); };
   if (motor.pilot > 0) {
@@ -57,14 +57,14 @@ std::vector<SlabLoop> motor_holes(const MotorType& motor, const Vec2& pulley, co
   return holes;
 }
 
-double beside_motor(const MotorType& motor, const Vec2& off, const Vec2& front) {
+double beside_motor(const fusee::MotorType& motor, const Vec2& off, const Vec2& front) {
   const double along = off.dot(front);
   return std::max({std::abs(off.x()) - std::max(motor.side, motor.hole_x + motor.hole),
                    along - std::max(motor.front, motor.hole_front + motor.hole),
                    -along - std::max(motor.back, motor.hole_back + motor.hole)});
 }
 
-std::vector<Disc> motor_corners(const MotorType& motor, const Vec2& pulley, const Vec2& front) {
+std::vector<Disc> motor_corners(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front) {
   std::vector<Disc> corners;
   for (const double x : {-1.0, 1.0}) {
     for (const double along : {std::max(motor.front, motor.hole_front + 4), -std::max(motor.back, motor.hole_back + 4)})
@@ -73,7 +73,7 @@ std::vector<Disc> motor_corners(const MotorType& motor, const Vec2& pulley, cons
   return corners;
 }
 
-void buy_motor(KitPlan& plan, const MotorType& motor, double plate) {
+void buy_motor(KitPlan& plan, const fusee::MotorType& motor, double plate) {
   plan.items.push_back({1, motor.name + ": " + motor.description, "drives the pulley; as assumed: " + motor.source});
   if (motor.shaft > 0)
     plan.items.push_back(
@@ -82,4 +82,4 @@ void buy_motor(KitPlan& plan, const MotorType& motor, double plate) {
     plan.items.push_back({4, motor_screw(motor, plate + 8) + " with nuts", "motor, from above"});
 }
 
-}  // namespace fusee
+}  // namespace fusee::kit

@@ -6,18 +6,18 @@
 
 #include "fusee/kit.h"
 
-namespace fusee {
+namespace fusee::kit {
 
 /// The first motor of the catalogue with the mechanism's shaft or horn; null if there is none.
-const MotorType* motor_for(const Mechanism& mechanism, const BodyLayout& layout);
+const fusee::MotorType* motor_for(const Mechanism& mechanism, const solid::BodyLayout& layout);
 /// Direction of the motor's front, towards the joint.
 Vec2 motor_front(const Vec2& pulley);
 /// Holes through the plate.
-std::vector<SlabLoop> motor_holes(const MotorType& motor, const Vec2& pulley, const Vec2& front);
+std::vector<SlabLoop> motor_holes(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front);
 /// Distance in the plane from the motor's body and screws to a place relative to the pulley's axis, negative inside.
-double beside_motor(const MotorType& motor, const Vec2& off, const Vec2& front);
+double beside_motor(const fusee::MotorType& motor, const Vec2& off, const Vec2& front);
 /// Corners of the part of the base plate that supports the motor.
-std::vector<Disc> motor_corners(const MotorType& motor, const Vec2& pulley, const Vec2& front);
-void buy_motor(KitPlan& plan, const MotorType& motor, double plate);
+std::vector<Disc> motor_corners(const fusee::MotorType& motor, const Vec2& pulley, const Vec2& front);
+void buy_motor(KitPlan& plan, const fusee::MotorType& motor, double plate);
 
-}  // namespace fusee
+}  // namespace fusee::kit

@@ -9,7 +9,7 @@
 #include "kit/motor_mount.h"
 #include "mechanism/catalogue.h"
 
-namespace fusee {
+namespace fusee::kit {
 namespace {
 
 constexpr double k_engraved = 0.6;
@@ -64,7 +64,7 @@ DiscHull scale_hull(const KitPlan& plan, const Joint& joint) {
 
 class PartMaker {
  public:
-  PartMaker(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout)
+  PartMaker(KitPlan& plan, const Mechanism& mechanism, const solid::BodyLayout& layout)
       : plan_(plan),
         sizes_(plan.sizes),
         mechanism_(mechanism),
@@ -124,7 +124,8 @@ class PartMaker {
 
   void pins() {
     for (const KitPin& pin : plan_.pins) {
-      const std::string letter = pin.side == Side::left ? "b" : "d", name = pin.side == Side::left ? "B" : "D";
+      const std::string letter = pin.side == transmission::Side::left ? "b" : "d",
+                        name = pin.side == transmission::Side::left ? "B" : "D";
       const double bore = pin.screw ? pin.screw->clearance : 2 * pin.radius + 0.2;
       const auto collar = [&](const std::string& which, double radius, double low, double high,
                               const std::string& words) {
@@ -314,7 +315,7 @@ class PartMaker {
   }
 
   void sensor() {
-    const BoardType& board = *sizes_.board;
+    const fusee::BoardType& board = *sizes_.board;
     const Thread& screw = k_threads.front();
     std::vector<Disc> shape{{{0, 0}, sizes_.cap}};
     std::vector<SlabLoop> screws;
@@ -345,7 +346,7 @@ class PartMaker {
   }
 
   void bracket() {
-    const BoardType& board = *sizes_.board;
+    const fusee::BoardType& board = *sizes_.board;
     std::vector<Disc> shape;
     std::vector<KitPlace> spacers;
     Slab plate{0, sizes_.bracket, {}};
@@ -378,16 +379,16 @@ class PartMaker {
   void tendons() {
     const Thread& small = *sizes_.small;
     const double top = sizes_.link_low + sizes_.link + sizes_.flange;
-    plan_.tendons[0] = {Side::left,
+    plan_.tendons[0] = {transmission::Side::left,
                         top - sizes_.post_low + slide_start() - mechanism_.joint.R + 0.5 * slide_lengths(small).clamp,
                         3 * k_pi * small.diameter};
-    plan_.tendons[1] = {Side::right, 0, k_two_pi * sizes_.waist};
+    plan_.tendons[1] = {transmission::Side::right, 0, k_two_pi * sizes_.waist};
   }
 
   KitPlan& plan_;
   const KitSizes& sizes_;
   const Mechanism& mechanism_;
-  const BodyLayout& layout_;
+  const solid::BodyLayout& layout_;
   Vec2 pulley_;
 };
 
@@ -433,7 +434,7 @@ std::vector<DiscHull> number_strokes(int number, const Vec2& middle, const Vec2&
   return hulls;
 }
 
-void make_parts(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout) {
+void make_parts(KitPlan& plan, const Mechanism& mechanism, const solid::BodyLayout& layout) {
   PartMaker(plan, mechanism, layout).make();
 }
 
@@ -450,7 +451,7 @@ Polygon scale_outline(const KitPlan& plan, const Mechanism& mechanism) {
 
 namespace {
 
-PrintTrim trim_of(const Mechanism& mechanism, const BodyLayout& layout) {
+PrintTrim trim_of(const Mechanism& mechanism, const solid::BodyLayout& layout) {
   const double overhang = mechanism.print.supports ? 0.0 : mechanism.print.overhang;
   return {layout.scale, mechanism.material.hole_compensation, layout.elephant_foot,
           overhang > radians(45) ? std::tan(overhang) : 1.0};
@@ -458,19 +459,19 @@ PrintTrim trim_of(const Mechanism& mechanism, const BodyLayout& layout) {
 
 }  // namespace
 
-TriangleMesh printed_mesh(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout) {
+solid::TriangleMesh printed_mesh(const KitPart& part, const Mechanism& mechanism, const solid::BodyLayout& layout) {
   // The coupon is not compensated, because it measures the printer's errors.
   if (part.places.empty()) return mesh_of(part.body);
   return mesh_of(trimmed(part.body, trim_of(mechanism, layout)), layout.scale);
 }
 
-double printed_volume(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout) {
+double printed_volume(const KitPart& part, const Mechanism& mechanism, const solid::BodyLayout& layout) {
   if (part.places.empty()) return volume_of(part.body);
   return volume_of(trimmed(part.body, trim_of(mechanism, layout)), layout.scale);
 }
 
-TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta) {
-  TriangleMesh mesh = mesh_of(part.body);
+solid::TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta) {
+  solid::TriangleMesh mesh = mesh_of(part.body);
   const LinkFrame frame = link_frame(place.on_link ? theta : 0);
   for (Vec3& v : mesh.vertices) {
     if (place.turned_over) v = {-v.x(), v.y(), -v.z()};
@@ -481,4 +482,4 @@ TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta) 
   return mesh;
 }
 
-}  // namespace fusee
+}  // namespace fusee::kit

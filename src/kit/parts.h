@@ -6,7 +6,7 @@
 
 #include "fusee/kit.h"
 
-namespace fusee {
+namespace fusee::kit {
 
 inline constexpr double k_leg_radius = 5;
 inline constexpr double k_wall = 1.2;  ///< three lines of a 0.4 mm nozzle
@@ -24,19 +24,19 @@ double tensioner_axis(const Thread& thread);
 double tensioner_height(const Thread& thread);
 
 /// Diameter of the motor's shaft.
-double shaft_of(const Mechanism& mechanism, const BodyLayout& layout);
+double shaft_of(const Mechanism& mechanism, const solid::BodyLayout& layout);
 
 /// Slope (tangent) of the cone on the post below tendon 2.
 double post_steepness(const Mechanism& mechanism);
 
 /// Fills in parts, items and tendons. Requires a plan whose conditions hold.
-void make_parts(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout);
+void make_parts(KitPlan& plan, const Mechanism& mechanism, const solid::BodyLayout& layout);
 
 /// The kit of a joint outside the paper's layout or with helical tendons: plates to drill, and the drum.
-KitPlan plan_template(const Mechanism& mechanism, const BodyLayout& layout,
+KitPlan plan_template(const Mechanism& mechanism, const solid::BodyLayout& layout,
                       const std::optional<TendonHeights>& heights);
 
 /// Strokes of a number such as "-20" for engraving, which do not touch. `up`: height and direction of the digits.
 std::vector<DiscHull> number_strokes(int number, const Vec2& middle, const Vec2& up);
 
-}  // namespace fusee
+}  // namespace fusee::kit

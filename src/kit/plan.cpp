@@ -12,7 +12,7 @@
 #include "kit/parts.h"
 #include "mechanism/catalogue.h"
 
-namespace fusee {
+namespace fusee::kit {
 namespace {
 
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
@@ -43,10 +43,11 @@ double distance_to_path(const std::vector<Vec2>& path, const Vec2& point) {
 }
 
 /// Centre line of a tendon from C to its take-off on the pulley.
-std::vector<Vec2> tendon_path(const Mechanism& mechanism, const TransmissionPoint& at, Side side) {
-  const double rho = mechanism.guide_pitch_radius(), sign = mirror_sign(side);
-  const PinPlace place = pin_place(mechanism, side, rho);
-  const TendonPoint& tendon = side == Side::left ? at.t1 : at.t2;
+std::vector<Vec2> tendon_path(const Mechanism& mechanism, const transmission::TransmissionPoint& at,
+                              transmission::Side side) {
+  const double rho = mechanism.guide_pitch_radius(), sign = transmission::mirror_sign(side);
+  const transmission::PinPlace place = transmission::pin_place(mechanism, side, rho);
+  const transmission::TendonPoint& tendon = side == transmission::Side::left ? at.t1 : at.t2;
   const Vec2 pin(sign * place.pin().x(), place.pin().y());
   return {mechanism.joint.R * Vec2(std::sin(at.theta), std::cos(at.theta)), pin + rho * unit(tendon.upper_normal),
           pin + rho * unit(tendon.lower_normal), place.pulley_axis() + tendon.p * unit(tendon.lower_normal)};
@@ -57,24 +58,24 @@ struct Scene {
   const Mechanism& mechanism;
   Vec2 pulley;
   std::array<Vec2, 2> pins;
-  std::vector<TransmissionPoint> stroke;
+  std::vector<transmission::TransmissionPoint> stroke;
   std::array<std::vector<std::vector<Vec2>>, 2> paths;  ///< of both tendons, at each place of the stroke
   double longest = 0;                                   ///< free length of a tendon, mm
 
   explicit Scene(const Mechanism& given) : mechanism(given) {
-    const Transmission transmission(mechanism);
-    const PinPlace place = pin_place(mechanism, Side::left, 0);
+    const transmission::Transmission transmission(mechanism);
+    const transmission::PinPlace place = transmission::pin_place(mechanism, transmission::Side::left, 0);
     pulley = place.pulley_axis();
-    for (const Side side : {Side::left, Side::right}) {
-      const PinPlace own = pin_place(mechanism, side, 0);
-      pins[side == Side::left ? 0 : 1] = {mirror_sign(side) * own.pin().x(), own.pin().y()};
+    for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+      const transmission::PinPlace own = transmission::pin_place(mechanism, side, 0);
+      pins[side == transmission::Side::left ? 0 : 1] = {transmission::mirror_sign(side) * own.pin().x(), own.pin().y()};
     }
     for (int i = 0; i < k_places; ++i) {
       const double share = static_cast<double>(i) / (k_places - 1);
       stroke.push_back(transmission.at_alpha(transmission.alpha_min() +
                                              share * (transmission.alpha_max() - transmission.alpha_min())));
-      for (const Side side : {Side::left, Side::right})
-        paths[side == Side::left ? 0 : 1].push_back(tendon_path(mechanism, stroke.back(), side));
+      for (const transmission::Side side : {transmission::Side::left, transmission::Side::right})
+        paths[side == transmission::Side::left ? 0 : 1].push_back(tendon_path(mechanism, stroke.back(), side));
       longest = std::max({longest, stroke.back().t1.length, stroke.back().t2.length});
     }
   }
@@ -91,7 +92,7 @@ struct Minimum {
 
 // Sizes ---------------------------------------------------------------------------------------------------------------
 
-void size_axle(KitSizes& sizes, const BearingType& bearing) {
+void size_axle(KitSizes& sizes, const fusee::BearingType& bearing) {
   sizes.bearing = &bearing;
   sizes.axle = &thread_within(bearing.bore);
   sizes.foot = &thread_within(bearing.bore >= 5 ? 4 : bearing.bore);
@@ -100,11 +101,11 @@ void size_axle(KitSizes& sizes, const BearingType& bearing) {
   sizes.axle_tube = std::max(0.5 * sizes.axle->clearance + k_wall, 0.5 * bearing.spacer);
 }
 
-void size_pulley(KitSizes& sizes, const Mechanism& mechanism, const SynthesisResult& synthesis,
-                 const BodyLayout& layout) {
+void size_pulley(KitSizes& sizes, const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                 const solid::BodyLayout& layout) {
   const double groove_edge = layout.groove_depth - 0.5 * mechanism.tendon.diameter;
-  for (const Outline* outline : {&synthesis.p1, &synthesis.p2})
-    sizes.pulley_radius = std::max(sizes.pulley_radius, circumradius(parallel(*outline, groove_edge)));
+  for (const profile::Outline* outline : {&synthesis.p1, &synthesis.p2})
+    sizes.pulley_radius = std::max(sizes.pulley_radius, circumradius(profile::parallel(*outline, groove_edge)));
   sizes.pulley_radius = std::max(sizes.pulley_radius, layout.hub_radius);
   sizes.motor = motor_for(mechanism, layout);
   const double heads = sizes.motor ? sizes.motor->head + 0.5 : 0.0;
@@ -116,13 +117,13 @@ void size_pulley(KitSizes& sizes, const Mechanism& mechanism, const SynthesisRes
   sizes.tendon_gap = mechanism.tendon.diameter + 1.0;
 }
 
-KitPin pin_of(const KitSizes& sizes, const Scene& scene, Side side) {
+KitPin pin_of(const KitSizes& sizes, const Scene& scene, transmission::Side side) {
   const Guides& guides = scene.mechanism.guides;
   KitPin pin;
   pin.side = side;
-  pin.place = scene.pins[side == Side::left ? 0 : 1];
+  pin.place = scene.pins[side == transmission::Side::left ? 0 : 1];
   pin.radius = guides.radius;
-  const double height = side == Side::left ? sizes.z_tendon1 : sizes.z_tendon2;
+  const double height = side == transmission::Side::left ? sizes.z_tendon1 : sizes.z_tendon2;
   pin.gap_low = height - 0.5 * sizes.tendon_gap;
   pin.gap_high = height + 0.5 * sizes.tendon_gap;
   for (const Thread& thread : k_threads) {
@@ -137,7 +138,7 @@ KitPin pin_of(const KitSizes& sizes, const Scene& scene, Side side) {
 void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   const Mechanism& mechanism = scene.mechanism;
   const double R = mechanism.joint.R, d = mechanism.tendon.diameter;
-  const BearingType& bearing = *sizes.bearing;
+  const fusee::BearingType& bearing = *sizes.bearing;
   const Thread &small = *sizes.small, &cap_screw = k_threads.front();
   sizes.scale_low = std::max(pins_top, sizes.pulley_high) + 1.5;
   sizes.scale_plate = 3;
@@ -166,7 +167,7 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
     if (sizes.graduation * sizes.pointer >= 1.4) break;
   }
   const double magnet = sizes.link_low + sizes.link + sizes.cap_height;
-  const BoardType& board = *sizes.board;
+  const fusee::BoardType& board = *sizes.board;
   sizes.bracket_low = magnet + board.gap + board.chip + board.thickness + 3;
   sizes.bracket = 4;
   sizes.leg = (sizes.motor ? sizes.motor->depth : 20) + 5;
@@ -181,7 +182,7 @@ class Conditions {
   /// Replaces "{}" in `change` by the missing distance.
   void at_least(const std::string& name, const Minimum& found, double limit, const std::string& what,
                 const std::string& change) {
-    Condition condition;
+    profile::Condition condition;
     condition.name = name;
     condition.value = found.value;
     condition.limit = limit;
@@ -213,7 +214,7 @@ Minimum tendon_past(const Scene& scene, int tendon, const Vec2& place, double ra
 
 Minimum post_past(const Scene& scene, const KitSizes& sizes, const Vec2& place, double radius) {
   Minimum least;
-  for (const TransmissionPoint& at : scene.stroke)
+  for (const transmission::TransmissionPoint& at : scene.stroke)
     least.see(
         (scene.mechanism.joint.R * Vec2(std::sin(at.theta), std::cos(at.theta)) - place).norm() - sizes.post - radius,
         at.alpha);
@@ -293,7 +294,7 @@ void check_link(Conditions& checks, const Scene& scene, const KitPlan& plan) {
                   "body.flange_thickness_mm larger by {}");
   const Polygon scale = scale_outline(plan, scene.mechanism);
   Minimum post;
-  for (const TransmissionPoint& at : scene.stroke)
+  for (const transmission::TransmissionPoint& at : scene.stroke)
     post.see(outside_of(scale, R * Vec2(std::sin(at.theta), std::cos(at.theta))) - sizes.post, at.alpha);
   checks.at_least("post_beside_scale", post, k_clear, "the post at C meets the scale",
                   "joint.length_mm larger by {}, or a smaller range (joint.range_deg)");
@@ -321,7 +322,8 @@ double foot_radius(const KitSizes& sizes) { return 0.5 * sizes.foot->clearance +
 class FootRoom {
  public:
   FootRoom(const Scene& scene, const KitPlan& plan) : scene_(scene), plan_(plan) {
-    for (const TransmissionPoint& at : scene.stroke) links_.push_back(link_outline(plan, scene.mechanism, at.theta));
+    for (const transmission::TransmissionPoint& at : scene.stroke)
+      links_.push_back(link_outline(plan, scene.mechanism, at.theta));
   }
 
   bool holds(const Vec2& place) const {
@@ -397,14 +399,14 @@ void place_legs(const Scene& scene, KitPlan& plan) {
   plan.legs = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
 }
 
-KitPlan with_bearing(const Scene& scene, const SynthesisResult& synthesis, const BodyLayout& layout,
-                     const BearingType& bearing) {
+KitPlan with_bearing(const Scene& scene, const profile::SynthesisResult& synthesis, const solid::BodyLayout& layout,
+                     const fusee::BearingType& bearing) {
   KitPlan plan;
   KitSizes& sizes = plan.sizes;
   sizes.board = &board_types().front();
   size_axle(sizes, bearing);
   size_pulley(sizes, scene.mechanism, synthesis, layout);
-  plan.pins = {pin_of(sizes, scene, Side::left), pin_of(sizes, scene, Side::right)};
+  plan.pins = {pin_of(sizes, scene, transmission::Side::left), pin_of(sizes, scene, transmission::Side::right)};
   size_link(sizes, scene, std::max(plan.pins[0].top, plan.pins[1].top));
   Conditions checks(plan);
   checks.at_least("pin_radius", {scene.mechanism.guides.radius, 0}, k_least_pin, "a pin this thin is not sold",
@@ -422,11 +424,11 @@ KitPlan with_bearing(const Scene& scene, const SynthesisResult& synthesis, const
   plan.conditions.back().unit = "1";
   check_link(checks, scene, plan);
   place_legs(scene, plan);
-  plan.status = failed_of(plan.conditions).empty() ? KitStatus::made : KitStatus::impossible;
+  plan.status = profile::failed_of(plan.conditions).empty() ? KitStatus::made : KitStatus::impossible;
   return plan;
 }
 
-void add_notes(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout) {
+void add_notes(KitPlan& plan, const Mechanism& mechanism, const solid::BodyLayout& layout) {
   const KitSizes& sizes = plan.sizes;
   if (!sizes.motor) {
     plan.notes.push_back(
@@ -451,24 +453,25 @@ void add_notes(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layo
     if (!pin.screw && !is_stock_rod(2 * pin.radius))
       plan.notes.push_back("rods of " + rounded(2 * pin.radius, 4) +
                            " mm are not sold: use the shank of a drill for pin " +
-                           (pin.side == Side::left ? "B" : "D"));
+                           (pin.side == transmission::Side::left ? "B" : "D"));
   }
 }
 
 }  // namespace
 
-double shaft_of(const Mechanism& mechanism, const BodyLayout& layout) {
+double shaft_of(const Mechanism& mechanism, const solid::BodyLayout& layout) {
   if (mechanism.body.bore_diameter > 0) return mechanism.body.bore_diameter;
   const double within = layout.bore.circle ? layout.bore.circle->diameter : 2 * layout.bore.radius;
   return within - mechanism.material.hole_compensation;
 }
 
-KitPlan plan_kit(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyLayout& layout) {
+KitPlan plan_kit(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                 const solid::BodyLayout& layout) {
   if (!mechanism.is_papers()) return plan_template(mechanism, layout, std::nullopt);
   const Scene scene(mechanism);
-  const std::vector<BearingType>& all = bearing_types();
+  const std::vector<fusee::BearingType>& all = bearing_types();
   KitPlan plan;
-  for (const BearingType& bearing : all) {
+  for (const fusee::BearingType& bearing : all) {
     // Bearings wider than a third of R are avoided.
     if (bearing.outer > mechanism.joint.R / 3 && &bearing != &all.back()) continue;
     plan = with_bearing(scene, synthesis, layout, bearing);
@@ -480,7 +483,7 @@ KitPlan plan_kit(const Mechanism& mechanism, const SynthesisResult& synthesis, c
   return plan;
 }
 
-KitPlan plan_kit_of_turns(const Mechanism& mechanism, const BodyLayout& layout, const TendonHeights& heights) {
+KitPlan plan_kit_of_turns(const Mechanism& mechanism, const solid::BodyLayout& layout, const TendonHeights& heights) {
   return plan_template(mechanism, layout, heights);
 }
 
@@ -489,4 +492,4 @@ void TendonHeights::Span::see(double height) {
   high = std::max(high, height);
 }
 
-}  // namespace fusee
+}  // namespace fusee::kit

@@ -15,7 +15,7 @@
 #include "kit/motor_mount.h"
 #include "kit/parts.h"
 
-namespace fusee {
+namespace fusee::kit {
 namespace {
 
 constexpr double k_between_holes = 1.2;  // three lines of a 0.4 mm nozzle
@@ -40,7 +40,7 @@ void add_hole(std::vector<NamedHole>& holes, const NamedHole& hole) {
 void check_distances(KitPlan& plan, const std::vector<NamedHole>& holes) {
   for (std::size_t i = 0; i < holes.size(); ++i) {
     for (std::size_t k = i + 1; k < holes.size(); ++k) {
-      Condition apart;
+      profile::Condition apart;
       apart.name = holes[i].name + "_beside_" + holes[k].name;
       apart.value = (holes[i].place - holes[k].place).norm() - holes[i].radius - holes[k].radius;
       apart.limit = k_between_holes;
@@ -67,7 +67,8 @@ SlabBody plate_of(const std::vector<NamedHole>& holes, std::vector<Disc> more) {
 
 class TemplateMaker {
  public:
-  TemplateMaker(const Mechanism& mechanism, const BodyLayout& layout, const std::optional<TendonHeights>& heights)
+  TemplateMaker(const Mechanism& mechanism, const solid::BodyLayout& layout,
+                const std::optional<TendonHeights>& heights)
       : mechanism_(mechanism),
         layout_(layout),
         bearing_(largest_bearing()),
@@ -77,7 +78,7 @@ class TemplateMaker {
 
   KitPlan made() {
     plan_.drilled = true;
-    Condition pin;
+    profile::Condition pin;
     pin.name = "pin_radius";
     pin.value = mechanism_.guides.radius;
     pin.limit = k_least_pin;
@@ -87,14 +88,14 @@ class TemplateMaker {
     plan_.conditions.push_back(pin);
     base();
     link();
-    plan_.status = failed_of(plan_.conditions).empty() ? KitStatus::made : KitStatus::impossible;
+    plan_.status = profile::failed_of(plan_.conditions).empty() ? KitStatus::made : KitStatus::impossible;
     if (!plan_.made()) {
       plan_.parts.clear();
       plan_.items.clear();
       return plan_;
     }
     plan_.parts.push_back({"fit_coupon", "the fit coupon: print it first", coupon_body(mechanism_), {}, 1, false});
-    plan_.tendons[1].side = Side::right;
+    plan_.tendons[1].side = transmission::Side::right;
     plan_.notes.push_back(
         std::string(plan_.heights ? "for a multi-turn pulley"
                                   : "for a joint with a drum, separate attachments, idlers or sheaths") +
@@ -111,19 +112,19 @@ class TemplateMaker {
   }
 
   /// Two bearings lie in the link, beside the tendons' ends. The ring on which they stand passes through the drum.
-  const BearingType* largest_bearing() const {
+  const fusee::BearingType* largest_bearing() const {
     const Joint& joint = mechanism_.joint;
     double room = joint.R - k_hole_at_C;
     for (const auto& end : {joint.attachment1, joint.attachment2})
       room = std::min(room, end_of(end).norm() - tie(mechanism_));
-    for (const BearingType& bearing : bearing_types()) {
+    for (const fusee::BearingType& bearing : bearing_types()) {
       const bool drum_holds = joint.drum_radius == 0 || ring_hole(bearing) + k_ledge <= joint.drum_radius;
       if (0.5 * bearing.outer + k_between_holes <= room && drum_holds) return &bearing;
     }
     return nullptr;
   }
   /// Radius of the opening for that ring, which does not rotate.
-  static double ring_hole(const BearingType& bearing) { return 0.5 * bearing.spacer + k_beside; }
+  static double ring_hole(const fusee::BearingType& bearing) { return 0.5 * bearing.spacer + k_beside; }
   double hole_in_drum() const { return bearing_ ? ring_hole(*bearing_) : 0.5 * axle_.clearance; }
 
   bool idlers() const { return mechanism_.guides.kind == GuideKind::idler; }
@@ -140,20 +141,20 @@ class TemplateMaker {
     std::vector<NamedHole> holes{{"axle", {0, 0}, 0.5 * axle_.clearance}};
     const double pin_hole =
         idlers() ? 0.5 * thread_within(mechanism_.guides.bearing_radius).clearance : mechanism_.guides.radius;
-    for (const Side side : {Side::left, Side::right}) {
-      const PinPlace place = pin_place(mechanism_, side, 0);
-      const double sign = mirror_sign(side);
-      KitPin& pin = plan_.pins[side == Side::left ? 0 : 1];
+    for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+      const transmission::PinPlace place = transmission::pin_place(mechanism_, side, 0);
+      const double sign = transmission::mirror_sign(side);
+      KitPin& pin = plan_.pins[side == transmission::Side::left ? 0 : 1];
       pin.side = side;
       pin.place = {sign * place.pin().x(), place.pin().y()};
       pin.radius = pin.collar = mechanism_.guides.radius;
-      holes.push_back({side == Side::left ? "pin_B" : "pin_D", pin.place, pin_hole});
+      holes.push_back({side == transmission::Side::left ? "pin_B" : "pin_D", pin.place, pin_hole});
       if (!place.sheath_exit) continue;
       const Vec2 exit = place.pulley_axis() + Vec2(sign * place.sheath_exit->across, place.sheath_exit->above);
-      holes.push_back({side == Side::left ? "mouth_1" : "mouth_2", exit, ferrule()});
+      holes.push_back({side == transmission::Side::left ? "mouth_1" : "mouth_2", exit, ferrule()});
     }
-    const Vec2 pulley = pin_place(mechanism_, Side::left, 0).pulley_axis();
-    const MotorType* motor = motor_that_fits(holes, pulley);
+    const Vec2 pulley = transmission::pin_place(mechanism_, transmission::Side::left, 0).pulley_axis();
+    const fusee::MotorType* motor = motor_that_fits(holes, pulley);
     std::vector<Disc> more;
     if (motor) more = motor_corners(*motor, pulley, motor_front(pulley));
     for (Disc& corner : more) corner.radius = 1;
@@ -179,8 +180,8 @@ class TemplateMaker {
 
   /// Null if the catalogue has no suitable motor or if it would collide with another axis. The plate then has only a
   /// hole for the pulley's axis.
-  const MotorType* motor_that_fits(const std::vector<NamedHole>& holes, const Vec2& pulley) {
-    const MotorType* motor = motor_for(mechanism_, layout_);
+  const fusee::MotorType* motor_that_fits(const std::vector<NamedHole>& holes, const Vec2& pulley) {
+    const fusee::MotorType* motor = motor_for(mechanism_, layout_);
     if (!motor) {
       plan_.notes.push_back("no motor of the catalogue has this shaft or horn: the base has only a hole for its axis");
       return nullptr;
@@ -302,17 +303,17 @@ class TemplateMaker {
   }
 
   const Mechanism& mechanism_;
-  const BodyLayout& layout_;
-  const BearingType* bearing_;  ///< null: the link turns directly on the axle
+  const solid::BodyLayout& layout_;
+  const fusee::BearingType* bearing_;  ///< null: the link turns directly on the axle
   const Thread& axle_;
   KitPlan plan_;
 };
 
 }  // namespace
 
-KitPlan plan_template(const Mechanism& mechanism, const BodyLayout& layout,
+KitPlan plan_template(const Mechanism& mechanism, const solid::BodyLayout& layout,
                       const std::optional<TendonHeights>& heights) {
   return TemplateMaker(mechanism, layout, heights).made();
 }
 
-}  // namespace fusee
+}  // namespace fusee::kit

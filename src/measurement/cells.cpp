@@ -8,7 +8,7 @@
 
 #include "measurement/words.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -194,4 +194,4 @@ std::optional<double> read_time_stamp(std::string_view text) {
   return date + *of_day - *ahead;
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fusee {
+namespace fusee::measurement {
 
 enum class Cell { number, missing, text };
 
@@ -30,4 +30,4 @@ class NumberReader {
 /// time of day ("10:00:00.020") as s since midnight. Empty for other text.
 std::optional<double> read_time_stamp(std::string_view text);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

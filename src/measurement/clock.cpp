@@ -9,7 +9,7 @@
 #include "measurement/row_reader.h"
 #include "measurement/strokes.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 constexpr double k_no_time = std::numeric_limits<double>::quiet_NaN();
@@ -204,4 +204,4 @@ void order_time(Run& run, const NoteSink& add_note) {
   part_ticks(run, add_note);
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -5,7 +5,7 @@
 #include "fusee/measurement.h"
 #include "measurement/repair.h"
 
-namespace fusee {
+namespace fusee::measurement {
 
 /// Makes the time of a run increase from row to row, or drops it. Rows keep their order: an overflowing counter is
 /// continued, and a clock that is set back marks a restart (Sample::after_break). Only late rows that fit into a gap
@@ -13,4 +13,4 @@ namespace fusee {
 /// log.
 void order_time(Run& run, const NoteSink& add_note);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "measurement/words.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 /// Names that are recognised for a role without --column, in any unit, besides the default name.
@@ -204,4 +204,4 @@ Header find_columns(const std::vector<std::string>& names, const MeasurementOpti
   return ColumnFinder(names, options).find();
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -10,7 +10,7 @@
 #include "fusee/measurement.h"
 #include "measurement/units.h"
 
-namespace fusee {
+namespace fusee::measurement {
 
 constexpr double k_largest_deg = 1e7;
 /// Largest plausible time between rows of a moving joint, s.
@@ -55,4 +55,4 @@ std::string settle_units(std::vector<Column>& columns, std::vector<Sample>& samp
 /// The member of Sample for a role; nullptr for roles without one.
 double Sample::*member_of(const std::string& role);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

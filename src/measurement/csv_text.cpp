@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "measurement/words.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 bool is_comment(std::string_view line) { return !line.empty() && trimmed(line).substr(0, 1) == "#"; }
@@ -184,4 +184,4 @@ void RecordSplitter::finish() {
   if (in_record_) give(true);
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

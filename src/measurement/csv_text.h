@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fusee {
+namespace fusee::measurement {
 
 constexpr std::size_t k_longest_record = std::size_t{1} << 16;
 constexpr std::size_t k_most_columns = 1000;
@@ -59,4 +59,4 @@ class RecordSplitter {
 /// stays doubled. `separator` ' ' means any number of blanks. Stops after more than k_most_columns.
 void split_cells(std::string_view record, char separator, std::vector<std::string_view>& cells);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

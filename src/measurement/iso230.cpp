@@ -10,7 +10,7 @@
 
 #include "fusee/measurement.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 struct Spread {
@@ -125,4 +125,4 @@ Iso230 iso230(const Measurement& measurement, const std::vector<std::vector<doub
   return iso230(deviations);
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

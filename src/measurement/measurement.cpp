@@ -18,7 +18,7 @@
 // 2. Repair (repair): order in time, wrap-around, outliers; each with a note.
 // 3. Strokes (strokes), and the checks whether the runs can be evaluated at all (run_checks).
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 /// A run file of `fusee plan` that is not filled in yet.
@@ -238,10 +238,10 @@ Measurement read_driving(const std::filesystem::path& file, const Mechanism& dec
   return measurement;
 }
 
-BenchLog bench_log(const Measurement& measurement) {
-  BenchLog log;
+joint::BenchLog bench_log(const Measurement& measurement) {
+  joint::BenchLog log;
   for (const Run& run : measurement.runs) {
-    BenchRun& into = log.emplace_back();
+    joint::BenchRun& into = log.emplace_back();
     into.has_load = run.has_load;
     into.has_temperature = run.has_temperature;
     into.mounting = run.mounting;
@@ -252,4 +252,4 @@ BenchLog bench_log(const Measurement& measurement) {
   return log;
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -23,7 +23,7 @@
 //
 // - Quantisation: repeats on the same sensor step hide its error. quantum/√12 of either sensor is a lower bound.
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 /// Differences needed for an estimate; with fewer, differences of neighbouring rows are more accurate.
@@ -524,4 +524,4 @@ double NoiseFloor::effective_rows(double rows, double every) const {
   return rows * (1 - r) / (1 + r);
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -11,7 +11,7 @@
 #include "measurement/row_reader.h"
 #include "measurement/strokes.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 /// Fewer rows do not show a usual scatter.
@@ -182,4 +182,4 @@ double quantum_of(const std::vector<Sample>& samples, double Sample::*angle) {
   return often > 1 ? quantum : 0;
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -7,7 +7,7 @@
 
 #include "fusee/measurement.h"
 
-namespace fusee {
+namespace fusee::measurement {
 
 using NoteSink = std::function<void(const std::string&)>;
 
@@ -24,4 +24,4 @@ bool fill_gaps(std::vector<Sample>& samples, double Sample::*value, const std::s
 /// Step of a quantised sensor; 0 if it is too fine to be detected.
 double quantum_of(const std::vector<Sample>& samples, double Sample::*angle);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

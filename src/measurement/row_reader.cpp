@@ -12,7 +12,7 @@
 #include "measurement/csv_text.h"
 #include "measurement/words.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
@@ -25,7 +25,7 @@ constexpr double k_largest_value = 1e15, k_largest_time = 1e19;
 const char* const k_usual_header =
     "the first line names the columns: alpha_deg,theta_deg and, if logged, time_s,load_N";
 
-double* member(Mounting& mounting, const std::string& role) {
+double* member(joint::Mounting& mounting, const std::string& role) {
   if (role == k_motor_sensor_turned) return &mounting.motor_sensor_turned;
   if (role == k_joint_sensor_turned) return &mounting.joint_sensor_turned;
   return nullptr;
@@ -464,4 +464,4 @@ LoggedRows read_rows(const std::filesystem::path& path, const std::string& name,
   return reader.finish();
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -10,7 +10,7 @@
 
 #include "fusee/measurement.h"
 
-namespace fusee {
+namespace fusee::measurement {
 
 /// Largest number of rows kept of all files. A file beyond its share is thinned by halves.
 constexpr std::size_t k_most_samples = std::size_t{1} << 20;
@@ -21,7 +21,7 @@ struct LoggedRows {
   std::vector<std::string> notes;
   std::string load_unit;
   bool has_time = false, has_load = false, has_temperature = false;
-  Mounting mounting;
+  joint::Mounting mounting;
   std::size_t rows = 0;  ///< in the file
   std::size_t without_angle = 0;
   std::size_t without_theta = 0;      ///< rows with α alone
@@ -42,4 +42,4 @@ void check_roles(const MeasurementOptions& options);
 /// "1 row", "7 rows".
 std::string rows_text(std::size_t count);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

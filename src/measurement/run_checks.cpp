@@ -8,7 +8,7 @@
 #include "measurement/row_reader.h"
 #include "measurement/strokes.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 constexpr std::size_t k_fewest_samples = 20;
@@ -181,4 +181,4 @@ void check_all_runs(Measurement& measurement) {
                                      "a wrong shape; log both directions");
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -5,7 +5,7 @@
 #include "fusee/measurement.h"
 #include "measurement/repair.h"
 
-namespace fusee {
+namespace fusee::measurement {
 
 /// Checks one run: enough rows, motion, live sensors. Reasons go to `into.not_testable`, remarks to `add_note`.
 void check_run(const Run& run, Measurement& into, const NoteSink& add_note);
@@ -13,4 +13,4 @@ void check_run(const Run& run, Measurement& into, const NoteSink& add_note);
 /// Checks all runs together: α must move in both directions.
 void check_all_runs(Measurement& measurement);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -7,7 +7,7 @@
 
 #include "fusee/measurement.h"
 
-namespace fusee {
+namespace fusee::measurement {
 
 struct SeenSpan {
   double least = std::numeric_limits<double>::infinity();
@@ -51,4 +51,4 @@ struct Bins {
   double edge(int bin) const { return span.least + span.size() * bin / count; }
 };
 
-}  // namespace fusee
+}  // namespace fusee::measurement

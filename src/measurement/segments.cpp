@@ -12,7 +12,7 @@
 // each dwell, approached from one side, under one load. Thresholds are shares of the run's own span and scatter;
 // tests/measurement/segments_test.cpp checks them against sweeps, sines, quantised and noisy logs without dwells.
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 /// Fewer rows are a slow part of a motion.
@@ -302,4 +302,4 @@ bool is_from_point_to_point(const Run& run) {
   return std::any_of(run.segments.begin(), run.segments.end(), [](const Segment& segment) { return segment.held; });
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

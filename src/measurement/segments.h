@@ -6,7 +6,7 @@
 
 #include "fusee/measurement.h"
 
-namespace fusee {
+namespace fusee::measurement {
 
 /// Rows from `first` to `last`, both included: mostly those of a dwell, in which α is constant.
 struct RowRange {
@@ -32,4 +32,4 @@ bool has_levels_of_load(const Run& run);
 /// function of place, not a level.
 std::vector<Segment> cut_segments(const Run& run, const std::vector<RowRange>& dwells);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -9,7 +9,7 @@
 #include "measurement/columns.h"
 #include "measurement/words.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 // ---- time -----------------------------------------------------------------------------------------------------------
@@ -257,4 +257,4 @@ std::string settle_units(std::vector<Column>& columns, std::vector<Sample>& samp
   return UnitFinder(columns, samples, options, name).settle();
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

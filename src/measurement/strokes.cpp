@@ -5,7 +5,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 /// Return of α from its extreme that counts as a reversal. `stands`: α is constant in most rows.
@@ -199,4 +199,4 @@ std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std:
   return strokes;
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

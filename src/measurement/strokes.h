@@ -7,7 +7,7 @@
 #include "fusee/measurement.h"
 #include "measurement/segments.h"
 
-namespace fusee {
+namespace fusee::measurement {
 
 /// Strokes by direction of α, robust to noise and quantisation. A reversal counts once α has returned from its extreme
 /// by more than both and by 1 % of the run's span. A time gap over which α moved begins a `partial` stroke, whose play
@@ -29,4 +29,4 @@ double noise_of(const std::vector<Sample>& samples, double Sample::*value);
 /// step.
 double noise_of_dwells(const std::vector<Sample>& samples, double Sample::*value);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -5,15 +5,15 @@
 #include <optional>
 
 #include "fusee/base.h"
-#include "transmission/load.h"
 #include "measurement/words.h"
+#include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
-constexpr double k_kg = k_gravity;        // N
-constexpr double k_lb = 4.4482216152605;  // N
-constexpr double k_inch = 25.4;           // mm
+constexpr double k_kg = transmission::k_gravity;  // N
+constexpr double k_lb = 4.4482216152605;          // N
+constexpr double k_inch = 25.4;                   // mm
 
 constexpr std::array k_units = {
     Unit{"s", "s sec secs second seconds sek sekunde sekunden", Quantity::time, "s", 1},
@@ -188,4 +188,4 @@ ColumnName parse_column_name(std::string_view name, Quantity quantity) {
   return parsed;
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

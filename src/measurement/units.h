@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace fusee {
+namespace fusee::measurement {
 
 enum class Quantity { time, angle, load, temperature, none };
 
@@ -39,4 +39,4 @@ struct ColumnName {
 /// Accepted forms: "load [kg]", "load (kg)", "Motor, deg", "Zeit in s", "load_kg", "load kg", "timeMs", "millis".
 ColumnName parse_column_name(std::string_view name, Quantity quantity);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

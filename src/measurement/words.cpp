@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 unsigned char byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
@@ -70,4 +70,4 @@ std::string to_utf8(std::string_view bytes) {
   return text;
 }
 
-}  // namespace fusee
+}  // namespace fusee::measurement

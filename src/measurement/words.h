@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace fusee {
+namespace fusee::measurement {
 
 /// Removes blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
@@ -16,4 +16,4 @@ std::string shown(std::string_view text);
 /// Converts Latin-1 to UTF-8; UTF-8 is unchanged.
 std::string to_utf8(std::string_view bytes);
 
-}  // namespace fusee
+}  // namespace fusee::measurement

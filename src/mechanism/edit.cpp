@@ -1,11 +1,10 @@
-#include "fusee/mechanism_file.h"
-
 #include <toml++/toml.h>
 
 #include <algorithm>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 
 namespace fusee {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "base/json.h"
 #include "base/text.h"
-#include "mechanism/catalogue.h"
 #include "fusee/mechanism_file.h"
+#include "mechanism/catalogue.h"
 #include "mechanism/field_text.h"
 
 namespace fusee {

@@ -1,11 +1,10 @@
-#include "fusee/mechanism_file.h"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
 #include "fusee/base.h"
+#include "fusee/mechanism_file.h"
 #include "mechanism/catalogue.h"
 #include "mechanism/effect.h"
 

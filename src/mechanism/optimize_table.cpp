@@ -4,8 +4,8 @@
 
 #include "base/text.h"
 #include "fusee/mechanism_file.h"
-#include "mechanism/linear_relation.h"
 #include "mechanism/field_text.h"
+#include "mechanism/linear_relation.h"
 
 namespace fusee {
 namespace {

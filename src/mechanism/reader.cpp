@@ -7,10 +7,10 @@
 #include <optional>
 #include <tuple>
 
-#include "fusee/base.h"
 #include "base/text.h"
-#include "mechanism/catalogue.h"
+#include "fusee/base.h"
 #include "fusee/mechanism_file.h"
+#include "mechanism/catalogue.h"
 #include "mechanism/field_text.h"
 #include "mechanism/horn_faults.h"
 #include "mechanism/law_table.h"

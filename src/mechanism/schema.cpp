@@ -1,8 +1,8 @@
 #include <charconv>
 
 #include "base/json.h"
-#include "mechanism/catalogue.h"
 #include "fusee/mechanism_file.h"
+#include "mechanism/catalogue.h"
 #include "mechanism/field_text.h"
 
 namespace fusee {

@@ -1,11 +1,11 @@
 #include <charconv>
 #include <cmath>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 #include "fusee/model.h"
 
-namespace fusee {
+namespace fusee::model {
 namespace {
 
 constexpr std::size_t k_most_rows = 100000;
@@ -91,4 +91,4 @@ std::vector<TwoWayRow> read_compensation(const std::string& text, const std::str
   return CompensationReader(name).read(text);
 }
 
-}  // namespace fusee
+}  // namespace fusee::model

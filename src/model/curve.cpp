@@ -3,10 +3,10 @@
 
 #include "fusee/base.h"
 #include "fusee/joint.h"
-#include "mechanism/effect.h"
 #include "fusee/model.h"
+#include "mechanism/effect.h"
 
-namespace fusee {
+namespace fusee::model {
 namespace {
 
 constexpr int k_samples = 2000;  ///< number of places at which a law is checked
@@ -24,9 +24,9 @@ double between_rows(const std::vector<LawRow>& rows, double at, double LawRow::*
 // ---- an identified joint --------------------------------------------------------------------------------------------
 
 /// A quasi-static motion home → top → bottom → top → bottom. The first two strokes take up play.
-BenchRun sweep(double low, double high) {
+joint::BenchRun sweep(double low, double high) {
   constexpr int steps = 600;  // per stroke; linear interpolation is accurate to a millionth of the range
-  BenchRun run;
+  joint::BenchRun run;
   const auto stroke = [&run](double from, double to) {
     for (int i = 1; i <= steps; ++i) run.rows.push_back({0, std::lerp(from, to, double(i) / steps), 0, 0});
   };
@@ -39,7 +39,8 @@ BenchRun sweep(double low, double high) {
 }
 
 /// The rows of one stroke, by increasing α, with a moving joint.
-std::vector<LawRow> increasing_rows(const BenchRun& run, const std::vector<JointState>& states, bool up, bool shown) {
+std::vector<LawRow> increasing_rows(const joint::BenchRun& run, const std::vector<joint::JointState>& states, bool up,
+                                    bool shown) {
   const std::size_t count = run.rows.size(), steps = (count - 1) / 4;
   std::vector<LawRow> rows;
   for (std::size_t i = up ? count - 2 * steps - 1 : count - steps - 1; i < (up ? count - steps : count); ++i) {
@@ -55,8 +56,8 @@ std::vector<LawRow> increasing_rows(const BenchRun& run, const std::vector<Joint
   return growing;
 }
 
-std::vector<TwoWayRow> both_ways_of(const BenchRun& run, const std::vector<JointState>& states, const Joint& joint,
-                                    bool shown) {
+std::vector<TwoWayRow> both_ways_of(const joint::BenchRun& run, const std::vector<joint::JointState>& states,
+                                    const Joint& joint, bool shown) {
   const std::vector<LawRow> up = increasing_rows(run, states, true, shown),
                             down = increasing_rows(run, states, false, shown);
   if (up.size() < 2 || down.size() < 2) return {};
@@ -75,7 +76,7 @@ std::vector<TwoWayRow> both_ways_of(const BenchRun& run, const std::vector<Joint
 
 }  // namespace
 
-AngleMap angle_map(const Transmission& law) {
+AngleMap angle_map(const transmission::Transmission& law) {
   AngleMap map;
   map.alpha_min = law.alpha_min();
   map.alpha_max = law.alpha_max();
@@ -108,7 +109,7 @@ AngleMap angle_map(std::vector<LawRow> rows) {
   return map;
 }
 
-std::vector<TwoWayRow> refined(const std::vector<TwoWayRow>& rows, const Transmission& law) {
+std::vector<TwoWayRow> refined(const std::vector<TwoWayRow>& rows, const transmission::Transmission& law) {
   const AngleMap map = angle_map(law);
   const double beyond = 0.02 * (map.theta_max - map.theta_min);
   if (rows.front().theta < map.theta_min - beyond || rows.back().theta > map.theta_max + beyond) return rows;
@@ -149,7 +150,7 @@ JointCurve two_way_curve(const std::vector<TwoWayRow>& rows, CurveSource source)
   return curve;
 }
 
-bool grows(const Transmission& law) {
+bool grows(const transmission::Transmission& law) {
   for (int i = 0; i <= k_samples; ++i) {
     if (!(law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), double(i) / k_samples)).g > 0)) return false;
   }
@@ -157,22 +158,22 @@ bool grows(const Transmission& law) {
 }
 
 std::optional<JointCurves> joint_curves(const DeclaredMechanism& declared) {
-  const Transmission law(declared);
+  const transmission::Transmission law(declared);
   if (declared.identified == Imperfections{}) {
     const JointCurve curve{CurveSource::law, angle_map(law), std::nullopt, 0};
     return JointCurves{curve, curve};
   }
-  const DeclaredMechanism joint = expected_joint(declared);
-  if (Transmission(joint).dead_centre()) return std::nullopt;
+  const DeclaredMechanism joint = joint::expected_joint(declared);
+  if (transmission::Transmission(joint).dead_centre()) return std::nullopt;
   const double beyond =
       2 * declared.identified.shaft.backlash + 0.03 * (law.alpha_max() - law.alpha_min());  // margin for the reversal
-  const BenchRun run = sweep(law.alpha_min() - beyond, law.alpha_max() + beyond);
-  const std::vector<JointState> states =
-      simulate(joint, beyond_mechanism(declared.identified, kind_of(declared)), {run}).front();
+  const joint::BenchRun run = sweep(law.alpha_min() - beyond, law.alpha_max() + beyond);
+  const std::vector<joint::JointState> states =
+      joint::simulate(joint, beyond_mechanism(declared.identified, kind_of(declared)), {run}).front();
   const std::vector<TwoWayRow> stands = both_ways_of(run, states, declared.joint, false),
                                shown = both_ways_of(run, states, declared.joint, true);
   if (stands.empty() || shown.empty()) return std::nullopt;
   return JointCurves{two_way_curve(stands, CurveSource::identified), two_way_curve(shown, CurveSource::identified)};
 }
 
-}  // namespace fusee
+}  // namespace fusee::model

@@ -6,7 +6,7 @@
 #include "fusee/base.h"
 #include "fusee/model.h"
 
-namespace fusee {
+namespace fusee::model {
 namespace {
 
 constexpr int k_points = 1000;  ///< number of samples of a fit
@@ -188,4 +188,4 @@ EqualityFit fit_equality(const AngleMap& map) {
 
 EqualityFit fit_line(const AngleMap& map) { return fit_of_alpha(map, 1); }
 
-}  // namespace fusee
+}  // namespace fusee::model

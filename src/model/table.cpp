@@ -5,7 +5,7 @@
 #include "fusee/model.h"
 #include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::model {
 namespace {
 
 const AngleMap& way_of(const JointCurve& curve, std::size_t way) {
@@ -41,7 +41,8 @@ JointTable table_of(const JointCurve& curve, const Mechanism& mechanism, const M
   bool loaded = false;
   for (int i = 0; i <= pieces; ++i) {
     const double alpha = unit.alpha(entry_place(double(first.first), double(first.last), i, pieces) + unit.zero);
-    const double slope = curve.middle.slope(alpha), load = load_torque(mechanism, curve.middle.theta(alpha));
+    const double slope = curve.middle.slope(alpha),
+                 load = transmission::load_torque(mechanism, curve.middle.theta(alpha));
     table.slope.push_back(static_cast<float>(slope));
     table.holding.push_back(static_cast<float>(slope * load));
     loaded = loaded || load != 0;
@@ -104,4 +105,4 @@ std::optional<JointTable> joint_table(const JointCurve& curve, const Mechanism& 
   return std::nullopt;
 }
 
-}  // namespace fusee
+}  // namespace fusee::model

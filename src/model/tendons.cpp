@@ -9,7 +9,7 @@
 #include "fusee/base.h"
 #include "fusee/model.h"
 
-namespace fusee {
+namespace fusee::model {
 namespace {
 
 constexpr int k_places = 1000;
@@ -21,7 +21,9 @@ struct Span {
   double normal = 0;  ///< direction of the outward normal, rad
 };
 
-Vec2 mirrored(const Vec2& point, Side side) { return {mirror_sign(side) * point.x(), point.y()}; }
+Vec2 mirrored(const Vec2& point, transmission::Side side) {
+  return {transmission::mirror_sign(side) * point.x(), point.y()};
+}
 
 /// Position of a point of the link at the joint angle, mirrored.
 Vec2 at_angle(const Vec2& home, double theta) {
@@ -55,7 +57,7 @@ constexpr double k_always_wrapped = radians(10);  // least angle of wrap at the 
 
 /// Sets the fixed point below the pin, on its outer side, and the sheath. `least`, `most`: range of the normals at
 /// which the tendon reaches the pin.
-void set_anchor(WrappedTendon& tendon, const PinPlace& place, double least, double most, double R) {
+void set_anchor(WrappedTendon& tendon, const transmission::PinPlace& place, double least, double most, double R) {
   // It enters a sheath straight down, if it is still wrapped then.
   const bool down = place.sheath_exit && least > radians(1);
   const double leaving = down ? 0.0 : least - k_always_wrapped;
@@ -73,10 +75,11 @@ void set_anchor(WrappedTendon& tendon, const PinPlace& place, double least, doub
 }
 
 /// Sets up a tendon that is never on a drum.
-void set_free_tendon(WrappedTendon& tendon, const PinPlace& place, const AngleMap& map, double R) {
+void set_free_tendon(WrappedTendon& tendon, const transmission::PinPlace& place, const AngleMap& map, double R) {
   double least = k_pi, most = -k_pi;
   for (int i = 0; i <= k_places; ++i) {
-    const double theta = mirror_sign(tendon.side) * std::lerp(map.theta_min, map.theta_max, double(i) / k_places);
+    const double theta =
+        transmission::mirror_sign(tendon.side) * std::lerp(map.theta_min, map.theta_max, double(i) / k_places);
     const double normal = span_at(tendon, theta).normal;
     least = std::min(least, normal);
     most = std::max(most, normal);
@@ -89,10 +92,11 @@ void set_free_tendon(WrappedTendon& tendon, const PinPlace& place, const AngleMa
 // fixed pin. The part that is covered at every angle has constant length. It is represented by points of the link,
 // close together. If MuJoCo wraps a tendon between two points on the drum's surface, it alternates between the two ways
 // round (3.14.0).
-void set_tendon_on_drum(WrappedTendon& tendon, const PinPlace& place, const AngleMap& map, double R) {
-  const double sign = mirror_sign(tendon.side);
-  const UpperSpan home = upper_span(place, 0), low = upper_span(place, sign * map.theta_min),
-                  high = upper_span(place, sign * map.theta_max);
+void set_tendon_on_drum(WrappedTendon& tendon, const transmission::PinPlace& place, const AngleMap& map, double R) {
+  const double sign = transmission::mirror_sign(tendon.side);
+  const transmission::UpperSpan home = transmission::upper_span(place, 0),
+                                low = transmission::upper_span(place, sign * map.theta_min),
+                                high = transmission::upper_span(place, sign * map.theta_max);
   const double least = std::min(low.on_drum, high.on_drum), always = std::max(0.0, least - k_always_wrapped);
   // Slightly outside, as simulators require for points near a wrapping cylinder.
   constexpr double k_outside = 1e-6, k_chord = radians(10);
@@ -114,16 +118,17 @@ void set_tendon_on_drum(WrappedTendon& tendon, const PinPlace& place, const Angl
 
 /// Returns the reason why simulators cannot represent the tendon, or "". Simulators wrap a tendon the shorter way round
 /// a cylinder, and require a point of it between two cylinders.
-std::string set_tendon(WrappedTendon& tendon, const Mechanism& mechanism, Side side, const AngleMap& map) {
-  const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
+std::string set_tendon(WrappedTendon& tendon, const Mechanism& mechanism, transmission::Side side,
+                       const AngleMap& map) {
+  const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius());
   tendon.side = side;
   tendon.pin = mirrored(place.pin(), side);
   tendon.rho = place.rho;
   tendon.end =
       place.at_C ? Vec2(0, place.R) : mirrored(place.R * Vec2(std::sin(place.twist), std::cos(place.twist)), side);
-  const double sign = mirror_sign(side), low = std::min(sign * map.theta_min, sign * map.theta_max),
+  const double sign = transmission::mirror_sign(side), low = std::min(sign * map.theta_min, sign * map.theta_max),
                high = std::max(sign * map.theta_min, sign * map.theta_max);
-  const auto leaves = lift_off(place);
+  const auto leaves = transmission::lift_off(place);
   if (leaves && place.drum_offset != 0) return "it lies on a drum whose centre moves with the joint";
   if (leaves && low < *leaves && *leaves < high)
     return "it leaves the drum within the range, and simulators require a fixed point between two "
@@ -143,11 +148,11 @@ std::string set_tendon(WrappedTendon& tendon, const Mechanism& mechanism, Side s
 }
 
 /// True if the path has the moment arms of the transmission. They differ if the tendons run over anything else.
-bool has_arms(const WrappedTendon& tendon, double R, const Transmission& law) {
+bool has_arms(const WrappedTendon& tendon, double R, const transmission::Transmission& law) {
   for (int i = 0; i <= 8; ++i) {
-    const TransmissionPoint point = law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 8.0));
-    const double arm = arm_at(tendon, mirror_sign(tendon.side) * point.theta);
-    const double known = (tendon.side == Side::left ? point.t1 : point.t2).m;
+    const transmission::TransmissionPoint point = law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 8.0));
+    const double arm = arm_at(tendon, transmission::mirror_sign(tendon.side) * point.theta);
+    const double known = (tendon.side == transmission::Side::left ? point.t1 : point.t2).m;
     if (!(std::abs(arm - known) <= 1e-6 * R)) return false;
   }
   return true;
@@ -160,7 +165,7 @@ struct LengthFit {
 
 /// The length that the pulley takes in of a tendon, as a polynomial of α of the lowest sufficient degree.
 LengthFit fit_length(const WrappedTendon& tendon, const AngleMap& map) {
-  const double home = length_at(tendon, 0), sign = mirror_sign(tendon.side);
+  const double home = length_at(tendon, 0), sign = transmission::mirror_sign(tendon.side);
   std::vector<FitPoint> points;
   for (int i = 0; i <= k_places; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / k_places), theta = sign * map.theta(alpha);
@@ -175,7 +180,7 @@ LengthFit fit_length(const WrappedTendon& tendon, const AngleMap& map) {
 }  // namespace
 
 double tendon_error(const WrappedTendon& tendon, const Polynomial& length, const AngleMap& map) {
-  const double home = length_at(tendon, 0), sign = mirror_sign(tendon.side);
+  const double home = length_at(tendon, 0), sign = transmission::mirror_sign(tendon.side);
   double largest = 0;
   for (int i = 0; i <= k_places; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / k_places), wanted = map.theta(alpha);
@@ -193,11 +198,11 @@ double tendon_error(const WrappedTendon& tendon, const Polynomial& length, const
 }
 
 std::optional<TendonModel> tendon_model(const Mechanism& mounted, const AngleMap& map, std::string& why_not) {
-  const Transmission law(mounted);
+  const transmission::Transmission law(mounted);
   TendonModel model;
   model.error = std::numeric_limits<double>::infinity();
-  for (const Side side : {Side::left, Side::right}) {
-    const std::size_t i = side == Side::left ? 0 : 1;
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const std::size_t i = side == transmission::Side::left ? 0 : 1;
     WrappedTendon& tendon = model.tendons[i];
     model.omission[i] = set_tendon(tendon, mounted, side, map);
     if (model.omission[i].empty() && !has_arms(tendon, mounted.joint.R, law))
@@ -216,4 +221,4 @@ std::optional<TendonModel> tendon_model(const Mechanism& mounted, const AngleMap
   return model;
 }
 
-}  // namespace fusee
+}  // namespace fusee::model

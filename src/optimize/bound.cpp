@@ -25,7 +25,7 @@
 // Between RoundingUp's construction and its end, rounding is directed; these functions must not be merged by the
 // compiler.
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 /// Number of places that the evaluation of a design tests: evaluate() of objectives.cpp, and feasibility.cpp.
@@ -69,7 +69,9 @@ constexpr std::array<NumberSlot, 26> k_slots{{{"joint.length_mm"},
                                               {"sheath.exit_above_mm"}}};
 
 double radians_of(double value) { return radians(value); }
-Jet radians_of(const Jet& value) { return value * Jet(pi_interval() / 180.0); }
+transmission::Jet radians_of(const transmission::Jet& value) {
+  return value * transmission::Jet(transmission::pi_interval() / 180.0);
+}
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -105,12 +107,13 @@ double narrowed(const Box& before, const Box& after, int count) {
 /// Position of the pin in the link's frame: `a` from the line OC and `b` below C. For a point pin tan γ = a/b, and at
 /// one joint angle both are linear in the variables.
 struct Legs {
-  Jet a, b;
+  transmission::Jet a, b;
 };
 
-Legs legs(const DesignNumbers<Jet>& d, bool of_tendon_1, const StrokeNumbers<Jet>& n) {
-  const PinOffset<Jet> to_C = of_tendon_1 ? offset_from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored())
-                                          : offset_from_pin_in_link(d.R, d.ED, d.OE, n.theta);
+Legs legs(const DesignNumbers<transmission::Jet>& d, bool of_tendon_1, const StrokeNumbers<transmission::Jet>& n) {
+  const transmission::PinOffset<transmission::Jet> to_C =
+      of_tendon_1 ? transmission::offset_from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored())
+                  : transmission::offset_from_pin_in_link(d.R, d.ED, d.OE, n.theta);
   return {-to_C.x, to_C.y};
 }
 
@@ -196,38 +199,40 @@ DesignNumbers<S> BoundCalculator::numbers_of(const std::vector<S>& variables) co
 }
 
 /// Call only while a RoundingUp exists. A corner has no derivatives.
-DesignNumbers<Jet> BoundCalculator::numbers_over(const Box& box) const {
+DesignNumbers<transmission::Jet> BoundCalculator::numbers_over(const Box& box) const {
   const int count = static_cast<int>(problem_.variables.size());
   const bool is_point = box.lower == box.upper;
-  std::vector<Jet> variables;
+  std::vector<transmission::Jet> variables;
   for (int i = 0; i < count; ++i) {
-    const Interval value(box.lower[index(i)], box.upper[index(i)]);
-    variables.push_back(is_point ? Jet(value) : Jet::variable(value, i, count));
+    const transmission::Interval value(box.lower[index(i)], box.upper[index(i)]);
+    variables.push_back(is_point ? transmission::Jet(value) : transmission::Jet::variable(value, i, count));
   }
   return numbers_of(variables);
 }
 
 /// The objective, or a function that must not be positive.
-Jet BoundCalculator::value_of(const Query& query, const DesignNumbers<Jet>& numbers, Domain& domain) const {
+transmission::Jet BoundCalculator::value_of(const Query& query, const DesignNumbers<transmission::Jet>& numbers,
+                                            transmission::Domain& domain) const {
   if (query.kind == Query::Kind::needed) {
-    ConditionValues<Jet> values;
-    if (!conditions_at(numbers, Jet(query.place), index(static_cast<int>(query.needed)) + 1, values)) {
+    ConditionValues<transmission::Jet> values;
+    if (!conditions_at(numbers, transmission::Jet(query.place), index(static_cast<int>(query.needed)) + 1, values)) {
       domain.possible = false;
       return 0.0;
     }
-    const ConditionValue<Jet>& needed = values[static_cast<std::size_t>(query.needed)];
+    const ConditionValue<transmission::Jet>& needed = values[static_cast<std::size_t>(query.needed)];
     domain.whole = domain.whole && needed.domain.whole;
     domain.possible = domain.possible && needed.domain.possible;
     return -needed.value;
   }
-  const StrokeNumbers<Jet> stroke = stroke_numbers(numbers, Jet(query.place), domain);
+  const StrokeNumbers<transmission::Jet> stroke = stroke_numbers(numbers, transmission::Jet(query.place), domain);
   if (query.kind == Query::Kind::objective) return objective_of(objective_, numbers, stroke);
-  return objective_of(problem_.cap->objective, numbers, stroke) - Jet(problem_.cap->limit);
+  return objective_of(problem_.cap->objective, numbers, stroke) - transmission::Jet(problem_.cap->limit);
 }
 
-[[gnu::noinline]] Jet BoundCalculator::value_at(const Query& query, const Box& box, Domain& domain) const {
-  const RoundingUp rounding;
-  DesignNumbers<Jet> numbers = numbers_over(box);
+[[gnu::noinline]] transmission::Jet BoundCalculator::value_at(const Query& query, const Box& box,
+                                                              transmission::Domain& domain) const {
+  const transmission::RoundingUp rounding;
+  DesignNumbers<transmission::Jet> numbers = numbers_over(box);
   numbers.least = query.least;
   return value_of(query, numbers, domain);
 }
@@ -235,18 +240,19 @@ Jet BoundCalculator::value_of(const Query& query, const DesignNumbers<Jet>& numb
 /// Lower bounds of the tendons' γ in possible designs of the box: below them a wrap would be negative.
 [[gnu::noinline]] PinAngles BoundCalculator::least_angles(const Box& box, double place) const {
   constexpr double k_between_places = 2e-3;  // rad: possible negative wrap between tested places
-  const RoundingUp rounding;
-  DesignNumbers<Jet> d = numbers_over(box);
+  const transmission::RoundingUp rounding;
+  DesignNumbers<transmission::Jet> d = numbers_over(box);
   if (d.wide) return d.least;
-  const Interval theta = (d.theta_min + Jet(place) * (d.theta_max - d.theta_min)).value;
-  Domain of_1, upper;
+  const transmission::Interval theta = (d.theta_min + transmission::Jet(place) * (d.theta_max - d.theta_min)).value;
+  transmission::Domain of_1, upper;
   if (!d.linear) {
-    const Interval least = lower_line_of(d, d.r1, true, of_1).normal.value - theta - k_between_places;
+    const transmission::Interval least = lower_line_of(d, d.r1, true, of_1).normal.value - theta - k_between_places;
     if (of_1.possible) d.least.of_1 = least.lower();
   }
-  const StrokeNumbers<Jet> n = upper_stroke(d, Jet(place), upper);
-  Domain of_2;
-  const Interval least = lower_line_of(d, Jet(n.r2.value.lower()), false, of_2).normal.value + theta - k_between_places;
+  const StrokeNumbers<transmission::Jet> n = upper_stroke(d, transmission::Jet(place), upper);
+  transmission::Domain of_2;
+  const transmission::Interval least =
+      lower_line_of(d, transmission::Jet(n.r2.value.lower()), false, of_2).normal.value + theta - k_between_places;
   if (upper.possible && of_2.possible) d.least.of_2 = least.lower();
   // Bounds without effect are dropped, to avoid a second evaluation.
   if (!(n.upper1.gamma.value.lower() <= d.least.of_1)) d.least.of_1 = PinAngles().of_1;
@@ -255,11 +261,12 @@ Jet BoundCalculator::value_of(const Query& query, const DesignNumbers<Jet>& numb
 }
 
 /// The value with derivatives for a box that is a single design.
-[[gnu::noinline]] Jet BoundCalculator::slopes_at(const Query& query, const Box& box, Domain& domain) const {
-  const RoundingUp rounding;
+[[gnu::noinline]] transmission::Jet BoundCalculator::slopes_at(const Query& query, const Box& box,
+                                                               transmission::Domain& domain) const {
+  const transmission::RoundingUp rounding;
   const int count = static_cast<int>(problem_.variables.size());
-  std::vector<Jet> variables;
-  for (int i = 0; i < count; ++i) variables.push_back(Jet::variable(box.lower[index(i)], i, count));
+  std::vector<transmission::Jet> variables;
+  for (int i = 0; i < count; ++i) variables.push_back(transmission::Jet::variable(box.lower[index(i)], i, count));
   return value_of(query, numbers_of(variables), domain);
 }
 
@@ -283,14 +290,14 @@ BoundCalculator::Lines BoundCalculator::lines_of_constraints(const Box& box, dou
   return lines;
 }
 
-LineBelow BoundCalculator::line_from(const Box& box, const Query& query, const Jet& over, bool from_highest,
-                                     bool& exists) const {
+LineBelow BoundCalculator::line_from(const Box& box, const Query& query, const transmission::Jet& over,
+                                     bool from_highest, bool& exists) const {
   std::array<bool, k_max_variables> at_upper{};
   for (std::size_t i = 0; i < problem_.variables.size(); ++i)
     at_upper[i] = (over.slope[i].lower() + over.slope[i].upper() < 0) != from_highest;
   const Box corner = corner_of(box, at_upper);
-  Domain domain;
-  const Jet there = value_at(query, corner, domain);
+  transmission::Domain domain;
+  const transmission::Jet there = value_at(query, corner, domain);
   LineBelow line;
   line.constant = there.value.lower();
   line.corner = corner.lower;
@@ -317,8 +324,8 @@ void BoundCalculator::add_lines(const Box& box, Query query, Lines& lines, BoxBo
 
 void BoundCalculator::add_lines_of(const Box& box, const Query& query, Lines& lines, BoxBound& result,
                                    double limit) const {
-  Domain domain;
-  const Jet over = value_at(query, box, domain);
+  transmission::Domain domain;
+  const transmission::Jet over = value_at(query, box, domain);
   ++result.evaluations;
   const bool of_objective = query.kind == Query::Kind::objective;
   if (!domain.possible) {
@@ -352,7 +359,7 @@ void BoundCalculator::add_worst_places(Objective objective, bool of_cap, const D
   constexpr int k_steps = 16;  // to 4e-5 of the stroke; the bound's error is its square
   std::array<double, places> values{};
   const auto value_at_place = [&](double place) {
-    Domain domain;
+    transmission::Domain domain;
     const double value = objective_of(objective, middle, stroke_numbers(middle, place, domain));
     return domain.possible && value == value ? value : k_infinite;
   };
@@ -424,11 +431,11 @@ std::vector<BoundCalculator::Query> BoundCalculator::queries_around(const std::v
   if (!problem_.base.has_point_pins() || !wide_kind_.is_papers() ||
       !(torque ? problem_.base.pulley.law == Law::compensate : objective_ == Objective::max_tension))
     return -k_infinite;
-  const RoundingUp rounding;
+  const transmission::RoundingUp rounding;
   const int count = static_cast<int>(problem_.variables.size());
-  const DesignNumbers<Jet> d = numbers_over(box);
-  Domain domain;
-  const StrokeNumbers<Jet> n = stroke_numbers(d, Jet(place), domain);
+  const DesignNumbers<transmission::Jet> d = numbers_over(box);
+  transmission::Domain domain;
+  const StrokeNumbers<transmission::Jet> n = stroke_numbers(d, transmission::Jet(place), domain);
   const Legs over = legs(d, torque, n);
   // Linear in the variables only if the angle is a number.
   if (!domain.possible || n.theta.angle.count != 0 || !(over.a.value.lower() > 0)) return -k_infinite;
@@ -436,24 +443,27 @@ std::vector<BoundCalculator::Query> BoundCalculator::queries_around(const std::v
   // b − q a >= g implies b/a >= q + g/a: from any lower q, a better one.
   double q = (over.b.value / over.a.value).lower();
   for (int step = 0; step < 4; ++step) {
-    const Jet difference = over.b - Jet(q) * over.a;
+    const transmission::Jet difference = over.b - transmission::Jet(q) * over.a;
     LineBelow line;
     line.of_objective = true;
-    line.constant = (at_lower.b.value - Interval(q) * at_lower.a.value).lower();
+    line.constant = (at_lower.b.value - transmission::Interval(q) * at_lower.a.value).lower();
     line.corner = box.lower;
     for (std::size_t i = 0; i < index(count); ++i) line.slope[i] = difference.slope[i].lower();
     Lines lines = constraints;
     lines.push_back(line);
     Box untouched = box;
     const double least = least_of_lines(untouched, count, lines, -k_infinite, k_infinite).bound;
-    const double better =
-        (Interval(q) + Interval(least) / (least >= 0 ? over.a.value.upper() : over.a.value.lower())).lower();
+    const double better = (transmission::Interval(q) +
+                           transmission::Interval(least) / (least >= 0 ? over.a.value.upper() : over.a.value.lower()))
+                              .lower();
     if (!(better > q)) break;
     q = better;
   }
-  const Interval per_sine = sqrt(1.0 + squared(Interval(std::max(q, 0.0))));
-  const Interval lever = torque ? Interval(d.r1.value.lower()) : Interval(1.0);
-  return (lever * Interval(per_sine.lower()) * exp(d.mu.value * n.phi.value)).lower();
+  const transmission::Interval per_sine =
+      transmission::sqrt(1.0 + transmission::squared(transmission::Interval(std::max(q, 0.0))));
+  const transmission::Interval lever =
+      torque ? transmission::Interval(d.r1.value.lower()) : transmission::Interval(1.0);
+  return (lever * transmission::Interval(per_sine.lower()) * transmission::exp(d.mu.value * n.phi.value)).lower();
 }
 
 /// Repeats if the box became much narrower, since its bounds are then tighter.
@@ -499,7 +509,7 @@ BoxBound BoundCalculator::bound(Box& box, double limit) const {
 /// The excess in floating-point numbers.
 double BoundCalculator::excess_of(const Query& query, const std::vector<double>& design) const {
   const DesignNumbers<double> numbers = numbers_of(design);
-  Domain domain;
+  transmission::Domain domain;
   if (query.kind != Query::Kind::needed)
     return objective_of(problem_.cap->objective, numbers, stroke_numbers(numbers, query.place, domain)) -
            problem_.cap->limit;
@@ -524,8 +534,8 @@ Design BoundCalculator::lowest_around(const Design& design, double size) const {
   Lines lines = lines_of_constraints(around, 0.0);
   std::vector<Query> of_lines(lines.size());
   for (const Query& query : queries_around(design)) {
-    Domain domain;
-    const Jet here = slopes_at(query, at, domain);
+    transmission::Domain domain;
+    const transmission::Jet here = slopes_at(query, at, domain);
     LineBelow line;
     line.of_objective = query.kind == Query::Kind::objective;
     line.constant = here.value.upper();
@@ -560,22 +570,25 @@ Design BoundCalculator::lowest_around(const Design& design, double size) const {
 // ---- a single design ------------------------------------------------------------------------------------------------
 
 /// Encloses the objective of one design over a part of the stroke.
-[[gnu::noinline]] Interval BoundCalculator::value_over_piece(const Design& design, double low, double high) const {
-  const RoundingUp rounding;
-  const DesignNumbers<Jet> numbers = numbers_of(std::vector<Jet>(design.begin(), design.end()));
-  const auto at = [&](const Jet& place) {
-    Domain domain;
-    const Jet value = objective_of(objective_, numbers, stroke_numbers(numbers, place, domain));
-    return domain.possible && domain.whole ? value : Jet(Interval(-k_infinite, k_infinite));
+[[gnu::noinline]] transmission::Interval BoundCalculator::value_over_piece(const Design& design, double low,
+                                                                           double high) const {
+  const transmission::RoundingUp rounding;
+  const DesignNumbers<transmission::Jet> numbers =
+      numbers_of(std::vector<transmission::Jet>(design.begin(), design.end()));
+  const auto at = [&](const transmission::Jet& place) {
+    transmission::Domain domain;
+    const transmission::Jet value = objective_of(objective_, numbers, stroke_numbers(numbers, place, domain));
+    return domain.possible && domain.whole ? value : transmission::Jet(transmission::Interval(-k_infinite, k_infinite));
   };
-  const Jet whole = at(Jet::variable({low, high}, 0, 1));
-  Interval value = whole.value;
+  const transmission::Jet whole = at(transmission::Jet::variable({low, high}, 0, 1));
+  transmission::Interval value = whole.value;
   if (whole.count == 0) return value;
   // From the end towards which it does not decrease, or from the middle.
-  const Interval slope = whole.slope[0];
+  const transmission::Interval slope = whole.slope[0];
   const double from = slope.lower() >= 0 ? high : slope.upper() <= 0 ? low : 0.5 * (low + high);
-  const Interval centred = at(Jet(from)).value + slope * (Interval(low, high) - from);
-  const Interval sharper = boost::numeric::intersect(value, centred);
+  const transmission::Interval centred =
+      at(transmission::Jet(from)).value + slope * (transmission::Interval(low, high) - from);
+  const transmission::Interval sharper = boost::numeric::intersect(value, centred);
   return boost::numeric::empty(sharper) ? value : sharper;
 }
 
@@ -589,7 +602,7 @@ double BoundCalculator::rounded_up_value(const Design& design) const {
   std::priority_queue<Piece> pieces;
   double least = -k_infinite;
   const auto add = [&](double low, double high) {
-    const Interval value = value_over_piece(design, low, high);
+    const transmission::Interval value = value_over_piece(design, low, high);
     pieces.push({low, high, value.upper()});
     least = std::max(least, value_over_piece(design, low, low).lower());
     least = std::max(least, value_over_piece(design, high, high).lower());
@@ -606,4 +619,4 @@ double BoundCalculator::rounded_up_value(const Design& design) const {
   return pieces.top().upper;
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

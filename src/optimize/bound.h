@@ -9,7 +9,7 @@
 #include "optimize/objective_at.h"
 #include "optimize/relaxation.h"
 
-namespace fusee {
+namespace fusee::optimize {
 
 struct BoxBound {
   bool possible = true;  ///< false: no design of the box has a value of at most `limit`
@@ -44,10 +44,11 @@ class BoundCalculator {
   using Lines = std::vector<LineBelow>;
   template <typename S>
   DesignNumbers<S> numbers_of(const std::vector<S>& variables) const;
-  DesignNumbers<Jet> numbers_over(const Box& box) const;
-  Jet value_of(const Query& query, const DesignNumbers<Jet>& numbers, Domain& domain) const;
-  Jet value_at(const Query& query, const Box& box, Domain& domain) const;
-  Jet slopes_at(const Query& query, const Box& box, Domain& domain) const;
+  DesignNumbers<transmission::Jet> numbers_over(const Box& box) const;
+  transmission::Jet value_of(const Query& query, const DesignNumbers<transmission::Jet>& numbers,
+                             transmission::Domain& domain) const;
+  transmission::Jet value_at(const Query& query, const Box& box, transmission::Domain& domain) const;
+  transmission::Jet slopes_at(const Query& query, const Box& box, transmission::Domain& domain) const;
 
   PinAngles least_angles(const Box& box, double place) const;
 
@@ -60,9 +61,10 @@ class BoundCalculator {
   void add_tightest_places(const DesignNumbers<double>& middle, std::vector<Query>& query) const;
   void add_lines(const Box& box, Query query, Lines& lines, BoxBound& result, double limit) const;
   void add_lines_of(const Box& box, const Query& query, Lines& lines, BoxBound& result, double limit) const;
-  LineBelow line_from(const Box& box, const Query& query, const Jet& over, bool from_highest, bool& exists) const;
+  LineBelow line_from(const Box& box, const Query& query, const transmission::Jet& over, bool from_highest,
+                      bool& exists) const;
   double quotient_bound(const Box& box, double place, const Lines& constraints) const;
-  Interval value_over_piece(const Design& design, double low, double high) const;
+  transmission::Interval value_over_piece(const Design& design, double low, double high) const;
 
   const Problem& problem_;
   Objective objective_;
@@ -72,4 +74,4 @@ class BoundCalculator {
   std::vector<Number> numbers_;  ///< numbers that a design changes
 };
 
-}  // namespace fusee
+}  // namespace fusee::optimize

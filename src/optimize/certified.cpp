@@ -1,18 +1,17 @@
-#include "fusee/optimize.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <queue>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/optimize.h"
 #include "optimize/bound.h"
 #include "optimize/random.h"
 #include "optimize/search_progress.h"
 #include "optimize/thread_pool.h"
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 struct HigherBound {
@@ -417,4 +416,4 @@ CertifiedResult certified_optimum(const Problem& problem, Objective objective, c
   return BranchAndBound(problem, objective, options, context).run();
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

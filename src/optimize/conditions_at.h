@@ -10,7 +10,12 @@
 #include "optimize/objective_at.h"
 #include "profile/pitch_curve.h"
 
-namespace fusee {
+namespace fusee::optimize {
+
+// Unqualified in the formulas, so that other kinds of numbers can have their own.
+using transmission::cathetus;
+using transmission::cos;
+using transmission::squared;
 
 /// Conditions at one point of the stroke. The first four apply to every design that has a value.
 enum class DesignCondition {
@@ -38,7 +43,7 @@ inline std::size_t condition_count(bool feasible, Method method) {
 template <typename S>
 struct ConditionValue {
   S value = 0.0;
-  Domain domain;
+  transmission::Domain domain;
 };
 template <typename S>
 using ConditionValues = std::array<ConditionValue<S>, k_max_conditions>;
@@ -66,30 +71,30 @@ RadiusSlope<S> arm_slope(const DesignNumbers<S>& d, const UpperNumbers<S>& upper
 /// it positive.
 template <typename S>
 void add_curve(const DesignNumbers<S>& d, const S& p, const S& to_pin, const S& g, const RadiusSlope<S>& slope,
-               const Domain& before, ConditionValue<S>& advance, ConditionValue<S>& floor) {
-  Domain domain = before;
+               const transmission::Domain& before, ConditionValue<S>& advance, ConditionValue<S>& floor) {
+  transmission::Domain domain = before;
   const S w = cathetus(to_pin, S(p - d.rho), domain);
   const S by_turn = p * g * slope.q / w;
   const S dpsi = 1.0 + by_turn;
   const S d2p = p * squared(g) * (slope.q * (slope.q + slope.of_law) + slope.dq);
   advance = {dpsi, domain};
-  floor = {
-      (p - d.half - k_least_floor_radius) * (dpsi * squared(dpsi)) + d2p - (p - d.rho) * (by_turn * squared(by_turn)),
-      domain};
+  floor = {(p - d.half - profile::k_least_floor_radius) * (dpsi * squared(dpsi)) + d2p -
+               (p - d.rho) * (by_turn * squared(by_turn)),
+           domain};
 }
 
 /// Evaluates the first `count` conditions. False if a tendon has no moment arm, so that the others are undefined.
 template <typename S>
 bool conditions_at(const DesignNumbers<S>& d, const S& place, std::size_t count, ConditionValues<S>& values) {
-  Domain arms;
+  transmission::Domain arms;
   const StrokeNumbers<S> n = upper_stroke(d, place, arms);
   if (!arms.possible) return false;
-  const auto set = [&values](DesignCondition which, const S& value, const Domain& domain) {
+  const auto set = [&values](DesignCondition which, const S& value, const transmission::Domain& domain) {
     values[static_cast<std::size_t>(which)] = {value, domain};
   };
   set(DesignCondition::clear_of_B, clear_of_guide(d, n.r1, true), arms);
   set(DesignCondition::clear_of_D, clear_of_guide(d, n.r2, false), arms);
-  Domain of_B = arms, of_D = arms;
+  transmission::Domain of_B = arms, of_D = arms;
   const S wrap_B = wrap_over_B(d, n, of_B);
   set(DesignCondition::wrap_B, wrap_B, of_B);
   const S wrap_D = n.upper2.gamma - n.theta.angle - off_pin(d, lower_line_of(d, n.r2, false, of_D).normal);
@@ -110,10 +115,10 @@ bool conditions_at(const DesignNumbers<S>& d, const S& place, std::size_t count,
   }
   // p2 = r1 m2/m1. Tendon 1 belongs to the other image: m1'/m1 changes its sign, its derivative does not.
   set(DesignCondition::advance_1, S(1.0), arms);
-  set(DesignCondition::floor_1, n.r1 - d.half - k_least_floor_radius, arms);
+  set(DesignCondition::floor_1, n.r1 - d.half - profile::k_least_floor_radius, arms);
   add_curve(d, n.r2, d.to_D, S(d.r1 / (d.R * n.upper1.sine)), {of_2.q + of_1.q, of_2.dq - of_1.dq, of_1.q}, arms,
             at(DesignCondition::advance_2), at(DesignCondition::floor_2));
   return true;
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace fusee {
+namespace fusee::optimize {
 
 enum class EvolutionKind {
   genetic,  ///< one cost: tournament, simulated binary crossover, polynomial mutation, elitism
@@ -46,6 +46,6 @@ struct EvolutionMaker {
 };
 inline constexpr const char* k_evolution_maker = "fusee_evolution_maker_1";
 
-}  // namespace fusee
+}  // namespace fusee::optimize
 
-extern "C" __attribute__((visibility("default"), weak)) const fusee::EvolutionMaker fusee_evolution_maker_1;
+extern "C" __attribute__((visibility("default"), weak)) const fusee::optimize::EvolutionMaker fusee_evolution_maker_1;

@@ -11,7 +11,7 @@
 
 #include "optimize/evolution.h"
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 /// Costs for pagmo: known values, or, with `known` null, a record of the designs that pagmo requests.
@@ -93,6 +93,6 @@ std::unique_ptr<Evolution> make(const EvolutionSettings& settings) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::optimize
 
-const fusee::EvolutionMaker fusee_evolution_maker_1{fusee::make};
+const fusee::optimize::EvolutionMaker fusee_evolution_maker_1{fusee::optimize::make};

@@ -1,5 +1,3 @@
-#include "fusee/optimize.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,12 +9,13 @@
 
 #include "base/module.h"
 #include "fusee/base.h"
+#include "fusee/optimize.h"
 #include "optimize/evolution.h"
 #include "optimize/random.h"
 #include "optimize/search_progress.h"
 #include "optimize/thread_pool.h"
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 /// Cost of a design that violates a constraint: above any possible one, and increasing with the violation.
@@ -238,4 +237,4 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options,
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

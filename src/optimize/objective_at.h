@@ -9,7 +9,15 @@
 #include "optimize/wide_path.h"
 #include "transmission/equations.h"
 
-namespace fusee {
+namespace fusee::optimize {
+
+// Unqualified in the formulas, so that other kinds of numbers can have their own.
+using transmission::demand_not_negative;
+using transmission::direction;
+using transmission::hypot;
+using transmission::larger;
+using transmission::positive_part;
+using transmission::sin;
 
 /// Lower bounds of γ of both tendons: below them, a tendon has left its pin. Smaller angles are replaced by the bound,
 /// which only affects impossible designs. Functions over a box are then defined and smooth beyond the possible designs
@@ -47,7 +55,7 @@ template <typename S>
 DesignNumbers<S> design_numbers(const FileNumbers<S>& file, Law law, bool point_pins) {
   DesignNumbers<S> d{file.R,         file.EB,        file.ED, file.OE, file.EF, file.r1, file.ratio, file.mu, 0.0, 0.0,
                      file.theta_min, file.theta_max, 0.0,     0.0,     0.0,     0.0,     false,      0.0,     {}};
-  Domain whole;  // EF > 0
+  transmission::Domain whole;  // EF > 0
   d.to_B = hypot(d.EB, d.EF);
   d.to_D = hypot(d.ED, d.EF);
   d.angle_B = direction(d.EB, d.EF, whole);
@@ -69,7 +77,7 @@ struct UpperNumbers {
 
 template <typename S>
 struct StrokeNumbers {
-  RotationAngle<S> theta;
+  transmission::RotationAngle<S> theta;
   UpperNumbers<S> upper1, upper2;  ///< of both tendons
   S r1, r2;
   S reach;  ///< pin D to the foot of G's perpendicular, mm
@@ -78,11 +86,13 @@ struct StrokeNumbers {
 
 /// The tendon's line above the pin, in the frame of the link; for intervals by sharp.h.
 template <typename S>
-UpperLine<S> upper_line_of(const DesignNumbers<S>& d, const S& e, const RotationAngle<S>& theta, Domain& domain) {
-  return upper_line(offset_from_pin_in_link(d.R, e, d.OE, theta), d.rho, domain);
+transmission::UpperLine<S> upper_line_of(const DesignNumbers<S>& d, const S& e,
+                                         const transmission::RotationAngle<S>& theta, transmission::Domain& domain) {
+  return transmission::upper_line(transmission::offset_from_pin_in_link(d.R, e, d.OE, theta), d.rho, domain);
 }
-inline UpperLine<Jet> upper_line_of(const DesignNumbers<Jet>& d, const Jet& e, const RotationAngle<Jet>& theta,
-                                    Domain& domain) {
+inline transmission::UpperLine<transmission::Jet> upper_line_of(
+    const DesignNumbers<transmission::Jet>& d, const transmission::Jet& e,
+    const transmission::RotationAngle<transmission::Jet>& theta, transmission::Domain& domain) {
   const SharpLine line = sharp_upper_line(d.R, e, d.OE, d.rho, theta, domain);
   return {line.normal, line.reach};
 }
@@ -93,14 +103,19 @@ const SheathNumbers<S>* sheath_of(const DesignNumbers<S>& d) {
 }
 
 template <typename S>
-LowerLine<S> lower_line_of(const DesignNumbers<S>& d, const S& p, bool of_B, Domain& domain) {
-  if (const auto* sheath = sheath_of(d)) return lower_line(p, S(0.0), sheath->to_mouth, sheath->angle, domain);
-  return lower_line(p, d.rho, of_B ? d.to_B : d.to_D, of_B ? d.angle_B : d.angle_D, domain);
+transmission::LowerLine<S> lower_line_of(const DesignNumbers<S>& d, const S& p, bool of_B,
+                                         transmission::Domain& domain) {
+  if (const auto* sheath = sheath_of(d))
+    return transmission::lower_line(p, S(0.0), sheath->to_mouth, sheath->angle, domain);
+  return transmission::lower_line(p, d.rho, of_B ? d.to_B : d.to_D, of_B ? d.angle_B : d.angle_D, domain);
 }
-inline LowerLine<Jet> lower_line_of(const DesignNumbers<Jet>& d, const Jet& p, bool of_B, Domain& domain) {
-  const SheathNumbers<Jet>* sheath = sheath_of(d);
-  const SharpLine line = sheath != nullptr ? sharp_lower_line(p, Jet(0.0), sheath->across, sheath->above, domain)
-                                           : sharp_lower_line(p, d.rho, of_B ? d.EB : d.ED, d.EF, domain);
+inline transmission::LowerLine<transmission::Jet> lower_line_of(const DesignNumbers<transmission::Jet>& d,
+                                                                const transmission::Jet& p, bool of_B,
+                                                                transmission::Domain& domain) {
+  const SheathNumbers<transmission::Jet>* sheath = sheath_of(d);
+  const SharpLine line = sheath != nullptr
+                             ? sharp_lower_line(p, transmission::Jet(0.0), sheath->across, sheath->above, domain)
+                             : sharp_lower_line(p, d.rho, of_B ? d.EB : d.ED, d.EF, domain);
   return {line.normal, line.reach};
 }
 
@@ -120,7 +135,7 @@ S clear_of_guide(const DesignNumbers<S>& d, const S& radius, bool of_B) {
 /// Numbers of a tendon with a moment arm, of a joint that is not the paper's.
 template <typename S>
 UpperNumbers<S> wide_upper_numbers(const DesignNumbers<S>& d, const TendonEnd<S>& end, const S& e, const S& theta,
-                                   Domain& domain) {
+                                   transmission::Domain& domain) {
   domain.whole = domain.whole && d.wide->domain.whole;
   const WidePath<S> path = wide_path(end, d.wide->drum, e, d.OE, d.rho, theta, domain);
   return {path.normal + theta, positive_part(S(path.arm / d.R), domain), path.free};
@@ -128,15 +143,15 @@ UpperNumbers<S> wide_upper_numbers(const DesignNumbers<S>& d, const TendonEnd<S>
 
 /// Numbers of a tendon with a moment arm.
 template <typename S>
-UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const RotationAngle<S>& theta, double least,
-                              Domain& domain) {
-  const UpperLine<S> line = upper_line_of(d, e, theta, domain);
+UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const transmission::RotationAngle<S>& theta,
+                              double least, transmission::Domain& domain) {
+  const transmission::UpperLine<S> line = upper_line_of(d, e, theta, domain);
   const S gamma = larger(line.normal, S(least));
   return {gamma, positive_part(sin(gamma), domain), line.free};
 }
 
 template <typename S>
-void set_upper_numbers(const DesignNumbers<S>& d, StrokeNumbers<S>& n, Domain& domain) {
+void set_upper_numbers(const DesignNumbers<S>& d, StrokeNumbers<S>& n, transmission::Domain& domain) {
   if constexpr (k_may_be_wide<S>) {
     if (d.wide) {
       n.upper2 = wide_upper_numbers(d, d.wide->end2, d.ED, n.theta.angle, domain);
@@ -150,22 +165,22 @@ void set_upper_numbers(const DesignNumbers<S>& d, StrokeNumbers<S>& n, Domain& d
 
 /// Both tendons above their pins and the radii that follow from their arms, without their lines to the pulley.
 template <typename S>
-StrokeNumbers<S> upper_stroke(const DesignNumbers<S>& d, const S& place, Domain& domain) {
+StrokeNumbers<S> upper_stroke(const DesignNumbers<S>& d, const S& place, transmission::Domain& domain) {
   StrokeNumbers<S> n;
-  n.theta = rotation_angle(d.theta_min + place * (d.theta_max - d.theta_min));
+  n.theta = transmission::rotation_angle(d.theta_min + place * (d.theta_max - d.theta_min));
   set_upper_numbers(d, n, domain);
   // Arms are in units of R, which cancels: an interval is tighter when each variable occurs less often.
-  const S slope = d.linear ? d.R / d.ratio : slope_over_round_pulley(d.r1, n.upper1.sine);
-  n.r1 = d.linear ? pulley_radius(n.upper1.sine, slope) : d.r1;
-  n.r2 = pulley_radius(n.upper2.sine, slope);
+  const S slope = d.linear ? d.R / d.ratio : transmission::slope_over_round_pulley(d.r1, n.upper1.sine);
+  n.r1 = d.linear ? transmission::pulley_radius(n.upper1.sine, slope) : d.r1;
+  n.r2 = transmission::pulley_radius(n.upper2.sine, slope);
   return n;
 }
 
 /// `place`: 0 at the lowest, 1 at the highest joint angle. phi is negative if tendon 2 has left its pin.
 template <typename S>
-StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, Domain& domain) {
+StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, transmission::Domain& domain) {
   StrokeNumbers<S> n = upper_stroke(d, place, domain);
-  const LowerLine<S> lower = lower_line_of(d, n.r2, false, domain);
+  const transmission::LowerLine<S> lower = lower_line_of(d, n.r2, false, domain);
   n.reach = lower.reach;
   n.phi = n.upper2.gamma - n.theta.angle - off_pin(d, lower.normal);
   return n;
@@ -173,7 +188,7 @@ StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, Domai
 
 /// Wrap of tendon 1 on pin B.
 template <typename S>
-S wrap_over_B(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, Domain& domain) {
+S wrap_over_B(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, transmission::Domain& domain) {
   return S(n.upper1.gamma + n.theta.angle) - off_pin(d, lower_line_of(d, n.r1, true, domain).normal);
 }
 
@@ -192,7 +207,7 @@ S below_guide(const DesignNumbers<S>& d, const S& above, const S& wrap) {
   if constexpr (k_may_be_wide<S>) {
     if (d.wide && d.wide->turning) return tension_below_idler(above, *d.wide->turning, wrap);
   }
-  return tension_below_pin(above, d.mu, wrap);
+  return transmission::tension_below_pin(above, d.mu, wrap);
 }
 
 /// [9] including the tendon in a sheath, which is compliant to the mean of its end tensions.
@@ -200,12 +215,12 @@ template <typename S>
 S elongation_at(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, const S& above, const S& off_pin) {
   const S on_pin = d.rho * n.phi;
   if (const auto* sheath = sheath_of(d)) {
-    const S below = tension_below_pin(off_pin, sheath->mu, sheath->bend);
+    const S below = transmission::tension_below_pin(off_pin, sheath->mu, sheath->bend);
     const S sheathed = sheath->length + d.stiffness * sheath->compliance;
-    return elongation_of_tendon(above, off_pin, n.upper2.free, on_pin, S(0.0), d.stiffness) +
-           elongation_of_tendon(off_pin, below, S(0.0), sheathed, n.reach, d.stiffness);
+    return transmission::elongation_of_tendon(above, off_pin, n.upper2.free, on_pin, S(0.0), d.stiffness) +
+           transmission::elongation_of_tendon(off_pin, below, S(0.0), sheathed, n.reach, d.stiffness);
   }
-  return elongation_of_tendon(above, off_pin, n.upper2.free, on_pin, n.reach, d.stiffness);
+  return transmission::elongation_of_tendon(above, off_pin, n.upper2.free, on_pin, n.reach, d.stiffness);
 }
 
 /// Contribution of this point to the objective, which is the maximum over the range. Per newton of tip force.
@@ -213,23 +228,24 @@ template <typename S>
 S objective_of(Objective objective, const DesignNumbers<S>& d, const StrokeNumbers<S>& n) {
   if (objective == Objective::footprint) return footprint_at(d, n);
   // A newton across OC has the torque R, and the arm is R sin γ: R cancels here too.
-  const S above = tension_above_pin(S(1.0), n.upper2.sine);
+  const S above = transmission::tension_above_pin(S(1.0), n.upper2.sine);
   const S off_pin = below_guide(d, above, n.phi);
   const auto* sheath = sheath_of(d);
-  const S below = sheath != nullptr ? tension_below_pin(off_pin, sheath->mu, sheath->bend) : off_pin;
+  const S below = sheath != nullptr ? transmission::tension_below_pin(off_pin, sheath->mu, sheath->bend) : off_pin;
   if (objective == Objective::max_tension) return below;
   if (objective == Objective::motor_torque) return below * n.r2;
   const S elongation = elongation_at(d, n, above, off_pin);
-  return (180.0 / k_pi) * angle_of_elongation(elongation, S(d.R * n.upper2.sine));  // max_error, in degrees
+  return (180.0 / k_pi) *
+         transmission::angle_of_elongation(elongation, S(d.R * n.upper2.sine));  // max_error, in degrees
 }
 
 /// Requires both tendons on their pins, since the law θ(α) ends otherwise.
 template <typename S>
-S objective_at(Objective objective, const DesignNumbers<S>& d, const S& place, Domain& domain) {
+S objective_at(Objective objective, const DesignNumbers<S>& d, const S& place, transmission::Domain& domain) {
   const StrokeNumbers<S> n = stroke_numbers(d, place, domain);
   demand_not_negative(n.phi, domain);
   demand_not_negative(wrap_over_B(d, n, domain), domain);
   return objective_of(objective, d, n);
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

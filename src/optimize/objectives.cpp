@@ -1,16 +1,15 @@
-#include "fusee/optimize.h"
-
 #include <array>
 
 #include "base/golden_section.h"
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/optimize.h"
 #include "fusee/transmission.h"
-#include "transmission/torque.h"
 #include "optimize/objective_at.h"
 #include "profile/take_off.h"
+#include "transmission/torque.h"
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 constexpr std::array<ObjectiveInfo, 5> k_objectives{{
@@ -102,10 +101,10 @@ DesignNumbers<double> numbers_of(const Mechanism& mechanism) {
 /// Solves the equations by Transmission and paper_forces(): for cases without a closed form, and for the reason of a
 /// missing value.
 Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechanism) {
-  const Transmission transmission(mechanism);
+  const transmission::Transmission transmission(mechanism);
   if (const auto theta = transmission.dead_centre()) {
     const std::string where = " at θ = " + rounded(degrees(*theta), 4) + "°";
-    if (mechanism.pulley.law == Law::torque && !(tightest_torque(mechanism).slope() > 0))
+    if (mechanism.pulley.law == Law::torque && !(transmission::tightest_torque(mechanism).slope() > 0))
       return impossible("the wanted torque of the motor does not hold the load" + where);
     return impossible("a tendon loses its moment arm" + where);
   }
@@ -116,7 +115,7 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
   std::string reason;
   const double range = mechanism.joint.theta_max - mechanism.joint.theta_min;
   const auto value = [&](double place) {
-    const TransmissionPoint point = transmission.at_theta(mechanism.joint.theta_min + place * range);
+    const transmission::TransmissionPoint point = transmission.at_theta(mechanism.joint.theta_min + place * range);
     const std::string where = " at θ = " + rounded(degrees(point.theta), 3) + "°";
     if (!(point.t1.lower_reach > 0))
       reason = "pin B lies inside pulley P1" + where;
@@ -127,11 +126,11 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
     else if (!(point.t2.wrap >= 0))
       reason = "tendon 2 leaves pin D" + where;
     if (!reason.empty()) return 2.0 * k_impossible;
-    const PaperForces forces = paper_forces(loaded, point);
+    const transmission::PaperForces forces = transmission::paper_forces(loaded, point);
     if (objective == Objective::max_tension) return forces.Tb;
     if (objective == Objective::motor_torque) return forces.Tb * point.t2.p;
     if (objective == Objective::max_error) return degrees(forces.elongation / point.t2.m);
-    Domain domain;
+    transmission::Domain domain;
     return objective_at(objective, numbers_of(mechanism), place, domain);
   };
   Evaluation evaluation = largest_over_range(mechanism, value);
@@ -142,10 +141,10 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
 
 /// Minimum radius of curvature of both pitch curves; the envelope exists if it is positive.
 Evaluation smallest_bend(const Mechanism& mechanism) {
-  const Transmission transmission(mechanism);
+  const transmission::Transmission transmission(mechanism);
   if (transmission.dead_centre()) return evaluate_by_transmission(Objective::max_tension, mechanism);
   const double range = mechanism.joint.theta_max - mechanism.joint.theta_min;
-  const TakeOffs left(transmission, Side::left), right(transmission, Side::right);
+  const profile::TakeOffs left(transmission, transmission::Side::left), right(transmission, transmission::Side::right);
   const auto tightness = [&](double place) {
     const double theta = mechanism.joint.theta_min + place * range;
     return -std::min(left.at(-theta).curve.radius, right.at(theta).curve.radius);
@@ -185,7 +184,7 @@ Evaluation evaluate(Objective objective, const Mechanism& mechanism) {
   if (!has_closed_form(mechanism)) return evaluate_by_transmission(objective, mechanism);
   const DesignNumbers<double> numbers = numbers_of(mechanism);
   Evaluation evaluation = largest_over_range(mechanism, [&](double place) {
-    Domain domain;
+    transmission::Domain domain;
     const double value = objective_at(objective, numbers, place, domain);
     return domain.possible ? value : 2.0 * k_impossible;
   });
@@ -194,4 +193,4 @@ Evaluation evaluate(Objective objective, const Mechanism& mechanism) {
   return evaluation;
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

@@ -1,20 +1,19 @@
-#include "fusee/optimize.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 #include "fusee/mechanism_file.h"
+#include "fusee/optimize.h"
 #include "fusee/profile.h"
 #include "mechanism/linear_relation.h"
 #include "optimize/random.h"
 #include "profile/feasibility.h"
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 /// constant + a · x.
@@ -96,9 +95,10 @@ std::vector<Variable> variables_of(const Optimization& table) {
 
 /// Values of the conditions for feasibility_values a pulley.
 std::vector<double> feasibility_values(const Mechanism& mechanism) {
-  const Transmission transmission(mechanism);
+  const transmission::Transmission transmission(mechanism);
   std::vector<double> values;
-  for (const Condition& condition : attempt(mechanism, transmission).conditions) values.push_back(condition.value);
+  for (const profile::Condition& condition : profile::attempt(mechanism, transmission).conditions)
+    values.push_back(condition.value);
   return values;
 }
 
@@ -183,10 +183,11 @@ namespace {
 
 /// Obstacle to pulleys of one turn or, if allowed, of several.
 std::optional<std::string> obstacle_to_pulleys(const Problem& problem, const Mechanism& mechanism) {
-  const auto obstacle = obstacle_to(mechanism);
+  const auto obstacle = profile::obstacle_to(mechanism);
   if (!obstacle) return std::nullopt;
-  if (!is_of_one_turn(*obstacle) || !problem.several_turns || kept_to_one_turn(mechanism)) return obstacle->message;
-  if (const auto other = obstacle_but_one_turn(mechanism)) return other->message;
+  if (!profile::is_of_one_turn(*obstacle) || !problem.several_turns || profile::kept_to_one_turn(mechanism))
+    return obstacle->message;
+  if (const auto other = profile::obstacle_but_one_turn(mechanism)) return other->message;
   return problem.several_turns(mechanism);
 }
 
@@ -267,4 +268,4 @@ Problem make_problem(const MechanismFile& file, JointConverter as_it_is, Helical
   return problem;
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

@@ -6,7 +6,7 @@
 
 #include "fusee/optimize.h"
 
-namespace fusee {
+namespace fusee::optimize {
 
 /// splitmix64 (Steele, Lea, Flood 2014).
 class Random {
@@ -32,4 +32,4 @@ inline Design random_design(const Problem& problem, Random& random) {
   return design;
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

@@ -7,22 +7,22 @@
 // a box by its corners. This is valid for any weights. They are therefore computed in floating-point numbers
 // (simplex.cpp), and only the sum with directed rounding, in functions that the compiler must not merge.
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 /// constant + slope · (x − lower), in intervals.
 struct WeightedSum {
-  Interval constant = 0.0;
-  std::array<Interval, k_max_variables> slope{};
-  Interval of_objective = 0.0;  ///< total weight of the objective
+  transmission::Interval constant = 0.0;
+  std::array<transmission::Interval, k_max_variables> slope{};
+  transmission::Interval of_objective = 0.0;  ///< total weight of the objective
 };
 
 /// Call only while a RoundingUp exists.
 double least_over(const WeightedSum& sum, const Box& box, int count) {
-  Interval least = sum.constant;
+  transmission::Interval least = sum.constant;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    const Interval width = Interval(box.upper[i]) - box.lower[i];
-    if (sum.slope[i].lower() < 0) least += Interval(sum.slope[i].lower()) * width;
+    const transmission::Interval width = transmission::Interval(box.upper[i]) - box.lower[i];
+    if (sum.slope[i].lower() < 0) least += transmission::Interval(sum.slope[i].lower()) * width;
   }
   return least.lower();
 }
@@ -32,13 +32,13 @@ WeightedSum weighted(const Box& box, int count, const std::vector<LineBelow>& li
   WeightedSum sum;
   for (std::size_t r = 0; r < lines.size(); ++r) {
     if (!(weights[r] > 0)) continue;
-    const Interval weight = weights[r];
+    const transmission::Interval weight = weights[r];
     sum.constant += weight * lines[r].constant;
     if (lines[r].of_objective) sum.of_objective += weight;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      const Interval slope = weight * lines[r].slope[i];
+      const transmission::Interval slope = weight * lines[r].slope[i];
       sum.slope[i] += slope;
-      sum.constant += slope * (Interval(box.lower[i]) - lines[r].corner[i]);
+      sum.constant += slope * (transmission::Interval(box.lower[i]) - lines[r].corner[i]);
     }
   }
   return sum;
@@ -51,21 +51,21 @@ bool cut(Box& box, int count, const WeightedSum& sum, double most) {
   if (!(std::abs(least) < k_infinite)) return true;
   const Box whole = box;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    const Interval width = Interval(whole.upper[i]) - whole.lower[i];
+    const transmission::Interval width = transmission::Interval(whole.upper[i]) - whole.lower[i];
     const double slope = sum.slope[i].lower();
     // The sum has its minimum at one end of the variable and increases from there by at least |slope| · way.
     if (slope == 0) continue;
-    const double way = ((Interval(most) - least) / std::abs(slope)).upper();
+    const double way = ((transmission::Interval(most) - least) / std::abs(slope)).upper();
     if (!(way < width.lower())) continue;
-    if (slope > 0) box.upper[i] = std::max(box.lower[i], (Interval(whole.lower[i]) + way).upper());
-    if (slope < 0) box.lower[i] = std::min(box.upper[i], (Interval(whole.upper[i]) - way).lower());
+    if (slope > 0) box.upper[i] = std::max(box.lower[i], (transmission::Interval(whole.lower[i]) + way).upper());
+    if (slope < 0) box.lower[i] = std::min(box.upper[i], (transmission::Interval(whole.upper[i]) - way).lower());
   }
   return true;
 }
 
 [[gnu::noinline]] bool cut_by_sum(Box& box, int count, const std::vector<LineBelow>& lines,
                                   const std::vector<double>& weights, double limit) {
-  const RoundingUp rounding;
+  const transmission::RoundingUp rounding;
   const WeightedSum sum = weighted(box, count, lines, weights);
   const double most = (sum.of_objective * limit).upper();
   return cut(box, count, sum, most);
@@ -74,10 +74,10 @@ bool cut(Box& box, int count, const WeightedSum& sum, double most) {
 /// Bound of the objective by the weighted lines; infinite if they prove that there is no design.
 [[gnu::noinline]] double bound_by(const Box& box, int count, const std::vector<LineBelow>& lines,
                                   const std::vector<double>& weights) {
-  const RoundingUp rounding;
+  const transmission::RoundingUp rounding;
   const WeightedSum sum = weighted(box, count, lines, weights);
   const double least = least_over(sum, box, count);
-  if (sum.of_objective.lower() > 0) return (Interval(least) / sum.of_objective).lower();
+  if (sum.of_objective.lower() > 0) return (transmission::Interval(least) / sum.of_objective).lower();
   return least > 0 ? k_infinite : -k_infinite;
 }
 
@@ -166,4 +166,4 @@ LeastOfLines least_of_lines(Box& box, int count, const std::vector<LineBelow>& l
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

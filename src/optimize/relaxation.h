@@ -9,9 +9,9 @@
 #include "optimize/simplex.h"
 #include "transmission/interval.h"
 
-namespace fusee {
+namespace fusee::optimize {
 
-static_assert(Jet::k_most == k_max_variables);
+static_assert(transmission::Jet::k_most == k_max_variables);
 
 struct Box {
   std::array<double, k_max_variables> lower{};
@@ -42,4 +42,4 @@ LeastOfLines least_of_lines(Box& box, int count, const std::vector<LineBelow>& l
 /// Cuts with each line separately. False if nothing is left.
 bool cut_by_lines(Box& box, int count, const std::vector<LineBelow>& lines, double limit);
 
-}  // namespace fusee
+}  // namespace fusee::optimize

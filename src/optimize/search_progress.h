@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::optimize {
 
 /// Reports the best value so far and an estimate of the share that is done, 0 … 1. False if the search must stop.
 inline bool may_continue(const RunContext& context, double done, std::optional<double> best) {
@@ -16,4 +16,4 @@ inline bool may_continue(const RunContext& context, double done, std::optional<d
   return !context.stop.stop_requested();
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

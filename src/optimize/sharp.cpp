@@ -7,10 +7,10 @@
 //
 // Call only while a RoundingUp exists.
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
-using Arguments = std::array<Interval, 4>;
+using Arguments = std::array<transmission::Interval, 4>;
 
 /// The arguments at which a function with these slopes has its minimum or maximum.
 Arguments at_end(const Arguments& arguments, const Arguments& slopes, bool largest) {
@@ -24,14 +24,15 @@ Arguments at_end(const Arguments& arguments, const Arguments& slopes, bool large
 
 /// Tightens `value` by evaluating at the ends. Only the signs of the slopes are used.
 template <typename Value, typename Slopes>
-Interval between_ends(const Arguments& arguments, Interval value, Value value_of, Slopes slopes_of) {
+transmission::Interval between_ends(const Arguments& arguments, transmission::Interval value, Value value_of,
+                                    Slopes slopes_of) {
   constexpr int k_rounds = 3;  // a tighter value gives tighter slopes
-  const auto is_number = [](const Interval& argument) { return argument.lower() == argument.upper(); };
+  const auto is_number = [](const transmission::Interval& argument) { return argument.lower() == argument.upper(); };
   if (std::all_of(arguments.begin(), arguments.end(), is_number)) return value;
   for (int round = 0; round < k_rounds; ++round) {
     const Arguments slopes = slopes_of(value);
-    const Interval least = value_of(at_end(arguments, slopes, false)),
-                   largest = value_of(at_end(arguments, slopes, true));
+    const transmission::Interval least = value_of(at_end(arguments, slopes, false)),
+                                 largest = value_of(at_end(arguments, slopes, true));
     const double low = std::max(value.lower(), least.lower()), high = std::min(value.upper(), largest.upper());
     if (!(low <= high) || (low == value.lower() && high == value.upper())) break;
     value = {low, high};
@@ -41,39 +42,45 @@ Interval between_ends(const Arguments& arguments, Interval value, Value value_of
 
 /// Direction and length of C − P, and whether C lies outside the pin's circle everywhere.
 struct TangentLine {
-  Interval normal, reach;
-  Domain domain;
+  transmission::Interval normal, reach;
+  transmission::Domain domain;
 };
 
-TangentLine upper_of(const Interval& x, const Interval& y, const Interval& rho) {
+TangentLine upper_of(const transmission::Interval& x, const transmission::Interval& y,
+                     const transmission::Interval& rho) {
   TangentLine seen;
-  const Interval distance = sqrt(squared(x) + squared(y));
-  const Interval towards = direction(Jet(x), Jet(y), seen.domain).value;
-  seen.normal = towards - acos(unit_part(rho / distance, seen.domain));
-  seen.reach = sqrt(positive_part(squared(x) + squared(y) - squared(rho), seen.domain));
+  const transmission::Interval distance = transmission::sqrt(transmission::squared(x) + transmission::squared(y));
+  const transmission::Interval towards =
+      transmission::direction(transmission::Jet(x), transmission::Jet(y), seen.domain).value;
+  seen.normal = towards - transmission::acos(transmission::unit_part(rho / distance, seen.domain));
+  seen.reach = transmission::sqrt(transmission::positive_part(
+      transmission::squared(x) + transmission::squared(y) - transmission::squared(rho), seen.domain));
   return seen;
 }
 
-TangentLine lower_of(const Interval& p, const Interval& rho, const Interval& e, const Interval& ef) {
+TangentLine lower_of(const transmission::Interval& p, const transmission::Interval& rho,
+                     const transmission::Interval& e, const transmission::Interval& ef) {
   TangentLine seen;
-  const Interval beyond = p - rho, square = squared(e) + squared(ef);
-  const Interval towards = direction(Jet(e), Jet(ef), seen.domain).value;
-  seen.normal = towards - acos(unit_part(beyond / sqrt(square), seen.domain));
-  seen.reach = sqrt(positive_part(square - squared(beyond), seen.domain));
+  const transmission::Interval beyond = p - rho, square = transmission::squared(e) + transmission::squared(ef);
+  const transmission::Interval towards =
+      transmission::direction(transmission::Jet(e), transmission::Jet(ef), seen.domain).value;
+  seen.normal = towards - transmission::acos(transmission::unit_part(beyond / transmission::sqrt(square), seen.domain));
+  seen.reach = transmission::sqrt(transmission::positive_part(square - transmission::squared(beyond), seen.domain));
   return seen;
 }
 
-int count_of(std::initializer_list<const Jet*> jets) {
+int count_of(std::initializer_list<const transmission::Jet*> jets) {
   int count = 0;
-  for (const Jet* jet : jets) count = std::max(count, jet->count);
+  for (const transmission::Jet* jet : jets) count = std::max(count, jet->count);
   return count;
 }
 
 }  // namespace
 
-SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet& rho, const RotationAngle<Jet>& theta,
-                           Domain& domain) {
-  const Interval sine = theta.sine.value, cosine = theta.cosine.value, angle = theta.angle.value;
+SharpLine sharp_upper_line(const transmission::Jet& R, const transmission::Jet& e, const transmission::Jet& oe,
+                           const transmission::Jet& rho, const transmission::RotationAngle<transmission::Jet>& theta,
+                           transmission::Domain& domain) {
+  const transmission::Interval sine = theta.sine.value, cosine = theta.cosine.value, angle = theta.angle.value;
   const auto seen_from = [&](const Arguments& a) {
     return upper_of(-(a[1] * cosine + a[2] * sine), a[0] + a[2] * cosine - a[1] * sine, a[3]);
   };
@@ -81,51 +88,56 @@ SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet&
   const TangentLine crude = seen_from(arguments);
   domain.possible = domain.possible && crude.domain.possible;
   domain.whole = domain.whole && crude.domain.whole;
-  if (!crude.domain.possible || !crude.domain.whole) return {Jet(crude.normal), Jet(crude.reach)};
+  if (!crude.domain.possible || !crude.domain.whole)
+    return {transmission::Jet(crude.normal), transmission::Jet(crude.reach)};
   // Slopes times f, which is positive.
-  const auto slopes_at = [&](const Interval& gamma) {
-    return Arguments{-sin(gamma), cos(gamma - angle), -sin(gamma - angle), Interval(1.0)};
+  const auto slopes_at = [&](const transmission::Interval& gamma) {
+    return Arguments{-transmission::sin(gamma), transmission::cos(gamma - angle), -transmission::sin(gamma - angle),
+                     transmission::Interval(1.0)};
   };
-  const Interval gamma = between_ends(
+  const transmission::Interval gamma = between_ends(
       arguments, crude.normal, [&](const Arguments& a) { return seen_from(a).normal; }, slopes_at);
   const int count = count_of({&R, &e, &oe, &rho, &theta.angle});
-  if (count == 0) return {Jet(gamma), Jet(crude.reach)};
+  if (count == 0) return {transmission::Jet(gamma), transmission::Jet(crude.reach)};
   const Arguments slopes = slopes_at(gamma);
-  const Interval by_angle = e.value * -slopes[2] + oe.value * slopes[1];
-  SharpLine line{Jet(gamma), Jet(crude.reach)};
+  const transmission::Interval by_angle = e.value * -slopes[2] + oe.value * slopes[1];
+  SharpLine line{transmission::Jet(gamma), transmission::Jet(crude.reach)};
   line.normal.count = line.reach.count = count;
   // Derivatives of the line's length: C moves along the line, or the tangent point moves round the pin.
-  const Interval along_R = cos(gamma);
+  const transmission::Interval along_R = transmission::cos(gamma);
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    const Interval turned = slopes[0] * R.slope[i] + slopes[1] * e.slope[i] + slopes[2] * oe.slope[i] + rho.slope[i] +
-                            by_angle * theta.angle.slope[i];
+    const transmission::Interval turned = slopes[0] * R.slope[i] + slopes[1] * e.slope[i] + slopes[2] * oe.slope[i] +
+                                          rho.slope[i] + by_angle * theta.angle.slope[i];
     line.normal.slope[i] = turned / crude.reach;
     // f = (C − P)·t: dx t_x + dy t_y − ρ dγ
-    const Interval moved = along_R * R.slope[i] + -slopes[2] * e.slope[i] + slopes[1] * oe.slope[i] +
-                           (-(oe.value * slopes[2]) - e.value * slopes[1]) * theta.angle.slope[i];
+    const transmission::Interval moved = along_R * R.slope[i] + -slopes[2] * e.slope[i] + slopes[1] * oe.slope[i] +
+                                         (-(oe.value * slopes[2]) - e.value * slopes[1]) * theta.angle.slope[i];
     line.reach.slope[i] = moved - rho.value * line.normal.slope[i];
   }
   return line;
 }
 
-SharpLine sharp_lower_line(const Jet& p, const Jet& rho, const Jet& e, const Jet& ef, Domain& domain) {
+SharpLine sharp_lower_line(const transmission::Jet& p, const transmission::Jet& rho, const transmission::Jet& e,
+                           const transmission::Jet& ef, transmission::Domain& domain) {
   const auto seen_from = [](const Arguments& a) { return lower_of(a[0], a[1], a[2], a[3]); };
   const Arguments arguments{p.value, rho.value, e.value, ef.value};
   const TangentLine crude = seen_from(arguments);
   domain.possible = domain.possible && crude.domain.possible;
   domain.whole = domain.whole && crude.domain.whole;
-  if (!crude.domain.possible || !crude.domain.whole) return {Jet(crude.normal), Jet(crude.reach)};
-  const auto slopes_at = [](const Interval& normal) {
-    return Arguments{Interval(1.0), Interval(-1.0), -cos(normal), -sin(normal)};
+  if (!crude.domain.possible || !crude.domain.whole)
+    return {transmission::Jet(crude.normal), transmission::Jet(crude.reach)};
+  const auto slopes_at = [](const transmission::Interval& normal) {
+    return Arguments{transmission::Interval(1.0), transmission::Interval(-1.0), -transmission::cos(normal),
+                     -transmission::sin(normal)};
   };
-  const Interval normal = between_ends(
+  const transmission::Interval normal = between_ends(
       arguments, crude.normal, [&](const Arguments& a) { return seen_from(a).normal; }, slopes_at);
   const int count = count_of({&p, &rho, &e, &ef});
-  if (count == 0) return {Jet(normal), Jet(crude.reach)};
+  if (count == 0) return {transmission::Jet(normal), transmission::Jet(crude.reach)};
   const Arguments slopes = slopes_at(normal);
-  SharpLine line{Jet(normal), Jet(crude.reach)};
+  SharpLine line{transmission::Jet(normal), transmission::Jet(crude.reach)};
   line.normal.count = line.reach.count = count;
-  const Interval beyond = p.value - rho.value;
+  const transmission::Interval beyond = p.value - rho.value;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     line.normal.slope[i] = (p.slope[i] - rho.slope[i] + slopes[2] * e.slope[i] + slopes[3] * ef.slope[i]) / crude.reach;
     line.reach.slope[i] =
@@ -134,4 +146,4 @@ SharpLine sharp_lower_line(const Jet& p, const Jet& rho, const Jet& e, const Jet
   return line;
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

@@ -8,17 +8,19 @@
 #include "transmission/equations.h"
 #include "transmission/interval.h"
 
-namespace fusee {
+namespace fusee::optimize {
 
 struct SharpLine {
-  Jet normal;
-  Jet reach;  ///< from C or the foot of the perpendicular to the pin's tangent point
+  transmission::Jet normal;
+  transmission::Jet reach;  ///< from C or the foot of the perpendicular to the pin's tangent point
 };
 
 /// Line above a pin, in the link's frame (upper_line() over offset_from_pin_in_link()).
-SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet& rho, const RotationAngle<Jet>& theta,
-                           Domain& domain);
+SharpLine sharp_upper_line(const transmission::Jet& R, const transmission::Jet& e, const transmission::Jet& oe,
+                           const transmission::Jet& rho, const transmission::RotationAngle<transmission::Jet>& theta,
+                           transmission::Domain& domain);
 /// Line below a pin at (e, ef) from the pulley's axis (lower_line()).
-SharpLine sharp_lower_line(const Jet& p, const Jet& rho, const Jet& e, const Jet& ef, Domain& domain);
+SharpLine sharp_lower_line(const transmission::Jet& p, const transmission::Jet& rho, const transmission::Jet& e,
+                           const transmission::Jet& ef, transmission::Domain& domain);
 
-}  // namespace fusee
+}  // namespace fusee::optimize

@@ -8,7 +8,7 @@
 // costs are 0 for y and 1 for t, so that the start is dual feasible and every step preserves this. At any end of the
 // iteration the costs of the slacks are weights that prove a bound.
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 constexpr double k_tolerance = 1e-10;  ///< tolerance of violations: rows have size 1
@@ -156,4 +156,4 @@ class Tableau {
 
 LinearAnswer solve(const LinearProgram& program, double enough) { return Tableau(program).run(enough); }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

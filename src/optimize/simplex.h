@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace fusee {
+namespace fusee::optimize {
 
 constexpr int k_max_variables = 8;
 inline constexpr double k_infinite = std::numeric_limits<double>::infinity();
@@ -35,4 +35,4 @@ struct LinearAnswer {
 /// Dual simplex method with bounds. Stops when t exceeds `enough`.
 LinearAnswer solve(const LinearProgram& program, double enough);
 
-}  // namespace fusee
+}  // namespace fusee::optimize

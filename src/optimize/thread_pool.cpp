@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 constexpr unsigned k_max_threads = 8;
@@ -72,4 +72,4 @@ void ThreadPool::take_jobs() {
   if (--busy_ == 0) ended_.notify_all();
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

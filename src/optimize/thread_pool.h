@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace fusee {
+namespace fusee::optimize {
 
 class ThreadPool {
  public:
@@ -40,4 +40,4 @@ class ThreadPool {
   std::vector<std::thread> threads_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::optimize

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::optimize {
 
 WideKind wide_kind(const Mechanism& mechanism) {
   return {mechanism.joint.drum_radius > 0,
@@ -32,40 +32,47 @@ WideFileNumbers<double> wide_file_numbers(const Mechanism& mechanism) {
           mechanism.sheath.exit_above};
 }
 
-double twist_of(double across, double along, Domain&) {
+double twist_of(double across, double along, transmission::Domain&) {
   // An end straight below O is reached from the right, as in pin_place().
   return across == 0 && along < 0 ? k_pi : std::atan2(across, along);
 }
 
-Jet twist_of(const Jet& across, const Jet& along, Domain& domain) {
-  const Interval quarter = 0.5 * pi_interval();
-  if (along.value.lower() > 0) return atan(across / along);
-  if (across.value.lower() > 0) return Jet(quarter) - atan(along / across);
-  if (across.value.upper() < 0) return Jet(-quarter) - atan(along / across);
+transmission::Jet twist_of(const transmission::Jet& across, const transmission::Jet& along,
+                           transmission::Domain& domain) {
+  const transmission::Interval quarter = 0.5 * transmission::pi_interval();
+  if (along.value.lower() > 0) return transmission::atan(across / along);
+  if (across.value.lower() > 0) return transmission::Jet(quarter) - transmission::atan(along / across);
+  if (across.value.upper() < 0) return transmission::Jet(-quarter) - transmission::atan(along / across);
   domain.whole = false;
-  return boost::numeric::hull(-pi_interval(), pi_interval());
+  return boost::numeric::hull(-transmission::pi_interval(), transmission::pi_interval());
 }
 
 namespace {
 
 double quarter_turn(double) { return 0.5 * k_pi; }
-Jet quarter_turn(const Jet&) { return Jet(0.5 * pi_interval()); }
-
-UpperLine<double> line_from_end(double away, double e, double oe, double rho, const RotationAngle<double>& turned,
-                                Domain& domain) {
-  return upper_line(offset_from_pin_in_link(away, e, oe, turned), rho, domain);
+transmission::Jet quarter_turn(const transmission::Jet&) {
+  return transmission::Jet(0.5 * transmission::pi_interval());
 }
-UpperLine<Jet> line_from_end(const Jet& away, const Jet& e, const Jet& oe, const Jet& rho,
-                             const RotationAngle<Jet>& turned, Domain& domain) {
+
+transmission::UpperLine<double> line_from_end(double away, double e, double oe, double rho,
+                                              const transmission::RotationAngle<double>& turned,
+                                              transmission::Domain& domain) {
+  return transmission::upper_line(transmission::offset_from_pin_in_link(away, e, oe, turned), rho, domain);
+}
+transmission::UpperLine<transmission::Jet> line_from_end(const transmission::Jet& away, const transmission::Jet& e,
+                                                         const transmission::Jet& oe, const transmission::Jet& rho,
+                                                         const transmission::RotationAngle<transmission::Jet>& turned,
+                                                         transmission::Domain& domain) {
   const SharpLine line = sharp_upper_line(away, e, oe, rho, turned, domain);
   return {line.normal, line.reach};
 }
 
 template <typename S>
-WidePath<S> free_path(const TendonEnd<S>& end, const S& e, const S& oe, const S& rho, const S& theta, Domain& domain) {
-  const RotationAngle<S> turned = rotation_angle(S(theta + end.twist));
-  const UpperLine<S> line = line_from_end(end.away, e, oe, rho, turned, domain);
-  return {line.normal - turned.angle, end.away * sin(line.normal), line.free};
+WidePath<S> free_path(const TendonEnd<S>& end, const S& e, const S& oe, const S& rho, const S& theta,
+                      transmission::Domain& domain) {
+  const transmission::RotationAngle<S> turned = transmission::rotation_angle(S(theta + end.twist));
+  const transmission::UpperLine<S> line = line_from_end(end.away, e, oe, rho, turned, domain);
+  return {line.normal - turned.angle, end.away * transmission::sin(line.normal), line.free};
 }
 
 /// The line that touches drum and pin, (P − O)·n = ρ0 − ρ.
@@ -74,22 +81,23 @@ struct DrumLine {
   S normal, length;
 };
 template <typename S>
-DrumLine<S> drum_line(const S& drum, const S& e, const S& oe, const S& rho, Domain& domain) {
-  const S distance = hypot(e, oe), beyond = drum - rho;
-  return {atan(S(-oe / e)) + acos(unit_part(S(beyond / distance), domain)), cathetus(distance, beyond, domain)};
+DrumLine<S> drum_line(const S& drum, const S& e, const S& oe, const S& rho, transmission::Domain& domain) {
+  const S distance = transmission::hypot(e, oe), beyond = drum - rho;
+  return {transmission::atan(S(-oe / e)) + transmission::acos(transmission::unit_part(S(beyond / distance), domain)),
+          transmission::cathetus(distance, beyond, domain)};
 }
 
 enum class DrumState { free, on_drum, either };
 DrumState drum_state(double wound) { return wound >= 0 ? DrumState::on_drum : DrumState::free; }
-DrumState drum_state(const Jet& wound) {
+DrumState drum_state(const transmission::Jet& wound) {
   if (wound.value.lower() >= 0) return DrumState::on_drum;
   return wound.value.upper() < 0 ? DrumState::free : DrumState::either;
 }
 
 /// A number belongs to one branch.
 double hull_of(double a, double) { return a; }
-Jet hull_of(const Jet& a, const Jet& b) {
-  Jet both(boost::numeric::hull(a.value, b.value));
+transmission::Jet hull_of(const transmission::Jet& a, const transmission::Jet& b) {
+  transmission::Jet both(boost::numeric::hull(a.value, b.value));
   both.count = std::max(a.count, b.count);
   for (std::size_t i = 0; i < static_cast<std::size_t>(both.count); ++i)
     both.slope[i] = boost::numeric::hull(a.slope[i], b.slope[i]);
@@ -98,17 +106,18 @@ Jet hull_of(const Jet& a, const Jet& b) {
 
 template <typename S>
 WidePath<S> path_of(const TendonEnd<S>& end, const std::optional<S>& drum, const S& e, const S& oe, const S& rho,
-                    const S& theta, Domain& domain) {
+                    const S& theta, transmission::Domain& domain) {
   if (!drum) return free_path(end, e, oe, rho, theta, domain);
   const DrumLine<S> line = drum_line(*drum, e, oe, rho, domain);
-  const S opening = end.is_on_drum ? S(0.0) : S(acos(unit_part(S(*drum / end.away), domain)));
+  const S opening =
+      end.is_on_drum ? S(0.0) : S(transmission::acos(transmission::unit_part(S(*drum / end.away), domain)));
   const S wound = quarter_turn(theta) - (theta + end.twist) - opening - line.normal;
   const DrumState lies = drum_state(wound);
   if (lies == DrumState::free) return free_path(end, e, oe, rho, theta, domain);
-  const S to_drum = end.is_on_drum ? S(0.0) : S(cathetus(end.away, *drum, domain));
+  const S to_drum = end.is_on_drum ? S(0.0) : S(transmission::cathetus(end.away, *drum, domain));
   const WidePath<S> on_drum{line.normal, *drum, to_drum + *drum * wound + line.length};
   if (lies == DrumState::on_drum) return on_drum;
-  Domain of_free;
+  transmission::Domain of_free;
   const WidePath<S> free = free_path(end, e, oe, rho, theta, of_free);
   domain.whole = domain.whole && of_free.whole;
   if (!of_free.possible) return on_drum;
@@ -118,13 +127,15 @@ WidePath<S> path_of(const TendonEnd<S>& end, const std::optional<S>& drum, const
 }  // namespace
 
 WidePath<double> wide_path(const TendonEnd<double>& end, const std::optional<double>& drum, double e, double oe,
-                           double rho, double theta, Domain& domain) {
+                           double rho, double theta, transmission::Domain& domain) {
   return path_of(end, drum, e, oe, rho, theta, domain);
 }
 
-WidePath<Jet> wide_path(const TendonEnd<Jet>& end, const std::optional<Jet>& drum, const Jet& e, const Jet& oe,
-                        const Jet& rho, const Jet& theta, Domain& domain) {
+WidePath<transmission::Jet> wide_path(const TendonEnd<transmission::Jet>& end,
+                                      const std::optional<transmission::Jet>& drum, const transmission::Jet& e,
+                                      const transmission::Jet& oe, const transmission::Jet& rho,
+                                      const transmission::Jet& theta, transmission::Domain& domain) {
   return path_of(end, drum, e, oe, rho, theta, domain);
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

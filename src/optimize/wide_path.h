@@ -16,11 +16,17 @@
 #include "fusee/mechanism.h"
 #include "optimize/sharp.h"
 
-namespace fusee {
+namespace fusee::optimize {
+
+// Unqualified in the formulas, so that other kinds of numbers can have their own.
+using transmission::direction;
+using transmission::hypot;
+using transmission::larger;
+using transmission::sin;
 
 /// Only these scalar types support other joints than the paper's.
 template <typename S>
-constexpr bool k_may_be_wide = std::is_same_v<S, double> || std::is_same_v<S, Jet>;
+constexpr bool k_may_be_wide = std::is_same_v<S, double> || std::is_same_v<S, transmission::Jet>;
 
 /// Features of a mechanism that the paper's joint lacks.
 struct WideKind {
@@ -66,15 +72,18 @@ struct WideNumbers {
   /// For idlers: friction of the bearing times its radius, divided by the idler's radius to the centre line.
   std::optional<S> turning;
   std::optional<SheathNumbers<S>> sheath;
-  Domain domain;  ///< of the ends
+  transmission::Domain domain;  ///< of the ends
 };
 
 /// Angle clockwise from straight up, within ±180°.
-double twist_of(double across, double along, Domain& domain);
-Jet twist_of(const Jet& across, const Jet& along, Domain& domain);
+double twist_of(double across, double along, transmission::Domain& domain);
+transmission::Jet twist_of(const transmission::Jet& across, const transmission::Jet& along,
+                           transmission::Domain& domain);
 
 inline bool is_at_most(double a, double b) { return a <= b; }
-inline bool is_at_most(const Jet& a, const Jet& b) { return a.value.upper() <= b.value.lower(); }
+inline bool is_at_most(const transmission::Jet& a, const transmission::Jet& b) {
+  return a.value.upper() <= b.value.lower();
+}
 
 /// An end within the drum's pitch circle is moved onto it.
 template <typename S>
@@ -88,7 +97,7 @@ template <typename S>
 SheathNumbers<S> sheath_numbers(const WideKind& kind, const WideFileNumbers<S>& file) {
   const S& across = file.exit_across;
   const S& above = file.exit_above;
-  Domain whole;  // above > 0
+  transmission::Domain whole;  // above > 0
   return {file.sheath_length,
           file.sheath_bend,
           file.sheath_mu,
@@ -126,10 +135,12 @@ struct WidePath {
 
 /// Path over the pin at (e, −oe) with the radius `rho`, at joint angle `theta` of the image.
 WidePath<double> wide_path(const TendonEnd<double>& end, const std::optional<double>& drum, double e, double oe,
-                           double rho, double theta, Domain& domain);
+                           double rho, double theta, transmission::Domain& domain);
 /// Call only while a RoundingUp exists.
-WidePath<Jet> wide_path(const TendonEnd<Jet>& end, const std::optional<Jet>& drum, const Jet& e, const Jet& oe,
-                        const Jet& rho, const Jet& theta, Domain& domain);
+WidePath<transmission::Jet> wide_path(const TendonEnd<transmission::Jet>& end,
+                                      const std::optional<transmission::Jet>& drum, const transmission::Jet& e,
+                                      const transmission::Jet& oe, const transmission::Jet& rho,
+                                      const transmission::Jet& theta, transmission::Domain& domain);
 
 /// [7] for a bearing: (T2 − T1) ρ = μb rb (T1 + T2) sin(φ/2), as in transmission/guide_friction.cpp.
 template <typename S>
@@ -138,4 +149,4 @@ S tension_below_idler(const S& above, const S& turning, const S& wrap) {
   return above * ((1.0 + epsilon) / (1.0 - epsilon));
 }
 
-}  // namespace fusee
+}  // namespace fusee::optimize

@@ -7,7 +7,7 @@
 #include "paper/steps.h"
 #include "paper/windows.h"
 
-namespace fusee {
+namespace fusee::paper {
 namespace {
 
 using Holds = std::function<bool(const PaperAssumptions&)>;
@@ -39,18 +39,18 @@ double tension(const StrokePlace& place) { return place.forces.Tb; }
 double elongation(const StrokePlace& place) { return place.forces.elongation; }
 double joint_error(const StrokePlace& place) { return degrees(place.forces.theta_error); }
 
-CertifiedResult optimum_of(const PaperAssumptions& assumptions, Objective objective, double gap,
-                           std::optional<double> sufficient = std::nullopt) {
+optimize::CertifiedResult optimum_of(const PaperAssumptions& assumptions, optimize::Objective objective, double gap,
+                                     std::optional<double> sufficient = std::nullopt) {
   MechanismFile file = paper_problem_file(assumptions);
-  file.mechanism.optimize.objectives = {std::string(info(objective).name)};
-  const Problem problem = make_problem(file);
-  CertifiedOptions options;
+  file.mechanism.optimize.objectives = {std::string(optimize::info(objective).name)};
+  const optimize::Problem problem = optimize::make_problem(file);
+  optimize::CertifiedOptions options;
   options.gap = gap;
   options.most_tie_boxes = 1;  // ties are not needed
   options.most_boxes = 60000;
   options.sufficient = sufficient;
   options.first_tries = {{file.mechanism.joint.R, file.mechanism.guides.ED, file.mechanism.guides.OE}};
-  return certified_optimum(problem, objective, options);
+  return optimize::certified_optimum(problem, objective, options);
 }
 
 /// R, EB = ED and OE, mm.
@@ -64,8 +64,8 @@ Lengths table_4_lengths(const PaperAssumptions& assumptions) {
 }
 
 /// True if no design of the box is better in this objective than these lengths by more than a millionth.
-bool is_optimal(const PaperAssumptions& assumptions, Objective objective, const Lengths& at) {
-  const Evaluation here = evaluate(objective, paper_mechanism(assumptions, at.R, at.ED, at.OE));
+bool is_optimal(const PaperAssumptions& assumptions, optimize::Objective objective, const Lengths& at) {
+  const optimize::Evaluation here = optimize::evaluate(objective, paper_mechanism(assumptions, at.R, at.ED, at.OE));
   if (!here.possible) return false;
   const double enough = here.value * (1.0 - k_same_value);
   // A better neighbour avoids the search, and any better design ends it.
@@ -73,7 +73,8 @@ bool is_optimal(const PaperAssumptions& assumptions, Objective objective, const 
   const double step = 1e-3 * assumptions.unit;
   for (const auto& [ED, OE] : {std::pair{-step, 0.0}, {0.0, step}, {-step, step}}) {
     const Lengths near{at.R, std::max(at.ED + ED, box.lower[1]), std::min(at.OE + OE, box.upper[2])};
-    const Evaluation there = evaluate(objective, paper_mechanism(assumptions, near.R, near.ED, near.OE));
+    const optimize::Evaluation there =
+        optimize::evaluate(objective, paper_mechanism(assumptions, near.R, near.ED, near.OE));
     if (there.possible && there.value < enough) return false;
   }
   return optimum_of(assumptions, objective, k_same_value, enough).lower_bound >=
@@ -146,14 +147,15 @@ bool all_at_bounds(const PaperAssumptions& assumptions) {
   for (const double R : {table.lower[0], table.upper[0]}) {
     for (const double ED : {table.lower[1], std::min(0.5 * R, table.upper[1])}) {
       for (const double OE : {table.lower[2], table.upper[2]}) {
-        const Evaluation there = evaluate(Objective::max_tension, paper_mechanism(assumptions, R, ED, OE));
+        const optimize::Evaluation there =
+            optimize::evaluate(optimize::Objective::max_tension, paper_mechanism(assumptions, R, ED, OE));
         if (!there.possible || there.value >= least) continue;
         least = there.value;
         best = {R, ED, OE};
       }
     }
   }
-  return is_optimal(assumptions, Objective::max_tension, best);
+  return is_optimal(assumptions, optimize::Objective::max_tension, best);
 }
 
 Claim bounds_claim(const Reproduction& so_far) {
@@ -192,8 +194,8 @@ Claim same_optimum_claim(const Reproduction& so_far) {
   Claim claim;
   claim.name = "least_tension_is_least_error";
   claim.paper_says = "the joint with the least tension also has the least error";
-  const CertifiedResult least = optimum_of(so_far.assumptions, Objective::max_error, k_same_value);
-  const double here = evaluate(Objective::max_error, table_4_mechanism(so_far.assumptions)).value;
+  const optimize::CertifiedResult least = optimum_of(so_far.assumptions, optimize::Objective::max_error, k_same_value);
+  const double here = optimize::evaluate(optimize::Objective::max_error, table_4_mechanism(so_far.assumptions)).value;
   const double force = so_far.assumptions.tip_force;
   claim.equations_give = "largest error " + rounded(here * force, 5) + "° at Table 4; the least is " +
                          rounded(least.value * force, 5) + "° at R " + in_mm(least.best[0]) + ", ED " +
@@ -201,7 +203,8 @@ Claim same_optimum_claim(const Reproduction& so_far) {
                          rounded(100.0 * (1.0 - least.value / here), 2) + " % less";
   return with_verdict(std::move(claim), so_far.assumptions, [](const PaperAssumptions& assumptions) {
     const Lengths at = table_4_lengths(assumptions);
-    return is_optimal(assumptions, Objective::max_error, at) && is_optimal(assumptions, Objective::max_tension, at);
+    return is_optimal(assumptions, optimize::Objective::max_error, at) &&
+           is_optimal(assumptions, optimize::Objective::max_tension, at);
   });
 }
 
@@ -226,16 +229,17 @@ Claim drawing_claim(const Reproduction& so_far) {
   claim.paper_says = "P2's profile is r2 drawn against α in polar coordinates";
   Mechanism mechanism = table_4_mechanism(so_far.assumptions);
   mechanism.tendon.diameter = 0.01;  // the drawing has no thickness
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.advice = false;
-  const SynthesisResult drawn = synthesise(mechanism, options);
+  const profile::SynthesisResult drawn = profile::synthesise(mechanism, options);
   claim.verdict = Verdict::does_not_hold;
   if (!drawn.made()) {
     claim.equations_give = "with these numbers it cannot be drawn: " + drawn.brief();
     return claim;
   }
   const double half = 0.5 * mechanism.tendon.diameter;
-  const RewindResult wound = rewind(mechanism, parallel(drawn.p1, -half), parallel(drawn.p2, -half));
+  const profile::RewindResult wound =
+      profile::rewind(mechanism, profile::parallel(drawn.p1, -half), profile::parallel(drawn.p2, -half));
   const auto [low, high] = std::minmax_element(wound.points.begin(), wound.points.end(),
                                                [](const auto& a, const auto& b) { return a.slack < b.slack; });
   claim.equations_give =
@@ -247,7 +251,7 @@ Claim drawing_claim(const Reproduction& so_far) {
 }  // namespace
 
 bool table_4_is_optimal(const PaperAssumptions& assumptions) {
-  return is_optimal(assumptions, Objective::max_tension, table_4_lengths(assumptions));
+  return is_optimal(assumptions, optimize::Objective::max_tension, table_4_lengths(assumptions));
 }
 
 std::vector<Claim> paper_claims(const Reproduction& so_far, const RunContext& context) {
@@ -268,4 +272,4 @@ std::vector<Claim> paper_claims(const Reproduction& so_far, const RunContext& co
   return claims;
 }
 
-}  // namespace fusee
+}  // namespace fusee::paper

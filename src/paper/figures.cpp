@@ -2,7 +2,7 @@
 
 // The paper's figures, identified by its text and captions; each states its interpretation.
 
-namespace fusee {
+namespace fusee::paper {
 namespace {
 
 template <typename Value>
@@ -18,11 +18,11 @@ PaperFigure over_stroke(int number, std::string title, std::string reading, std:
           "°",    std::move(y_name), std::move(y_unit),  std::move(curves)};
 }
 
-PaperFigure convergence(const GeneticResult& evolution) {
+PaperFigure convergence(const optimize::GeneticResult& evolution) {
   PaperFigure figure{
       7,  "The genetic algorithm",     "mean and best of each generation", "generation", "", "largest T_b / F_c",
       "", {{"best", {}}, {"mean", {}}}};
-  for (const Generation& generation : evolution.generations) {
+  for (const optimize::Generation& generation : evolution.generations) {
     figure.curves[0].points.emplace_back(generation.number, generation.best);
     figure.curves[1].points.emplace_back(generation.number, generation.mean);
   }
@@ -31,7 +31,7 @@ PaperFigure convergence(const GeneticResult& evolution) {
 
 }  // namespace
 
-std::vector<PaperFigure> paper_figures(const PaperAssumptions& assumptions, const GeneticResult& evolution) {
+std::vector<PaperFigure> paper_figures(const PaperAssumptions& assumptions, const optimize::GeneticResult& evolution) {
   using At = const StrokePlace&;
   const Mechanism mechanism = table_4_mechanism(assumptions);
   const std::vector<StrokePlace> stroke = paper_stroke(mechanism);
@@ -67,4 +67,4 @@ std::vector<PaperFigure> paper_figures(const PaperAssumptions& assumptions, cons
   return figures;
 }
 
-}  // namespace fusee
+}  // namespace fusee::paper

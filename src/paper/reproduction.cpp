@@ -10,7 +10,7 @@
 #include "profile/take_off.h"
 #include "transmission/alpha_range.h"
 
-namespace fusee {
+namespace fusee::paper {
 namespace {
 
 constexpr double k_table_4[] = {1.0, 0.5, -0.4};  // R, EB = ED, OE
@@ -19,7 +19,7 @@ constexpr double k_upper[] = {3.0, 1.5, 0.5};
 
 /// Ratio of the linear law with the same motor stroke.
 double same_stroke_ratio(const Mechanism& mechanism) {
-  const Transmission transmission(mechanism);
+  const transmission::Transmission transmission(mechanism);
   return (transmission.alpha_max() - transmission.alpha_min()) /
          (mechanism.joint.theta_max - mechanism.joint.theta_min);
 }
@@ -41,8 +41,8 @@ LawCost law_cost(const Mechanism& mechanism, const std::string& name) {
     least_torque = std::min(least_torque, torque);
     most_torque = std::max(most_torque, torque);
   }
-  cost.bend_radius = evaluate(Objective::min_bend, mechanism).value;
-  cost.tension = evaluate(Objective::max_tension, mechanism).value;
+  cost.bend_radius = optimize::evaluate(optimize::Objective::min_bend, mechanism).value;
+  cost.tension = optimize::evaluate(optimize::Objective::max_tension, mechanism).value;
   cost.torque = most_torque;
   cost.torque_ripple = most_torque / least_torque;
   return cost;
@@ -116,11 +116,11 @@ MechanismFile paper_problem_file(const PaperAssumptions& assumptions) {
 
 std::vector<StrokePlace> paper_stroke(const Mechanism& mechanism, int steps) {
   std::vector<StrokePlace> stroke;
-  const Transmission transmission(mechanism);
+  const transmission::Transmission transmission(mechanism);
   if (transmission.dead_centre()) return stroke;
-  for (const double alpha : alphas_over_range(transmission, steps)) {
-    const TransmissionPoint point = transmission.at_alpha(alpha);
-    stroke.push_back({point, paper_forces(mechanism, point)});
+  for (const double alpha : transmission::alphas_over_range(transmission, steps)) {
+    const transmission::TransmissionPoint point = transmission.at_alpha(alpha);
+    stroke.push_back({point, transmission::paper_forces(mechanism, point)});
   }
   return stroke;
 }
@@ -172,17 +172,17 @@ Reproduction reproduce_paper(const PaperAssumptions& assumptions, const RunConte
   Reproduction all;
   all.assumptions = assumptions;
   context.begin_step("Table 4: the certified optimum");
-  const Problem problem = make_problem(paper_problem_file(assumptions));
-  const CertifiedResult optimum = certified_optimum(problem, Objective::max_tension);
+  const optimize::Problem problem = optimize::make_problem(paper_problem_file(assumptions));
+  const optimize::CertifiedResult optimum = optimize::certified_optimum(problem, optimize::Objective::max_tension);
   all.optimum = optimum.value;
   all.relative_gap = optimum.relative_gap;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Variable& variable = problem.variables[i];
+    const optimize::Variable& variable = problem.variables[i];
     all.table_4.push_back({i == 1 ? "EB = ED" : variable.symbol, variable.lower, variable.upper,
                            k_table_4[i] * assumptions.unit, optimum.best[i]});
   }
   context.begin_step("Fig. 7: the genetic algorithm");
-  all.figures = paper_figures(assumptions, genetic_optimum(problem, Objective::max_tension));
+  all.figures = paper_figures(assumptions, optimize::genetic_optimum(problem, optimize::Objective::max_tension));
   all.claims = paper_claims(all, context);
   context.begin_step("both laws beside each other");
   all.laws = law_costs(assumptions);
@@ -191,4 +191,4 @@ Reproduction reproduce_paper(const PaperAssumptions& assumptions, const RunConte
   return all;
 }
 
-}  // namespace fusee
+}  // namespace fusee::paper

@@ -12,7 +12,7 @@
 #include "fusee/base.h"
 #include "fusee/optimize.h"
 
-namespace fusee {
+namespace fusee::paper {
 
 struct PaperAssumptions {
   double unit = 100;  ///< length of the paper's unit, mm
@@ -108,4 +108,4 @@ struct Reproduction {
 /// Throws Stopped between steps.
 Reproduction reproduce_paper(const PaperAssumptions& assumptions = {}, const RunContext& context = {});
 
-}  // namespace fusee
+}  // namespace fusee::paper

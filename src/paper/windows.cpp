@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 
-namespace fusee {
+namespace fusee::paper {
 namespace {
 
 /// Between a value where it holds and one where it does not: the last that holds, to a ten-thousandth of the step.
@@ -55,4 +55,4 @@ std::string windows_text(const ParameterWindows& of) {
   return text + (of.unit.empty() ? "" : " " + of.unit);
 }
 
-}  // namespace fusee
+}  // namespace fusee::paper

@@ -7,7 +7,7 @@
 
 #include "paper/reproduction.h"
 
-namespace fusee {
+namespace fusee::paper {
 
 /// Evaluates `steps` + 1 evenly spaced values and bisects between values that differ. Intervals narrower than a step
 /// are missed.
@@ -16,4 +16,4 @@ std::vector<Window> windows_where(const std::function<bool(double)>& holds, doub
 /// "0.132 to 0.249", "up to 0.21", "nowhere".
 std::string windows_text(const ParameterWindows& windows);
 
-}  // namespace fusee
+}  // namespace fusee::paper

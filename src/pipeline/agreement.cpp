@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <limits>
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
-Check same_count(const TriangleMesh& reference, const TriangleMesh& other) {
+Check same_count(const solid::TriangleMesh& reference, const solid::TriangleMesh& other) {
   return exactly("triangles", static_cast<double>(other.triangles.size()),
                  static_cast<double>(reference.triangles.size()), "1");
 }
 
-double largest_distance(const TriangleMesh& a, const TriangleMesh& b) {
+double largest_distance(const solid::TriangleMesh& a, const solid::TriangleMesh& b) {
   if (a.triangles.size() != b.triangles.size()) return k_infinite;
   double largest = 0;
   for (std::size_t i = 0; i < a.triangles.size(); ++i) {
@@ -28,7 +28,7 @@ double largest_distance(const TriangleMesh& a, const TriangleMesh& b) {
 
 /// Largest distance from a vertex of `from` to the nearest of `to`; infinite beyond `reach`. Vertices are sorted along
 /// x, so that only those within reach are compared.
-double farthest_from(const TriangleMesh& to, const TriangleMesh& from, double reach) {
+double farthest_from(const solid::TriangleMesh& to, const solid::TriangleMesh& from, double reach) {
   std::vector<Vec3> sorted = to.vertices;
   std::sort(sorted.begin(), sorted.end(), [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
   double farthest = 0;
@@ -45,16 +45,16 @@ double farthest_from(const TriangleMesh& to, const TriangleMesh& from, double re
 
 }  // namespace
 
-std::vector<Check> same_mesh(const TriangleMesh& reference, const TriangleMesh& other) {
+std::vector<Check> same_mesh(const solid::TriangleMesh& reference, const solid::TriangleMesh& other) {
   // Text formats hold the shortest decimal that gives the same float; as a double it differs.
   return {same_count(reference, other),
-          at_most("deviation", largest_distance(reference, rounded_to_float(other)), 0.0, "mm")};
+          at_most("deviation", largest_distance(reference, solid::rounded_to_float(other)), 0.0, "mm")};
 }
 
-std::vector<Check> near_mesh(const TriangleMesh& reference, const TriangleMesh& other, double tolerance) {
+std::vector<Check> near_mesh(const solid::TriangleMesh& reference, const solid::TriangleMesh& other, double tolerance) {
   const double deviation =
       std::max(farthest_from(reference, other, tolerance), farthest_from(other, reference, tolerance));
   return {same_count(reference, other), at_most("deviation", deviation, tolerance, "mm")};
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

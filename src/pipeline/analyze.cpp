@@ -5,28 +5,30 @@
 #include "fusee/pipeline.h"
 #include "pipeline/several_turns.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 /// Removes the obstacles that a pulley of several turns does not have.
-void wind_several_times(AnalysisResult& result) {
-  std::erase_if(result.obstacles, [](const Condition& condition) { return condition.name.rfind("one_turn_", 0) == 0; });
+void wind_several_times(analysis::AnalysisResult& result) {
+  std::erase_if(result.obstacles,
+                [](const profile::Condition& condition) { return condition.name.rfind("one_turn_", 0) == 0; });
 }
 
 }  // namespace
 
-AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options, const RunContext& context) {
+analysis::AnalysisResult analyze(const MechanismFile& file, const analysis::AnalysisOptions& options,
+                                 const RunContext& context) {
   if (file.mechanism.transmission) {
     throw InputError(file.path, "a joint with [transmission] has no tendons to analyze",
                      "[transmission] is for 'fusee calibrate'");
   }
   context.begin_step("moving the joint through its range");
-  AnalysisResult result = analyse(as_it_is(file.mechanism).mechanism, options, context);
-  result.warnings = likely_input_errors(file);
+  analysis::AnalysisResult result = analysis::analyse(joint::as_it_is(file.mechanism).mechanism, options, context);
+  result.warnings = analysis::likely_input_errors(file);
   // A tendon that breaks is an error rather than a warning.
-  if (const auto overloaded = overloaded_tendon(file); overloaded && !result.breaks_at)
+  if (const auto overloaded = analysis::overloaded_tendon(file); overloaded && !result.breaks_at)
     result.warnings.push_back(*overloaded);
-  const std::vector<Diagnostic> bends = tight_bends(file);
+  const std::vector<Diagnostic> bends = analysis::tight_bends(file);
   result.warnings.insert(result.warnings.end(), bends.begin(), bends.end());
   if (const auto turns = note_on_turns(file)) {
     wind_several_times(result);
@@ -36,4 +38,4 @@ AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

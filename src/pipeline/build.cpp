@@ -4,21 +4,21 @@
 #include <future>
 #include <memory>
 
-#include "base/run_async.h"
 #include "analysis/plausibility.h"
-#include "fusee/export.h"
+#include "base/run_async.h"
 #include "export/mesh_files/mesh_files.h"
 #include "export/report/report.h"
 #include "export/step/step.h"
+#include "fusee/export.h"
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
-#include "solid/print.h"
 #include "pipeline/agreement.h"
 #include "pipeline/design.h"
 #include "pipeline/several_turns.h"
 #include "pipeline/thin_walls.h"
+#include "solid/print.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 // Limit of outline points for the full builds of advice. A build of the usual 200 points takes a quarter of a second,
@@ -44,7 +44,7 @@ struct BuildContext {
     folder.stage(result.outputs.back());
   }
   Part read_back(const std::string& name) const { return read_part(folder.staged_path(name)); }
-  TriangleMesh mesh_of(const std::string& name) const { return std::get<TriangleMesh>(read_back(name)); }
+  solid::TriangleMesh mesh_of(const std::string& name) const { return std::get<solid::TriangleMesh>(read_back(name)); }
   void add(std::vector<Check> checks, const std::string& prefix = {}) {
     for (Check& check : checks) {
       check.name = prefix + check.name;
@@ -53,7 +53,7 @@ struct BuildContext {
   }
 };
 
-void stage_step(BuildContext& context, StepFile file) {
+void stage_step(BuildContext& context, formats::StepFile file) {
   const bool is_made = !file.bytes.empty();
   context.add({exactly("made", is_made ? 1 : 0, 1, "1", file.complaint)}, "step_");
   if (is_made) context.stage(k_step, std::move(file.bytes));
@@ -65,21 +65,22 @@ bool has_step(const BuildContext& context) {
 }
 
 /// Writes the files of a helical pulley. It has no plates.dxf: plates cannot contain helical grooves.
-DracoFile write_helical_parts(BuildContext& context) {
-  const Product& product = context.result.product;
-  const TriangleMesh& mesh = product.pulley.mesh;
+formats::DracoFile write_helical_parts(BuildContext& context) {
+  const formats::Product& product = context.result.product;
+  const solid::TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
   context.step("writing meshes and drawings");
-  auto draco = run_async([&] { return draco_file(mesh, context.options.chord_error_mm); });
-  auto profile = run_async([&] { return profile_dxf(product, context.options.dxf); });
-  auto threemf = run_async([&] { return threemf_bytes(mesh, name); });
-  auto obj = run_async([&] { return obj_text(mesh, name); });
-  auto scad = run_async([&] { return scad_text(product); });
-  auto step = run_async([&] { return context.options.step ? step_file(product) : StepFile(); }, context.options.step);
-  context.stage("pulley.stl", stl_bytes(mesh, name));
+  auto draco = run_async([&] { return formats::draco_file(mesh, context.options.chord_error_mm); });
+  auto profile = run_async([&] { return formats::profile_dxf(product, context.options.dxf); });
+  auto threemf = run_async([&] { return formats::threemf_bytes(mesh, name); });
+  auto obj = run_async([&] { return formats::obj_text(mesh, name); });
+  auto scad = run_async([&] { return formats::scad_text(product); });
+  auto step = run_async([&] { return context.options.step ? formats::step_file(product) : formats::StepFile(); },
+                        context.options.step);
+  context.stage("pulley.stl", formats::stl_bytes(mesh, name));
   context.stage("pulley.obj", obj.get());
   context.stage("pulley.3mf", threemf.get());
-  DracoFile file = draco.get();
+  formats::DracoFile file = draco.get();
   context.stage("pulley.drc", file.bytes);
   if (context.options.step) stage_step(context, step.get());
   context.stage("pulley.scad", scad.get());
@@ -88,39 +89,41 @@ DracoFile write_helical_parts(BuildContext& context) {
 }
 
 /// Checks a mesh in its print orientation.
-std::vector<Check> print_checks(const Print& print, const TriangleMesh& mesh) {
+std::vector<Check> print_checks(const Print& print, const solid::TriangleMesh& mesh) {
   if (print.supports) return {};
-  PrintLimits limits;
+  solid::PrintLimits limits;
   limits.overhang = print.overhang;
-  return check_print(mesh, limits);
+  return solid::check_print(mesh, limits);
 }
 
-std::vector<Check> draco_checks(const BuildContext& context, const TriangleMesh& mesh, const DracoFile& made) {
+std::vector<Check> draco_checks(const BuildContext& context, const solid::TriangleMesh& mesh,
+                                const formats::DracoFile& made) {
   const bool is_unchanged = read_file(context.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
   const Part decoded = is_unchanged ? Part(made.decoded) : context.read_back("pulley.drc");
-  std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), context.options.chord_error_mm);
+  std::vector<Check> checks = near_mesh(mesh, std::get<solid::TriangleMesh>(decoded), context.options.chord_error_mm);
   for (const Check& check : is_unchanged ? made.checks : check_part(decoded)) checks.push_back(check);
   return checks;
 }
 
 /// Checks that the STEP file is a valid solid, and winds tendons on its floors.
 std::vector<Check> step_checks(const BuildContext& context) {
-  const Product& product = context.result.product;
-  StepInspection look = inspect_step(context.folder.staged_path(k_step), product, context.options.chord_error_mm);
+  const formats::Product& product = context.result.product;
+  formats::StepInspection look =
+      formats::inspect_step(context.folder.staged_path(k_step), product, context.options.chord_error_mm);
   std::vector<Check> checks = std::move(look.checks);
   if (!all_ok(checks)) return checks;
-  const RewindResult wound = product.helix
-                                 ? rewind_several_turns(product, look.climbing).result
-                                 : rewind_floors(product.joint, product.pulley.layout, look.floor1, look.floor2);
+  const profile::RewindResult wound =
+      product.helix ? rewind_several_turns(product, look.climbing).result
+                    : rewind_floors(product.joint, product.pulley.layout, look.floor1, look.floor2);
   for (Check& check : as_built_checks(product.joint.mechanism, wound, context.options.limits))
     checks.push_back(std::move(check));
   return checks;
 }
 
 /// Checks the written file of a printed part, also in its print orientation.
-std::vector<Check> checks_of_printed(const BuildContext& context, const PrintedPart& part) {
-  const TriangleMesh piece = context.mesh_of(part_file_name(part.side));
-  std::vector<Check> checks = check_printed_part(piece, part);
+std::vector<Check> checks_of_printed(const BuildContext& context, const solid::PrintedPart& part) {
+  const solid::TriangleMesh piece = context.mesh_of(formats::part_file_name(part.side));
+  std::vector<Check> checks = solid::check_printed_part(piece, part);
   for (const Check& check : print_checks(context.result.product.joint.mechanism.print, piece)) checks.push_back(check);
   return checks;
 }
@@ -130,19 +133,19 @@ std::vector<Check> checks_of_printed(const BuildContext& context, const PrintedP
 struct PendingChecks {
   using Checks = std::future<std::vector<Check>>;
 
-  std::shared_future<TriangleMesh> mesh;  ///< from pulley.stl
+  std::shared_future<solid::TriangleMesh> mesh;  ///< from pulley.stl
   Checks pulley_checks, obj_checks, threemf_checks, draco_checks, step_checks, profile_checks, plates_checks;
   std::vector<Checks> printed_checks;
-  std::future<RewindResult> as_built;
+  std::future<profile::RewindResult> as_built;
 };
 
 void begin_mesh_checks(PendingChecks& pending, const BuildContext& context) {
-  const Product& product = context.result.product;
+  const formats::Product& product = context.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
   pending.mesh = run_async([&context] { return context.mesh_of("pulley.stl"); }).share();
   pending.pulley_checks = run_async([&context, &product, mesh = pending.mesh] {
-    return check_pulley(mesh.get(), product.joint.mechanism, product.synthesis, product.pulley,
-                        context.options.chord_error_mm);
+    return solid::check_pulley(mesh.get(), product.joint.mechanism, product.synthesis, product.pulley,
+                               context.options.chord_error_mm);
   });
   pending.as_built = run_async(
       [&product, mesh = pending.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh.get()); });
@@ -153,35 +156,37 @@ void begin_mesh_checks(PendingChecks& pending, const BuildContext& context) {
 
 /// Writes all part files in order, with parallel threads, and starts their checks.
 PendingChecks write_parts(BuildContext& context) {
-  Product& product = context.result.product;
-  const TriangleMesh& mesh = product.pulley.mesh;
+  formats::Product& product = context.result.product;
+  const solid::TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
   context.step("writing meshes and drawings");
-  auto draco = run_async([&] { return draco_file(mesh, context.options.chord_error_mm); });
-  auto plates = run_async([&] { return plates_dxf(product, context.options.dxf); });
-  auto profile = run_async([&] { return profile_dxf(product, context.options.dxf); });
-  auto threemf = run_async([&] { return threemf_bytes(plate_of(product.pulley), name); });
-  auto obj = run_async([&] { return obj_text(mesh, name); });
-  auto scad = run_async([&] { return scad_text(product); });
-  auto holding = run_async([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
-  auto step = run_async([&] { return context.options.step ? step_file(product) : StepFile(); }, context.options.step);
+  auto draco = run_async([&] { return formats::draco_file(mesh, context.options.chord_error_mm); });
+  auto plates = run_async([&] { return formats::plates_dxf(product, context.options.dxf); });
+  auto profile = run_async([&] { return formats::profile_dxf(product, context.options.dxf); });
+  auto threemf = run_async([&] { return formats::threemf_bytes(solid::plate_of(product.pulley), name); });
+  auto obj = run_async([&] { return formats::obj_text(mesh, name); });
+  auto scad = run_async([&] { return formats::scad_text(product); });
+  auto holding =
+      run_async([&] { return solid::tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
+  auto step = run_async([&] { return context.options.step ? formats::step_file(product) : formats::StepFile(); },
+                        context.options.step);
   PendingChecks pending;
-  context.stage("pulley.stl", stl_bytes(mesh, name));
+  context.stage("pulley.stl", formats::stl_bytes(mesh, name));
   begin_mesh_checks(pending, context);
   context.stage("pulley.obj", obj.get());
   pending.obj_checks =
       run_async([&context, read = pending.mesh] { return same_mesh(read.get(), context.mesh_of("pulley.obj")); });
   context.stage("pulley.3mf", threemf.get());
-  pending.threemf_checks =
-      run_async([&context, &product] { return same_mesh(plate_of(product.pulley), context.mesh_of("pulley.3mf")); });
-  for (const PrintedPart& part : product.pulley.parts) {
-    context.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
+  pending.threemf_checks = run_async(
+      [&context, &product] { return same_mesh(solid::plate_of(product.pulley), context.mesh_of("pulley.3mf")); });
+  for (const solid::PrintedPart& part : product.pulley.parts) {
+    context.stage(formats::part_file_name(part.side), formats::stl_bytes(part.mesh, name));
     pending.printed_checks.push_back(run_async([&context, &part] { return checks_of_printed(context, part); }));
   }
-  DracoFile file = draco.get();
+  formats::DracoFile file = draco.get();
   context.stage("pulley.drc", file.bytes);
   pending.draco_checks =
-      run_async([&context, read = pending.mesh, made = std::make_shared<const DracoFile>(std::move(file))] {
+      run_async([&context, read = pending.mesh, made = std::make_shared<const formats::DracoFile>(std::move(file))] {
         return draco_checks(context, read.get(), *made);
       });
   if (context.options.step) stage_step(context, step.get());
@@ -201,16 +206,16 @@ PendingChecks write_parts(BuildContext& context) {
 struct Tables {
   std::future<std::string> profile, p1, p2, transmission;
 };
-Tables begin_tables(const Product& product) {
-  return {run_async([&product] { return profile_csv(product); }),
-          run_async([&product] { return pitch_curve_csv(product, Side::left); }),
-          run_async([&product] { return pitch_curve_csv(product, Side::right); }),
-          run_async([&product] { return transmission_csv(product); })};
+Tables begin_tables(const formats::Product& product) {
+  return {run_async([&product] { return formats::profile_csv(product); }),
+          run_async([&product] { return formats::pitch_curve_csv(product, transmission::Side::left); }),
+          run_async([&product] { return formats::pitch_curve_csv(product, transmission::Side::right); }),
+          run_async([&product] { return formats::transmission_csv(product); })};
 }
 
 /// Collects the checks.
 Tables check_parts(BuildContext& context, PendingChecks& pending) {
-  Product& product = context.result.product;
+  formats::Product& product = context.result.product;
   context.step("checking the written files");
   context.add(pending.pulley_checks.get());
   context.step("winding tendons on it");
@@ -219,7 +224,8 @@ Tables check_parts(BuildContext& context, PendingChecks& pending) {
   Tables tables = begin_tables(product);
   context.step("checking the other files");
   for (std::size_t k = 0; k < product.pulley.parts.size(); ++k)
-    context.add(pending.printed_checks[k].get(), product.pulley.parts[k].side == Side::left ? "p1_" : "p2_");
+    context.add(pending.printed_checks[k].get(),
+                product.pulley.parts[k].side == transmission::Side::left ? "p1_" : "p2_");
   if (product.pulley.parts.empty()) context.add(pending.printed_checks.front().get());
   context.add(pending.obj_checks.get(), "obj_");
   context.add(pending.threemf_checks.get(), "3mf_");
@@ -230,11 +236,11 @@ Tables check_parts(BuildContext& context, PendingChecks& pending) {
   return tables;
 }
 
-Tables check_helical_parts(BuildContext& context, const DracoFile& draco) {
-  Product& product = context.result.product;
+Tables check_helical_parts(BuildContext& context, const formats::DracoFile& draco) {
+  formats::Product& product = context.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
   context.step("checking the written files");
-  const TriangleMesh mesh = context.mesh_of("pulley.stl");
+  const solid::TriangleMesh mesh = context.mesh_of("pulley.stl");
   auto of_draco = run_async([&] { return draco_checks(context, mesh, draco); });
   auto of_3mf = run_async([&] { return same_mesh(mesh, context.mesh_of("pulley.3mf")); });
   auto of_obj = run_async([&] { return same_mesh(mesh, context.mesh_of("pulley.obj")); });
@@ -273,7 +279,7 @@ Tables check_written(const BuildContext& context, const Checking& run_checks) {
 
 Tables write_and_check_parts(BuildContext& context) {
   if (context.result.product.helix) {
-    const DracoFile draco = write_helical_parts(context);
+    const formats::DracoFile draco = write_helical_parts(context);
     return check_written(context, [&] { return check_helical_parts(context, draco); });
   }
   PendingChecks pending = write_parts(context);
@@ -281,46 +287,47 @@ Tables write_and_check_parts(BuildContext& context) {
 }
 
 void write_texts(BuildContext& context, Tables tables) {
-  const Product& product = context.result.product;
+  const formats::Product& product = context.result.product;
   context.step("writing tables, report and manifest");
-  auto report = run_async([&] { return report_html(product); });
+  auto report = run_async([&] { return formats::report_html(product); });
   context.stage("profile.csv", tables.profile.get());
   context.stage("profile_p1.csv", tables.p1.get());
   context.stage("profile_p2.csv", tables.p2.get());
   context.stage("transmission.csv", tables.transmission.get());
   context.stage("report.html", report.get());
-  auto manifest = run_async([&] { return manifest_json(product, context.result.outputs); });
+  auto manifest = run_async([&] { return formats::manifest_json(product, context.result.outputs); });
   context.stage("manifest.json", manifest.get());
 }
 
-bool passes_checks_of_several_turns(const Product& product, const BuildOptions& options) {
+bool passes_checks_of_several_turns(const formats::Product& product, const BuildOptions& options) {
   const Mechanism& mechanism = product.joint.mechanism;
-  const TriangleMesh& mesh = product.pulley.mesh;
+  const solid::TriangleMesh& mesh = product.pulley.mesh;
   return all_ok(check_several_turns(product, mesh)) && all_ok(print_checks(mechanism.print, mesh)) &&
          all_ok(as_built_checks(mechanism, rewind_several_turns(product, mesh).result, options.limits));
 }
 
 /// Designs curves, body and plates in memory and runs the checks that a design can fail.
 bool passes_checks(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
-  Product product;
+  formats::Product product;
   product.file = file;
-  product.joint = as_it_is(file.mechanism);
-  if (!design_any(product, options.chord_error_mm, options.limits, context, TieOffSearch::brief)) return false;
+  product.joint = joint::as_it_is(file.mechanism);
+  if (!design_any(product, options.chord_error_mm, options.limits, context, solid::TieOffSearch::brief)) return false;
   if (product.helix) return passes_checks_of_several_turns(product, options);
   const Mechanism& mechanism = product.joint.mechanism;
-  const TriangleMesh& mesh = product.pulley.mesh;
+  const solid::TriangleMesh& mesh = product.pulley.mesh;
   context.throw_if_stopped();
   auto of_plates = run_async([&] {
-    const std::string drawing = plates_dxf(product, options.dxf);
-    return all_ok(check_part(read_dxf(drawing, "plates.dxf")));
+    const std::string drawing = formats::plates_dxf(product, options.dxf);
+    return all_ok(check_part(formats::read_dxf(drawing, "plates.dxf")));
   });
   auto of_printing = run_async([&] {
     if (product.pulley.parts.empty()) return all_ok(print_checks(mechanism.print, mesh));
-    return std::all_of(product.pulley.parts.begin(), product.pulley.parts.end(),
-                       [&](const PrintedPart& part) { return all_ok(print_checks(mechanism.print, part.mesh)); });
+    return std::all_of(product.pulley.parts.begin(), product.pulley.parts.end(), [&](const solid::PrintedPart& part) {
+      return all_ok(print_checks(mechanism.print, part.mesh));
+    });
   });
   const bool is_right =
-      all_ok(check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.chord_error_mm)) &&
+      all_ok(solid::check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.chord_error_mm)) &&
       all_ok(as_built_checks(mechanism, rewind_made(product.joint, product.pulley.layout, mesh), options.limits));
   const bool prints = of_printing.get();
   return of_plates.get() && prints && is_right;
@@ -339,14 +346,14 @@ bool is_made(const MechanismFile& file, const BuildOptions& options, const RunCo
 /// reuses the file's curves.
 class FeasibilityCheck {
  public:
-  FeasibilityCheck(const Product& refused, const BuildOptions& options, const RunContext& context)
+  FeasibilityCheck(const formats::Product& refused, const BuildOptions& options, const RunContext& context)
       : file_(refused.file),
         options_(options),
         context_(context),
         own_(curves_of(refused.file.mechanism)),
         own_points_(static_cast<double>(refused.synthesis.p1.points.size())) {}
 
-  std::vector<Condition> operator()(const Mechanism& changed) const {
+  std::vector<profile::Condition> operator()(const Mechanism& changed) const {
     context_.throw_if_stopped();
     if (!has_own_curves(changed)) return obstacles(curves_of(with_declared(file_, changed).mechanism));
     Curves curves = own_;
@@ -374,19 +381,20 @@ class FeasibilityCheck {
     return with_own_body == static_cast<const Mechanism&>(file_.mechanism);
   }
 
-  std::vector<Condition> obstacles(const Curves& curves) const {
+  std::vector<profile::Condition> obstacles(const Curves& curves) const {
     if (!curves.obstacles.empty()) return curves.obstacles;
     const Mechanism& mechanism = curves.joint.mechanism;
-    const SynthesisResult& synthesis = curves.synthesis;
-    const auto of_body = body_obstacles(mechanism, synthesis);
+    const profile::SynthesisResult& synthesis = curves.synthesis;
+    const auto of_body = solid::body_obstacles(mechanism, synthesis);
     if (!of_body.empty()) return of_body;
-    for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
-      for (const OutlinePoint& point : outline->points) record_size(point.position.norm());
+    for (const profile::Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+      for (const profile::OutlinePoint& point : outline->points) record_size(point.position.norm());
     }
-    const auto floor = [&mechanism](const Outline& outline) {
-      return parallel(outline, -0.5 * mechanism.tendon.diameter);
+    const auto floor = [&mechanism](const profile::Outline& outline) {
+      return profile::parallel(outline, -0.5 * mechanism.tendon.diameter);
     };
-    return failed_of(windable(mechanism, [&] { rewind(mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
+    return profile::failed_of(
+        windable(mechanism, [&] { profile::rewind(mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
   }
 
   void record_size(double reach) const {
@@ -404,7 +412,7 @@ class FeasibilityCheck {
   mutable std::atomic<double> largest_ = 0;
 };
 
-Advice advice_for(const Product& product, const BuildOptions& options, const RunContext& context) {
+profile::Advice advice_for(const formats::Product& product, const BuildOptions& options, const RunContext& context) {
   const MechanismFile& file = product.file;
   if (product.helix) {
     const auto made = [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options, context); };
@@ -412,19 +420,19 @@ Advice advice_for(const Product& product, const BuildOptions& options, const Run
   }
   const FeasibilityCheck check(product, options, context);
   std::atomic<int> begun = 0;
-  const FeasibilityOracle judge{.obstacles = [&](const Mechanism& changed) { return check(changed); },
-                                .made =
-                                    [&](const Mechanism& changed) {
-                                      ++begun;
-                                      return is_made(with_declared(file, changed), options, context);
-                                    },
-                                .builds_left = [&] { return check.max_builds() - begun; }};
-  return body_advice(file.mechanism, judge, product.pulley.layout.parts);
+  const profile::FeasibilityOracle judge{.obstacles = [&](const Mechanism& changed) { return check(changed); },
+                                         .made =
+                                             [&](const Mechanism& changed) {
+                                               ++begun;
+                                               return is_made(with_declared(file, changed), options, context);
+                                             },
+                                         .builds_left = [&] { return check.max_builds() - begun; }};
+  return solid::body_advice(file.mechanism, judge, product.pulley.layout.parts);
 }
 
 void write_and_check(BuildContext& context) {
   Tables tables = write_and_check_parts(context);
-  Product& product = context.result.product;
+  formats::Product& product = context.result.product;
   for (Diagnostic& thin : walls_below_a_line(product)) product.file.warnings.push_back(std::move(thin));
   write_texts(context, std::move(tables));
   context.result.status = all_ok(context.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
@@ -443,10 +451,10 @@ const std::vector<std::string>& output_names() {
 BuildResult build(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
   BuildResult result;
   result.product.file = file;
-  auto warned = run_async([&file] { return plausibility_warnings(file); });
-  result.product.joint = as_it_is(file.mechanism);
+  auto warned = run_async([&file] { return analysis::plausibility_warnings(file); });
+  result.product.joint = joint::as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force, context);
-  if (const auto why = options.step ? step_missing() : std::nullopt)
+  if (const auto why = options.step ? formats::step_missing() : std::nullopt)
     throw InputError("", "no pulley.step: this fusee was built without STEP: " + *why, "build without --step");
   target.claim(output_names());  // before the work: a refusal should not cost a wait
   const bool is_possible = design_any(result.product, options.chord_error_mm, options.limits, context);
@@ -479,4 +487,4 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options, const 
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -1,12 +1,11 @@
-#include "fusee/pipeline.h"
-
 #include <set>
 
 #include "fusee/joint.h"
+#include "fusee/pipeline.h"
 #include "pipeline/law_table_copy.h"
 #include "pipeline/several_turns.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 constexpr std::size_t k_largest_spec = 1 << 20;
@@ -42,7 +41,7 @@ struct CalibrationContext {
   const RunContext& run;
 };
 
-std::vector<std::string> names_from(const Measurement& measurement, std::size_t first) {
+std::vector<std::string> names_from(const measurement::Measurement& measurement, std::size_t first) {
   std::vector<std::string> names;
   for (std::size_t i = first; i < measurement.runs.size(); ++i) names.push_back(measurement.runs[i].name);
   return names;
@@ -50,22 +49,22 @@ std::vector<std::string> names_from(const Measurement& measurement, std::size_t 
 
 /// A corrected file describes the joint with its identified effects: only further effects are identified.
 void conclude(const CalibrationContext& context, const RunFiles& runs) {
-  CalibrationProduct& product = context.result.product;
+  formats::CalibrationProduct& product = context.result.product;
   const DeclaredMechanism& declared = context.file.mechanism;
-  const DeclaredMechanism expected = expected_joint(declared);
+  const DeclaredMechanism expected = joint::expected_joint(declared);
   context.run.begin_step("reading the runs");
-  const Measurement as_read =
-      read_measurement(runs.all, expecting(expected, context.options.columns), *context.run.files);
+  const measurement::Measurement as_read = measurement::read_measurement(
+      runs.all, measurement::expecting(expected, context.options.columns), *context.run.files);
   product.measurement = as_read;
-  compare_with_declared(expected, product.measurement);
-  CalibrationOptions options;
+  measurement::compare_with_declared(expected, product.measurement);
+  calibration::CalibrationOptions options;
   options.hold_out = names_from(product.measurement, runs.fitted);
   options.context = context.run;
   options.audit = context.options.audit;
-  options.look_for_effects = !is_input_error_obvious(declared, as_read);
-  product.calibration = calibrate(expected, product.measurement, options);
+  options.look_for_effects = !calibration::is_input_error_obvious(declared, as_read);
+  product.calibration = calibration::calibrate(expected, product.measurement, options);
   context.run.begin_step("checking for input errors");
-  product.slips = find_input_errors(declared, as_read, product.calibration);
+  product.slips = calibration::find_input_errors(declared, as_read, product.calibration);
   if (!product.slips.empty() && product.calibration.curve.used) {
     product.calibration.curve.used = false;
     product.calibration.curve.why = "an input error in the file or the log may explain the data: check it first";
@@ -73,9 +72,9 @@ void conclude(const CalibrationContext& context, const RunFiles& runs) {
   context.run.begin_step("computing the correction");
   product.correction.identified = declared.identified;
   product.correction.why_no_pulley_file = product.correction.why_no_table = "the data are inconclusive";
-  if (product.calibration.verdict != CalibrationVerdict::not_testable)
-    product.correction = correct(declared, product.measurement, product.calibration);
-  product.rehearsal = rehearse(expected, product.measurement, product.calibration);
+  if (product.calibration.verdict != calibration::CalibrationVerdict::not_testable)
+    product.correction = correction::correct(declared, product.measurement, product.calibration);
+  product.rehearsal = correction::rehearse(expected, product.measurement, product.calibration);
 }
 
 /// The user's text if it describes the mechanism; else a new text with every key.
@@ -94,18 +93,19 @@ std::string declared_text(const MechanismFile& file, bool& rewritten, FileAccess
   return law_table_name(file.mechanism) ? with_table_beside(text, file, files) : text;
 }
 
-std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const std::string& declared, FileAccess& files) {
+std::vector<OutputFile> outputs_of(const formats::CalibrationProduct& product, const std::string& declared,
+                                   FileAccess& files) {
   std::vector<OutputFile> outputs;
-  outputs.push_back({"calibration.json", calibration_json(product)});
+  outputs.push_back({"calibration.json", formats::calibration_json(product)});
   if (law_table_name(product.file.mechanism)) outputs.push_back(law_table_copy(product.file, files));
   if (product.correction.why_no_pulley_file.empty())
-    outputs.push_back(
-        {"corrected.toml", corrected_toml(declared, product.file.mechanism, product.calibration, product.correction)});
+    outputs.push_back({"corrected.toml", correction::corrected_toml(declared, product.file.mechanism,
+                                                                    product.calibration, product.correction)});
   if (product.correction.why_no_table.empty())
-    outputs.push_back({"compensation.csv", compensation_csv(product.correction)});
-  outputs.push_back({"report.html", calibration_report_html(product)});
-  for (OutputFile& file : next_files(product)) outputs.push_back(std::move(file));
-  outputs.push_back({"manifest.json", calibration_manifest_json(product, outputs)});
+    outputs.push_back({"compensation.csv", correction::compensation_csv(product.correction)});
+  outputs.push_back({"report.html", formats::calibration_report_html(product)});
+  for (OutputFile& file : formats::next_files(product)) outputs.push_back(std::move(file));
+  outputs.push_back({"manifest.json", formats::calibration_manifest_json(product, outputs)});
   return outputs;
 }
 
@@ -119,14 +119,14 @@ std::vector<std::string> output_names(const MechanismFile& file) {
 /// Adds the files of the next measurements: those that may be written now, or are withdrawn from an earlier
 /// calibration.
 std::vector<std::string> with_next(std::vector<std::string> names, int first_run, int runs) {
-  for (const std::string& name : next_file_names(first_run, runs)) names.push_back(name);
+  for (const std::string& name : formats::next_file_names(first_run, runs)) names.push_back(name);
   return names;
 }
 
 int first_free_run_beside(const RunFiles& files) {
   std::vector<std::string> names;
   for (const auto& run : files.all) names.push_back(run.filename().string());
-  return first_free_run(names);
+  return formats::first_free_run(names);
 }
 
 void publish(const CalibrationContext& context, OutputFolder& folder) {
@@ -155,4 +155,4 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

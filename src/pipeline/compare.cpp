@@ -1,32 +1,32 @@
-#include "fusee/pipeline.h"
-
 #include "fusee/joint.h"
+#include "fusee/pipeline.h"
 #include "pipeline/several_turns.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 using Paths = std::vector<std::filesystem::path>;
 
-std::vector<OutputFile> outputs_of(const ComparisonProduct& product) {
-  std::vector<OutputFile> outputs = {{"comparison.json", comparison_json(product)},
-                                     {"report.html", comparison_report_html(product)}};
-  outputs.push_back({"manifest.json", comparison_manifest_json(product, outputs)});
+std::vector<OutputFile> outputs_of(const formats::ComparisonProduct& product) {
+  std::vector<OutputFile> outputs = {{"comparison.json", formats::comparison_json(product)},
+                                     {"report.html", formats::comparison_report_html(product)}};
+  outputs.push_back({"manifest.json", formats::comparison_manifest_json(product, outputs)});
   return outputs;
 }
 
 /// Both states are compared with the mounted joint of the file.
 void conclude(const MechanismFile& file, const Paths& before, const Paths& after, const CompareOptions& options,
-              const RunContext& context, ComparisonProduct& product) {
+              const RunContext& context, formats::ComparisonProduct& product) {
   context.begin_step("reading the runs");
-  const DeclaredMechanism expected = expected_joint(file.mechanism);
+  const DeclaredMechanism expected = joint::expected_joint(file.mechanism);
   Paths both = before;
   both.insert(both.end(), after.begin(), after.end());
-  product.measurement = read_measurement(both, expected, options.columns, *context.files);
+  product.measurement = measurement::read_measurement(both, expected, options.columns, *context.files);
   product.runs_before = before.size();
-  const ComparedRuns runs{read_measurement(before, expected, options.columns, *context.files),
-                          read_measurement(after, expected, options.columns, *context.files), product.measurement};
-  product.comparison = compare_states(expected, runs, {.context = context});
+  const calibration::ComparedRuns runs{measurement::read_measurement(before, expected, options.columns, *context.files),
+                                       measurement::read_measurement(after, expected, options.columns, *context.files),
+                                       product.measurement};
+  product.comparison = calibration::compare_states(expected, runs, {.context = context});
 }
 
 void publish(OutputFolder& folder, CompareResult& result) {
@@ -55,4 +55,4 @@ CompareResult compare(const MechanismFile& file, const std::vector<std::filesyst
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

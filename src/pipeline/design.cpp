@@ -5,7 +5,7 @@
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 // Coarsest chord error of trial curves, mm. Trials need no table of the stroke; the advised design is built with the
@@ -15,9 +15,9 @@ constexpr int k_trial_steps = 36;
 
 }  // namespace
 
-std::vector<Condition> windable(const Mechanism& mechanism, const std::function<void()>& wind) {
+std::vector<profile::Condition> windable(const Mechanism& mechanism, const std::function<void()>& wind) {
   if (mechanism.pulley.method != Method::paper) return {};
-  Condition condition;
+  profile::Condition condition;
   condition.name = "can_be_wound";
   condition.value = condition.limit = 1;
   condition.unit = "1";
@@ -32,27 +32,27 @@ std::vector<Condition> windable(const Mechanism& mechanism, const std::function<
   return {condition};
 }
 
-bool design(Product& product, double tolerance, const RunContext& context, TieOffSearch search) {
+bool design(formats::Product& product, double tolerance, const RunContext& context, solid::TieOffSearch search) {
   const Mechanism& mechanism = product.joint.mechanism;
   context.begin_step("finding both pitch curves");
-  SynthesisOptions synthesis_options;
+  profile::SynthesisOptions synthesis_options;
   synthesis_options.tolerance = tolerance;
   synthesis_options.drawn_out = -product.joint.outline.offset;
   synthesis_options.advice = false;  // advice is searched for together with the body
-  product.synthesis = synthesise(mechanism, synthesis_options);
+  product.synthesis = profile::synthesise(mechanism, synthesis_options);
   if (!product.synthesis.made()) return false;
-  draw_for_making(product.synthesis, product.joint.outline);
-  product.pulley.conditions = turns_inward_as_drawn(product.synthesis, product.joint.outline);
+  joint::draw_for_making(product.synthesis, product.joint.outline);
+  product.pulley.conditions = joint::turns_inward_as_drawn(product.synthesis, product.joint.outline);
   if (!product.pulley.conditions.empty()) return false;
   context.begin_step("building the body");
-  auto cut_layout = run_async([&] { return layout_to_cut(mechanism, product.synthesis); });
-  product.pulley = make_pulley(mechanism, product.synthesis, search);
+  auto cut_layout = run_async([&] { return formats::layout_to_cut(mechanism, product.synthesis); });
+  product.pulley = solid::make_pulley(mechanism, product.synthesis, search);
   product.cut_layout = cut_layout.get();
   if (!product.pulley.made()) return false;
-  for (const Condition& condition :
+  for (const profile::Condition& condition :
        windable(mechanism, [&] { rewind_made(product.joint, product.pulley.layout, product.pulley.mesh); })) {
     product.pulley.conditions.push_back(condition);
-    if (!condition.ok) product.pulley.status = PulleyStatus::impossible;
+    if (!condition.ok) product.pulley.status = solid::PulleyStatus::impossible;
   }
   return product.pulley.made();
 }
@@ -63,19 +63,19 @@ MechanismFile with_declared(MechanismFile file, const Mechanism& changed) {
 }
 
 Curves curves_of(const DeclaredMechanism& declared) {
-  Curves curves{as_it_is(declared, LawSearch::brief), {}, {}};
+  Curves curves{joint::as_it_is(declared, joint::LawSearch::brief), {}, {}};
   const Mechanism& mechanism = curves.joint.mechanism;
-  if (const auto obstacle = obstacle_to(mechanism)) {
+  if (const auto obstacle = profile::obstacle_to(mechanism)) {
     curves.obstacles = {*obstacle};  // cheap obstacles first, since most trials fail early
     return curves;
   }
   curves.synthesis =
-      synthesise(mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
-  curves.obstacles = failed_of(curves.synthesis.conditions);
+      profile::synthesise(mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
+  curves.obstacles = profile::failed_of(curves.synthesis.conditions);
   if (!curves.obstacles.empty()) return curves;
-  draw_for_making(curves.synthesis, curves.joint.outline);
-  curves.obstacles = turns_inward_as_drawn(curves.synthesis, curves.joint.outline);
+  joint::draw_for_making(curves.synthesis, curves.joint.outline);
+  curves.obstacles = joint::turns_inward_as_drawn(curves.synthesis, curves.joint.outline);
   return curves;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -9,27 +9,27 @@
 #include "fusee/export.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 
 /// Designs curves within `tolerance`, mm, and the body of product.joint. False if it is infeasible: the reasons are
 /// conditions of product.synthesis, or of product.pulley if the curves exist.
-bool design(Product& product, double tolerance, const RunContext& context,
-            TieOffSearch search = TieOffSearch::thorough);
+bool design(formats::Product& product, double tolerance, const RunContext& context,
+            solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
 /// Replaces the declared mechanism by a trial mechanism, and keeps the identified effects.
 MechanismFile with_declared(MechanismFile file, const Mechanism& changed);
 
 /// A trial mechanism: its identified joint, and its curves or the obstacles to them.
 struct Curves {
-  JointAsItIs joint;
-  SynthesisResult synthesis;
-  std::vector<Condition> obstacles;
+  joint::JointAsItIs joint;
+  profile::SynthesisResult synthesis;
+  std::vector<profile::Condition> obstacles;
 };
 
 Curves curves_of(const DeclaredMechanism& declared);
 
 /// Fails if `wind` throws because no tendon can be wound on the curves. Curves of the paper's equations may differ so
 /// far from those for large pins or thick tendons. Exact curves can always be wound; for them it is a bug.
-std::vector<Condition> windable(const Mechanism& mechanism, const std::function<void()>& wind);
+std::vector<profile::Condition> windable(const Mechanism& mechanism, const std::function<void()>& wind);
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -6,7 +6,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 constexpr std::size_t k_largest_file = 1 << 20;
@@ -32,8 +32,8 @@ bool holds(const std::string& text, const std::vector<ValueEdit>& edits, const s
 }
 
 /// Edits of the settings, then of the design, which takes precedence.
-std::vector<ValueEdit> all_edits(const Problem& problem, const Design& design, const std::vector<Setting>& settings,
-                                 std::vector<Diagnostic>& warnings) {
+std::vector<ValueEdit> all_edits(const optimize::Problem& problem, const optimize::Design& design,
+                                 const std::vector<Setting>& settings, std::vector<Diagnostic>& warnings) {
   std::vector<ValueEdit> edits;
   for (const Setting& setting : settings) {
     const auto key = find_number_key(setting.key);
@@ -42,7 +42,7 @@ std::vector<ValueEdit> all_edits(const Problem& problem, const Design& design, c
     else
       warnings.push_back(warning("the new file omits --set " + setting.key + "=" + setting.value));
   }
-  for (const ValueEdit& edit : edits_of(problem, design)) {
+  for (const ValueEdit& edit : optimize::edits_of(problem, design)) {
     std::erase_if(edits, [&edit](const ValueEdit& earlier) { return earlier.key == edit.key; });
     edits.push_back(edit);
   }
@@ -51,7 +51,7 @@ std::vector<ValueEdit> all_edits(const Problem& problem, const Design& design, c
 
 }  // namespace
 
-DesignFile design_file(const MechanismFile& file, const Problem& problem, const Design& design,
+DesignFile design_file(const MechanismFile& file, const optimize::Problem& problem, const optimize::Design& design,
                        const std::vector<Setting>& settings, FileAccess& files) {
   DesignFile result;
   const std::vector<ValueEdit> edits = all_edits(problem, design, settings, result.warnings);
@@ -59,10 +59,10 @@ DesignFile design_file(const MechanismFile& file, const Problem& problem, const 
   if (holds(result.text, edits, file.path, files)) return result;
   // Dotted keys leave no place for a new key of their table.
   result.warnings.push_back(warning("the layout of " + file.path + " could not be kept: the new file has every key"));
-  DeclaredMechanism whole = mechanism_at(problem, design);
+  DeclaredMechanism whole = optimize::mechanism_at(problem, design);
   whole.optimize = file.mechanism.optimize;
   result.text = write_mechanism(whole);
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -5,7 +5,7 @@
 #include "fusee/mechanism_file.h"
 #include "fusee/optimize.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 
 struct DesignFile {
   std::string text;
@@ -13,7 +13,7 @@ struct DesignFile {
 };
 
 /// `file` with the design's numbers at their keys, and with the numeric values of `settings`.
-DesignFile design_file(const MechanismFile& file, const Problem& problem, const Design& design,
+DesignFile design_file(const MechanismFile& file, const optimize::Problem& problem, const optimize::Design& design,
                        const std::vector<Setting>& settings, FileAccess& files = disk());
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -1,25 +1,24 @@
-#include "fusee/pipeline.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "base/run_async.h"
 #include "analysis/plausibility.h"
+#include "base/run_async.h"
 #include "base/text.h"
 #include "export/mesh_files/mesh_files.h"
 #include "fusee/joint.h"
-#include "solid/print.h"
+#include "fusee/pipeline.h"
 #include "pipeline/agreement.h"
 #include "pipeline/design.h"
 #include "pipeline/several_turns.h"
+#include "solid/print.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 /// A written file that cannot be read back is a bug, not bad input.
-TriangleMesh read_back(const OutputFile& file) {
+solid::TriangleMesh read_back(const OutputFile& file) {
   try {
-    return read_mesh(file.bytes, file.name);
+    return formats::read_mesh(file.bytes, file.name);
   } catch (const InputError& error) {
     throw Bug(std::string("a written file cannot be read back: ") + error.what());
   }
@@ -31,23 +30,23 @@ struct CheckedPart {
   std::vector<Check> checks;
 };
 
-CheckedPart made(const KitPart& part, const KitProduct& product) {
+CheckedPart made(const kit::KitPart& part, const formats::KitProduct& product) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
-  const BodyLayout& layout = product.pulley.pulley.layout;
-  const TriangleMesh mesh = printed_mesh(part, mechanism, layout);
+  const solid::BodyLayout& layout = product.pulley.pulley.layout;
+  const solid::TriangleMesh mesh = kit::printed_mesh(part, mechanism, layout);
   const std::string name = mechanism.name + ", " + part.name;
   CheckedPart result;
-  result.files = {{kit_file_name(part, "stl"), stl_bytes(mesh, name)},
-                  {kit_file_name(part, "3mf"), threemf_bytes(mesh, name)}};
-  const TriangleMesh written = read_back(result.files[0]);
-  result.checks = check_mesh(written);
+  result.files = {{formats::kit_file_name(part, "stl"), formats::stl_bytes(mesh, name)},
+                  {formats::kit_file_name(part, "3mf"), formats::threemf_bytes(mesh, name)}};
+  const solid::TriangleMesh written = read_back(result.files[0]);
+  result.checks = solid::check_mesh(written);
   // Rounding moves a corner by half of a float's last digit, which changes the volume by that times the area.
-  const double volume = printed_volume(part, mechanism, layout);
-  result.checks.push_back(at_most("volume_error", std::abs(enclosed_volume(written) / volume - 1), 1e-4, "1"));
+  const double volume = kit::printed_volume(part, mechanism, layout);
+  result.checks.push_back(at_most("volume_error", std::abs(solid::enclosed_volume(written) / volume - 1), 1e-4, "1"));
   if (!mechanism.print.supports) {
-    PrintLimits limits;
+    solid::PrintLimits limits;
     limits.overhang = mechanism.print.overhang;
-    for (Check& check : check_print(written, limits)) result.checks.push_back(std::move(check));
+    for (Check& check : solid::check_print(written, limits)) result.checks.push_back(std::move(check));
   }
   for (Check& check : same_mesh(mesh, read_back(result.files[1]))) {
     check.name = "3mf_" + check.name;
@@ -58,11 +57,11 @@ CheckedPart made(const KitPart& part, const KitProduct& product) {
 }
 
 void make_files(KitResult& result, const KitOptions& options, const RunContext& context) {
-  KitProduct& product = result.product;
+  formats::KitProduct& product = result.product;
   context.begin_step("building parts");
-  auto drawing = run_async([&] { return kit_dxf(product, options.dxf); });
+  auto drawing = run_async([&] { return formats::kit_dxf(product, options.dxf); });
   std::vector<std::future<CheckedPart>> parts;
-  for (const KitPart& part : product.plan.parts) parts.push_back(run_async([&] { return made(part, product); }));
+  for (const kit::KitPart& part : product.plan.parts) parts.push_back(run_async([&] { return made(part, product); }));
   product.checks = kit_fit_checks(product.plan);
   for (auto& part : parts) {
     CheckedPart one = part.get();
@@ -70,68 +69,70 @@ void make_files(KitResult& result, const KitOptions& options, const RunContext& 
     product.checks.insert(product.checks.end(), one.checks.begin(), one.checks.end());
   }
   result.outputs.push_back({"kit.dxf", drawing.get()});
-  for (Check& check : check_drawing(read_dxf(result.outputs.back().bytes, "kit.dxf"))) {
+  for (Check& check : formats::check_drawing(formats::read_dxf(result.outputs.back().bytes, "kit.dxf"))) {
     check.name = "kit_dxf_" + check.name;
     product.checks.push_back(std::move(check));
   }
   context.begin_step("writing the page");
-  result.outputs.push_back({"bom.csv", bom_csv(product)});
-  result.outputs.push_back({"kit.html", kit_html(product)});
+  result.outputs.push_back({"bom.csv", formats::bom_csv(product)});
+  result.outputs.push_back({"kit.html", formats::kit_html(product)});
   for (std::size_t i = 0; i < product.bench.plan.steps.size(); ++i) {
     if (product.bench.plan.steps[i].run)
-      result.outputs.push_back({run_file_name(product.bench.plan, i), run_csv(product.bench, i)});
+      result.outputs.push_back({formats::run_file_name(product.bench.plan, i), formats::run_csv(product.bench, i)});
   }
-  result.outputs.push_back({"manifest.json", kit_manifest_json(product, result.outputs)});
+  result.outputs.push_back({"manifest.json", formats::kit_manifest_json(product, result.outputs)});
 }
 
 /// Obstacles of curves, body or rig.
-std::vector<Condition> obstacles_to_kit(const DeclaredMechanism& declared) {
+std::vector<profile::Condition> obstacles_to_kit(const DeclaredMechanism& declared) {
   const Curves curves = curves_of(declared);
   if (!curves.obstacles.empty()) return curves.obstacles;
   const Mechanism& mechanism = curves.joint.mechanism;
-  if (const auto of_body = body_obstacles(mechanism, curves.synthesis); !of_body.empty()) return of_body;
-  return failed_of(plan_kit(mechanism, curves.synthesis, resolve_layout(mechanism, curves.synthesis)).conditions);
+  if (const auto of_body = solid::body_obstacles(mechanism, curves.synthesis); !of_body.empty()) return of_body;
+  return profile::failed_of(
+      kit::plan_kit(mechanism, curves.synthesis, solid::resolve_layout(mechanism, curves.synthesis)).conditions);
 }
 
-KitPlan plan_of(const Product& pulley) {
-  if (pulley.helix) return plan_kit_of_turns(pulley.joint.mechanism, pulley.pulley.layout, tendon_heights(pulley));
-  return plan_kit(pulley.joint.mechanism, pulley.synthesis, pulley.pulley.layout);
+kit::KitPlan plan_of(const formats::Product& pulley) {
+  if (pulley.helix) return kit::plan_kit_of_turns(pulley.joint.mechanism, pulley.pulley.layout, tendon_heights(pulley));
+  return kit::plan_kit(pulley.joint.mechanism, pulley.synthesis, pulley.pulley.layout);
 }
 
 /// Tests the rounded numbers that are advised. A number that makes the file bad input is infeasible.
 bool has_kit(const MechanismFile& file, double tolerance, const RunContext& context) {
   try {
-    Product pulley;
+    formats::Product pulley;
     pulley.file = file;
-    pulley.joint = as_it_is(file.mechanism);
-    return design_any(pulley, tolerance, {}, context, TieOffSearch::brief) && plan_of(pulley).made();
+    pulley.joint = joint::as_it_is(file.mechanism);
+    return design_any(pulley, tolerance, {}, context, solid::TieOffSearch::brief) && plan_of(pulley).made();
   } catch (const InputError&) {
     return false;
   }
 }
 
 /// Changes that make room for the rig of a feasible pulley.
-Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, const KitOptions& options,
-                      const RunContext& context) {
-  const KitPlan& plan = product.plan;
-  const FeasibilityOracle judge{
+profile::Advice advice_for_kit(const MechanismFile& file, const formats::KitProduct& product, const KitOptions& options,
+                               const RunContext& context) {
+  const kit::KitPlan& plan = product.plan;
+  const profile::FeasibilityOracle judge{
       .obstacles =
           [&](const Mechanism& changed) {
             context.throw_if_stopped();
             if (!plan.heights) return obstacles_to_kit(with_declared(file, changed).mechanism);
-            return failed_of(plan_kit_of_turns(changed, product.pulley.pulley.layout, *plan.heights).conditions);
+            return profile::failed_of(
+                kit::plan_kit_of_turns(changed, product.pulley.pulley.layout, *plan.heights).conditions);
           },
       .made =
           [&](const Mechanism& changed) {
             return has_kit(with_declared(file, changed), options.chord_error_mm, context);
           }};
-  Advice advice = find_advice(file.mechanism, judge, {"body.flange_thickness_mm"});
+  profile::Advice advice = profile::find_advice(file.mechanism, judge, {"body.flange_thickness_mm"});
   // Steps are relative, so none leaves a pin radius of 0.
   if (Mechanism thicker = file.mechanism; thicker.guides.radius == 0) {
-    thicker.guides.radius = k_least_pin;
-    const std::string radius = shortest(k_least_pin);
+    thicker.guides.radius = kit::k_least_pin;
+    const std::string radius = shortest(kit::k_least_pin);
     if (judge.made(thicker))
-      advice.alone.push_back({"guides.radius_mm", 0, k_least_pin, "mm", "guides.radius_mm ≥ " + radius + " mm"});
+      advice.alone.push_back({"guides.radius_mm", 0, kit::k_least_pin, "mm", "guides.radius_mm ≥ " + radius + " mm"});
   }
   return advice;
 }
@@ -139,10 +140,10 @@ Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, cons
 constexpr int k_most_kit_runs = 99;
 
 /// All files that a rig may have; those of an earlier rig that this one lacks are withdrawn.
-std::vector<std::string> kit_names(const KitPlan& plan) {
+std::vector<std::string> kit_names(const kit::KitPlan& plan) {
   std::vector<std::string> names{"kit.dxf", "bom.csv", "kit.html", "manifest.json"};
-  for (const KitPart& part : plan.parts) {
-    for (const char* ending : {"stl", "3mf"}) names.push_back(kit_file_name(part, ending));
+  for (const kit::KitPart& part : plan.parts) {
+    for (const char* ending : {"stl", "3mf"}) names.push_back(formats::kit_file_name(part, ending));
   }
   for (int i = 1; i <= k_most_kit_runs; ++i) names.push_back("run_" + std::to_string(i) + ".csv");
   for (const char* sleeve : {"pin_b_sleeve", "pin_d_sleeve"}) {
@@ -153,9 +154,9 @@ std::vector<std::string> kit_names(const KitPlan& plan) {
 
 }  // namespace
 
-std::vector<Check> kit_fit_checks(const KitPlan& plan) {
+std::vector<Check> kit_fit_checks(const kit::KitPlan& plan) {
   std::vector<Check> checks;
-  for (const Condition& condition : plan.conditions)
+  for (const profile::Condition& condition : plan.conditions)
     checks.push_back(
         at_least("fit_" + condition.name, condition.value, condition.limit, condition.unit, condition.message));
   return checks;
@@ -163,9 +164,9 @@ std::vector<Check> kit_fit_checks(const KitPlan& plan) {
 
 KitResult kit(const MechanismFile& file, const KitOptions& options, const RunContext& context) {
   KitResult result;
-  KitProduct& product = result.product;
-  product.pulley.file = with_plausibility_warnings(file);
-  product.pulley.joint = as_it_is(file.mechanism);
+  formats::KitProduct& product = result.product;
+  product.pulley.file = analysis::with_plausibility_warnings(file);
+  product.pulley.joint = joint::as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force, context);
   target.claim(
       {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work, so that a refusal costs no time
@@ -182,11 +183,11 @@ KitResult kit(const MechanismFile& file, const KitOptions& options, const RunCon
     result.advice = advice_for_kit(file, product, options, context.without_progress());
     return result;
   }
-  const PlanOptions bench;
-  auto planned = run_async([&] { return plan_runs(file.mechanism, bench, context.without_progress()); });
+  const plan::PlanOptions bench;
+  auto planned = run_async([&] { return plan::plan_runs(file.mechanism, bench, context.without_progress()); });
   target.claim(kit_names(product.plan));
   if (!product.pulley.helix)
-    product.pulley.holding = tendon_holding(mechanism, product.pulley.synthesis, product.pulley.pulley);
+    product.pulley.holding = solid::tendon_holding(mechanism, product.pulley.synthesis, product.pulley.pulley);
   product.bench = {product.pulley.file, bench.noise, bench.minutes, planned.get()};
   make_files(result, options, context);
   result.ending = all_ok(product.checks) ? KitEnding::done : KitEnding::check_failed;
@@ -200,4 +201,4 @@ KitResult kit(const MechanismFile& file, const KitOptions& options, const RunCon
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

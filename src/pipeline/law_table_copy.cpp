@@ -1,6 +1,6 @@
 #include "pipeline/law_table_copy.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 constexpr std::size_t k_largest_law = 8 << 20;
@@ -56,4 +56,4 @@ std::string with_table_beside(const std::string& text, const MechanismFile& file
   return write_mechanism(mechanism);
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -8,7 +8,7 @@
 #include "fusee/base.h"
 #include "fusee/mechanism_file.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 
 /// File name of the table without folder; empty if the law has no table.
 std::optional<std::string> law_table_name(const Mechanism& mechanism);
@@ -20,4 +20,4 @@ OutputFile law_table_copy(const MechanismFile& file, FileAccess& files = disk())
 /// `file.mechanism`.
 std::string with_table_beside(const std::string& text, const MechanismFile& file, FileAccess& files = disk());
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -1,15 +1,14 @@
-#include "fusee/pipeline.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
 #include "fusee/joint.h"
+#include "fusee/pipeline.h"
 #include "pipeline/design.h"
 #include "pipeline/several_turns.h"
 #include "pipeline/without_law.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 constexpr std::size_t k_largest_csv = 8 << 20;
@@ -22,8 +21,8 @@ std::optional<std::filesystem::path> compensation_beside(const MechanismFile& fi
   const std::filesystem::path spec = file.path, csv = spec.parent_path() / "compensation.csv";
   try {
     const std::string manifest = read_file(spec.parent_path() / "manifest.json", k_largest_csv, files);
-    if (!names_output(manifest, spec.filename().string(), file.sha256)) return std::nullopt;
-    if (!names_output(manifest, csv.filename().string(), sha256(read_file(csv, k_largest_csv, files))))
+    if (!formats::names_output(manifest, spec.filename().string(), file.sha256)) return std::nullopt;
+    if (!formats::names_output(manifest, csv.filename().string(), sha256(read_file(csv, k_largest_csv, files))))
       return std::nullopt;
     return csv;
   } catch (const InputError&) {
@@ -31,16 +30,18 @@ std::optional<std::filesystem::path> compensation_beside(const MechanismFile& fi
   }
 }
 
-void take_compensation(ModelProduct& product, const ModelOptions& options, FileAccess& files) {
+void take_compensation(formats::ModelProduct& product, const ModelOptions& options, FileAccess& files) {
   const auto path = options.compensation ? options.compensation : compensation_beside(product.file, files);
   if (!path || path->empty()) return;
-  const std::vector<TwoWayRow> rows = read_compensation(read_file(*path, k_largest_csv, files), path->string());
-  product.curves.sensed = two_way_curve(refined(rows, Transmission(product.file.mechanism)), CurveSource::compensation);
+  const std::vector<model::TwoWayRow> rows =
+      model::read_compensation(read_file(*path, k_largest_csv, files), path->string());
+  product.curves.sensed = model::two_way_curve(model::refined(rows, transmission::Transmission(product.file.mechanism)),
+                                               model::CurveSource::compensation);
   product.compensation = path->filename().string();
 }
 
 /// Throws unless the counts of the whole range fit into 32 bits.
-void demand_countable(const ModelProduct& product, const MotorUnit& unit) {
+void demand_countable(const formats::ModelProduct& product, const model::MotorUnit& unit) {
   if (!unit.ticks) return;
   double most = 0;
   for (const double alpha : {product.curves.sensed.middle.alpha_min, product.curves.sensed.middle.alpha_max})
@@ -68,13 +69,13 @@ DeclaredMechanism narrowed(DeclaredMechanism mechanism, double share) {
 
 bool has_polynomial(const DeclaredMechanism& mechanism, double most) {
   if (!(mechanism.joint.theta_max > mechanism.joint.theta_min)) return false;
-  const Transmission law(mechanism);
-  if (law.dead_centre() || !grows(law)) return false;
-  const auto curves = joint_curves(mechanism);
-  return curves && fit_equality(curves->physical.middle).error <= most;
+  const transmission::Transmission law(mechanism);
+  if (law.dead_centre() || !model::grows(law)) return false;
+  const auto curves = model::joint_curves(mechanism);
+  return curves && model::fit_equality(curves->physical.middle).error <= most;
 }
 
-std::vector<ModelChange> changes_for_polynomial(const ModelProduct& product, const ModelOptions& options) {
+std::vector<ModelChange> changes_for_polynomial(const formats::ModelProduct& product, const ModelOptions& options) {
   std::vector<ModelChange> changes;
   if (product.equality.error < radians(k_largest_limit_deg))
     changes.push_back({"--max-error-deg " + limit_deg(product.equality.error)});
@@ -93,9 +94,9 @@ std::vector<ModelChange> changes_for_polynomial(const ModelProduct& product, con
   return changes;
 }
 
-std::vector<ModelChange> changes_for_table(const ModelProduct& product, const ModelOptions& options) {
+std::vector<ModelChange> changes_for_table(const formats::ModelProduct& product, const ModelOptions& options) {
   for (double most = 2 * options.most_table_error; most < radians(k_largest_limit_deg); most *= 2) {
-    if (const auto table = joint_table(product.curves.sensed, product.mechanism, options.unit, most))
+    if (const auto table = model::joint_table(product.curves.sensed, product.mechanism, options.unit, most))
       return {{"--max-table-error-deg " + limit_deg(std::max(table->errors.theta, table->errors.returned))}};
   }
   return {};
@@ -105,16 +106,16 @@ std::vector<ModelChange> changes_for_table(const ModelProduct& product, const Mo
 
 /// False if there is no θ(α) to fit; the reason is in `result`.
 bool find_curves(ModelResult& result, const ModelOptions& options, FileAccess& files) {
-  ModelProduct& product = result.product;
+  formats::ModelProduct& product = result.product;
   const DeclaredMechanism& declared = product.file.mechanism;
   if (declared.transmission)
     throw InputError(product.file.path, "a joint with [transmission] has no range to model",
                      "[transmission] is for 'fusee calibrate'");
   result.without_law = without_law(declared);
-  if (!result.without_law && !grows(Transmission(declared))) {
-    result.without_law = synthesise(declared);
-    if (failed_of(result.without_law->conditions).empty()) {
-      Condition condition;
+  if (!result.without_law && !model::grows(transmission::Transmission(declared))) {
+    result.without_law = profile::synthesise(declared);
+    if (profile::failed_of(result.without_law->conditions).empty()) {
+      profile::Condition condition;
       condition.name = "law_grows";
       condition.ok = false;
       condition.message = "theta does not grow with alpha over the whole range";
@@ -125,15 +126,15 @@ bool find_curves(ModelResult& result, const ModelOptions& options, FileAccess& f
     result.ending = ModelEnding::no_law;
     return false;
   }
-  product.mechanism = as_it_is(declared).mechanism;
+  product.mechanism = joint::as_it_is(declared).mechanism;
   // For several turns the obstacle would be that one turn does not suffice.
-  const auto obstacle = note_on_turns(product.file) ? std::nullopt : obstacle_to(product.mechanism);
+  const auto obstacle = note_on_turns(product.file) ? std::nullopt : profile::obstacle_to(product.mechanism);
   if (obstacle)
     product.file.warnings.push_back({Severity::warning,
                                      {product.file.path},
                                      "no pulley can have this law: " + obstacle->message,
                                      "'fusee build' lists changes that make it possible"});
-  const auto curves = joint_curves(declared);
+  const auto curves = model::joint_curves(declared);
   if (!curves) {
     result.ending = ModelEnding::no_equilibrium;
     return false;
@@ -145,11 +146,11 @@ bool find_curves(ModelResult& result, const ModelOptions& options, FileAccess& f
 }
 
 bool find_fits(ModelResult& result, const ModelOptions& options, const RunContext& context) {
-  ModelProduct& product = result.product;
-  const AngleMap& map = product.curves.physical.middle;
-  product.equality = fit_equality(map);
-  product.line = fit_line(map);
-  product.tendons = tendon_model(product.mechanism, map, product.without_tendons);
+  formats::ModelProduct& product = result.product;
+  const model::AngleMap& map = product.curves.physical.middle;
+  product.equality = model::fit_equality(map);
+  product.line = model::fit_line(map);
+  product.tendons = model::tendon_model(product.mechanism, map, product.without_tendons);
   if (product.tendons && product.tendons->error > options.most_error) {
     product.without_tendons = "the pulley's polynomial misses " + rounded(degrees(product.tendons->error), 2) + " deg";
     product.tendons.reset();
@@ -165,7 +166,8 @@ bool find_fits(ModelResult& result, const ModelOptions& options, const RunContex
     return false;
   }
   context.begin_step("making tables");
-  const auto table = joint_table(product.curves.sensed, product.mechanism, options.unit, options.most_table_error);
+  const auto table =
+      model::joint_table(product.curves.sensed, product.mechanism, options.unit, options.most_table_error);
   if (!table) {
     result.ending = ModelEnding::table_off;
     result.changes = changes_for_table(product, options);
@@ -176,29 +178,29 @@ bool find_fits(ModelResult& result, const ModelOptions& options, const RunContex
 }
 
 void write_files(ModelResult& result) {
-  ModelProduct& product = result.product;
+  formats::ModelProduct& product = result.product;
   std::vector<OutputFile>& outputs = result.outputs;
-  if (product.with_polynomial) outputs.push_back({"joint.xml", mujoco_joint_xml(product)});
-  if (product.tendons) outputs.push_back({"joint_tendons.xml", mujoco_tendons_xml(product)});
-  outputs.push_back({"joint.urdf", joint_urdf(product)});
-  outputs.push_back({"joint_ros2_control.urdf", ros2_control_urdf(product)});
-  outputs.push_back({"joint_table.h", joint_table_h(product)});
-  outputs.push_back({"joint_table.json", joint_table_json(product)});
-  product.checks = check_model(product, outputs);
-  outputs.push_back({"manifest.json", model_manifest_json(product, outputs)});
+  if (product.with_polynomial) outputs.push_back({"joint.xml", formats::mujoco_joint_xml(product)});
+  if (product.tendons) outputs.push_back({"joint_tendons.xml", formats::mujoco_tendons_xml(product)});
+  outputs.push_back({"joint.urdf", formats::joint_urdf(product)});
+  outputs.push_back({"joint_ros2_control.urdf", formats::ros2_control_urdf(product)});
+  outputs.push_back({"joint_table.h", formats::joint_table_h(product)});
+  outputs.push_back({"joint_table.json", formats::joint_table_json(product)});
+  product.checks = formats::check_model(product, outputs);
+  outputs.push_back({"manifest.json", formats::model_manifest_json(product, outputs)});
 }
 
 }  // namespace
 
 ModelResult model(const MechanismFile& file, const ModelOptions& options, const RunContext& context) {
   ModelResult result;
-  ModelProduct& product = result.product;
+  formats::ModelProduct& product = result.product;
   product.file = with_plausibility_warnings_and_turns(file);
   if (options.declared) product.file.mechanism.identified = {};
   product.with_polynomial = options.with_polynomial;
   product.most_error = options.most_error;
   product.most_table_error = options.most_table_error;
-  product.prefix = options.prefix.empty() ? c_prefix(file.mechanism.name) : options.prefix;
+  product.prefix = options.prefix.empty() ? formats::c_prefix(file.mechanism.name) : options.prefix;
   OutputFolder target(options.folder, options.force, context);
   target.claim(k_model_names);
   context.begin_step("simulating the joint");
@@ -217,4 +219,4 @@ ModelResult model(const MechanismFile& file, const ModelOptions& options, const 
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -8,36 +8,37 @@
 #include "pipeline/design_file.h"
 #include "pipeline/several_turns.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 /// True if an identified effect changes an objective. Manufacturing errors of the pulley do not.
 bool joint_differs(DeclaredMechanism declared) {
   declared.identified.pulley.scale = 0;
-  return !(as_it_is(declared).mechanism == static_cast<const Mechanism&>(declared));
+  return !(joint::as_it_is(declared).mechanism == static_cast<const Mechanism&>(declared));
 }
 
 /// Converts a declared design into the joint that is evaluated. Identified effects add to the declared numbers.
-JointConverter joint_gate(const DeclaredMechanism& declared) {
+optimize::JointConverter joint_gate(const DeclaredMechanism& declared) {
   if (declared.transmission || !joint_differs(declared)) return {};
-  return [](const DeclaredMechanism& design) { return as_it_is(design).mechanism; };
+  return [](const DeclaredMechanism& design) { return joint::as_it_is(design).mechanism; };
 }
 
-SearchMethod strongest_method(const Problem& problem) {
+SearchMethod strongest_method(const optimize::Problem& problem) {
   if (problem.objectives.size() > 1) return SearchMethod::pareto;
-  return cannot_certify(problem, problem.objectives.front()).empty() ? SearchMethod::certified : SearchMethod::genetic;
+  return optimize::cannot_certify(problem, problem.objectives.front()).empty() ? SearchMethod::certified
+                                                                               : SearchMethod::genetic;
 }
 
-Problem problem_of(const MechanismFile& file) {
-  return make_problem(file, joint_gate(file.mechanism), obstacle_to_several_turns);
+optimize::Problem problem_of(const MechanismFile& file) {
+  return optimize::make_problem(file, joint_gate(file.mechanism), obstacle_to_several_turns);
 }
 
-void demand_one_objective(const MechanismFile& file, const Problem& problem) {
+void demand_one_objective(const MechanismFile& file, const optimize::Problem& problem) {
   const std::size_t count = problem.objectives.size();
   if (count == 1) return;
   throw InputError(
       file.path, "optimize.objective names " + std::to_string(count) + " objectives, and this method takes one",
-      "--method pareto, or --set optimize.objective=" + std::string(info(problem.objectives.front()).name));
+      "--method pareto, or --set optimize.objective=" + std::string(optimize::info(problem.objectives.front()).name));
 }
 
 template <typename Found>
@@ -51,43 +52,47 @@ void take_best(const Found& found, OptimizeResult& result) {
 }
 
 /// Selects the best of the designs that tie with the first optimum, by another objective.
-void break_ties(Objective second, const CertifiedResult& first, const RunContext& context, OptimizeResult& result) {
-  CertifiedOptions options;
-  const Objective objective = result.problem.objectives.front();
-  Problem among = result.problem;
-  among.cap = ObjectiveCap{objective, first.value + options.tie * std::abs(first.value)};
+void break_ties(optimize::Objective second, const optimize::CertifiedResult& first, const RunContext& context,
+                OptimizeResult& result) {
+  optimize::CertifiedOptions options;
+  const optimize::Objective objective = result.problem.objectives.front();
+  optimize::Problem among = result.problem;
+  among.cap = optimize::ObjectiveCap{objective, first.value + options.tie * std::abs(first.value)};
   options.first_tries = {first.best};
   // Ties of 0.1 % need no finer gap, and the edge of a thin set of designs is costly to follow.
   options.gap = options.tie;
   options.most_boxes = 300000;
-  result.then = certified_optimum(among, second, options, context);
+  result.then = optimize::certified_optimum(among, second, options, context);
   result.stopped = result.then->stopped;
   result.design = result.then->best;
-  const Evaluation value = evaluate_design(result.problem, objective, result.design);
+  const optimize::Evaluation value = optimize::evaluate_design(result.problem, objective, result.design);
   result.value = value.value;
   result.theta = value.theta;
 }
 
 void search_certified(const OptimizeOptions& options, const RunContext& context, OptimizeResult& result) {
-  const CertifiedResult found = certified_optimum(result.problem, result.problem.objectives.front(), {}, context);
+  const optimize::CertifiedResult found =
+      optimize::certified_optimum(result.problem, result.problem.objectives.front(), {}, context);
   take_best(found, result);
   result.search = found;
   if (found.found && options.then && !found.stopped) break_ties(*options.then, found, context, result);
 }
 
-void search_genetic(const GeneticOptions& options, const RunContext& context, OptimizeResult& result) {
-  const GeneticResult found = genetic_optimum(result.problem, result.problem.objectives.front(), options, context);
+void search_genetic(const optimize::GeneticOptions& options, const RunContext& context, OptimizeResult& result) {
+  const optimize::GeneticResult found =
+      optimize::genetic_optimum(result.problem, result.problem.objectives.front(), options, context);
   take_best(found, result);
   result.search = found;
 }
 
 /// The point of the front nearest to the ideal point, with each objective scaled by its span on the front.
-const FrontPoint& balanced_point(const std::vector<FrontPoint>& front, const std::vector<Objective>& objectives) {
+const optimize::FrontPoint& balanced_point(const std::vector<optimize::FrontPoint>& front,
+                                           const std::vector<optimize::Objective>& objectives) {
   std::vector<double> distances(front.size(), 0.0);
   for (std::size_t k = 0; k < objectives.size(); ++k) {
-    const double sign = info(objectives[k]).largest ? -1.0 : 1.0;
+    const double sign = optimize::info(objectives[k]).largest ? -1.0 : 1.0;
     double low = 1e300, high = -1e300;
-    for (const FrontPoint& point : front)
+    for (const optimize::FrontPoint& point : front)
       low = std::min(low, sign * point.values[k]), high = std::max(high, sign * point.values[k]);
     if (!(high > low)) continue;
     for (std::size_t i = 0; i < distances.size(); ++i)
@@ -96,14 +101,14 @@ const FrontPoint& balanced_point(const std::vector<FrontPoint>& front, const std
   return front.at(static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) - distances.begin()));
 }
 
-void search_front(const GeneticOptions& options, const RunContext& context, OptimizeResult& result) {
-  const ParetoResult found = pareto_front(result.problem, options, context);
+void search_front(const optimize::GeneticOptions& options, const RunContext& context, OptimizeResult& result) {
+  const optimize::ParetoResult found = optimize::pareto_front(result.problem, options, context);
   result.stopped = found.stopped;
   result.found = !found.front.empty();
   result.reason = found.reason;
   result.search = found;
   if (!result.found) return;
-  const FrontPoint& best = balanced_point(found.front, result.problem.objectives);
+  const optimize::FrontPoint& best = balanced_point(found.front, result.problem.objectives);
   result.design = best.design;
   result.value = best.values.front();
 }
@@ -126,14 +131,15 @@ std::string point_name(std::size_t number) {
 }
 
 void write_texts(const MechanismFile& file, const OptimizeOptions& options, FileAccess& files, OptimizeResult& result) {
-  const auto text_of = [&](const Design& design, std::vector<Diagnostic>& warnings) {
+  const auto text_of = [&](const optimize::Design& design, std::vector<Diagnostic>& warnings) {
     DesignFile written = design_file(file, result.problem, design, options.settings, files);
     warnings = std::move(written.warnings);
     return std::move(written.text);
   };
   std::vector<Diagnostic> warnings;  // equal for every point
-  if (const auto* pareto = std::get_if<ParetoResult>(&result.search); pareto && !options.front_folder.empty()) {
-    for (const FrontPoint& point : pareto->front)
+  if (const auto* pareto = std::get_if<optimize::ParetoResult>(&result.search);
+      pareto && !options.front_folder.empty()) {
+    for (const optimize::FrontPoint& point : pareto->front)
       result.front_files.push_back({point_name(result.front_files.size() + 1), text_of(point.design, warnings)});
   }
   if (!options.new_file.empty()) result.new_text = text_of(result.design, warnings);
@@ -143,7 +149,7 @@ void write_texts(const MechanismFile& file, const OptimizeOptions& options, File
 /// Adds the notes and warnings about several turns to the result.
 void note_turns(const MechanismFile& file, OptimizeResult& result) {
   MechanismFile found = file;
-  found.mechanism = mechanism_at(result.problem, result.design);
+  found.mechanism = optimize::mechanism_at(result.problem, result.design);
   if (const auto note = note_on_turns(found)) result.warnings.push_back(*note);
   for (Diagnostic& warning : warnings_of_turns(found)) result.warnings.push_back(std::move(warning));
 }
@@ -162,8 +168,8 @@ SearchMethod strongest_method(const MechanismFile& file) { return strongest_meth
 OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options, const RunContext& context) {
   OptimizeResult result;
   result.problem = problem_of(file);
-  result.warnings = plausibility_warnings(file);
-  const std::vector<Diagnostic> bends = tight_bends(file);
+  result.warnings = analysis::plausibility_warnings(file);
+  const std::vector<Diagnostic> bends = analysis::tight_bends(file);
   result.warnings.insert(result.warnings.end(), bends.begin(), bends.end());
   const SearchMethod method = options.method ? *options.method : strongest_method(result.problem);
   if (method != SearchMethod::pareto) demand_one_objective(file, result.problem);
@@ -172,7 +178,8 @@ OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& option
   // before the work, so that a refusal costs no time
   if (!options.front_folder.empty()) front_folder.claim({point_name(1)});
   search(method, options, context, result);
-  result.before = evaluate(result.problem.objectives.front(), judged(result.problem, result.problem.base));
+  result.before =
+      optimize::evaluate(result.problem.objectives.front(), optimize::judged(result.problem, result.problem.base));
   if (!result.found) return result;
   note_turns(file, result);
   write_texts(file, options, *context.files, result);
@@ -180,4 +187,4 @@ OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& option
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -2,11 +2,11 @@
 #include <cctype>
 
 #include "base/text.h"
-#include "fusee/export.h"
 #include "export/mesh_files/mesh_files.h"
+#include "fusee/export.h"
 #include "fusee/pipeline.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 /// Size of a binary STL with ten million triangles, more than anyone prints.
@@ -31,11 +31,11 @@ bool is_drawing(std::string_view bytes, const std::string& name) {
 
 Part parse_part(std::string_view bytes, const std::string& name) {
   if (const auto text = utf8_of_utf16(bytes)) return parse_part(*text, name);
-  if (is_drawing(bytes, name)) return read_dxf(bytes, name);
-  return read_mesh(bytes, name);
+  if (is_drawing(bytes, name)) return formats::read_dxf(bytes, name);
+  return formats::read_mesh(bytes, name);
 }
 
-bool is_closed(const DrawingPath& path) { return path.closed; }
+bool is_closed(const formats::DrawingPath& path) { return path.closed; }
 
 }  // namespace
 
@@ -44,29 +44,29 @@ Part read_part(const std::filesystem::path& path, FileAccess& files) {
 }
 
 std::vector<Check> check_part(const Part& part) {
-  if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return check_mesh(*mesh);
-  return check_drawing(std::get<Drawing>(part));
+  if (const auto* mesh = std::get_if<solid::TriangleMesh>(&part)) return solid::check_mesh(*mesh);
+  return formats::check_drawing(std::get<formats::Drawing>(part));
 }
 
 PartSize size_of(const Part& part, const std::vector<Check>& checks) {
   PartSize size;
-  Bounds box;
-  if (const auto* mesh = std::get_if<TriangleMesh>(&part)) {
+  solid::Bounds box;
+  if (const auto* mesh = std::get_if<solid::TriangleMesh>(&part)) {
     if (mesh->vertices.empty()) return size;
-    box = bounds(*mesh);
-    if (all_ok(checks)) size.volume = enclosed_volume(*mesh);
+    box = solid::bounds(*mesh);
+    if (all_ok(checks)) size.volume = solid::enclosed_volume(*mesh);
   } else {
-    TriangleMesh points;
-    const std::vector<DrawingPath>& paths = std::get<Drawing>(part).paths;
-    for (const DrawingPath& path : paths) {
+    solid::TriangleMesh points;
+    const std::vector<formats::DrawingPath>& paths = std::get<formats::Drawing>(part).paths;
+    for (const formats::DrawingPath& path : paths) {
       for (const Vec2& point : path.points) points.vertices.emplace_back(point.x(), point.y(), 0.0);
     }
     if (points.vertices.empty()) return size;
-    box = bounds(points);
+    box = solid::bounds(points);
     size.contours = static_cast<std::size_t>(std::count_if(paths.begin(), paths.end(), is_closed));
   }
   if ((box.high - box.low).allFinite()) size.extent = box.high - box.low;
   return size;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

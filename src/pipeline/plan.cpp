@@ -1,17 +1,18 @@
 #include "fusee/pipeline.h"
-
 #include "pipeline/several_turns.h"
 #include "pipeline/without_law.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
-std::vector<OutputFile> outputs_of(const PlanProduct& product) {
-  std::vector<OutputFile> outputs = {{"plan.json", plan_json(product)}, {"plan.html", plan_html(product)}};
+std::vector<OutputFile> outputs_of(const formats::PlanProduct& product) {
+  std::vector<OutputFile> outputs = {{"plan.json", formats::plan_json(product)},
+                                     {"plan.html", formats::plan_html(product)}};
   for (std::size_t i = 0; i < product.plan.steps.size(); ++i) {
-    if (product.plan.steps[i].run) outputs.push_back({run_file_name(product.plan, i), run_csv(product, i)});
+    if (product.plan.steps[i].run)
+      outputs.push_back({formats::run_file_name(product.plan, i), formats::run_csv(product, i)});
   }
-  outputs.push_back({"manifest.json", plan_manifest_json(product, outputs)});
+  outputs.push_back({"manifest.json", formats::plan_manifest_json(product, outputs)});
   return outputs;
 }
 
@@ -34,7 +35,7 @@ PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options, cons
   if (result.without_law) return result;
   OutputFolder target(options.folder, options.force, context);
   target.claim({"plan.json", "plan.html", "manifest.json"});  // before the work, so that a refusal costs no time
-  result.product.plan = plan_runs(file.mechanism, options.plan, context);
+  result.product.plan = plan::plan_runs(file.mechanism, options.plan, context);
   if (result.product.plan.steps.empty()) return result;
   result.outputs = outputs_of(result.product);
   if (options.dry_run) return result;
@@ -45,4 +46,4 @@ PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options, cons
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

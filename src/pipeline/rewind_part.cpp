@@ -11,14 +11,14 @@
 #include "fusee/solid.h"
 #include "pipeline/several_turns.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 /// The closed path of a layer with the largest area; null if there is none.
-const DrawingPath* largest_path(const Drawing& drawing, const std::string& layer) {
-  const DrawingPath* largest = nullptr;
+const formats::DrawingPath* largest_path(const formats::Drawing& drawing, const std::string& layer) {
+  const formats::DrawingPath* largest = nullptr;
   double largest_area = 0;
-  for (const DrawingPath& path : drawing.paths) {
+  for (const formats::DrawingPath& path : drawing.paths) {
     if (path.layer != layer || !path.closed) continue;
     const double area = std::abs(signed_area(path.points));
     if (area > largest_area) {
@@ -35,25 +35,25 @@ Polygon counter_clockwise(Polygon polygon) {
 }
 
 /// Winds tendons on drawn floors, with the declared pins and tendon.
-RewindResult rewind_drawn(const JointAsItIs& joint, Polygon floor1, Polygon floor2) {
-  return rewind(with_inset(joint), as_made(std::move(floor1), joint.outline),
-                as_made(std::move(floor2), joint.outline));
+profile::RewindResult rewind_drawn(const joint::JointAsItIs& joint, Polygon floor1, Polygon floor2) {
+  return profile::rewind(joint::with_inset(joint), joint::as_made(std::move(floor1), joint.outline),
+                         joint::as_made(std::move(floor2), joint.outline));
 }
 
-RewindResult rewind_drawing(const JointAsItIs& joint, const Drawing& drawing) {
-  const DrawingPath* floor1 = largest_path(drawing, "P1_FLOOR");
-  const DrawingPath* floor2 = largest_path(drawing, "P2_FLOOR");
+profile::RewindResult rewind_drawing(const joint::JointAsItIs& joint, const formats::Drawing& drawing) {
+  const formats::DrawingPath* floor1 = largest_path(drawing, "P1_FLOOR");
+  const formats::DrawingPath* floor2 = largest_path(drawing, "P2_FLOOR");
   if (floor1 && floor2)
     return rewind_drawn(joint, counter_clockwise(floor1->points), counter_clockwise(floor2->points));
-  const DrawingPath* pitch1 = largest_path(drawing, "P1_PITCH");
-  const DrawingPath* pitch2 = largest_path(drawing, "P2_PITCH");
+  const formats::DrawingPath* pitch1 = largest_path(drawing, "P1_PITCH");
+  const formats::DrawingPath* pitch2 = largest_path(drawing, "P2_PITCH");
   if (!pitch1 || !pitch2) {
     throw InputError(
         "", "the drawing has no closed contours on the layers P1_FLOOR and P2_FLOOR (nor on P1_PITCH and P2_PITCH)",
         "name the layers of the two groove floors like that; 'fusee build' writes such a profile.dxf");
   }
   // A drawn centre line is the pitch curve: a tendon without thickness, over pins thicker by its radius.
-  JointAsItIs centre_line = joint;
+  joint::JointAsItIs centre_line = joint;
   centre_line.mechanism.guides.radius = joint.mechanism.guide_pitch_radius();
   centre_line.mechanism.joint.drum_radius = joint.mechanism.drum_pitch_radius();
   centre_line.mechanism.tendon.diameter = 0;
@@ -66,8 +66,8 @@ Polygon shrunk(Polygon outline, double scale) {
   return outline;
 }
 
-Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
-  const std::optional<Polygon> floor = outline_at(mesh, z * scale);
+Polygon floor_in_section(const solid::TriangleMesh& mesh, double z, double scale) {
+  const std::optional<Polygon> floor = solid::outline_at(mesh, z * scale);
   if (!floor) {
     throw InputError("",
                      "the mesh has no section at z = " + rounded(z * scale) + " mm, where the mechanism has a groove",
@@ -78,24 +78,27 @@ Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
 
 /// The expected part: groove heights and floors in the mesh.
 struct ExpectedPart {
-  BodyLayout layout;
-  GrooveFloors floors;
+  solid::BodyLayout layout;
+  solid::GrooveFloors floors;
 };
 
-SynthesisResult declared_curves(const JointAsItIs& joint) { return synthesise(joint.mechanism, {.advice = false}); }
-
-ExpectedPart expected_part(const JointAsItIs& joint) {
-  SynthesisResult synthesis = declared_curves(joint);
-  if (!synthesis.made()) throw InputError("", "no pulley is feasible for this mechanism: " + synthesis.brief());
-  draw_for_making(synthesis, joint.outline);
-  const BodyLayout layout = resolve_layout(joint.mechanism, synthesis);
-  const double half = 0.5 * joint.mechanism.tendon.diameter;
-  return {layout,
-          {shrunk(parallel(synthesis.p1, -half), 1.0 / layout.scale),
-           shrunk(parallel(synthesis.p2, -half), 1.0 / layout.scale)}};
+profile::SynthesisResult declared_curves(const joint::JointAsItIs& joint) {
+  return profile::synthesise(joint.mechanism, {.advice = false});
 }
 
-RewindResult rewind_mesh(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh) {
+ExpectedPart expected_part(const joint::JointAsItIs& joint) {
+  profile::SynthesisResult synthesis = declared_curves(joint);
+  if (!synthesis.made()) throw InputError("", "no pulley is feasible for this mechanism: " + synthesis.brief());
+  joint::draw_for_making(synthesis, joint.outline);
+  const solid::BodyLayout layout = solid::resolve_layout(joint.mechanism, synthesis);
+  const double half = 0.5 * joint.mechanism.tendon.diameter;
+  return {layout,
+          {shrunk(profile::parallel(synthesis.p1, -half), 1.0 / layout.scale),
+           shrunk(profile::parallel(synthesis.p2, -half), 1.0 / layout.scale)}};
+}
+
+profile::RewindResult rewind_mesh(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+                                  const solid::TriangleMesh& mesh) {
   return rewind_drawn(joint, floor_in_section(mesh, layout.z_p1, layout.scale),
                       floor_in_section(mesh, layout.z_p2, layout.scale));
 }
@@ -110,33 +113,36 @@ constexpr double k_clearly_better = 0.5;
 constexpr std::size_t k_most_bodies = 20;
 
 /// Deviation of the floors at the part's present position; infinite without a section there.
-double deviation_in_place(const TriangleMesh& mesh, const BodyLayout& layout, const GrooveFloors& expected) {
-  const std::optional<Polygon> floor1 = outline_at(mesh, layout.z_p1 * layout.scale);
-  const std::optional<Polygon> floor2 = outline_at(mesh, layout.z_p2 * layout.scale);
+double deviation_in_place(const solid::TriangleMesh& mesh, const solid::BodyLayout& layout,
+                          const solid::GrooveFloors& expected) {
+  const std::optional<Polygon> floor1 = solid::outline_at(mesh, layout.z_p1 * layout.scale);
+  const std::optional<Polygon> floor2 = solid::outline_at(mesh, layout.z_p2 * layout.scale);
   if (!floor1 || !floor2) return std::numeric_limits<double>::infinity();
-  return outline_deviation({*floor1, *floor2}, expected);
+  return solid::outline_deviation({*floor1, *floor2}, expected);
 }
 
 /// P1 and P2 printed separately and placed side by side: each is searched among the remaining bodies.
-std::vector<PlacementResult> find_apart(const TriangleMesh& mesh, GrooveFloors expected, double tendon_diameter) {
-  std::vector<PlacementResult> found;
-  const std::vector<TriangleMesh> bodies = bodies_of(mesh);
+std::vector<solid::PlacementResult> find_apart(const solid::TriangleMesh& mesh, solid::GrooveFloors expected,
+                                               double tendon_diameter) {
+  std::vector<solid::PlacementResult> found;
+  const std::vector<solid::TriangleMesh> bodies = solid::bodies_of(mesh);
   if (bodies.size() < 2 || bodies.size() > k_most_bodies) return found;
-  for (const TriangleMesh& body : bodies) {
+  for (const solid::TriangleMesh& body : bodies) {
     if (found.size() == 2) break;
-    const PlacementResult result = find_placement(body, expected, tendon_diameter);
-    if (result.status != PlacementStatus::found || result.placement.grooves.size() != 1) continue;
-    (result.placement.grooves.front().side == Side::left ? expected.p1 : expected.p2).clear();
+    const solid::PlacementResult result = solid::find_placement(body, expected, tendon_diameter);
+    if (result.status != solid::PlacementStatus::found || result.placement.grooves.size() != 1) continue;
+    (result.placement.grooves.front().side == transmission::Side::left ? expected.p1 : expected.p2).clear();
     found.push_back(result);
   }
   return found;
 }
 
 /// One placement for the whole part, or one each for parts printed separately.
-std::vector<PlacementResult> find_all(const TriangleMesh& mesh, const GrooveFloors& expected, double tendon_diameter) {
-  const PlacementResult whole = find_placement(mesh, expected, tendon_diameter);
+std::vector<solid::PlacementResult> find_all(const solid::TriangleMesh& mesh, const solid::GrooveFloors& expected,
+                                             double tendon_diameter) {
+  const solid::PlacementResult whole = solid::find_placement(mesh, expected, tendon_diameter);
   if (whole.placement.grooves.size() == 2) return {whole};
-  const std::vector<PlacementResult> apart = find_apart(mesh, expected, tendon_diameter);
+  const std::vector<solid::PlacementResult> apart = find_apart(mesh, expected, tendon_diameter);
   return apart.size() == 2 ? apart : std::vector{whole};
 }
 
@@ -158,34 +164,35 @@ std::string unit_words(double scale) {
   return "scale it by " + rounded(1 / scale, 4) + ", or check whether it was made for another pulley.r1_mm";
 }
 
-void refuse(const PlacementResult& result) {
-  if (result.status == PlacementStatus::scaled)
+void refuse(const solid::PlacementResult& result) {
+  if (result.status == solid::PlacementStatus::scaled)
     throw InputError("", "the part is " + rounded(result.scale, 4) + " times the size of this mechanism's pulley",
                      unit_words(result.scale) + " (--as-is winds it in its present position)");
-  if (result.status == PlacementStatus::mirrored)
+  if (result.status == solid::PlacementStatus::mirrored)
     throw InputError("", "the part is the mirror image of this mechanism's pulley",
                      "undo the mirroring (--as-is winds it in its present position)");
 }
 
-const PlacedGroove* groove_of(const std::vector<Placement>& placements, Side side) {
-  for (const Placement& placement : placements) {
-    for (const PlacedGroove& groove : placement.grooves) {
+const solid::PlacedGroove* groove_of(const std::vector<solid::Placement>& placements, transmission::Side side) {
+  for (const solid::Placement& placement : placements) {
+    for (const solid::PlacedGroove& groove : placement.grooves) {
       if (groove.side == side) return &groove;
     }
   }
   return nullptr;
 }
 
-RewoundPart rewind_placed(const JointAsItIs& joint, std::vector<Placement> placements, double scale) {
-  const PlacedGroove* p1 = groove_of(placements, Side::left);
-  const PlacedGroove* p2 = groove_of(placements, Side::right);
+RewoundPart rewind_placed(const joint::JointAsItIs& joint, std::vector<solid::Placement> placements, double scale) {
+  const solid::PlacedGroove* p1 = groove_of(placements, transmission::Side::left);
+  const solid::PlacedGroove* p2 = groove_of(placements, transmission::Side::right);
   RewoundPart result{{}, PartPlace::found, {}};
   if (p1 && p2) {
     result.as_built = rewind_drawn(joint, shrunk(p1->floor, scale), shrunk(p2->floor, scale));
   } else {
-    const PlacedGroove& only = p1 ? *p1 : *p2;
+    const solid::PlacedGroove& only = p1 ? *p1 : *p2;
     result.alone = only.side;
-    result.as_built = rewind_one(with_inset(joint), only.side, as_made(shrunk(only.floor, scale), joint.outline));
+    result.as_built = profile::rewind_one(joint::with_inset(joint), only.side,
+                                          joint::as_made(shrunk(only.floor, scale), joint.outline));
   }
   result.placements = std::move(placements);
   return result;
@@ -193,20 +200,20 @@ RewoundPart rewind_placed(const JointAsItIs& joint, std::vector<Placement> place
 
 // ---- helical parts ----------------------------------------------------------------------------------------------
 
-bool is_helical(const JointAsItIs& joint) {
-  return need_several_turns(declared_curves(joint)) && !kept_to_one_turn(joint.mechanism);
+bool is_helical(const joint::JointAsItIs& joint) {
+  return profile::need_several_turns(declared_curves(joint)) && !profile::kept_to_one_turn(joint.mechanism);
 }
 
-RewindResult rewind_helical_part(const JointAsItIs& joint, const Part& part) {
-  const auto* mesh = std::get_if<TriangleMesh>(&part);
+profile::RewindResult rewind_helical_part(const joint::JointAsItIs& joint, const Part& part) {
+  const auto* mesh = std::get_if<solid::TriangleMesh>(&part);
   if (mesh == nullptr)
     throw InputError("", "the grooves of this mechanism's pulley are helical: tendons cannot be wound on a drawing",
                      "use the mesh: pulley.stl");
-  Product right;
+  formats::Product right;
   right.joint = joint;
   if (!design_several_turns(right, BuildOptions().chord_error_mm, {})) {
     std::string why = right.synthesis.made() ? "" : right.synthesis.brief();
-    for (const Condition& condition : right.pulley.conditions)
+    for (const profile::Condition& condition : right.pulley.conditions)
       if (!condition.ok && why.empty()) why = condition.message;
     throw InputError("", "no pulley is feasible for this mechanism: " + why);
   }
@@ -214,19 +221,20 @@ RewindResult rewind_helical_part(const JointAsItIs& joint, const Part& part) {
 }
 
 /// Winds on the part in its present position, axis along z: the search for a move needs grooves of constant height.
-RewoundPart rewind_helical_in_place(const JointAsItIs& joint, const Part& part) {
+RewoundPart rewind_helical_in_place(const joint::JointAsItIs& joint, const Part& part) {
   constexpr double k_another = radians(0.5);
   RewoundPart result{rewind_helical_part(joint, part), PartPlace::as_made, {}};
   if (!(result.as_built.max_theta_error < k_another)) result.place = PartPlace::not_recognised;
   return result;
 }
 
-bool is_finite(const TriangleMesh& mesh) {
+bool is_finite(const solid::TriangleMesh& mesh) {
   return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Vec3& vertex) { return vertex.allFinite(); });
 }
 
 /// A part that is recognised nowhere may have no groove at its present position either.
-RewoundPart rewind_unrecognised(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh) {
+RewoundPart rewind_unrecognised(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+                                const solid::TriangleMesh& mesh) {
   try {
     return {rewind_mesh(joint, layout, mesh), PartPlace::not_recognised, {}};
   } catch (const InputError& error) {
@@ -237,49 +245,51 @@ RewoundPart rewind_unrecognised(const JointAsItIs& joint, const BodyLayout& layo
   }
 }
 
-RewoundPart rewind_moved_mesh(const JointAsItIs& joint, const TriangleMesh& mesh) {
+RewoundPart rewind_moved_mesh(const joint::JointAsItIs& joint, const solid::TriangleMesh& mesh) {
   const auto [layout, expected] = expected_part(joint);
   if (!is_finite(mesh)) return rewind_unrecognised(joint, layout, mesh);
   const double as_it_lies = deviation_in_place(mesh, layout, expected);
   if (as_it_lies <= k_as_made) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
-  const std::vector<PlacementResult> found = find_all(mesh, expected, joint.mechanism.tendon.diameter * layout.scale);
-  if (found.front().status == PlacementStatus::unknown) return rewind_unrecognised(joint, layout, mesh);
-  std::vector<Placement> placements;
+  const std::vector<solid::PlacementResult> found =
+      find_all(mesh, expected, joint.mechanism.tendon.diameter * layout.scale);
+  if (found.front().status == solid::PlacementStatus::unknown) return rewind_unrecognised(joint, layout, mesh);
+  std::vector<solid::Placement> placements;
   double worst = 0;
-  for (const PlacementResult& result : found) {
+  for (const solid::PlacementResult& result : found) {
     worst = std::max(worst, result.placement.deviation);
     placements.push_back(result.placement);
   }
   if (!(worst < k_clearly_better * as_it_lies)) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
-  for (const PlacementResult& result : found) refuse(result);
+  for (const solid::PlacementResult& result : found) refuse(result);
   return rewind_placed(joint, placements, layout.scale);
 }
 
 }  // namespace
 
-RewindResult rewind_part(const JointAsItIs& joint, const Part& part) {
+profile::RewindResult rewind_part(const joint::JointAsItIs& joint, const Part& part) {
   if (is_helical(joint)) return rewind_helical_part(joint, part);
-  if (const auto* mesh = std::get_if<TriangleMesh>(&part))
+  if (const auto* mesh = std::get_if<solid::TriangleMesh>(&part))
     return rewind_mesh(joint, expected_part(joint).layout, *mesh);
-  return rewind_drawing(joint, std::get<Drawing>(part));
+  return rewind_drawing(joint, std::get<formats::Drawing>(part));
 }
 
-RewindResult rewind_made(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh) {
+profile::RewindResult rewind_made(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+                                  const solid::TriangleMesh& mesh) {
   return rewind_mesh(joint, layout, mesh);
 }
 
-RewindResult rewind_floors(const JointAsItIs& joint, const BodyLayout& layout, const Polygon& floor1,
-                           const Polygon& floor2) {
+profile::RewindResult rewind_floors(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+                                    const Polygon& floor1, const Polygon& floor2) {
   return rewind_drawn(joint, shrunk(floor1, layout.scale), shrunk(floor2, layout.scale));
 }
 
-RewoundPart rewind_moved_part(const JointAsItIs& joint, const Part& part) {
+RewoundPart rewind_moved_part(const joint::JointAsItIs& joint, const Part& part) {
   if (is_helical(joint)) return rewind_helical_in_place(joint, part);
-  if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_moved_mesh(joint, *mesh);
-  return {rewind_drawing(joint, std::get<Drawing>(part)), PartPlace::as_made, {}};
+  if (const auto* mesh = std::get_if<solid::TriangleMesh>(&part)) return rewind_moved_mesh(joint, *mesh);
+  return {rewind_drawing(joint, std::get<formats::Drawing>(part)), PartPlace::as_made, {}};
 }
 
-std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built,
+std::vector<Check> as_built_checks(const Mechanism& mechanism, const profile::RewindResult& as_built,
                                    const AsBuiltLimits& limits) {
   const double error = degrees(as_built.max_theta_error);
   const std::string error_at = "at alpha = " + rounded(degrees(as_built.max_theta_error_at)) + " deg";
@@ -294,4 +304,4 @@ std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResul
           at_most("slack", as_built.max_slack, limits.slack, "mm", slack_at)};
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -12,26 +12,27 @@
 #include "fusee/joint.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
-#include "solid/print.h"
 #include "fusee/solid.h"
 #include "pipeline/design.h"
 #include "solid/groove.h"
+#include "solid/print.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
-HelixGroove groove_of(const Mechanism& mechanism) {
-  const HelicalSection section = helical_section(mechanism);
+helix::HelixGroove groove_of(const Mechanism& mechanism) {
+  const coil::HelicalSection section = coil::helical_section(mechanism);
   const double d = mechanism.tendon.diameter;
   // A later turn lies below the one before.
-  return {section.depth,
-          std::min(room_at_groove_edge(section.walls.below, d), room_at_groove_edge(section.walls.above, d)),
-          [section](double step) { return least_lead(section, -step); }};
+  return {
+      section.depth,
+      std::min(solid::room_at_groove_edge(section.walls.below, d), solid::room_at_groove_edge(section.walls.above, d)),
+      [section](double step) { return coil::least_lead(section, -step); }};
 }
 
 /// Properties of several turns that the body's tables do not contain.
-std::vector<std::string> notes_of(const Mechanism& mechanism, const HelixProduct& helix) {
-  const TendonsLaid ends = helix.laid(mechanism.guides.collar);
+std::vector<std::string> notes_of(const Mechanism& mechanism, const formats::HelixProduct& helix) {
+  const coil::TendonsLaid ends = helix.laid(mechanism.guides.collar);
   const std::string where = mechanism.guides.collar ? "the guides' collars hold the tendons at the heights "
                                                     : "the tendons end on the joint at the heights ";
   const double left = std::exp(-mechanism.pulley.mu * k_two_pi * mechanism.body.spare_turns);
@@ -44,8 +45,8 @@ std::vector<std::string> notes_of(const Mechanism& mechanism, const HelixProduct
           " % of a tension to the knot; lead " + rounded(helix.synthesis.sides[0].lead, 3) + " and " +
           rounded(helix.synthesis.sides[1].lead, 3) + " mm",
       "there is no plates.dxf: plates cannot have helical grooves"};
-  for (const HelixSide& side : helix.synthesis.sides) {
-    if (side.fleet <= k_noted_fleet || side.fleet > k_warned_fleet) continue;
+  for (const helix::HelixSide& side : helix.synthesis.sides) {
+    if (side.fleet <= helix::k_noted_fleet || side.fleet > helix::k_warned_fleet) continue;
     notes.push_back("a fleet angle of " + rounded(degrees(side.fleet), 3) +
                     "° exceeds the 1.5° limit of smooth drums and is within the 2° limit of grooved drums");
   }
@@ -53,17 +54,18 @@ std::vector<std::string> notes_of(const Mechanism& mechanism, const HelixProduct
 }
 
 /// A body is refused, with no file, if its tie-offs do not fit or need support.
-std::vector<Condition> faults_of(const Mechanism& mechanism, const HelicalPulley& pulley, const TriangleMesh& mesh) {
-  std::vector<Check> checks = check_helical_pulley(mesh, pulley, helical_section(mechanism));
+std::vector<profile::Condition> faults_of(const Mechanism& mechanism, const coil::HelicalPulley& pulley,
+                                          const solid::TriangleMesh& mesh) {
+  std::vector<Check> checks = coil::check_helical_pulley(mesh, pulley, coil::helical_section(mechanism));
   if (!mechanism.print.supports) {
-    PrintLimits limits;
+    solid::PrintLimits limits;
     limits.overhang = mechanism.print.overhang;
-    for (Check& check : check_print(mesh, limits)) checks.push_back(std::move(check));
+    for (Check& check : solid::check_print(mesh, limits)) checks.push_back(std::move(check));
   }
-  std::vector<Condition> faults;
+  std::vector<profile::Condition> faults;
   for (const Check& check : checks) {
     if (check.ok) continue;
-    Condition fault;
+    profile::Condition fault;
     fault.name = "body_" + check.name;
     fault.ok = false;
     fault.value = check.value;
@@ -76,19 +78,19 @@ std::vector<Condition> faults_of(const Mechanism& mechanism, const HelicalPulley
   return faults;
 }
 
-HelixSynthesis brief_synthesis(const Mechanism& mechanism) {
+helix::HelixSynthesis brief_synthesis(const Mechanism& mechanism) {
   constexpr double k_look_tolerance = 0.05;
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.tolerance = k_look_tolerance;
   options.stroke_steps = 72;
-  return synthesise_helix(mechanism, groove_of(mechanism), options);
+  return helix::synthesise_helix(mechanism, groove_of(mechanism), options);
 }
 
 bool winds_several_times(const DeclaredMechanism& mechanism) {
-  if (mechanism.transmission || kept_to_one_turn(mechanism)) return false;
-  SynthesisOptions options;
+  if (mechanism.transmission || profile::kept_to_one_turn(mechanism)) return false;
+  profile::SynthesisOptions options;
   options.advice = false;
-  return need_several_turns(synthesise(mechanism, options));
+  return profile::need_several_turns(profile::synthesise(mechanism, options));
 }
 
 /// Effect of the slope φ of tendon paths on forces that are computed for level tendons. A tension T turns the joint
@@ -96,13 +98,13 @@ bool winds_several_times(const DeclaredMechanism& mechanism) {
 /// that of a planar tendon with EA cos³φ.
 std::string words_on_slopes(const Mechanism& mechanism) {
   constexpr double k_noted_theta = radians(0.001);
-  const HelixSynthesis helix = brief_synthesis(mechanism);
+  const helix::HelixSynthesis helix = brief_synthesis(mechanism);
   const std::string start = "the tendons are wound several times: angles and forces are computed for level tendons";
   if (helix.sides[0].stroke.empty()) return start;
   double steepest = 0, off = 0;
-  const Transmission level(mechanism);
+  const transmission::Transmission level(mechanism);
   for (std::size_t i = 0; i < helix.stroke.size(); ++i) {
-    for (const HelixSide& side : helix.sides) steepest = std::max(steepest, std::abs(side.stroke[i].slope));
+    for (const helix::HelixSide& side : helix.sides) steepest = std::max(steepest, std::abs(side.stroke[i].slope));
     off = std::max(off, std::abs(level.theta(helix.stroke[i].alpha) - helix.stroke[i].theta));
   }
   const auto more = [steepest](int power) { return rounded(100.0 * (std::pow(std::cos(steepest), -power) - 1.0), 2); };
@@ -114,27 +116,28 @@ std::string words_on_slopes(const Mechanism& mechanism) {
   return words;
 }
 
-void draw_for_making(Spiral& spiral, const OutlineError& outline) {
-  for (SpiralRow& row : spiral.rows) {
-    const OutlinePoint made = drawn_for_making({row.turn, Vec2(row.x, row.y), unit(row.turn), row.rho}, outline);
+void draw_for_making(helix::Spiral& spiral, const OutlineError& outline) {
+  for (helix::SpiralRow& row : spiral.rows) {
+    const profile::OutlinePoint made =
+        joint::drawn_for_making({row.turn, Vec2(row.x, row.y), unit(row.turn), row.rho}, outline);
     row.x = made.position.x();
     row.y = made.position.y();
     row.rho = made.curvature_radius;
   }
 }
 
-FloorLine as_made(FloorLine drawn, const OutlineError& outline) {
+coil::FloorLine as_made(coil::FloorLine drawn, const OutlineError& outline) {
   Polygon plan;
   for (const Vec3& point : drawn) plan.push_back(point.head<2>());
   // Half-planes meet each side of the floor's polygon several times, so a normal averages several sides.
   constexpr std::size_t k_beside = 14;
-  plan = line_as_made(std::move(plan), outline, k_beside);
+  plan = joint::line_as_made(std::move(plan), outline, k_beside);
   for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i].head<2>() = plan[i];
   return drawn;
 }
 
-void adopt_synthesis(Product& product, const HelixProduct& helix) {
-  SynthesisResult& synthesis = product.synthesis;
+void adopt_synthesis(formats::Product& product, const formats::HelixProduct& helix) {
+  profile::SynthesisResult& synthesis = product.synthesis;
   synthesis = {};
   synthesis.status = helix.synthesis.status;
   synthesis.stroke = helix.synthesis.stroke;
@@ -172,35 +175,36 @@ std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file) {
 
 MechanismFile with_plausibility_warnings_and_turns(MechanismFile file) {
   const auto turns = note_on_turns(file);
-  file = with_plausibility_warnings(std::move(file));
+  file = analysis::with_plausibility_warnings(std::move(file));
   if (turns) file.warnings.push_back(*turns);
   return file;
 }
 
-bool design_several_turns(Product& product, double tolerance, const RunContext& context, TieOffSearch search) {
+bool design_several_turns(formats::Product& product, double tolerance, const RunContext& context,
+                          solid::TieOffSearch search) {
   const Mechanism& mechanism = product.joint.mechanism;
   context.begin_step("winding both tendons several times");
-  HelixProduct& helix = product.helix.emplace();
-  SynthesisOptions options;
+  formats::HelixProduct& helix = product.helix.emplace();
+  profile::SynthesisOptions options;
   options.tolerance = tolerance;
   options.drawn_out = -product.joint.outline.offset;
-  helix.synthesis = synthesise_helix(mechanism, groove_of(mechanism), options);
+  helix.synthesis = helix::synthesise_helix(mechanism, groove_of(mechanism), options);
   adopt_synthesis(product, helix);
   if (!helix.synthesis.made()) return false;
-  for (HelixSide& side : helix.synthesis.sides) draw_for_making(side.spiral, product.joint.outline);
+  for (helix::HelixSide& side : helix.synthesis.sides) draw_for_making(side.spiral, product.joint.outline);
   context.begin_step("building the body");
-  helix.pulley = make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral,
-                                     tolerance, search);
-  Pulley& pulley = product.pulley;
+  helix.pulley = coil::make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral,
+                                           tolerance, search);
+  solid::Pulley& pulley = product.pulley;
   pulley = {};
-  pulley.status = helix.pulley.made ? PulleyStatus::made : PulleyStatus::impossible;
+  pulley.status = helix.pulley.made ? solid::PulleyStatus::made : solid::PulleyStatus::impossible;
   pulley.layout = helix.pulley.layout;
   pulley.mesh = std::move(helix.pulley.mesh);
   pulley.conditions = helix.pulley.conditions;
   if (pulley.made()) {
-    for (Condition& fault : faults_of(mechanism, helix.pulley, pulley.mesh)) {
+    for (profile::Condition& fault : faults_of(mechanism, helix.pulley, pulley.mesh)) {
       pulley.conditions.push_back(std::move(fault));
-      pulley.status = PulleyStatus::impossible;
+      pulley.status = solid::PulleyStatus::impossible;
     }
   }
   pulley.expected_volume = helix.pulley.expected_volume;
@@ -215,45 +219,47 @@ namespace {
 /// A string on a polygon inscribed in its curve is too short by a share of the tolerance per radian of winding. If the
 /// slack over the range exceeds its limit, the curves are drawn again, as finely as the limit requires (campaign of
 /// seed 620001, design 316: 10.5 rad, 0.11 mm of slack).
-bool design_turns_within(Product& product, double tolerance, const AsBuiltLimits& limits, const RunContext& context,
-                         TieOffSearch search) {
+bool design_turns_within(formats::Product& product, double tolerance, const AsBuiltLimits& limits,
+                         const RunContext& context, solid::TieOffSearch search) {
   if (!design_several_turns(product, tolerance, context, search)) return false;
   double furthest = 0;  // rad
-  for (const TransmissionPoint& place : product.synthesis.stroke) furthest = std::max(furthest, std::abs(place.alpha));
+  for (const transmission::TransmissionPoint& place : product.synthesis.stroke)
+    furthest = std::max(furthest, std::abs(place.alpha));
   if (furthest * tolerance <= limits.slack) return true;
-  const RewindResult wound = rewind_several_turns(product, product.pulley.mesh).result;
+  const profile::RewindResult wound = rewind_several_turns(product, product.pulley.mesh).result;
   if (all_ok(as_built_checks(product.joint.mechanism, wound, limits))) return true;
   return design_several_turns(product, 0.5 * limits.slack / furthest, context, search);
 }
 
 }  // namespace
 
-bool design_any(Product& product, double tolerance, const AsBuiltLimits& limits, const RunContext& context,
-                TieOffSearch search) {
+bool design_any(formats::Product& product, double tolerance, const AsBuiltLimits& limits, const RunContext& context,
+                solid::TieOffSearch search) {
   if (design(product, tolerance, context, search)) return true;
-  if (!need_several_turns(product.synthesis)) return false;
-  const auto kept = kept_to_one_turn(product.file.mechanism);
+  if (!profile::need_several_turns(product.synthesis)) return false;
+  const auto kept = profile::kept_to_one_turn(product.file.mechanism);
   if (!kept) return design_turns_within(product, tolerance, limits, context, search);
-  for (Condition& condition : product.synthesis.conditions) {
+  for (profile::Condition& condition : product.synthesis.conditions) {
     if (!condition.ok) condition.message += " (" + *kept + ")";
   }
   return false;
 }
 
-HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& mesh) {
-  return rewind_several_turns(product, helical_floors(mesh, product.pulley.layout.scale));
+coil::HelicalRewind rewind_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh) {
+  return rewind_several_turns(product, coil::helical_floors(mesh, product.pulley.layout.scale));
 }
 
-HelicalRewind rewind_several_turns(const Product& product, const std::vector<FloorLine>& floors) {
+coil::HelicalRewind rewind_several_turns(const formats::Product& product, const std::vector<coil::FloorLine>& floors) {
   if (floors.size() != 2)
     throw InputError("", "it has " + std::to_string(floors.size()) + " grooves of several turns instead of 2");
-  const JointAsItIs& joint = product.joint;
-  return rewind_floors(as_made(floors[0], joint.outline), as_made(floors[1], joint.outline), with_inset(joint),
-                       product.synthesis.stroke, product.helix->laid(joint.mechanism.guides.collar));
+  const joint::JointAsItIs& joint = product.joint;
+  return coil::rewind_floors(as_made(floors[0], joint.outline), as_made(floors[1], joint.outline),
+                             joint::with_inset(joint), product.synthesis.stroke,
+                             product.helix->laid(joint.mechanism.guides.collar));
 }
 
-std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh) {
-  return check_helical_pulley(mesh, product.helix->pulley, helical_section(product.joint.mechanism));
+std::vector<Check> check_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh) {
+  return coil::check_helical_pulley(mesh, product.helix->pulley, coil::helical_section(product.joint.mechanism));
 }
 
 namespace {
@@ -262,31 +268,32 @@ std::vector<std::string> keys_of_body(const DeclaredMechanism& mechanism) {
   std::vector<std::string> keys{"body.lead_mm", "body.spare_turns", "body.groove_depth_mm", "body.groove_angle_deg"};
   for (const char* key : {"body.bore_diameter_mm", "body.bore_flat_mm", "body.knot_pocket_mm", "body.anchor_hole_mm",
                           "body.min_wall_mm", "body.hub_diameter_mm"}) {
-    if (is_written(mechanism, key)) keys.emplace_back(key);
+    if (solid::is_written(mechanism, key)) keys.emplace_back(key);
   }
   return keys;
 }
 
 constexpr double k_helix_trial_tolerance = 0.05;
 
-HelixSynthesis trial_curves(const Mechanism& mechanism, double tolerance) {
-  SynthesisOptions options;
+helix::HelixSynthesis trial_curves(const Mechanism& mechanism, double tolerance) {
+  profile::SynthesisOptions options;
   options.tolerance = tolerance;
   options.stroke_steps = 36;
-  return synthesise_helix(mechanism, groove_of(mechanism), options, HelixAccuracy::coarse);
+  return helix::synthesise_helix(mechanism, groove_of(mechanism), options, helix::HelixAccuracy::coarse);
 }
 
 /// Obstacles of the curves first, then of the body.
-std::vector<Condition> obstacles_of(const Mechanism& mechanism, const HelixSynthesis& made, double tolerance) {
-  if (!made.made()) return failed_of(made.conditions);
-  return helical_obstacles(mechanism, made.sides[0].spiral, made.sides[1].spiral, tolerance);
+std::vector<profile::Condition> obstacles_of(const Mechanism& mechanism, const helix::HelixSynthesis& made,
+                                             double tolerance) {
+  if (!made.made()) return profile::failed_of(made.conditions);
+  return coil::helical_obstacles(mechanism, made.sides[0].spiral, made.sides[1].spiral, tolerance);
 }
 
 /// The first bend of a tendon that is tighter than tendon.bend_ratio allows.
-std::optional<std::string> tight_bend(const Mechanism& mechanism, const HelixSynthesis& curves) {
+std::optional<std::string> tight_bend(const Mechanism& mechanism, const helix::HelixSynthesis& curves) {
   const double least = 0.5 * mechanism.tendon.bend_ratio * mechanism.tendon.diameter;
-  for (const HelixSide& side : curves.sides) {
-    const Spiral& spiral = side.spiral;
+  for (const helix::HelixSide& side : curves.sides) {
+    const helix::Spiral& spiral = side.spiral;
     for (std::size_t i = spiral.first_used; i <= spiral.last_used; ++i) {
       if (spiral.rows[i].rho >= least) continue;
       return "the tendon is bent to a radius of " + rounded(spiral.rows[i].rho, 3) + " mm, and requires " +
@@ -299,8 +306,8 @@ std::optional<std::string> tight_bend(const Mechanism& mechanism, const HelixSyn
 }  // namespace
 
 std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism) {
-  const HelixSynthesis curves = trial_curves(mechanism, k_helix_trial_tolerance);
-  const std::vector<Condition> obstacles = obstacles_of(mechanism, curves, k_helix_trial_tolerance);
+  const helix::HelixSynthesis curves = trial_curves(mechanism, k_helix_trial_tolerance);
+  const std::vector<profile::Condition> obstacles = obstacles_of(mechanism, curves, k_helix_trial_tolerance);
   if (!obstacles.empty()) return obstacles.front().message;
   return tight_bend(mechanism, curves);
 }
@@ -312,10 +319,10 @@ namespace {
 constexpr double k_rows_for_advice = 9000;
 
 /// Approximate number of rows of such spirals at the final tolerance.
-double rows_as_made(const HelixSynthesis& curves, double tolerance) {
+double rows_as_made(const helix::HelixSynthesis& curves, double tolerance) {
   double rows = 0;
-  for (const HelixSide& side : curves.sides) {
-    const std::vector<SpiralRow>& drawn = side.spiral.rows;
+  for (const helix::HelixSide& side : curves.sides) {
+    const std::vector<helix::SpiralRow>& drawn = side.spiral.rows;
     for (std::size_t i = 1; i < drawn.size(); ++i)
       rows += (drawn[i].turn - drawn[i - 1].turn) * std::sqrt(drawn[i].rho / (8.0 * tolerance));
   }
@@ -327,13 +334,13 @@ class MultiTurnCheck {
  public:
   MultiTurnCheck(const DeclaredMechanism& declared, const MultiTurnTrial& trial) : declared_(declared), trial_(trial) {}
 
-  std::vector<Condition> obstacles(const Mechanism& changed) {
+  std::vector<profile::Condition> obstacles(const Mechanism& changed) {
     trial_.context.throw_if_stopped();
     DeclaredMechanism declared = declared_;
     static_cast<Mechanism&>(declared) = changed;
-    const Mechanism joint = as_it_is(declared, LawSearch::brief).mechanism;
-    const HelixSynthesis curves = trial_curves(joint, k_helix_trial_tolerance);
-    std::vector<Condition> obstacles = obstacles_of(joint, curves, k_helix_trial_tolerance);
+    const Mechanism joint = joint::as_it_is(declared, joint::LawSearch::brief).mechanism;
+    const helix::HelixSynthesis curves = trial_curves(joint, k_helix_trial_tolerance);
+    std::vector<profile::Condition> obstacles = obstacles_of(joint, curves, k_helix_trial_tolerance);
     if (obstacles.empty()) record_size(rows_as_made(curves, trial_.tolerance));
     return obstacles;
   }
@@ -359,53 +366,55 @@ class MultiTurnCheck {
 
 }  // namespace
 
-Advice advice_for_several_turns(const Product& product, const MultiTurnTrial& trial) {
+profile::Advice advice_for_several_turns(const formats::Product& product, const MultiTurnTrial& trial) {
   MultiTurnCheck check(product.file.mechanism, trial);
-  const FeasibilityOracle judge{.obstacles = [&check](const Mechanism& changed) { return check.obstacles(changed); },
-                                .made = [&check](const Mechanism& changed) { return check.make(changed); },
-                                .is_expensive = true,
-                                .builds_left = [&check] { return check.builds_left(); }};
+  const profile::FeasibilityOracle judge{
+      .obstacles = [&check](const Mechanism& changed) { return check.obstacles(changed); },
+      .made = [&check](const Mechanism& changed) { return check.make(changed); },
+      .is_expensive = true,
+      .builds_left = [&check] { return check.builds_left(); }};
   DeclaredMechanism in_one = product.file.mechanism;
   const Field& parts = *find_field("print.parts");
   if (const std::string from = parts.get_text(in_one); from == "two") {
     parts.set_text(in_one, "one");
     if (judge.obstacles(in_one).empty() && judge.made(in_one)) {
-      Advice advice;
+      profile::Advice advice;
       advice.alone.push_back({"print.parts", 0, 0, {}, "print.parts = \"one\"", from, "one"});
       return advice;
     }
   }
-  return find_advice(product.file.mechanism, judge, keys_of_body(product.file.mechanism));
+  return profile::find_advice(product.file.mechanism, judge, keys_of_body(product.file.mechanism));
 }
 
-TendonHeights tendon_heights(const Product& product) {
+kit::TendonHeights tendon_heights(const formats::Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const double rho = mechanism.guide_pitch_radius();
-  const TendonsLaid laid = product.helix->laid(mechanism.guides.collar);
-  TendonHeights heights;
+  const coil::TendonsLaid laid = product.helix->laid(mechanism.guides.collar);
+  kit::TendonHeights heights;
   heights.ends = {laid.z1, laid.z2};
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
     const double end = heights.ends.at(i);
     heights.drum.see(end);
-    TendonHeights::Span& guide = heights.guides.at(i);
+    kit::TendonHeights::Span& guide = heights.guides.at(i);
     if (laid.collar) {
       guide.see(end);
       continue;
     }
-    const Side side = i == 0 ? Side::left : Side::right;
-    const PinPlace place = pin_place(mechanism, side, rho);
-    const SpiralPlace& lies = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
-    const std::vector<HelixPoint>& stroke = product.helix->synthesis.sides.at(i).stroke;
+    const transmission::Side side = i == 0 ? transmission::Side::left : transmission::Side::right;
+    const transmission::PinPlace place = transmission::pin_place(mechanism, side, rho);
+    const coil::SpiralPlace& lies = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
+    const std::vector<helix::HelixPoint>& stroke = product.helix->synthesis.sides.at(i).stroke;
     for (std::size_t k = 0; k < stroke.size(); ++k) {
-      const TransmissionPoint& at = product.synthesis.stroke.at(k);
-      const TendonPoint& tendon = i == 0 ? at.t1 : at.t2;
+      const transmission::TransmissionPoint& at = product.synthesis.stroke.at(k);
+      const transmission::TendonPoint& tendon = i == 0 ? at.t1 : at.t2;
       const double rise = lies.direction * std::tan(stroke[k].slope);
       guide.see(end + rise * tendon.free_upper);
       guide.see(end + rise * (tendon.free_upper + rho * tendon.wrap));
-      heights.drum.see(end + rise * place.drum * upper_span(place, mirror_sign(side) * at.theta).on_drum);
+      heights.drum.see(end + rise * place.drum *
+                                 transmission::upper_span(place, transmission::mirror_sign(side) * at.theta).on_drum);
     }
   }
   return heights;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -12,7 +12,7 @@
 #include "fusee/pipeline.h"
 #include "fusee/profile.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 
 /// Warnings about keys for helical grooves, if the pulleys turn less than once.
 std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file);
@@ -25,23 +25,23 @@ std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file);
 MechanismFile with_plausibility_warnings_and_turns(MechanismFile file);
 
 /// Designs spirals and body of product.joint, which one turn could not provide; otherwise as design().
-bool design_several_turns(Product& product, double tolerance, const RunContext& context,
-                          TieOffSearch search = TieOffSearch::thorough);
+bool design_several_turns(formats::Product& product, double tolerance, const RunContext& context,
+                          solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
 /// Designs one turn if it suffices, else several; false if neither is feasible. If the file excludes several turns, the
 /// conditions state the key.
-bool design_any(Product& product, double tolerance, const AsBuiltLimits& limits, const RunContext& context,
-                TieOffSearch search = TieOffSearch::thorough);
+bool design_any(formats::Product& product, double tolerance, const AsBuiltLimits& limits, const RunContext& context,
+                solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
 /// Heights of the tendons above the pulley's lower face, on guides and drum.
-TendonHeights tendon_heights(const Product& product);
+kit::TendonHeights tendon_heights(const formats::Product& product);
 
 /// Winds tendons in space on the grooves of a mesh.
-HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& mesh);
+coil::HelicalRewind rewind_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh);
 /// Winds tendons on the given groove floors. Throws InputError unless there are two.
-HelicalRewind rewind_several_turns(const Product& product, const std::vector<FloorLine>& floors);
+coil::HelicalRewind rewind_several_turns(const formats::Product& product, const std::vector<coil::FloorLine>& floors);
 /// Checks of a mesh that was read back.
-std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh);
+std::vector<Check> check_several_turns(const formats::Product& product, const solid::TriangleMesh& mesh);
 
 /// An obstacle to helical grooves for pulleys of more than one turn, by a brief check; empty if none is found. A bend
 /// that build() warns of counts as an obstacle here: a search would otherwise make r1 ever smaller.
@@ -54,6 +54,6 @@ struct MultiTurnTrial {
   const RunContext& context;                   ///< a request to stop ends the search
 };
 /// Changes that make a refused pulley of several turns possible.
-Advice advice_for_several_turns(const Product& product, const MultiTurnTrial& trial);
+profile::Advice advice_for_several_turns(const formats::Product& product, const MultiTurnTrial& trial);
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -1,13 +1,12 @@
-#include "fusee/pipeline.h"
-
 #include "base/normal_numbers.h"
 #include "fusee/joint.h"
+#include "fusee/pipeline.h"
 #include "mechanism/effect.h"
 #include "pipeline/several_turns.h"
 #include "pipeline/without_law.h"
 #include "transmission/declared_law.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 /// A mechanism and the imperfections of its joint.
@@ -18,20 +17,21 @@ struct SimulatedJoint {
 
 SimulatedJoint with_pulley(const DeclaredMechanism& declared, bool corrected) {
   if (!corrected) return {declared, declared.identified};
-  return {expected_joint(declared), beyond_mechanism(declared.identified, kind_of(declared))};
+  return {joint::expected_joint(declared), beyond_mechanism(declared.identified, kind_of(declared))};
 }
 
 /// Marks rows beyond the pulley's range, where the law's formulas are meaningless.
-void mark_rows_beyond_range(const DeclaredMechanism& mechanism, const Run& run, std::vector<JointState>& states) {
-  const DeclaredLaw law(mechanism);
+void mark_rows_beyond_range(const DeclaredMechanism& mechanism, const measurement::Run& run,
+                            std::vector<joint::JointState>& states) {
+  const transmission::DeclaredLaw law(mechanism);
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (!law.reaches(run.samples[i].alpha)) states[i] = {EquilibriumStatus::no_equilibrium};
+    if (!law.reaches(run.samples[i].alpha)) states[i] = {joint::EquilibriumStatus::no_equilibrium};
   }
 }
 
-void add_noise(std::vector<JointState>& states, double noise, std::uint64_t seed) {
+void add_noise(std::vector<joint::JointState>& states, double noise, std::uint64_t seed) {
   NormalNumbers numbers(seed);
-  for (JointState& state : states) state.shown += noise * numbers.next();
+  for (joint::JointState& state : states) state.shown += noise * numbers.next();
 }
 
 }  // namespace
@@ -40,16 +40,16 @@ SimulateResult simulate(const MechanismFile& file, const std::filesystem::path& 
                         const RunContext& context) {
   context.begin_step("moving the joint through " + log.string());
   SimulateResult result;
-  Simulation& simulation = result.simulation;
+  formats::Simulation& simulation = result.simulation;
   simulation.file = with_plausibility_warnings_and_turns(file);
-  simulation.log = read_driving(log, file.mechanism, options.columns, *context.files);
+  simulation.log = measurement::read_driving(log, file.mechanism, options.columns, *context.files);
   result.without_law = without_law(file.mechanism);
   if (result.without_law) return result;
   const SimulatedJoint joint = with_pulley(file.mechanism, options.corrected);
-  simulation.states = simulate(joint.mechanism, joint.at, bench_log(simulation.log)).front();
+  simulation.states = joint::simulate(joint.mechanism, joint.at, measurement::bench_log(simulation.log)).front();
   mark_rows_beyond_range(joint.mechanism, simulation.log.runs.front(), simulation.states);
   if (options.noise > 0) add_noise(simulation.states, options.noise, options.seed);
   return result;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -7,12 +7,13 @@
 
 #include "base/text.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 constexpr double k_grain = 1e-3;  // mm: measured walls of exactly one line may be thinner by this
 
-Diagnostic thinner_than_a_line(const Product& product, const char* key, double value, const std::string& what) {
+Diagnostic thinner_than_a_line(const formats::Product& product, const char* key, double value,
+                               const std::string& what) {
   const double nozzle = product.joint.mechanism.print.nozzle;
   return {Severity::warning, product.file.place_of(key),
           fmt::format("{}: thinner than one line of a {} mm nozzle (print.nozzle_mm)", what, rounded(nozzle)),
@@ -21,7 +22,7 @@ Diagnostic thinner_than_a_line(const Product& product, const char* key, double v
 }
 
 /// The thinnest wall at a groove or between two of its turns, as measured on the mesh by the checks.
-double thinnest_measured(const Product& product, double at_most) {
+double thinnest_measured(const formats::Product& product, double at_most) {
   for (const Check& check : product.checks) {
     if (check.name.starts_with("wall") || check.name.starts_with("rib")) at_most = std::min(at_most, check.value);
   }
@@ -30,8 +31,8 @@ double thinnest_measured(const Product& product, double at_most) {
 
 }  // namespace
 
-std::vector<Diagnostic> walls_below_a_line(const Product& product) {
-  const BodyLayout& layout = product.pulley.layout;
+std::vector<Diagnostic> walls_below_a_line(const formats::Product& product) {
+  const solid::BodyLayout& layout = product.pulley.layout;
   const Body& body = product.joint.mechanism.body;
   const double line = product.joint.mechanism.print.nozzle - k_grain;
   std::vector<Diagnostic> warnings;
@@ -48,4 +49,4 @@ std::vector<Diagnostic> walls_below_a_line(const Product& product) {
   return warnings;
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -7,10 +7,10 @@
 #include "fusee/base.h"
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 
 /// Warnings about flanges and walls of a checked part that are thinner than print.nozzle_mm. A slicer omits or widens
 /// such walls.
-std::vector<Diagnostic> walls_below_a_line(const Product& product);
+std::vector<Diagnostic> walls_below_a_line(const formats::Product& product);
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

@@ -2,11 +2,11 @@
 
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 
-std::optional<SynthesisResult> without_law(const Mechanism& mechanism) {
-  if (mechanism.transmission || !Transmission(mechanism).dead_centre()) return std::nullopt;
-  return synthesise(mechanism);
+std::optional<profile::SynthesisResult> without_law(const Mechanism& mechanism) {
+  if (mechanism.transmission || !transmission::Transmission(mechanism).dead_centre()) return std::nullopt;
+  return profile::synthesise(mechanism);
 }
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

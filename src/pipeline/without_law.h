@@ -6,9 +6,9 @@
 
 #include "fusee/profile.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 
 /// The failed conditions, with advice; empty if the law exists or the joint is declared by a ratio.
-std::optional<SynthesisResult> without_law(const Mechanism& mechanism);
+std::optional<profile::SynthesisResult> without_law(const Mechanism& mechanism);
 
-}  // namespace fusee
+}  // namespace fusee::pipeline

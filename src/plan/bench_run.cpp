@@ -1,13 +1,12 @@
-#include "fusee/plan.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
+#include "fusee/plan.h"
 #include "joint/joint_effects.h"
 #include "plan/thresholds.h"
 
-namespace fusee {
+namespace fusee::plan {
 namespace {
 
 constexpr double k_quarter = 0.25 * k_two_pi;
@@ -36,7 +35,7 @@ std::string_view words(BenchChange change) {
   return "";
 }
 
-Mounting mounting_of(BenchChange change) {
+joint::Mounting mounting_of(BenchChange change) {
   return {change == BenchChange::motor_sensor_turned ? k_quarter : 0.0,
           change == BenchChange::joint_sensor_turned ? k_quarter : 0.0};
 }
@@ -60,8 +59,8 @@ std::string words(const PlannedRun& run, double slow, const std::string& load_un
   return text;
 }
 
-BenchRun driven(const PlannedRun& run, int rows_a_stroke) {
-  BenchRun driven;
+joint::BenchRun driven(const PlannedRun& run, int rows_a_stroke) {
+  joint::BenchRun driven;
   driven.has_load = true;
   driven.mounting = mounting_of(run.change);
   const double step = seconds_of_stroke(run) / rows_a_stroke;
@@ -99,10 +98,10 @@ NextMeasurement next_run(const PlannedRun& run, double slow, const std::string& 
   return next;
 }
 
-NextMeasurement next_reading(const std::vector<const EffectParameter*>& readings) {
+NextMeasurement next_reading(const std::vector<const fusee::EffectParameter*>& readings) {
   NextMeasurement next;
   next.readings = readings;
-  for (const EffectParameter* reading : readings)
+  for (const fusee::EffectParameter* reading : readings)
     next.words += (next.words.empty() ? "" : "; ") + std::string(reading->by_hand.words);
   next.minutes = k_bench_minutes.reading * static_cast<double>(readings.size());
   return next;
@@ -129,11 +128,11 @@ double rms_apart(const std::vector<std::vector<double>>& one, const std::vector<
   return rows > 0 ? std::sqrt(squares / rows) : 0.0;
 }
 
-std::vector<const EffectParameter*> unread_numbers(const DeclaredMechanism& declared) {
-  std::vector<const EffectParameter*> unread;
+std::vector<const fusee::EffectParameter*> unread_numbers(const DeclaredMechanism& declared) {
+  std::vector<const fusee::EffectParameter*> unread;
   if (declared.transmission) return unread;
-  for (const Effect* effect : effects_of(declared)) {
-    for (const EffectParameter& parameter : effect->parameters) {
+  for (const Effect* effect : joint::effects_of(declared)) {
+    for (const fusee::EffectParameter& parameter : effect->parameters) {
       if (!parameter.by_hand.words.empty() && parameter.by_hand.readings(declared).empty())
         unread.push_back(&parameter);
     }
@@ -141,4 +140,4 @@ std::vector<const EffectParameter*> unread_numbers(const DeclaredMechanism& decl
   return unread;
 }
 
-}  // namespace fusee
+}  // namespace fusee::plan

@@ -7,7 +7,7 @@
 #include "fusee/joint.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::plan {
 namespace {
 
 constexpr double k_slow_cycle = 30.0;  // s: friction and play dominate, delays hardly show
@@ -27,33 +27,33 @@ constexpr double k_most_pretensions = 10.0;
 
 std::pair<double, double> range_of(const DeclaredMechanism& declared) {
   if (declared.transmission) return {-k_pi, k_pi};
-  const Transmission law(declared);
+  const transmission::Transmission law(declared);
   return {law.alpha_min(), law.alpha_max()};
 }
 
 double bearable(const Mechanism& declared) {
-  if (const auto strength = likely_strength(declared.tendon)) return 0.5 * strength->at_knot;
+  if (const auto strength = analysis::likely_strength(declared.tendon)) return 0.5 * strength->at_knot;
   return k_most_pretensions * std::max(1.0, declared.tendon.pretension);
 }
 
-std::vector<std::vector<JointState>> under_load(const DeclaredMechanism& declared, PlannedRun run, double load) {
+std::vector<std::vector<joint::JointState>> under_load(const DeclaredMechanism& declared, PlannedRun run, double load) {
   run.load = load;
   run.cycles = 1;
-  return simulate(declared, {}, {driven(run, k_selection_rows)});
+  return joint::simulate(declared, {}, {driven(run, k_selection_rows)});
 }
 
-std::vector<std::vector<double>> angles(const std::vector<std::vector<JointState>>& states) {
+std::vector<std::vector<double>> angles(const std::vector<std::vector<joint::JointState>>& states) {
   std::vector<std::vector<double>> theta;
   for (const auto& run : states) {
     theta.emplace_back();
-    for (const JointState& state : run) theta.back().push_back(state.theta);
+    for (const joint::JointState& state : run) theta.back().push_back(state.theta);
   }
   return theta;
 }
 
-bool is_borne(const std::vector<JointState>& states, double most) {
-  return std::all_of(states.begin(), states.end(), [&](const JointState& state) {
-    return state.status != EquilibriumStatus::no_equilibrium &&
+bool is_borne(const std::vector<joint::JointState>& states, double most) {
+  return std::all_of(states.begin(), states.end(), [&](const joint::JointState& state) {
+    return state.status != joint::EquilibriumStatus::no_equilibrium &&
            std::max({state.t1.lower, state.t1.upper, state.t2.lower, state.t2.upper}) <= most;
   });
 }
@@ -127,4 +127,4 @@ std::vector<PlannedRun> candidate_runs(const Bench& bench) {
   return runs;
 }
 
-}  // namespace fusee
+}  // namespace fusee::plan

@@ -6,7 +6,7 @@
 
 #include "fusee/plan.h"
 
-namespace fusee {
+namespace fusee::plan {
 
 /// Range, speeds and loads of the bench; options that are not given are chosen here.
 struct Bench {
@@ -19,4 +19,4 @@ Bench bench_of(const DeclaredMechanism& declared, const PlanOptions& options);
 
 /// All candidate runs. The first one is slow and at the first load: every plan begins with it.
 std::vector<PlannedRun> candidate_runs(const Bench& bench);
-}  // namespace fusee
+}  // namespace fusee::plan

@@ -13,7 +13,7 @@
 // An explanation is one cause plus model error. Its alternatives are the other causes, model error alone, and an
 // unmodelled cause of any smooth shape, direction, load and speed dependence, at several sizes.
 
-namespace fusee {
+namespace fusee::plan {
 namespace {
 
 /// Sizes of an unmodelled cause, deg at the joint.
@@ -148,4 +148,4 @@ FalsePositiveRates false_positive_rates(const Signatures& signatures, const Info
   return rates;
 }
 
-}  // namespace fusee
+}  // namespace fusee::plan

@@ -6,7 +6,7 @@
 
 #include "plan/separation.h"
 
-namespace fusee {
+namespace fusee::plan {
 
 struct FalsePositiveRates {
   FalsePositives nothing;  ///< without cause, as declared
@@ -20,4 +20,4 @@ FalsePositiveRates false_positive_rates(const Signatures& signatures, const Info
                                         const std::vector<Cause>& causes,
                                         const std::vector<std::set<std::size_t>>& rivals, std::uint64_t seed);
 
-}  // namespace fusee
+}  // namespace fusee::plan

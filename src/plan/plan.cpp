@@ -13,7 +13,7 @@
 // step of largest gain per minute is near-optimal (Nemhauser, Wolsey and Fisher 1978; with costs, Sviridenko 2004).
 // Steps that later ones made redundant are removed at the end.
 
-namespace fusee {
+namespace fusee::plan {
 namespace {
 
 /// A candidate measurement and its information.
@@ -38,7 +38,7 @@ class Planner {
         signatures_(declared, bench_, options.noise) {
     unit_ = declared.transmission ? "" : "N";
     for (const PlannedRun& run : candidate_runs(bench_)) add(run);
-    for (const EffectParameter* reading : unread_numbers(declared)) add(*reading);
+    for (const fusee::EffectParameter* reading : unread_numbers(declared)) add(*reading);
     start_ = Information::none(signatures_.columns());
     add_known_readings(declared);
     keep_detectable();
@@ -79,7 +79,7 @@ class Planner {
     options_of_bench_.push_back(std::move(option));
   }
 
-  void add(const EffectParameter& reading) {
+  void add(const fusee::EffectParameter& reading) {
     Option option;
     option.step.reading = &reading;
     option.step.words = reading.by_hand.words;
@@ -91,10 +91,10 @@ class Planner {
   /// Information of the values in [prior].
   void add_known_readings(const DeclaredMechanism& declared) {
     for (const Cause& cause : signatures_.causes()) {
-      for (const EffectParameter* number : cause.numbers) {
+      for (const fusee::EffectParameter* number : cause.numbers) {
         if (number->by_hand.readings == nullptr) continue;
         for (const CaliperReading& reading : number->by_hand.readings(declared)) {
-          EffectParameter read = *number;
+          fusee::EffectParameter read = *number;
           read.by_hand.uncertainty = reading.uncertainty;
           start_ = start_.with(signatures_.of(read));
         }
@@ -260,7 +260,7 @@ class Planner {
       if (seen >= 1 && told < 1) described.rivals.push_back(rival.effect->name);
     }
     if (least >= 1) described.smallest_alone = described.usual / least;
-    const EffectParameter& number = *cause.numbers.front();
+    const fusee::EffectParameter& number = *cause.numbers.front();
     const double size = usual_size(number, bench_.largest_load()) / std::max(seen, 1e-9);
     described.key = number.key.name;
     described.smallest_key = number.key.to_file != nullptr ? number.key.to_file(size) : size;
@@ -316,4 +316,4 @@ Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options, co
   return Planner(declared, options, context).plan();
 }
 
-}  // namespace fusee
+}  // namespace fusee::plan

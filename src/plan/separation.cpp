@@ -6,7 +6,7 @@
 #include "base/decompositions.h"
 #include "plan/thresholds.h"
 
-namespace fusee {
+namespace fusee::plan {
 namespace {
 
 Eigen::MatrixXd block(const Eigen::MatrixXd& squares, const Cause& one, const Cause& other) {
@@ -67,4 +67,4 @@ double margin(const Signatures& signatures, const Information& known, const Caus
   return std::max(std::min(beyond_noise, trusted), std::sqrt(read) / k_plan.resolved_distance);
 }
 
-}  // namespace fusee
+}  // namespace fusee::plan

@@ -10,7 +10,7 @@
 
 #include "plan/signatures.h"
 
-namespace fusee {
+namespace fusee::plan {
 
 /// Normal equations, summed over runs and hand measurements.
 struct Information {
@@ -29,4 +29,4 @@ double margin(const Signatures& signatures, const Information& known, const Caus
 /// Rms response of the joint to the cause at its usual size, over the rows, in units of the noise.
 double usual_rms(const Information& known, const Cause& cause);
 
-}  // namespace fusee
+}  // namespace fusee::plan

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "fusee/joint.h"
-#include "joint/joint_effects.h"
 #include "joint/forward.h"
+#include "joint/joint_effects.h"
 #include "plan/thresholds.h"
 #include "transmission/declared_law.h"
 
 // Effective sample size: one row of a simulated stroke stands for some 15° of the motor, or five rows of a log, because
 // neighbouring rows are correlated.
 
-namespace fusee {
+namespace fusee::plan {
 namespace {
 
 constexpr int k_rows_a_stroke = 24;
@@ -37,7 +37,7 @@ struct RowPlace {
   double at = 0;
   double direction = 0;
 };
-std::vector<RowPlace> places(const BenchRun& run, const Bench& bench) {
+std::vector<RowPlace> places(const joint::BenchRun& run, const Bench& bench) {
   std::vector<RowPlace> all;
   double direction = 0;
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
@@ -50,13 +50,13 @@ std::vector<RowPlace> places(const BenchRun& run, const Bench& bench) {
 
 }  // namespace
 
-double usual_size(const EffectParameter& number, double largest_load) {
+double usual_size(const fusee::EffectParameter& number, double largest_load) {
   return std::clamp(prior_of(number, largest_load), number.least, number.most);
 }
 
 Signatures::Signatures(const DeclaredMechanism& declared, const Bench& bench, double noise)
-    : expected_(expected_joint(declared)), bench_(bench), noise_(noise) {
-  for (const Effect* effect : effects_of(declared)) {
+    : expected_(joint::expected_joint(declared)), bench_(bench), noise_(noise) {
+  for (const Effect* effect : joint::effects_of(declared)) {
     const std::string reason = why_not(*effect);
     if (reason.empty()) {
       add(*effect);
@@ -73,7 +73,7 @@ void Signatures::add(const Effect& effect) {
   Cause cause;
   cause.effect = &effect;
   cause.first = columns_;
-  for (const EffectParameter& number : effect.parameters) {
+  for (const fusee::EffectParameter& number : effect.parameters) {
     if (!number.searched) cause.numbers.push_back(&number);
   }
   columns_ += cause.count();
@@ -90,8 +90,8 @@ std::string Signatures::why_not(const Effect& effect) const {
 }
 
 /// Change of the joint angle when a number is set to its usual size, from the state `from`; 0 without equilibrium.
-Eigen::VectorXd Signatures::response_to(Forward& forward, const Imperfections& from,
-                                        const EffectParameter& number) const {
+Eigen::VectorXd Signatures::response_to(joint::Forward& forward, const Imperfections& from,
+                                        const fusee::EffectParameter& number) const {
   const std::vector<double> before = forward(from).front();
   Imperfections at = from;
   set_value(at, number, usual_size(number, bench_.largest_load()));
@@ -105,8 +105,8 @@ Eigen::VectorXd Signatures::response_to(Forward& forward, const Imperfections& f
 }
 
 std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
-  const BenchLog log = {driven(run, k_rows_a_stroke)};
-  Forward forward(expected_, log);
+  const joint::BenchLog log = {driven(run, k_rows_a_stroke)};
+  joint::Forward forward(expected_, log);
   const std::vector<double> plain = forward({}).front();
   if (!std::all_of(plain.begin(), plain.end(), [](double angle) { return std::isfinite(angle); })) return std::nullopt;
   const auto rows = static_cast<Eigen::Index>(plain.size());
@@ -123,7 +123,7 @@ std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
       }
     }
   }
-  const DeclaredLaw law(expected_);
+  const transmission::DeclaredLaw law(expected_);
   const std::vector<RowPlace> where = places(log.front(), bench_);
   const double load = bench_.largest_load() > 0 ? run.load / bench_.largest_load() : 0.0;
   const double speed = run.speed / bench_.speeds.back();
@@ -146,7 +146,7 @@ std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
   return Seen{A.transpose() * A, static_cast<double>(rows)};
 }
 
-Eigen::MatrixXd Signatures::of(const EffectParameter& reading) const {
+Eigen::MatrixXd Signatures::of(const fusee::EffectParameter& reading) const {
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(columns_, columns_);
   for (const Cause& cause : causes_) {
     for (Eigen::Index i = 0; i < cause.count(); ++i) {
@@ -158,4 +158,4 @@ Eigen::MatrixXd Signatures::of(const EffectParameter& reading) const {
   return squares;
 }
 
-}  // namespace fusee
+}  // namespace fusee::plan

@@ -12,18 +12,18 @@
 #include "mechanism/effect.h"
 #include "plan/candidates.h"
 
-namespace fusee {
+namespace fusee::plan {
 
 /// A cause and its columns [first, first + count): one column a number, each at its usual size.
 struct Cause {
   const Effect* effect = nullptr;
-  std::vector<const EffectParameter*> numbers;
+  std::vector<const fusee::EffectParameter*> numbers;
   Eigen::Index first = 0;
   Eigen::Index count() const { return static_cast<Eigen::Index>(numbers.size()); }
 };
 
 /// The usual size of a number, in its own unit.
-double usual_size(const EffectParameter& number, double largest_load);
+double usual_size(const fusee::EffectParameter& number, double largest_load);
 
 /// Columns of the design matrix: causes, then model error, then unmodelled causes.
 class Signatures {
@@ -44,11 +44,12 @@ class Signatures {
   };
   std::optional<Seen> of(const PlannedRun& run) const;
   /// Normal equations of a dimension that is read by hand.
-  Eigen::MatrixXd of(const EffectParameter& reading) const;
+  Eigen::MatrixXd of(const fusee::EffectParameter& reading) const;
   double largest_load() const { return bench_.largest_load(); }
 
  private:
-  Eigen::VectorXd response_to(Forward& forward, const Imperfections& from, const EffectParameter& number) const;
+  Eigen::VectorXd response_to(joint::Forward& forward, const Imperfections& from,
+                              const fusee::EffectParameter& number) const;
   void add(const Effect& effect);
   std::string why_not(const Effect& effect) const;
 
@@ -60,4 +61,4 @@ class Signatures {
   Eigen::Index model_first_ = 0, unmodelled_first_ = 0, columns_ = 0;
 };
 
-}  // namespace fusee
+}  // namespace fusee::plan

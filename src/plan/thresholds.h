@@ -2,7 +2,7 @@
 /// Decision thresholds of the planner, each with its reason.
 #pragma once
 
-namespace fusee {
+namespace fusee::plan {
 
 struct PlanThresholds {
   /// Separation in standard errors at which two causes count as resolved: at this distance noise makes the wrong cause
@@ -32,4 +32,4 @@ struct BenchMinutes {
 };
 inline constexpr BenchMinutes k_bench_minutes;
 
-}  // namespace fusee
+}  // namespace fusee::plan

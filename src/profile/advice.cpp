@@ -1,5 +1,3 @@
-#include "fusee/profile.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,8 +8,9 @@
 #include "base/run_async.h"
 #include "base/text.h"
 #include "fusee/mechanism_file.h"
+#include "fusee/profile.h"
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 /// A variable of the search: a number of the file, or both ends of a range together.
@@ -485,4 +484,4 @@ std::string advice_sentence(const std::vector<Change>& changes) {
   return sentence;
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 constexpr int k_segments = 192;
@@ -161,4 +161,4 @@ double ClosingArc::length() const {
   return length;
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

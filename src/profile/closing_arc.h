@@ -8,7 +8,7 @@
 
 #include "profile/take_off.h"
 
-namespace fusee {
+namespace fusee::profile {
 
 /// The radius of curvature is linear between equally spaced knots. Position, support and tangent follow by exact
 /// integration.
@@ -39,4 +39,4 @@ class ClosingArc {
   std::vector<Vec2> positions_;  ///< at the knots
 };
 
-}  // namespace fusee
+}  // namespace fusee::profile

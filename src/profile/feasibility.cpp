@@ -6,22 +6,22 @@
 
 #include "base/golden_section.h"
 #include "base/text.h"
-#include "transmission/torque.h"
 #include "profile/pitch_curve.h"
 #include "profile/place_conditions.h"
+#include "transmission/torque.h"
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 constexpr int k_samples = 192;
 /// Arc reserved on the closing arc for the tendon's lap and tie-off at the wound end, in tendon diameters.
 constexpr double k_anchor_lap = 5.0;
 
-std::string number(Side side) { return side == Side::left ? "1" : "2"; }
-std::string pin_name(Side side) { return side == Side::left ? "B" : "D"; }
-std::string exit_name(Side side) { return "the exit of sheath " + number(side); }
+std::string number(transmission::Side side) { return side == transmission::Side::left ? "1" : "2"; }
+std::string pin_name(transmission::Side side) { return side == transmission::Side::left ? "B" : "D"; }
+std::string exit_name(transmission::Side side) { return "the exit of sheath " + number(side); }
 /// "r1" or "r2".
-std::string radius_name(Side side) { return "r" + number(side); }
+std::string radius_name(transmission::Side side) { return "r" + number(side); }
 
 /// A quantity along the stroke that must exceed a limit.
 struct Probe {
@@ -41,7 +41,7 @@ TakeOff tightest(const TakeOffs& take_offs, const std::vector<TakeOff>& samples,
     if (!(value == value)) return samples[i];
     if (value < probe.value(samples[smallest])) smallest = i;
   }
-  const double sign = mirror_sign(take_offs.side());
+  const double sign = transmission::mirror_sign(take_offs.side());
   const Bracket neighbours = {sign * samples[smallest == 0 ? 0 : smallest - 1].stroke.theta,
                               sign * samples[std::min(smallest + 1, samples.size() - 1)].stroke.theta};
   const auto value_at = [&](double theta) { return probe.value(take_offs.at(theta)); };
@@ -63,11 +63,12 @@ Condition condition_of_probe(const Probe& probe, const TakeOff& worst) {
 
 /// Clearance between the upper half of a tendon and the other tendon's pin.
 Probe clear_of_other_pin(const TakeOffs& take_offs) {
-  const Side side = take_offs.side();
-  const std::string pin = pin_name(side == Side::left ? Side::right : Side::left);
-  const PinPlace place = take_offs.place();
+  const transmission::Side side = take_offs.side();
+  const std::string pin =
+      pin_name(side == transmission::Side::left ? transmission::Side::right : transmission::Side::left);
+  const transmission::PinPlace place = take_offs.place();
   const Vec2 other = other_pin(take_offs.transmission(), side);
-  const double sign = mirror_sign(side);
+  const double sign = transmission::mirror_sign(side);
   return {"tendon_" + number(side) + "_clear_of_pin_" + pin, "mm", 0.0,
           [=](const TakeOff& t) { return upper_clearance(place, sign * t.stroke.theta, other) - place.rho; },
           [=](const std::string& where, double value) {
@@ -78,10 +79,12 @@ Probe clear_of_other_pin(const TakeOffs& take_offs) {
 
 /// Probes ordered so that a failure makes the later ones meaningless.
 std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_offs) {
-  const Side side = take_offs.side();
+  const transmission::Side side = take_offs.side();
   const double half = 0.5 * mechanism.tendon.diameter;
-  const PinPlace place = take_offs.place();
-  const auto tendon = [&take_offs](const TakeOff& t) -> const TendonPoint& { return take_offs.tendon(t); };
+  const transmission::PinPlace place = take_offs.place();
+  const auto tendon = [&take_offs](const TakeOff& t) -> const transmission::TendonPoint& {
+    return take_offs.tendon(t);
+  };
   const std::string pin = pin_name(side);
   std::vector<Probe> probes;
   probes.push_back({"radius_P" + number(side), "mm", 0.0, [=](const TakeOff& t) { return tendon(t).p - half; },
@@ -89,7 +92,7 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
                       return radius_name(side) + " falls to " + rounded(value + half) + " mm at " + where +
                              ": less than half the tendon's diameter, the groove floor would cross the axis";
                     }});
-  const LowerGuide lower = place.lower();
+  const transmission::LowerGuide lower = place.lower();
   const std::string from = place.sheath_exit ? "mouth_" + number(side) : "pin_" + pin;
   probes.push_back({"line_reaches_" + from, "mm", 0.0,
                     [=](const TakeOff& t) { return lower.c() - std::abs(tendon(t).p - lower.rho); },
@@ -109,10 +112,12 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
 }
 
 std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take_offs) {
-  const Side side = take_offs.side();
+  const transmission::Side side = take_offs.side();
   const double half = 0.5 * mechanism.tendon.diameter;
   const bool sheathed = mechanism.sheath.is_there();
-  const auto tendon = [&take_offs](const TakeOff& t) -> const TendonPoint& { return take_offs.tendon(t); };
+  const auto tendon = [&take_offs](const TakeOff& t) -> const transmission::TendonPoint& {
+    return take_offs.tendon(t);
+  };
   std::vector<Probe> probes;
   probes.push_back({"take_off_advances_P" + number(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.dpsi; },
                     [=](const std::string& where, double) {
@@ -151,9 +156,9 @@ bool judge(std::vector<Condition>& conditions, const std::vector<Probe>& probes,
 struct StrokeOfImage {
   double begin = 0, end = 0;
 
-  StrokeOfImage(const Mechanism& mechanism, Side side)
-      : begin(side == Side::right ? mechanism.joint.theta_min : -mechanism.joint.theta_max),
-        end(side == Side::right ? mechanism.joint.theta_max : -mechanism.joint.theta_min) {}
+  StrokeOfImage(const Mechanism& mechanism, transmission::Side side)
+      : begin(side == transmission::Side::right ? mechanism.joint.theta_min : -mechanism.joint.theta_max),
+        end(side == transmission::Side::right ? mechanism.joint.theta_max : -mechanism.joint.theta_min) {}
   double theta(int i) const { return i == k_samples ? end : begin + (end - begin) * i / k_samples; }
 };
 
@@ -181,8 +186,8 @@ std::vector<TakeOff> take_samples(const Mechanism& mechanism, const TakeOffs& ta
 /// drawn with its inverse, as P2 with the arm of tendon 1 for a round P1, would need a hollow.
 bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs,
                      SideAttempt& attempt) {
-  const Side side = take_offs.side();
-  const double sign = mirror_sign(side);
+  const transmission::Side side = take_offs.side();
+  const double sign = transmission::mirror_sign(side);
   for (const double theta : lift_offs(mechanism, take_offs.transmission(), side)) {
     const double piece = straight_piece(take_offs, theta);
     if (piece > k_least_straight) attempt.straight.push_back(take_offs.at(theta).curve.psi);
@@ -193,7 +198,8 @@ bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechan
     condition.unit = "mm";
     condition.ok = piece > -k_least_straight;
     if (!condition.ok) {
-      const std::string other = number(side == Side::left ? Side::right : Side::left);
+      const std::string other =
+          number(side == transmission::Side::left ? transmission::Side::right : transmission::Side::left);
       condition.message = "tendon " + other + " leaves the drum at " + at_alpha_text(condition.alpha) + ", and P" +
                           number(side) + " would need a hollow there of " + rounded(-piece, 3) +
                           " mm: beside a round P" + other + " it stays on the drum, or off it, over the whole range";
@@ -206,7 +212,7 @@ bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechan
 
 /// The condition that active arc and anchor lap fit into one turn. The tendon stays wound at the beginning of the
 /// image's stroke.
-Condition one_turn(const Mechanism& mechanism, Side side, const std::vector<TakeOff>& samples) {
+Condition one_turn(const Mechanism& mechanism, transmission::Side side, const std::vector<TakeOff>& samples) {
   // A polar drawing spans the motor's own turn.
   const double active = mechanism.pulley.method == Method::exact
                             ? samples.back().curve.psi - samples.front().curve.psi
@@ -230,7 +236,7 @@ Condition one_turn(const Mechanism& mechanism, Side side, const std::vector<Take
   return condition;
 }
 
-Condition closes(const Mechanism& mechanism, Side side, const SideAttempt& attempt) {
+Condition closes(const Mechanism& mechanism, transmission::Side side, const SideAttempt& attempt) {
   const double half = 0.5 * mechanism.tendon.diameter;
   Condition condition;
   condition.name = "closing_arc_P" + number(side);
@@ -252,15 +258,15 @@ Condition closes(const Mechanism& mechanism, Side side, const SideAttempt& attem
 }
 
 /// The condition that both tendons have a moment arm over the whole range.
-Condition dead_centre(const Transmission& transmission) {
+Condition dead_centre(const transmission::Transmission& transmission) {
   Condition condition;
   condition.name = "moment_arms";
   condition.unit = "deg";
   condition.ok = !transmission.dead_centre();
   if (condition.ok) return condition;
   const double theta = *transmission.dead_centre();
-  const bool left = !(upper_span(transmission.place(Side::left), -theta).m > 1e-6);
-  const Side side = left ? Side::left : Side::right;
+  const bool left = !(transmission::upper_span(transmission.place(transmission::Side::left), -theta).m > 1e-6);
+  const transmission::Side side = left ? transmission::Side::left : transmission::Side::right;
   condition.value = degrees(theta);
   condition.alpha = transmission.alpha(theta);
   if (!std::isfinite(condition.alpha)) condition.alpha = 0;  // C lies within a pin
@@ -273,7 +279,7 @@ Condition dead_centre(const Transmission& transmission) {
 
 /// The condition that the smooth curve through the table increases between its rows too. Tested along α, because the
 /// ends of the stroke are defined only if it holds.
-Condition law_grows(const Mechanism& mechanism, const Transmission& transmission) {
+Condition law_grows(const Mechanism& mechanism, const transmission::Transmission& transmission) {
   constexpr int steps = 1024;
   const std::vector<LawRow>& rows = mechanism.pulley.rows;
   std::size_t first = 0;
@@ -302,7 +308,7 @@ Condition law_grows(const Mechanism& mechanism, const Transmission& transmission
 
 /// The condition that load and wanted torque have the same sign at every angle, so that motor and joint turn together.
 Condition torque_holds(const Mechanism& mechanism) {
-  const TorqueMatch worst = tightest_torque(mechanism);
+  const transmission::TorqueMatch worst = transmission::tightest_torque(mechanism);
   Condition condition;
   condition.name = "torque_holds";
   condition.unit = "deg/deg";
@@ -357,7 +363,7 @@ bool Attempt::feasible() const {
 
 std::string at_alpha_text(double alpha) { return "α = " + rounded(degrees(alpha), 3) + "°"; }
 
-Attempt attempt(const Mechanism& mechanism, const Transmission& transmission, Turns turns) {
+Attempt attempt(const Mechanism& mechanism, const transmission::Transmission& transmission, Turns turns) {
   Attempt attempt{place_conditions(mechanism), {}};
   if (!attempt.feasible()) return attempt;
   if (mechanism.pulley.law == Law::torque) {
@@ -370,9 +376,10 @@ Attempt attempt(const Mechanism& mechanism, const Transmission& transmission, Tu
     attempt.conditions.push_back(law_grows(mechanism, transmission));
     if (!attempt.conditions.back().ok) return attempt;
   }
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     const TakeOffs take_offs(transmission, side);
-    attempt.sides[side == Side::left ? 0 : 1] = attempt_side(attempt.conditions, mechanism, take_offs, turns);
+    attempt.sides[side == transmission::Side::left ? 0 : 1] =
+        attempt_side(attempt.conditions, mechanism, take_offs, turns);
   }
   return attempt;
 }
@@ -403,7 +410,7 @@ std::optional<Condition> first_of(const std::vector<Condition>& conditions) {
 
 }  // namespace
 
-std::optional<Condition> first_failure(const Mechanism& mechanism, const Transmission& transmission) {
+std::optional<Condition> first_failure(const Mechanism& mechanism, const transmission::Transmission& transmission) {
   std::vector<Condition> conditions = place_conditions(mechanism);
   if (auto failed = first_of(conditions)) return failed;
   if (mechanism.pulley.law == Law::torque) conditions.push_back(torque_holds(mechanism));
@@ -412,10 +419,10 @@ std::optional<Condition> first_failure(const Mechanism& mechanism, const Transmi
   if (mechanism.pulley.law == Law::table && conditions.back().ok)
     conditions.push_back(law_grows(mechanism, transmission));
   if (auto failed = first_of(conditions)) return failed;
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     if (auto failed = failure_at_few_places(mechanism, TakeOffs(transmission, side))) return failed;
   }
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     conditions.clear();
     attempt_side(conditions, mechanism, TakeOffs(transmission, side), Turns::one);
     if (auto failed = first_of(conditions)) return failed;
@@ -427,8 +434,8 @@ std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt
   std::vector<std::string> warnings;
   if (mechanism.pulley.method == Method::paper) return warnings;
   const double least = 0.5 * mechanism.tendon.bend_ratio * mechanism.tendon.diameter;
-  for (const Side side : {Side::left, Side::right}) {
-    const std::vector<TakeOff>& samples = attempt.sides[side == Side::left ? 0 : 1]->samples;
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const std::vector<TakeOff>& samples = attempt.sides[side == transmission::Side::left ? 0 : 1]->samples;
     const auto tightest = std::min_element(samples.begin(), samples.end(), [](const TakeOff& a, const TakeOff& b) {
       return a.curve.radius < b.curve.radius;
     });
@@ -441,4 +448,4 @@ std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt
   return warnings;
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -11,7 +11,7 @@
 #include "profile/closing_arc.h"
 #include "profile/take_off.h"
 
-namespace fusee {
+namespace fusee::profile {
 
 /// One side of an attempted synthesis. Index 0 of pairs is tendon 1, P1, pin B; index 1 is tendon 2, P2, pin D.
 struct SideAttempt {
@@ -32,11 +32,11 @@ struct Attempt {
 enum class Turns { one, many };
 
 /// Tests all conditions, except those that an earlier failure makes meaningless. The result refers to `transmission`.
-Attempt attempt(const Mechanism& mechanism, const Transmission& transmission, Turns turns = Turns::one);
+Attempt attempt(const Mechanism& mechanism, const transmission::Transmission& transmission, Turns turns = Turns::one);
 
 /// The first failed condition; null when all hold. Order of tests: the law, a few points of both curves, all points,
 /// the closing arcs.
-std::optional<Condition> first_failure(const Mechanism& mechanism, const Transmission& transmission);
+std::optional<Condition> first_failure(const Mechanism& mechanism, const transmission::Transmission& transmission);
 
 /// Warnings that do not prevent making: bends tighter than the tendon permits.
 std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt& attempt);
@@ -44,4 +44,4 @@ std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt
 /// "α = −88°".
 std::string at_alpha_text(double alpha);
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -1,11 +1,10 @@
-#include "fusee/profile.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "fusee/base.h"
+#include "fusee/profile.h"
 
-namespace fusee {
+namespace fusee::profile {
 
 bool Outline::is_active(std::size_t i) const {
   return active_first <= active_last ? active_first <= i && i <= active_last : i >= active_first || i <= active_last;
@@ -29,4 +28,4 @@ double sagitta(const Vec2& from, double psi_from, const Vec2& to, double psi_to)
   return std::min(of_an_arc, chord / (1.0 / std::tan(first) + 1.0 / std::tan(second)));
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace fusee {
+namespace fusee::profile {
 
 double turned_into(double start, double psi) {
   const double turn = std::fmod(psi - start, k_two_pi);
@@ -34,7 +34,7 @@ double EnvelopeCurve::radius(double psi) const {
 CurvePoint EnvelopeCurve::active_at(double psi) const {
   const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, psi,
                                       [](double value, const TakeOff& sample) { return value < sample.curve.psi; });
-  const double sign = mirror_sign(take_offs_.side());
+  const double sign = transmission::mirror_sign(take_offs_.side());
   double low = sign * (above - 1)->stroke.theta;
   double high = sign * above->stroke.theta;
   TakeOff found = *(above - 1);
@@ -52,4 +52,4 @@ CurvePoint EnvelopeCurve::active_at(double psi) const {
   return found.curve;
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -8,7 +8,7 @@
 #include "profile/closing_arc.h"
 #include "profile/take_off.h"
 
-namespace fusee {
+namespace fusee::profile {
 
 /// A groove floor with a smaller radius is an edge, not a seat. mm
 inline constexpr double k_least_floor_radius = 0.05;
@@ -56,4 +56,4 @@ class EnvelopeCurve : public PitchCurve {
 /// `psi` shifted by full turns into [start, start + 2π).
 double turned_into(double start, double psi);
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -5,15 +5,15 @@
 
 #include "base/text.h"
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
-std::string digit_of(Side side) { return side == Side::left ? "1" : "2"; }
-std::string name_of_pin(Side side) { return side == Side::left ? "B" : "D"; }
+std::string digit_of(transmission::Side side) { return side == transmission::Side::left ? "1" : "2"; }
+std::string name_of_pin(transmission::Side side) { return side == transmission::Side::left ? "B" : "D"; }
 
-Condition attachment_outside_drum(const Mechanism& mechanism, Side side) {
+Condition attachment_outside_drum(const Mechanism& mechanism, transmission::Side side) {
   const Joint& joint = mechanism.joint;
-  const auto& own = side == Side::left ? joint.attachment1 : joint.attachment2;
+  const auto& own = side == transmission::Side::left ? joint.attachment1 : joint.attachment2;
   const std::string tendon = digit_of(side);
   const std::string key = own ? "joint.attachment" + tendon + "_mm" : "joint.length_mm";
   // Tolerates rounding of a place on the drum in the last digits of a double.
@@ -32,8 +32,8 @@ Condition attachment_outside_drum(const Mechanism& mechanism, Side side) {
   return condition;
 }
 
-Condition drum_clear_of_pin(const Mechanism& mechanism, Side side) {
-  const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
+Condition drum_clear_of_pin(const Mechanism& mechanism, transmission::Side side) {
+  const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius());
   Condition condition;
   condition.name = "drum_clear_of_pin_" + name_of_pin(side);
   condition.value = place.pin().norm() - place.drum_offset - mechanism.joint.drum_radius - mechanism.guides.radius;
@@ -51,20 +51,20 @@ Condition drum_clear_of_pin(const Mechanism& mechanism, Side side) {
 std::vector<Condition> place_conditions(const Mechanism& mechanism) {
   std::vector<Condition> conditions;
   if (!(mechanism.joint.drum_radius > 0)) return conditions;
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     conditions.push_back(attachment_outside_drum(mechanism, side));
     conditions.push_back(drum_clear_of_pin(mechanism, side));
   }
   return conditions;
 }
 
-double upper_clearance(const PinPlace& place, double theta, const Vec2& point) {
-  const UpperSpan span = upper_span(place, theta);
+double upper_clearance(const transmission::PinPlace& place, double theta, const Vec2& point) {
+  const transmission::UpperSpan span = transmission::upper_span(place, theta);
   const double turned = theta + place.twist;
   const Vec2 end = place.R * Vec2(std::sin(turned), std::cos(turned)),
              at_pin = place.pin() + place.rho * unit(span.normal);
   if (span.on_drum == 0) return distance_to_segment(point, end, at_pin);
-  const Vec2 centre = drum_centre(place, theta), seen = point - centre;
+  const Vec2 centre = transmission::drum_centre(place, theta), seen = point - centre;
   const double clearance = std::min(distance_to_segment(point, end, centre + place.drum * unit(span.end_normal)),
                                     distance_to_segment(point, centre + place.drum * unit(span.normal), at_pin));
   const double beyond = std::atan2(seen.y(), seen.x()) - span.normal;
@@ -72,19 +72,21 @@ double upper_clearance(const PinPlace& place, double theta, const Vec2& point) {
   return std::min(clearance, std::abs(seen.norm() - place.drum));
 }
 
-Vec2 other_pin(const Transmission& transmission, Side side) {
-  const Vec2 pin = transmission.place(side == Side::left ? Side::right : Side::left).pin();
+Vec2 other_pin(const transmission::Transmission& transmission, transmission::Side side) {
+  const Vec2 pin =
+      transmission.place(side == transmission::Side::left ? transmission::Side::right : transmission::Side::left).pin();
   return {-pin.x(), pin.y()};
 }
 
-std::vector<double> lift_offs(const Mechanism& mechanism, const Transmission& transmission, Side side) {
+std::vector<double> lift_offs(const Mechanism& mechanism, const transmission::Transmission& transmission,
+                              transmission::Side side) {
   std::vector<double> places;
-  for (const Side of : {Side::left, Side::right}) {
-    const auto own = lift_off(transmission.place(of));
+  for (const transmission::Side of : {transmission::Side::left, transmission::Side::right}) {
+    const auto own = transmission::lift_off(transmission.place(of));
     if (!own) continue;
-    const double theta = mirror_sign(of) * *own;
+    const double theta = transmission::mirror_sign(of) * *own;
     if (theta > mechanism.joint.theta_min + k_beside_lift_off && theta < mechanism.joint.theta_max - k_beside_lift_off)
-      places.push_back(mirror_sign(side) * theta);
+      places.push_back(transmission::mirror_sign(side) * theta);
   }
   std::sort(places.begin(), places.end());
   return places;
@@ -95,4 +97,4 @@ double straight_piece(const TakeOffs& take_offs, double image_theta) {
          take_offs.at(image_theta - k_beside_lift_off).curve.dh;
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -5,7 +5,7 @@
 #include <deque>
 #include <utility>
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 constexpr int k_points = 1440;
@@ -31,8 +31,8 @@ double closing_radius(const PolarPoint& begin, const PolarPoint& end, double u) 
 
 /// The stroke in the image, evenly spaced in the pulley's angle, which is the angle of the drawing.
 std::vector<PolarPoint> active_points(const TakeOffs& take_offs) {
-  const Transmission& transmission = take_offs.transmission();
-  const double sign = mirror_sign(take_offs.side());
+  const transmission::Transmission& transmission = take_offs.transmission();
+  const double sign = transmission::mirror_sign(take_offs.side());
   const double begin = sign > 0 ? transmission.alpha_min() : -transmission.alpha_max();
   const double end = sign > 0 ? transmission.alpha_max() : -transmission.alpha_min();
   const double home_normal = take_offs.at(0.0).curve.psi;
@@ -40,7 +40,7 @@ std::vector<PolarPoint> active_points(const TakeOffs& take_offs) {
   for (int i = 0; i <= k_points; ++i) {
     TakeOff at;
     at.stroke = transmission.at_alpha(sign * (begin + (end - begin) * i / k_points));
-    const TendonPoint& tendon = take_offs.tendon(at);
+    const transmission::TendonPoint& tendon = take_offs.tendon(at);
     points.push_back({home_normal + sign * at.stroke.alpha, tendon.p, sign * tendon.dp});
   }
   return points;
@@ -161,4 +161,4 @@ std::vector<double> PolarCurve::straight_directions() const {
   return directions;
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -4,7 +4,7 @@
 
 #include "profile/pitch_curve.h"
 
-namespace fusee {
+namespace fusee::profile {
 
 /// The closed polar drawing as a string and a groove follow it: hollows bridged, corners rounded to the tendon's
 /// radius.
@@ -33,4 +33,4 @@ class PolarCurve : public PitchCurve {
   double deepest_hollow_ = 0;
 };
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -1,11 +1,10 @@
-#include "fusee/profile.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/profile.h"
 #include "fusee/transmission.h"
 #include "profile/string_above.h"
 #include "transmission/alpha_range.h"
@@ -14,7 +13,7 @@
 // polygon, over a disc and to a point. Its length is summed piece by piece, and bisection finds the joint angle at
 // which the length equals that at home.
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 /// One string on pulley, pin, drum and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
@@ -135,8 +134,8 @@ double taut_theta(const String& string, double alpha, double guess) {
   return 0.5 * (low + high);
 }
 
-Transmission law_without_dead_centre(const Mechanism& mechanism) {
-  Transmission declared(mechanism);
+transmission::Transmission law_without_dead_centre(const Mechanism& mechanism) {
+  transmission::Transmission declared(mechanism);
   if (const auto dead = declared.dead_centre()) {
     throw InputError("", "the declared law ends at a dead centre, θ = " + rounded(degrees(*dead), 4) + "°",
                      "make the range smaller");
@@ -159,14 +158,14 @@ void note_largest(RewindResult& result) {
 }
 
 /// Winds with the joint held by the first string. The slack is that of the last string, 0 if there is only one.
-RewindResult wind(const Transmission& declared, std::vector<String> strings, int steps) {
+RewindResult wind(const transmission::Transmission& declared, std::vector<String> strings, int steps) {
   const auto turn_to = [&strings](double alpha) {
     for (String& string : strings) string.turn_to(alpha);
   };
   RewindResult result;
   // From home to one end and back through home to the other, so that turns are counted without jumps.
   for (int i = 0; i < steps; ++i) turn_to(declared.alpha_min() * i / steps);
-  for (const double alpha : alphas_over_range(declared, steps)) {
+  for (const double alpha : transmission::alphas_over_range(declared, steps)) {
     turn_to(alpha);
     RewindPoint point{alpha, declared.theta(alpha), 0, 0};
     point.theta = taut_theta(strings.front(), alpha, point.theta_declared);
@@ -180,13 +179,13 @@ RewindResult wind(const Transmission& declared, std::vector<String> strings, int
 }  // namespace
 
 RewindResult rewind(const Mechanism& mechanism, const Polygon& floor1, const Polygon& floor2, int steps) {
-  const Transmission declared = law_without_dead_centre(mechanism);
+  const transmission::Transmission declared = law_without_dead_centre(mechanism);
   return wind(declared, {String(mechanism, floor1, -1.0), String(mechanism, floor2, +1.0)}, steps);
 }
 
-RewindResult rewind_one(const Mechanism& mechanism, Side side, const Polygon& floor, int steps) {
-  const Transmission declared = law_without_dead_centre(mechanism);
-  return wind(declared, {String(mechanism, floor, side == Side::left ? -1.0 : +1.0)}, steps);
+RewindResult rewind_one(const Mechanism& mechanism, transmission::Side side, const Polygon& floor, int steps) {
+  const transmission::Transmission declared = law_without_dead_centre(mechanism);
+  return wind(declared, {String(mechanism, floor, side == transmission::Side::left ? -1.0 : +1.0)}, steps);
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 /// Spacing of curvature probes: the radius of a nearly straight part doubles within half a degree.
@@ -165,8 +165,8 @@ std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, c
   halve_coarse_chords(points, left, right, longest, options);
 
   std::array<Outline, 2> outlines;
-  outlines[0] = {Side::left, {}, nearest(points, ends[2]), nearest(points, ends[3])};
-  outlines[1] = {Side::right, {}, nearest(points, ends[0]), nearest(points, ends[1])};
+  outlines[0] = {transmission::Side::left, {}, nearest(points, ends[2]), nearest(points, ends[3])};
+  outlines[1] = {transmission::Side::right, {}, nearest(points, ends[0]), nearest(points, ends[1])};
   for (const Pair& point : points) {
     outlines[0].points.push_back(point.left);
     outlines[1].points.push_back(point.right);
@@ -174,4 +174,4 @@ std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, c
   return outlines;
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -7,7 +7,7 @@
 #include "fusee/profile.h"
 #include "profile/pitch_curve.h"
 
-namespace fusee {
+namespace fusee::profile {
 
 struct SamplingOptions {
   double tolerance = 0.01;  ///< largest sagitta, mm
@@ -19,4 +19,4 @@ struct SamplingOptions {
 /// P1 (from its right-hand image `left`) and P2.
 std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& options);
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -4,7 +4,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 /// Centre of a string's pin, relative to the joint.
@@ -104,4 +104,4 @@ double StringAbove::wound_on_drum(double theta) const {
   return tangent - counted(from_pin_to(with_link(drum_centre_, theta), drum_).normal) - hand_ * theta;
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

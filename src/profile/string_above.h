@@ -7,7 +7,7 @@
 #include "fusee/base.h"
 #include "fusee/mechanism.h"
 
-namespace fusee {
+namespace fusee::profile {
 
 /// `angle` shifted by full turns to within half a turn of `near`.
 inline double turned_near(double angle, double near) {
@@ -53,4 +53,4 @@ class StringAbove {
   Vec2 from_axis_;    ///< the guide relative to the pulley's axis, at home
 };
 
-}  // namespace fusee
+}  // namespace fusee::profile

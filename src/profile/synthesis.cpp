@@ -1,15 +1,14 @@
-#include "fusee/profile.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
+#include "fusee/profile.h"
 #include "profile/feasibility.h"
 #include "profile/polar_curve.h"
 #include "profile/sampling.h"
 #include "transmission/alpha_range.h"
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 /// Distance from a pitch curve to the body's outermost parallel curve: the groove edge and a margin.
@@ -26,7 +25,9 @@ double largest_turn(const Mechanism& mechanism) {
   return std::min(usual, std::sqrt(24.0 * k_lost / furthest));
 }
 
-bool is_feasible(const Mechanism& mechanism) { return attempt(mechanism, Transmission(mechanism)).feasible(); }
+bool is_feasible(const Mechanism& mechanism) {
+  return attempt(mechanism, transmission::Transmission(mechanism)).feasible();
+}
 
 std::unique_ptr<PitchCurve> pitch_curve(const Mechanism& mechanism, const SideAttempt& side,
                                         std::vector<std::string>& warnings) {
@@ -34,7 +35,7 @@ std::unique_ptr<PitchCurve> pitch_curve(const Mechanism& mechanism, const SideAt
     return std::make_unique<EnvelopeCurve>(side.take_offs, side.samples, *side.closing, side.straight);
   auto polar = std::make_unique<PolarCurve>(mechanism, side.take_offs);
   if (polar->deepest_hollow() > 0.01) {
-    warnings.push_back("the polar drawing of " + std::string(pulley_name(side.take_offs.side())) +
+    warnings.push_back("the polar drawing of " + std::string(transmission::pulley_name(side.take_offs.side())) +
                        " is hollow by up to " + rounded(polar->deepest_hollow(), 3) +
                        " mm: the tendon bridges it, and the groove is made as the bridge");
   }
@@ -53,7 +54,7 @@ void draw(SynthesisResult& result, const Mechanism& mechanism, const Attempt& at
   result.p2 = std::move(outlines[1]);
 }
 
-std::string stroke_text(const std::vector<TransmissionPoint>& stroke) {
+std::string stroke_text(const std::vector<transmission::TransmissionPoint>& stroke) {
   const auto [low, high] =
       std::minmax_element(stroke.begin(), stroke.end(), [](const auto& a, const auto& b) { return a.t2.p < b.t2.p; });
   return "α " + fixed(degrees(stroke.front().alpha), 2) + "° … " + fixed(degrees(stroke.back().alpha), 2) + "°, r2 " +
@@ -72,20 +73,20 @@ std::vector<Condition> failed_of(const std::vector<Condition>& conditions) {
 bool is_of_one_turn(const Condition& condition) { return condition.name.starts_with("one_turn_"); }
 
 std::optional<Condition> obstacle_to(const Mechanism& mechanism) {
-  return first_failure(mechanism, Transmission(mechanism));
+  return first_failure(mechanism, transmission::Transmission(mechanism));
 }
 
 std::optional<Condition> obstacle_but_one_turn(const Mechanism& mechanism) {
-  for (Condition& failed : failed_of(attempt(mechanism, Transmission(mechanism)).conditions))
+  for (Condition& failed : failed_of(attempt(mechanism, transmission::Transmission(mechanism)).conditions))
     if (!is_of_one_turn(failed)) return std::move(failed);
   return std::nullopt;
 }
 
 SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& options) {
   SynthesisResult result;
-  const Transmission transmission(mechanism);
+  const transmission::Transmission transmission(mechanism);
   Attempt tried = attempt(mechanism, transmission);
-  if (!transmission.dead_centre()) result.stroke = stroke_over_range(transmission, options.stroke_steps);
+  if (!transmission.dead_centre()) result.stroke = transmission::stroke_over_range(transmission, options.stroke_steps);
   if (tried.feasible()) {
     result.status = SynthesisStatus::made;
     draw(result, mechanism, tried, options);
@@ -108,7 +109,7 @@ std::optional<std::string> kept_to_one_turn(const Mechanism& mechanism) {
   return std::nullopt;
 }
 
-const TransmissionPoint* SynthesisResult::home() const {
+const transmission::TransmissionPoint* SynthesisResult::home() const {
   const auto nearest = std::min_element(
       stroke.begin(), stroke.end(), [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
   return nearest == stroke.end() ? nullptr : &*nearest;
@@ -125,4 +126,4 @@ std::string SynthesisResult::brief() const {
   return text + ": " + (change.empty() ? "no change of a single number makes it possible" : change);
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

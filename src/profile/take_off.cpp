@@ -1,19 +1,20 @@
 #include "profile/take_off.h"
 
-namespace fusee {
+namespace fusee::profile {
 
-TakeOffs::TakeOffs(const Transmission& transmission, Side side) : transmission_(&transmission), side_(side) {}
+TakeOffs::TakeOffs(const transmission::Transmission& transmission, transmission::Side side)
+    : transmission_(&transmission), side_(side) {}
 
 // The pitch curve is the envelope of the tendon's lines. In the frame of the turning pulley the line's normal is ψ(α) =
 // φ − acos((p − ρ)/c) + α. With w = sqrt(c² − (p − ρ)²), the reach to the pin:
 //   ψ' = 1 + p'/w      w' = −(p − ρ) p'/w      ψ'' = p''/w − p'w'/w²
 //   dh/dψ = p'/ψ'      d²h/dψ² = (p'' − dh/dψ ψ'')/ψ'²
 TakeOff TakeOffs::at(double image_theta) const {
-  const double sign = mirror_sign(side_);
+  const double sign = transmission::mirror_sign(side_);
   TakeOff take_off;
   take_off.stroke = transmission_->at_theta(sign * image_theta);
-  const TendonPoint& at = tendon(take_off);
-  const double normal = side_ == Side::right ? at.lower_normal : k_pi - at.lower_normal;
+  const transmission::TendonPoint& at = tendon(take_off);
+  const double normal = side_ == transmission::Side::right ? at.lower_normal : k_pi - at.lower_normal;
   const double dp = sign * at.dp;
   const double w = at.lower_reach;
   const double dw = -(at.p - place().lower().rho) * dp / w;
@@ -27,4 +28,4 @@ TakeOff TakeOffs::at(double image_theta) const {
   return take_off;
 }
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -8,7 +8,7 @@
 
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::profile {
 
 /// A point of a convex curve by its normal: X = h n + h' t, radius of curvature h + h''. rad, mm.
 struct CurvePoint {
@@ -21,28 +21,28 @@ struct CurvePoint {
 };
 
 struct TakeOff {
-  TransmissionPoint stroke;  ///< of the mechanism itself, not of its image
-  CurvePoint curve;          ///< in the image
-  double dpsi = 0;           ///< dψ/dα of the image; must be positive
+  transmission::TransmissionPoint stroke;  ///< of the mechanism itself, not of its image
+  CurvePoint curve;                        ///< in the image
+  double dpsi = 0;                         ///< dψ/dα of the image; must be positive
 };
 
 /// The take-off points of one side as a function of the joint angle of its image. Keeps a reference to the
 /// transmission.
 class TakeOffs {
  public:
-  TakeOffs(const Transmission& transmission, Side side);
+  TakeOffs(const transmission::Transmission& transmission, transmission::Side side);
 
   TakeOff at(double image_theta) const;
-  const TendonPoint& tendon(const TakeOff& take_off) const {
-    return side_ == Side::left ? take_off.stroke.t1 : take_off.stroke.t2;
+  const transmission::TendonPoint& tendon(const TakeOff& take_off) const {
+    return side_ == transmission::Side::left ? take_off.stroke.t1 : take_off.stroke.t2;
   }
-  Side side() const { return side_; }
-  const Transmission& transmission() const { return *transmission_; }
-  const PinPlace& place() const { return transmission_->place(side_); }
+  transmission::Side side() const { return side_; }
+  const transmission::Transmission& transmission() const { return *transmission_; }
+  const transmission::PinPlace& place() const { return transmission_->place(side_); }
 
  private:
-  const Transmission* transmission_;
-  Side side_;
+  const transmission::Transmission* transmission_;
+  transmission::Side side_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -132,21 +132,22 @@ bool same(const CarriedMechanism& a, const CarriedMechanism& b) { return a.file.
 py::dict synthesise_joint(const CarriedMechanism& carried, double tolerance, bool advice, int steps) {
   return to_python(made_unlocked(carried.files, Stop(), [&](const RunContext&) {
     demand_tendons(carried.file, "synthesise for");
-    SynthesisOptions options;
+    profile::SynthesisOptions options;
     options.tolerance = tolerance;
     options.advice = advice;
     options.stroke_steps = steps;
-    return synthesise(as_it_is(carried.file.mechanism).mechanism, options);
+    return profile::synthesise(joint::as_it_is(carried.file.mechanism).mechanism, options);
   }));
 }
 
-AsBuiltLimits limits_of(double max_theta_error, double max_slack) { return {max_theta_error, max_slack}; }
+pipeline::AsBuiltLimits limits_of(double max_theta_error, double max_slack) { return {max_theta_error, max_slack}; }
 
 /// Rewinds a part; faults are reported with its file name.
-RewoundPart rewound(const JointAsItIs& joint, const std::string& path, bool as_is, FileAccess& files) {
-  const Part part = read_part(path, files);
+pipeline::RewoundPart rewound(const joint::JointAsItIs& joint, const std::string& path, bool as_is, FileAccess& files) {
+  const pipeline::Part part = pipeline::read_part(path, files);
   try {
-    return as_is ? RewoundPart{rewind_part(joint, part), PartPlace::as_made, {}} : rewind_moved_part(joint, part);
+    return as_is ? pipeline::RewoundPart{pipeline::rewind_part(joint, part), pipeline::PartPlace::as_made, {}}
+                 : pipeline::rewind_moved_part(joint, part);
   } catch (const InputError& error) {
     std::vector<Diagnostic> diagnostics = error.diagnostics();
     for (Diagnostic& diagnostic : diagnostics) diagnostic.place.file = path;
@@ -154,10 +155,11 @@ RewoundPart rewound(const JointAsItIs& joint, const std::string& path, bool as_i
   }
 }
 
-py::dict with_checks(const CarriedMechanism& carried, const std::shared_ptr<const RewoundPart>& part,
-                     const AsBuiltLimits& limits) {
+py::dict with_checks(const CarriedMechanism& carried, const std::shared_ptr<const pipeline::RewoundPart>& part,
+                     const pipeline::AsBuiltLimits& limits) {
   py::dict dict = to_python(part);
-  std::vector<Check> checks = as_built_checks(as_it_is(carried.file.mechanism).mechanism, part->as_built, limits);
+  std::vector<Check> checks =
+      pipeline::as_built_checks(joint::as_it_is(carried.file.mechanism).mechanism, part->as_built, limits);
   // With only one tendon the slack is unknown.
   if (part->alone) checks.erase(checks.begin() + 1, checks.end());
   dict["checks"] = to_python(checks);
@@ -168,7 +170,7 @@ py::dict rewind_file(const CarriedMechanism& carried, const std::string& path, b
                      double max_slack) {
   const auto part = made_unlocked(carried.files, Stop(), [&](const RunContext& context) {
     demand_tendons(carried.file, "wind");
-    return rewound(as_it_is(carried.file.mechanism), path, as_is, *context.files);
+    return rewound(joint::as_it_is(carried.file.mechanism), path, as_is, *context.files);
   });
   return with_checks(carried, part, limits_of(max_theta_error, max_slack));
 }
@@ -187,14 +189,16 @@ py::dict rewind_floors(const CarriedMechanism& carried, const Floor& floor1, con
   const Polygon p1 = polygon_of(floor1), p2 = polygon_of(floor2);
   const auto part = made_unlocked(carried.files, Stop(), [&](const RunContext&) {
     demand_tendons(carried.file, "wind");
-    return RewoundPart{rewind(as_it_is(carried.file.mechanism).mechanism, p1, p2), PartPlace::as_made, {}};
+    return pipeline::RewoundPart{
+        profile::rewind(joint::as_it_is(carried.file.mechanism).mechanism, p1, p2), pipeline::PartPlace::as_made, {}};
   });
   return with_checks(carried, part, limits_of(max_theta_error, max_slack));
 }
 
 py::dict check_file(const std::string& path) {
-  const auto checks =
-      made_unlocked({}, Stop(), [&](const RunContext& context) { return check_part(read_part(path, *context.files)); });
+  const auto checks = made_unlocked({}, Stop(), [&](const RunContext& context) {
+    return pipeline::check_part(pipeline::read_part(path, *context.files));
+  });
   py::dict dict;
   dict["checks"] = to_python(*checks);
   return dict;
@@ -214,59 +218,62 @@ void aim(Options& options, const Target& target) {
   options.dry_run = target.dry_run;
 }
 
-DxfVersion dxf_version(const std::string& name) { return name == "r12" ? DxfVersion::r12 : DxfVersion::ac1015; }
+formats::DxfVersion dxf_version(const std::string& name) {
+  return name == "r12" ? formats::DxfVersion::r12 : formats::DxfVersion::ac1015;
+}
 
 py::dict build_pulley(const CarriedMechanism& carried, const Target& target, double tolerance, const std::string& dxf,
                       bool step, double max_theta_error, double max_slack, const Stop& stop) {
   return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
     demand_tendons(carried.file, "build a pulley for");
-    BuildOptions options;
+    pipeline::BuildOptions options;
     aim(options, target);
     options.chord_error_mm = tolerance;
     options.limits = limits_of(max_theta_error, max_slack);
     options.dxf = dxf_version(dxf);
     options.step = step;
-    return build(carried.file, options, context);
+    return pipeline::build(carried.file, options, context);
   }));
 }
 
 py::dict analyze_joint(const CarriedMechanism& carried, int steps, double tolerance, int samples, std::uint64_t seed,
                        const Stop& stop) {
   return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
-    AnalysisOptions options;
+    analysis::AnalysisOptions options;
     options.steps = steps;
     options.tolerance = tolerance;
     options.samples = samples;
     options.seed = seed;
-    return analyze(carried.file, options, context);
+    return pipeline::analyze(carried.file, options, context);
   }));
 }
 
 py::tuple objective_names() {
   std::vector<std::string> names;
-  for (const ObjectiveInfo& known : objectives()) names.emplace_back(known.name);
+  for (const optimize::ObjectiveInfo& known : optimize::objectives()) names.emplace_back(known.name);
   return to_python(names);
 }
 
 /// A second objective requires a search that reports ties.
-void demand_agreement(const MechanismFile& file, const OptimizeOptions& options) {
-  if (!options.then || options.method.value_or(strongest_method(file)) == SearchMethod::certified) return;
+void demand_agreement(const MechanismFile& file, const pipeline::OptimizeOptions& options) {
+  if (!options.then || options.method.value_or(pipeline::strongest_method(file)) == pipeline::SearchMethod::certified)
+    return;
   throw InputError("then", "requires method \"certified\"");
 }
 
-std::optional<SearchMethod> search_method(const std::string& name) {
-  if (name == "certified") return SearchMethod::certified;
-  if (name == "genetic") return SearchMethod::genetic;
-  if (name == "pareto") return SearchMethod::pareto;
+std::optional<pipeline::SearchMethod> search_method(const std::string& name) {
+  if (name == "certified") return pipeline::SearchMethod::certified;
+  if (name == "genetic") return pipeline::SearchMethod::genetic;
+  if (name == "pareto") return pipeline::SearchMethod::pareto;
   return std::nullopt;
 }
 
 py::dict optimize_joint(const CarriedMechanism& carried, const std::string& method, const std::string& then,
                         unsigned population, unsigned generations, unsigned seed, unsigned threads, const Stop& stop) {
   return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
-    OptimizeOptions options;
+    pipeline::OptimizeOptions options;
     options.method = search_method(method);
-    if (!then.empty()) options.then = find_objective(then);
+    if (!then.empty()) options.then = optimize::find_objective(then);
     options.genetic.population = population;
     options.genetic.generations = generations;
     options.genetic.seed = seed;
@@ -277,7 +284,7 @@ py::dict optimize_joint(const CarriedMechanism& carried, const std::string& meth
     options.new_file = carried.file.path;  // not written: only the text is used
     options.dry_run = true;
     demand_agreement(carried.file, options);
-    OptimizeResult result = optimize(carried.file, options, context);
+    pipeline::OptimizeResult result = pipeline::optimize(carried.file, options, context);
     context.throw_if_stopped();
     return result;
   }));
@@ -291,8 +298,8 @@ std::vector<std::filesystem::path> paths_of(const std::vector<std::string>& name
 using ReadingOptions = std::tuple<std::map<std::string, std::string>, std::map<std::string, std::string>,
                                   std::map<std::string, double>, std::map<std::string, double>>;
 
-MeasurementOptions measurement_options(const ReadingOptions& reading) {
-  MeasurementOptions options;
+measurement::MeasurementOptions measurement_options(const ReadingOptions& reading) {
+  measurement::MeasurementOptions options;
   std::tie(options.columns, options.units, options.ticks_per_turn, options.zero_ticks) = reading;
   return options;
 }
@@ -303,12 +310,12 @@ py::dict calibrate_joint(const CarriedMechanism& carried, const std::vector<std:
   CarriedFiles files = carried.files;
   files.insert(logs.begin(), logs.end());
   return to_python(made_unlocked(files, stop, [&](const RunContext& context) {
-    CalibrateOptions options;
+    pipeline::CalibrateOptions options;
     aim(options, target);
     options.columns = measurement_options(reading);
     options.hold_out = paths_of(hold_out);
     options.audit = audit;
-    return calibrate(carried.file, paths_of(runs), options, context);
+    return pipeline::calibrate(carried.file, paths_of(runs), options, context);
   }));
 }
 
@@ -318,10 +325,10 @@ py::dict compare_joint(const CarriedMechanism& carried, const std::vector<std::s
   CarriedFiles files = carried.files;
   files.insert(logs.begin(), logs.end());
   return to_python(made_unlocked(files, stop, [&](const RunContext& context) {
-    CompareOptions options;
+    pipeline::CompareOptions options;
     aim(options, target);
     options.columns = measurement_options(reading);
-    return compare(carried.file, paths_of(before), paths_of(after), options, context);
+    return pipeline::compare(carried.file, paths_of(before), paths_of(after), options, context);
   }));
 }
 
@@ -329,7 +336,7 @@ py::dict plan_bench(const CarriedMechanism& carried, const Target& target, doubl
                     const std::vector<double>& loads, const std::vector<double>& speeds,
                     const std::optional<std::pair<double, double>>& range, std::uint64_t seed, const Stop& stop) {
   return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
-    PlanFilesOptions options;
+    pipeline::PlanFilesOptions options;
     aim(options, target);
     options.plan.noise = noise;
     options.plan.minutes = minutes;
@@ -337,7 +344,7 @@ py::dict plan_bench(const CarriedMechanism& carried, const Target& target, doubl
     options.plan.speeds = speeds;
     options.plan.range = range;
     options.plan.seed = seed;
-    return plan(carried.file, options, context);
+    return pipeline::plan(carried.file, options, context);
   }));
 }
 
@@ -346,12 +353,12 @@ py::dict simulate_joint(const CarriedMechanism& carried, const std::string& log,
   CarriedFiles files = carried.files;
   files.insert(logs.begin(), logs.end());
   return to_python(made_unlocked(files, Stop(), [&](const RunContext& context) {
-    SimulateOptions options;
+    pipeline::SimulateOptions options;
     options.columns = measurement_options(reading);
     options.corrected = corrected;
     options.noise = noise;
     options.seed = seed;
-    return simulate(carried.file, log, options, context);
+    return pipeline::simulate(carried.file, log, options, context);
   }));
 }
 
@@ -359,11 +366,11 @@ py::dict kit_parts(const CarriedMechanism& carried, const Target& target, double
                    const Stop& stop) {
   return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
     demand_tendons(carried.file, "make a kit for");
-    KitOptions options;
+    pipeline::KitOptions options;
     aim(options, target);
     options.chord_error_mm = tolerance;
     options.dxf = dxf_version(dxf);
-    return kit(carried.file, options, context);
+    return pipeline::kit(carried.file, options, context);
   }));
 }
 

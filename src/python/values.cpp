@@ -73,14 +73,14 @@ py::tuple tuple_of(const std::vector<Item>& items, Convert convert) {
 
 py::object maybe(const std::optional<double>& value) { return value ? py::object(py::float_(*value)) : py::none(); }
 
-std::string_view side_word(Side side) { return side == Side::left ? "left" : "right"; }
+std::string_view side_word(transmission::Side side) { return side == transmission::Side::left ? "left" : "right"; }
 
 /// The number, or the word if it is one.
 py::object changed(double number, const std::string& word, bool is_word) {
   return is_word ? py::object(words(word)) : py::float_(number);
 }
 
-py::dict to_dict(const Change& change) {
+py::dict to_dict(const profile::Change& change) {
   const bool is_word = !change.to_word.empty();
   py::dict dict;
   dict["key"] = words(change.key);
@@ -91,7 +91,7 @@ py::dict to_dict(const Change& change) {
   return dict;
 }
 
-py::dict to_dict(const Condition& condition) {
+py::dict to_dict(const profile::Condition& condition) {
   py::dict dict;
   dict["name"] = words(condition.name);
   dict["ok"] = condition.ok;
@@ -132,67 +132,69 @@ py::dict to_dict(const Diagnostic& diagnostic) {
 
 // ---- parts of results -----------------------------------------------------------------------------------------------
 
-py::dict to_dict(const Rows<TransmissionPoint>& rows) {
-  const Rows<TendonPoint> t1 = rows.part(&TransmissionPoint::t1), t2 = rows.part(&TransmissionPoint::t2);
+py::dict to_dict(const Rows<transmission::TransmissionPoint>& rows) {
+  const Rows<transmission::TendonPoint> t1 = rows.part(&transmission::TransmissionPoint::t1),
+                                        t2 = rows.part(&transmission::TransmissionPoint::t2);
   py::dict dict;
-  dict["alpha_rad"] = rows(&TransmissionPoint::alpha);
-  dict["theta_rad"] = rows(&TransmissionPoint::theta);
-  dict["dtheta_dalpha"] = rows(&TransmissionPoint::g);
-  dict["r1_mm"] = t1(&TendonPoint::p);
-  dict["r2_mm"] = t2(&TendonPoint::p);
-  dict["m1_mm"] = t1(&TendonPoint::m);
-  dict["m2_mm"] = t2(&TendonPoint::m);
-  dict["wrap1_rad"] = t1(&TendonPoint::wrap);
-  dict["wrap2_rad"] = t2(&TendonPoint::wrap);
-  dict["length1_mm"] = t1(&TendonPoint::length);
-  dict["length2_mm"] = t2(&TendonPoint::length);
+  dict["alpha_rad"] = rows(&transmission::TransmissionPoint::alpha);
+  dict["theta_rad"] = rows(&transmission::TransmissionPoint::theta);
+  dict["dtheta_dalpha"] = rows(&transmission::TransmissionPoint::g);
+  dict["r1_mm"] = t1(&transmission::TendonPoint::p);
+  dict["r2_mm"] = t2(&transmission::TendonPoint::p);
+  dict["m1_mm"] = t1(&transmission::TendonPoint::m);
+  dict["m2_mm"] = t2(&transmission::TendonPoint::m);
+  dict["wrap1_rad"] = t1(&transmission::TendonPoint::wrap);
+  dict["wrap2_rad"] = t2(&transmission::TendonPoint::wrap);
+  dict["length1_mm"] = t1(&transmission::TendonPoint::length);
+  dict["length2_mm"] = t2(&transmission::TendonPoint::length);
   return dict;
 }
 
-py::dict to_dict(const Rows<PaperForces>& rows) {
+py::dict to_dict(const Rows<transmission::PaperForces>& rows) {
   py::dict dict;
-  dict["tension1_N"] = rows(&PaperForces::T1);
-  dict["tension2_N"] = rows(&PaperForces::T2);
-  dict["tension_below_pin_N"] = rows(&PaperForces::Tb);
-  dict["elongation_mm"] = rows(&PaperForces::elongation);
-  dict["theta_error_rad"] = rows(&PaperForces::theta_error);
-  dict["motor_torque_Nmm"] = rows(&PaperForces::motor_torque);
-  dict["stiffness_Nmm_per_rad"] = rows(&PaperForces::stiffness);
+  dict["tension1_N"] = rows(&transmission::PaperForces::T1);
+  dict["tension2_N"] = rows(&transmission::PaperForces::T2);
+  dict["tension_below_pin_N"] = rows(&transmission::PaperForces::Tb);
+  dict["elongation_mm"] = rows(&transmission::PaperForces::elongation);
+  dict["theta_error_rad"] = rows(&transmission::PaperForces::theta_error);
+  dict["motor_torque_Nmm"] = rows(&transmission::PaperForces::motor_torque);
+  dict["stiffness_Nmm_per_rad"] = rows(&transmission::PaperForces::stiffness);
   return dict;
 }
 
-py::dict to_dict(const Rows<EquilibriumPoint>& rows) {
-  const Rows<TendonState> t1 = rows.part(&EquilibriumPoint::t1), t2 = rows.part(&EquilibriumPoint::t2);
+py::dict to_dict(const Rows<joint::EquilibriumPoint>& rows) {
+  const Rows<joint::TendonState> t1 = rows.part(&joint::EquilibriumPoint::t1),
+                                 t2 = rows.part(&joint::EquilibriumPoint::t2);
   py::dict dict;
-  dict["theta_rad"] = rows(&EquilibriumPoint::theta);
-  dict["tension1_N"] = t1(&TendonState::lower);
-  dict["tension2_N"] = t2(&TendonState::lower);
-  dict["tension1_joint_N"] = t1(&TendonState::upper);
-  dict["tension2_joint_N"] = t2(&TendonState::upper);
-  dict["slack1_mm"] = t1(&TendonState::slack);
-  dict["slack2_mm"] = t2(&TendonState::slack);
-  dict["motor_torque_Nmm"] = rows(&EquilibriumPoint::motor_torque);
-  dict["load_torque_Nmm"] = rows(&EquilibriumPoint::load_torque);
-  dict["stiffness_Nmm_per_rad"] = rows(&EquilibriumPoint::stiffness);
+  dict["theta_rad"] = rows(&joint::EquilibriumPoint::theta);
+  dict["tension1_N"] = t1(&joint::TendonState::lower);
+  dict["tension2_N"] = t2(&joint::TendonState::lower);
+  dict["tension1_joint_N"] = t1(&joint::TendonState::upper);
+  dict["tension2_joint_N"] = t2(&joint::TendonState::upper);
+  dict["slack1_mm"] = t1(&joint::TendonState::slack);
+  dict["slack2_mm"] = t2(&joint::TendonState::slack);
+  dict["motor_torque_Nmm"] = rows(&joint::EquilibriumPoint::motor_torque);
+  dict["load_torque_Nmm"] = rows(&joint::EquilibriumPoint::load_torque);
+  dict["stiffness_Nmm_per_rad"] = rows(&joint::EquilibriumPoint::stiffness);
   return dict;
 }
 
-py::dict to_dict(const py::capsule& kept, const Outline& outline) {
-  const Rows<OutlinePoint> rows = rows_of(kept, outline.points);
+py::dict to_dict(const py::capsule& kept, const profile::Outline& outline) {
+  const Rows<profile::OutlinePoint> rows = rows_of(kept, outline.points);
   py::dict dict;
   dict["side"] = words(side_word(outline.side));
-  dict["psi_rad"] = rows(&OutlinePoint::psi);
-  dict["position_mm"] =
-      points_of(kept, outline.points, 2, [](const OutlinePoint& point) -> const Vec2& { return point.position; });
-  dict["normal"] =
-      points_of(kept, outline.points, 2, [](const OutlinePoint& point) -> const Vec2& { return point.normal; });
-  dict["curvature_radius_mm"] = rows(&OutlinePoint::curvature_radius);
+  dict["psi_rad"] = rows(&profile::OutlinePoint::psi);
+  dict["position_mm"] = points_of(kept, outline.points, 2,
+                                  [](const profile::OutlinePoint& point) -> const Vec2& { return point.position; });
+  dict["normal"] = points_of(kept, outline.points, 2,
+                             [](const profile::OutlinePoint& point) -> const Vec2& { return point.normal; });
+  dict["curvature_radius_mm"] = rows(&profile::OutlinePoint::curvature_radius);
   dict["active_first"] = outline.active_first;
   dict["active_last"] = outline.active_last;
   return dict;
 }
 
-py::dict to_dict(const py::capsule& kept, const SynthesisResult& result) {
+py::dict to_dict(const py::capsule& kept, const profile::SynthesisResult& result) {
   py::dict dict;
   dict["made"] = result.made();
   dict["p1"] = to_dict(kept, result.p1);
@@ -205,13 +207,13 @@ py::dict to_dict(const py::capsule& kept, const SynthesisResult& result) {
   return dict;
 }
 
-py::dict to_dict(const py::capsule& kept, const RewindResult& result) {
-  const Rows<RewindPoint> rows = rows_of(kept, result.points);
+py::dict to_dict(const py::capsule& kept, const profile::RewindResult& result) {
+  const Rows<profile::RewindPoint> rows = rows_of(kept, result.points);
   py::dict dict;
-  dict["alpha_rad"] = rows(&RewindPoint::alpha);
-  dict["theta_declared_rad"] = rows(&RewindPoint::theta_declared);
-  dict["theta_rad"] = rows(&RewindPoint::theta);
-  dict["slack_mm"] = rows(&RewindPoint::slack);
+  dict["alpha_rad"] = rows(&profile::RewindPoint::alpha);
+  dict["theta_declared_rad"] = rows(&profile::RewindPoint::theta_declared);
+  dict["theta_rad"] = rows(&profile::RewindPoint::theta);
+  dict["slack_mm"] = rows(&profile::RewindPoint::slack);
   dict["max_theta_error_rad"] = result.max_theta_error;
   dict["max_theta_error_at_rad"] = result.max_theta_error_at;
   dict["max_slack_mm"] = result.max_slack;
@@ -219,7 +221,7 @@ py::dict to_dict(const py::capsule& kept, const RewindResult& result) {
   return dict;
 }
 
-py::dict to_dict(const py::capsule& kept, const TriangleMesh& mesh) {
+py::dict to_dict(const py::capsule& kept, const solid::TriangleMesh& mesh) {
   py::dict dict;
   dict["vertices_mm"] = points_of(kept, mesh.vertices, 3, [](const Vec3& vertex) -> const Vec3& { return vertex; });
   const std::size_t row = sizeof(std::array<std::uint32_t, 3>);
@@ -229,28 +231,28 @@ py::dict to_dict(const py::capsule& kept, const TriangleMesh& mesh) {
   return dict;
 }
 
-py::dict to_dict(const Extreme& extreme) {
+py::dict to_dict(const analysis::Extreme& extreme) {
   py::dict dict;
   dict["value"] = extreme.value;
   dict["alpha_rad"] = extreme.alpha;
   return dict;
 }
 
-py::dict to_dict(const TensionExtreme& extreme) {
+py::dict to_dict(const analysis::TensionExtreme& extreme) {
   py::dict dict;
   dict["tension_N"] = extreme.tension;
   dict["alpha_rad"] = extreme.alpha;
-  dict["tendon"] = extreme.tendon == Side::left ? 1 : 2;
+  dict["tendon"] = extreme.tendon == transmission::Side::left ? 1 : 2;
   dict["below_pin"] = extreme.below_pin;
   dict["rising"] = extreme.rising;
   return dict;
 }
 
-py::tuple to_tuple(const std::vector<AlphaRange>& ranges) {
-  return tuple_of(ranges, [](const AlphaRange& range) { return py::make_tuple(range.from, range.to); });
+py::tuple to_tuple(const std::vector<analysis::AlphaRange>& ranges) {
+  return tuple_of(ranges, [](const analysis::AlphaRange& range) { return py::make_tuple(range.from, range.to); });
 }
 
-py::dict to_dict(const ErrorSource& source) {
+py::dict to_dict(const analysis::ErrorSource& source) {
   py::dict dict;
   dict["name"] = words(source.name);
   dict["meaning"] = words(source.meaning);
@@ -260,7 +262,7 @@ py::dict to_dict(const ErrorSource& source) {
   return dict;
 }
 
-py::dict to_dict(const ToleranceEffect& effect) {
+py::dict to_dict(const analysis::ToleranceEffect& effect) {
   py::dict dict;
   dict["key"] = words(effect.key);
   dict["theta_by_derivative_rad"] = effect.theta_by_derivative;
@@ -272,7 +274,7 @@ py::dict to_dict(const ToleranceEffect& effect) {
   return dict;
 }
 
-py::object to_object(const std::optional<Strength>& strength) {
+py::object to_object(const std::optional<analysis::Strength>& strength) {
   if (!strength) return py::none();
   py::dict dict;
   dict["tension_N"] = strength->tension;
@@ -281,8 +283,8 @@ py::object to_object(const std::optional<Strength>& strength) {
   return dict;
 }
 
-py::tuple knots_of(const Holding& holding) {
-  return tuple_of(holding.knots, [&holding](const KnotHold& knot) {
+py::tuple knots_of(const solid::Holding& holding) {
+  return tuple_of(holding.knots, [&holding](const solid::KnotHold& knot) {
     py::dict dict;
     dict["side"] = words(side_word(knot.side));
     dict["alpha_rad"] = knot.alpha;
@@ -294,8 +296,8 @@ py::tuple knots_of(const Holding& holding) {
   });
 }
 
-py::tuple placements_of(const RewoundPart& part) {
-  return tuple_of(part.placements, [](const Placement& placement) {
+py::tuple placements_of(const pipeline::RewoundPart& part) {
+  return tuple_of(part.placements, [](const solid::Placement& placement) {
     py::dict dict;
     dict["axis_mm"] = py::make_tuple(placement.axis.x(), placement.axis.y());
     dict["turned_rad"] = placement.turn;
@@ -305,7 +307,7 @@ py::tuple placements_of(const RewoundPart& part) {
   });
 }
 
-std::string_view place_word(PartPlace place) {
+std::string_view place_word(pipeline::PartPlace place) {
   constexpr std::array<std::string_view, 3> k_words = {"as_made", "found", "not_recognised"};
   return k_words.at(static_cast<std::size_t>(place));
 }
@@ -313,16 +315,16 @@ std::string_view place_word(PartPlace place) {
 // ---- searches -------------------------------------------------------------------------------------------------------
 
 /// The keys that a design changes, ties included: key → value.
-py::dict numbers_of(const Problem& problem, const Design& design) {
+py::dict numbers_of(const optimize::Problem& problem, const optimize::Design& design) {
   py::dict dict;
-  for (const MovingKey& moving : problem.moving) dict[words(moving.key)] = moving.value(design);
+  for (const optimize::MovingKey& moving : problem.moving) dict[words(moving.key)] = moving.value(design);
   return dict;
 }
 
-py::tuple front_of(const OptimizeResult& result) {
-  const auto* pareto = std::get_if<ParetoResult>(&result.search);
+py::tuple front_of(const pipeline::OptimizeResult& result) {
+  const auto* pareto = std::get_if<optimize::ParetoResult>(&result.search);
   if (pareto == nullptr) return py::tuple();
-  return tuple_of(pareto->front, [&result](const FrontPoint& point) {
+  return tuple_of(pareto->front, [&result](const optimize::FrontPoint& point) {
     py::dict dict;
     dict["numbers"] = numbers_of(result.problem, point.design);
     dict["values"] = tuple_of(point.values, [](double value) { return py::float_(value); });
@@ -330,8 +332,8 @@ py::tuple front_of(const OptimizeResult& result) {
   });
 }
 
-void add_proof(const OptimizeResult& result, py::dict& dict) {
-  const auto* certified = std::get_if<CertifiedResult>(&result.search);
+void add_proof(const pipeline::OptimizeResult& result, py::dict& dict) {
+  const auto* certified = std::get_if<optimize::CertifiedResult>(&result.search);
   dict["proven"] = certified != nullptr && certified->proven;
   dict["lower_bound"] = certified != nullptr ? py::object(py::float_(certified->lower_bound)) : py::none();
   dict["relative_gap"] = certified != nullptr ? py::object(py::float_(certified->relative_gap)) : py::none();
@@ -339,17 +341,17 @@ void add_proof(const OptimizeResult& result, py::dict& dict) {
 
 // ---- runs -----------------------------------------------------------------------------------------------------------
 
-py::tuple residuals_of(const py::capsule& kept, const CalibrationProduct& product) {
-  const std::vector<Run>& runs = product.measurement.runs;
+py::tuple residuals_of(const py::capsule& kept, const formats::CalibrationProduct& product) {
+  const std::vector<measurement::Run>& runs = product.measurement.runs;
   py::list list;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Calibration& calibration = product.calibration;
+    const calibration::Calibration& calibration = product.calibration;
     if (i >= calibration.residuals_before.size() || i >= calibration.residuals_after.size()) break;
-    const Rows<Sample> rows = rows_of(kept, runs[i].samples);
+    const Rows<measurement::Sample> rows = rows_of(kept, runs[i].samples);
     py::dict dict;
     dict["name"] = path_words(runs[i].name);
-    dict["alpha_rad"] = rows(&Sample::alpha);
-    dict["theta_rad"] = rows(&Sample::theta);
+    dict["alpha_rad"] = rows(&measurement::Sample::alpha);
+    dict["theta_rad"] = rows(&measurement::Sample::theta);
     dict["before_rad"] = numbers(kept, calibration.residuals_before[i]);
     dict["after_rad"] = numbers(kept, calibration.residuals_after[i]);
     list.append(dict);
@@ -357,15 +359,15 @@ py::tuple residuals_of(const py::capsule& kept, const CalibrationProduct& produc
   return py::tuple(list);
 }
 
-py::tuple without_law_conditions(const std::optional<SynthesisResult>& without_law) {
-  return to_python(without_law ? without_law->conditions : std::vector<Condition>{});
+py::tuple without_law_conditions(const std::optional<profile::SynthesisResult>& without_law) {
+  return to_python(without_law ? without_law->conditions : std::vector<profile::Condition>{});
 }
 
-py::tuple without_law_advice(const std::optional<SynthesisResult>& without_law) {
-  return to_python(without_law ? without_law->advice : std::vector<Change>{});
+py::tuple without_law_advice(const std::optional<profile::SynthesisResult>& without_law) {
+  return to_python(without_law ? without_law->advice : std::vector<profile::Change>{});
 }
 
-py::dict step_of(const PlanStep& step, const std::string& file) {
+py::dict step_of(const plan::PlanStep& step, const std::string& file) {
   py::dict dict;
   dict["words"] = words(step.words);
   dict["minutes"] = step.minutes;
@@ -394,14 +396,14 @@ py::tuple to_python(const std::vector<std::string>& texts) {
 py::tuple to_python(const std::vector<Diagnostic>& diagnostics) {
   return tuple_of(diagnostics, [](const Diagnostic& diagnostic) { return to_dict(diagnostic); });
 }
-py::tuple to_python(const std::vector<Condition>& conditions) {
-  return tuple_of(conditions, [](const Condition& condition) { return to_dict(condition); });
+py::tuple to_python(const std::vector<profile::Condition>& conditions) {
+  return tuple_of(conditions, [](const profile::Condition& condition) { return to_dict(condition); });
 }
 py::tuple to_python(const std::vector<Check>& checks) {
   return tuple_of(checks, [](const Check& check) { return to_dict(check); });
 }
-py::tuple to_python(const std::vector<Change>& changes) {
-  return tuple_of(changes, [](const Change& change) { return to_dict(change); });
+py::tuple to_python(const std::vector<profile::Change>& changes) {
+  return tuple_of(changes, [](const profile::Change& change) { return to_dict(change); });
 }
 py::dict to_python(const std::vector<OutputFile>& files) {
   py::dict dict;
@@ -409,9 +411,9 @@ py::dict to_python(const std::vector<OutputFile>& files) {
   return dict;
 }
 
-py::dict to_python(std::shared_ptr<const SynthesisResult> result) { return to_dict(keep(result), *result); }
+py::dict to_python(std::shared_ptr<const profile::SynthesisResult> result) { return to_dict(keep(result), *result); }
 
-py::dict to_python(std::shared_ptr<const RewoundPart> result) {
+py::dict to_python(std::shared_ptr<const pipeline::RewoundPart> result) {
   py::dict dict = to_dict(keep(result), result->as_built);
   dict["place"] = words(place_word(result->place));
   dict["alone"] = result->alone ? py::object(words(side_word(*result->alone))) : py::none();
@@ -419,9 +421,9 @@ py::dict to_python(std::shared_ptr<const RewoundPart> result) {
   return dict;
 }
 
-py::dict to_python(std::shared_ptr<const BuildResult> result) {
+py::dict to_python(std::shared_ptr<const pipeline::BuildResult> result) {
   constexpr std::array<std::string_view, 3> k_status = {"done", "infeasible", "check_failed"};
-  const Product& product = result->product;
+  const formats::Product& product = result->product;
   const py::capsule kept = keep(result);
   py::dict dict;
   dict["status"] = words(k_status.at(static_cast<std::size_t>(result->status)));
@@ -441,15 +443,15 @@ py::dict to_python(std::shared_ptr<const BuildResult> result) {
   return dict;
 }
 
-py::dict to_python(std::shared_ptr<const AnalysisResult> result) {
+py::dict to_python(std::shared_ptr<const analysis::AnalysisResult> result) {
   const py::capsule kept = keep(result);
-  const Rows<AnalysisRow> rows = rows_of(kept, result->rows);
+  const Rows<analysis::AnalysisRow> rows = rows_of(kept, result->rows);
   py::dict dict;
   dict["exists"] = result->exists;
-  dict["declared"] = to_dict(rows.part(&AnalysisRow::declared));
-  dict["paper"] = to_dict(rows.part(&AnalysisRow::paper));
-  dict["rising"] = to_dict(rows.part(&AnalysisRow::rising));
-  dict["falling"] = to_dict(rows.part(&AnalysisRow::falling));
+  dict["declared"] = to_dict(rows.part(&analysis::AnalysisRow::declared));
+  dict["paper"] = to_dict(rows.part(&analysis::AnalysisRow::paper));
+  dict["rising"] = to_dict(rows.part(&analysis::AnalysisRow::rising));
+  dict["falling"] = to_dict(rows.part(&analysis::AnalysisRow::falling));
   dict["conditions"] = to_python(result->obstacles);
   dict["advice"] = to_python(result->advice);
   dict["largest_tension"] = to_dict(result->largest_tension);
@@ -464,17 +466,18 @@ py::dict to_python(std::shared_ptr<const AnalysisResult> result) {
   dict["lost_at_rad"] = maybe(result->lost_at);
   dict["strength"] = to_object(result->strength);
   dict["breaks_at_rad"] = maybe(result->breaks_at);
-  dict["sources"] = tuple_of(result->sources, [](const ErrorSource& source) { return to_dict(source); });
-  dict["tolerances"] = tuple_of(result->tolerances, [](const ToleranceEffect& effect) { return to_dict(effect); });
+  dict["sources"] = tuple_of(result->sources, [](const analysis::ErrorSource& source) { return to_dict(source); });
+  dict["tolerances"] =
+      tuple_of(result->tolerances, [](const analysis::ToleranceEffect& effect) { return to_dict(effect); });
   dict["warnings"] = to_python(result->warnings);
   return dict;
 }
 
-py::dict to_python(std::shared_ptr<const OptimizeResult> result) {
+py::dict to_python(std::shared_ptr<const pipeline::OptimizeResult> result) {
   constexpr std::array<std::string_view, 3> k_methods = {"certified", "genetic", "pareto"};
   py::list objectives;
-  for (const Objective objective : result->problem.objectives)
-    objectives.append(py::make_tuple(words(info(objective).name), words(info(objective).unit)));
+  for (const optimize::Objective objective : result->problem.objectives)
+    objectives.append(py::make_tuple(words(optimize::info(objective).name), words(optimize::info(objective).unit)));
   py::dict dict;
   dict["method"] = words(k_methods.at(static_cast<std::size_t>(result->method())));
   dict["objectives"] = py::tuple(objectives);
@@ -491,9 +494,9 @@ py::dict to_python(std::shared_ptr<const OptimizeResult> result) {
   return dict;
 }
 
-py::dict to_python(std::shared_ptr<const CalibrateResult> result) {
+py::dict to_python(std::shared_ptr<const pipeline::CalibrateResult> result) {
   py::dict dict;
-  dict["document"] = words(calibration_json(result->product));
+  dict["document"] = words(formats::calibration_json(result->product));
   dict["residuals"] = residuals_of(keep(result), result->product);
   dict["notes"] = to_python(result->product.measurement.notes);
   dict["warnings"] = to_python(result->product.file.warnings);
@@ -503,9 +506,9 @@ py::dict to_python(std::shared_ptr<const CalibrateResult> result) {
   return dict;
 }
 
-py::dict to_python(std::shared_ptr<const CompareResult> result) {
+py::dict to_python(std::shared_ptr<const pipeline::CompareResult> result) {
   py::dict dict;
-  dict["document"] = words(comparison_json(result->product));
+  dict["document"] = words(formats::comparison_json(result->product));
   dict["notes"] = to_python(result->product.measurement.notes);
   dict["warnings"] = to_python(result->product.file.warnings);
   dict["files"] = to_python(result->outputs);
@@ -513,34 +516,36 @@ py::dict to_python(std::shared_ptr<const CompareResult> result) {
   return dict;
 }
 
-py::dict to_python(std::shared_ptr<const PlanResult> result) {
-  const Plan& plan = result->product.plan;
+py::dict to_python(std::shared_ptr<const pipeline::PlanResult> result) {
+  const plan::Plan& plan = result->product.plan;
   py::list steps;
-  for (std::size_t i = 0; i < plan.steps.size(); ++i) steps.append(step_of(plan.steps[i], run_file_name(plan, i)));
+  for (std::size_t i = 0; i < plan.steps.size(); ++i)
+    steps.append(step_of(plan.steps[i], formats::run_file_name(plan, i)));
   py::dict dict;
   dict["exists"] = !result->without_law;
   dict["conditions"] = without_law_conditions(result->without_law);
   dict["advice"] = without_law_advice(result->without_law);
   dict["steps"] = py::tuple(steps);
-  dict["beyond"] = tuple_of(plan.beyond, [](const PlanStep& step) { return step_of(step, ""); });
+  dict["beyond"] = tuple_of(plan.beyond, [](const plan::PlanStep& step) { return step_of(step, ""); });
   dict["minutes"] = plan.minutes;
   dict["groups"] = tuple_of(plan.groups, [](const std::vector<std::string>& group) { return to_python(group); });
-  dict["document"] = words(result->without_law ? "" : plan_json(result->product));
+  dict["document"] = words(result->without_law ? "" : formats::plan_json(result->product));
   dict["warnings"] = to_python(result->product.file.warnings);
   dict["files"] = to_python(result->outputs);
   dict["published"] = result->published;
   return dict;
 }
 
-py::dict to_python(std::shared_ptr<const SimulateResult> result) {
-  const Simulation& simulation = result->simulation;
+py::dict to_python(std::shared_ptr<const pipeline::SimulateResult> result) {
+  const formats::Simulation& simulation = result->simulation;
   py::dict columns;
   py::list status;
   if (!result->without_law) {
-    const auto table = std::make_shared<const std::vector<SimulationColumn>>(simulation_columns(simulation));
+    const auto table =
+        std::make_shared<const std::vector<formats::SimulationColumn>>(formats::simulation_columns(simulation));
     const py::capsule kept = keep(table);
-    for (const SimulationColumn& column : *table) columns[words(column.name)] = numbers(kept, column.values);
-    for (const JointState& state : simulation.states) status.append(words(word(state.status)));
+    for (const formats::SimulationColumn& column : *table) columns[words(column.name)] = numbers(kept, column.values);
+    for (const joint::JointState& state : simulation.states) status.append(words(formats::word(state.status)));
   }
   py::dict dict;
   dict["exists"] = !result->without_law;
@@ -550,18 +555,19 @@ py::dict to_python(std::shared_ptr<const SimulateResult> result) {
   dict["status"] = py::tuple(status);
   dict["notes"] = to_python(simulation.log.notes);
   dict["warnings"] = to_python(simulation.file.warnings);
-  dict["csv"] = words(result->without_law ? "" : simulation_csv(simulation));
+  dict["csv"] = words(result->without_law ? "" : formats::simulation_csv(simulation));
   return dict;
 }
 
-py::dict to_python(std::shared_ptr<const KitResult> result) {
+py::dict to_python(std::shared_ptr<const pipeline::KitResult> result) {
   constexpr std::array<std::string_view, 4> k_status = {"done", "no_pulley", "no_kit", "check_failed"};
-  const Product& pulley = result->product.pulley;
-  const std::vector<Condition>& of_pulley =
+  const formats::Product& pulley = result->product.pulley;
+  const std::vector<profile::Condition>& of_pulley =
       pulley.synthesis.made() ? pulley.pulley.conditions : pulley.synthesis.conditions;
   py::dict dict;
   dict["status"] = words(k_status.at(static_cast<std::size_t>(result->ending)));
-  dict["conditions"] = to_python(result->ending == KitEnding::no_pulley ? of_pulley : result->product.plan.conditions);
+  dict["conditions"] =
+      to_python(result->ending == pipeline::KitEnding::no_pulley ? of_pulley : result->product.plan.conditions);
   dict["advice"] = to_python(result->advice.alone);
   dict["advice_together"] = to_python(result->advice.together);
   dict["checks"] = to_python(result->product.checks);

@@ -23,22 +23,22 @@ py::str path_words(const std::string& path);
 
 py::tuple to_python(const std::vector<std::string>& texts);
 py::tuple to_python(const std::vector<Diagnostic>& diagnostics);
-py::tuple to_python(const std::vector<Condition>& conditions);
+py::tuple to_python(const std::vector<profile::Condition>& conditions);
 py::tuple to_python(const std::vector<Check>& checks);
-py::tuple to_python(const std::vector<Change>& changes);
+py::tuple to_python(const std::vector<profile::Change>& changes);
 /// File name → bytes.
 py::dict to_python(const std::vector<OutputFile>& files);
 
 /// Arrays of these dictionaries are views of the value, which lives as long as the last of them.
-py::dict to_python(std::shared_ptr<const SynthesisResult> result);
-py::dict to_python(std::shared_ptr<const RewoundPart> result);
-py::dict to_python(std::shared_ptr<const BuildResult> result);
-py::dict to_python(std::shared_ptr<const AnalysisResult> result);
-py::dict to_python(std::shared_ptr<const OptimizeResult> result);
-py::dict to_python(std::shared_ptr<const CalibrateResult> result);
-py::dict to_python(std::shared_ptr<const CompareResult> result);
-py::dict to_python(std::shared_ptr<const PlanResult> result);
-py::dict to_python(std::shared_ptr<const SimulateResult> result);
-py::dict to_python(std::shared_ptr<const KitResult> result);
+py::dict to_python(std::shared_ptr<const profile::SynthesisResult> result);
+py::dict to_python(std::shared_ptr<const pipeline::RewoundPart> result);
+py::dict to_python(std::shared_ptr<const pipeline::BuildResult> result);
+py::dict to_python(std::shared_ptr<const analysis::AnalysisResult> result);
+py::dict to_python(std::shared_ptr<const pipeline::OptimizeResult> result);
+py::dict to_python(std::shared_ptr<const pipeline::CalibrateResult> result);
+py::dict to_python(std::shared_ptr<const pipeline::CompareResult> result);
+py::dict to_python(std::shared_ptr<const pipeline::PlanResult> result);
+py::dict to_python(std::shared_ptr<const pipeline::SimulateResult> result);
+py::dict to_python(std::shared_ptr<const pipeline::KitResult> result);
 
 }  // namespace fusee::python

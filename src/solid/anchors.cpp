@@ -7,7 +7,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Distances from the end of the active arc (or of the requested wrap) at which a channel entry may begin, in tendon
@@ -167,8 +167,8 @@ std::array<Bar, 2> AnchorPath::tab_sides(double width, double radius) const {
   return {Bar{pocket() + aside, end + aside, 0.0}, Bar{pocket() - aside, end - aside, 0.0}};
 }
 
-ArcWalk::ArcWalk(const Outline& outline, bool wound_end) : outline_(outline) {
-  const bool from_last = (outline.side == Side::left) == wound_end;
+ArcWalk::ArcWalk(const profile::Outline& outline, bool wound_end) : outline_(outline) {
+  const bool from_last = (outline.side == transmission::Side::left) == wound_end;
   sense_ = from_last ? 1.0 : -1.0;
   const std::size_t from = from_last ? outline.active_last : outline.active_first;
   const std::size_t to = from_last ? outline.active_first : outline.active_last;
@@ -178,7 +178,7 @@ ArcWalk::ArcWalk(const Outline& outline, bool wound_end) : outline_(outline) {
   index_.push_back(from);
   while (index_.back() != to) {
     const std::size_t next = from_last ? (index_.back() + 1) % n : (index_.back() + n - 1) % n;
-    const OutlinePoint &here = outline.points[index_.back()], &there = outline.points[next];
+    const profile::OutlinePoint &here = outline.points[index_.back()], &there = outline.points[next];
     reach_.push_back(reach_.back() + (there.position - here.position).norm());
     wrap_.push_back(wrap_.back() + std::abs(std::remainder(there.psi - here.psi, k_two_pi)));
     index_.push_back(next);
@@ -193,7 +193,7 @@ Station ArcWalk::at(double s) const {
     share = 0.0;
   }
   share = std::clamp(share, k_from_point, 1.0 - k_from_point);
-  const OutlinePoint &a = outline_.points[index_[k - 1]], &b = outline_.points[index_[k]];
+  const profile::OutlinePoint &a = outline_.points[index_[k - 1]], &b = outline_.points[index_[k]];
   const double lap = reach_[k - 1] + share * (reach_[k] - reach_[k - 1]);
   return {lap, wrap_[k - 1] + share * (wrap_[k] - wrap_[k - 1]), a.position + share * (b.position - a.position),
           (a.normal + share * (b.normal - a.normal)).normalized()};
@@ -211,9 +211,9 @@ ArcWalk::Place ArcWalk::place(const std::vector<double>& increasing, double valu
   return {k, std::clamp((value - increasing[k - 1]) / (increasing[k] - increasing[k - 1]), 0.0, 1.0)};
 }
 
-AnchorGround::AnchorGround(const Outline& outline, double tendon_diameter)
+AnchorGround::AnchorGround(const profile::Outline& outline, double tendon_diameter)
     : outline_(outline), from_wound_end_(outline, true), from_spare_end_(outline, false) {
-  const Polygon all = parallel(outline, -0.5 * tendon_diameter);
+  const Polygon all = profile::parallel(outline, -0.5 * tendon_diameter);
   Polygon floor;
   for (const std::size_t i : coarse_floor(all.size(), {outline.active_first, outline.active_last})) {
     floor.push_back(all[i]);
@@ -300,4 +300,4 @@ Polygon outline_of(const Keyhole& keyhole) {
   return outline;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -12,7 +12,7 @@
 #include "fusee/profile.h"
 #include "solid/plane_distance.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Number of chords of a channel's arc.
 inline constexpr int k_fillet_steps = 6;
@@ -32,7 +32,7 @@ struct Station {
 /// Walks an outline's closing arc from one end of the active arc to the other. Keeps a reference to the outline.
 class ArcWalk {
  public:
-  ArcWalk(const Outline& outline, bool wound_end);
+  ArcWalk(const profile::Outline& outline, bool wound_end);
 
   /// +1 if the walk is counter-clockwise, −1 otherwise.
   double sense() const { return sense_; }
@@ -51,7 +51,7 @@ class ArcWalk {
   };
   static Place place(const std::vector<double>& increasing, double value);
 
-  const Outline& outline_;
+  const profile::Outline& outline_;
   double sense_ = 1;
   std::vector<double> reach_;
   std::vector<double> wrap_;
@@ -91,9 +91,9 @@ struct LapRange {
 /// the outline.
 class AnchorGround {
  public:
-  AnchorGround(const Outline& outline, double tendon_diameter);
+  AnchorGround(const profile::Outline& outline, double tendon_diameter);
 
-  const Outline& outline() const { return outline_; }
+  const profile::Outline& outline() const { return outline_; }
   const ArcWalk& arc(bool wound_end) const { return wound_end ? from_wound_end_ : from_spare_end_; }
   /// The range that leaves at least this much wrap past the active arc, rad. Empty (least > most) if the closing arc
   /// ends before.
@@ -106,7 +106,7 @@ class AnchorGround {
   double radius() const { return radius_; }
 
  private:
-  const Outline& outline_;
+  const profile::Outline& outline_;
   ArcWalk from_wound_end_, from_spare_end_;
   std::vector<Vec2> active_floor_;
   // Half-planes whose intersection is the floor: x·inward ≥ offset.
@@ -166,4 +166,4 @@ Keyhole keyhole(const AnchorPath& path, double width, double radius, int facets)
 int pocket_facets(double radius);
 Polygon outline_of(const Keyhole& keyhole);
 
-}  // namespace fusee
+}  // namespace fusee::solid

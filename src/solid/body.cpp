@@ -7,7 +7,7 @@
 #include "solid/bore.h"
 #include "solid/plane_distance.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Distance of a rim from the outlines it must contain: larger than any facet's sagitta, too small to notice.
@@ -17,10 +17,10 @@ constexpr double k_hub_sagitta = 0.01;
 constexpr double k_blend = 0.5;
 
 // A circle sampled at the outline's normals.
-Polygon circle_like(const Outline& outline, double radius) {
+Polygon circle_like(const profile::Outline& outline, double radius) {
   Polygon points;
   points.reserve(outline.points.size());
-  for (const OutlinePoint& point : outline.points) points.push_back(radius * point.normal);
+  for (const profile::OutlinePoint& point : outline.points) points.push_back(radius * point.normal);
   return points;
 }
 
@@ -48,7 +48,7 @@ bool strictly_outside(const Polygon& outer, const Polygon& inner) {
 // Outline around both curves: the smooth maximum of their support functions, h = τ log(e^{h1/τ} + e^{h2/τ}). Its radius
 // of curvature h + h'' is the weighted mean of both plus w1 w2 (h1' − h2')²/τ > 0, so it is convex. Its point is h n +
 // h' t with h' = w1 h1' + w2 h2'.
-Polygon around_both(const Outline& p1, const Outline& p2, double offset, double margin) {
+Polygon around_both(const profile::Outline& p1, const profile::Outline& p2, double offset, double margin) {
   Polygon points;
   points.reserve(p1.points.size());
   for (std::size_t i = 0; i < p1.points.size(); ++i) {
@@ -80,7 +80,8 @@ Polygon grown_until_outside(const MakeRim& make_rim, const Polygon& a, const Pol
 
 class StackBuilder {
  public:
-  StackBuilder(const Outline& p1, const Outline& p2, double tendon_diameter, Flange kind, const BodyLayout& layout)
+  StackBuilder(const profile::Outline& p1, const profile::Outline& p2, double tendon_diameter, Flange kind,
+               const BodyLayout& layout)
       : p1_(p1),
         p2_(p2),
         d_(tendon_diameter),
@@ -152,9 +153,9 @@ class StackBuilder {
     return rim;
   }
 
-  void add_groove(const Outline& outline, double z, const GrooveWalls& walls) {
+  void add_groove(const profile::Outline& outline, double z, const GrooveWalls& walls) {
     const auto add_point = [&](const GroovePoint& point, double sign) {
-      add(z + sign * point.dz, parallel(outline, -0.5 * d_ + point.offset));
+      add(z + sign * point.dz, profile::parallel(outline, -0.5 * d_ + point.offset));
     };
     for (std::size_t k = walls.below.size(); k-- > 1;) add_point(walls.below[k], -1.0);
     for (std::size_t k = 1; k < walls.above.size(); ++k) add_point(walls.above[k], 1.0);
@@ -185,8 +186,8 @@ class StackBuilder {
             {top, cone.hole}};
   }
 
-  const Outline& p1_;
-  const Outline& p2_;
+  const profile::Outline& p1_;
+  const profile::Outline& p2_;
   double d_;
   const BodyLayout& layout_;
   Flange kind_;
@@ -201,13 +202,14 @@ double gap_to_line(const Vec2& point, const Vec2& a, const Vec2& b) {
 
 }  // namespace
 
-FlangeRims flange_rims(const Outline& p1, const Outline& p2, double tendon_diameter, double groove_depth, Flange kind) {
+FlangeRims flange_rims(const profile::Outline& p1, const profile::Outline& p2, double tendon_diameter,
+                       double groove_depth, Flange kind) {
   demand(p1.points.size() == p2.points.size() && p1.points.size() >= 3,
          "outlines of " + std::to_string(p1.points.size()) + " and " + std::to_string(p2.points.size()) + " points");
   const double groove_edge = groove_depth - 0.5 * tendon_diameter;
   FlangeRims rims;
-  rims.groove_edge1 = parallel(p1, groove_edge);
-  rims.groove_edge2 = parallel(p2, groove_edge);
+  rims.groove_edge1 = profile::parallel(p1, groove_edge);
+  rims.groove_edge2 = profile::parallel(p2, groove_edge);
   if (kind == Flange::follow) {
     rims.lower = rims.groove_edge1;
     rims.upper = rims.groove_edge2;
@@ -239,11 +241,11 @@ double cone_height(const Polygon& inner, const Polygon& outer, double slope) {
   return widest * std::tan(slope);
 }
 
-RingStack body_stack(const Outline& p1, const Outline& p2, double tendon_diameter, Flange kind,
+RingStack body_stack(const profile::Outline& p1, const profile::Outline& p2, double tendon_diameter, Flange kind,
                      const BodyLayout& layout, Piece piece) {
   return StackBuilder(p1, p2, tendon_diameter, kind, layout).build(piece);
 }
 
 double inradius(const Polygon& convex) { return depth_inside(convex, Vec2::Zero()); }
 
-}  // namespace fusee
+}  // namespace fusee::solid

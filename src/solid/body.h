@@ -8,7 +8,7 @@
 #include "fusee/solid.h"
 #include "solid/rings.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// The flanges' outlines, sampled at the outlines' normals. If the outlines are so coarse that no rim of the same
 /// normals lies outside both groove edges, `outside` is false and the rims must not be used.
@@ -22,7 +22,8 @@ struct FlangeRims {
   Polygon upper;  ///< flange 2
   bool outside = true;
 };
-FlangeRims flange_rims(const Outline& p1, const Outline& p2, double tendon_diameter, double groove_depth, Flange kind);
+FlangeRims flange_rims(const profile::Outline& p1, const profile::Outline& p2, double tendon_diameter,
+                       double groove_depth, Flange kind);
 
 /// Height of a cone from `inner` to `outer` (equal normals, one within the other) with no facet flatter than `slope`
 /// above the horizontal.
@@ -30,10 +31,10 @@ double cone_height(const Polygon& inner, const Polygon& outer, double slope);
 
 /// The whole body, or P1 or P2 only, at its position in the whole.
 enum class Piece { whole, p1, p2 };
-RingStack body_stack(const Outline& p1, const Outline& p2, double tendon_diameter, Flange kind,
+RingStack body_stack(const profile::Outline& p1, const profile::Outline& p2, double tendon_diameter, Flange kind,
                      const BodyLayout& layout, Piece piece = Piece::whole);
 
 /// The largest circle about the axis inside a convex polygon around it.
 double inradius(const Polygon& convex);
 
-}  // namespace fusee
+}  // namespace fusee::solid

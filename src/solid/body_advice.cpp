@@ -4,13 +4,13 @@
 #include <array>
 #include <iterator>
 
-#include "mechanism/catalogue.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/solid.h"
+#include "mechanism/catalogue.h"
 #include "solid/plan.h"
 #include "solid/size.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 constexpr std::array k_body_keys{"body.groove_depth_mm", "body.flange_thickness_mm", "body.hub_diameter_mm",
@@ -54,34 +54,34 @@ const std::vector<Alternatives>& printing_alternatives() {
 
 class BodyAdviser {
  public:
-  BodyAdviser(const Mechanism& mechanism, const FeasibilityOracle& judge, Parts refused)
+  BodyAdviser(const Mechanism& mechanism, const profile::FeasibilityOracle& judge, Parts refused)
       : mechanism_(mechanism),
         judge_(judge),
         refused_(refused == Parts::one   ? "one"
                  : refused == Parts::two ? "two"
                                          : "") {}
 
-  Advice all() const {
-    Advice advice;
-    const std::vector<Condition> failed = judge_.obstacles(mechanism_);
+  profile::Advice all() const {
+    profile::Advice advice;
+    const std::vector<profile::Condition> failed = judge_.obstacles(mechanism_);
     if (failed.empty()) {
       for (const Alternatives& words : printing_alternatives()) add_word(advice.alone, words);
       return advice;
     }
     for (const Alternatives& words : screw_alternatives()) {
-      const auto is_about = [&words](const Condition& condition) {
+      const auto is_about = [&words](const profile::Condition& condition) {
         return condition.name.starts_with(words.condition);
       };
       if (std::any_of(failed.begin(), failed.end(), is_about)) add_word(advice.alone, words);
     }
     // Without curves, no number of the body alone would help.
-    FeasibilityOracle judge = judge_;
-    judge.is_expensive = !obstacle_to(mechanism_);  // each try plans a body
+    profile::FeasibilityOracle judge = judge_;
+    judge.is_expensive = !profile::obstacle_to(mechanism_);  // each try plans a body
     std::vector<std::string> keys = judge.is_expensive ? written_keys(mechanism_) : std::vector<std::string>{};
-    const auto is_height = [](const Condition& condition) { return condition.name == k_height_condition; };
+    const auto is_height = [](const profile::Condition& condition) { return condition.name == k_height_condition; };
     if (!mechanism_.print.supports && std::any_of(failed.begin(), failed.end(), is_height))
       keys.emplace_back("print.overhang_deg");
-    const Advice numbers = find_advice(mechanism_, judge, keys, advice.alone.size());
+    const profile::Advice numbers = profile::find_advice(mechanism_, judge, keys, advice.alone.size());
     advice.alone.insert(advice.alone.end(), numbers.alone.begin(), numbers.alone.end());
     for (const std::string& key : keys) {
       if (advice.alone.empty() && key.starts_with("body.")) add_automatic(advice.alone, key);
@@ -97,7 +97,7 @@ class BodyAdviser {
   }
 
   // Adds the first alternative that helps, other than the present value.
-  void add_word(std::vector<Change>& changes, const Alternatives& words) const {
+  void add_word(std::vector<profile::Change>& changes, const Alternatives& words) const {
     const Field& field = *find_field(words.key);
     DeclaredMechanism changed(mechanism_);
     const std::string from = field.get_text(changed);
@@ -114,7 +114,7 @@ class BodyAdviser {
   }
 
   // If no other value of a number helps, it may still be left automatic.
-  void add_automatic(std::vector<Change>& changes, const std::string& key) const {
+  void add_automatic(std::vector<profile::Change>& changes, const std::string& key) const {
     Mechanism automatic = mechanism_;
     const Field& field = *find_field(key);
     set_number(automatic, field, 0, 0.0);
@@ -123,7 +123,7 @@ class BodyAdviser {
   }
 
   const Mechanism& mechanism_;
-  const FeasibilityOracle& judge_;
+  const profile::FeasibilityOracle& judge_;
   std::string_view refused_;  ///< a word of print.parts
 };
 
@@ -136,17 +136,18 @@ bool is_written(const Mechanism& mechanism, std::string_view key) {
   return number_of(mechanism, std::string(key)) > 0;
 }
 
-std::vector<Condition> body_obstacles(const Mechanism& mechanism, const SynthesisResult& synthesis) {
-  return failed_of(plan_body(mechanism, synthesis, {.wrap = WrapChoice::nearest, .conditions_alone = true}).conditions);
+std::vector<profile::Condition> body_obstacles(const Mechanism& mechanism, const profile::SynthesisResult& synthesis) {
+  return profile::failed_of(
+      plan_body(mechanism, synthesis, {.wrap = WrapChoice::nearest, .conditions_alone = true}).conditions);
 }
 
-std::vector<Condition> obstacles(const Mechanism& mechanism) {
-  const SynthesisResult synthesis = synthesise(mechanism, {.advice = false});
-  return synthesis.made() ? body_obstacles(mechanism, synthesis) : failed_of(synthesis.conditions);
+std::vector<profile::Condition> obstacles(const Mechanism& mechanism) {
+  const profile::SynthesisResult synthesis = profile::synthesise(mechanism, {.advice = false});
+  return synthesis.made() ? body_obstacles(mechanism, synthesis) : profile::failed_of(synthesis.conditions);
 }
 
-Advice body_advice(const Mechanism& mechanism, const FeasibilityOracle& judge, Parts refused) {
+profile::Advice body_advice(const Mechanism& mechanism, const profile::FeasibilityOracle& judge, Parts refused) {
   return BodyAdviser(mechanism, judge, refused).all();
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

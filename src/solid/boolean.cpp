@@ -22,7 +22,7 @@
 // A tool touches about a tenth of a body's facets. Only these are passed to CGAL, which cuts both surfaces along their
 // common line into patches. One point of each patch decides whether it lies inside or outside the other solid.
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 enum class Operation { subtract, unite };
@@ -514,4 +514,4 @@ TriangleMesh together(const std::vector<TriangleMesh>& meshes) {
   return all;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -8,7 +8,7 @@
 
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 struct BooleanResult {
   TriangleMesh mesh;         ///< rounded to float
@@ -31,4 +31,4 @@ std::optional<BooleanResult> unite(const TriangleMesh& a, const TriangleMesh& b)
 /// Several disjoint meshes in one.
 TriangleMesh together(const std::vector<TriangleMesh>& meshes);
 
-}  // namespace fusee
+}  // namespace fusee::solid

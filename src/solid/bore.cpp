@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 #include "mechanism/catalogue.h"
 #include "solid/condition_list.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // With fewer corners, a shaft of the hole's diameter would not turn in it.
@@ -198,7 +198,7 @@ BoreLayout bore_of_shaft(Mechanism mechanism, const BoreLayout& made) {
   return bore_layout(mechanism, made.shaft);
 }
 
-std::optional<Condition> flat_off_shaft(const Body& body, double shaft) {
+std::optional<profile::Condition> flat_off_shaft(const Body& body, double shaft) {
   if (body.bore != Bore::d || body.bore_flat <= 0) return std::nullopt;
   const bool outside = body.bore_flat > shaft;
   if (!outside && body.bore_flat > 0.5 * shaft) return std::nullopt;
@@ -224,4 +224,4 @@ RecessCone recess_cone(const BoreLayout& bore) {
   return cone;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -7,7 +7,7 @@
 #include "fusee/profile.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// A printed round hole (polyhole): its facets are tangent to the circle from outside. It has two facets per mm of
 /// diameter, as many as the printer can resolve.
@@ -23,7 +23,7 @@ BoreLayout bore_of_shaft(Mechanism mechanism, const BoreLayout& made);
 
 /// Condition that fails if a written flat lies outside a D shaft of this diameter or not beyond its axis; empty
 /// otherwise.
-std::optional<Condition> flat_off_shaft(const Body& body, double shaft);
+std::optional<profile::Condition> flat_off_shaft(const Body& body, double shaft);
 
 /// The cone in which a horn's recess narrows to the centre screw's hole. Both rims have a corner on every ray from the
 /// axis on which either polygon has one. The cone therefore ends in the hole itself and leaves no ledge.
@@ -36,4 +36,4 @@ struct RecessCone {
 /// Requires a bore with a recess that contains the hole.
 RecessCone recess_cone(const BoreLayout& bore);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 constexpr std::uint32_t k_leaf = 4;
@@ -69,4 +69,4 @@ void BoxTree::add_node(std::vector<SortedBox>& sorted, std::uint32_t first, std:
   nodes_[place].box = around(nodes_[place + 1].box, nodes_[right].box);
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

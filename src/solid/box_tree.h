@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace fusee {
+namespace fusee::solid {
 
 /// A box in any three coordinates, including its faces.
 struct Box3 {
@@ -90,4 +90,4 @@ class BoxTree {
   std::vector<Node> nodes_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -11,7 +11,7 @@
 #include "fusee/base.h"
 #include "solid/nearest_segment.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Largest spacing of lines across a patch, finer than any relevant step. A patch of less than 8 mm gets k_lines of
@@ -302,4 +302,4 @@ SupportGaps support_gaps_of(const OverhangPatch& patch, const PrintLimits& limit
   return Ceiling(patch, limits).best();
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

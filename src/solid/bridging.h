@@ -2,10 +2,10 @@
 /// Internal: support of too flat ceilings over air, by bridges along one direction and by overhangs beyond them. mm.
 #pragma once
 
-#include "solid/print.h"
 #include "solid/overhangs.h"
+#include "solid/print.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 struct SupportGaps {
   double bridge = 0;  ///< longest span supported at both ends; 0: none required
@@ -19,4 +19,4 @@ struct SupportGaps {
 /// Uses the most favourable direction of the patch, as a slicer does.
 SupportGaps support_gaps_of(const OverhangPatch& patch, const PrintLimits& limits);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -8,7 +8,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Constrained Delaunay triangulation, counter-clockwise, of the region inside loops[0] and outside the other loops.
 /// These lie in loops[0] and are disjoint; their orientation does not matter. Indices count through all loops' points
@@ -16,4 +16,4 @@ namespace fusee {
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Polygon>& loops,
                                                       const std::vector<Vec2>& inner = {});
 
-}  // namespace fusee
+}  // namespace fusee::solid

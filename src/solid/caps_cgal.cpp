@@ -8,7 +8,7 @@
 #include "fusee/base.h"
 #include "solid/caps.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -75,4 +75,4 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Polygon>
   return triangles;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

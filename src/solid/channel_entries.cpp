@@ -6,7 +6,7 @@
 #include "fusee/base.h"
 #include "solid/plane_distance.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Depth of the channel's outer edge within the floor from which the edge is left unchanged.
@@ -171,4 +171,4 @@ double entry_rise(const BodyLayout& layout) {
   return std::max(0.0, 0.5 * layout.channel_width + top - ceiling);
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -8,7 +8,7 @@
 #include "fusee/solid.h"
 #include "solid/anchors.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Both edges of a channel from its entry to its pocket, point by point. The ceiling rises from the inner to the outer
 /// edge.
@@ -36,4 +36,4 @@ ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& f
 /// at the groove edge.
 double entry_rise(const BodyLayout& layout);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -19,7 +19,7 @@
 #include "solid/solid_angle.h"
 #include "solid/sorted_by_vertex.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 std::string facet_at(const ExaminedSurface& surface, std::size_t facet) {
@@ -281,4 +281,4 @@ std::vector<Check> check_mesh(const TriangleMesh& mesh) {
   return checks;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

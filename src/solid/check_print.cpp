@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "base/text.h"
-#include "solid/print.h"
 #include "solid/bridging.h"
 #include "solid/nearest_float.h"
 #include "solid/overhangs.h"
 #include "solid/place.h"
+#include "solid/print.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Reasons for the usual limits. A line of plastic is about 0.45 mm wide and is safe on half of the line below: at
@@ -93,4 +93,4 @@ std::vector<Check> check_print(const TriangleMesh& mesh, const PrintLimits& limi
   return checks_within(with_tolerances(limits), mesh);
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 #include "fusee/solid.h"
 #include "solid/euler.h"
 #include "solid/nearest_float.h"
 #include "solid/nearest_segment.h"
 #include "solid/plane_distance.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Relative tolerance of the volume: much smaller than any feature, much larger than the rounding of vertices.
@@ -25,14 +25,15 @@ std::string place_in_plan(const Vec2& point) { return "(" + fixed(point.x(), 3) 
 // Measures one groove on sections of a mesh, in the pulley's own mm (without the mesh's scale).
 class GrooveGauge {
  public:
-  GrooveGauge(const TriangleMesh& mesh, const Mechanism& mechanism, const Outline& outline, const Pulley& pulley)
+  GrooveGauge(const TriangleMesh& mesh, const Mechanism& mechanism, const profile::Outline& outline,
+              const Pulley& pulley)
       : mesh_(mesh),
         d_(mechanism.tendon.diameter),
         outline_(outline),
         pulley_(pulley),
         layout_(pulley.layout),
-        left_(outline.side == Side::left) {
-    floor_ = parallel(outline, -0.5 * d_);
+        left_(outline.side == transmission::Side::left) {
+    floor_ = profile::parallel(outline, -0.5 * d_);
     for (Polygon& loop : loops_at(z())) (signed_area(loop) > 0 ? outlines_ : holes_).push_back(std::move(loop));
   }
 
@@ -133,7 +134,7 @@ class GrooveGauge {
     const auto& points = outline_.points;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const std::size_t j = (i + 1) % points.size();
-      largest = std::max(largest, sagitta(floor_[i], points[i].psi, floor_[j], points[j].psi));
+      largest = std::max(largest, profile::sagitta(floor_[i], points[i].psi, floor_[j], points[j].psi));
     }
     return largest;
   }
@@ -187,7 +188,7 @@ class GrooveGauge {
 
   const TriangleMesh& mesh_;
   double d_;
-  const Outline& outline_;
+  const profile::Outline& outline_;
   const Pulley& pulley_;
   const BodyLayout& layout_;
   bool left_;
@@ -229,8 +230,8 @@ std::vector<Check> check_body(const TriangleMesh& mesh, std::vector<Check> check
 
 }  // namespace
 
-std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism, const SynthesisResult& synthesis,
-                                const Pulley& pulley, double tolerance) {
+std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism,
+                                const profile::SynthesisResult& synthesis, const Pulley& pulley, double tolerance) {
   demand(pulley.made(), "check of a pulley that was not made");
   std::vector<Check> checks =
       check_body(mesh, checks_of(mesh, pulley.mesh, pulley.mesh_checks), pulley.expected_euler, pulley.expected_volume);
@@ -244,4 +245,4 @@ std::vector<Check> check_printed_part(const TriangleMesh& mesh, const PrintedPar
   return check_body(mesh, checks_of(mesh, part.mesh, part.mesh_checks), part.expected_euler, part.expected_volume);
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

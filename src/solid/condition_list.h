@@ -8,12 +8,12 @@
 
 #include "fusee/profile.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 class ConditionList {
  public:
   void add(std::string name, double value, double limit, bool ok, std::string message) {
-    Condition condition;
+    profile::Condition condition;
     condition.name = std::move(name);
     condition.ok = ok;
     condition.value = value;
@@ -28,18 +28,18 @@ class ConditionList {
   void add_most(std::string name, double value, double most, std::string message) {
     add(std::move(name), value, most, value <= most + k_grain, std::move(message));
   }
-  void take(Condition condition) { conditions_.push_back(std::move(condition)); }
+  void take(profile::Condition condition) { conditions_.push_back(std::move(condition)); }
 
-  std::vector<Condition> taken() { return std::move(conditions_); }
+  std::vector<profile::Condition> taken() { return std::move(conditions_); }
 
  private:
   // Tolerance for numbers that a person rounded.
   static constexpr double k_grain = 1e-9;
 
-  std::vector<Condition> conditions_;
+  std::vector<profile::Condition> conditions_;
 };
 
 /// Text for the wall between two holes, or for their overlap.
 std::string wall_words(double wall);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -14,7 +14,7 @@
 #include "solid/plane_distance.h"
 #include "solid/size.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Clearance between a flange and a pin: print tolerance and run-out of the pulley.
@@ -25,7 +25,7 @@ constexpr double k_least_web = 0.2;
 
 class Conditions {
  public:
-  Conditions(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyLayout& layout,
+  Conditions(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const BodyLayout& layout,
              const FlangeRims& rims)
       : mechanism_(mechanism),
         body_(mechanism.body),
@@ -34,7 +34,7 @@ class Conditions {
         rims_(rims),
         d_(mechanism.tendon.diameter) {}
 
-  std::vector<Condition> all(const std::vector<AnchorRoom>& rooms) {
+  std::vector<profile::Condition> all(const std::vector<AnchorRoom>& rooms) {
     add_rims();
     if (auto tall = too_tall(layout_)) list_.take(std::move(*tall));
     add_groove();
@@ -42,14 +42,14 @@ class Conditions {
     add_bore_wall(synthesis_.p2);
     if (auto flat = flat_off_shaft(body_, layout_.bore.shaft)) list_.take(std::move(*flat));
     add_horn();
-    for (Condition& condition : hub_conditions(mechanism_, layout_, inradius(rims_.upper)))
+    for (profile::Condition& condition : hub_conditions(mechanism_, layout_, inradius(rims_.upper)))
       list_.take(std::move(condition));
     for (const AnchorRoom& room : rooms) add_anchor(room);
     add_channel();
     if (mechanism_.sheath.is_there()) {
       // The pulley is at the motor, and only the sheath exits are near it.
-      add_sheath_exit(Side::left);
-      add_sheath_exit(Side::right);
+      add_sheath_exit(transmission::Side::left);
+      add_sheath_exit(transmission::Side::right);
       return list_.taken();
     }
     add_pin("pin_clear_B", "B", {-mechanism_.guides.EB, mechanism_.pulley.EF}, "guides.EB_mm");
@@ -75,7 +75,7 @@ class Conditions {
                     rounded(layout_.groove_depth), rounded(d_)));
   }
 
-  Polygon floor(const Outline& outline) const { return parallel(outline, -0.5 * d_); }
+  Polygon floor(const profile::Outline& outline) const { return profile::parallel(outline, -0.5 * d_); }
 
   Wall wall_to(const Polygon& floor_polygon, const BoreLayout& bore) const {
     Wall least = wall_between(floor_polygon, bore.outline);
@@ -88,14 +88,14 @@ class Conditions {
 
   // Checks the wall for the bore as drawn and as printed. Where holes come out larger, the drawing of the latter is
   // cut.
-  void add_bore_wall(const Outline& outline) {
+  void add_bore_wall(const profile::Outline& outline) {
     const Polygon ground = floor(outline);
     const Wall made = wall_to(ground, layout_.bore), printed = wall_to(ground, bore_of_shaft(mechanism_, layout_.bore));
     const Wall& wall = made.thickness <= printed.thickness ? made : printed;
     list_.add_least(
-        fmt::format("bore_wall_{}", pulley_name(outline.side)), wall.thickness, layout_.min_wall,
+        fmt::format("bore_wall_{}", transmission::pulley_name(outline.side)), wall.thickness, layout_.min_wall,
         fmt::format("the bore leaves {} to {}'s floor at {:.0f}°, at least {} mm is required (body.min_wall_mm)",
-                    wall_words(wall.thickness), pulley_name(outline.side), degrees(wall.angle),
+                    wall_words(wall.thickness), transmission::pulley_name(outline.side), degrees(wall.angle),
                     rounded(layout_.min_wall, 3)));
   }
 
@@ -169,11 +169,11 @@ class Conditions {
                                  ? fmt::format(", {} deg or more past the end of the active arc (body.wrap_deg)",
                                                rounded(degrees(body_.wrap)))
                                  : "";
-    list_.add_least(fmt::format("anchor_{}", pulley_name(room.side)), 2.0 * room.room, 2.0 * room.least,
+    list_.add_least(fmt::format("anchor_{}", transmission::pulley_name(room.side)), 2.0 * room.room, 2.0 * room.least,
                     fmt::format("{}'s tie-off has space for a knot pocket of {} mm, at least {} mm is required "
                                 "(body.knot_pocket_mm) behind walls of {} mm (body.min_wall_mm){}",
-                                pulley_name(room.side), rounded(2.0 * room.room, 3), rounded(2.0 * room.least, 3),
-                                rounded(layout_.min_wall, 3), past));
+                                transmission::pulley_name(room.side), rounded(2.0 * room.room, 3),
+                                rounded(2.0 * room.least, 3), rounded(layout_.min_wall, 3), past));
   }
 
   void add_channel() {
@@ -230,11 +230,11 @@ class Conditions {
 
   /// The file gives the sheath's exit as a point. The clearance allows for the tendon only, not for the part that holds
   /// the sheath.
-  void add_sheath_exit(Side side) {
+  void add_sheath_exit(transmission::Side side) {
     const Sheath& sheath = mechanism_.sheath;
-    const Vec2 exit(mirror_sign(side) * sheath.exit_across, sheath.exit_above);
+    const Vec2 exit(transmission::mirror_sign(side) * sheath.exit_across, sheath.exit_above);
     const double clear = exit.norm() - 0.5 * d_ - reach_towards(exit);
-    const char* number = side == Side::left ? "1" : "2";
+    const char* number = side == transmission::Side::left ? "1" : "2";
     list_.add_least(
         fmt::format("mouth_clear_{}", number), clear, k_pin_gap,
         fmt::format("the exit of sheath {} (sheath.exit_across_mm, sheath.exit_above_mm) {} mm {} the flanges, "
@@ -257,7 +257,7 @@ class Conditions {
   }
   const Mechanism& mechanism_;
   const Body& body_;
-  const SynthesisResult& synthesis_;
+  const profile::SynthesisResult& synthesis_;
   const BodyLayout& layout_;
   const FlangeRims& rims_;
   double d_;
@@ -276,10 +276,10 @@ Wall wall_between(const Polygon& floor, const Polygon& hole) {
   return wall;
 }
 
-std::vector<Condition> conditions_of(const Mechanism& mechanism, const SynthesisResult& synthesis,
-                                     const BodyLayout& layout, const FlangeRims& rims,
-                                     const std::vector<AnchorRoom>& rooms) {
+std::vector<profile::Condition> conditions_of(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                                              const BodyLayout& layout, const FlangeRims& rims,
+                                              const std::vector<AnchorRoom>& rooms) {
   return Conditions(mechanism, synthesis, layout, rims).all(rooms);
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

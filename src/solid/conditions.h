@@ -4,7 +4,7 @@
 
 #include "solid/plan.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// The thinnest wall between a convex floor and a hole inside it.
 struct Wall {
@@ -14,8 +14,8 @@ struct Wall {
 Wall wall_between(const Polygon& floor, const Polygon& hole);
 
 /// All conditions of a planned body. `rooms` adds those of the tie-offs.
-std::vector<Condition> conditions_of(const Mechanism& mechanism, const SynthesisResult& synthesis,
-                                     const BodyLayout& layout, const FlangeRims& rims,
-                                     const std::vector<AnchorRoom>& rooms);
+std::vector<profile::Condition> conditions_of(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                                              const BodyLayout& layout, const FlangeRims& rims,
+                                              const std::vector<AnchorRoom>& rooms);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -6,7 +6,7 @@
 
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Two surfaces cut along their intersection line: patches that it does not cross. Facets do not share vertices.
 struct Corefined {
@@ -17,4 +17,4 @@ struct Corefined {
 /// Empty where one is no manifold.
 std::optional<Corefined> corefined(const TriangleMesh& a, const TriangleMesh& b);
 
-}  // namespace fusee
+}  // namespace fusee::solid

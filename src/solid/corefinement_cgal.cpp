@@ -7,7 +7,7 @@
 
 #include "solid/corefinement.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
@@ -82,4 +82,4 @@ std::optional<Corefined> corefined(const TriangleMesh& a, const TriangleMesh& b)
   return Corefined{patches_of(*first, cut_first), patches_of(*second, cut_second)};
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

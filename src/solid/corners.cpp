@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Least projection of a corner from the line between its neighbours, mm. Angles are meaningless for edges as short as a
@@ -28,4 +28,4 @@ Polygon corners_of(Polygon corners) {
   return corners;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

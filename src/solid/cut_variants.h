@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace fusee {
+namespace fusee::solid {
 
 inline constexpr int k_cut_variants = 8;
 inline constexpr int k_brief_cut_variants = 2;  ///< variants of a brief search, used for advice
@@ -19,4 +19,4 @@ inline int cut_variants(std::size_t facets, int wanted) {
   return static_cast<int>(std::clamp(ways, std::size_t{k_brief_cut_variants}, static_cast<std::size_t>(wanted)));
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace fusee {
+namespace fusee::solid {
 
 class DisjointSets {
  public:
@@ -27,4 +27,4 @@ class DisjointSets {
   std::vector<std::size_t> parent_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -10,7 +10,7 @@
 #include "solid/plane_distance.h"
 #include "solid/tools.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Pin diameters to try, in order of preference.
@@ -37,7 +37,7 @@ class DowelChooser {
     for (const PlannedAnchor& anchor : plan.anchors) {
       const std::vector<Bar> bars = anchor.bars(layout_);
       in_both_.insert(in_both_.end(), bars.begin(), bars.end());
-      if (anchor.side == Side::left) in_p1_.insert(in_p1_.end(), bars.begin(), bars.end());
+      if (anchor.side == transmission::Side::left) in_p1_.insert(in_p1_.end(), bars.begin(), bars.end());
     }
   }
 
@@ -124,4 +124,4 @@ TriangleMesh dowel_tool(const DowelLayout& dowels, const Vec2& place) {
   return strip({ring(1, -k_overshoot), ring(1, dowels.z_end), ring(k_tip, dowels.z_end + dowels.ceiling)});
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -8,7 +8,7 @@
 
 #include "solid/plan.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Two free places as far apart as possible within `reach` of the axis. Their radii differ by at least half a pin and
 /// they are not in line with the axis. No turn or flip that keeps the bore in place then maps one onto the other.
@@ -21,4 +21,4 @@ DowelLayout choose_dowels(const Mechanism& mechanism, const BodyPlan& plan);
 /// The volume that one pin's hole removes.
 TriangleMesh dowel_tool(const DowelLayout& dowels, const Vec2& place);
 
-}  // namespace fusee
+}  // namespace fusee::solid

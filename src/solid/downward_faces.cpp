@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Much larger than the rounding of sections and normals, much smaller than any feature.
@@ -184,4 +184,4 @@ std::vector<PlacesInPlan> flat_downward_faces(const TriangleMesh& welded, const 
   return DownwardFaceFinder(welded, heights, steepness).found();
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

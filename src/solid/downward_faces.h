@@ -9,7 +9,7 @@
 #include "fusee/base.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Places in plan on a grid of cells over the part. A negative answer is certain, a positive one is not.
 class PlacesInPlan {
@@ -38,4 +38,4 @@ class PlacesInPlan {
 std::vector<PlacesInPlan> flat_downward_faces(const TriangleMesh& welded, const std::vector<double>& heights,
                                               double steepness);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // The slot begins this many tendon diameters past the end of the active arc, as a channel does.
@@ -82,4 +82,4 @@ double countersink_depth(const BodyLayout& layout, const FaceHole& hole) {
   return rise_of(layout, 2.0 * (hole.room - hole.hole_radius));
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

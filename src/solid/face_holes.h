@@ -7,7 +7,7 @@
 #include "fusee/solid.h"
 #include "solid/anchors.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// The first place after the end of the active arc with the largest countersink up to `wanted`. Empty if the flange is
 /// too narrow or too thin, or if no place is free.
@@ -17,4 +17,4 @@ std::optional<FaceHole> find_face_hole(const AnchorSite& site, const BodyLayout&
 /// Depth of a countersink, which narrows to the hole as steeply as a ceiling must be.
 double countersink_depth(const BodyLayout& layout, const FaceHole& hole);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -10,7 +10,7 @@
 #include "solid/self_intersection.h"
 #include "solid/sorted_by_vertex.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using VertexTriple = std::array<std::uint32_t, 3>;
@@ -149,4 +149,4 @@ ExaminedSurface without_faulty_facets(const TriangleMesh& welded, const FaultyFa
   return surface;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

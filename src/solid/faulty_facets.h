@@ -8,7 +8,7 @@
 
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Facet numbers in increasing order.
 struct FaultyFacets {
@@ -33,4 +33,4 @@ FaultyFacets find_faulty_facets(const TriangleMesh& welded);
 /// inside its longest edge, closes the surface between its neighbours. The neighbour across that edge is split there.
 ExaminedSurface without_faulty_facets(const TriangleMesh& welded, const FaultyFacets& faulty);
 
-}  // namespace fusee
+}  // namespace fusee::solid

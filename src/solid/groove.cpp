@@ -5,7 +5,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Sagitta of a seat's facets. Prints and mills are coarser, so finer facets would be wasted.
@@ -70,4 +70,4 @@ double room_at_groove_edge(const std::vector<GroovePoint>& half, double tendon_d
   return std::max(0.0, groove_edge.dz - 0.5 * tendon_diameter * std::tan(0.25 * k_pi - 0.5 * lean));
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -6,7 +6,7 @@
 
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Points from the groove's plane outward. The first is {0, 0} and the second has offset 0 too: the floor is a short
 /// flat band, so that a section at the groove's plane cuts faces and never a vertex. The tendon's centre line lies d/2
@@ -17,4 +17,4 @@ std::vector<GroovePoint> groove_half(const Body& body, double lean, double tendo
 /// touches the wall. The wall is extended beyond the groove edge with its last slope. mm
 double room_at_groove_edge(const std::vector<GroovePoint>& half, double tendon_diameter);
 
-}  // namespace fusee
+}  // namespace fusee::solid

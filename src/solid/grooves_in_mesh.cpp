@@ -4,7 +4,7 @@
 #include "fusee/base.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Largest number of sections for a part of any height.
@@ -109,4 +109,4 @@ std::vector<GrooveInMesh> find_grooves(const TriangleMesh& mesh, double least_de
   return grooves;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -11,7 +11,7 @@
 #include "solid/groove.h"
 #include "solid/tie_offs.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Remainder of the groove edge after the chamfer at the bed, outwards and upwards.
@@ -122,4 +122,4 @@ void ceiling_recess(BodyLayout& layout) {
   bore.horn_ceiling = rise_of(layout, recess_cone(bore).travel);
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

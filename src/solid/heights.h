@@ -5,7 +5,7 @@
 #include "fusee/base.h"
 #include "solid/body.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Margin of ceilings above the flattest allowed slope. Slicers reject slopes up to a degree steeper than their
 /// threshold (PrusaSlicer 2.5 supports 45.5° at 45°, not 46°), and coordinates are floats.
@@ -21,4 +21,4 @@ void ceiling_pockets(BodyLayout& layout);
 /// Adds the cone over a horn's recess.
 void ceiling_recess(BodyLayout& layout);
 
-}  // namespace fusee
+}  // namespace fusee::solid

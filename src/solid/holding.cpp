@@ -1,19 +1,18 @@
-#include "fusee/solid.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "fusee/analysis.h"
 #include "base/text.h"
+#include "fusee/analysis.h"
 #include "fusee/base.h"
-#include "transmission/load.h"
+#include "fusee/solid.h"
 #include "solid/plan.h"
 #include "solid/wrap.h"
+#include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Tension at a take-off, and the angle from it to the end of the active arc.
@@ -24,53 +23,53 @@ struct TakeOffLoad {
 };
 using StrokeLoads = std::array<std::vector<TakeOffLoad>, 2>;  // for P1 and P2
 
-std::size_t index_of(Side side) { return side == Side::left ? 0 : 1; }
+std::size_t index_of(transmission::Side side) { return side == transmission::Side::left ? 0 : 1; }
 
 // Angle from the take-off at each place of the stroke to the end of the active arc, which is the take-off at α_max on
 // P1 and at α_min on P2. The direction of the line in the pulley's frame is its direction in space plus α.
-std::vector<double> turns_to_end(const std::vector<TransmissionPoint>& stroke, Side side) {
+std::vector<double> turns_to_end(const std::vector<transmission::TransmissionPoint>& stroke, transmission::Side side) {
   const auto direction = [&](std::size_t i) {
-    return (side == Side::left ? stroke[i].t1 : stroke[i].t2).lower_normal + stroke[i].alpha;
+    return (side == transmission::Side::left ? stroke[i].t1 : stroke[i].t2).lower_normal + stroke[i].alpha;
   };
   std::vector<double> turns(stroke.size(), 0.0);
   for (std::size_t i = 1; i < stroke.size(); ++i)
     turns[i] = turns[i - 1] + std::abs(std::remainder(direction(i) - direction(i - 1), k_two_pi));
-  if (side == Side::left) {
+  if (side == transmission::Side::left) {
     for (double& turn : turns) turn = turns.back() - turn;
   }
   return turns;
 }
 
-void raise(StrokeLoads& loads, std::size_t i, const EquilibriumPoint& point) {
-  if (point.status == EquilibriumStatus::no_equilibrium) return;
-  for (const Side side : {Side::left, Side::right}) {
+void raise(StrokeLoads& loads, std::size_t i, const joint::EquilibriumPoint& point) {
+  if (point.status == joint::EquilibriumStatus::no_equilibrium) return;
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     double& tension = loads[index_of(side)][i].tension;
-    tension = std::max(tension, (side == Side::left ? point.t1 : point.t2).lower);
+    tension = std::max(tension, (side == transmission::Side::left ? point.t1 : point.t2).lower);
   }
 }
 
-std::vector<double> alphas_of(const std::vector<TransmissionPoint>& stroke) {
+std::vector<double> alphas_of(const std::vector<transmission::TransmissionPoint>& stroke) {
   std::vector<double> alphas;
-  for (const TransmissionPoint& point : stroke) alphas.push_back(point.alpha);
+  for (const transmission::TransmissionPoint& point : stroke) alphas.push_back(point.alpha);
   return alphas;
 }
 
 // The largest tension at each take-off. `loaded`: the declared load's cycle. The unloaded cycle counts too, because a
 // load that relieves one tendon loads the other.
-StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<TransmissionPoint>& stroke,
-                         const std::vector<StrokePoint>& loaded) {
+StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<transmission::TransmissionPoint>& stroke,
+                         const std::vector<analysis::StrokePoint>& loaded) {
   StrokeLoads loads;
   const std::vector<double> alphas = alphas_of(stroke);
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     const std::vector<double> turns = turns_to_end(stroke, side);
     for (std::size_t i = 0; i < stroke.size(); ++i) loads[index_of(side)].push_back({alphas[i], 0.0, turns[i]});
   }
   Mechanism unloaded = mechanism;
-  keep_law(unloaded);
+  transmission::keep_law(unloaded);
   unloaded.load = {};
   unloaded.spring = {};
-  const std::vector<StrokePoint> free = settled_stroke(unloaded, alphas);
-  for (const std::vector<StrokePoint>* points : {&loaded, &free}) {
+  const std::vector<analysis::StrokePoint> free = analysis::settled_stroke(unloaded, alphas);
+  for (const std::vector<analysis::StrokePoint>* points : {&loaded, &free}) {
     for (std::size_t i = 0; i < alphas.size(); ++i) {
       raise(loads, i, (*points)[i].rising);
       raise(loads, i, (*points)[i].falling);
@@ -81,7 +80,7 @@ StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<Transmiss
 
 // A wrapped tendon sustains any tension between T e^(−μφ) and T e^(μφ) and slides beyond these bounds. The knot's
 // tension increases only when T e^(−μφ) exceeds all previous values, so it ends at the stroke's largest T e^(−μφ).
-KnotHold worst_knot(Side side, const std::vector<TakeOffLoad>& loads, double mu, double lap) {
+KnotHold worst_knot(transmission::Side side, const std::vector<TakeOffLoad>& loads, double mu, double lap) {
   KnotHold most{side, 0, 0, 0, -1};
   for (const TakeOffLoad& load : loads) {
     const double wrap = lap + load.turn;
@@ -97,12 +96,12 @@ bool all_hold(const Holding& holding) {
 }
 
 // Empty if no such body can be made.
-std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const SynthesisResult& synthesis,
+std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                                              const StrokeLoads& loads) {
   const BodyPlan plan = plan_body(mechanism, synthesis);
   if (!plan.possible()) return std::nullopt;
   Holding holding;
-  holding.strength = tendon_strength(mechanism.tendon);
+  holding.strength = analysis::tendon_strength(mechanism.tendon);
   for (const PlannedAnchor& anchor : plan.anchors) {
     if (!anchor.wound_end) continue;
     holding.knots.push_back(worst_knot(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, anchor.wrap()));
@@ -111,7 +110,7 @@ std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const S
 }
 
 // Single changes, each tried, with which every knot is safe.
-std::vector<std::string> helpful_changes(const Mechanism& mechanism, const SynthesisResult& synthesis,
+std::vector<std::string> helpful_changes(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                                          const StrokeLoads& loads, const Holding& holding) {
   std::vector<std::string> helps;
   for (double wrap = 30; wrap <= 330; wrap += 15) {
@@ -127,9 +126,9 @@ std::vector<std::string> helpful_changes(const Mechanism& mechanism, const Synth
     if (mechanism.pulley.law != Law::compensate) break;
     Mechanism changed = mechanism;
     changed.pulley.r1 = std::ceil(10.0 * factor * mechanism.pulley.r1) / 10.0;
-    const SynthesisResult other = synthesise(changed, {.advice = false});
+    const profile::SynthesisResult other = profile::synthesise(changed, {.advice = false});
     if (!other.made()) continue;
-    const std::vector<StrokePoint> loaded = settled_stroke(changed, alphas_of(other.stroke));
+    const std::vector<analysis::StrokePoint> loaded = analysis::settled_stroke(changed, alphas_of(other.stroke));
     const auto better = with_planned_tie_offs(changed, other, stroke_loads(changed, other.stroke, loaded));
     if (!better || !all_hold(*better)) continue;
     helps.push_back(fmt::format("pulley.r1_mm = {}", rounded(changed.pulley.r1)));
@@ -151,14 +150,15 @@ std::string joined_by_or(const std::vector<std::string>& parts) {
 }
 
 std::string warning_of(const KnotHold& knot, const Holding& holding, const std::vector<std::string>& helps) {
-  const Strength& strength = *holding.strength;
+  const analysis::Strength& strength = *holding.strength;
   return fmt::format(
       "the knot of tendon {} on {} carries up to {} N, at alpha = {} deg: {:.0f} % of the {} N at which it breaks "
       "there "
       "({} "
       "x tendon.knot_efficiency). At most half is safe. Try {}",
-      knot.side == Side::left ? 1 : 2, pulley_name(knot.side), rounded(knot.at_knot, 3), fixed(degrees(knot.alpha), 1),
-      100.0 * *holding.share(knot), rounded(strength.at_knot), strength.source, joined_by_or(helps));
+      knot.side == transmission::Side::left ? 1 : 2, transmission::pulley_name(knot.side), rounded(knot.at_knot, 3),
+      fixed(degrees(knot.alpha), 1), 100.0 * *holding.share(knot), rounded(strength.at_knot), strength.source,
+      joined_by_or(helps));
 }
 
 }  // namespace
@@ -168,14 +168,14 @@ std::optional<double> Holding::share(const KnotHold& knot) const {
   return knot.at_knot / strength->at_knot;
 }
 
-Holding tendon_holding(const Mechanism& mechanism, const SynthesisResult& synthesis, const Pulley& pulley) {
+Holding tendon_holding(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const Pulley& pulley) {
   Holding holding;
-  holding.loaded = settled_stroke(mechanism, alphas_of(synthesis.stroke));
+  holding.loaded = analysis::settled_stroke(mechanism, alphas_of(synthesis.stroke));
   const StrokeLoads loads = stroke_loads(mechanism, synthesis.stroke, holding.loaded);
-  holding.strength = tendon_strength(mechanism.tendon);
+  holding.strength = analysis::tendon_strength(mechanism.tendon);
   for (const Anchor& anchor : pulley.anchors) {
     if (!anchor.wound_end) continue;
-    const Outline& outline = anchor.side == Side::left ? synthesis.p1 : synthesis.p2;
+    const profile::Outline& outline = anchor.side == transmission::Side::left ? synthesis.p1 : synthesis.p2;
     const double lap = wound_arc(outline, outline.anchor_end(), index_at_place(outline, anchor.exit)).turn;
     holding.knots.push_back(worst_knot(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, lap));
   }
@@ -187,4 +187,4 @@ Holding tendon_holding(const Mechanism& mechanism, const SynthesisResult& synthe
   return holding;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -10,7 +10,7 @@
 #include "solid/condition_list.h"
 #include "solid/set_screw.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 double plain_hub_radius(const BodyLayout& layout, double wall) { return layout.bore.radius + std::max(wall, 2.0); }
@@ -138,11 +138,12 @@ void choose_hub(BodyLayout& layout, const Mechanism& mechanism, double rim_radiu
   HubChooser(layout, mechanism, rim_radius).choose();
 }
 
-std::vector<Condition> hub_conditions(const Mechanism& mechanism, const BodyLayout& layout, double rim_radius) {
+std::vector<profile::Condition> hub_conditions(const Mechanism& mechanism, const BodyLayout& layout,
+                                               double rim_radius) {
   ConditionList list;
   check_hub(list, layout, rim_radius);
   check_set_screw(list, mechanism, layout);
   return list.taken();
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -7,7 +7,7 @@
 #include "fusee/profile.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Least distance of the hub from the upper flange's rim.
 inline constexpr double k_hub_margin = 0.5;
@@ -17,6 +17,6 @@ inline constexpr double k_hub_margin = 0.5;
 void choose_hub(BodyLayout& layout, const Mechanism& mechanism, double rim_radius);
 
 /// Conditions of a requested hub and set screw: wall about the bore, size of the flange, space for the screw.
-std::vector<Condition> hub_conditions(const Mechanism& mechanism, const BodyLayout& layout, double rim_radius);
+std::vector<profile::Condition> hub_conditions(const Mechanism& mechanism, const BodyLayout& layout, double rim_radius);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -14,7 +14,7 @@
 #include "solid/plane_distance.h"
 #include "solid/section.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 constexpr double k_layer = 0.2;
@@ -228,4 +228,4 @@ std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, C
   return ledges;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -7,7 +7,7 @@
 #include "fusee/base.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// The shape of a layer's corner after widening. PrusaSlicer squares it, but edges of a few µm, which a section may
 /// always have, make it round. Support by a squared corner alone is therefore unreliable (three support blocks under
@@ -19,4 +19,4 @@ enum class Corners { round, squared };
 /// each loop of a layer, the furthest. A ceiling closed all round has none, because it is bridged.
 std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, Corners corners);
 
-}  // namespace fusee
+}  // namespace fusee::solid

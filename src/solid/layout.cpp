@@ -1,13 +1,12 @@
-#include "fusee/solid.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "fusee/base.h"
+#include "fusee/solid.h"
 #include "solid/plan.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 RoundHole circle_within(const Polygon& facets) {
   const Vec2 centre = std::accumulate(facets.begin(), facets.end(), Vec2(0, 0)) / static_cast<double>(facets.size());
@@ -25,8 +24,8 @@ double ridge_slope(const BodyLayout& layout) {
   return layout.ceiling_slope > 0 ? std::min(layout.ceiling_slope + k_steeper, k_steepest) : radians(45);
 }
 
-BodyLayout resolve_layout(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+BodyLayout resolve_layout(const Mechanism& mechanism, const profile::SynthesisResult& synthesis) {
   return plan_body(mechanism, synthesis).layout;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

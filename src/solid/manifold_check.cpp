@@ -5,7 +5,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 struct Traits : OpenMesh::DefaultTraits {
@@ -31,4 +31,4 @@ void demand_solid(const TriangleMesh& mesh, const char* what) {
   }
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

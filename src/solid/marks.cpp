@@ -6,7 +6,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Clearance to every edge of the face.
@@ -68,7 +68,7 @@ class Face {
       for (const Vec2& corner : hole) bars_.push_back({corner, corner, 0.0});
     }
     for (const PlannedAnchor& anchor : plan.anchors) {
-      if ((anchor.side == Side::right) != on_top) continue;
+      if ((anchor.side == transmission::Side::right) != on_top) continue;
       bars_.push_back({anchor.pocket(), anchor.pocket(), anchor.pocket_radius(layout)});
       if (anchor.tail) bars_.push_back({anchor.tail->from, anchor.tail->to, 0.5 * anchor.tail->head_or_width()});
     }
@@ -158,4 +158,4 @@ std::vector<Mark> marks_of(Marks kind, BodyPlan& plan) {
   return marks;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -4,9 +4,9 @@
 
 #include "solid/plan.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// The marks for which there is space. The layout notes omitted ones.
 std::vector<Mark> marks_of(Marks kind, BodyPlan& plan);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -1,13 +1,12 @@
-#include "fusee/solid.h"
-
 #include <algorithm>
 #include <bit>
 #include <limits>
 
+#include "fusee/solid.h"
 #include "solid/euler.h"
 #include "solid/nearest_float.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Vertices by position, in a hash table with open addressing, because a part is welded a dozen times. −0 and 0 are the
@@ -121,4 +120,4 @@ int euler_number(const TriangleMesh& mesh) {
                           static_cast<std::ptrdiff_t>(welded.triangles.size()));
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -1,7 +1,7 @@
 /// \file
 #pragma once
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Largest change of a coordinate by rounding to float, slightly increased for sections of such a mesh. mm.
 inline constexpr double k_float_grain = 1e-5;
@@ -15,4 +15,4 @@ inline double nearest_float(double value) {
   return static_cast<double>(narrow);
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

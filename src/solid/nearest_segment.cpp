@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // True if the other line's ends lie on one side of this line, by more than rounding.
@@ -106,4 +106,4 @@ bool NearestSegment::is_clear(const Vec2& from, const Vec2& to) const {
   return true;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

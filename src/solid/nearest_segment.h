@@ -6,7 +6,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Distances from points to closed loops, by a grid of cells. A query takes about constant time.
 class NearestSegment {
@@ -43,4 +43,4 @@ class NearestSegment {
   std::vector<std::uint32_t> first_, cells_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::solid

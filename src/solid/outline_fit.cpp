@@ -9,7 +9,7 @@
 #include "base/decompositions.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Every half degree. A facet of our outlines turns by one to three degrees.
@@ -194,4 +194,4 @@ OutlineFit lay_on(const std::vector<OutlinePair>& pairs) {
   return best;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -6,7 +6,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// A turn about the origin followed by a shift.
 struct PlaneMotion {
@@ -33,4 +33,4 @@ struct OutlineFit {
 /// The motion that best maps all `found` outlines onto their `expected` ones.
 OutlineFit lay_on(const std::vector<OutlinePair>& pairs);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -10,7 +10,7 @@
 #include "fusee/base.h"
 #include "solid/nearest_float.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
@@ -294,4 +294,4 @@ std::vector<Vec3> find_islands(const TriangleMesh& mesh, double first_layer) {
   return islands;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -10,7 +10,7 @@
 #include "fusee/base.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// The support beyond a side of an overhanging facet.
 enum class EdgeSupport : std::uint8_t {
@@ -45,4 +45,4 @@ Overhangs find_overhangs(const TriangleMesh& mesh, double steep_enough, double f
 /// Local minima of the surface with solid above them, higher than `first_layer` above the lowest point.
 std::vector<Vec3> find_islands(const TriangleMesh& mesh, double first_layer);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -4,14 +4,14 @@
 
 #include <string>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// "(3.100, 4.200, 0.000) mm"
 inline std::string place_of(const Vec3& point) {
   return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ", " + fixed(point.z(), 3) + ") mm";
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -1,5 +1,3 @@
-#include "fusee/solid.h"
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -7,11 +5,12 @@
 
 #include "base/decompositions.h"
 #include "fusee/base.h"
+#include "fusee/solid.h"
 #include "solid/corners.h"
 #include "solid/disjoint_sets.h"
 #include "solid/outline_fit.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Largest deviation of the same pulley, relative to its radius: 0.3 mm at 16 mm, more than the error of a print or a
@@ -42,13 +41,15 @@ double mean_radius(const GrooveFloors& floors) {
   return floors.p2.empty() ? radius_of(floors.p1) : 0.5 * (radius_of(floors.p1) + radius_of(floors.p2));
 }
 
-const Polygon& floor_of(const GrooveFloors& floors, Side side) { return side == Side::left ? floors.p1 : floors.p2; }
+const Polygon& floor_of(const GrooveFloors& floors, transmission::Side side) {
+  return side == transmission::Side::left ? floors.p1 : floors.p2;
+}
 
 // ---- assignments of the mesh's grooves to those of the pulley ------------------------------------
 
 /// A groove of the mesh that is assigned to one side.
 struct Match {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   const GrooveInMesh* groove = nullptr;
 };
 
@@ -110,8 +111,10 @@ std::vector<Way> ways_of_both(const std::vector<GrooveInMesh>& grooves, const Gr
   for (std::size_t low = 0; low < grooves.size(); ++low) {
     // A part may be thinner between the grooves as well: where two prints meet, or under a hub.
     for (std::size_t high = low + 1; high < grooves.size(); ++high) {
-      const std::vector<Match> upright{{Side::left, &grooves[low]}, {Side::right, &grooves[high]}};
-      const std::vector<Match> upside_down{{Side::left, &grooves[high]}, {Side::right, &grooves[low]}};
+      const std::vector<Match> upright{{transmission::Side::left, &grooves[low]},
+                                       {transmission::Side::right, &grooves[high]}};
+      const std::vector<Match> upside_down{{transmission::Side::left, &grooves[high]},
+                                           {transmission::Side::right, &grooves[low]}};
       ways.push_back({upright, false, false});
       ways.push_back({upside_down, true, false});
       ways.push_back({upright, true, true});
@@ -126,7 +129,7 @@ std::vector<Way> ways_of_one(const std::vector<GrooveInMesh>& grooves, const Gro
   // With two grooves, one alone could belong to many pulleys.
   if (grooves.size() != 1) return ways;
   for (const bool flipped : {false, true}) {
-    for (const Side side : {Side::left, Side::right}) {
+    for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
       if (!floor_of(expected, side).empty()) ways.push_back({{{side, &grooves.front()}}, flipped, false});
     }
   }
@@ -292,4 +295,4 @@ PlacementResult find_placement(const TriangleMesh& mesh, const GrooveFloors& exp
   return {};
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -17,7 +17,7 @@
 #include "solid/size.h"
 #include "solid/tails.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Diameters to try for an automatic bore.
@@ -31,22 +31,22 @@ constexpr double k_least_wall = 0.4;
 constexpr double k_highest_cone = 3.0;
 
 // Some points of a convex floor, whose polygon lies within it.
-Polygon floor_within(const Outline& outline, double tendon_diameter) {
-  const Polygon all = parallel(outline, -0.5 * tendon_diameter);
+Polygon floor_within(const profile::Outline& outline, double tendon_diameter) {
+  const Polygon all = profile::parallel(outline, -0.5 * tendon_diameter);
   Polygon floor;
   for (const std::size_t i : coarse_floor(all.size())) floor.push_back(all[i]);
   return floor;
 }
 
-FlangeRims rims_of(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+FlangeRims rims_of(const Mechanism& mechanism, const profile::SynthesisResult& synthesis) {
   return flange_rims(synthesis.p1, synthesis.p2, mechanism.tendon.diameter, mechanism.groove_depth(),
                      mechanism.body.flange);
 }
 
 class Planner {
  public:
-  Planner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims, const BodyLayout& base,
-          const TieOffWishes& wishes)
+  Planner(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const FlangeRims& rims,
+          const BodyLayout& base, const TieOffWishes& wishes)
       : mechanism_(mechanism),
         synthesis_(synthesis),
         d_(mechanism.tendon.diameter),
@@ -70,13 +70,13 @@ class Planner {
     if (wishes_.conditions_alone && !plan.possible()) return plan;
     if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, plan);
     if (wishes_.conditions_alone && find_screw(mechanism_.body.clamp_screw) == nullptr) return plan;
-    const std::vector<Condition> of_tails = place_tails(plan, mechanism_, wishes_.rejected);
+    const std::vector<profile::Condition> of_tails = place_tails(plan, mechanism_, wishes_.rejected);
     plan.conditions.insert(plan.conditions.end(), of_tails.begin(), of_tails.end());
     return plan;
   }
 
  private:
-  Polygon floor(const Outline& outline) const { return parallel(outline, -0.5 * d_); }
+  Polygon floor(const profile::Outline& outline) const { return profile::parallel(outline, -0.5 * d_); }
 
   // In order of preference.
   std::vector<double> walls() const {
@@ -117,7 +117,7 @@ class Planner {
   }
   bool bore_fits(const BodyLayout& layout) const {
     const BoreLayout printed = bore_of_shaft(mechanism_, layout.bore);
-    const auto thick = [&](const Outline& outline) {
+    const auto thick = [&](const profile::Outline& outline) {
       const Polygon ground = floor(outline);
       return std::min(wall_between(ground, layout.bore.outline).thickness,
                       wall_between(ground, printed.outline).thickness) >= layout.min_wall;
@@ -143,7 +143,7 @@ class Planner {
     if (!screw.present) return;
     const auto clear_at = [&plan](double angle) {
       return std::all_of(plan.anchors.begin(), plan.anchors.end(), [&](const PlannedAnchor& anchor) {
-        return anchor.side == Side::left || clears_set_screw(plan.layout, angle, anchor.way);
+        return anchor.side == transmission::Side::left || clears_set_screw(plan.layout, angle, anchor.way);
       });
     };
     const int choices = mechanism_.body.bore == Bore::round ? 24 : 1;
@@ -159,7 +159,7 @@ class Planner {
   }
 
   const Mechanism& mechanism_;
-  const SynthesisResult& synthesis_;
+  const profile::SynthesisResult& synthesis_;
   double d_;
   const BodyLayout& base_;
   const FlangeRims& rims_;
@@ -168,16 +168,16 @@ class Planner {
 };
 
 // A part that is too large is not planned.
-std::vector<Condition> too_far_out(const SynthesisResult& synthesis) {
-  std::vector<Condition> far;
-  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+std::vector<profile::Condition> too_far_out(const profile::SynthesisResult& synthesis) {
+  std::vector<profile::Condition> far;
+  for (const profile::Outline* outline : {&synthesis.p1, &synthesis.p2}) {
     double reach = 0, active_reach = 0;
     for (std::size_t i = 0; i < outline->points.size(); ++i) {
       const double here = outline->points[i].position.norm();
       reach = std::max(reach, here);
       if (outline->is_active(i)) active_reach = std::max(active_reach, here);
     }
-    if (auto condition = too_far_out(outline->side, reach, active_reach)) far.push_back(std::move(*condition));
+    if (auto condition = solid::too_far_out(outline->side, reach, active_reach)) far.push_back(std::move(*condition));
   }
   return far;
 }
@@ -191,11 +191,12 @@ bool is_located(const BodyLayout& layout) {
 }  // namespace
 
 bool BodyPlan::possible() const {
-  return std::all_of(conditions.begin(), conditions.end(), [](const Condition& condition) { return condition.ok; });
+  return std::all_of(conditions.begin(), conditions.end(),
+                     [](const profile::Condition& condition) { return condition.ok; });
 }
 
-BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis, const TieOffWishes& wishes) {
-  if (std::vector<Condition> far = too_far_out(synthesis); !far.empty()) {
+BodyPlan plan_body(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const TieOffWishes& wishes) {
+  if (std::vector<profile::Condition> far = too_far_out(synthesis); !far.empty()) {
     BodyPlan none;
     none.conditions = std::move(far);
     return none;
@@ -230,4 +231,4 @@ BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis,
   return one;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -8,20 +8,21 @@
 #include "solid/body.h"
 #include "solid/tie_offs.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 struct BodyPlan {
   BodyLayout layout;
   FlangeRims rims;
   Polygon floor1, floor2;  ///< of the grooves, with few points, everywhere inside the true floors
   std::vector<PlannedAnchor> anchors;
-  std::vector<Condition> conditions;
+  std::vector<profile::Condition> conditions;
 
   bool possible() const;
 };
 
 /// Puts the tie-offs as far round the closing arc as there is space. If another feature then has no place, puts them
 /// near the active arc.
-BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis, const TieOffWishes& wishes = {});
+BodyPlan plan_body(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                   const TieOffWishes& wishes = {});
 
-}  // namespace fusee
+}  // namespace fusee::solid

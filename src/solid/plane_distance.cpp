@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 bool segments_cross(const Bar& p, const Bar& q) {
@@ -68,4 +68,4 @@ double ConvexSides::depth_of(const Vec2& point) const {
   return ((along_x_ * (point.y() - from_y_) - along_y_ * (point.x() - from_x_)) / length_).minCoeff();
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -4,7 +4,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// A bar with round ends (a disc when a == b), as an obstacle.
 struct Bar {
@@ -37,4 +37,4 @@ class ConvexSides {
   Eigen::ArrayXd from_x_, from_y_, along_x_, along_y_, length_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -7,7 +7,7 @@
 #include "fusee/base.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Limits of a desktop printer, rad and mm. check_print.cpp gives the reasons.
 struct PrintLimits {
@@ -30,4 +30,4 @@ struct PrintLimits {
 /// The mesh should be a solid (check_mesh). One that cannot be measured fails all four checks.
 std::vector<Check> check_print(const TriangleMesh& mesh, const PrintLimits& limits = {});
 
-}  // namespace fusee
+}  // namespace fusee::solid

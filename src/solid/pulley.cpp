@@ -1,5 +1,3 @@
-#include "fusee/solid.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -8,8 +6,9 @@
 #include <utility>
 
 #include "base/run_async.h"
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
+#include "fusee/solid.h"
 #include "solid/body.h"
 #include "solid/boolean.h"
 #include "solid/channel_entries.h"
@@ -28,7 +27,7 @@
 #include "solid/tie_off_tools.h"
 #include "solid/tools.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Number of facets of a large body. Parts of ordinary size and tolerance have half as many.
@@ -173,7 +172,7 @@ class FeatureCutter {
     return tools;
   }
 
-  bool has(const PlannedAnchor& anchor) const { return anchor.side == Side::left ? has_p1_ : has_p2_; }
+  bool has(const PlannedAnchor& anchor) const { return anchor.side == transmission::Side::left ? has_p1_ : has_p2_; }
 
   std::vector<TriangleMesh> tail_slots() const {
     std::vector<TriangleMesh> tools;
@@ -218,7 +217,7 @@ int handles(const RingStack& stack, const BodyPlan& plan, Piece piece) {
   const SetScrewLayout& screw = plan.layout.set_screw;
   std::size_t count = stack.through.size() + (recess_goes_through(stack) ? 1 : 0);
   for (const PlannedAnchor& anchor : plan.anchors) {
-    const bool has = piece == Piece::whole || (anchor.side == Side::left) == (piece == Piece::p1);
+    const bool has = piece == Piece::whole || (anchor.side == transmission::Side::left) == (piece == Piece::p1);
     if (has && std::holds_alternative<AnchorPath>(anchor.way)) ++count;
   }
   if (piece == Piece::p1) count += plan.layout.dowels.places.size();
@@ -282,7 +281,7 @@ bool keeps_walls(const BodyPlan& plan, int variant) {
 // The pieces of a pulley before any cut, the whole first.
 class PieceMaker {
  public:
-  PieceMaker(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan,
+  PieceMaker(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const BodyPlan& plan,
              std::vector<Mark> marks, Corners corners)
       : mechanism_(mechanism), plan_(plan), marks_(std::move(marks)), corners_(corners) {
     std::vector<Piece> pieces{Piece::whole};
@@ -339,8 +338,8 @@ class PieceMaker {
 };
 
 // No variant left a valid solid: walls between features, each wide enough in plan, intersect in space.
-Condition uncut_features(int ways) {
-  Condition condition;
+profile::Condition uncut_features(int ways) {
+  profile::Condition condition;
   condition.name = "features";
   condition.ok = false;
   condition.value = 0;
@@ -366,24 +365,24 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
   } else {
     const auto& hole = std::get<FaceHole>(planned.way);
     anchor.channel = hole_outline(hole, variant);
-    anchor.seat = FaceSeat{hole.room, countersink_depth(layout, hole), planned.side == Side::left ? 0.0 : layout.z_top,
-                           hole.hole, hole.length};
+    anchor.seat = FaceSeat{hole.room, countersink_depth(layout, hole),
+                           planned.side == transmission::Side::left ? 0.0 : layout.z_top, hole.hole, hole.length};
   }
   return anchor;
 }
 
 // If a closing arc is hardly longer than a channel entry, the entry may reach into the active arc.
-std::optional<Condition> entry_in_active_arc(const Anchor& anchor, const std::vector<Vec2>& active_floor) {
+std::optional<profile::Condition> entry_in_active_arc(const Anchor& anchor, const std::vector<Vec2>& active_floor) {
   for (const Vec2& point : active_floor) {
     if (!is_inside(anchor.entry, point) && !is_inside(anchor.channel, point)) continue;
-    Condition condition;
+    profile::Condition condition;
     condition.name = "tie_off_mouth";
     condition.ok = false;
     condition.limit = 0;
     condition.unit = "mm";
     condition.message =
         fmt::format("{}'s tie-off has no space behind the active arc: its channel entry would cut into that arc at {}",
-                    anchor.side == Side::left ? "P1" : "P2", place_of(Vec3(point.x(), point.y(), 0)));
+                    anchor.side == transmission::Side::left ? "P1" : "P2", place_of(Vec3(point.x(), point.y(), 0)));
     return condition;
   }
   return std::nullopt;
@@ -392,15 +391,16 @@ std::optional<Condition> entry_in_active_arc(const Anchor& anchor, const std::ve
 // The anchors as one variant cuts them.
 struct VariedAnchors {
   std::vector<Anchor> anchors;
-  std::optional<Condition> cut_into;  // condition that the variant fails
+  std::optional<profile::Condition> cut_into;  // condition that the variant fails
 };
 
 class AnchorVariants {
  public:
-  AnchorVariants(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan) : plan_(plan) {
-    for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
-      const Polygon floor = parallel(*outline, -0.5 * mechanism.tendon.diameter);
-      std::vector<Vec2>& active = outline->side == Side::left ? floor1_ : floor2_;
+  AnchorVariants(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const BodyPlan& plan)
+      : plan_(plan) {
+    for (const profile::Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+      const Polygon floor = profile::parallel(*outline, -0.5 * mechanism.tendon.diameter);
+      std::vector<Vec2>& active = outline->side == transmission::Side::left ? floor1_ : floor2_;
       for (std::size_t i = 0; i < floor.size(); ++i) {
         if (outline->is_active(i)) active.push_back(floor[i]);
       }
@@ -411,7 +411,8 @@ class AnchorVariants {
     VariedAnchors varied;
     for (const PlannedAnchor& planned : plan_.anchors) {
       varied.anchors.push_back(anchor_of(planned, plan_, variant));
-      varied.cut_into = entry_in_active_arc(varied.anchors.back(), planned.side == Side::left ? floor1_ : floor2_);
+      varied.cut_into =
+          entry_in_active_arc(varied.anchors.back(), planned.side == transmission::Side::left ? floor1_ : floor2_);
       if (varied.cut_into) break;
     }
     return varied;
@@ -457,8 +458,8 @@ struct RatedPulley {
 };
 
 // Printability is checked separately.
-RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan, Corners corners,
-                      const Effort& effort, int enough) {
+RatedPulley pulley_of(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, BodyPlan plan,
+                      Corners corners, const Effort& effort, int enough) {
   RatedPulley rated;
   Pulley& pulley = rated.pulley;
   pulley.conditions = plan.conditions;
@@ -500,8 +501,8 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
   pulley.expected_euler = pieces.front().euler;
   pulley.mesh_checks = std::move(pieces.front().checks);
   for (std::size_t k = 1; k < pieces.size(); ++k)
-    pulley.parts.push_back({k == 1 ? Side::left : Side::right, std::move(pieces[k].mesh), pieces[k].volume,
-                            pieces[k].euler, std::move(pieces[k].checks)});
+    pulley.parts.push_back({k == 1 ? transmission::Side::left : transmission::Side::right, std::move(pieces[k].mesh),
+                            pieces[k].volume, pieces[k].euler, std::move(pieces[k].checks)});
   pulley.status = PulleyStatus::made;
   return rated;
 }
@@ -522,12 +523,12 @@ Pulley refused(Pulley pulley, const Mechanism& mechanism, const std::vector<Vec3
 
 bool fails_printing(const Pulley& pulley) {
   return std::any_of(pulley.conditions.begin(), pulley.conditions.end(),
-                     [](const Condition& condition) { return condition.name == k_prints && !condition.ok; });
+                     [](const profile::Condition& condition) { return condition.name == k_prints && !condition.ok; });
 }
 
 // Plans tie-offs again as long as one of them has a layer that projects too far.
-Pulley search_printable_tie_offs(const Mechanism& mechanism, const SynthesisResult& synthesis, double entry_lean,
-                                 Corners corners, const Effort& effort) {
+Pulley search_printable_tie_offs(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
+                                 double entry_lean, Corners corners, const Effort& effort) {
   TieOffWishes wishes;
   wishes.entry_lean = entry_lean;
   std::optional<Pulley> printable;  // printable, but with a mesh that is not fully sound
@@ -568,14 +569,14 @@ std::string Pulley::brief() const {
                        anchors.size());
   }
   std::string text = "this body cannot be built";
-  for (const Condition& condition : conditions) {
+  for (const profile::Condition& condition : conditions) {
     if (!condition.ok) text += "; " + condition.message;
   }
   return text;
 }
 
 // If no steep entry fits, a wide one whose tip a squared corner supports is used.
-Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis, TieOffSearch search) {
+Pulley make_pulley(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, TieOffSearch search) {
   demand(synthesis.made(), "a body of an infeasible profile");
   const bool is_brief = search == TieOffSearch::brief;
   Pulley pulley =
@@ -592,4 +593,4 @@ TriangleMesh plate_of(const Pulley& pulley) {
   return together({plate, rounded_to_float(std::move(other))});
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -7,7 +7,7 @@
 #include "solid/nearest_float.h"
 #include "solid/plane_distance.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 Vec3 lifted(const Vec2& point, double z) { return {point.x(), point.y(), z}; }
@@ -264,4 +264,4 @@ double volume_of(const RingStack& stack) {
   return volume;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -9,7 +9,7 @@
 #include "fusee/base.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Convex, counter-clockwise, at one height. Point i of every ring of a stack has the same outward normal.
 struct Ring {
@@ -43,4 +43,4 @@ TriangleMesh mesh_of(const RingStack& stack);
 /// Exact volume of that mesh. Between two rings the section's area is a quadratic in z, so Simpson's rule is exact.
 double volume_of(const RingStack& stack);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -6,11 +6,11 @@
 #include <limits>
 #include <utility>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // A cut triangle: the section enters it across the descending edge and leaves it across the rising one, with the solid
@@ -149,4 +149,4 @@ Polygon outer_loop(const std::vector<Polygon>& loops) {
   return *found;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

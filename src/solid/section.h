@@ -5,11 +5,11 @@
 
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 using Triangles = decltype(TriangleMesh::triangles);
 
 /// Like section(), for a welded mesh. `triangles`: all triangles of the mesh that the plane may cut.
 std::vector<Polygon> section_of_welded(const TriangleMesh& mesh, const Triangles& triangles, double z);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -7,7 +7,7 @@
 
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 struct CrossingSearch {
   /// Two facets that meet outside their shared corners and edges
@@ -22,4 +22,4 @@ CrossingSearch find_crossing(const TriangleMesh& welded);
 /// True if the three corners are collinear, decided exactly.
 bool is_degenerate(const TriangleMesh& mesh, std::size_t facet);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -14,7 +14,7 @@
 #include "solid/box_tree.h"
 #include "solid/self_intersection.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -287,4 +287,4 @@ CrossingSearch find_crossing(const TriangleMesh& welded) {
   return first.facets || first.gave_up ? first : rest;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

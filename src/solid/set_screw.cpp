@@ -7,7 +7,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Clearance: ISO 273 medium. Tapping: ISO 2306. Nuts: ISO 4032, width s and thickness m. Heads: ISO 7045, dk.
@@ -68,4 +68,4 @@ double height_to_spare(const SetScrewLayout& screw, const BodyLayout& layout, do
   return std::abs(least) < k_rounding ? 0.0 : least;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -6,7 +6,7 @@
 
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Sizes of one thread.
 struct Screw {
@@ -38,4 +38,4 @@ double nut_corner(const SetScrewLayout& screw);
 /// The ceiling of a horizontal hole rises to a ridge at ceiling_slope on both sides, so that it prints without support.
 double teardrop_top(const SetScrewLayout& screw);
 
-}  // namespace fusee
+}  // namespace fusee::solid

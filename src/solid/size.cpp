@@ -9,11 +9,11 @@
 #include "base/text.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
-Condition exceeding(std::string name, double value, double limit, std::string message) {
-  Condition condition;
+profile::Condition exceeding(std::string name, double value, double limit, std::string message) {
+  profile::Condition condition;
   condition.name = std::move(name);
   condition.ok = false;
   condition.value = value;
@@ -25,7 +25,7 @@ Condition exceeding(std::string name, double value, double limit, std::string me
 
 }  // namespace
 
-std::optional<Condition> too_tall(const BodyLayout& layout) {
+std::optional<profile::Condition> too_tall(const BodyLayout& layout) {
   const bool apart = layout.parts == Parts::two;
   const double height = apart ? std::max(layout.z_mate, layout.z_hub - layout.z_mate) : layout.z_hub;
   if (height <= k_tallest) return std::nullopt;
@@ -36,9 +36,9 @@ std::optional<Condition> too_tall(const BodyLayout& layout) {
   return exceeding(k_height_condition, height, k_tallest, std::move(message));
 }
 
-std::optional<Condition> too_far_out(Side side, double reach, double active_reach) {
+std::optional<profile::Condition> too_far_out(transmission::Side side, double reach, double active_reach) {
   if (reach <= k_furthest) return std::nullopt;
-  const std::string name(pulley_name(side));
+  const std::string name(transmission::pulley_name(side));
   std::string message =
       active_reach > k_furthest
           ? fmt::format("{} would reach {} m from the axis", name, rounded(1e-3 * reach, 3))
@@ -50,4 +50,4 @@ std::optional<Condition> too_far_out(Side side, double reach, double active_reac
   return exceeding("furthest_" + name, reach, k_furthest, std::move(message));
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -7,7 +7,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Solid angle of the triangle a, b, c seen from the origin; positive if it is seen from inside, counter-clockwise from
 /// outside. Van Oosterom and Strackee 1983.
@@ -16,4 +16,4 @@ inline double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Sorts items by vertex (counting sort), and items of one vertex by `before`. Few items share a vertex, so this takes
 /// a fraction of the time of a full sort.
@@ -27,4 +27,4 @@ std::vector<Item> sorted_by_vertex(const std::vector<Item>& items, std::size_t v
   return sorted;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

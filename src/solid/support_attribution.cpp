@@ -6,12 +6,12 @@
 #include <limits>
 #include <optional>
 
-#include "solid/print.h"
 #include "solid/overhangs.h"
 #include "solid/place.h"
 #include "solid/plane_distance.h"
+#include "solid/print.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // A channel entry extends beyond its bars by about this many groove depths and channel widths.
@@ -32,7 +32,7 @@ struct Attribution {
 // P1's tie-offs lie below the parting plane, P2's above.
 Attribution attribution_of(const Vec3& place, const BodyPlan& plan) {
   const BodyLayout& layout = plan.layout;
-  const Side side = place.z() < layout.z_mate ? Side::left : Side::right;
+  const transmission::Side side = place.z() < layout.z_mate ? transmission::Side::left : transmission::Side::right;
   const Bar at{place.head<2>(), place.head<2>(), 0.0};
   Attribution nearest;
   for (const PlannedAnchor& anchor : plan.anchors) {
@@ -63,8 +63,9 @@ std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, con
   return places;
 }
 
-Condition does_not_print(const std::string& name, const std::vector<Vec3>& places, const std::string& whatever) {
-  Condition condition;
+profile::Condition does_not_print(const std::string& name, const std::vector<Vec3>& places,
+                                  const std::string& whatever) {
+  profile::Condition condition;
   condition.name = k_prints;
   condition.ok = false;
   condition.value = static_cast<double>(places.size());
@@ -86,4 +87,4 @@ std::vector<Rejection> attribute_supports(const std::vector<Vec3>& places, const
   return blamed;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -10,7 +10,7 @@
 #include "solid/layers.h"
 #include "solid/plan.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Places of a part that would need supports in its print orientation: layers that project too far, and islands.
 /// Coordinates are those of the whole, without the mesh's scale.
@@ -20,10 +20,11 @@ std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, con
 constexpr const char* k_prints = "prints";  ///< name of the condition
 /// The condition that a part with unprintable places fails. `whatever`: the search that failed, such as "wherever its
 /// tie-offs lie".
-Condition does_not_print(const std::string& name, const std::vector<Vec3>& places, const std::string& whatever);
+profile::Condition does_not_print(const std::string& name, const std::vector<Vec3>& places,
+                                  const std::string& whatever);
 
 /// Attributes each place to the nearest tie-off, or to its tail's slot. Places far from all of them are attributed to
 /// none.
 std::vector<Rejection> attribute_supports(const std::vector<Vec3>& places, const BodyPlan& plan);
 
-}  // namespace fusee
+}  // namespace fusee::solid

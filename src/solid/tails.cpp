@@ -12,7 +12,7 @@
 #include "solid/set_screw.h"
 #include "solid/tie_off_tools.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // Depth of a slot in tendon diameters, so that the tail lies below the face, without and with a peaked ceiling.
@@ -78,9 +78,11 @@ class TailPlacer {
 
  private:
   // Distance from the face to the groove's plane.
-  double to_plane(Side side) const { return side == Side::left ? layout_.z_p1 : layout_.z_top - layout_.z_p2; }
+  double to_plane(transmission::Side side) const {
+    return side == transmission::Side::left ? layout_.z_p1 : layout_.z_top - layout_.z_p2;
+  }
   // Distance from the face to the nearest point of a channel, whose ceiling rises in printing direction.
-  double to_channels(Side side) const {
+  double to_channels(transmission::Side side) const {
     return to_plane(side) - 0.5 * layout_.channel_width - (on_bed(layout_, side) ? 0.0 : layout_.channel_ceiling);
   }
 
@@ -93,10 +95,10 @@ class TailPlacer {
   }
 
   // Makes the screw as long as the material under the slot permits; false if that is too short.
-  bool add_screw(TailSlot& slot, Side side) const {
-    const double ground = layout_.parts == Parts::one ? layout_.z_top
-                          : side == Side::left        ? layout_.z_mate
-                                                      : layout_.z_top - layout_.z_mate;
+  bool add_screw(TailSlot& slot, transmission::Side side) const {
+    const double ground = layout_.parts == Parts::one        ? layout_.z_top
+                          : side == transmission::Side::left ? layout_.z_mate
+                                                             : layout_.z_top - layout_.z_mate;
     const double below = slot.depth + slot.ceiling, room = ground - k_ground_of_slot - below;
     slot.pilot_diameter = screw_->tapping + compensation_;
     slot.pilot_depth = below + std::min(k_thread_ratio * screw_->nominal, room);
@@ -110,7 +112,7 @@ class TailPlacer {
   }
 
   std::vector<Bar> obstacles_at_face(const PlannedAnchor& own) const {
-    const bool left = own.side == Side::left;
+    const bool left = own.side == transmission::Side::left;
     std::vector<Bar> bars{
         {Vec2::Zero(), Vec2::Zero(), left ? layout_.bore.radius : std::max(layout_.bore.radius, layout_.hub_radius)}};
     add_holes(bars);
@@ -129,9 +131,9 @@ class TailPlacer {
     for (const Vec2& place : layout_.dowels.places) bars.push_back({place, place, 0.5 * layout_.dowels.hole_diameter});
   }
 
-  bool is_free(const TailSlot& slot, Side side, const std::vector<Bar>& at_face) const {
+  bool is_free(const TailSlot& slot, transmission::Side side, const std::vector<Bar>& at_face) const {
     const double half = 0.5 * slot.width, wall = layout_.min_wall;
-    const ConvexSides& floor = side == Side::left ? floor1_ : floor2_;
+    const ConvexSides& floor = side == transmission::Side::left ? floor1_ : floor2_;
     if (floor.depth_of(slot.to) < half + wall) return false;
     const auto clear = [&](const Bar& bar) {
       return std::all_of(at_face.begin(), at_face.end(), [&](const Bar& other) { return gap(bar, other) >= wall; });
@@ -163,24 +165,25 @@ class TailPlacer {
   ConvexSides floor1_, floor2_;
 };
 
-Condition clamp_condition(const std::string& screw, Side side, bool placed) {
-  Condition condition;
-  condition.name = fmt::format("clamp_screw_{}", pulley_name(side));
+profile::Condition clamp_condition(const std::string& screw, transmission::Side side, bool placed) {
+  profile::Condition condition;
+  condition.name = fmt::format("clamp_screw_{}", transmission::pulley_name(side));
   condition.ok = placed;
   condition.value = placed ? 1 : 0;
   condition.limit = 1;
   condition.unit = "1";
   condition.message = fmt::format("{} has no space for clamp screw {} (body.clamp_screw) at the end of a tail's slot",
-                                  pulley_name(side), screw);
+                                  transmission::pulley_name(side), screw);
   return condition;
 }
 
 }  // namespace
 
-std::vector<Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism, const std::vector<Rejection>& rejected) {
+std::vector<profile::Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism,
+                                            const std::vector<Rejection>& rejected) {
   const std::string& screw = mechanism.body.clamp_screw;
   const bool clamps = find_screw(screw) != nullptr;
-  std::vector<Condition> conditions;
+  std::vector<profile::Condition> conditions;
   if (mechanism.body.tail == Tail::none && !clamps) return conditions;
   const TailPlacer placer(plan, mechanism);
   for (PlannedAnchor& anchor : plan.anchors) {
@@ -190,11 +193,11 @@ std::vector<Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism, c
       anchor.tail = placer.place(anchor);
     if (clamps) conditions.push_back(clamp_condition(screw, anchor.side, anchor.tail.has_value()));
     if (!anchor.tail && !clamps) {
-      plan.layout.notes.push_back(
-          fmt::format("no space on {}'s face for a slot for the tendon's tail: omitted", pulley_name(anchor.side)));
+      plan.layout.notes.push_back(fmt::format("no space on {}'s face for a slot for the tendon's tail: omitted",
+                                              transmission::pulley_name(anchor.side)));
     }
   }
   return conditions;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

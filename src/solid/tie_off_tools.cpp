@@ -10,7 +10,7 @@
 #include "solid/face_holes.h"
 #include "solid/tools.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // A slot to the face begins this far past the groove's plane, in the floor's band.
@@ -26,9 +26,9 @@ struct Heights {
   double pocket_ceiling = 0;   ///< height of the ceiling of a pocket that opens on the bed
 };
 
-Heights heights_of(const BodyLayout& layout, Side side, int variant) {
+Heights heights_of(const BodyLayout& layout, transmission::Side side, int variant) {
   Heights heights;
-  const bool left = side == Side::left, turned = left && layout.parts == Parts::two;
+  const bool left = side == transmission::Side::left, turned = left && layout.parts == Parts::two;
   heights.plane = left ? layout.z_p1 : layout.z_p2;
   heights.up = turned ? -1.0 : 1.0;
   heights.half = channel_half_height(layout, variant);
@@ -92,7 +92,7 @@ TriangleMesh pocket(const AnchorPath& path, double radius, double width, int fac
   return strip({entry, end});
 }
 
-TriangleMesh channel_tool(const BodyPlan& plan, Side side, const AnchorPath& planned, int variant) {
+TriangleMesh channel_tool(const BodyPlan& plan, transmission::Side side, const AnchorPath& planned, int variant) {
   const BodyLayout& layout = plan.layout;
   const AnchorPath path = varied(planned, variant);
   const double width = layout.channel_width, radius = layout.pocket_radius;
@@ -123,8 +123,8 @@ TriangleMesh countersink(const FaceHole& hole, double depth, double outside, int
 }
 
 // Seen from the face, which lies at 0. The whole tool is cut into material above the bed, or is open at the top.
-TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole& hole, int variant) {
-  const bool left = side == Side::left;
+TriangleMesh face_hole_tool(const BodyLayout& layout, transmission::Side side, const FaceHole& hole, int variant) {
+  const bool left = side == transmission::Side::left;
   const double outside = k_overshoot + (left ? 0.0 : layout.z_hub - layout.z_top);
   const double to_groove = left ? layout.z_p1 : layout.z_top - layout.z_p2;
   TriangleMesh tool = prism({hole_outline(hole, variant)}, -outside, to_groove + k_past_plane);
@@ -160,17 +160,17 @@ AnchorPath varied(AnchorPath path, int variant) {
   return path;
 }
 
-ChannelEdges channel_edges(const BodyPlan& plan, Side side, const AnchorPath& path) {
+ChannelEdges channel_edges(const BodyPlan& plan, transmission::Side side, const AnchorPath& path) {
   const BodyLayout& layout = plan.layout;
   if (layout.channel_ceiling <= 0) return plain_edges(path, layout.channel_width);
   const double cones = std::max({layout.lower_cone, layout.middle_cone, layout.upper_cone}) / rise_of(layout, 1.0);
   const double beyond = layout.groove_depth + cones + k_overshoot;
-  return flared_edges(path, layout.channel_width, side == Side::left ? plan.floor1 : plan.floor2, layout.entry_lean,
-                      beyond);
+  return flared_edges(path, layout.channel_width, side == transmission::Side::left ? plan.floor1 : plan.floor2,
+                      layout.entry_lean, beyond);
 }
 
-bool on_bed(const BodyLayout& layout, Side side) {
-  return layout.ceiling_slope > 0 && side == Side::left && layout.parts == Parts::one;
+bool on_bed(const BodyLayout& layout, transmission::Side side) {
+  return layout.ceiling_slope > 0 && side == transmission::Side::left && layout.parts == Parts::one;
 }
 
 // A half circle about the floor's end, and tangents outwards from both of its ends.
@@ -191,8 +191,9 @@ TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int
 
 // A section across the slot is a rectangle. If the face lies on the bed, a peaked ceiling is added. Each of its slopes
 // grows out of its own wall over the whole length, so that it prints up to the opening into the pocket.
-TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
-  const double face = side == Side::left ? 0.0 : layout.z_top, in = side == Side::left ? 1.0 : -1.0;
+TriangleMesh tail_slot_tool(const BodyLayout& layout, transmission::Side side, const TailSlot& slot) {
+  const double face = side == transmission::Side::left ? 0.0 : layout.z_top,
+               in = side == transmission::Side::left ? 1.0 : -1.0;
   const Vec2 across = 0.5 * slot.width * turned_left((slot.to - slot.from).normalized());
   const auto section_at = [&](const Vec2& place) {
     std::vector<Vec3> section;
@@ -210,10 +211,10 @@ TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot&
   return strip({section_at(slot.from), section_at(slot.to)});
 }
 
-TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
+TriangleMesh clamp_pilot_tool(const BodyLayout& layout, transmission::Side side, const TailSlot& slot) {
   const Polygon hole = polyhole(slot.pilot_diameter, slot.to);
-  if (side == Side::left) return prism({hole}, -k_overshoot, slot.pilot_depth);
+  if (side == transmission::Side::left) return prism({hole}, -k_overshoot, slot.pilot_depth);
   return prism({hole}, layout.z_top - slot.pilot_depth, layout.z_top + k_overshoot);
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

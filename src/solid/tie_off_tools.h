@@ -6,7 +6,7 @@
 #include "solid/channel_entries.h"
 #include "solid/plan.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Channel and knot pocket, with the pocket open to the nearest face, or the slot to the face. Each `variant` has
 /// different facets.
@@ -14,12 +14,12 @@ TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int
 Polygon hole_outline(const FaceHole& hole, int variant);
 
 /// The tail's slot, open to the face. To be subtracted from a body that has its tie-off.
-TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot& slot);
+TriangleMesh tail_slot_tool(const BodyLayout& layout, transmission::Side side, const TailSlot& slot);
 /// The pilot hole of the clamp screw, open to the face. It is wider than the slot, which ends at its centre.
-TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot);
+TriangleMesh clamp_pilot_tool(const BodyLayout& layout, transmission::Side side, const TailSlot& slot);
 
 /// True if the face that this pulley's pockets open on lies on the bed, where nothing supports overhangs.
-bool on_bed(const BodyLayout& layout, Side side);
+bool on_bed(const BodyLayout& layout, transmission::Side side);
 
 /// Distance from the groove's plane to a channel's floor.
 double channel_half_height(const BodyLayout& layout, int variant);
@@ -28,6 +28,6 @@ double channel_half_height(const BodyLayout& layout, int variant);
 AnchorPath varied(AnchorPath path, int variant);
 
 /// The plan view of a channel as it is cut.
-ChannelEdges channel_edges(const BodyPlan& plan, Side side, const AnchorPath& path);
+ChannelEdges channel_edges(const BodyPlan& plan, transmission::Side side, const AnchorPath& path);
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -9,7 +9,7 @@
 #include "fusee/base.h"
 #include "solid/face_holes.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // A narrower automatic channel would close in printing.
@@ -110,7 +110,7 @@ double TieOffPlanner::least_pocket(const BodyLayout& layout) const {
 AnchorSite TieOffPlanner::site(const BodyLayout& layout, const AnchorGround& ground) const {
   AnchorSite site{ground, mechanism_.tendon.diameter, layout.channel_width, layout.channel_fillet, layout.min_wall, {},
                   {}};
-  site.rim = ground.outline().side == Side::left ? &rims_.lower : &rims_.upper;
+  site.rim = ground.outline().side == transmission::Side::left ? &rims_.lower : &rims_.upper;
   site.holes.push_back({Vec2::Zero(), Vec2::Zero(), layout.bore.radius});
   for (const Polygon& hole : layout.bore.screw_holes) {
     Vec2 centre = Vec2::Zero();
@@ -124,7 +124,7 @@ std::optional<AnchorPath> TieOffPlanner::channel(AnchorSite site, const BodyLayo
                                                  double wanted, const LapRange& laps) const {
   // P2's pockets open on the face that the hub stands on. They avoid the hub if possible and otherwise cut into its
   // side.
-  if (site.ground.outline().side == Side::right && layout.hub_radius > 0) {
+  if (site.ground.outline().side == transmission::Side::right && layout.hub_radius > 0) {
     site.above_pocket.push_back({Vec2::Zero(), Vec2::Zero(), layout.hub_radius + k_hub_gap - layout.min_wall});
     if (auto path = anchor_at(site, wound_end, wanted, laps); path && path->room >= least_pocket(layout)) return path;
     site.above_pocket.clear();
@@ -187,18 +187,18 @@ void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout,
     layout.notes.push_back(
         fmt::format("no space on {} for a tie-off's channel and pocket: the tendon goes through a slot "
                     "to the face",
-                    pulley_name(ground.outline().side)));
+                    transmission::pulley_name(ground.outline().side)));
   }
   if (pair.spare) {
     anchors.push_back({ground.outline().side, false, *pair.spare, {}});
   } else {
     layout.notes.push_back(
-        fmt::format("no space for a spare tie-off on {}: omitted", pulley_name(ground.outline().side)));
+        fmt::format("no space for a spare tie-off on {}: omitted", transmission::pulley_name(ground.outline().side)));
   }
 }
 
 // A place near a rejected one is rejected as well. A spare tie-off has only one place.
-bool TieOffPlanner::is_rejected(Side side, bool wound_end, double wrap) const {
+bool TieOffPlanner::is_rejected(transmission::Side side, bool wound_end, double wrap) const {
   return std::any_of(wishes_.rejected.begin(), wishes_.rejected.end(), [&](const Rejection& rejection) {
     return !rejection.tail && rejection.side == side && rejection.wound_end == wound_end &&
            (!wound_end || std::abs(rejection.wrap - wrap) < k_rejected_around);
@@ -220,7 +220,7 @@ TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Ancho
     if (is_rejected(ground.outline().side, true, wrap_of(*wound))) continue;
     const TieOffPair further{*wound, spare_beside(layout, ground, *wound)};
     const bool in_the_way =
-        ground.outline().side == Side::right &&
+        ground.outline().side == transmission::Side::right &&
         (cuts_into_hub(layout, further) > cuts_into_hub(layout, nearest) || blocks_set_screw(layout, further));
     const bool complete = further.spare || is_rejected(ground.outline().side, false, 0.0);
     if (complete && !in_the_way) return further;
@@ -243,13 +243,13 @@ std::optional<TieOff> TieOffPlanner::spare_beside(const BodyLayout& layout, cons
 
 std::vector<AnchorRoom> TieOffPlanner::rooms(const BodyLayout& layout, const WoundTieOffs& wound) const {
   std::vector<AnchorRoom> rooms;
-  const auto add_room = [&](Side side, const std::optional<TieOff>& found) {
+  const auto add_room = [&](transmission::Side side, const std::optional<TieOff>& found) {
     if (found && !is_channel(*found)) return;
     rooms.push_back({side, found ? room_of(*found) : 0.0, least_pocket(layout)});
   };
-  add_room(Side::left, wound.p1);
-  add_room(Side::right, wound.p2);
+  add_room(transmission::Side::left, wound.p1);
+  add_room(transmission::Side::right, wound.p2);
   return rooms;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -12,13 +12,13 @@
 #include "solid/body.h"
 #include "solid/channel_entries.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// The two kinds of tie-off.
 using TieOff = std::variant<AnchorPath, FaceHole>;
 
 struct PlannedAnchor {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   bool wound_end = true;
   TieOff way;
   std::optional<TailSlot> tail;
@@ -34,7 +34,7 @@ struct PlannedAnchor {
 
 /// A tie-off, or its tail's slot alone, that did not print. It is not planned there again.
 struct Rejection {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   bool wound_end = true;
   double wrap = 0;
   bool tail = false;
@@ -56,7 +56,7 @@ struct TieOffPair {
 
 /// The result of the search for a tie-off at a wound end.
 struct AnchorRoom {
-  Side side = Side::left;
+  transmission::Side side = transmission::Side::left;
   double room = 0;   ///< radius of the largest pocket found; 0: not even the channel fits
   double least = 0;  ///< least useful radius
 };
@@ -83,7 +83,7 @@ struct TieOffWishes {
 /// Keeps references to its arguments.
 class TieOffPlanner {
  public:
-  TieOffPlanner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims,
+  TieOffPlanner(const Mechanism& mechanism, const profile::SynthesisResult& synthesis, const FlangeRims& rims,
                 const TieOffWishes& wishes)
       : mechanism_(mechanism),
         ground1_(synthesis.p1, mechanism.tendon.diameter),
@@ -114,7 +114,7 @@ class TieOffPlanner {
                                 const LapRange& laps) const;
   void add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const AnchorGround& ground,
            const TieOffPair& pair) const;
-  bool is_rejected(Side side, bool wound_end, double wrap) const;
+  bool is_rejected(transmission::Side side, bool wound_end, double wrap) const;
   TieOffPair wrapped_furthest(const BodyLayout& layout, const AnchorGround& ground, const TieOff& first) const;
   std::optional<TieOff> spare_beside(const BodyLayout& layout, const AnchorGround& ground, const TieOff& first) const;
 
@@ -125,4 +125,4 @@ class TieOffPlanner {
   bool face_holes_ = false;
 };
 
-}  // namespace fusee
+}  // namespace fusee::solid

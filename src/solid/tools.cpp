@@ -8,7 +8,7 @@
 #include "solid/caps.h"
 #include "solid/set_screw.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 constexpr int k_hole_facets = 20;
@@ -163,4 +163,4 @@ TriangleMesh set_screw_tool(const SetScrewLayout& screw, double hub_radius, doub
   return both->mesh;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -6,7 +6,7 @@
 
 #include "fusee/solid.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// Tools project from the body by this, so that no two faces coincide.
 inline constexpr double k_overshoot = 1.0;
@@ -23,4 +23,4 @@ void turn_inside_out(TriangleMesh& mesh);
 /// The set screw's hole from the axis through the hub, with the slot for its nut. Each `variant` has different facets.
 TriangleMesh set_screw_tool(const SetScrewLayout& screw, double hub_radius, double hub_top, int variant);
 
-}  // namespace fusee
+}  // namespace fusee::solid

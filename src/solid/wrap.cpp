@@ -5,7 +5,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 // In (−π, π].
@@ -13,7 +13,7 @@ double turn_between(double from, double to) { return std::remainder(to - from, k
 
 }  // namespace
 
-std::size_t index_at_normal(const Outline& outline, double normal) {
+std::size_t index_at_normal(const profile::Outline& outline, double normal) {
   const auto found =
       std::min_element(outline.points.begin(), outline.points.end(), [normal](const auto& a, const auto& b) {
         return std::abs(turn_between(a.psi, normal)) < std::abs(turn_between(b.psi, normal));
@@ -21,7 +21,7 @@ std::size_t index_at_normal(const Outline& outline, double normal) {
   return static_cast<std::size_t>(found - outline.points.begin());
 }
 
-std::size_t index_at_place(const Outline& outline, const Vec2& place) {
+std::size_t index_at_place(const profile::Outline& outline, const Vec2& place) {
   const auto found =
       std::min_element(outline.points.begin(), outline.points.end(), [&place](const auto& a, const auto& b) {
         return (a.position - place).squaredNorm() < (b.position - place).squaredNorm();
@@ -29,9 +29,9 @@ std::size_t index_at_place(const Outline& outline, const Vec2& place) {
   return static_cast<std::size_t>(found - outline.points.begin());
 }
 
-WoundArc wound_arc(const Outline& outline, std::size_t from, std::size_t to) {
+WoundArc wound_arc(const profile::Outline& outline, std::size_t from, std::size_t to) {
   const std::size_t count = outline.points.size();
-  const std::size_t step = outline.side == Side::left ? 1 : count - 1;
+  const std::size_t step = outline.side == transmission::Side::left ? 1 : count - 1;
   WoundArc arc;
   for (std::size_t i = from; i != to;) {
     const std::size_t next = (i + step) % count;
@@ -42,4 +42,4 @@ WoundArc wound_arc(const Outline& outline, std::size_t from, std::size_t to) {
   return arc;
 }
 
-}  // namespace fusee
+}  // namespace fusee::solid

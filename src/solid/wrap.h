@@ -4,17 +4,17 @@
 
 #include "fusee/profile.h"
 
-namespace fusee {
+namespace fusee::solid {
 
 /// The point whose normal is nearest to `normal`.
-std::size_t index_at_normal(const Outline& outline, double normal);
+std::size_t index_at_normal(const profile::Outline& outline, double normal);
 /// The point nearest to `place`.
-std::size_t index_at_place(const Outline& outline, const Vec2& place);
+std::size_t index_at_place(const profile::Outline& outline, const Vec2& place);
 
 struct WoundArc {
   double length = 0;
   double turn = 0;
 };
-WoundArc wound_arc(const Outline& outline, std::size_t from, std::size_t to);
+WoundArc wound_arc(const profile::Outline& outline, std::size_t from, std::size_t to);
 
-}  // namespace fusee
+}  // namespace fusee::solid

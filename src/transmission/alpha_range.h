@@ -7,7 +7,7 @@
 
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 /// steps + 1 pulley angles, evenly spaced over the range, both ends included.
 inline std::vector<double> alphas_over_range(const Transmission& law, int steps) {
@@ -31,4 +31,4 @@ inline std::vector<TransmissionPoint> stroke_over_range(const Transmission& tran
   return points;
 }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fusee {
+namespace fusee::transmission {
 
 DeclaredLaw::DeclaredLaw(const Mechanism& declared) {
   if (declared.transmission) {
@@ -24,4 +24,4 @@ double DeclaredLaw::theta_extrapolated(double alpha) const {
   return law_->theta(within) + slope_ * (alpha - within);
 }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

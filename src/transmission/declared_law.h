@@ -6,7 +6,7 @@
 
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 class DeclaredLaw {
  public:
@@ -34,4 +34,4 @@ class DeclaredLaw {
   std::optional<Transmission> law_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::transmission

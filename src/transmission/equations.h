@@ -9,7 +9,7 @@
 
 #include "transmission/scalar.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 template <typename S>
 struct RotationAngle {
@@ -107,4 +107,4 @@ S angle_of_elongation(const S& elongation, const S& arm) {
   return elongation / arm;
 }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

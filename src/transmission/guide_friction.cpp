@@ -1,9 +1,9 @@
-#include "fusee/transmission.h"
-
 #include <algorithm>
 #include <cmath>
 
-namespace fusee {
+#include "fusee/transmission.h"
+
+namespace fusee::transmission {
 namespace {
 
 /// Upper bound of the bearing's share of the tension. Above it the idler holds like a fixed pin; valid files stay far
@@ -46,4 +46,4 @@ Mechanism without_friction(Mechanism mechanism) {
   return mechanism;
 }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

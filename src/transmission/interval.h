@@ -13,7 +13,7 @@
 
 #include "transmission/scalar.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 using RoundedInterval = boost::numeric::interval<
     double, boost::numeric::interval_lib::policies<
@@ -178,4 +178,4 @@ inline Jet direction(const Jet& x, const Jet& y, Domain& domain) {
   return boost::numeric::hull(-0.5 * pi, 1.5 * pi);
 }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -4,7 +4,7 @@
 
 #include "transmission/equations.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 double weight_moment(const Load& load) { return load.mass * k_gravity * load.lever; }
 
@@ -28,4 +28,4 @@ void keep_law(Mechanism& mechanism) {
   mechanism.law_load = JointLoad{mechanism.joint.R, mechanism.load, mechanism.spring};
 }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -4,7 +4,7 @@
 
 #include "fusee/mechanism.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 constexpr double k_gravity = 9.80665;  ///< standard gravity, m/s²
 
@@ -25,4 +25,4 @@ TorqueOverTheta law_load_torque(const Mechanism& mechanism, double theta);
 /// Freezes the load and lever that define law = torque, so that later changes of [load] or R do not change θ(α).
 void keep_law(Mechanism& mechanism);
 
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -8,7 +8,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 /// Domain violations met while evaluating a formula. Of an interval, a part or all may lie outside the domain.
 struct Domain {
@@ -44,4 +44,4 @@ inline double direction(double x, double y, Domain&) {
   return angle < -0.5 * k_pi ? angle + k_two_pi : angle;
 }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

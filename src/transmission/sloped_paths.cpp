@@ -1,10 +1,9 @@
-#include "fusee/transmission.h"
-
 #include <cmath>
 
 #include "fusee/base.h"
+#include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::transmission {
 namespace {
 
 /// Clenshaw's recurrence for Σ c_k T_k(t).
@@ -60,4 +59,4 @@ ChebyshevSeries::Value ChebyshevSeries::at(double x) const {
           chebyshev_sum(coefficients_[3], t)};
 }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -6,7 +6,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::transmission {
 namespace {
 
 using LawSpline = Eigen::Spline<double, 1>;
@@ -98,4 +98,4 @@ LawValue Transmission::TableLaw::at(double alpha) const {
   return law;
 }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -8,7 +8,7 @@
 
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 /// θ and its first three derivatives with respect to α.
 struct LawValue {
@@ -40,4 +40,4 @@ struct Transmission::TableLaw {
   double last_ = 0;
 };
 
-}  // namespace fusee
+}  // namespace fusee::transmission

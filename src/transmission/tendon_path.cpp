@@ -1,12 +1,11 @@
-#include "fusee/transmission.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "fusee/transmission.h"
 #include "transmission/equations.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 namespace {
 
@@ -206,4 +205,4 @@ UpperSpan free_span(const PinPlace& place, double theta) {
 
 }  // namespace
 
-}  // namespace fusee
+}  // namespace fusee::transmission

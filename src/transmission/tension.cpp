@@ -1,12 +1,11 @@
-#include "fusee/transmission.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "transmission/load.h"
+#include "fusee/transmission.h"
 #include "transmission/equations.h"
+#include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::transmission {
 namespace {
 
 /// [10],[11] Change of the angle at O in the triangle O-pin-C when the side pin–C grows by the elongation. If the sides
@@ -84,4 +83,4 @@ PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& po
   return forces;
 }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -4,7 +4,7 @@
 
 #include "fusee/mechanism.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 /// One joint angle. Without friction the motor turns by load/motor per joint angle.
 struct TorqueMatch {
@@ -19,4 +19,4 @@ struct TorqueMatch {
 /// positive. An angle without a value comes first.
 TorqueMatch tightest_torque(const Mechanism& mechanism);
 
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -7,7 +7,7 @@
 
 #include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::transmission {
 namespace {
 
 /// Positive nodes and weights of the eight-point Gauss quadrature on [−1, 1], exact to degree 15.
@@ -133,4 +133,4 @@ LawValue Transmission::TorqueLaw::at(double theta) const {
 
 TorqueMatch tightest_torque(const Mechanism& mechanism) { return Transmission::TorqueLaw(mechanism).tightest(); }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

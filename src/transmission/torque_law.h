@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "transmission/torque.h"
 #include "fusee/transmission.h"
 #include "transmission/table_law.h"
+#include "transmission/torque.h"
 
-namespace fusee {
+namespace fusee::transmission {
 
 /// Virtual work without friction: M dα = τ dθ, where τ is the torque of [load] and [spring] against +θ and M the motor
 /// torque towards +α. Therefore dα/dθ = τ/M, and α is its integral from home:
@@ -48,4 +48,4 @@ struct Transmission::TorqueLaw {
   std::optional<double> fails_at_;
 };
 
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -8,7 +8,7 @@
 #include "transmission/table_law.h"
 #include "transmission/torque_law.h"
 
-namespace fusee {
+namespace fusee::transmission {
 namespace {
 
 /// Moment arm of one tendon and its derivatives by the mechanism's θ.
@@ -254,4 +254,4 @@ TransmissionPoint Transmission::at(double alpha, double theta) const {
   return point;
 }
 
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -5,7 +5,7 @@
 #include "fusee/joint.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::analysis {
 namespace {
 
 using testing::forearm;
@@ -28,7 +28,7 @@ TEST(Analysis, RowsCoverRangeAndHome) {
   for (const AnalysisRow& row : result.rows) {
     EXPECT_EQ(row.rising.alpha, row.declared.alpha);
     EXPECT_EQ(row.falling.alpha, row.declared.alpha);
-    EXPECT_EQ(row.rising.status, EquilibriumStatus::held);
+    EXPECT_EQ(row.rising.status, joint::EquilibriumStatus::held);
   }
 }
 
@@ -41,9 +41,9 @@ TEST(Analysis, ModelsAgreeUnderPaperAssumptions) {
   mechanism.guides.mu = 0;
   mechanism.pulley.mu = 1e12;  // the wound tendon does not act as a spring
   mechanism.load.tip_force = 10.0;
-  const JointModel model = joint_model(mechanism);
+  const joint::JointModel model = joint::joint_model(mechanism);
   for (const AnalysisRow& row : analyse(mechanism, quick()).rows) {
-    const TendonPoint& tendon = row.declared.t2;
+    const transmission::TendonPoint& tendon = row.declared.t2;
     const double free = 1.0 - (tendon.lower_reach - model.lower(row.declared.alpha)[1].reach) / tendon.length;
     EXPECT_NEAR(row.rising.t2.lower / row.paper.Tb, 1.0, 2e-4);
     EXPECT_NEAR(row.rising.motor_torque / row.paper.motor_torque, 1.0, 2e-4);
@@ -64,7 +64,7 @@ TEST(Analysis, FindsLargestTension) {
                      row.rising.t1.lower});
   }
   EXPECT_EQ(result.largest_tension.tension, most);
-  EXPECT_EQ(result.largest_tension.tendon, Side::right);
+  EXPECT_EQ(result.largest_tension.tendon, transmission::Side::right);
   EXPECT_TRUE(result.largest_tension.below_pin);
   EXPECT_TRUE(result.largest_tension.rising);
   EXPECT_NEAR(result.largest_paper_tension.value, most, 0.02 * most);
@@ -102,10 +102,11 @@ TEST(Analysis, ReportsDrumFriction) {
   mechanism.joint.drum_mu = 0.2;
   const AnalysisResult rough = analyse(mechanism, quick());
   ASSERT_EQ(rough.on_drum.size(), 2u);
-  const PinPlace place = pin_place(mechanism, Side::right, mechanism.seen_pitch_radius());
+  const transmission::PinPlace place =
+      transmission::pin_place(mechanism, transmission::Side::right, mechanism.seen_pitch_radius());
   const DrumHold& hold = rough.on_drum[1];
-  EXPECT_EQ(hold.tendon, Side::right);
-  EXPECT_NEAR(hold.wrap, upper_span(place, mechanism.joint.theta_min).on_drum, 1e-9);
+  EXPECT_EQ(hold.tendon, transmission::Side::right);
+  EXPECT_NEAR(hold.wrap, transmission::upper_span(place, mechanism.joint.theta_min).on_drum, 1e-9);
   EXPECT_NEAR(hold.ratio, std::exp(0.2 * hold.wrap), 1e-12);
   EXPECT_LT(hold.at_end.value, 0.99 * smooth.largest_at_joint.value);
   EXPECT_GT(hold.at_end.value, smooth.largest_at_joint.value / hold.ratio);
@@ -170,4 +171,4 @@ TEST(Analysis, IsReproducible) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::analysis

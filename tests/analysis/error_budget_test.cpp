@@ -4,7 +4,7 @@
 #include "fusee/analysis.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::analysis {
 namespace {
 
 using testing::forearm;
@@ -12,7 +12,7 @@ using testing::linear_wrist;
 using testing::reference;
 using testing::unsymmetric;
 
-RigidJoint as_declared(const Mechanism& mechanism) { return {MadePulleys(mechanism), mechanism}; }
+RigidJoint as_declared(const Mechanism& mechanism) { return {joint::MadePulleys(mechanism), mechanism}; }
 
 const ErrorSource& named(const std::vector<ErrorSource>& sources, const std::string& name) {
   for (const ErrorSource& source : sources) {
@@ -23,7 +23,7 @@ const ErrorSource& named(const std::vector<ErrorSource>& sources, const std::str
 
 TEST(RigidJoint, ReproducesDeclaredLaw) {
   for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
-    const Transmission transmission(mechanism);
+    const transmission::Transmission transmission(mechanism);
     for (const double theta : {-0.3, 0.0, 0.4}) {
       const RigidPoint point = as_declared(mechanism).at(transmission.alpha(theta));
       EXPECT_NEAR(point.theta, theta, 1e-12);
@@ -36,8 +36,8 @@ TEST(RigidJoint, DerivativesAgreeWithDifferences) {
   constexpr double step = 1e-4;
   for (const Mechanism& mechanism :
        {forearm(), linear_wrist(), unsymmetric(), testing::finger(), testing::ankle(), testing::sheathed_wrist()}) {
-    const Transmission transmission(mechanism);
-    const MadePulleys made(mechanism);
+    const transmission::Transmission transmission(mechanism);
+    const joint::MadePulleys made(mechanism);
     for (const Dimension& dimension : dimensions(mechanism)) {
       const RigidJoint more = altered(made, mechanism, dimension, step);
       const RigidJoint less = altered(made, mechanism, dimension, -step);
@@ -58,11 +58,12 @@ void move_drum(Alteration& joint, double by) {
   (is_across ? joint.mounted.joint.drum_centre.across : joint.mounted.joint.drum_centre.along) += by;
 }
 template <bool is_across>
-double by_drum_centre(const PinPlace& pin, const LowerPath&, Side side, double theta, double) {
-  const UpperSpan span = upper_span(pin, theta);
+double by_drum_centre(const transmission::PinPlace& pin, const joint::LowerPath&, transmission::Side side, double theta,
+                      double) {
+  const transmission::UpperSpan span = transmission::upper_span(pin, theta);
   const Vec2 across(std::cos(theta), -std::sin(theta)), along(std::sin(theta), std::cos(theta));
   const Vec2 pulled = turned_left(unit(span.normal)) - turned_left(unit(span.end_normal));
-  return pulled.dot(is_across ? Vec2(mirror_sign(side) * across) : along);
+  return pulled.dot(is_across ? Vec2(transmission::mirror_sign(side) * across) : along);
 }
 
 TEST(RigidJoint, DrumCentreAgreesWithDifferences) {
@@ -70,8 +71,8 @@ TEST(RigidJoint, DrumCentreAgreesWithDifferences) {
   const std::vector<Dimension> centre = {{"across", move_drum<true>, by_drum_centre<true>},
                                          {"along", move_drum<false>, by_drum_centre<false>}};
   for (const Mechanism& mechanism : {testing::finger(), testing::ankle()}) {
-    const Transmission transmission(mechanism);
-    const MadePulleys made(mechanism);
+    const transmission::Transmission transmission(mechanism);
+    const joint::MadePulleys made(mechanism);
     for (const Dimension& dimension : centre) {
       const RigidJoint more = altered(made, mechanism, dimension, step);
       const RigidJoint less = altered(made, mechanism, dimension, -step);
@@ -89,7 +90,7 @@ TEST(RigidJoint, IsInvariantToScaling) {
   // An exact null direction of the mechanism: by Euler's theorem, the sum of length times derivative over all lengths
   // is zero.
   const Mechanism m = unsymmetric();
-  const Transmission transmission(m);
+  const transmission::Transmission transmission(m);
   const double lengths[] = {m.joint.R,       m.guides.EB, m.guides.ED,      m.guides.OE,
                             m.guides.radius, m.pulley.EF, m.tendon.diameter};
   const double alpha = transmission.alpha(0.4);
@@ -104,7 +105,7 @@ TEST(RigidJoint, IsInvariantToScaling) {
 
 TEST(RigidJoint, CombinedChangesEqualSingleChanges) {
   const Mechanism mechanism = unsymmetric();
-  const MadePulleys made(mechanism);
+  const joint::MadePulleys made(mechanism);
   const double alpha = made.declared().alpha(0.3);
   for (std::size_t i = 0; i < dimensions(mechanism).size(); ++i) {
     std::vector<double> changes(dimensions(mechanism).size(), 0.0);
@@ -126,7 +127,7 @@ TEST(ErrorSources, AgreeWithReference) {
   // A tendon 1 mm thick: −0.9/+0.8° due to the pulley, which is thicker by half of it.
   Mechanism point_pins = reference();
   point_pins.tendon.diameter = 1e-6;
-  const MadePulleys drawn(point_pins);
+  const joint::MadePulleys drawn(point_pins);
   const RigidJoint thicker(drawn.offset_by(0.5), point_pins);
   EXPECT_NEAR(degrees(thicker.at(drawn.declared().alpha_min()).theta) + 30.0, -0.9, 0.05);
   EXPECT_NEAR(degrees(thicker.at(drawn.declared().alpha_max()).theta) - 30.0, 0.8, 0.05);
@@ -183,4 +184,4 @@ TEST(Tolerances, ScaleWithTolerance) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::analysis

@@ -7,11 +7,11 @@
 #include <iostream>
 
 #include "fusee/analysis.h"
-#include "mechanism/catalogue.h"
 #include "laws/random_mechanism.h"
+#include "mechanism/catalogue.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::analysis {
 namespace {
 
 using ::testing::AllOf;
@@ -99,7 +99,7 @@ TEST(Plausibility, RarelyWarnsOfRandomJoints) {
       RC_ASSERT(doubt.message.find("guides.OE_mm") == 0);
       RC_ASSERT(mechanism.guides.OE > 0);
     }
-    return synthesise(mechanism, {.advice = false}).made();
+    return profile::synthesise(mechanism, {.advice = false}).made();
   });
   EXPECT_LE(doubted, cases / 50);
 }
@@ -136,7 +136,7 @@ TEST(Plausibility, DetectsErrorsInRandomJoints) {
       kind.slip(slipped);
       kind.seen += likely_input_errors(file_of(slipped)).empty() ? 0 : 1;
     }
-    return synthesise(mechanism, {.advice = false}).made();
+    return profile::synthesise(mechanism, {.advice = false}).made();
   });
   for (const Kind& kind : kinds) {
     EXPECT_GE(kind.seen, kind.least * cases) << kind.name;
@@ -155,7 +155,7 @@ TEST(SignOfOE, WarnsOfUnevenPulley) {
 TEST(SignOfOE, WarnsIfOnlyOppositeIsFeasible) {
   MechanismFile file = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/linear_wrist.toml");
   file.mechanism.guides.OE *= -1;
-  ASSERT_FALSE(synthesise(file.mechanism, {.advice = false}).made());
+  ASSERT_FALSE(profile::synthesise(file.mechanism, {.advice = false}).made());
   EXPECT_THAT(said(file),
               ElementsAre(AllOf(HasSubstr("no such pulley can be made"), HasSubstr("did you mean -37.5?"))));
 }
@@ -309,4 +309,4 @@ TEST(Places, WarningsNameTheirKey) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::analysis

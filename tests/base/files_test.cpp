@@ -1,5 +1,3 @@
-#include "fusee/base.h"
-
 #include <gmock/gmock.h>
 #include <sched.h>
 #include <signal.h>
@@ -13,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

@@ -1,8 +1,7 @@
 // Formulas of the plane, compared with known values.
-#include "fusee/base.h"
-
 #include <gmock/gmock.h>
 
+#include "fusee/base.h"
 
 namespace fusee {
 namespace {

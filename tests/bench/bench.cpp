@@ -24,20 +24,20 @@ const MechanismFile& paper() {
   return file;
 }
 
-const SynthesisResult& paper_synthesis() {
-  static const SynthesisResult synthesis = synthesise(paper().mechanism);
+const profile::SynthesisResult& paper_synthesis() {
+  static const profile::SynthesisResult synthesis = profile::synthesise(paper().mechanism);
   return synthesis;
 }
 
-const Pulley& paper_pulley() {
-  static const Pulley pulley = make_pulley(paper().mechanism, paper_synthesis());
+const solid::Pulley& paper_pulley() {
+  static const solid::Pulley pulley = solid::make_pulley(paper().mechanism, paper_synthesis());
   return pulley;
 }
 
 /// A valid ring of about `triangles` faces; coordinates are rounded to floats.
-TriangleMesh torus(std::int64_t triangles) {
+solid::TriangleMesh torus(std::int64_t triangles) {
   const auto n = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(triangles) / 2)));
-  TriangleMesh mesh;
+  solid::TriangleMesh mesh;
   for (std::uint32_t i = 0; i < n; ++i) {
     for (std::uint32_t j = 0; j < n; ++j) {
       const double u = k_two_pi * i / n, v = k_two_pi * j / n, r = 20 + 5 * std::cos(v);
@@ -48,11 +48,11 @@ TriangleMesh torus(std::int64_t triangles) {
       mesh.triangles.push_back({a, c, d});
     }
   }
-  return rounded_to_float(std::move(mesh));
+  return solid::rounded_to_float(std::move(mesh));
 }
 
 void synthesis(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(synthesise(paper().mechanism));
+  for (auto _ : state) benchmark::DoNotOptimize(profile::synthesise(paper().mechanism));
 }
 BENCHMARK(synthesis)->Unit(benchmark::kMillisecond);
 
@@ -60,7 +60,7 @@ BENCHMARK(synthesis)->Unit(benchmark::kMillisecond);
 void synthesis_of_wide_joint(benchmark::State& state, const char* profile) {
   const MechanismFile file =
       read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (std::string(profile) + ".toml"));
-  for (auto _ : state) benchmark::DoNotOptimize(synthesise(file.mechanism));
+  for (auto _ : state) benchmark::DoNotOptimize(profile::synthesise(file.mechanism));
 }
 BENCHMARK_CAPTURE(synthesis_of_wide_joint, finger_pip, "finger_pip")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(synthesis_of_wide_joint, ankle_exo, "ankle_exo")->Unit(benchmark::kMillisecond);
@@ -69,30 +69,30 @@ BENCHMARK_CAPTURE(synthesis_of_wide_joint, wrist_sheath, "wrist_sheath")->Unit(b
 BENCHMARK_CAPTURE(synthesis_of_wide_joint, gravity_arm, "gravity_arm")->Unit(benchmark::kMillisecond);
 
 void body(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(make_pulley(paper().mechanism, paper_synthesis()));
+  for (auto _ : state) benchmark::DoNotOptimize(solid::make_pulley(paper().mechanism, paper_synthesis()));
 }
 BENCHMARK(body)->Unit(benchmark::kMillisecond);
 
 void checks(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        check_pulley(paper_pulley().mesh, paper().mechanism, paper_synthesis(), paper_pulley(), 0.01));
+        solid::check_pulley(paper_pulley().mesh, paper().mechanism, paper_synthesis(), paper_pulley(), 0.01));
   }
 }
 BENCHMARK(checks)->Unit(benchmark::kMillisecond);
 
 void rewinding(benchmark::State& state) {
-  const Part part = paper_pulley().mesh;
-  for (auto _ : state) benchmark::DoNotOptimize(rewind_part({paper().mechanism, {}}, part));
+  const pipeline::Part part = paper_pulley().mesh;
+  for (auto _ : state) benchmark::DoNotOptimize(pipeline::rewind_part({paper().mechanism, {}}, part));
 }
 BENCHMARK(rewinding)->Unit(benchmark::kMillisecond);
 
 /// All formats and checks, with files on the disk.
 void whole_build(benchmark::State& state) {
   const auto folder = std::filesystem::temp_directory_path() / "fusee-bench";
-  BuildOptions options;
+  pipeline::BuildOptions options;
   options.folder = folder;
-  for (auto _ : state) benchmark::DoNotOptimize(build(paper(), options));
+  for (auto _ : state) benchmark::DoNotOptimize(pipeline::build(paper(), options));
   std::filesystem::remove_all(folder);
 }
 BENCHMARK(whole_build)->Unit(benchmark::kMillisecond);
@@ -100,13 +100,13 @@ BENCHMARK(whole_build)->Unit(benchmark::kMillisecond);
 // Joints of the wider class: drums with and without lift-off, idlers, sheaths, a torque law.
 void synthesis_of(benchmark::State& state, const std::string& name) {
   const MechanismFile file = profile(name);
-  for (auto _ : state) benchmark::DoNotOptimize(synthesise(file.mechanism));
+  for (auto _ : state) benchmark::DoNotOptimize(profile::synthesise(file.mechanism));
 }
 void build_of(benchmark::State& state, const std::string& name) {
   const MechanismFile file = profile(name);
-  BuildOptions options;
+  pipeline::BuildOptions options;
   options.folder = std::filesystem::temp_directory_path() / "fusee-bench";
-  for (auto _ : state) benchmark::DoNotOptimize(build(file, options));
+  for (auto _ : state) benchmark::DoNotOptimize(pipeline::build(file, options));
   std::filesystem::remove_all(options.folder);
 }
 
@@ -149,14 +149,14 @@ void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 /// Chord error 0.01 mm, all formats and checks: at most 1 s and 300 MB for ten turns.
 void whole_build_of_turns(benchmark::State& state) {
   const MechanismFile file = with_turns(static_cast<double>(state.range(0)));
-  BuildOptions options;
+  pipeline::BuildOptions options;
   options.folder = std::filesystem::temp_directory_path() / "fusee-bench";
   options.chord_error_mm = 0.01;
   std::size_t triangles = 0;
   forget_peak();
   for (auto _ : state) {
-    const BuildResult built = build(file, options);
-    if (built.status != BuildStatus::done) state.SkipWithError("not made");
+    const pipeline::BuildResult built = pipeline::build(file, options);
+    if (built.status != pipeline::BuildStatus::done) state.SkipWithError("not made");
     triangles = built.product.pulley.mesh.triangles.size();
   }
   std::filesystem::remove_all(options.folder);
@@ -167,22 +167,22 @@ BENCHMARK(whole_build_of_turns)->DenseRange(2, 10, 2)->Unit(benchmark::kMillisec
 
 /// The report with the moving joint.
 void page(benchmark::State& state) {
-  BuildOptions options;
+  pipeline::BuildOptions options;
   options.dry_run = true;
   options.folder = "unused";
-  const BuildResult built = build(paper(), options);
-  for (auto _ : state) benchmark::DoNotOptimize(report_html(built.product));
+  const pipeline::BuildResult built = pipeline::build(paper(), options);
+  for (auto _ : state) benchmark::DoNotOptimize(formats::report_html(built.product));
 }
 BENCHMARK(page)->Unit(benchmark::kMillisecond);
 
 // One part with ever smaller facets.
 void build_by_tolerance(benchmark::State& state) {
-  BuildOptions options;
+  pipeline::BuildOptions options;
   options.chord_error_mm = 0.01 / static_cast<double>(state.range(0));
   options.dry_run = true;
   options.folder = "unused";
   std::size_t triangles = 0;
-  for (auto _ : state) triangles = build(paper(), options).product.pulley.mesh.triangles.size();
+  for (auto _ : state) triangles = pipeline::build(paper(), options).product.pulley.mesh.triangles.size();
   state.counters["triangles"] = static_cast<double>(triangles);
 }
 BENCHMARK(build_by_tolerance)->Arg(1)->Arg(4)->Arg(16)->Unit(benchmark::kMillisecond);
@@ -193,9 +193,9 @@ void sizes(benchmark::internal::Benchmark* bench) {
 }
 
 void write_stl(benchmark::State& state) {
-  const TriangleMesh mesh = torus(state.range(0));
+  const solid::TriangleMesh mesh = torus(state.range(0));
   std::size_t bytes = 0;
-  for (auto _ : state) bytes += stl_bytes(mesh, "torus").size();
+  for (auto _ : state) bytes += formats::stl_bytes(mesh, "torus").size();
   state.SetBytesProcessed(static_cast<std::int64_t>(bytes));
   state.SetComplexityN(state.range(0));
 }
@@ -203,7 +203,7 @@ BENCHMARK(write_stl)->Apply(sizes);
 
 /// Reference for the STL writer: a copy of the same bytes.
 void copy_stl(benchmark::State& state) {
-  const std::string stl = stl_bytes(torus(state.range(0)), "torus");
+  const std::string stl = formats::stl_bytes(torus(state.range(0)), "torus");
   for (auto _ : state) {
     std::string copy(stl.size(), '\0');
     std::memcpy(copy.data(), stl.data(), stl.size());
@@ -215,16 +215,16 @@ void copy_stl(benchmark::State& state) {
 BENCHMARK(copy_stl)->Apply(sizes);
 
 void read_stl(benchmark::State& state) {
-  const std::string stl = stl_bytes(torus(state.range(0)), "torus");
-  for (auto _ : state) benchmark::DoNotOptimize(read_mesh(stl, "torus.stl"));
+  const std::string stl = formats::stl_bytes(torus(state.range(0)), "torus");
+  for (auto _ : state) benchmark::DoNotOptimize(formats::read_mesh(stl, "torus.stl"));
   state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * stl.size()));
   state.SetComplexityN(state.range(0));
 }
 BENCHMARK(read_stl)->Apply(sizes);
 
 void check_a_mesh(benchmark::State& state) {
-  const TriangleMesh mesh = torus(state.range(0));
-  for (auto _ : state) benchmark::DoNotOptimize(check_mesh(mesh));
+  const solid::TriangleMesh mesh = torus(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(solid::check_mesh(mesh));
   state.SetComplexityN(state.range(0));
 }
 BENCHMARK(check_a_mesh)->Apply(sizes);

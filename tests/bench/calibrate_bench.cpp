@@ -51,7 +51,7 @@ constexpr int k_model_rows = 4000;
 
 /// Motor angle at a share of the run, for strokes there and back.
 double alpha_at(double share) {
-  static const Transmission law(forearm());
+  static const transmission::Transmission law(forearm());
   const double stroke = share * k_strokes;
   const double there = stroke - 2 * std::floor(0.5 * stroke);
   return 0.9 * (law.alpha_min() + (law.alpha_max() - law.alpha_min()) * (there <= 1 ? there : 2 - there));
@@ -61,9 +61,9 @@ double alpha_at(double share) {
 /// rows.
 const std::vector<std::vector<double>>& true_angles() {
   static const std::vector<std::vector<double>> angles = [] {
-    Measurement measurement;
+    measurement::Measurement measurement;
     for (const Plan& plan : k_runs) {
-      Run run;
+      measurement::Run run;
       run.has_time = run.has_load = true;
       for (int i = 0; i <= k_model_rows; ++i) {
         const double share = static_cast<double>(i) / k_model_rows;
@@ -74,7 +74,7 @@ const std::vector<std::vector<double>>& true_angles() {
     Imperfections hidden;
     hidden.tendon.stretch = 40000.0 / 12000.0 - 1;
     hidden.shaft.backlash = radians(1.2);
-    return predict(forearm(), hidden, bench_log(measurement));
+    return joint::predict(forearm(), hidden, measurement::bench_log(measurement));
   }();
   return angles;
 }
@@ -101,10 +101,10 @@ std::vector<std::string> texts(std::int64_t rows) {
   return all;
 }
 
-Measurement measured(const std::vector<std::string>& runs) {
-  Measurement measurement;
+measurement::Measurement measured(const std::vector<std::string>& runs) {
+  measurement::Measurement measurement;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    Run run = parse_run(runs[i], "run_" + std::to_string(i + 1), {}, measurement);
+    measurement::Run run = measurement::parse_run(runs[i], "run_" + std::to_string(i + 1), {}, measurement);
     measurement.runs.push_back(std::move(run));
   }
   return measurement;
@@ -112,13 +112,13 @@ Measurement measured(const std::vector<std::string>& runs) {
 
 /// `rows` in five runs, with the correction: everything of `fusee calibrate` except files.
 void calibrate_rows(benchmark::State& state) {
-  const Measurement measurement = measured(texts(state.range(0)));
+  const measurement::Measurement measurement = measured(texts(state.range(0)));
   std::string verdict;
   for (auto _ : state) {
-    const Calibration calibration = calibrate(forearm(), measurement);
-    benchmark::DoNotOptimize(correct(forearm(), measurement, calibration));
-    verdict = word(calibration.verdict);
-    for (const FoundEffect& effect : calibration.effects) verdict += " " + effect.name;
+    const calibration::Calibration calibration = calibration::calibrate(forearm(), measurement);
+    benchmark::DoNotOptimize(correction::correct(forearm(), measurement, calibration));
+    verdict = calibration::word(calibration.verdict);
+    for (const calibration::FoundEffect& effect : calibration.effects) verdict += " " + effect.name;
   }
   state.SetLabel(verdict);
 }
@@ -139,11 +139,11 @@ BENCHMARK(calibrate_rows)
 
 /// One simulation of the rows: a fit does this for each parameter in each step.
 void move_joint(benchmark::State& state) {
-  const BenchLog log = bench_log(measured(texts(state.range(0))));
+  const joint::BenchLog log = measurement::bench_log(measured(texts(state.range(0))));
   Imperfections soft;
   soft.tendon.stretch = 1.5;
   soft.shaft.backlash = radians(1.0);
-  for (auto _ : state) benchmark::DoNotOptimize(predict(forearm(), soft, log));
+  for (auto _ : state) benchmark::DoNotOptimize(joint::predict(forearm(), soft, log));
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 BENCHMARK(move_joint)->Name("move the joint, rows")->Arg(850)->Arg(2500)->Unit(benchmark::kMillisecond);

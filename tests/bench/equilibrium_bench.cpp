@@ -11,9 +11,9 @@ namespace {
 
 using namespace fusee;
 
-std::vector<JointStep> three_cycles(const Transmission& transmission, double tip_force) {
+std::vector<joint::JointStep> three_cycles(const transmission::Transmission& transmission, double tip_force) {
   const double ends[] = {transmission.alpha_max(), transmission.alpha_min()};
-  std::vector<JointStep> steps;
+  std::vector<joint::JointStep> steps;
   double from = 0;
   for (int stroke = 0; stroke < 6; ++stroke) {
     const double to = ends[stroke % 2];
@@ -49,7 +49,7 @@ Mechanism changed(Mechanism mechanism, double pretension, double friction, doubl
 
 Mechanism table_law() {
   Mechanism mechanism = testing::forearm();
-  const Transmission source(mechanism);
+  const transmission::Transmission source(mechanism);
   mechanism.pulley.law = Law::table;
   for (int i = -2; i <= 42; ++i) {
     const double theta = mechanism.joint.theta_min + (mechanism.joint.theta_max - mechanism.joint.theta_min) * i / 40;
@@ -58,9 +58,9 @@ Mechanism table_law() {
   return mechanism;
 }
 
-void time_sweep(const char* name, const JointModel& model, const Mechanism& mechanism, double tip_force) {
-  const std::vector<JointStep> steps = three_cycles(Transmission(mechanism), tip_force);
-  const double ms = best_of(20, [&] { follow(model, steps); });
+void time_sweep(const char* name, const joint::JointModel& model, const Mechanism& mechanism, double tip_force) {
+  const std::vector<joint::JointStep> steps = three_cycles(transmission::Transmission(mechanism), tip_force);
+  const double ms = best_of(20, [&] { joint::follow(model, steps); });
   std::printf("equilibrium, 3 cycles, %zu points, %-24s %8.2f ms\n", steps.size(), name, ms);
 }
 
@@ -74,11 +74,12 @@ int main() {
                         {"no tension at all", changed(testing::forearm(), 0.0, 0.12, 40000.0), 0.0},
                         {"linear law", testing::linear_wrist(), 5.0},
                         {"table law", table_law(), 5.0}};
-  for (const Case& one : cases) time_sweep(one.name, joint_model(one.mechanism), one.mechanism, one.tip_force);
+  for (const Case& one : cases) time_sweep(one.name, joint::joint_model(one.mechanism), one.mechanism, one.tip_force);
   Mechanism mounted = testing::forearm();
   mounted.guides.EB += 0.5;
   mounted.guides.radius += 0.3;
-  time_sweep("made for other pins", joint_model(MadePulleys(testing::forearm()), MountedMechanism{mounted}),
+  time_sweep("made for other pins",
+             joint::joint_model(joint::MadePulleys(testing::forearm()), joint::MountedMechanism{mounted}),
              testing::forearm(), 5.0);
   return 0;
 }

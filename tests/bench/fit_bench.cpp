@@ -26,21 +26,23 @@ constexpr int k_times = 7;
 const Effect* effect(const char* name) { return find_effect(name, JointKind::tendons); }
 
 /// Best of several, each with its own simulation: other load on the machine only increases the time.
-double fit_seconds(const Evidence& evidence, const EffectSet& effects, Fit& fit) {
+double fit_seconds(const calibration::Evidence& evidence, const calibration::EffectSet& effects,
+                   calibration::Fit& fit) {
   double best = 1e300;
   for (int i = 0; i < k_times; ++i) {
     const auto start = std::chrono::steady_clock::now();
-    Forward forward(*evidence.declared, evidence.log);
-    fit = Fitter(evidence, forward).fit(effects, {});
+    joint::Forward forward(*evidence.declared, evidence.log);
+    fit = calibration::Fitter(evidence, forward).fit(effects, {});
     best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return best;
 }
 
-void answer(const Evidence& evidence) {
+void answer(const calibration::Evidence& evidence) {
   Imperfections at;
   while (std::scanf("%lf %lf %lf", &at.sensor.gain, &at.shaft.backlash, &at.sensor.zero) == 3) {
-    const Eigen::VectorXd residual = evidence.theta - flat(predict(*evidence.declared, at, evidence.log));
+    const Eigen::VectorXd residual =
+        evidence.theta - calibration::flat(joint::predict(*evidence.declared, at, evidence.log));
     std::fwrite(residual.data(), sizeof(double), static_cast<std::size_t>(residual.size()), stdout);
     std::fflush(stdout);
   }
@@ -53,10 +55,11 @@ int main(int argc, char** argv) {
     std::fputs("usage: bench_fit SPEC RUN.csv...\n", stderr);
     return 2;
   }
-  const DeclaredMechanism declared = expected_joint(read_mechanism(argv[1]).mechanism);
+  const DeclaredMechanism declared = joint::expected_joint(read_mechanism(argv[1]).mechanism);
   const std::vector<std::filesystem::path> runs(argv + 2, argv + argc);
-  const Evidence evidence = gather(declared, read_measurement(runs, declared), k_floor);
-  Fit fit;
+  const calibration::Evidence evidence =
+      calibration::gather(declared, measurement::read_measurement(runs, declared), k_floor);
+  calibration::Fit fit;
   const double seconds =
       fit_seconds(evidence, {effect("joint_sensor_gain"), effect("backlash"), effect("zero_offset")}, fit);
   std::printf("{\"seconds\": %.6f, \"rows\": %ld, \"gain\": %.9g, \"play\": %.9g, \"zero\": %.9g}\n", seconds,

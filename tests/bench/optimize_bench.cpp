@@ -32,41 +32,44 @@ Lanes sin(const Lanes& a) { return {a.v.sin()}; }
 Lanes cos(const Lanes& a) { return {a.v.cos()}; }
 Lanes acos(const Lanes& a) { return {a.v.acos()}; }
 Lanes larger(const Lanes& a, const Lanes& b) { return {a.v.max(b.v)}; }
-Lanes positive_part(const Lanes& a, Domain& domain) {
+Lanes positive_part(const Lanes& a, transmission::Domain& domain) {
   domain.possible = domain.possible && (a.v > 0).all();
   return a;
 }
-Lanes unit_part(const Lanes& a, Domain& domain) {
+Lanes unit_part(const Lanes& a, transmission::Domain& domain) {
   domain.possible = domain.possible && (a.v.abs() <= 1).all();
   return a;
 }
-void demand_not_negative(const Lanes& a, Domain& domain) { domain.possible = domain.possible && (a.v >= 0).all(); }
+void demand_not_negative(const Lanes& a, transmission::Domain& domain) {
+  domain.possible = domain.possible && (a.v >= 0).all();
+}
 Lanes hypot(const Lanes& a, const Lanes& b) { return sqrt(squared(a) + squared(b)); }
-Lanes cathetus(const Lanes& hypotenuse, const Lanes& other, Domain& domain) {
+Lanes cathetus(const Lanes& hypotenuse, const Lanes& other, transmission::Domain& domain) {
   return sqrt(positive_part((hypotenuse - other) * (hypotenuse + other), domain));
 }
 /// For guides above the pulley: pins below C, and the pulley below its pins.
-Lanes direction(const Lanes& x, const Lanes& y, Domain& domain) {
+Lanes direction(const Lanes& x, const Lanes& y, transmission::Domain& domain) {
   domain.whole = domain.whole && (y.v > 0).all();
   return 0.5 * k_pi - Lanes((x.v / y.v).atan());
 }
 
-double scalar_value(const FileNumbers<double>& n) {
-  const auto design = design_numbers(n, Law::compensate, true);
+double scalar_value(const optimize::FileNumbers<double>& n) {
+  const auto design = optimize::design_numbers(n, Law::compensate, true);
   double largest = 0;
   for (int i = 0; i <= 60; ++i) {
-    Domain domain;
-    largest = std::max(largest, objective_at(Objective::max_tension, design, i / 60.0, domain));
+    transmission::Domain domain;
+    largest = std::max(largest, optimize::objective_at(optimize::Objective::max_tension, design, i / 60.0, domain));
   }
   return largest;
 }
 
-double batched_value(const FileNumbers<double>& n) {
-  const FileNumbers<Lanes> lanes{n.R,  n.EB,     n.ED,       n.OE,      n.EF,        n.r1,       n.ratio,
-                                 n.mu, n.radius, n.diameter, n.modulus, n.theta_min, n.theta_max};
-  Domain domain;
+double batched_value(const optimize::FileNumbers<double>& n) {
+  const optimize::FileNumbers<Lanes> lanes{n.R,  n.EB,     n.ED,       n.OE,      n.EF,        n.r1,       n.ratio,
+                                           n.mu, n.radius, n.diameter, n.modulus, n.theta_min, n.theta_max};
+  transmission::Domain domain;
   const Lanes places(Lanes::Array(Lanes::Array::LinSpaced(61, 0.0, 1.0)));
-  return objective_at(Objective::max_tension, design_numbers(lanes, Law::compensate, true), places, domain)
+  return optimize::objective_at(optimize::Objective::max_tension,
+                                optimize::design_numbers(lanes, Law::compensate, true), places, domain)
       .v.maxCoeff();
 }
 
@@ -83,10 +86,11 @@ double best_seconds(const std::function<void()>& work) {
   return best;
 }
 
-double per_second(const std::function<double(const FileNumbers<double>&)>& value, const Problem& problem) {
+double per_second(const std::function<double(const optimize::FileNumbers<double>&)>& value,
+                  const optimize::Problem& problem) {
   constexpr int count = 20000;
   double sum = 0;
-  FileNumbers<double> numbers = file_numbers(problem.base);
+  optimize::FileNumbers<double> numbers = optimize::file_numbers(problem.base);
   const double time = best_seconds([&] {
     for (int i = 0; i < count; ++i) {
       numbers.OE = -40.0 + 1e-4 * i;
@@ -101,11 +105,13 @@ double per_second(const std::function<double(const FileNumbers<double>&)>& value
 
 int main() {
   using namespace fusee;
-  const Problem problem = testing::paper_problem();
-  CertifiedResult certified;
-  GeneticResult genetic;
-  const double certified_time = best_seconds([&] { certified = certified_optimum(problem, Objective::max_tension); });
-  const double genetic_time = best_seconds([&] { genetic = genetic_optimum(problem, Objective::max_tension); });
+  const optimize::Problem problem = testing::paper_problem();
+  optimize::CertifiedResult certified;
+  optimize::GeneticResult genetic;
+  const double certified_time =
+      best_seconds([&] { certified = optimize::certified_optimum(problem, optimize::Objective::max_tension); });
+  const double genetic_time =
+      best_seconds([&] { genetic = optimize::genetic_optimum(problem, optimize::Objective::max_tension); });
   std::printf("{\"evaluations_per_s\": {\"scalar\": %.0f, \"batched\": %.0f},\n", per_second(scalar_value, problem),
               per_second(batched_value, problem));
   std::printf(

@@ -10,7 +10,7 @@
 namespace fusee {
 namespace {
 
-Problem six_lengths(const std::string& feasible) {
+optimize::Problem six_lengths(const std::string& feasible) {
   return testing::paper_problem(
       {{"pulley.method", "exact"},
        {"guides.radius_mm", "2"},
@@ -25,12 +25,12 @@ Problem six_lengths(const std::string& feasible) {
 }
 
 /// Duration of the objective alone, for comparison.
-std::vector<Mechanism> designs(const Problem& problem) {
-  Random random(1);
+std::vector<Mechanism> designs(const optimize::Problem& problem) {
+  optimize::Random random(1);
   std::vector<Mechanism> all;
   while (all.size() < 40) {
-    const Mechanism mechanism = mechanism_at(problem, random_design(problem, random));
-    if (evaluate(Objective::max_tension, mechanism).possible) all.push_back(mechanism);
+    const Mechanism mechanism = optimize::mechanism_at(problem, optimize::random_design(problem, random));
+    if (optimize::evaluate(optimize::Objective::max_tension, mechanism).possible) all.push_back(mechanism);
   }
   return all;
 }
@@ -38,7 +38,7 @@ std::vector<Mechanism> designs(const Problem& problem) {
 void feasible_by_conditions(benchmark::State& state) {
   const std::vector<Mechanism> all = designs(six_lengths("true"));
   for (auto _ : state) {
-    for (const Mechanism& mechanism : all) benchmark::DoNotOptimize(obstacle_to(mechanism));
+    for (const Mechanism& mechanism : all) benchmark::DoNotOptimize(profile::obstacle_to(mechanism));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
 }
@@ -46,13 +46,14 @@ BENCHMARK(feasible_by_conditions)->Unit(benchmark::kMillisecond);
 
 void feasible_by_drawing(benchmark::State& state) {
   const std::vector<Mechanism> all = designs(six_lengths("true"));
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.advice = false;
   for (auto _ : state) {
     for (const Mechanism& mechanism : all) {
       // Nearly straight curves need gigabytes of points. They are omitted, in favour of the drawing method.
-      if (obstacle_to(mechanism) || evaluate(Objective::min_bend, mechanism).value > 1e4) continue;
-      benchmark::DoNotOptimize(synthesise(mechanism, options));
+      if (profile::obstacle_to(mechanism) || optimize::evaluate(optimize::Objective::min_bend, mechanism).value > 1e4)
+        continue;
+      benchmark::DoNotOptimize(profile::synthesise(mechanism, options));
     }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
@@ -60,24 +61,25 @@ void feasible_by_drawing(benchmark::State& state) {
 BENCHMARK(feasible_by_drawing)->Unit(benchmark::kMillisecond);
 
 void genetic_of_feasible_designs(benchmark::State& state) {
-  const Problem problem = six_lengths("true");
-  GeneticOptions options;
+  const optimize::Problem problem = six_lengths("true");
+  optimize::GeneticOptions options;
   options.generations = 20;
   options.threads = static_cast<unsigned>(state.range(0));
   long evaluations = 0;
-  for (auto _ : state) evaluations += genetic_optimum(problem, Objective::max_tension, options).evaluations;
+  for (auto _ : state)
+    evaluations += optimize::genetic_optimum(problem, optimize::Objective::max_tension, options).evaluations;
   state.SetItemsProcessed(evaluations);
 }
 BENCHMARK(genetic_of_feasible_designs)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void proof_of_six_lengths(benchmark::State& state) {
-  const Problem problem = six_lengths("false");
-  CertifiedOptions options;
+  const optimize::Problem problem = six_lengths("false");
+  optimize::CertifiedOptions options;
   options.gap = 1e-3;
   options.most_tie_boxes = 1;
   options.threads = static_cast<unsigned>(state.range(0));
-  CertifiedResult result;
-  for (auto _ : state) result = certified_optimum(problem, Objective::max_tension, options);
+  optimize::CertifiedResult result;
+  for (auto _ : state) result = optimize::certified_optimum(problem, optimize::Objective::max_tension, options);
   state.counters["gap"] = result.relative_gap;
   state.counters["boxes"] = static_cast<double>(result.boxes);
 }

@@ -12,7 +12,7 @@
 #include "fusee/mechanism_file.h"
 #include "support/rubbed_chain.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 struct HiddenCable {
@@ -60,7 +60,7 @@ Calibration calibrated(const HiddenCable& hidden) {
       parse_mechanism("schema = 1\nname = \"cable\"\n[transmission]\nkind = \"ratio\"\nratio = 2\n", "cable.toml");
   CalibrationOptions options;
   options.audit = false;
-  return calibrate(declared, read_measurement(runs), options);
+  return calibrate(declared, measurement::read_measurement(runs), options);
 }
 
 const FoundEffect* effect(const Calibration& calibration, const std::string& name) {
@@ -93,4 +93,4 @@ TEST(CableData, CurvedLinkageIsCoveredWithoutAName) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -11,7 +11,7 @@
 #include "mechanism/effect.h"
 #include "pipeline/law_table_copy.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 using testing::Contains;
@@ -47,8 +47,8 @@ std::vector<std::filesystem::path> runs_in(const std::filesystem::path& folder) 
   return runs;
 }
 
-CalibrateOptions into(const std::filesystem::path& folder) {
-  CalibrateOptions options;
+pipeline::CalibrateOptions into(const std::filesystem::path& folder) {
+  pipeline::CalibrateOptions options;
   options.folder = folder;
   return options;
 }
@@ -56,12 +56,12 @@ CalibrateOptions into(const std::filesystem::path& folder) {
 TEST(CalibrateVerb, LeavesEveryFile) {
   const std::filesystem::path folder = scratch("all") / "out";
   std::vector<std::string> steps;
-  const CalibrateOptions options = into(folder);
+  const pipeline::CalibrateOptions options = into(folder);
   const RunContext context{.progress = [&](std::string_view step, std::optional<double> share) {
     if (!share) steps.emplace_back(step);
   }};
-  const CalibrateResult result =
-      calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), runs_in(k_rig / "c_backlash"), options, context);
+  const pipeline::CalibrateResult result = pipeline::calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"),
+                                                               runs_in(k_rig / "c_backlash"), options, context);
   EXPECT_THAT(names(result.outputs),
               ElementsAre("calibration.json", "corrected.toml", "compensation.csv", "report.html", "manifest.json"));
   EXPECT_TRUE(result.published);
@@ -74,7 +74,8 @@ TEST(CalibrateVerb, LeavesEveryFile) {
 TEST(CalibrateVerb, LeavesWhatToMeasureNext) {
   const std::filesystem::path folder = scratch("next") / "out";
   const std::filesystem::path data = k_rig / "e_one_sweep_only";
-  const CalibrateResult result = calibrate(read_mechanism(data / "spec.toml"), {data / "run_1.csv"}, into(folder));
+  const pipeline::CalibrateResult result =
+      pipeline::calibrate(read_mechanism(data / "spec.toml"), {data / "run_1.csv"}, into(folder));
   ASSERT_FALSE(result.product.calibration.next.empty());
   EXPECT_THAT(names(result.outputs), Contains("next/bench.html"));
   EXPECT_TRUE(std::filesystem::is_regular_file(folder / "next/bench.html"));
@@ -88,8 +89,8 @@ TEST(CalibrateVerb, LeavesWhatToMeasureNext) {
   EXPECT_FALSE(first.contains("file"));
   // Read with a caliper, it is not asked for again.
   const MechanismFile read = read_mechanism(data / "spec.toml", {{"prior.radius_offset_mm", "[-0.336, 0.005]"}});
-  const CalibrateResult after = calibrate(read, {data / "run_1.csv"}, into(folder));
-  for (const NextMeasurement& next : after.product.calibration.next)
+  const pipeline::CalibrateResult after = pipeline::calibrate(read, {data / "run_1.csv"}, into(folder));
+  for (const plan::NextMeasurement& next : after.product.calibration.next)
     EXPECT_THAT(next.words, Not(HasSubstr("radius_offset_mm")));
 }
 
@@ -100,9 +101,9 @@ TEST(CalibrateVerb, RunsThatDecideNothingAskForAPlan) {
   for (int i = 0; i < 50; ++i) still += "1,2\n";
   leave(folder / "still.csv", still);
   const MechanismFile file = read_mechanism(k_rig / "c_backlash/spec.toml");
-  const CalibrateResult result = calibrate(file, {folder / "still.csv"}, into(folder / "out"));
+  const pipeline::CalibrateResult result = pipeline::calibrate(file, {folder / "still.csv"}, into(folder / "out"));
   EXPECT_EQ(result.product.calibration.verdict, CalibrationVerdict::not_testable);
-  const Plan plan = plan_runs(file.mechanism);
+  const plan::Plan plan = plan::plan_runs(file.mechanism);
   ASSERT_EQ(result.product.calibration.next.size(), plan.steps.size());
   for (std::size_t i = 0; i < plan.steps.size(); ++i)
     EXPECT_THAT(result.product.calibration.next[i].words, HasSubstr(plan.steps[i].words));
@@ -112,36 +113,37 @@ TEST(CalibrateVerb, RunsThatDecideNothingAskForAPlan) {
 TEST(CalibrateVerb, NothingAskedForLeavesNoFolder) {
   const std::filesystem::path folder = scratch("none_next") / "out";
   const std::filesystem::path asked = k_rig / "e_one_sweep_only", clear = k_rig / "c_backlash";
-  calibrate(read_mechanism(asked / "spec.toml"), {asked / "run_1.csv"}, into(folder));
+  pipeline::calibrate(read_mechanism(asked / "spec.toml"), {asked / "run_1.csv"}, into(folder));
   EXPECT_TRUE(std::filesystem::exists(folder / "next"));
-  const CalibrateResult result = calibrate(read_mechanism(clear / "spec.toml"), runs_in(clear), into(folder));
+  const pipeline::CalibrateResult result =
+      pipeline::calibrate(read_mechanism(clear / "spec.toml"), runs_in(clear), into(folder));
   EXPECT_THAT(result.product.calibration.next, testing::IsEmpty());
-  EXPECT_THAT(calibration_json(result.product), HasSubstr("\"next\": []"));
+  EXPECT_THAT(formats::calibration_json(result.product), HasSubstr("\"next\": []"));
   EXPECT_FALSE(std::filesystem::exists(folder / "next"));
 }
 
 /// One of each kind, of the forearm, beside run_5.csv.
-CalibrationProduct with_each_kind() {
-  CalibrationProduct product;
+formats::CalibrationProduct with_each_kind() {
+  formats::CalibrationProduct product;
   product.file = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml");
   product.measurement.runs.resize(2);
   product.measurement.runs[0].name = "slow.csv";
   product.measurement.runs[1].name = "run_5.csv";
-  PlannedRun run{.from = radians(-60.0), .to = radians(70.0), .cycles = 3, .speed = radians(12.0), .load = 5};
-  PlannedRun turned = run;
+  plan::PlannedRun run{.from = radians(-60.0), .to = radians(70.0), .cycles = 3, .speed = radians(12.0), .load = 5};
+  plan::PlannedRun turned = run;
   turned.load = 0;
-  turned.change = BenchChange::joint_sensor_turned;
-  const Effect& pins = *find_effect("guide_position", JointKind::tendons);
-  product.calibration.next = {next_run(run, run.speed, "N"), next_inspection("tighten it"),
-                              next_reading({&pins.parameters[0], &pins.parameters[1]}),
-                              next_run(turned, run.speed, "N")};
+  turned.change = plan::BenchChange::joint_sensor_turned;
+  const fusee::Effect& pins = *find_effect("guide_position", JointKind::tendons);
+  product.calibration.next = {plan::next_run(run, run.speed, "N"), plan::next_inspection("tighten it"),
+                              plan::next_reading({&pins.parameters[0], &pins.parameters[1]}),
+                              plan::next_run(turned, run.speed, "N")};
   product.calibration.next[0].separates = {"tendon_stretch", "creep"};
   product.calibration.next[0].gain = "tendon_stretch from creep (5 × the uncertainty)";
   return product;
 }
 
 TEST(NextMeasurements, EachKindIsInTheDocument) {
-  const nlohmann::json next = nlohmann::json::parse(calibration_json(with_each_kind()))["next"];
+  const nlohmann::json next = nlohmann::json::parse(formats::calibration_json(with_each_kind()))["next"];
   ASSERT_EQ(next.size(), 4u);
   EXPECT_EQ(next[0]["kind"], "run");
   EXPECT_EQ(next[0]["file"], "next/run_6.csv");
@@ -172,9 +174,9 @@ std::string filled_in(const std::string& csv, double ratio) {
 }
 
 TEST(NextMeasurements, AreReadWhenFilledIn) {
-  const CalibrationProduct product = with_each_kind();
+  const formats::CalibrationProduct product = with_each_kind();
   const std::filesystem::path folder = scratch("filled");
-  const std::vector<OutputFile> files = next_files(product);
+  const std::vector<OutputFile> files = formats::next_files(product);
   ASSERT_THAT(names(files), ElementsAre("next/bench.html", "next/run_6.csv", "next/run_7.csv"));
   EXPECT_THAT(files[0].bytes, testing::AllOf(HasSubstr("slow.csv run_5.csv run_6.csv run_7.csv"),
                                              HasSubstr("tighten it"), HasSubstr("hang"), HasSubstr("prior")));
@@ -183,13 +185,13 @@ TEST(NextMeasurements, AreReadWhenFilledIn) {
     runs.push_back(folder / std::filesystem::path(files[i].name).filename());
     leave(runs.back(), filled_in(files[i].bytes, 0.2 + 0.01 * static_cast<double>(i)));
   }
-  const Measurement read = read_measurement(runs, product.file.mechanism);
+  const measurement::Measurement read = measurement::read_measurement(runs, product.file.mechanism);
   EXPECT_THAT(read.not_testable, testing::IsEmpty());
   ASSERT_EQ(read.runs.size(), 2u);
   EXPECT_NEAR(read.runs[0].mean_load, 5, 1e-9);
-  EXPECT_EQ(read.runs[0].mounting, Mounting{});
+  EXPECT_EQ(read.runs[0].mounting, joint::Mounting{});
   EXPECT_NEAR(degrees(read.runs[1].mounting.joint_sensor_turned), 90, 1e-9);
-  for (const fusee::Run& run : read.runs) {
+  for (const fusee::measurement::Run& run : read.runs) {
     EXPECT_EQ(run.strokes.size(), 6u);
     EXPECT_NEAR(run.speed, radians(12.0), 1e-3);
   }
@@ -197,37 +199,38 @@ TEST(NextMeasurements, AreReadWhenFilledIn) {
 
 TEST(CalibrateVerb, StopLeavesNothing) {
   const std::filesystem::path folder = scratch("thrown") / "out";
-  const CalibrateOptions options = into(folder);
+  const pipeline::CalibrateOptions options = into(folder);
   std::stop_source source;
   const RunContext context{.progress =
                                [&source](std::string_view step, std::optional<double>) {
                                  if (step == "computing the correction") source.request_stop();
                                },
                            .stop = source.get_token()};
-  EXPECT_THROW(calibrate(read_mechanism(k_rig / "e_one_sweep_only/spec.toml"), {k_rig / "e_one_sweep_only/run_1.csv"},
-                         options, context),
+  EXPECT_THROW(pipeline::calibrate(read_mechanism(k_rig / "e_one_sweep_only/spec.toml"),
+                                   {k_rig / "e_one_sweep_only/run_1.csv"}, options, context),
                Stopped);
   EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
 TEST(CalibrateVerb, HeldOutRunIsNotFitted) {
-  CalibrateOptions options = into(scratch("held"));
+  pipeline::CalibrateOptions options = into(scratch("held"));
   options.dry_run = true;
   const std::vector<std::filesystem::path> runs = runs_in(k_rig / "c_backlash");
   options.hold_out = {runs.back(), runs.back().parent_path() / "." / runs.back().filename()};
   std::vector<std::filesystem::path> twice = runs;
   twice.push_back(runs.front());
-  const CalibrateResult result = calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), twice, options);
+  const pipeline::CalibrateResult result =
+      pipeline::calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), twice, options);
   EXPECT_EQ(result.product.measurement.runs.size(), runs.size());
   EXPECT_THAT(result.product.calibration.held_out_runs, ElementsAre(runs.back().filename().string()));
   EXPECT_FALSE(result.published);
 }
 
 TEST(CalibrateVerb, ASlipIsSaidAndChangesNothingElse) {
-  CalibrateOptions options = into(scratch("slip"));
+  pipeline::CalibrateOptions options = into(scratch("slip"));
   options.dry_run = true;
   const MechanismFile file = read_mechanism(k_rig / "a_declared_right/spec.toml", {{"guides.OE_mm", "14"}});
-  const CalibrateResult result = calibrate(file, runs_in(k_rig / "a_declared_right"), options);
+  const pipeline::CalibrateResult result = pipeline::calibrate(file, runs_in(k_rig / "a_declared_right"), options);
   EXPECT_EQ(result.product.calibration.verdict, CalibrationVerdict::unexplained);
   std::map<std::string, std::string> outputs;
   for (const OutputFile& output : result.outputs) outputs[output.name] = output.bytes;
@@ -243,13 +246,13 @@ TEST(CalibrateVerb, ASlipIsSaidAndChangesNothingElse) {
 }
 
 TEST(CalibrateVerb, RightFileListsNoInputError) {
-  CalibrateOptions options = into(scratch("no_slip"));
+  pipeline::CalibrateOptions options = into(scratch("no_slip"));
   options.dry_run = true;
-  const CalibrateResult result =
-      calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), runs_in(k_rig / "c_backlash"), options);
+  const pipeline::CalibrateResult result =
+      pipeline::calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), runs_in(k_rig / "c_backlash"), options);
   EXPECT_THAT(result.product.file.warnings, testing::IsEmpty());
-  EXPECT_THAT(calibration_json(result.product), HasSubstr("\"slips\": []"));
-  EXPECT_THAT(calibration_report_html(result.product), Not(HasSubstr("A slip of the file")));
+  EXPECT_THAT(formats::calibration_json(result.product), HasSubstr("\"slips\": []"));
+  EXPECT_THAT(formats::calibration_report_html(result.product), Not(HasSubstr("A slip of the file")));
 }
 
 /// The rig's runs with the tip force given as a torque.
@@ -266,10 +269,10 @@ TEST(CalibrateVerb, ATorqueIsWorthItsTipForce) {
     torques.push_back(folder / run.filename());
     leave(torques.back(), text);
   }
-  const Measurement measurement = read_measurement(forces, file.mechanism);
-  MeasurementOptions columns;
+  const measurement::Measurement measurement = measurement::read_measurement(forces, file.mechanism);
+  measurement::MeasurementOptions columns;
   columns.columns = {{"load", "tau_Nmm"}};
-  const Measurement converted = read_measurement(torques, file.mechanism, columns);
+  const measurement::Measurement converted = measurement::read_measurement(torques, file.mechanism, columns);
   EXPECT_EQ(converted.load_unit, "N");
   EXPECT_THAT(converted.notes, testing::Contains(HasSubstr("is a torque in Nmm: taken as a tip force")));
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
@@ -308,9 +311,9 @@ TEST(LawTable, TheValueAloneIsEdited) {
   const std::string text = read_file(file.path, 1 << 20);
   std::string expected = text;
   expected.replace(expected.find("table = \"laws/law.csv\""), 22, "table = \"law.csv\"");
-  EXPECT_EQ(with_table_beside(text, file), expected);
-  EXPECT_EQ(law_table_copy(file).name, "law.csv");
-  EXPECT_EQ(law_table_copy(file).bytes,
+  EXPECT_EQ(pipeline::with_table_beside(text, file), expected);
+  EXPECT_EQ(pipeline::law_table_copy(file).name, "law.csv");
+  EXPECT_EQ(pipeline::law_table_copy(file).bytes,
             read_file(std::filesystem::path(file.path).parent_path() / "laws/law.csv", 9999));
 }
 
@@ -318,7 +321,7 @@ TEST(LawTable, OtherWaysToWriteItAreFound) {
   for (const char* quoted : {"'laws/law.csv'", "\"laws\\u002Flaw.csv\""}) {
     const std::filesystem::path folder = scratch("quoted");
     const MechanismFile file = tabled(folder, quoted);
-    const std::string text = with_table_beside(read_file(file.path, 1 << 20), file);
+    const std::string text = pipeline::with_table_beside(read_file(file.path, 1 << 20), file);
     const Mechanism read = parse_mechanism(text, "corrected.toml", folder / "laws");
     EXPECT_EQ(read.pulley.table, "law.csv") << quoted;
     EXPECT_EQ(read.pulley.rows, file.mechanism.pulley.rows) << quoted;
@@ -335,8 +338,8 @@ TEST(LawTable, TorqueGoesBesideToo) {
   text.replace(text.find("table = \"laws/law.csv\""), 22, "torque_table = \"laws/torque.csv\"");
   leave(folder / "arm.toml", text);
   const MechanismFile file = read_mechanism(folder / "arm.toml");
-  EXPECT_EQ(law_table_copy(file).name, "torque.csv");
-  const Mechanism read = parse_mechanism(with_table_beside(text, file), "corrected.toml", folder / "laws");
+  EXPECT_EQ(pipeline::law_table_copy(file).name, "torque.csv");
+  const Mechanism read = parse_mechanism(pipeline::with_table_beside(text, file), "corrected.toml", folder / "laws");
   EXPECT_EQ(read.pulley.torque_table, "torque.csv");
   EXPECT_EQ(read.pulley.torque_rows, file.mechanism.pulley.torque_rows);
 }
@@ -345,55 +348,55 @@ TEST(LawTable, BesideItsFileItStaysAsItIs) {
   const std::filesystem::path folder = scratch("beside");
   MechanismFile file = tabled(folder);
   file.mechanism.pulley.table = "law.csv";
-  EXPECT_EQ(with_table_beside("anything \"law.csv\"", file), "anything \"law.csv\"");
+  EXPECT_EQ(pipeline::with_table_beside("anything \"law.csv\"", file), "anything \"law.csv\"");
 }
 
 // ---- page and JSON --------------------------------------------------------------------------------------------------
 
-CalibrationProduct explained() {
-  CalibrationProduct product;
+formats::CalibrationProduct explained() {
+  formats::CalibrationProduct product;
   product.file = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml");
   product.calibration.verdict = CalibrationVerdict::explained;
   return product;
 }
 
 TEST(CalibrationPage, ImpossiblePulleyIsReported) {
-  CalibrationProduct product = explained();
+  formats::CalibrationProduct product = explained();
   product.correction.infeasible = "tendon 2 leaves pin D at α = 115°";
-  const std::string page = calibration_report_html(product);
+  const std::string page = formats::calibration_report_html(product);
   EXPECT_THAT(page, HasSubstr("The pulley that would correct this cannot be made: tendon 2 leaves pin D at α = 115°."));
   EXPECT_THAT(page, Not(HasSubstr("Nothing was identified")));
-  EXPECT_THAT(calibration_json(product), HasSubstr("\"infeasible\": \"tendon 2 leaves pin D"));
+  EXPECT_THAT(formats::calibration_json(product), HasSubstr("\"infeasible\": \"tendon 2 leaves pin D"));
 }
 
 TEST(CalibrationPage, SaysWhereToTie) {
-  CalibrationProduct product = explained();
+  formats::CalibrationProduct product = explained();
   product.correction.has_pulley = true;
   product.correction.tied_at = radians(-1.5);
-  EXPECT_THAT(calibration_report_html(product), HasSubstr("the motor at -1.5 deg"));
-  EXPECT_THAT(calibration_json(product), HasSubstr("\"tied_at_deg\": -1.5"));
+  EXPECT_THAT(formats::calibration_report_html(product), HasSubstr("the motor at -1.5 deg"));
+  EXPECT_THAT(formats::calibration_json(product), HasSubstr("\"tied_at_deg\": -1.5"));
 }
 
 TEST(CalibrationPage, SaysWhatIsPerhapsBesideAName) {
-  CalibrationProduct product = explained();
+  formats::CalibrationProduct product = explained();
   FoundEffect stretch;
   stretch.name = "tendon_stretch";
   stretch.group = {"tendon_stretch", "joint_sensor_gain"};
   product.calibration.effects = {stretch};
-  EXPECT_THAT(calibration_json(product), Not(HasSubstr("\"beside\"")));
-  EXPECT_THAT(calibration_report_html(product), Not(HasSubstr("Perhaps")));
+  EXPECT_THAT(formats::calibration_json(product), Not(HasSubstr("\"beside\"")));
+  EXPECT_THAT(formats::calibration_report_html(product), Not(HasSubstr("Perhaps")));
   product.calibration.effects.front().beside = {{"joint_sensor_gain", {{"gain_percent", 1.25, 1, 1.5, 1, 1.5}}}};
-  EXPECT_THAT(calibration_json(product), HasSubstr("\"beside\""));
-  EXPECT_THAT(calibration_report_html(product),
+  EXPECT_THAT(formats::calibration_json(product), HasSubstr("\"beside\""));
+  EXPECT_THAT(formats::calibration_report_html(product),
               HasSubstr("Perhaps joint sensor gain (gain = 1.25 % (95 %: 1 … 1.5)) beside it"));
 }
 
 TEST(CalibrationPage, SaysNeitherWhereThereIsNothingToSay) {
-  const std::string json = calibration_json(explained());
+  const std::string json = formats::calibration_json(explained());
   EXPECT_THAT(json, Not(HasSubstr("infeasible")));
   EXPECT_THAT(json, Not(HasSubstr("tied_at_deg")));
-  EXPECT_THAT(calibration_report_html(explained()), HasSubstr("Nothing was identified"));
+  EXPECT_THAT(formats::calibration_report_html(explained()), HasSubstr("Nothing was identified"));
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -7,32 +7,34 @@
 #include "fusee/base.h"
 #include "mechanism/effect.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 const std::filesystem::path k_page = std::filesystem::path(FUSEE_SOURCE_DIR) / "docs/reference/effects.md";
 
-std::string numbers(const Effect& effect) {
+std::string numbers(const fusee::Effect& effect) {
   std::string text;
   for (const EffectParameter& parameter : effect.parameters) text += (text.empty() ? "`" : " `") + parameter.name + "`";
   return text;
 }
 
-std::string corrected_by(CorrectableBy what) { return what == CorrectableBy::nothing ? "–" : std::string(word(what)); }
+std::string corrected_by(CorrectableBy what) {
+  return what == CorrectableBy::nothing ? "–" : std::string(fusee::word(what));
+}
 
 /// As a joint with tendons has them; what a joint declared by a ratio has instead stands behind it.
 std::string catalogue_table() {
   std::string text =
       "| place | effect | how it shows | its numbers | taken out by | how to separate it "
       "|\n|---|---|---|---|---|---|\n";
-  for (const Effect& effect : effects(JointKind::tendons)) {
+  for (const fusee::Effect& effect : effects(JointKind::tendons)) {
     std::string shown = effect.is_tested ? numbers(effect) : "", by = corrected_by(effect.correctable_by);
-    if (const Effect* other = find_effect(effect.name, JointKind::ratio)) {
+    if (const fusee::Effect* other = find_effect(effect.name, JointKind::ratio)) {
       if (numbers(*other) != shown) shown += (shown.empty() ? "ratio: " : "; ratio: ") + numbers(*other);
       if (other->correctable_by != effect.correctable_by) by += "; ratio: " + corrected_by(other->correctable_by);
     }
-    text += "| " + std::string(word(effect.place)) + " | `" + effect.name + "` | " + effect.signature + " | " + shown +
-            " | " + by + " | " + effect.separating_run + " |\n";
+    text += "| " + std::string(fusee::word(effect.place)) + " | `" + effect.name + "` | " + effect.signature + " | " +
+            shown + " | " + by + " | " + effect.separating_run + " |\n";
   }
   return text;
 }
@@ -49,9 +51,9 @@ TEST(CalibrationPage, ItsCatalogueIsThatOfTheProgram) {
 
 TEST(CalibrationPage, TheCatalogueHoldsEveryNameThatWasPromised) {
   std::vector<std::string> names;
-  for (const Effect& effect : effects(JointKind::tendons)) names.push_back(effect.name);
+  for (const fusee::Effect& effect : effects(JointKind::tendons)) names.push_back(effect.name);
   for (const char* name : k_contract_effects) EXPECT_THAT(names, testing::Contains(name));
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -1,16 +1,15 @@
 // Two states of one joint: changes are found, both ways round, and nothing is where nothing changed.
-#include "fusee/calibration.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <random>
 
 #include "calibration/changes.h"
+#include "fusee/calibration.h"
 #include "fusee/joint.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr double k_noise = radians(0.01);
@@ -22,12 +21,12 @@ DeclaredMechanism geared(double ratio = 4) {
 }
 
 /// Strokes there and back between two angles of the motor, at two loads.
-Measurement strokes(const std::string& name, double from = radians(-40), double to = radians(40)) {
+measurement::Measurement strokes(const std::string& name, double from = radians(-40), double to = radians(40)) {
   constexpr int k_rows = 60;
-  Measurement measurement;
+  measurement::Measurement measurement;
   measurement.load_unit = "N";
   for (int r = 0; r < 2; ++r) {
-    fusee::Run run;
+    fusee::measurement::Run run;
     run.name = name + "_" + std::to_string(r + 1) + ".csv";
     run.has_load = true;
     run.mean_load = 4.0 * r;
@@ -36,7 +35,7 @@ Measurement strokes(const std::string& name, double from = radians(-40), double 
       const std::size_t first = run.samples.size();
       for (int i = 0; i < k_rows; ++i) {
         const double share = static_cast<double>(i) / (k_rows - 1);
-        Sample sample;
+        measurement::Sample sample;
         sample.alpha = from + (to - from) * (up ? share : 1 - share);
         sample.load = run.mean_load;
         run.samples.push_back(sample);
@@ -49,21 +48,21 @@ Measurement strokes(const std::string& name, double from = radians(-40), double 
 }
 
 /// θ of a joint in a state, beside a bump that no effect has and that both states share.
-Measurement measured(const DeclaredMechanism& declared, Measurement measurement, const Imperfections& state,
-                     unsigned seed) {
-  const Readings theta = predict(declared, state, bench_log(measurement));
+measurement::Measurement measured(const DeclaredMechanism& declared, measurement::Measurement measurement,
+                                  const Imperfections& state, unsigned seed) {
+  const joint::Readings theta = joint::predict(declared, state, measurement::bench_log(measurement));
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, k_noise);
   for (std::size_t r = 0; r < theta.size(); ++r) {
     for (std::size_t i = 0; i < theta[r].size(); ++i) {
-      Sample& sample = measurement.runs[r].samples[i];
+      measurement::Sample& sample = measurement.runs[r].samples[i];
       sample.theta = theta[r][i] + radians(0.3) * std::exp(-std::pow(sample.alpha / radians(8), 2)) + noise(random);
     }
   }
   return measurement;
 }
 
-ComparedRuns both_of(Measurement before, Measurement after) {
+ComparedRuns both_of(measurement::Measurement before, measurement::Measurement after) {
   ComparedRuns runs{before, after, before};
   runs.both.runs.insert(runs.both.runs.end(), after.runs.begin(), after.runs.end());
   return runs;
@@ -88,7 +87,7 @@ const StateChange* find_change(const Comparison& comparison, const std::string& 
 
 TEST(EarlierState, ActsInItsOwnRunsAlone) {
   const DeclaredMechanism declared = testing::forearm();
-  const BenchLog log = bench_log(both_of(strokes("before"), strokes("after")).both);
+  const joint::BenchLog log = measurement::bench_log(both_of(strokes("before"), strokes("after")).both);
   Imperfections before, change, sum;
   before.shaft.backlash = radians(2);
   before.tendon.stretch = 0.5;
@@ -97,8 +96,8 @@ TEST(EarlierState, ActsInItsOwnRunsAlone) {
   sum.shaft.backlash = radians(1.5);
   sum.tendon.stretch = 0.5;
   sum.sensor.zero = 0.01;
-  const Readings shown = predict(declared, change, log, EarlierState{before, 2});
-  const Readings first = predict(declared, before, log), second = predict(declared, sum, log);
+  const joint::Readings shown = joint::predict(declared, change, log, joint::EarlierState{before, 2});
+  const joint::Readings first = joint::predict(declared, before, log), second = joint::predict(declared, sum, log);
   for (std::size_t run = 0; run < log.size(); ++run) {
     for (std::size_t row = 0; row < log[run].rows.size(); ++row)
       ASSERT_NEAR(shown[run][row], (run < 2 ? first : second)[run][row], 1e-7) << run << " " << row;
@@ -106,8 +105,9 @@ TEST(EarlierState, ActsInItsOwnRunsAlone) {
 }
 
 TEST(Changes, MayTakeAwayWhatThereWas) {
-  const std::vector<Effect> changes = changes_from(with_play(radians(2)), JointKind::ratio);
-  const auto play = std::find_if(changes.begin(), changes.end(), [](const Effect& e) { return e.name == "backlash"; });
+  const std::vector<fusee::Effect> changes = changes_from(with_play(radians(2)), JointKind::ratio);
+  const auto play =
+      std::find_if(changes.begin(), changes.end(), [](const fusee::Effect& e) { return e.name == "backlash"; });
   ASSERT_NE(play, changes.end());
   EXPECT_DOUBLE_EQ(play->parameters.front().least, -radians(2));
   EXPECT_THAT(play->starts, ::testing::Contains(std::vector<double>{radians(-1.5)}));
@@ -122,12 +122,12 @@ TEST(Comparison, ReportsNothingOfOneState) {
 }
 
 /// Each run with a gain and a play of its own.
-Measurement unrepeated(Measurement measurement, unsigned seed) {
+measurement::Measurement unrepeated(measurement::Measurement measurement, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> gain(0.0, 0.01), half_play(0.0, radians(0.05));
-  for (fusee::Run& run : measurement.runs) {
+  for (fusee::measurement::Run& run : measurement.runs) {
     const double by_place = gain(random), by_direction = half_play(random);
-    for (const Stroke& stroke : run.strokes) {
+    for (const measurement::Stroke& stroke : run.strokes) {
       for (std::size_t i = stroke.first; i <= stroke.last; ++i)
         run.samples[i].theta += by_place * run.samples[i].alpha / 4 + by_direction * stroke.direction;
     }
@@ -162,8 +162,9 @@ TEST(Comparison, FindsPlayThatGrewAndShrank) {
 
 TEST(Comparison, KeepsUncertaintyOfPlayThatIsGone) {
   ComparedRuns runs = two_states(with_play(radians(2)), {});
-  for (Measurement* measurement : {&runs.before, &runs.after, &runs.both}) {
-    for (fusee::Run& run : measurement->runs) run.has_load = false;  // or slack, which a load takes up, is as likely
+  for (measurement::Measurement* measurement : {&runs.before, &runs.after, &runs.both}) {
+    for (fusee::measurement::Run& run : measurement->runs)
+      run.has_load = false;  // or slack, which a load takes up, is as likely
   }
   const Comparison comparison = compare_states(geared(), runs);
   const StateChange* play = find_change(comparison, "backlash");
@@ -199,8 +200,8 @@ TEST(Comparison, RefusesRunsOfAnotherJoint) {
 }
 
 TEST(Comparison, RefusesRunsWithoutCommonPlace) {
-  const Measurement before = measured(geared(), strokes("before", radians(-40), radians(-5)), {}, 1);
-  const Measurement after = measured(geared(), strokes("after", radians(5), radians(40)), {}, 2);
+  const measurement::Measurement before = measured(geared(), strokes("before", radians(-40), radians(-5)), {}, 1);
+  const measurement::Measurement after = measured(geared(), strokes("after", radians(5), radians(40)), {}, 2);
   const Comparison comparison = compare_states(geared(), both_of(before, after));
   EXPECT_EQ(comparison.verdict, ComparisonVerdict::not_comparable);
   EXPECT_THAT(comparison.why, ::testing::HasSubstr("no place in both states"));
@@ -215,4 +216,4 @@ TEST(Comparison, RefusesLoadsInTwoUnits) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace fusee {
+namespace fusee::calibration {
 
 inline constexpr std::array k_contract_effects = {"zero_offset",
                                                   "motor_offset",
@@ -34,4 +34,4 @@ inline constexpr std::array k_contract_effects = {"zero_offset",
                                                   "motor_sensor_harmonic",
                                                   "joint_sensor_harmonic"};
 
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -9,7 +9,7 @@
 #include "calibration/linear_joint.h"
 #include "calibration/thresholds.h"
 
-namespace fusee::linear {
+namespace fusee::calibration::linear {
 namespace {
 
 Eigen::VectorXd drawn(Eigen::Index count, std::mt19937& random, double size = 1) {
@@ -18,16 +18,16 @@ Eigen::VectorXd drawn(Eigen::Index count, std::mt19937& random, double size = 1)
 }
 
 /// Two families of three columns over so many rows.
-Discrepancy two_families(Eigen::Index rows, std::mt19937& random) {
-  Discrepancy made;
+calibration::Discrepancy two_families(Eigen::Index rows, std::mt19937& random) {
+  calibration::Discrepancy made;
   made.columns.resize(rows, 6);
   for (Eigen::Index k = 0; k < 6; ++k) made.columns.col(k) = drawn(rows, random) / std::sqrt(3.0);
-  made.families = {{Factor::place, 0, 3, 0}, {Factor::load, 3, 3, 0}};
+  made.families = {{calibration::Factor::place, 0, 3, 0}, {calibration::Factor::load, 3, 3, 0}};
   return made;
 }
 
-Tangent nothing_varied(const Eigen::VectorXd& residual) {
-  Tangent tangent;
+calibration::Tangent nothing_varied(const Eigen::VectorXd& residual) {
+  calibration::Tangent tangent;
   tangent.residual = residual;
   tangent.J.resize(residual.size(), 0);
   tangent.caliper_information.resize(0, 0);
@@ -35,23 +35,24 @@ Tangent nothing_varied(const Eigen::VectorXd& residual) {
 }
 
 /// log N(r; 0, σ² + D λ² Dᵀ) but for the rows' 2π, in full, and of Cauchy's density at each λ but for a constant.
-double log_density(const Eigen::VectorXd& r, const Discrepancy& D, const Amplitudes& amplitudes, double floor) {
+double log_density(const Eigen::VectorXd& r, const calibration::Discrepancy& D,
+                   const calibration::Amplitudes& amplitudes, double floor) {
   Eigen::MatrixXd C = amplitudes.noise * amplitudes.noise * Eigen::MatrixXd::Identity(r.size(), r.size());
   for (std::size_t f = 0; f < D.families.size(); ++f) {
     const Eigen::MatrixXd own = D.columns.middleCols(D.families[f].first, D.families[f].count);
     C += std::pow(amplitudes.families[static_cast<Eigen::Index>(f)], 2) * own * own.transpose();
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(C);
-  const double usual = k_thresholds.usual_discrepancy * floor;
+  const double usual = calibration::k_thresholds.usual_discrepancy * floor;
   const double prior = -(1.0 + (amplitudes.families / usual).array().square()).log().sum();
   return prior - 0.5 * r.dot(factor.solve(r)) - factor.matrixLLT().diagonal().array().log().sum();
 }
 
 TEST(EvidenceModel, IsTheDensityWrittenOut) {
   std::mt19937 random(1);
-  const Discrepancy D = two_families(40, random);
-  const EvidenceModel evidence_model(D, 0.1, 1.0);
-  const Amplitudes one{Eigen::Vector2d(0.3, 0.0), 0.1}, other{Eigen::Vector2d(0.05, 0.4), 0.1};
+  const calibration::Discrepancy D = two_families(40, random);
+  const calibration::EvidenceModel evidence_model(D, 0.1, 1.0);
+  const calibration::Amplitudes one{Eigen::Vector2d(0.3, 0.0), 0.1}, other{Eigen::Vector2d(0.05, 0.4), 0.1};
   const Eigen::VectorXd r = drawn(40, random, 0.2);
   const double found =
       evidence_model.at(nothing_varied(r), one).log_evidence - evidence_model.at(nothing_varied(r), other).log_evidence;
@@ -60,12 +61,12 @@ TEST(EvidenceModel, IsTheDensityWrittenOut) {
 
 TEST(EvidenceModel, IntegratesANumberOverItsPrior) {
   std::mt19937 random(2);
-  const Discrepancy D = two_families(60, random);
-  const EvidenceModel evidence_model(D, 0.1, 1.0);
-  const Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.1), 0.1};
+  const calibration::Discrepancy D = two_families(60, random);
+  const calibration::EvidenceModel evidence_model(D, 0.1, 1.0);
+  const calibration::Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.1), 0.1};
   const Eigen::VectorXd slope = drawn(60, random);
   const Eigen::VectorXd r = 0.7 * slope + drawn(60, random, 0.1);
-  Tangent tangent = nothing_varied(r);
+  calibration::Tangent tangent = nothing_varied(r);
   const double without = evidence_model.at(tangent, amplitudes).log_evidence;
   tangent.J = slope;
   tangent.x = tangent.caliper_gradient = Eigen::VectorXd::Zero(1);
@@ -79,44 +80,45 @@ TEST(EvidenceModel, IntegratesANumberOverItsPrior) {
   double sum = 0;
   const double step = 1e-4, reference = log_density(r - summit * slope, D, amplitudes, 0.1);
   for (double x = summit - 0.5; x < summit + 0.5; x += step)
-    sum += step * std::exp(log_density(r - x * slope, D, amplitudes, 0.1) + log_prior(x, 0.5) - reference);
+    sum += step * std::exp(log_density(r - x * slope, D, amplitudes, 0.1) + calibration::log_prior(x, 0.5) - reference);
   EXPECT_NEAR(found, std::log(sum) + reference - log_density(r, D, amplitudes, 0.1), 0.02);
 }
 
 TEST(EvidenceModel, SubsetOfColumnsEqualsSmallerTangent) {
   std::mt19937 random(4);
-  const EvidenceModel evidence_model(two_families(60, random), 0.1, 1.0);
-  const Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.1), 0.1};
-  Tangent all = nothing_varied(drawn(60, random, 0.2));
+  const calibration::EvidenceModel evidence_model(two_families(60, random), 0.1, 1.0);
+  const calibration::Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.1), 0.1};
+  calibration::Tangent all = nothing_varied(drawn(60, random, 0.2));
   all.J.resize(60, 4);
   for (Eigen::Index k = 0; k < 4; ++k) all.J.col(k) = drawn(60, random);
-  add_numbers(Eigen::Vector4d(0.5, 1.0, std::numeric_limits<double>::infinity(), 2.0), all);
+  calibration::add_numbers(Eigen::Vector4d(0.5, 1.0, std::numeric_limits<double>::infinity(), 2.0), all);
   all.x = Eigen::Vector4d(0.3, -0.1, 0.0, 0.2);
   all.caliper_information.diagonal().setConstant(3.0);
   all.caliper_gradient.setConstant(0.4);
   const std::vector<Eigen::Index> chosen = {0, 2};
-  Tangent few = all;
+  calibration::Tangent few = all;
   few.J = all.J(Eigen::all, chosen);
   few.x = all.x(chosen);
   few.prior = all.prior(chosen);
   few.caliper_information = all.caliper_information(chosen, chosen);
   few.caliper_gradient = all.caliper_gradient(chosen);
-  const TangentSums sums = evidence_model.sums_of(all);
-  const ReducedTangent reduced = evidence_model.reduced(sums, evidence_model.sized(amplitudes, all.deflection_ratio));
-  EXPECT_NEAR(log_evidence_of(reduced, chosen), evidence_model.at(few, amplitudes).log_evidence, 1e-9);
+  const calibration::TangentSums sums = evidence_model.sums_of(all);
+  const calibration::ReducedTangent reduced =
+      evidence_model.reduced(sums, evidence_model.sized(amplitudes, all.deflection_ratio));
+  EXPECT_NEAR(calibration::log_evidence_of(reduced, chosen), evidence_model.at(few, amplitudes).log_evidence, 1e-9);
 }
 
 TEST(EvidenceModel, FindsAmplitudesAndLeavesOutWhatIsNot) {
   std::mt19937 random(3);
   const Eigen::Index rows = 400, count = 40;
-  Discrepancy D;
+  calibration::Discrepancy D;
   D.columns.resize(rows, 2 * count);
   for (Eigen::Index k = 0; k < 2 * count; ++k)
     D.columns.col(k) = drawn(rows, random) / std::sqrt(static_cast<double>(count));
-  D.families = {{Factor::place, 0, count, 0}, {Factor::load, count, count, 0}};
-  const EvidenceModel evidence_model(D, 0.1, 1.0);
+  D.families = {{calibration::Factor::place, 0, count, 0}, {calibration::Factor::load, count, count, 0}};
+  const calibration::EvidenceModel evidence_model(D, 0.1, 1.0);
   const Eigen::VectorXd r = D.columns.leftCols(count) * drawn(count, random, 0.5) + drawn(rows, random, 0.1);
-  const Posterior found = evidence_model.best(nothing_varied(r), evidence_model.first_guess(), 40);
+  const calibration::Posterior found = evidence_model.best(nothing_varied(r), evidence_model.first_guess(), 40);
   EXPECT_NEAR(found.amplitudes.families[0], 0.5, 0.15);
   EXPECT_LT(found.amplitudes.families[1], 0.05);
   EXPECT_NEAR(found.amplitudes.noise, 0.1, 0.01);
@@ -125,27 +127,27 @@ TEST(EvidenceModel, FindsAmplitudesAndLeavesOutWhatIsNot) {
 // As rare as a name from a noise floor on; what the model itself is not trusted to is nothing that happened.
 TEST(EvidenceModel, LargerDiscrepancyIsRarer) {
   std::mt19937 random(5);
-  Discrepancy D = two_families(50, random);
+  calibration::Discrepancy D = two_families(50, random);
   D.families[1].fixed = 0.3;
-  const EvidenceModel evidence_model(D, 0.1, 1.0);
-  Posterior posterior;
+  const calibration::EvidenceModel evidence_model(D, 0.1, 1.0);
+  calibration::Posterior posterior;
   posterior.coefficients = drawn(6, random);
   const Eigen::VectorXd moved = D.columns.leftCols(3) * posterior.coefficients.head(3);
   const double rms = std::sqrt(moved.squaredNorm() / 50.0);
   for (const double floors : {0.0, 0.3, 0.99, 1.01, 7.0}) {
-    Posterior sized = posterior;
+    calibration::Posterior sized = posterior;
     sized.coefficients.head(3) *= floors * 0.1 / rms;
     EXPECT_NEAR(evidence_model.discrepancy_penalty(sized),
-                k_thresholds.neg_log_prior_odds * std::min(1.0, floors * floors), 1e-9);
+                calibration::k_thresholds.neg_log_prior_odds * std::min(1.0, floors * floors), 1e-9);
   }
 }
 
 TEST(EvidenceModel, IntervalsCoverAsOftenAsTheySay) {
   std::mt19937 random(4);
-  const Discrepancy D = two_families(60, random);
-  const EvidenceModel evidence_model(D, 0.1, 1.0);
-  const Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.3), 0.1};
-  Tangent tangent = nothing_varied(Eigen::VectorXd::Zero(60));
+  const calibration::Discrepancy D = two_families(60, random);
+  const calibration::EvidenceModel evidence_model(D, 0.1, 1.0);
+  const calibration::Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.3), 0.1};
+  calibration::Tangent tangent = nothing_varied(Eigen::VectorXd::Zero(60));
   tangent.J = drawn(60, random);
   tangent.x = tangent.caliper_gradient = Eigen::VectorXd::Zero(1);
   tangent.prior = Eigen::VectorXd::Constant(1, 100.0);
@@ -155,7 +157,7 @@ TEST(EvidenceModel, IntervalsCoverAsOftenAsTheySay) {
   for (int i = 0; i < trials; ++i) {
     tangent.residual = 0.4 * tangent.J + D.columns.leftCols(3) * drawn(3, random, 0.2) +
                        D.columns.rightCols(3) * drawn(3, random, 0.3) + drawn(60, random, 0.1);
-    const Posterior found = evidence_model.at(tangent, amplitudes);
+    const calibration::Posterior found = evidence_model.at(tangent, amplitudes);
     covered += std::abs(found.step[0] - 0.4) <= 1.96 * std::sqrt(found.covariance(0, 0)) ? 1 : 0;
   }
   EXPECT_NEAR(covered / static_cast<double>(trials), 0.95, 0.02);
@@ -163,26 +165,28 @@ TEST(EvidenceModel, IntervalsCoverAsOftenAsTheySay) {
 
 TEST(EvidenceModel, PriorIsDensityWithHeavyTails) {
   double sum = 0;
-  for (double x = -2000; x < 2000; x += 0.01) sum += 0.01 * std::exp(log_prior(x, 1.0));
+  for (double x = -2000; x < 2000; x += 0.01) sum += 0.01 * std::exp(calibration::log_prior(x, 1.0));
   EXPECT_NEAR(sum, 1, 1e-3);
-  EXPECT_LT(log_prior(12, 1.0), log_prior(0, 1.0) - 5);
-  EXPECT_GT(log_prior(12, 1.0), log_prior(0, 1.0) - 72);  // a normal one's
+  EXPECT_LT(calibration::log_prior(12, 1.0), calibration::log_prior(0, 1.0) - 5);
+  EXPECT_GT(calibration::log_prior(12, 1.0), calibration::log_prior(0, 1.0) - 72);  // a normal one's
 }
 
 TEST(DiscrepancyFit, WaveOfMotorShaftHasItsOrder) {
-  Measurement measurement;
+  measurement::Measurement measurement;
   measurement.load_unit = "N";
   measurement.runs = {run_of("one", 0, 12), run_of("two", 5, 12)};
   auto noise = white_noise(k_floor, 5);
-  for (fusee::Run& run : measurement.runs) {
-    for (Sample& sample : run.samples) sample.theta += 4 * k_floor * std::sin(21 * sample.alpha) + noise(sample);
+  for (fusee::measurement::Run& run : measurement.runs) {
+    for (measurement::Sample& sample : run.samples)
+      sample.theta += 4 * k_floor * std::sin(21 * sample.alpha) + noise(sample);
   }
-  const Evidence evidence = evidence_of(measurement);
-  Forward forward(joint(), evidence.log);
-  const DiscrepancyFit found = describe_discrepancy(evidence, Fitter(evidence, forward).fit({}, {}));
-  EXPECT_TRUE(is_unexplained(found, k_floor));
+  const calibration::Evidence evidence = evidence_of(measurement);
+  joint::Forward forward(joint(), evidence.log);
+  const calibration::DiscrepancyFit found =
+      calibration::describe_discrepancy(evidence, calibration::Fitter(evidence, forward).fit({}, {}));
+  EXPECT_TRUE(calibration::is_unexplained(found, k_floor));
   const auto wave = std::find_if(found.parts.begin(), found.parts.end(),
-                                 [](const DiscrepancyComponent& part) { return part.order > 0; });
+                                 [](const calibration::DiscrepancyComponent& part) { return part.order > 0; });
   ASSERT_NE(wave, found.parts.end());
   EXPECT_EQ(wave->factor, "motor harmonic");
   EXPECT_NEAR(wave->order, 21, 0.8);
@@ -191,12 +195,13 @@ TEST(DiscrepancyFit, WaveOfMotorShaftHasItsOrder) {
 }
 
 TEST(DiscrepancyFit, NoiseIsNotDescribed) {
-  const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 6)));
-  Forward forward(joint(), evidence.log);
-  const DiscrepancyFit found = describe_discrepancy(evidence, Fitter(evidence, forward).fit({}, {}));
-  EXPECT_FALSE(is_unexplained(found, k_floor));
+  const calibration::Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 6)));
+  joint::Forward forward(joint(), evidence.log);
+  const calibration::DiscrepancyFit found =
+      calibration::describe_discrepancy(evidence, calibration::Fitter(evidence, forward).fit({}, {}));
+  EXPECT_FALSE(calibration::is_unexplained(found, k_floor));
   EXPECT_TRUE(found.parts.empty());
 }
 
 }  // namespace
-}  // namespace fusee::linear
+}  // namespace fusee::calibration::linear

@@ -9,28 +9,28 @@
 #include "calibration/linear_joint.h"
 #include "calibration/model.h"
 
-namespace fusee::linear {
+namespace fusee::calibration::linear {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-Measurement quiet(const std::vector<double>& loads) {
-  return measured(loads, [](const Sample&) { return 0.0; });
+measurement::Measurement quiet(const std::vector<double>& loads) {
+  return measured(loads, [](const measurement::Sample&) { return 0.0; });
 }
 
-std::vector<std::size_t> strokes_of(const Evidence& evidence, std::size_t run) {
+std::vector<std::size_t> strokes_of(const calibration::Evidence& evidence, std::size_t run) {
   std::vector<std::size_t> strokes;
-  for (const Block& block : evidence.blocks) {
+  for (const calibration::Block& block : evidence.blocks) {
     if (block.run == run) strokes.push_back(block.stroke);
   }
   return strokes;
 }
 
 TEST(Gather, FirstStrokeSettlesPlay) {
-  Measurement measurement = quiet({0, 5});
+  measurement::Measurement measurement = quiet({0, 5});
   measurement.runs[1].strokes.resize(2);  // too few to do without one
-  const Evidence evidence = gather(joint(), measurement, k_floor);
+  const calibration::Evidence evidence = calibration::gather(joint(), measurement, k_floor);
   EXPECT_THAT(strokes_of(evidence, 0), ElementsAre(1, 2, 3));
   EXPECT_THAT(strokes_of(evidence, 1), ElementsAre(0, 1));
   EXPECT_EQ(evidence.rows_used(), 5 * k_rows);
@@ -39,31 +39,33 @@ TEST(Gather, FirstStrokeSettlesPlay) {
 }
 
 TEST(Gather, APartialStrokeIsNone) {
-  Measurement measurement = quiet({0});
+  measurement::Measurement measurement = quiet({0});
   measurement.runs[0].strokes[2].partial = true;
-  EXPECT_THAT(strokes_of(gather(joint(), measurement, k_floor), 0), ElementsAre(1, 3));
+  EXPECT_THAT(strokes_of(calibration::gather(joint(), measurement, k_floor), 0), ElementsAre(1, 3));
 }
 
 TEST(Gather, ARowThatJumpsIsLeftOut) {
-  Measurement measurement = quiet({0});
+  measurement::Measurement measurement = quiet({0});
   const std::size_t wild = 2 * k_rows + 7;
   measurement.runs[0].samples[wild].theta += 20 * k_floor;
-  const Evidence evidence = gather(joint(), measurement, k_floor);
+  const calibration::Evidence evidence = calibration::gather(joint(), measurement, k_floor);
   EXPECT_EQ(evidence.rows_used(), 3 * k_rows - 1);
-  for (const Block& block : evidence.blocks) EXPECT_EQ(std::count(block.rows.begin(), block.rows.end(), wild), 0);
+  for (const calibration::Block& block : evidence.blocks)
+    EXPECT_EQ(std::count(block.rows.begin(), block.rows.end(), wild), 0);
   EXPECT_NEAR(evidence.theta[wild], measurement.runs[0].samples[wild].theta, 1e-15) << "as history it stays";
 }
 
 TEST(Gather, ThinsLongRunsAndKeepsStrokeEnds) {
-  Measurement measurement = quiet({0});
-  fusee::Run& run = measurement.runs[0];
-  const fusee::Run pattern = run;
+  measurement::Measurement measurement = quiet({0});
+  fusee::measurement::Run& run = measurement.runs[0];
+  const fusee::measurement::Run pattern = run;
   run.samples.clear();
   constexpr std::size_t finer = 200;
-  for (const Sample& sample : pattern.samples) run.samples.insert(run.samples.end(), finer, sample);
-  for (Stroke& stroke : run.strokes) stroke = {stroke.first * finer, stroke.last * finer + finer - 1, stroke.direction};
-  const Evidence evidence = gather(joint(), measurement, k_floor);
-  const fusee::Run& thin = evidence.measurement.runs[0];
+  for (const measurement::Sample& sample : pattern.samples) run.samples.insert(run.samples.end(), finer, sample);
+  for (measurement::Stroke& stroke : run.strokes)
+    stroke = {stroke.first * finer, stroke.last * finer + finer - 1, stroke.direction};
+  const calibration::Evidence evidence = calibration::gather(joint(), measurement, k_floor);
+  const fusee::measurement::Run& thin = evidence.measurement.runs[0];
   EXPECT_LE(evidence.rows_used(), 850u);
   EXPECT_GE(evidence.rows_used(), 500u);
   ASSERT_EQ(thin.strokes.size(), 4u);
@@ -74,56 +76,56 @@ TEST(Gather, ThinsLongRunsAndKeepsStrokeEnds) {
 }
 
 TEST(Folds, FoldsOfSingleRunAreStrokes) {
-  const Evidence evidence = gather(joint(), quiet({0}), k_floor);
+  const calibration::Evidence evidence = calibration::gather(joint(), quiet({0}), k_floor);
   EXPECT_THAT(evidence.run_folds, ElementsAre(ElementsAre(0), ElementsAre(1), ElementsAre(2)));
   EXPECT_EQ(evidence.factor_folds, evidence.run_folds);
   EXPECT_THAT(evidence.factors, IsEmpty());
 }
 
 TEST(Folds, FoldsOfAlikeRunsAreRuns) {
-  const Evidence evidence = gather(joint(), quiet({0, 0}), k_floor);
+  const calibration::Evidence evidence = calibration::gather(joint(), quiet({0, 0}), k_floor);
   EXPECT_THAT(evidence.run_folds, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(3, 4, 5)));
   EXPECT_EQ(evidence.factor_folds, evidence.run_folds);
 }
 
 TEST(Folds, HoldWholeLevelsOfLoadOut) {
-  const Evidence evidence = gather(joint(), quiet({0, 5, 0.1, 5}), k_floor);
+  const calibration::Evidence evidence = calibration::gather(joint(), quiet({0, 5, 0.1, 5}), k_floor);
   EXPECT_THAT(evidence.factors, ElementsAre("load"));
   EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(0, 1, 2, 6, 7, 8), ElementsAre(3, 4, 5, 9, 10, 11)));
 }
 
 TEST(Folds, LevelOfNearlyAllRowsIsKept) {
-  const Evidence evidence = gather(joint(), quiet({0, 0, 5}), k_floor);
+  const calibration::Evidence evidence = calibration::gather(joint(), quiet({0, 0, 5}), k_floor);
   EXPECT_THAT(evidence.factors, ElementsAre("load"));
   EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(6, 7, 8), ElementsAre(0, 1, 2), ElementsAre(3, 4, 5)));
 }
 
 TEST(Folds, SpeedIsAFactorToo) {
-  Measurement measurement = quiet({0, 0});
+  measurement::Measurement measurement = quiet({0, 0});
   measurement.runs[1].speed *= 5;
-  EXPECT_THAT(gather(joint(), measurement, k_floor).factors, ElementsAre("speed"));
+  EXPECT_THAT(calibration::gather(joint(), measurement, k_floor).factors, ElementsAre("speed"));
 }
 
 // ---- held angles and levels of load ---------------------------------------------------------------------------------
 
 /// For each block, the number of the blocks of its run that it repeats.
-std::vector<std::size_t> repeats_in(const Evidence& evidence) {
+std::vector<std::size_t> repeats_in(const calibration::Evidence& evidence) {
   std::vector<std::size_t> alike;
-  for (const Block& block : evidence.blocks) alike.push_back(block.alike);
+  for (const calibration::Block& block : evidence.blocks) alike.push_back(block.alike);
   return alike;
 }
 
 /// Held at both ends in turn, `rows` rows each; the loads of the visits in turn.
-Measurement held_at_ends(const std::vector<double>& loads, std::size_t rows) {
-  Measurement measurement;
-  fusee::Run& run = measurement.runs.emplace_back();
+measurement::Measurement held_at_ends(const std::vector<double>& loads, std::size_t rows) {
+  measurement::Measurement measurement;
+  fusee::measurement::Run& run = measurement.runs.emplace_back();
   run.name = "run_1";
   run.has_time = run.has_load = true;
   for (std::size_t visit = 0; visit < loads.size(); ++visit) {
     const int direction = visit % 2 == 0 ? -1 : 1;
     const std::size_t first = run.samples.size();
     for (std::size_t i = 0; i < rows; ++i) {
-      Sample sample;
+      measurement::Sample sample;
       sample.time = static_cast<double>(run.samples.size());
       sample.alpha = direction;
       sample.theta = sample.alpha / k_ratio;
@@ -137,16 +139,16 @@ Measurement held_at_ends(const std::vector<double>& loads, std::size_t rows) {
 }
 
 /// Five strokes of 60 rows there and back; the load in thirds of each as `levels` has them.
-Measurement in_thirds(const std::array<double, 3>& levels) {
-  Measurement measurement;
-  fusee::Run& run = measurement.runs.emplace_back();
+measurement::Measurement in_thirds(const std::array<double, 3>& levels) {
+  measurement::Measurement measurement;
+  fusee::measurement::Run& run = measurement.runs.emplace_back();
   run.name = "run_1";
   run.has_time = run.has_load = true;
   for (std::size_t stroke = 0; stroke < 5; ++stroke) {
     const int direction = stroke % 2 == 0 ? 1 : -1;
     const std::size_t first = run.samples.size();
     for (std::size_t i = 0; i < 60; ++i) {
-      Sample sample;
+      measurement::Sample sample;
       sample.time = static_cast<double>(run.samples.size());
       sample.alpha = direction * (static_cast<double>(i) / 59 - 0.5);
       sample.theta = sample.alpha / k_ratio;
@@ -161,12 +163,13 @@ Measurement in_thirds(const std::array<double, 3>& levels) {
 }
 
 TEST(Gather, SegmentsAtTwoPlacesAreNoRepeats) {
-  const Evidence evidence = gather(joint(), in_thirds({5, 0, 5}), k_floor);
+  const calibration::Evidence evidence = calibration::gather(joint(), in_thirds({5, 0, 5}), k_floor);
   EXPECT_THAT(repeats_in(evidence), ElementsAre(0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5));
 }
 
 TEST(Gather, HeldAnglesAreBlocks) {
-  const Evidence evidence = gather(joint(), held_at_ends({0, 0, 0, 0, 5, 5, 5, 5}, 10), k_floor);
+  const calibration::Evidence evidence =
+      calibration::gather(joint(), held_at_ends({0, 0, 0, 0, 5, 5, 5, 5}, 10), k_floor);
   // The first one's side is not known.
   EXPECT_THAT(strokes_of(evidence, 0), ElementsAre(1, 2, 3, 4, 5, 6, 7));
   EXPECT_THAT(repeats_in(evidence), ElementsAre(0, 1, 0, 2, 3, 2, 3));
@@ -175,58 +178,62 @@ TEST(Gather, HeldAnglesAreBlocks) {
 }
 
 TEST(Gather, ShortDwellsOfOneKindAreJoined) {
-  const Evidence evidence = gather(joint(), held_at_ends(std::vector<double>(49, 0.0), 1), k_floor);
+  const calibration::Evidence evidence =
+      calibration::gather(joint(), held_at_ends(std::vector<double>(49, 0.0), 1), k_floor);
   EXPECT_EQ(evidence.rows_used(), 48u);
   ASSERT_EQ(evidence.blocks.size(), 8u);
-  for (const Block& block : evidence.blocks) {
+  for (const calibration::Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[0].strokes[block.stroke].direction;
     for (const std::size_t row : block.rows) EXPECT_EQ(evidence.measurement.runs[0].samples[row].alpha, direction);
   }
 }
 
 TEST(Gather, LongStandsGiveAFewRowsEach) {
-  const Evidence evidence = gather(joint(), held_at_ends(std::vector<double>(40, 0.0), 2000), k_floor);
+  const calibration::Evidence evidence =
+      calibration::gather(joint(), held_at_ends(std::vector<double>(40, 0.0), 2000), k_floor);
   EXPECT_EQ(evidence.blocks.size(), 39u);
   EXPECT_LE(evidence.rows_used(), 850u);
   EXPECT_GE(evidence.rows_used(), 39 * 6u);
 }
 
 TEST(Gather, HistoryOfManyDwellsPrecedesSelectedOnes) {
-  const Evidence evidence = gather(joint(), held_at_ends(std::vector<double>(100'000, 0.0), 3), k_floor);
+  const calibration::Evidence evidence =
+      calibration::gather(joint(), held_at_ends(std::vector<double>(100'000, 0.0), 3), k_floor);
   EXPECT_GE(evidence.rows_used(), 500u);
   EXPECT_LE(evidence.theta.size(), 12'000);
-  for (const Stroke& stroke : evidence.measurement.runs[0].strokes)
+  for (const measurement::Stroke& stroke : evidence.measurement.runs[0].strokes)
     EXPECT_EQ(evidence.measurement.runs[0].samples[stroke.first].alpha, stroke.direction);
 }
 
 TEST(Folds, HoldLevelsOfLoadWithinARunOut) {
-  Measurement measurement;
+  measurement::Measurement measurement;
   measurement.runs.push_back(run_of("run_1", 0, 6));
   for (std::size_t i = 0; i < 6 * k_rows; ++i) measurement.runs[0].samples[i].load = i < 4 * k_rows ? 0 : 5;
-  const Evidence evidence = gather(joint(), measurement, k_floor);
+  const calibration::Evidence evidence = calibration::gather(joint(), measurement, k_floor);
   EXPECT_THAT(evidence.factors, ElementsAre("load"));
   EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(3, 4)));
 }
 
 TEST(Folds, LoadThatFollowsMotionIsOneLevel) {
-  Measurement measurement;
+  measurement::Measurement measurement;
   measurement.runs.push_back(run_of("run_1", 0, 6));
   for (std::size_t i = 0; i < 6 * k_rows; ++i) measurement.runs[0].samples[i].load = i / k_rows % 2 == 0 ? 5 : -5;
-  EXPECT_THAT(gather(joint(), measurement, k_floor).factors, IsEmpty());
+  EXPECT_THAT(calibration::gather(joint(), measurement, k_floor).factors, IsEmpty());
 }
 
 /// Half the squares of weighted rows and what their play costs.
 double cost_of_rows(const Eigen::VectorXd& residuals, double loose, double floor) {
   const Eigen::VectorXd weighted = residuals * floor / std::hypot(floor, loose / 3.0);
   const Eigen::VectorXd plays = Eigen::VectorXd::Constant(residuals.size(), loose);
-  return 0.5 * weighted.squaredNorm() / (floor * floor) + loose_rows(weighted, plays, floor).nats;
+  return 0.5 * weighted.squaredNorm() / (floor * floor) + calibration::loose_rows(weighted, plays, floor).nats;
 }
 
 TEST(Play, LooseRowsRestPushedOrAnywhere) {
   constexpr double floor = 0.01, loose = 0.3;
   constexpr Eigen::Index count = 400;
   const double fitted = 0.5 * std::log(count);
-  EXPECT_EQ(loose_rows(Eigen::VectorXd::Constant(9, 0.02), Eigen::VectorXd::Zero(9), floor).nats, 0);  // no play
+  EXPECT_EQ(calibration::loose_rows(Eigen::VectorXd::Constant(9, 0.02), Eigen::VectorXd::Zero(9), floor).nats,
+            0);  // no play
   // Rest at the pushed position, with noise: the cost of taut rows.
   const Eigen::VectorXd noise = floor * Eigen::VectorXd::LinSpaced(count, -1.7, 1.7);
   EXPECT_NEAR(cost_of_rows(noise, loose, floor), 0.5 * noise.squaredNorm() / (floor * floor) + fitted, 0.5);
@@ -256,4 +263,4 @@ TEST(Play, IsADensity) {
 }
 
 }  // namespace
-}  // namespace fusee::linear
+}  // namespace fusee::calibration::linear

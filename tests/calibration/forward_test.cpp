@@ -5,14 +5,14 @@
 
 #include "calibration/linear_joint.h"
 
-namespace fusee::linear {
+namespace fusee::calibration::linear {
 namespace {
 
 class Geared : public testing::Test {
  protected:
-  Measurement measurement = measured({0, 5}, [](const Sample&) { return 0.0; });
-  BenchLog log = bench_log(measurement);
-  Forward forward{joint(), log};
+  measurement::Measurement measurement = measured({0, 5}, [](const measurement::Sample&) { return 0.0; });
+  joint::BenchLog log = measurement::bench_log(measurement);
+  joint::Forward forward{joint(), log};
 
   Imperfections with(const std::string& effect, double value) const {
     Imperfections at;
@@ -21,8 +21,9 @@ class Geared : public testing::Test {
   }
 
   /// Expects a value of every row.
-  void expect(const Imperfections& at, const std::function<double(const fusee::Run&, std::size_t)>& expected) {
-    const Readings found = forward(at);
+  void expect(const Imperfections& at,
+              const std::function<double(const fusee::measurement::Run&, std::size_t)>& expected) {
+    const joint::Readings found = forward(at);
     for (std::size_t r = 0; r < found.size(); ++r) {
       for (std::size_t i = 0; i < found[r].size(); ++i)
         EXPECT_NEAR(found[r][i], expected(measurement.runs[r], i), 1e-14) << r << " " << i;
@@ -30,28 +31,30 @@ class Geared : public testing::Test {
   }
 };
 
-double declared(const fusee::Run& run, std::size_t i) { return run.samples[i].alpha / k_ratio; }
+double declared(const fusee::measurement::Run& run, std::size_t i) { return run.samples[i].alpha / k_ratio; }
 
 TEST_F(Geared, AsDeclared) { expect({}, declared); }
 
 TEST_F(Geared, AZeroIsAdded) {
   Imperfections at;
-  set_value(at, *free_offset(joint()), 0.02);
-  expect(at, [](const fusee::Run& run, std::size_t i) { return declared(run, i) + 0.02; });
+  set_value(at, *calibration::free_offset(joint()), 0.02);
+  expect(at, [](const fusee::measurement::Run& run, std::size_t i) { return declared(run, i) + 0.02; });
 }
 
 TEST_F(Geared, AGainGrowsWithTheAngle) {
-  expect(with("joint_sensor_gain", 0.01), [](const fusee::Run& run, std::size_t i) { return 1.01 * declared(run, i); });
+  expect(with("joint_sensor_gain", 0.01),
+         [](const fusee::measurement::Run& run, std::size_t i) { return 1.01 * declared(run, i); });
 }
 
 TEST_F(Geared, ALoadTurnsItDown) {
-  expect(with("tendon_stretch", 1e-3),
-         [](const fusee::Run& run, std::size_t i) { return declared(run, i) - 1e-3 * run.samples[i].load; });
+  expect(with("tendon_stretch", 1e-3), [](const fusee::measurement::Run& run, std::size_t i) {
+    return declared(run, i) - 1e-3 * run.samples[i].load;
+  });
 }
 
 TEST_F(Geared, PlayFollowsAtHalfItsWidth) {
   constexpr double width = 0.3;
-  expect(with("backlash", width), [play = 0.0](const fusee::Run& run, std::size_t i) mutable {
+  expect(with("backlash", width), [play = 0.0](const fusee::measurement::Run& run, std::size_t i) mutable {
     if (i == 0) play = run.samples[0].alpha + 0.5 * width;  // came from home, downwards
     const double alpha = run.samples[i].alpha;
     play = std::clamp(play, alpha - 0.5 * width, alpha + 0.5 * width);
@@ -61,7 +64,7 @@ TEST_F(Geared, PlayFollowsAtHalfItsWidth) {
 
 TEST_F(Geared, ADelayShowsWhatWas) {
   const Imperfections late = with("sensor_lag", 0.25);  // a quarter of the time between rows
-  expect(late, [](const fusee::Run& run, std::size_t i) {
+  expect(late, [](const fusee::measurement::Run& run, std::size_t i) {
     return i == 0 ? declared(run, 0) : 0.25 * declared(run, i - 1) + 0.75 * declared(run, i);
   });
 }
@@ -72,8 +75,8 @@ TEST_F(Geared, FilterShowsRoundedReversal) {
   late.sensor.lag = tau;
   late.sensor.first_order = 1;
   // By small steps of τ ẏ = θ − y along straight lines from row to row, a second apart.
-  const Readings found = forward(late);
-  const fusee::Run& run = measurement.runs[0];
+  const joint::Readings found = forward(late);
+  const fusee::measurement::Run& run = measurement.runs[0];
   double y = declared(run, 0);
   for (std::size_t i = 1; i < run.samples.size(); ++i) {
     constexpr int steps = 20000;
@@ -88,14 +91,14 @@ TEST_F(Geared, ASensorWavesSoOftenATurn) {
   at.sensor.wave_sin = 0.01;
   at.sensor.wave_cos = -0.02;
   at.sensor.wave_order = 3;
-  expect(at, [](const fusee::Run& run, std::size_t i) {
+  expect(at, [](const fusee::measurement::Run& run, std::size_t i) {
     const double theta = declared(run, i);
     return theta + 0.01 * std::sin(3 * theta) - 0.02 * (std::cos(3 * theta) - 1);
   });
   at = {};
   at.motor.wave_cos = 0.03;
   at.motor.wave_order = 4;
-  expect(at, [](const fusee::Run& run, std::size_t i) {
+  expect(at, [](const fusee::measurement::Run& run, std::size_t i) {
     return declared(run, i) + 0.03 * (std::cos(4 * run.samples[i].alpha) - 1) / k_ratio;
   });
 }
@@ -104,7 +107,7 @@ TEST_F(Geared, SlackIsPlayThatTheLoadTakesUp) {
   Imperfections at;
   at.ratio_joint.slack = 0.3;
   at.ratio_joint.slack_taken_up = 0.2;
-  expect(at, [play = 0.0](const fusee::Run& run, std::size_t i) mutable {
+  expect(at, [play = 0.0](const fusee::measurement::Run& run, std::size_t i) mutable {
     const double width = 0.3 / (1 + 0.2 * run.samples[i].load);  // half of it under 5
     if (i == 0) play = run.samples[0].alpha + 0.5 * width;       // came from home, downwards
     const double alpha = run.samples[i].alpha;
@@ -114,8 +117,8 @@ TEST_F(Geared, SlackIsPlayThatTheLoadTakesUp) {
 }
 
 TEST_F(Geared, CreepFollowsLogarithmOfTime) {
-  const Readings found = forward(with("creep", 1e-3));
-  const fusee::Run& loaded = measurement.runs[1];
+  const joint::Readings found = forward(with("creep", 1e-3));
+  const fusee::measurement::Run& loaded = measurement.runs[1];
   for (std::size_t i = 0; i < loaded.samples.size(); ++i) {
     EXPECT_NEAR(found[0][i], declared(measurement.runs[0], i), 1e-15);
     const double time = loaded.samples[i].time - loaded.samples[0].time;
@@ -124,12 +127,12 @@ TEST_F(Geared, CreepFollowsLogarithmOfTime) {
 }
 
 TEST(Creep, IsRememberedInTheNextRun) {
-  const Measurement measurement = measured({0, 5, 0}, [](const Sample&) { return 0.0; });
-  const BenchLog log = bench_log(measurement);
-  Forward forward(joint(), log);
+  const measurement::Measurement measurement = measured({0, 5, 0}, [](const measurement::Sample&) { return 0.0; });
+  const joint::BenchLog log = measurement::bench_log(measurement);
+  joint::Forward forward(joint(), log);
   Imperfections at;
   at.ratio_joint.drift = 1e-3;
-  const Readings found = forward(at);
+  const joint::Readings found = forward(at);
   // A run is 79 s long: what it was before is undone by the opposite since then.
   const double left = 5e-3 * (std::log10(79.0 + 20) - std::log10(20.0));
   EXPECT_NEAR(declared(measurement.runs[2], 20) - found[2][20], left, 0.1 * 5e-3);
@@ -140,4 +143,4 @@ TEST_F(Geared, NothingHoldsALooseJointButTendons) {
 }
 
 }  // namespace
-}  // namespace fusee::linear
+}  // namespace fusee::calibration::linear

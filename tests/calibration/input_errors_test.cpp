@@ -12,7 +12,7 @@
 #include "rig/random.h"
 #include "rig/truths.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 using ::testing::AllOf;
@@ -21,18 +21,18 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// As a bench would have logged it.
-Measurement logged(const std::vector<rig::Log>& logs) {
-  Measurement measurement;
+measurement::Measurement logged(const std::vector<rig::Log>& logs) {
+  measurement::Measurement measurement;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const std::string name = "run_" + std::to_string(i + 1) + ".csv";
-    measurement.runs.push_back(parse_run(rig::csv_text(logs[i]), name, {}, measurement));
+    measurement.runs.push_back(measurement::parse_run(rig::csv_text(logs[i]), name, {}, measurement));
   }
   return measurement;
 }
 
 struct Bench {
   DeclaredMechanism right;  ///< the joint that was measured
-  Measurement data;
+  measurement::Measurement data;
 };
 
 Bench random_bench(std::uint64_t seed) {
@@ -59,7 +59,7 @@ Bench rig_data(const std::string& name) {
     if (entry.path().extension() == ".csv") runs.push_back(entry.path());
   }
   std::sort(runs.begin(), runs.end());
-  return {read_mechanism(folder / "spec.toml").mechanism, read_measurement(runs)};
+  return {read_mechanism(folder / "spec.toml").mechanism, measurement::read_measurement(runs)};
 }
 
 std::vector<std::string> words(const std::vector<LikelyInputError>& slips) {
@@ -68,29 +68,29 @@ std::vector<std::string> words(const std::vector<LikelyInputError>& slips) {
   return all;
 }
 
-Calibration calibrated(const DeclaredMechanism& file, Measurement data, bool look_for_effects = true) {
-  compare_with_declared(file, data);
+Calibration calibrated(const DeclaredMechanism& file, measurement::Measurement data, bool look_for_effects = true) {
+  measurement::compare_with_declared(file, data);
   CalibrationOptions options;
   options.look_for_effects = look_for_effects;
   return calibrate(file, data, options);
 }
 
 /// Rms over all rows with nothing fitted, rad: no rows are left out, as a slip's trial does.
-double left_by(const DeclaredMechanism& file, const Measurement& data) {
+double left_by(const DeclaredMechanism& file, const measurement::Measurement& data) {
   return calibrated(file, data, false).before.rms;
 }
 
 /// Input errors after calibrate(), which searches no effects if an error is obvious, as the program does.
-std::vector<LikelyInputError> slips_of(const DeclaredMechanism& file, const Measurement& data) {
+std::vector<LikelyInputError> slips_of(const DeclaredMechanism& file, const measurement::Measurement& data) {
   return find_input_errors(file, data, calibrated(file, data, !is_input_error_obvious(file, data)));
 }
 
-std::vector<std::string> said(const DeclaredMechanism& file, const Measurement& data) {
+std::vector<std::string> said(const DeclaredMechanism& file, const measurement::Measurement& data) {
   return words(slips_of(file, data));
 }
 
 /// Input errors of a calibration that explains nothing, without its minute of search.
-std::vector<std::string> said_where_unexplained(const DeclaredMechanism& file, const Measurement& data) {
+std::vector<std::string> said_where_unexplained(const DeclaredMechanism& file, const measurement::Measurement& data) {
   Calibration found;
   found.verdict = CalibrationVerdict::unexplained;
   found.before = {radians(5.0), radians(10.0), radians(5.0)};
@@ -141,13 +141,13 @@ TEST(UndoneSlips, of_a_joint_with_a_ratio_name_it) {
 }
 
 /// Logged with other signs or in another unit.
-Measurement times(Measurement data, double alpha, double theta) {
-  for (Run& run : data.runs) {
-    for (Sample& sample : run.samples) {
+measurement::Measurement times(measurement::Measurement data, double alpha, double theta) {
+  for (measurement::Run& run : data.runs) {
+    for (measurement::Sample& sample : run.samples) {
       sample.alpha *= alpha;
       sample.theta *= theta;
     }
-    for (Stroke& stroke : run.strokes) stroke.direction *= alpha < 0 ? -1 : 1;
+    for (measurement::Stroke& stroke : run.strokes) stroke.direction *= alpha < 0 ? -1 : 1;
   }
   return data;
 }
@@ -169,7 +169,7 @@ TEST(UndoneSlips, know_the_pulley_that_was_made_from_the_wrong_file) {
   file.guides.OE *= -1;
   rig::MadeJoint mounted = rig::make_joint(file);
   mounted.declared = bench.right;
-  const Measurement data = logged(rig::log_runs(mounted, {}, rig::full_protocol(0.05 * file.joint.R)));
+  const measurement::Measurement data = logged(rig::log_runs(mounted, {}, rig::full_protocol(0.05 * file.joint.R)));
   EXPECT_THAT(said_where_unexplained(file, data),
               ElementsAre(AllOf(HasSubstr("guides.OE_mm = -52.7 in place of 52.7"),
                                 HasSubstr("the pulley that was made from this file"))));
@@ -262,7 +262,7 @@ TEST(UndoneSlips, are_not_said_of_a_right_file) {
 TEST(UndoneSlips, are_not_said_where_a_cause_has_no_name) {
   for (const char* fault : {"lump", "motor_cogging"}) {
     const rig::Case made = rig::make_case({fault, {fault}}, 1);
-    const Measurement data = logged(made.logs);
+    const measurement::Measurement data = logged(made.logs);
     const Calibration found = calibrated(made.joint.declared, data);
     EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained) << fault;
     EXPECT_THAT(find_input_errors(made.joint.declared, data, found), IsEmpty()) << fault;
@@ -277,4 +277,4 @@ TEST(UndoneSlips, are_not_sought_in_data_that_decide_nothing) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::calibration

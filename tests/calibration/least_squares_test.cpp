@@ -8,18 +8,18 @@
 #include "calibration/thresholds.h"
 #include "fusee/base.h"
 
-namespace fusee::linear {
+namespace fusee::calibration::linear {
 namespace {
 
 /// Slopes of two numbers, and something to explain.
 struct Problem {
-  Evidence evidence;
+  calibration::Evidence evidence;
   Eigen::MatrixXd J;
   Eigen::VectorXd r;
 };
 
 Problem some_problem() {
-  Problem problem{evidence_of(measured({0, 5}, [](const Sample&) { return 0.0; })), {}, {}};
+  Problem problem{evidence_of(measured({0, 5}, [](const measurement::Sample&) { return 0.0; })), {}, {}};
   const Eigen::Index rows = problem.evidence.theta.size();
   problem.J.resize(rows, 2);
   problem.r.resize(rows);
@@ -36,9 +36,9 @@ Eigen::VectorXd by_qr(const Eigen::MatrixXd& J, const Eigen::VectorXd& r) { retu
 
 TEST(LeastSquares, AStepIsThatOfAnOrthogonalFactorisation) {
   const Problem problem = some_problem();
-  const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
-  const NormalEquations all = sums_of_all(problem.evidence, fit);
-  const Eigen::VectorXd step = least_squares_step(all, fit.x, 0);
+  const calibration::Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  const calibration::NormalEquations all = calibration::sums_of_all(problem.evidence, fit);
+  const Eigen::VectorXd step = calibration::least_squares_step(all, fit.x, 0);
   EXPECT_LT((step - by_qr(problem.J, problem.r)).norm(), 1e-12);
   EXPECT_NEAR(all.squares_after(step), (problem.r - problem.J * step).squaredNorm(), 1e-10);
   EXPECT_EQ(all.rows, static_cast<double>(problem.r.size()));
@@ -46,45 +46,48 @@ TEST(LeastSquares, AStepIsThatOfAnOrthogonalFactorisation) {
 
 TEST(LeastSquares, ARidgeIsARowThatSaysNothing) {
   const Problem problem = some_problem();
-  Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  calibration::Fit fit = hand_made(problem.evidence, problem.J, problem.r);
   fit.x << 2, -1;
   const double ridge = 9;
   Eigen::MatrixXd J(problem.J.rows() + 2, 2);
   J << problem.J, std::sqrt(ridge) * Eigen::Matrix2d::Identity();
   Eigen::VectorXd r(J.rows());
   r << problem.r, -std::sqrt(ridge) * fit.x;
-  EXPECT_LT((least_squares_step(sums_of_all(problem.evidence, fit), fit.x, ridge) - by_qr(J, r)).norm(), 1e-12);
+  EXPECT_LT(
+      (calibration::least_squares_step(calibration::sums_of_all(problem.evidence, fit), fit.x, ridge) - by_qr(J, r))
+          .norm(),
+      1e-12);
 }
 
 TEST(LeastSquares, BlocksAddUp) {
   const Problem problem = some_problem();
-  const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
-  NormalEquations sum = NormalEquations::none(2);
-  for (const NormalEquations& block : fit.sums) sum += block;
-  const NormalEquations all = sums_of_all(problem.evidence, fit);
+  const calibration::Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  calibration::NormalEquations sum = calibration::NormalEquations::none(2);
+  for (const calibration::NormalEquations& block : fit.sums) sum += block;
+  const calibration::NormalEquations all = calibration::sums_of_all(problem.evidence, fit);
   EXPECT_LT((sum.JJ - all.JJ).norm(), 1e-9);
   sum -= all;
   EXPECT_LT(sum.Jr.norm(), 1e-9);
 }
 
 TEST(LeastSquares, CaliperCountsAsRowOfNoise) {
-  Evidence evidence = evidence_of(measured({0, 5}, [](const Sample&) { return 0.0; }));
+  calibration::Evidence evidence = evidence_of(measured({0, 5}, [](const measurement::Sample&) { return 0.0; }));
   const Effect& stretch = named("tendon_stretch");
   evidence.readings = {{&stretch.parameters.front(), 0.02, 0.004}};
-  Fit fit;
+  calibration::Fit fit;
   fit.parameters = {&stretch.parameters.front()};
   fit.x = Eigen::VectorXd::Zero(1);
   const double step = stretch.parameters.front().step;
-  const NormalEquations row = sums_of_readings(evidence, fit);
+  const calibration::NormalEquations row = calibration::sums_of_readings(evidence, fit);
   EXPECT_DOUBLE_EQ(row.JJ(0, 0), std::pow(step / 0.004 * k_floor, 2));
-  EXPECT_NEAR(least_squares_step(row, fit.x, 0)[0] * step, 0.02, 1e-15);
-  EXPECT_DOUBLE_EQ(caliper_chi2(evidence, {}), 25.0);
+  EXPECT_NEAR(calibration::least_squares_step(row, fit.x, 0)[0] * step, 0.02, 1e-15);
+  EXPECT_DOUBLE_EQ(calibration::caliper_chi2(evidence, {}), 25.0);
 }
 
 // ---- held out -------------------------------------------------------------------------------------------------------
 
 /// Mean square of a block's rows, fitted to all rows but those of `fold`.
-double error_without(const Problem& problem, const Fold& fold, std::size_t of) {
+double error_without(const Problem& problem, const calibration::Fold& fold, std::size_t of) {
   std::vector<Eigen::Index> rest, own;
   for (std::size_t b = 0; b < problem.evidence.blocks.size(); ++b) {
     const bool held = std::find(fold.begin(), fold.end(), b) != fold.end();
@@ -100,10 +103,10 @@ double error_without(const Problem& problem, const Fold& fold, std::size_t of) {
 TEST(HeldOut, EqualsErrorOfFitToOthers) {
   Problem problem = some_problem();
   problem.evidence.factor_folds = {{0, 1, 2, 3}, {4, 5, 6, 7}};
-  const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  const calibration::Fit fit = hand_made(problem.evidence, problem.J, problem.r);
   double sum = 0;
   for (std::size_t b = 0; b < 8; ++b) {
-    const Fold fold = problem.evidence.factor_folds[b / 4];
+    const calibration::Fold fold = problem.evidence.factor_folds[b / 4];
     EXPECT_NEAR(fit.by_factor.by_block[b], error_without(problem, fold, b), 1e-7) << b;
     EXPECT_NEAR(fit.by_run.by_block[b], error_without(problem, {b}, b), 1e-7) << b;
     sum += fit.by_factor.by_block[b] / 8;
@@ -115,7 +118,7 @@ TEST(HeldOut, DecisiveLevelIsHeldOutByStrokes) {
   Problem problem = some_problem();
   problem.J.col(1).head(4 * k_rows).setZero();  // the first run says nothing of the second number
   problem.evidence.factor_folds = {{4, 5, 6, 7}};
-  const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  const calibration::Fit fit = hand_made(problem.evidence, problem.J, problem.r);
   for (std::size_t b = 0; b < 4; ++b) EXPECT_TRUE(std::isnan(fit.by_factor.by_block[b]));
   double sum = 0;
   for (std::size_t b = 4; b < 8; ++b) {
@@ -126,11 +129,12 @@ TEST(HeldOut, DecisiveLevelIsHeldOutByStrokes) {
 }
 
 /// Families of place, load and run, each of some size, beside two numbers.
-Amplitudes some_amplitudes(const Evidence& evidence) {
-  Amplitudes amplitudes = evidence.evidence_model->without_discrepancy();
-  const std::vector<Family>& families = evidence.evidence_model->discrepancy().families;
+calibration::Amplitudes some_amplitudes(const calibration::Evidence& evidence) {
+  calibration::Amplitudes amplitudes = evidence.evidence_model->without_discrepancy();
+  const std::vector<calibration::Family>& families = evidence.evidence_model->discrepancy().families;
   for (std::size_t f = 0; f < families.size(); ++f) {
-    const bool is_used = families[f].factor == Factor::place || families[f].factor == Factor::load;
+    const bool is_used =
+        families[f].factor == calibration::Factor::place || families[f].factor == calibration::Factor::load;
     if (is_used) amplitudes.families[static_cast<Eigen::Index>(f)] = 0.2;
   }
   amplitudes.noise = 0.1;
@@ -139,9 +143,9 @@ Amplitudes some_amplitudes(const Evidence& evidence) {
 
 /// A row for each prior below the data: columns and numbers together, by orthogonal factorisation. Errors of a block
 /// that was left out with its fold, by the numbers alone and with the columns of place.
-std::pair<double, double> errors_beside(const Problem& problem, const Amplitudes& amplitudes, const Fold& fold,
-                                        std::size_t of) {
-  const Discrepancy& discrepancy = problem.evidence.evidence_model->discrepancy();
+std::pair<double, double> errors_beside(const Problem& problem, const calibration::Amplitudes& amplitudes,
+                                        const calibration::Fold& fold, std::size_t of) {
+  const calibration::Discrepancy& discrepancy = problem.evidence.evidence_model->discrepancy();
   std::vector<Eigen::Index> rest, own, rest_used, own_used;  // of all rows, of rows in use
   Eigen::Index used = 0;
   for (std::size_t b = 0; b < problem.evidence.blocks.size(); ++b) {
@@ -157,12 +161,12 @@ std::pair<double, double> errors_beside(const Problem& problem, const Amplitudes
   std::vector<double> prior;
   std::vector<bool> of_place;
   for (std::size_t f = 0; f < discrepancy.families.size(); ++f) {
-    const Family& family = discrepancy.families[f];
+    const calibration::Family& family = discrepancy.families[f];
     const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
     for (Eigen::Index k = 0; amplitude > 0 && k < family.count; ++k) {
       columns.push_back(family.first + k);
       prior.push_back(noise / amplitude);
-      of_place.push_back(family.factor == Factor::place);
+      of_place.push_back(family.factor == calibration::Factor::place);
     }
   }
   const auto n = static_cast<Eigen::Index>(rest.size()), m = static_cast<Eigen::Index>(columns.size());
@@ -184,14 +188,14 @@ std::pair<double, double> errors_beside(const Problem& problem, const Amplitudes
 TEST(HeldOut, EqualsErrorBesideDiscrepancyToo) {
   Problem problem = some_problem();
   Eigen::Index used = 0;
-  for (const Block& block : problem.evidence.blocks) {
+  for (const calibration::Block& block : problem.evidence.blocks) {
     for (const std::size_t row : block.rows)
       problem.r[static_cast<Eigen::Index>(row)] += std::sin(3.0 * static_cast<double>(used++ % k_rows) / k_rows);
   }
-  const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
-  const Amplitudes amplitudes = some_amplitudes(problem.evidence);
-  const std::vector<Fold> folds = {{0, 1, 2, 3}, {4, 5, 6, 7}};
-  const HeldOutBeside held = hold_out_beside(problem.evidence, fit, amplitudes, folds);
+  const calibration::Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  const calibration::Amplitudes amplitudes = some_amplitudes(problem.evidence);
+  const std::vector<calibration::Fold> folds = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+  const calibration::HeldOutBeside held = calibration::hold_out_beside(problem.evidence, fit, amplitudes, folds);
   for (std::size_t b = 0; b < 8; ++b) {
     const auto [effects, with_place] = errors_beside(problem, amplitudes, folds[b / 4], b);
     EXPECT_NEAR(held.effects.by_block[b], effects, 1e-5 * effects) << b;
@@ -205,19 +209,20 @@ TEST(HeldOut, EqualsErrorBesideDiscrepancyToo) {
 constexpr double k_offset = 0.01;      // rad
 constexpr double k_compliance = 2e-3;  // rad per N
 
-Evidence yielding(unsigned seed) {
-  return evidence_of(measured({0, 5, -5}, [noise = white_noise(k_floor, seed)](const Sample& sample) mutable {
-    return k_offset - k_compliance * sample.load + noise(sample);
-  }));
+calibration::Evidence yielding(unsigned seed) {
+  return evidence_of(
+      measured({0, 5, -5}, [noise = white_noise(k_floor, seed)](const measurement::Sample& sample) mutable {
+        return k_offset - k_compliance * sample.load + noise(sample);
+      }));
 }
 
 /// Offset and compliance by straight least squares.
-Eigen::VectorXd regression(const Evidence& evidence) {
+Eigen::VectorXd regression(const calibration::Evidence& evidence) {
   Eigen::MatrixXd J(evidence.theta.size(), 2);
   Eigen::VectorXd r = evidence.theta;
   Eigen::Index row = 0;
-  for (const fusee::Run& run : evidence.measurement.runs) {
-    for (const Sample& sample : run.samples) {
+  for (const fusee::measurement::Run& run : evidence.measurement.runs) {
+    for (const measurement::Sample& sample : run.samples) {
       J.row(row) << 1, -sample.load;
       r[row++] -= sample.alpha / k_ratio;
     }
@@ -227,16 +232,16 @@ Eigen::VectorXd regression(const Evidence& evidence) {
 
 class LinearFit : public testing::Test {
  protected:
-  Evidence evidence = yielding(3);
-  Forward forward{joint(), evidence.log};
-  Fitter fitter{evidence, forward};
+  calibration::Evidence evidence = yielding(3);
+  joint::Forward forward{joint(), evidence.log};
+  calibration::Fitter fitter{evidence, forward};
   const Effect& stretch = named("tendon_stretch");
 
-  double compliance(const Fit& fit) const { return value_of(fit.at, stretch.parameters.front()); }
+  double compliance(const calibration::Fit& fit) const { return value_of(fit.at, stretch.parameters.front()); }
 };
 
 TEST_F(LinearFit, IsLeastSquares) {
-  const Fit fit = fitter.fit({&stretch}, {});
+  const calibration::Fit fit = fitter.fit({&stretch}, {});
   const Eigen::VectorXd expected = regression(evidence);
   ASSERT_TRUE(fit.usable);
   // Prior sizes and a discrepancy move it by less than 10 % of a standard error.
@@ -249,30 +254,30 @@ TEST_F(LinearFit, IsLeastSquares) {
 }
 
 TEST_F(LinearFit, CandidateByChordsEndsAtFit) {
-  const Fit base = fitter.fit({}, {});
-  const Fit candidate = fitter.add_effect(base, stretch);
+  const calibration::Fit base = fitter.fit({}, {});
+  const calibration::Fit candidate = fitter.add_effect(base, stretch);
   ASSERT_TRUE(candidate.usable);
   EXPECT_NEAR(compliance(candidate), compliance(fitter.fit({&stretch}, {})), 1e-6);
-  EXPECT_EQ(candidate.effects, EffectSet{&stretch});
+  EXPECT_EQ(candidate.effects, calibration::EffectSet{&stretch});
   EXPECT_LT(candidate.by_run.mean_square, 0.1 * base.by_run.mean_square);
 }
 
 TEST_F(LinearFit, ADirectionIsTheSlopeAndNoFit) {
-  const Fit base = fitter.fit({}, {});
-  const Fit wider = fitter.add_slopes(base, stretch);
+  const calibration::Fit base = fitter.fit({}, {});
+  const calibration::Fit wider = fitter.add_slopes(base, stretch);
   EXPECT_EQ(wider.at, base.at);
   EXPECT_EQ(wider.x[1], 0);
   EXPECT_EQ(wider.residual, base.residual);
   const double step = stretch.parameters.front().step;
   Eigen::Index row = 0;
-  for (const fusee::Run& run : evidence.measurement.runs) {
-    for (const Sample& sample : run.samples) EXPECT_NEAR(wider.J(row++, 1), -step * sample.load, 1e-12);
+  for (const fusee::measurement::Run& run : evidence.measurement.runs) {
+    for (const measurement::Sample& sample : run.samples) EXPECT_NEAR(wider.J(row++, 1), -step * sample.load, 1e-12);
   }
 }
 
 TEST_F(LinearFit, IntervalsHoldTheTruth) {
-  const Fit fit = fitter.fit({&stretch}, {});
-  const std::vector<ConfidenceInterval> found = intervals(fit);
+  const calibration::Fit fit = fitter.fit({&stretch}, {});
+  const std::vector<calibration::ConfidenceInterval> found = calibration::intervals(fit);
   const double step = stretch.parameters.front().step;
   EXPECT_LT(found[1].low * step, k_compliance);
   EXPECT_GT(found[1].high * step, k_compliance);
@@ -282,25 +287,26 @@ TEST_F(LinearFit, IntervalsHoldTheTruth) {
 // ------------------------------------------------------------------
 
 /// A joint that bends with the load, an unmodelled cause.
-Evidence bending_with_the_load() {
-  return evidence_of(measured({0, 2, 5, -3}, [noise = white_noise(k_floor, 5)](const Sample& sample) mutable {
-    return k_offset - k_compliance * sample.load + 5e-3 * sample.load * std::pow(sample.alpha, 2) + noise(sample);
-  }));
+calibration::Evidence bending_with_the_load() {
+  return evidence_of(
+      measured({0, 2, 5, -3}, [noise = white_noise(k_floor, 5)](const measurement::Sample& sample) mutable {
+        return k_offset - k_compliance * sample.load + 5e-3 * sample.load * std::pow(sample.alpha, 2) + noise(sample);
+      }));
 }
 
 class LeastSquaresFits : public testing::Test {
  protected:
-  Evidence evidence = bending_with_the_load();
-  FitterPool pool{evidence};
+  calibration::Evidence evidence = bending_with_the_load();
+  calibration::FitterPool pool{evidence};
   const Effect& stretch = named("tendon_stretch");
-  const Fit summit = pool.one().fit({&stretch}, {});
+  const calibration::Fit summit = pool.one().fit({&stretch}, {});
 
-  double left(const Fit& fit) const { return fit.residual.norm(); }
-  double compliance(const Fit& fit) const { return value_of(fit.at, stretch.parameters.front()); }
+  double left(const calibration::Fit& fit) const { return fit.residual.norm(); }
+  double compliance(const calibration::Fit& fit) const { return value_of(fit.at, stretch.parameters.front()); }
 };
 
 TEST_F(LeastSquaresFits, AreThoseOfARegression) {
-  const Fit squares = pool.one().fit_least_squares(summit);
+  const calibration::Fit squares = pool.one().fit_least_squares(summit);
   const Eigen::VectorXd expected = regression(evidence);
   EXPECT_NEAR(value_of(squares.at, *squares.parameters[0]), expected[0], 1e-6);
   EXPECT_NEAR(compliance(squares), expected[1], 1e-6);
@@ -310,26 +316,26 @@ TEST_F(LeastSquaresFits, AreThoseOfARegression) {
 TEST_F(LeastSquaresFits, NumbersStayWithinBounds) {
   const Effect& gain = named("joint_sensor_gain");
   const EffectParameter& number = gain.parameters.front();
-  const Evidence scaled =
-      evidence_of(measured({0, 2}, [&, noise = white_noise(k_floor, 5)](const Sample& sample) mutable {
+  const calibration::Evidence scaled =
+      evidence_of(measured({0, 2}, [&, noise = white_noise(k_floor, 5)](const measurement::Sample& sample) mutable {
         return k_offset + 1.5 * number.most * sample.alpha / k_ratio + noise(sample);
       }));
-  FitterPool fitters(scaled);
-  const Fit squares = fitters.one().fit_least_squares(fitters.one().fit({&gain}, {}));
+  calibration::FitterPool fitters(scaled);
+  const calibration::Fit squares = fitters.one().fit_least_squares(fitters.one().fit({&gain}, {}));
   EXPECT_NEAR(value_of(squares.at, number), number.most, 1e-12);
   EXPECT_NEAR(squares.residual.mean(), 0, 1e-9);  // the best offset beside it
 }
 
 /// Log of a cable joint (as the jaw of docs/background/real-joint.md): its hysteresis shrinks with the load by no law
 /// of the catalogue.
-Measurement loop_that_shrinks(double gain = 0) {
+measurement::Measurement loop_that_shrinks(double gain = 0) {
   const std::vector<double> loads = {0, 0.01, 0.02, 0.03}, loops = {3.5, 2, 0.5, 0.5};
-  Measurement all = measured(loads, white_noise(radians(0.02), 5));
+  measurement::Measurement all = measured(loads, white_noise(radians(0.02), 5));
   all.load_unit = "Nm";
   for (std::size_t r = 0; r < loads.size(); ++r) {
     const double half = 0.5 * radians(loops[r]);
     double lies = radians(180);  // the joint, in its play
-    for (Sample& sample : all.runs[r].samples) {
+    for (measurement::Sample& sample : all.runs[r].samples) {
       const double middle = sample.alpha / k_ratio;
       lies = std::clamp(lies, middle - half, middle + half);
       sample.theta += lies - middle - radians(90) * sample.load + gain * lies;
@@ -343,11 +349,11 @@ class HandedOver : public testing::Test {
  protected:
   explicit HandedOver(double gain = 0) : evidence(evidence_of(loop_that_shrinks(gain))) {}
 
-  Evidence evidence;
-  FitterPool pool{evidence};
-  Selection selection;
+  calibration::Evidence evidence;
+  calibration::FitterPool pool{evidence};
+  calibration::Selection selection;
 
-  ReportedParameters handed_over() {
+  calibration::ReportedParameters handed_over() {
     const Effect& stretch = named("tendon_stretch");
     const Effect& slack = named("slack");
     Imperfections start;
@@ -361,24 +367,25 @@ class HandedOver : public testing::Test {
       const double variance = selection.best.posterior.covariance(i, i);
       selection.variance[selection.best.parameters[k]] = {variance, variance};
     }
-    return choose_reported_parameters(evidence, pool, selection, describe_discrepancy(evidence, selection.best));
+    return calibration::choose_reported_parameters(evidence, pool, selection,
+                                                   calibration::describe_discrepancy(evidence, selection.best));
   }
 };
 
 TEST_F(HandedOver, LeastSquaresWhereTheyForetellMore) {
-  const ReportedParameters made = handed_over();
+  const calibration::ReportedParameters made = handed_over();
   EXPECT_LT(made.estimate.fit.mean_square, 0.7 * selection.best.mean_square);
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.22), 2));
   EXPECT_FALSE(made.curve.used);
 }
 
 TEST_F(HandedOver, IntervalsHoldWhatIsHandedOver) {
-  const ReportedParameters made = handed_over();
+  const calibration::ReportedParameters made = handed_over();
   selection.groups = {{{&named("tendon_stretch")}, 0}, {{&named("slack")}, 0}};
   selection.without.resize(2);
   for (auto& [parameter, variance] : selection.variance) variance = {1e-12, 1e-12};  // the summit, and nothing else
-  for (const FoundEffect& found : found_effects(evidence, selection, made.estimate.fit)) {
-    for (const FittedParameter& number : found.parameters) {
+  for (const calibration::FoundEffect& found : calibration::found_effects(evidence, selection, made.estimate.fit)) {
+    for (const calibration::FittedParameter& number : found.parameters) {
       EXPECT_LE(number.low, number.value);
       EXPECT_GE(number.high, number.value);
       EXPECT_LE(number.low_if_only, number.value);
@@ -394,17 +401,18 @@ class HandedOverBeside : public HandedOver {
     selection.groups = {{{&named("tendon_stretch"), &named("joint_sensor_gain")}, 0}, {{&named("slack")}, 0}};
   }
 
-  bool holds_gain(const ReportedParameters& made) {
-    return contains(made.estimate.fit.effects, named("joint_sensor_gain"));
+  bool holds_gain(const calibration::ReportedParameters& made) {
+    return calibration::contains(made.estimate.fit.effects, named("joint_sensor_gain"));
   }
 };
 
 TEST_F(HandedOverBeside, BetterPredictingMemberIsAdded) {
-  const ReportedParameters made = handed_over();
+  const calibration::ReportedParameters made = handed_over();
   ASSERT_TRUE(holds_gain(made));
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.25), 2));
   selection.without.resize(2);
-  const std::vector<FoundEffect> found = found_effects(evidence, selection, made.estimate.fit);
+  const std::vector<calibration::FoundEffect> found =
+      calibration::found_effects(evidence, selection, made.estimate.fit);
   ASSERT_EQ(found.size(), 2u);
   ASSERT_EQ(found[0].beside.size(), 1u);
   EXPECT_TRUE(found[1].beside.empty());
@@ -425,14 +433,15 @@ class NothingBeside : public HandedOverBeside {
 TEST_F(NothingBeside, AMemberThatForetellsNothingStaysOut) { EXPECT_FALSE(holds_gain(handed_over())); }
 
 TEST_F(LinearFit, ModeIsReportedWithoutDiscrepancy) {
-  FitterPool pool(evidence);
-  Selection selection;
+  calibration::FitterPool pool(evidence);
+  calibration::Selection selection;
   selection.none = fitter.fit({}, {});
   selection.best = fitter.fit({&stretch}, {});
-  const DiscrepancyFit unmodelled = describe_discrepancy(evidence, selection.best);
-  ASSERT_FALSE(is_unexplained(unmodelled, evidence.floor));
-  EXPECT_EQ(choose_reported_parameters(evidence, pool, selection, unmodelled).estimate.fit.at, selection.best.at);
+  const calibration::DiscrepancyFit unmodelled = calibration::describe_discrepancy(evidence, selection.best);
+  ASSERT_FALSE(calibration::is_unexplained(unmodelled, evidence.floor));
+  EXPECT_EQ(calibration::choose_reported_parameters(evidence, pool, selection, unmodelled).estimate.fit.at,
+            selection.best.at);
 }
 
 }  // namespace
-}  // namespace fusee::linear
+}  // namespace fusee::calibration::linear

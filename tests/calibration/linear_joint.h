@@ -8,7 +8,7 @@
 #include "calibration/fit.h"
 #include "fusee/mechanism_file.h"
 
-namespace fusee::linear {
+namespace fusee::calibration::linear {
 
 constexpr double k_ratio = 4;
 constexpr double k_floor = 1e-3;    // rad
@@ -21,8 +21,8 @@ inline const DeclaredMechanism& joint() {
 }
 
 /// `strokes` strokes up and down, at a row a second.
-inline Run run_of(const std::string& name, double load, std::size_t strokes) {
-  Run run;
+inline measurement::Run run_of(const std::string& name, double load, std::size_t strokes) {
+  measurement::Run run;
   run.name = name;
   run.has_time = run.has_load = true;
   run.mean_load = load;
@@ -31,7 +31,7 @@ inline Run run_of(const std::string& name, double load, std::size_t strokes) {
     const int direction = s % 2 == 0 ? 1 : -1;
     run.strokes.push_back({s * k_rows, s * k_rows + k_rows - 1, direction, static_cast<int>(s / 2), false});
     for (std::size_t i = 0; i < k_rows; ++i) {
-      Sample sample;
+      measurement::Sample sample;
       sample.time = static_cast<double>(run.samples.size());
       sample.alpha = direction * (-1.0 + 2.0 * static_cast<double>(i) / (k_rows - 1));
       sample.theta = sample.alpha / k_ratio;
@@ -43,66 +43,68 @@ inline Run run_of(const std::string& name, double load, std::size_t strokes) {
 }
 
 /// A run for each load, four strokes each, as declared; what `beside` adds to θ of a row, rad.
-inline Measurement measured(const std::vector<double>& loads, const std::function<double(const Sample&)>& beside) {
-  Measurement measurement;
+inline measurement::Measurement measured(const std::vector<double>& loads,
+                                         const std::function<double(const measurement::Sample&)>& beside) {
+  measurement::Measurement measurement;
   measurement.load_unit = "N";
   for (std::size_t i = 0; i < loads.size(); ++i) {
     measurement.runs.push_back(run_of("run_" + std::to_string(i + 1), loads[i], 4));
-    for (Sample& sample : measurement.runs.back().samples) sample.theta += beside(sample);
+    for (measurement::Sample& sample : measurement.runs.back().samples) sample.theta += beside(sample);
   }
   return measurement;
 }
 
 /// Every row of every stroke in use, each stroke a fold.
-inline Evidence evidence_of(const Measurement& measurement) {
-  Evidence evidence;
+inline calibration::Evidence evidence_of(const measurement::Measurement& measurement) {
+  calibration::Evidence evidence;
   evidence.declared = &joint();
   evidence.measurement = measurement;
-  evidence.log = bench_log(measurement);
+  evidence.log = measurement::bench_log(measurement);
   evidence.floor = k_floor;
-  Readings theta;
+  joint::Readings theta;
   std::size_t offset = 0;
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
-    const Run& run = measurement.runs[r];
+    const measurement::Run& run = measurement.runs[r];
     theta.emplace_back();
-    for (const Sample& sample : run.samples) theta.back().push_back(sample.theta);
+    for (const measurement::Sample& sample : run.samples) theta.back().push_back(sample.theta);
     for (std::size_t s = 0; s < run.strokes.size(); ++s) {
-      Block block{r, s, {}};
+      calibration::Block block{r, s, {}};
       for (std::size_t i = run.strokes[s].first; i <= run.strokes[s].last; ++i) block.rows.push_back(offset + i);
       evidence.run_folds.push_back({evidence.blocks.size()});
       evidence.blocks.push_back(block);
     }
     offset += run.samples.size();
   }
-  evidence.theta = flat(theta);
+  evidence.theta = calibration::flat(theta);
   evidence.factor_folds = evidence.run_folds;
-  weigh(evidence);
+  calibration::weigh(evidence);
   return evidence;
 }
 
-inline std::function<double(const Sample&)> white_noise(double size, unsigned seed) {
-  return [size, random = std::mt19937(seed)](const Sample&) mutable {
+inline std::function<double(const measurement::Sample&)> white_noise(double size, unsigned seed) {
+  return [size, random = std::mt19937(seed)](const measurement::Sample&) mutable {
     return std::normal_distribution<double>(0.0, size)(random);
   };
 }
 
 /// Fit of straight lines without simulation: given slopes and residuals, summed normal equations.
-inline Fit hand_made(const Evidence& evidence, const Eigen::MatrixXd& J, const Eigen::VectorXd& residual) {
-  Fit fit;
+inline calibration::Fit hand_made(const calibration::Evidence& evidence, const Eigen::MatrixXd& J,
+                                  const Eigen::VectorXd& residual) {
+  calibration::Fit fit;
   fit.usable = true;
   fit.J = J;
   fit.x = Eigen::VectorXd::Zero(J.cols());
   fit.residual = residual;
   fit.loose = Eigen::VectorXd::Zero(residual.size());
-  fit.readings = NormalEquations::none(J.cols());
+  fit.readings = calibration::NormalEquations::none(J.cols());
   double squares = 0;
-  for (const Block& block : evidence.blocks) {
-    fit.sums.push_back(sums_of(block, fit, evidence.floor));
+  for (const calibration::Block& block : evidence.blocks) {
+    fit.sums.push_back(calibration::sums_of(block, fit, evidence.floor));
     squares += fit.sums.back().rr;
   }
   fit.mean_square = squares / static_cast<double>(evidence.rows_used());
-  fit.by_factor = hold_out(evidence, fit, evidence.factor_folds);
-  fit.by_run = hold_out(evidence, fit, evidence.run_folds);
+  fit.by_factor = calibration::hold_out(evidence, fit, evidence.factor_folds);
+  fit.by_run = calibration::hold_out(evidence, fit, evidence.run_folds);
   return fit;
 }
 
@@ -112,4 +114,4 @@ inline const Effect& named(const std::string& name) {
   return *effect;
 }
 
-}  // namespace fusee::linear
+}  // namespace fusee::calibration::linear

@@ -8,15 +8,15 @@
 #include "fusee/joint.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 constexpr double k_noise = radians(0.01);
 
 /// A print of seven lobes: the teeth of the wheel that turned its table. No effect of the program is it, nor do several
 /// together do the same; of five lobes some do: since there are waves of both sensors that reads as confounded.
-Effect seven_lobes() {
-  Effect effect;
+fusee::Effect seven_lobes() {
+  fusee::Effect effect;
   effect.name = "seven_lobes";
   effect.place = ChainPlace::pulley;
   effect.rank = 5;
@@ -50,19 +50,19 @@ Effect seven_lobes() {
 }
 
 /// Five strokes there and back over the whole range.
-Measurement measured(const DeclaredMechanism& declared, const Imperfections& truth) {
+measurement::Measurement measured(const DeclaredMechanism& declared, const Imperfections& truth) {
   constexpr int k_rows = 120;
   constexpr double k_most = radians(100);
-  Measurement measurement;
+  measurement::Measurement measurement;
   measurement.load_unit = "N";
   for (int r = 0; r < 3; ++r) {
-    fusee::Run run;
+    fusee::measurement::Run run;
     run.name = "run_" + std::to_string(r + 1) + ".csv";
     for (int stroke = 0; stroke < 6; ++stroke) {
       const bool up = stroke % 2 == 0;
       const std::size_t first = run.samples.size();
       for (int i = 0; i < k_rows; ++i) {
-        Sample sample;
+        measurement::Sample sample;
         sample.alpha = (up ? 1 : -1) * k_most * (2.0 * i / (k_rows - 1) - 1.0);
         run.samples.push_back(sample);
       }
@@ -70,7 +70,7 @@ Measurement measured(const DeclaredMechanism& declared, const Imperfections& tru
     }
     measurement.runs.push_back(run);
   }
-  const Readings theta = predict(declared, truth, bench_log(measurement));
+  const joint::Readings theta = joint::predict(declared, truth, measurement::bench_log(measurement));
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, k_noise);
   for (std::size_t r = 0; r < theta.size(); ++r) {
@@ -93,9 +93,9 @@ TEST(EffectOfOnesOwn, IsFoundAndNotWithoutItsFile) {
   Imperfections truth;
   truth.pulley.outline.wave_sin = 0.4;
   truth.pulley.outline.wave_order = 7;
-  const Measurement measurement = measured(declared, truth);
+  const measurement::Measurement measurement = measured(declared, truth);
   EXPECT_EQ(calibrate(declared, measurement).verdict, CalibrationVerdict::unexplained);
-  const Effect own = seven_lobes();
+  const fusee::Effect own = seven_lobes();
   CalibrationOptions options;
   options.more_effects = {&own};
   const Calibration found = calibrate(declared, measurement, options);
@@ -109,4 +109,4 @@ TEST(EffectOfOnesOwn, IsFoundAndNotWithoutItsFile) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::calibration

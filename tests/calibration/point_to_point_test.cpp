@@ -10,7 +10,7 @@
 #include "rig/bench.h"
 #include "rig/random.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 using ::testing::Contains;
@@ -112,10 +112,11 @@ std::string log_of(const Stops& stops, const rig::Hidden& hidden, std::uint64_t 
 }
 
 Calibration calibrated(const std::vector<std::string>& logs) {
-  Measurement measurement;
+  measurement::Measurement measurement;
   for (std::size_t i = 0; i < logs.size(); ++i)
-    measurement.runs.push_back(parse_run(logs[i], "run_" + std::to_string(i + 1) + ".csv", {}, measurement));
-  compare_with_declared(joint().declared, measurement);
+    measurement.runs.push_back(
+        measurement::parse_run(logs[i], "run_" + std::to_string(i + 1) + ".csv", {}, measurement));
+  measurement::compare_with_declared(joint().declared, measurement);
   return calibrate(joint().declared, measurement);
 }
 
@@ -220,7 +221,7 @@ TEST(PointToPoint, two_places_name_nothing_alone) {
 
 std::vector<std::string> next_words(const Calibration& calibration) {
   std::vector<std::string> words;
-  for (const NextMeasurement& next : calibration.next) words.push_back(next.words);
+  for (const plan::NextMeasurement& next : calibration.next) words.push_back(next.words);
   return words;
 }
 
@@ -248,4 +249,4 @@ TEST(PointToPoint, loads_within_a_run_are_held_out) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -11,7 +11,7 @@
 #include "calibration/linear_joint.h"
 #include "calibration/thresholds.h"
 
-namespace fusee::linear {
+namespace fusee::calibration::linear {
 namespace {
 
 std::array<Effect, 5> effects_of_no_meaning() {
@@ -20,7 +20,7 @@ std::array<Effect, 5> effects_of_no_meaning() {
   return all;
 }
 
-std::string names(const EffectSet& effects) {
+std::string names(const calibration::EffectSet& effects) {
   std::string text;
   for (const Effect* effect : effects) text += effect->name;
   return text;
@@ -32,61 +32,62 @@ double rms(const Eigen::VectorXd& values) {
 
 class Groups : public ::testing::Test {
  protected:
-  Weighed set(const std::string& letters, double weight) const { return {of(letters), std::log(weight)}; }
-  EffectSet of(const std::string& letters) const {
-    EffectSet set;
+  calibration::Weighed set(const std::string& letters, double weight) const { return {of(letters), std::log(weight)}; }
+  calibration::EffectSet of(const std::string& letters) const {
+    calibration::EffectSet set;
     for (const char letter : letters) set.push_back(&all_[static_cast<std::size_t>(letter - 'a')]);
     return set;
   }
-  CredibleGroup group(const std::vector<Weighed>& sets, const std::string& best, char named) const {
-    return credible_group(sets, of(best), *of(std::string(1, named)).front(), 0.02);
+  calibration::CredibleGroup group(const std::vector<calibration::Weighed>& sets, const std::string& best,
+                                   char named) const {
+    return calibration::credible_group(sets, of(best), *of(std::string(1, named)).front(), 0.02);
   }
 
   std::array<Effect, 5> all_ = effects_of_no_meaning();
 };
 
 TEST_F(Groups, AreAloneWhereNothingElseDoes) {
-  const CredibleGroup found = group({set("", 1), set("a", 99), set("b", 1e-6)}, "a", 'a');
+  const calibration::CredibleGroup found = group({set("", 1), set("a", 99), set("b", 1e-6)}, "a", 'a');
   EXPECT_EQ(names(found.members), "a");
   EXPECT_NEAR(found.doubt, 0.01, 1e-7);
 }
 
 TEST_F(Groups, HoldWhatStandsInThePlace) {
-  const CredibleGroup found = group({set("a", 60), set("b", 39), set("c", 0.5), set("", 0.5)}, "a", 'a');
+  const calibration::CredibleGroup found = group({set("a", 60), set("b", 39), set("c", 0.5), set("", 0.5)}, "a", 'a');
   EXPECT_EQ(names(found.members), "ab");
   EXPECT_NEAR(found.doubt, 0.01, 1e-12);
 }
 
 TEST_F(Groups, HoldOneOfTwoReplacements) {
-  const CredibleGroup found = group({set("a", 70), set("bc", 30)}, "a", 'a');
+  const calibration::CredibleGroup found = group({set("a", 70), set("bc", 30)}, "a", 'a');
   EXPECT_EQ(found.members.size(), 2u);
   EXPECT_NEAR(found.doubt, 0, 1e-12);
 }
 
 TEST_F(Groups, StayInDoubtWhereNothingTakesThePlace) {
-  const CredibleGroup found = group({set("ab", 90), set("b", 10)}, "ab", 'a');
+  const calibration::CredibleGroup found = group({set("ab", 90), set("b", 10)}, "ab", 'a');
   EXPECT_EQ(names(found.members), "a");
   EXPECT_NEAR(found.doubt, 0.1, 1e-12);
 }
 
 TEST_F(Groups, HoldMembersThatRemoveDoubt) {
-  const std::vector<Weighed> sets = {set("a", 60), set("b", 30), set("c", 1), set("d", 1), set("", 8)};
+  const std::vector<calibration::Weighed> sets = {set("a", 60), set("b", 30), set("c", 1), set("d", 1), set("", 8)};
   EXPECT_EQ(names(group(sets, "a", 'a').members), "abcd");
-  const CredibleGroup found = credible_group(sets, of("a"), *of("a").front(), 0.02, 0.2);
+  const calibration::CredibleGroup found = calibration::credible_group(sets, of("a"), *of("a").front(), 0.02, 0.2);
   EXPECT_EQ(names(found.members), "ab");
   EXPECT_NEAR(found.doubt, 0.1, 1e-12);
 }
 
 TEST_F(Groups, DoNotHoldOtherMembersOfTheSet) {
-  const CredibleGroup found = group({set("ab", 50), set("bc", 50)}, "ab", 'a');
+  const calibration::CredibleGroup found = group({set("ab", 50), set("bc", 50)}, "ab", 'a');
   EXPECT_EQ(names(found.members), "ac");
 }
 
 TEST_F(Groups, IgnoreUnitOfWeights) {
-  std::vector<Weighed> sets = {set("a", 60), set("b", 39), set("", 1)};
-  const CredibleGroup before = group(sets, "a", 'a');
-  for (Weighed& one : sets) one.log_weight += 5000;
-  const CredibleGroup after = group(sets, "a", 'a');
+  std::vector<calibration::Weighed> sets = {set("a", 60), set("b", 39), set("", 1)};
+  const calibration::CredibleGroup before = group(sets, "a", 'a');
+  for (calibration::Weighed& one : sets) one.log_weight += 5000;
+  const calibration::CredibleGroup after = group(sets, "a", 'a');
   EXPECT_EQ(before.members, after.members);
   EXPECT_NEAR(before.doubt, after.doubt, 1e-12);
 }
@@ -94,15 +95,15 @@ TEST_F(Groups, IgnoreUnitOfWeights) {
 TEST_F(Groups, LeaveTheDoubtThatAllSetsLeave) {
   std::mt19937 dice(7);
   for (int round = 0; round < 200; ++round) {
-    std::vector<Weighed> sets;
+    std::vector<calibration::Weighed> sets;
     for (int bits = 0; bits < 32; ++bits) {
       std::string letters;
       for (int i = 0; i < 5; ++i) letters += (bits >> i) % 2 == 1 ? std::string(1, static_cast<char>('a' + i)) : "";
       sets.push_back(set(letters, std::exp(std::uniform_real_distribution<double>(-12, 0)(dice))));
     }
-    const CredibleGroup found = group(sets, "ab", 'a');
+    const calibration::CredibleGroup found = group(sets, "ab", 'a');
     double all = 0, without = 0;
-    for (const Weighed& one : sets) {
+    for (const calibration::Weighed& one : sets) {
       all += std::exp(one.log_weight);
       const std::string letters = names(one.effects);
       if (letters.find_first_of(names(found.members)) == std::string::npos) without += std::exp(one.log_weight);
@@ -114,16 +115,16 @@ TEST_F(Groups, LeaveTheDoubtThatAllSetsLeave) {
 
 TEST(ExpectedSizes, LimitReadingToObservedError) {
   const double size = 40 * k_floor;
-  Evidence evidence =
-      evidence_of(measured({0, 5}, [&](const Sample& sample) { return size * std::sin(sample.alpha); }));
-  FitterPool pool(evidence);
-  const EffectSet all = {&named("tendon_stretch"), &named("joint_sensor_gain")};
-  evidence.sizes = expected_sizes(all, evidence, pool);
-  const Fit none = pool.one().fit({}, {});
-  const double seen = k_thresholds.most_expected * rms(tangent_of(evidence, none).residual);
+  calibration::Evidence evidence =
+      evidence_of(measured({0, 5}, [&](const measurement::Sample& sample) { return size * std::sin(sample.alpha); }));
+  calibration::FitterPool pool(evidence);
+  const calibration::EffectSet all = {&named("tendon_stretch"), &named("joint_sensor_gain")};
+  evidence.sizes = calibration::expected_sizes(all, evidence, pool);
+  const calibration::Fit none = pool.one().fit({}, {});
+  const double seen = calibration::k_thresholds.most_expected * rms(calibration::tangent_of(evidence, none).residual);
   // Five degrees at the largest load are what such joints yield, and not what is seen here; a gain is small anywhere.
   for (const Effect* effect : all) {
-    const Tangent wider = tangent_of(evidence, pool.one().add_chords(none, *effect));
+    const calibration::Tangent wider = calibration::tangent_of(evidence, pool.one().add_chords(none, *effect));
     const Eigen::Index k = wider.x.size() - 1;
     const double moved = wider.prior[k] * rms(wider.J.col(k));
     if (evidence.sizes.count(&effect->parameters.front())) {
@@ -137,13 +138,14 @@ TEST(ExpectedSizes, LimitReadingToObservedError) {
 
 TEST(ExpectedSizes, ShrinkWithWhatIsSeen) {
   const auto size_of_stretch = [](double error) {
-    Evidence evidence = evidence_of(measured({0, 5}, [&](const Sample& sample) { return error * sample.alpha; }));
-    FitterPool pool(evidence);
+    calibration::Evidence evidence =
+        evidence_of(measured({0, 5}, [&](const measurement::Sample& sample) { return error * sample.alpha; }));
+    calibration::FitterPool pool(evidence);
     const Effect& stretch = named("tendon_stretch");
-    return expected_sizes({&stretch}, evidence, pool).at(&stretch.parameters.front());
+    return calibration::expected_sizes({&stretch}, evidence, pool).at(&stretch.parameters.front());
   };
   EXPECT_LT(2 * size_of_stretch(0.0), size_of_stretch(0.02));
 }
 
 }  // namespace
-}  // namespace fusee::linear
+}  // namespace fusee::calibration::linear

@@ -11,7 +11,7 @@
 #include "fusee/calibration.h"
 #include "fusee/mechanism_file.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 using testing::Contains;
@@ -29,7 +29,7 @@ std::vector<std::filesystem::path> runs_in(const std::filesystem::path& folder) 
 
 Calibration rig(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/rig" / name;
-  return calibrate(read_mechanism(folder / "spec.toml").mechanism, read_measurement(runs_in(folder)));
+  return calibrate(read_mechanism(folder / "spec.toml").mechanism, measurement::read_measurement(runs_in(folder)));
 }
 
 std::vector<std::string> names(const Calibration& calibration) {
@@ -96,9 +96,9 @@ TEST(RealJaw, lost_motion_and_stretch_and_no_delay) {
   if (folder == nullptr) GTEST_SKIP() << "FUSEE_DAVINCI_JAW names no folder";
   const DeclaredMechanism declared = parse_mechanism(
       "schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.0928961748633879\n", "jaw.toml");
-  MeasurementOptions options;
+  measurement::MeasurementOptions options;
   options.columns = {{"load", "tau_out_Nm"}};
-  const Measurement measurement = read_measurement(runs_in(folder), options);
+  const measurement::Measurement measurement = measurement::read_measurement(runs_in(folder), options);
   // As in the published figures: 0.3 and 0.5 Hz are for validation only. Whole levels of load left out in turn are
   // harder: 0.345°.
   CalibrationOptions speeds;
@@ -119,4 +119,4 @@ TEST(RealJaw, lost_motion_and_stretch_and_no_delay) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::calibration

@@ -10,10 +10,10 @@
 #include "fusee/base.h"
 #include "fusee/calibration.h"
 #include "fusee/joint.h"
-#include "mechanism/effect.h"
 #include "fusee/mechanism_file.h"
+#include "mechanism/effect.h"
 
-namespace fusee {
+namespace fusee::calibration {
 namespace {
 
 using testing::Contains;
@@ -33,8 +33,8 @@ struct Plan {
 };
 
 /// Sawtooth strokes over nearly the whole range, warming up by 10 K.
-Run planned(const std::string& name, const Plan& plan, double alpha_most, double start) {
-  Run run;
+measurement::Run planned(const std::string& name, const Plan& plan, double alpha_most, double start) {
+  measurement::Run run;
   run.name = name;
   run.has_time = run.has_load = run.has_temperature = true;
   run.mean_load = plan.load;
@@ -46,7 +46,7 @@ Run planned(const std::string& name, const Plan& plan, double alpha_most, double
     const double sign = s % 2 == 0 ? 1 : -1;
     run.strokes.push_back({run.samples.size(), run.samples.size() + rows - 1, s % 2 == 0 ? 1 : -1, s / 2, false});
     for (int i = 0; i < rows; ++i) {
-      Sample sample;
+      measurement::Sample sample;
       sample.time = time;
       sample.alpha = sign * alpha_most * (2.0 * i / (rows - 1) - 1.0);
       sample.load = plan.load;
@@ -59,15 +59,15 @@ Run planned(const std::string& name, const Plan& plan, double alpha_most, double
 }
 
 /// Log by sensors with white noise of a joint that differs from its file by `at`.
-Measurement logged(const DeclaredMechanism& declared, const Imperfections& at, const std::vector<Plan>& plans,
-                   unsigned seed = 1) {
-  Measurement measurement;
+measurement::Measurement logged(const DeclaredMechanism& declared, const Imperfections& at,
+                                const std::vector<Plan>& plans, unsigned seed = 1) {
+  measurement::Measurement measurement;
   measurement.load_unit = "N";
   for (std::size_t i = 0; i < plans.size(); ++i) {
     measurement.runs.push_back(
         planned("run_" + std::to_string(i + 1) + ".csv", plans[i], radians(100), 80.0 * static_cast<double>(i)));
   }
-  const std::vector<std::vector<double>> theta = predict(declared, at, bench_log(measurement));
+  const std::vector<std::vector<double>> theta = joint::predict(declared, at, measurement::bench_log(measurement));
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, k_noise);
   for (std::size_t i = 0; i < theta.size(); ++i) {
@@ -92,9 +92,9 @@ double apart(const std::vector<std::vector<double>>& one, const std::vector<std:
 }
 
 /// A size that moves θ by eight times the noise, rms, but no number near its end: what stands there is not named.
-Imperfections well_seen(const DeclaredMechanism& declared, const Effect& effect) {
+Imperfections well_seen(const DeclaredMechanism& declared, const fusee::Effect& effect) {
   constexpr double within = 0.8;
-  const Measurement measurement = logged(declared, {}, k_full);
+  const measurement::Measurement measurement = logged(declared, {}, k_full);
   const auto moved = [&](double size) {
     Imperfections at;
     double part = 1;
@@ -107,10 +107,11 @@ Imperfections well_seen(const DeclaredMechanism& declared, const Effect& effect)
     }
     return at;
   };
-  const BenchLog log = bench_log(measurement);
-  const Readings as_declared = predict(declared, {}, log);
+  const joint::BenchLog log = measurement::bench_log(measurement);
+  const joint::Readings as_declared = joint::predict(declared, {}, log);
   double size = 1;
-  for (int i = 0; i < 60 && apart(predict(declared, moved(size), log), as_declared) < 8 * k_noise; ++i) size *= 1.25;
+  for (int i = 0; i < 60 && apart(joint::predict(declared, moved(size), log), as_declared) < 8 * k_noise; ++i)
+    size *= 1.25;
   return moved(size);
 }
 
@@ -132,11 +133,11 @@ class EveryEffect : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryEffect, IsFoundInDataThatHoldIt) {
   const DeclaredMechanism declared = bench_joint();
-  const Effect* effect = find_effect(GetParam(), JointKind::tendons);
+  const fusee::Effect* effect = find_effect(GetParam(), JointKind::tendons);
   ASSERT_NE(effect, nullptr);
   const Imperfections truth = well_seen(declared, *effect);
-  const BenchLog log = bench_log(logged(declared, {}, k_full));
-  if (apart(predict(declared, truth, log), predict(declared, {}, log)) < 3 * k_noise)
+  const joint::BenchLog log = measurement::bench_log(logged(declared, {}, k_full));
+  if (apart(joint::predict(declared, truth, log), joint::predict(declared, {}, log)) < 3 * k_noise)
     GTEST_SKIP() << "however large, it hardly moves this joint";
   CalibrationOptions options;
   options.audit = false;  // it adds to groups, and finds nothing
@@ -168,9 +169,9 @@ TEST(Selection, FindsGrooveFrictionWhereTheTendonIsSoft) {
   Imperfections truth;
   truth.tendon.groove_friction = -0.2;  // none at all, and the file says 0.2
   const std::vector<Plan> plans = {{0, 1}, {10, 1}, {0, 8}, {5, 1}, {-10, 1}};
-  const Measurement measurement = logged(declared, truth, plans);
-  const BenchLog log = bench_log(measurement);
-  EXPECT_GT(apart(predict(declared, truth, log), predict(declared, {}, log)), 5 * k_noise);
+  const measurement::Measurement measurement = logged(declared, truth, plans);
+  const joint::BenchLog log = measurement::bench_log(measurement);
+  EXPECT_GT(apart(joint::predict(declared, truth, log), joint::predict(declared, {}, log)), 5 * k_noise);
   CalibrationOptions options;
   options.audit = false;
   const Calibration found = calibrate(declared, measurement, options);
@@ -226,8 +227,8 @@ TEST(Selection, AsksToTurnEccentricSensor) {
   const Calibration found = calibrate(declared, logged(declared, truth, {{0, 1}}));
   ASSERT_THAT(all_groups(found), Contains("motor_sensor_eccentricity"));
   ASSERT_GT(all_groups(found).size(), 1u);
-  const auto turned = std::find_if(found.next.begin(), found.next.end(), [](const NextMeasurement& next) {
-    return next.run && next.run->change == BenchChange::motor_sensor_turned;
+  const auto turned = std::find_if(found.next.begin(), found.next.end(), [](const plan::NextMeasurement& next) {
+    return next.run && next.run->change == plan::BenchChange::motor_sensor_turned;
   });
   ASSERT_NE(turned, found.next.end());
   EXPECT_EQ(turned->kind(), "turn_sensor");
@@ -241,8 +242,8 @@ TEST(Selection, AsksForNoRunThatWasMeasured) {
   truth.shaft.backlash = radians(2);
   const Calibration found = calibrate(declared, logged(declared, truth, {{0, 1}}));
   ASSERT_FALSE(found.next.empty());
-  for (const NextMeasurement& next : found.next) {
-    const bool is_measured = next.run && next.run->load == 0 && next.run->change == BenchChange::none &&
+  for (const plan::NextMeasurement& next : found.next) {
+    const bool is_measured = next.run && next.run->load == 0 && next.run->change == plan::BenchChange::none &&
                              next.run->dwell == 0 && std::abs(next.run->speed - radians(30)) < radians(3);
     EXPECT_FALSE(is_measured) << next.words;
   }
@@ -252,7 +253,7 @@ TEST(Selection, ACaliperSplitsAGroup) {
   DeclaredMechanism declared = bench_joint();
   Imperfections truth;
   truth.pulley.scale = -0.02;
-  const Measurement measurement = logged(declared, truth, {{0, 1}});
+  const measurement::Measurement measurement = logged(declared, truth, {{0, 1}});
   const Calibration without = calibrate(declared, measurement);
   ASSERT_THAT(all_groups(without), Contains("pulley_scale"));
   ASSERT_THAT(all_groups(without), Contains("radius_offset"));
@@ -292,11 +293,11 @@ TEST(Selection, UnmodelledFrictionIsNoCertainEffect) {
 
 TEST(Selection, WalkingZeroIsNoEffect) {
   const DeclaredMechanism declared = bench_joint();
-  Measurement measurement = logged(declared, {}, k_full);
+  measurement::Measurement measurement = logged(declared, {}, k_full);
   std::mt19937 random(3);
   std::normal_distribution<double> step(0.0, 8 * k_noise);
-  for (fusee::Run& run : measurement.runs) {
-    for (const Stroke& stroke : run.strokes) {
+  for (fusee::measurement::Run& run : measurement.runs) {
+    for (const measurement::Stroke& stroke : run.strokes) {
       const double off = step(random);
       for (std::size_t k = stroke.first; k <= stroke.last; ++k) run.samples[k].theta += off;
     }
@@ -310,18 +311,18 @@ TEST(Selection, NamedRunsAreNeverFittedTo) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
   truth.shaft.backlash = radians(2);
-  Measurement measurement = logged(declared, truth, k_full);
+  measurement::Measurement measurement = logged(declared, truth, k_full);
   CalibrationOptions options;
   options.hold_out = {"run_5.csv"};
   const Calibration found = calibrate(declared, measurement, options);
   EXPECT_THAT(found.held_out_runs, testing::ElementsAre("run_5.csv"));
   EXPECT_LT(found.after.held_out_rms, 1.2 * k_noise);
   // The held-out run changes nothing of the result.
-  for (Sample& sample : measurement.runs.back().samples) sample.theta += radians(3);
+  for (measurement::Sample& sample : measurement.runs.back().samples) sample.theta += radians(3);
   const Calibration other = calibrate(declared, measurement, options);
   EXPECT_EQ(other.identified.shaft.backlash, found.identified.shaft.backlash);
   EXPECT_GT(other.after.held_out_rms, radians(2.9));
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::calibration

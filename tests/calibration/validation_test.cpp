@@ -7,15 +7,15 @@
 #include "calibration/reported_parameters.h"
 #include "fusee/base.h"
 
-namespace fusee::linear {
+namespace fusee::calibration::linear {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
 
 /// Stretch of so many rad per N, and noise.
-Measurement stretching(const std::vector<double>& loads, double stretch, unsigned seed) {
-  return measured(loads, [stretch, noise = white_noise(k_floor, seed)](const Sample& sample) mutable {
+measurement::Measurement stretching(const std::vector<double>& loads, double stretch, unsigned seed) {
+  return measured(loads, [stretch, noise = white_noise(k_floor, seed)](const measurement::Sample& sample) mutable {
     return noise(sample) - stretch * sample.load;
   });
 }
@@ -23,44 +23,45 @@ Measurement stretching(const std::vector<double>& loads, double stretch, unsigne
 class Validation : public testing::Test {
  protected:
   static constexpr double k_stretch = 20 * k_floor;
-  Evidence evidence = evidence_of(stretching({0, 1, 2}, k_stretch, 1));
-  FitterPool pool{evidence};
-  Selection selection;
+  calibration::Evidence evidence = evidence_of(stretching({0, 1, 2}, k_stretch, 1));
+  calibration::FitterPool pool{evidence};
+  calibration::Selection selection;
 
   void SetUp() override {
     selection.none = pool.one().fit({}, {});
     selection.best = pool.one().fit({&named("tendon_stretch")}, {});
     selection.without = {selection.none};
     selection.groups = {{{&named("tendon_stretch")}, 0}};
-    Candidate taken;
+    calibration::Candidate taken;
     taken.name = "tendon_stretch";
     taken.accepted = true;
     selection.tried = {taken};
   }
 
-  Estimate found() const { return {selection.best, {}}; }
+  calibration::Estimate found() const { return {selection.best, {}}; }
 };
 
 TEST_F(Validation, AcceptsEffectThatPredictsKeptRuns) {
-  const Estimate declared = declared_estimate(pool, selection);
-  EXPECT_EQ(HeldOutRows(evidence, declared, stretching({3}, k_stretch, 2)).worse_at(found()), "");
-  EXPECT_EQ(HeldOutRows(evidence, declared, {}).worse_at(found()), "");
+  const calibration::Estimate declared = calibration::declared_estimate(pool, selection);
+  EXPECT_EQ(calibration::HeldOutRows(evidence, declared, stretching({3}, k_stretch, 2)).worse_at(found()), "");
+  EXPECT_EQ(calibration::HeldOutRows(evidence, declared, {}).worse_at(found()), "");
 }
 
 TEST_F(Validation, RejectsEffectThatKeptRunsDoNotHave) {
-  const Estimate declared = declared_estimate(pool, selection);
-  EXPECT_EQ(HeldOutRows(evidence, declared, stretching({3}, -k_stretch, 2)).worse_at(found()), "all rows");
+  const calibration::Estimate declared = calibration::declared_estimate(pool, selection);
+  EXPECT_EQ(calibration::HeldOutRows(evidence, declared, stretching({3}, -k_stretch, 2)).worse_at(found()), "all rows");
 }
 
 TEST_F(Validation, NamesLevelThatGetsWorse) {
-  const Estimate declared = declared_estimate(pool, selection);
-  Measurement kept = stretching({4, 2}, k_stretch, 2);
-  for (Sample& sample : kept.runs[1].samples) sample.theta += 2 * k_stretch;  // the other way
-  EXPECT_EQ(HeldOutRows(evidence, declared, kept).worse_at(found()), "run_2");
+  const calibration::Estimate declared = calibration::declared_estimate(pool, selection);
+  measurement::Measurement kept = stretching({4, 2}, k_stretch, 2);
+  for (measurement::Sample& sample : kept.runs[1].samples) sample.theta += 2 * k_stretch;  // the other way
+  EXPECT_EQ(calibration::HeldOutRows(evidence, declared, kept).worse_at(found()), "run_2");
 }
 
 TEST_F(Validation, RetreatsToDeclaredJoint) {
-  const ValidatedAnswer answer = validate_answer(evidence, pool, stretching({3}, -k_stretch, 2), selection);
+  const calibration::ValidatedAnswer answer =
+      calibration::validate_answer(evidence, pool, stretching({3}, -k_stretch, 2), selection);
   EXPECT_THAT(answer.dropped, ElementsAre("tendon_stretch"));
   EXPECT_THAT(answer.reported.estimate.fit.effects, IsEmpty());
   EXPECT_EQ(answer.reported.estimate.fit.at, answer.declared.fit.at);
@@ -70,19 +71,20 @@ TEST_F(Validation, RetreatsToDeclaredJoint) {
 }
 
 TEST_F(Validation, KeepsWhatPredicts) {
-  const ValidatedAnswer answer = validate_answer(evidence, pool, stretching({3}, k_stretch, 2), selection);
+  const calibration::ValidatedAnswer answer =
+      calibration::validate_answer(evidence, pool, stretching({3}, k_stretch, 2), selection);
   EXPECT_THAT(answer.dropped, IsEmpty());
   EXPECT_EQ(answer.reported.estimate.fit.effects.size(), 1u);
 }
 
 TEST_F(Validation, NumbersLeaveOutJudgedRun) {
-  Measurement odd = stretching({1, 2, 3}, k_stretch, 1);
-  for (Sample& sample : odd.runs[2].samples) sample.theta -= 3 * 10 * k_floor;  // 30 floors per N there
-  Evidence runs = evidence_of(odd);
+  measurement::Measurement odd = stretching({1, 2, 3}, k_stretch, 1);
+  for (measurement::Sample& sample : odd.runs[2].samples) sample.theta -= 3 * 10 * k_floor;  // 30 floors per N there
+  calibration::Evidence runs = evidence_of(odd);
   runs.run_folds = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
-  FitterPool more(runs);
-  const Estimate all{more.one().fit_least_squares(more.one().fit({&named("tendon_stretch")}, {})), {}};
-  const std::vector<Imperfections> without = estimates_without(runs, all, runs.run_folds);
+  calibration::FitterPool more(runs);
+  const calibration::Estimate all{more.one().fit_least_squares(more.one().fit({&named("tendon_stretch")}, {})), {}};
+  const std::vector<Imperfections> without = calibration::estimates_without(runs, all, runs.run_folds);
   const EffectParameter& stretch = named("tendon_stretch").parameters[0];
   ASSERT_EQ(without.size(), 3u);
   EXPECT_NEAR(value_of(without[2], stretch), k_stretch, 0.1 * k_stretch);
@@ -90,11 +92,11 @@ TEST_F(Validation, NumbersLeaveOutJudgedRun) {
 }
 
 TEST_F(Validation, DeclaredJointFitsFreeOffset) {
-  const Estimate declared = declared_estimate(pool, selection);
+  const calibration::Estimate declared = calibration::declared_estimate(pool, selection);
   double mean = 0;
   for (const Eigen::Index row : evidence.rows()) mean += declared.fit.residual[row];
   EXPECT_NEAR(mean / static_cast<double>(evidence.rows_used()), 0, 0.01 * k_floor);
 }
 
 }  // namespace
-}  // namespace fusee::linear
+}  // namespace fusee::calibration::linear

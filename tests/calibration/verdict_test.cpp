@@ -10,20 +10,20 @@
 #include "calibration/thresholds.h"
 #include "calibration/words.h"
 
-namespace fusee::linear {
+namespace fusee::calibration::linear {
 namespace {
 
 using testing::HasSubstr;
 
 class Concluded : public testing::Test {
  protected:
-  Evidence evidence = evidence_of(measured({0, 5}, [](const Sample&) { return 0.0; }));
-  Selection selection;
-  Calibration calibration;
+  calibration::Evidence evidence = evidence_of(measured({0, 5}, [](const measurement::Sample&) { return 0.0; }));
+  calibration::Selection selection;
+  calibration::Calibration calibration;
 
   /// A rest of so many squares of the floor that turns its sign from row to row.
   void leave(double squares) {
-    Fit& fit = selection.best;
+    calibration::Fit& fit = selection.best;
     fit.residual.resize(evidence.theta.size());
     for (Eigen::Index i = 0; i < fit.residual.size(); ++i)
       fit.residual[i] = (i % 2 == 0 ? 1 : -1) * std::sqrt(squares) * k_floor;
@@ -32,38 +32,39 @@ class Concluded : public testing::Test {
 
   void find(const std::vector<std::vector<std::string>>& groups) {
     for (const std::vector<std::string>& group : groups) {
-      FoundEffect effect;
+      calibration::FoundEffect effect;
       effect.name = group.front();
       effect.group = group;
       calibration.effects.push_back(effect);
     }
   }
 
-  CalibrationVerdict verdict() {
-    Amplitudes any = evidence.evidence_model->without_discrepancy();
+  calibration::CalibrationVerdict verdict() {
+    calibration::Amplitudes any = evidence.evidence_model->without_discrepancy();
     any.families.setConstant(k_floor);
-    selection.best.posterior = evidence.evidence_model->best(tangent_of(evidence, selection.best), any);
+    selection.best.posterior = evidence.evidence_model->best(calibration::tangent_of(evidence, selection.best), any);
     selection.groups.resize(calibration.effects.size());
     selection.best.effects.clear();
-    for (const FoundEffect& effect : calibration.effects)
+    for (const calibration::FoundEffect& effect : calibration.effects)
       selection.best.effects.push_back(find_effect(effect.name, JointKind::tendons));
     selection.without.resize(calibration.effects.size());
-    conclude(evidence, selection, describe_discrepancy(evidence, selection.best), calibration);
-    if (calibration.next.empty()) calibration.next = next_measurements(evidence, selection, calibration);
-    summarize(evidence, selection, calibration);
+    calibration::conclude(evidence, selection, calibration::describe_discrepancy(evidence, selection.best),
+                          calibration);
+    if (calibration.next.empty()) calibration.next = calibration::next_measurements(evidence, selection, calibration);
+    calibration::summarize(evidence, selection, calibration);
     return calibration.verdict;
   }
 
   std::vector<std::string> next_words() const {
     std::vector<std::string> words;
-    for (const NextMeasurement& next : calibration.next) words.push_back(next.words);
+    for (const plan::NextMeasurement& next : calibration.next) words.push_back(next.words);
     return words;
   }
 };
 
 TEST_F(Concluded, NothingFoundAndNothingLeft) {
   leave(1);
-  EXPECT_EQ(verdict(), CalibrationVerdict::no_effect);
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::no_effect);
   EXPECT_EQ(calibration.unexplained_rms, 0);
   EXPECT_EQ(calibration.unexplained_where, "");
 }
@@ -71,14 +72,14 @@ TEST_F(Concluded, NothingFoundAndNothingLeft) {
 TEST_F(Concluded, OneCauseAlone) {
   leave(1.1);
   find({{"backlash"}});
-  EXPECT_EQ(verdict(), CalibrationVerdict::explained);
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::explained);
   EXPECT_THAT(calibration.summary, HasSubstr("explained by backlash."));
 }
 
 TEST_F(Concluded, OneOfTwo) {
   leave(1);
   find({{"backlash"}, {"zero_offset", "motor_offset"}});
-  EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.summary, HasSubstr("backlash, one of {zero_offset, motor_offset}, and cannot tell which"));
 }
 
@@ -89,12 +90,12 @@ TEST_F(Concluded, RepeatsFarBeyondScatterWithinStroke) {
   calibration.noise.rms = radians(2);
   calibration.noise.within_stroke = radians(0.02);
   calibration.noise.levels = {{0, radians(10), radians(1), 100, 0}, {5, radians(60), radians(2), 100, radians(12)}};
-  EXPECT_EQ(verdict(), CalibrationVerdict::not_repeatable);
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::not_repeatable);
   EXPECT_THAT(calibration.summary,
               HasSubstr("100 times the scatter within a stroke, most at alpha 12°, load 5 N, 60°/s"));
   EXPECT_EQ(calibration.noise_varies, "Noise is 1° at load 0 N, 10°/s and 2° at load 5 N, 60°/s.");
   calibration.noise.within_stroke = radians(0.5);
-  EXPECT_EQ(verdict(), CalibrationVerdict::explained);
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::explained);
 }
 
 TEST(Scatter, SensorThatHoldsReadingIsNoNoise) {
@@ -102,17 +103,17 @@ TEST(Scatter, SensorThatHoldsReadingIsNoNoise) {
   const auto held = white_noise(radians(2), 2);
   double holds = 0;
   int row = 0;
-  const Measurement holding = measured({0, 5}, [&](const Sample& sample) {
+  const measurement::Measurement holding = measured({0, 5}, [&](const measurement::Sample& sample) {
     if (row++ % 10 == 0) holds = held(sample);
     return holds + noise(sample);
   });
-  EXPECT_TRUE(is_scattering(noise_floor(holding)));
-  EXPECT_FALSE(is_scattering(noise_floor(measured({0, 5}, noise))));
+  EXPECT_TRUE(calibration::is_scattering(measurement::noise_floor(holding)));
+  EXPECT_FALSE(calibration::is_scattering(measurement::noise_floor(measured({0, 5}, noise))));
 }
 
 /// Effect with these log odds against the best unmodelled cause.
-FoundEffect ahead_by(double nats) {
-  FoundEffect effect;
+calibration::FoundEffect ahead_by(double nats) {
+  calibration::FoundEffect effect;
   effect.name = "backlash";
   effect.group = {"backlash"};
   effect.unmodelled = {nats, "a jump at 50 % of the way", "come from both sides"};
@@ -121,8 +122,8 @@ FoundEffect ahead_by(double nats) {
 
 TEST_F(Concluded, SmallLeadAddsUnmodelled) {
   leave(1);
-  calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled - 1)};
-  EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
+  calibration.effects = {ahead_by(calibration::k_thresholds.ahead_of_unmodelled - 1)};
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "unmodelled"));
   EXPECT_THAT(next_words(), testing::Contains("come from both sides"));
   EXPECT_THAT(calibration.summary,
@@ -132,8 +133,8 @@ TEST_F(Concluded, SmallLeadAddsUnmodelled) {
 
 TEST_F(Concluded, LargeLeadNamesEffectAlone) {
   leave(1);
-  calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled + 1)};
-  EXPECT_EQ(verdict(), CalibrationVerdict::explained);
+  calibration.effects = {ahead_by(calibration::k_thresholds.ahead_of_unmodelled + 1)};
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::explained);
   EXPECT_THAT(calibration.next, testing::IsEmpty());
 }
 
@@ -142,9 +143,11 @@ TEST_F(Concluded, EffectsInTimeNeedLargerLead) {
     for (const double more : {-1.0, 1.0}) {
       leave(1);
       calibration = {};
-      calibration.effects = {ahead_by(k_thresholds.ahead_without_shape + more)};
+      calibration.effects = {ahead_by(calibration::k_thresholds.ahead_without_shape + more)};
       calibration.effects.front().name = calibration.effects.front().group.front() = name;
-      EXPECT_EQ(verdict(), more < 0 ? CalibrationVerdict::confounded : CalibrationVerdict::explained) << name;
+      EXPECT_EQ(verdict(),
+                more < 0 ? calibration::CalibrationVerdict::confounded : calibration::CalibrationVerdict::explained)
+          << name;
       EXPECT_EQ(calibration.effects.front().group.size(), more < 0 ? 2u : 1u) << name;
     }
   }
@@ -158,7 +161,7 @@ TEST_F(Concluded, LooseEffectsNeedLargerLead) {
     for (const double more : {-1.0, 1.0}) {
       leave(1);
       calibration = {};
-      calibration.effects = {ahead_by(k_thresholds.ahead_without_shape + more)};
+      calibration.effects = {ahead_by(calibration::k_thresholds.ahead_without_shape + more)};
       calibration.effects.front().name = group.front();
       calibration.effects.front().group = group;
       verdict();
@@ -169,10 +172,11 @@ TEST_F(Concluded, LooseEffectsNeedLargerLead) {
 
 TEST_F(Concluded, DoubtAddsUnmodelledAtAnyLead) {
   leave(1);
-  calibration.effects = {ahead_by(k_thresholds.ahead_of_unmodelled + 1),
-                         ahead_by(k_thresholds.ahead_of_unmodelled + 1)};
-  selection.groups = {{{}, k_thresholds.most_false_positives / 2}, {{}, k_thresholds.most_false_positives * 2}};
-  EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
+  calibration.effects = {ahead_by(calibration::k_thresholds.ahead_of_unmodelled + 1),
+                         ahead_by(calibration::k_thresholds.ahead_of_unmodelled + 1)};
+  selection.groups = {{{}, calibration::k_thresholds.most_false_positives / 2},
+                      {{}, calibration::k_thresholds.most_false_positives * 2}};
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash"));
   EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "unmodelled"));
 }
@@ -180,28 +184,28 @@ TEST_F(Concluded, DoubtAddsUnmodelledAtAnyLead) {
 TEST_F(Concluded, BesideUnmodelledCauseNoNameStandsAlone) {
   leave(5);
   calibration.effects = {ahead_by(1000)};
-  EXPECT_EQ(verdict(), CalibrationVerdict::unexplained);
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::unexplained);
   EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "unmodelled"));
 }
 
 TEST_F(Concluded, BesideLikelierUnmodelledCauseNoNameStandsAlone) {
   leave(1);
   calibration.effects = {ahead_by(-1), ahead_by(1000)};
-  EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
   EXPECT_EQ(calibration.effects.back().group.size(), 2u);
 }
 
 TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {
   leave(1);
   find({{"zero_offset", "motor_offset"}});
-  calibration.next = {next_inspection("drive the joint to a mark"), next_inspection("something else")};
-  EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
+  calibration.next = {plan::next_inspection("drive the joint to a mark"), plan::next_inspection("something else")};
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.summary,
               testing::StartsWith("Measure this first: drive the joint to a mark. The data are explained by one of {"));
   // One cause alone asks for nothing first.
   calibration.effects.clear();
   find({{"backlash"}});
-  EXPECT_EQ(verdict(), CalibrationVerdict::explained);
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::explained);
   EXPECT_THAT(calibration.summary, testing::StartsWith("The data are explained by backlash"));
 }
 
@@ -211,7 +215,7 @@ TEST_F(Concluded, ResidualAboveNoiseHasPlace) {
   // The largest mean: the last twelfth of the way down.
   for (std::size_t row = k_rows; row < k_rows + 2; ++row)
     selection.best.residual[static_cast<Eigen::Index>(row)] = 0.05;
-  EXPECT_EQ(verdict(), CalibrationVerdict::unexplained);
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::unexplained);
   EXPECT_GT(calibration.unexplained_rms, 1.5 * k_floor);
   EXPECT_THAT(calibration.unexplained_where, HasSubstr("falling"));
   EXPECT_THAT(calibration.unexplained_where, HasSubstr("57.3°"));
@@ -232,12 +236,12 @@ TEST_F(Concluded, ResidualOfEffectsDiffersFromAnswer) {
 
 TEST_F(Concluded, ResidualIsDescribedByFactors) {
   leave(1);
-  for (const Block& block : evidence.blocks) {
+  for (const calibration::Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
     for (const std::size_t row : block.rows)
       selection.best.residual[static_cast<Eigen::Index>(row)] += 5 * k_floor * direction;
   }
-  EXPECT_EQ(verdict(), CalibrationVerdict::unexplained);
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::unexplained);
   ASSERT_FALSE(calibration.discrepancy.empty());
   EXPECT_EQ(calibration.discrepancy.front().factor, "direction");
   EXPECT_NEAR(calibration.discrepancy.front().rms, 5 * k_floor, 0.5 * k_floor);
@@ -248,54 +252,57 @@ TEST_F(Concluded, ResidualIsDescribedByFactors) {
 
 TEST_F(Concluded, StrokesThatDoNotRepeatComeFirst) {
   leave(1);
-  for (const Block& block : evidence.blocks) {
+  for (const calibration::Block& block : evidence.blocks) {
     for (const std::size_t row : block.rows)
       selection.best.residual[static_cast<Eigen::Index>(row)] += block.stroke < 2 ? 3 * k_floor : -3 * k_floor;
   }
   find({{"backlash"}});
-  EXPECT_EQ(verdict(), CalibrationVerdict::not_repeatable);
+  EXPECT_EQ(verdict(), calibration::CalibrationVerdict::not_repeatable);
   EXPECT_THAT(calibration.next.front().words, HasSubstr("tighten"));
 }
 
 TEST(Verdicts, HaveTheContractsWords) {
-  const std::vector<std::pair<CalibrationVerdict, std::string_view>> words = {
-      {CalibrationVerdict::not_testable, "not_testable"}, {CalibrationVerdict::not_repeatable, "not_repeatable"},
-      {CalibrationVerdict::unexplained, "unexplained"},   {CalibrationVerdict::confounded, "confounded"},
-      {CalibrationVerdict::explained, "explained"},       {CalibrationVerdict::no_effect, "no_effect"}};
-  for (const auto& [verdict, expected] : words) EXPECT_EQ(word(verdict), expected);
+  const std::vector<std::pair<calibration::CalibrationVerdict, std::string_view>> words = {
+      {calibration::CalibrationVerdict::not_testable, "not_testable"},
+      {calibration::CalibrationVerdict::not_repeatable, "not_repeatable"},
+      {calibration::CalibrationVerdict::unexplained, "unexplained"},
+      {calibration::CalibrationVerdict::confounded, "confounded"},
+      {calibration::CalibrationVerdict::explained, "explained"},
+      {calibration::CalibrationVerdict::no_effect, "no_effect"}};
+  for (const auto& [verdict, expected] : words) EXPECT_EQ(calibration::word(verdict), expected);
 }
 
 TEST(Verdicts, TorqueForForceIsRefused) {
-  Measurement measurement = measured({0, 5}, [](const Sample&) { return 0.0; });
+  measurement::Measurement measurement = measured({0, 5}, [](const measurement::Sample&) { return 0.0; });
   measurement.load_unit = "Nm";
   const DeclaredMechanism tendons = read_mechanism(std::string(FUSEE_SOURCE_DIR) + "/profiles/forearm.toml").mechanism;
-  const Calibration found = calibrate(tendons, measurement);
-  EXPECT_EQ(found.verdict, CalibrationVerdict::not_testable);
+  const calibration::Calibration found = calibration::calibrate(tendons, measurement);
+  EXPECT_EQ(found.verdict, calibration::CalibrationVerdict::not_testable);
   EXPECT_THAT(found.summary, HasSubstr("a torque in Nm"));
 }
 
 TEST(RmsDrop, IsNeverBelowNothing) {
-  const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
-  FitterPool pool(evidence);
-  Selection selection;
-  selection.catalogue = catalogue(joint(), evidence.measurement);
+  const calibration::Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
+  calibration::FitterPool pool(evidence);
+  calibration::Selection selection;
+  selection.catalogue = calibration::catalogue(joint(), evidence.measurement);
   const Effect& stretch = named("tendon_stretch");
   selection.none = pool.one().fit({}, {});
   selection.without = {selection.none};
   selection.best = pool.one().fit({&stretch}, {});
   selection.groups = {{{&stretch}, 0.0}};
   selection.best.by_factor.mean_square = 2 * selection.none.by_factor.mean_square;  // held out, it does harm
-  const std::vector<FoundEffect> found = found_effects(evidence, selection, selection.best);
+  const std::vector<calibration::FoundEffect> found = calibration::found_effects(evidence, selection, selection.best);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].rms_drop, 0);
 }
 
 TEST(Rivals, GroupsHaveNoIdleMembers) {
-  const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
-  Selection selection;
+  const calibration::Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
+  calibration::Selection selection;
   const Effect &gain = named("joint_sensor_gain"), &lag = named("sensor_lag");
-  const auto likely = [](const EffectSet& effects, double log_evidence) {
-    Fit fit;
+  const auto likely = [](const calibration::EffectSet& effects, double log_evidence) {
+    calibration::Fit fit;
     fit.effects = effects;
     fit.log_evidence = log_evidence;
     fit.usable = true;
@@ -304,20 +311,20 @@ TEST(Rivals, GroupsHaveNoIdleMembers) {
   selection.best = likely({&gain}, 10);
   selection.without = {likely({}, 8)};
   selection.rivals = {{&gain, &lag, likely({&lag}, 9)}};
-  EXPECT_TRUE(rivals_as_good(evidence, selection).empty()) << "rarer than none, and hardly likelier";
+  EXPECT_TRUE(calibration::rivals_as_good(evidence, selection).empty()) << "rarer than none, and hardly likelier";
   selection.without = {likely({}, 2)};
-  EXPECT_EQ(rivals_as_good(evidence, selection).size(), 1u);
+  EXPECT_EQ(calibration::rivals_as_good(evidence, selection).size(), 1u);
   selection.rivals.front().fit.log_evidence = 5;
-  EXPECT_TRUE(rivals_as_good(evidence, selection).empty());
+  EXPECT_TRUE(calibration::rivals_as_good(evidence, selection).empty());
   selection.rivals = {{&lag, &gain, likely({&gain}, 9)}};
-  EXPECT_TRUE(rivals_as_good(evidence, selection).empty()) << "what it stands for is not in the set";
+  EXPECT_TRUE(calibration::rivals_as_good(evidence, selection).empty()) << "what it stands for is not in the set";
 }
 
 TEST(FoundEffects, SayWhatTheirSignMeans) {
-  const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
-  FitterPool pool(evidence);
-  Selection selection;
-  selection.catalogue = catalogue(joint(), evidence.measurement);
+  const calibration::Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
+  calibration::FitterPool pool(evidence);
+  calibration::Selection selection;
+  selection.catalogue = calibration::catalogue(joint(), evidence.measurement);
   selection.none = pool.one().fit({}, {});
   selection.without = {selection.none};
   for (const auto& [gain, words] : {std::pair(-0.01, "the sensor reads too little"),
@@ -326,7 +333,7 @@ TEST(FoundEffects, SayWhatTheirSignMeans) {
     selection.groups = {{{&named("joint_sensor_gain")}, 0.0}};
     selection.best.at.sensor.gain = gain;
     selection.best.x[1] = gain / named("joint_sensor_gain").parameters[0].step;
-    const std::vector<FoundEffect> found = found_effects(evidence, selection, selection.best);
+    const std::vector<calibration::FoundEffect> found = calibration::found_effects(evidence, selection, selection.best);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].parameters[0].sense, words);
   }
@@ -345,17 +352,17 @@ TEST(Effects, CaliperEffectsAskForReading) {
 }
 
 TEST(Selections, MayBeCopiedAndOutlivedByTheirCopy) {
-  Selection copy;
+  calibration::Selection copy;
   {
-    Selection selection;
-    const Measurement measurement = measured({0, 5}, [](const Sample&) { return 0.0; });
-    selection.catalogue = catalogue(joint(), measurement);
+    calibration::Selection selection;
+    const measurement::Measurement measurement = measured({0, 5}, [](const measurement::Sample&) { return 0.0; });
+    selection.catalogue = calibration::catalogue(joint(), measurement);
     selection.best.effects = {&named("backlash")};
     copy = selection;
   }
   EXPECT_EQ(copy.best.effects.front()->name, "backlash");
-  EXPECT_TRUE(contains(copy.catalogue, *copy.best.effects.front()));
+  EXPECT_TRUE(calibration::contains(copy.catalogue, *copy.best.effects.front()));
 }
 
 }  // namespace
-}  // namespace fusee::linear
+}  // namespace fusee::calibration::linear

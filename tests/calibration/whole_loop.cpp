@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base.h"
 #include "calibration/words.h"
+#include "fusee/base.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/profile.h"
 #include "fusee/transmission.h"
@@ -42,22 +42,23 @@ double rms(const Log& log, Error error) {
   return std::sqrt(squares / count);
 }
 
-double miss(const Log& log, const Transmission& law) {
+double miss(const Log& log, const transmission::Transmission& law) {
   return rms(log, [&](const Row& row, bool) { return row.theta - law.theta(row.alpha); });
 }
 
 /// θ that the table gives for an α on the way up or down.
-double tabled(const std::vector<CompensationRow>& table, double alpha, bool up) {
-  const auto of = [up](const CompensationRow& row) { return up ? row.alpha_up : row.alpha_down; };
-  const auto above = std::lower_bound(table.begin() + 1, table.end() - 1, alpha,
-                                      [&](const CompensationRow& row, double value) { return of(row) < value; });
-  const CompensationRow& low = *(above - 1);
+double tabled(const std::vector<correction::CompensationRow>& table, double alpha, bool up) {
+  const auto of = [up](const correction::CompensationRow& row) { return up ? row.alpha_up : row.alpha_down; };
+  const auto above =
+      std::lower_bound(table.begin() + 1, table.end() - 1, alpha,
+                       [&](const correction::CompensationRow& row, double value) { return of(row) < value; });
+  const correction::CompensationRow& low = *(above - 1);
   return low.theta + (above->theta - low.theta) * (alpha - of(low)) / (of(*above) - of(low));
 }
 
-std::string found_words(const Calibration& calibration) {
+std::string found_words(const calibration::Calibration& calibration) {
   std::string text;
-  for (const FoundEffect& effect : calibration.effects) {
+  for (const calibration::FoundEffect& effect : calibration.effects) {
     text += (text.empty() ? "" : ", ") + effect.name;
     for (const std::string& rival : effect.group) text += rival == effect.name ? "" : " [" + rival + "]";
   }
@@ -65,13 +66,13 @@ std::string found_words(const Calibration& calibration) {
 }
 
 /// As printed: shrunk as the declared material does, not as the drawing was told.
-Outline printed(Outline outline, const DeclaredMechanism& declared, const Mechanism& drawn) {
+profile::Outline printed(profile::Outline outline, const DeclaredMechanism& declared, const Mechanism& drawn) {
   const double scale = (1.0 - declared.material.shrinkage) / (1.0 - drawn.material.shrinkage);
-  for (OutlinePoint& point : outline.points) point.position *= scale;
+  for (profile::OutlinePoint& point : outline.points) point.position *= scale;
   return outline;
 }
 
-MadeJoint with_corrected_spirals(const MadeJoint& declared, const JointAsItIs& made_for) {
+MadeJoint with_corrected_spirals(const MadeJoint& declared, const joint::JointAsItIs& made_for) {
   const Mechanism& drawn = made_for.mechanism;
   MadeJoint joint = declared;
   DeclaredMechanism as_drawn = declared.declared;
@@ -79,9 +80,10 @@ MadeJoint with_corrected_spirals(const MadeJoint& declared, const JointAsItIs& m
   joint.spirals = make_joint(as_drawn).spirals;
   const double scale = (1.0 - declared.declared.material.shrinkage) / (1.0 - drawn.material.shrinkage);
   for (MadeSpiral& spiral : joint.spirals) {
-    for (SpiralRow& row : spiral.rows) {
+    for (helix::SpiralRow& row : spiral.rows) {
       const Vec2 made =
-          scale * drawn_for_making({row.turn, {row.x, row.y}, unit(row.turn), row.rho}, made_for.outline).position;
+          scale *
+          joint::drawn_for_making({row.turn, {row.x, row.y}, unit(row.turn), row.rho}, made_for.outline).position;
       row.x = made.x();
       row.y = made.y();
     }
@@ -143,22 +145,22 @@ std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load)
 }
 
 MadeJoint with_corrected_pulley(const MadeJoint& declared, const DeclaredMechanism& corrected) {
-  const JointAsItIs made_for = as_it_is(corrected);
+  const joint::JointAsItIs made_for = joint::as_it_is(corrected);
   const Mechanism& drawn = made_for.mechanism;
   if (declared.climbs()) return with_corrected_spirals(declared, made_for);
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.tolerance = 2e-5;
   options.advice = false;
-  SynthesisResult made = synthesise(drawn, options);
+  profile::SynthesisResult made = profile::synthesise(drawn, options);
   if (!made.made()) throw InputError("corrected.toml", made.brief());
-  draw_for_making(made, made_for.outline);
+  joint::draw_for_making(made, made_for.outline);
   MadeJoint joint = declared;
   joint.p1 = printed(made.p1, declared.declared, drawn);
   joint.p2 = printed(made.p2, declared.declared, drawn);
   return joint;
 }
 
-Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::filesystem::path& folder) {
+measurement::Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::filesystem::path& folder) {
   OutputFolder target(folder, true);
   std::vector<std::filesystem::path> runs;
   int number = 0;
@@ -169,25 +171,25 @@ Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::
   }
   std::vector<Diagnostic> notes;
   target.publish(notes);
-  return read_measurement(runs);
+  return measurement::read_measurement(runs);
 }
 
 double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_at) {
   Hidden mounted = hidden.hidden;
   mounted.motor_offset -= tied_at;
-  return miss(one_run(joint, mounted, hidden.load), Transmission(joint.declared));
+  return miss(one_run(joint, mounted, hidden.load), transmission::Transmission(joint.declared));
 }
 
 LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const LoopCase& hidden,
                       const std::filesystem::path& folder) {
-  const Measurement measurement = measured(joint, hidden, folder);
-  const Calibration calibration = calibrate(joint.declared, measurement);
-  const Correction correction = correct(joint.declared, measurement, calibration);
+  const measurement::Measurement measurement = measured(joint, hidden, folder);
+  const calibration::Calibration calibration = calibration::calibrate(joint.declared, measurement);
+  const correction::Correction correction = correction::correct(joint.declared, measurement, calibration);
   LoopOutcome outcome;
   outcome.name = hidden.name;
   outcome.found = found_words(calibration);
-  outcome.verdict = word(calibration.verdict);
-  outcome.corrected_toml = corrected_toml(spec, joint.declared, calibration, correction);
+  outcome.verdict = calibration::word(calibration.verdict);
+  outcome.corrected_toml = correction::corrected_toml(spec, joint.declared, calibration, correction);
   const MadeJoint then = with_corrected_pulley(joint, parse_mechanism(outcome.corrected_toml, "corrected.toml"));
   outcome.before = joint_error(joint, hidden, 0);
   outcome.declared = joint_error(joint, {}, 0);

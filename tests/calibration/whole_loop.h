@@ -45,7 +45,7 @@ MadeJoint with_corrected_pulley(const MadeJoint& declared, const DeclaredMechani
 double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_at);
 
 /// The data of a case as a bench would leave them; scratch files go to `folder`.
-Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::filesystem::path& folder);
+measurement::Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::filesystem::path& folder);
 
 /// `spec` is the text of the joint's file.
 LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const LoopCase& hidden,

@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/text.h"
 #include "calibration/whole_loop.h"
 #include "fusee/base.h"
-#include "base/text.h"
 #include "fusee/mechanism_file.h"
 
 namespace fusee::rig {

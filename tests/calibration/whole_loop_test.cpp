@@ -59,16 +59,17 @@ LoopCase case_of(const Joint& joint, const std::string& name) {
 }
 
 /// The correction for what is truly there.
-Correction known_correction(const Joint& joint, const LoopCase& hidden) {
-  Calibration calibration;
-  calibration.verdict = CalibrationVerdict::explained;
+correction::Correction known_correction(const Joint& joint, const LoopCase& hidden) {
+  calibration::Calibration calibration;
+  calibration.verdict = calibration::CalibrationVerdict::explained;
   calibration.identified = truth_of(hidden.hidden, joint.made.declared);
-  const Measurement measurement = measured(joint.made, hidden, scratch(hidden.name));
-  for (const Run& run : measurement.runs) calibration.left_out.push_back({{run.name}, calibration.identified});
-  return correct(joint.made.declared, measurement, calibration);
+  const measurement::Measurement measurement = measured(joint.made, hidden, scratch(hidden.name));
+  for (const measurement::Run& run : measurement.runs)
+    calibration.left_out.push_back({{run.name}, calibration.identified});
+  return correction::correct(joint.made.declared, measurement, calibration);
 }
 
-MadeJoint corrected_joint(const Joint& joint, const Correction& correction) {
+MadeJoint corrected_joint(const Joint& joint, const correction::Correction& correction) {
   DeclaredMechanism corrected = joint.made.declared;
   corrected.identified = correction.identified;
   return with_corrected_pulley(joint.made, corrected);
@@ -81,7 +82,7 @@ TEST_P(Known, FaultIsTakenOutByThePulley) {
   // Without friction: its loop under load is none of the pulley's.
   const Joint joint = joint_of(file, false);
   const LoopCase hidden = case_of(joint, name);
-  const Correction correction = known_correction(joint, hidden);
+  const correction::Correction correction = known_correction(joint, hidden);
   ASSERT_TRUE(correction.has_pulley) << correction.infeasible;
   const double before = joint_error(joint.made, hidden, 0);
   const double floor = joint_error(joint.made, {}, 0);
@@ -111,14 +112,14 @@ INSTANTIATE_TEST_SUITE_P(WholeLoop, Known,
                            return joint + "_" + std::get<1>(each.param);
                          });
 
-BuildResult built(const DeclaredMechanism& corrected, double tolerance = 0.01) {
+pipeline::BuildResult built(const DeclaredMechanism& corrected, double tolerance = 0.01) {
   MechanismFile file;
   file.mechanism = corrected;
-  BuildOptions options;
+  pipeline::BuildOptions options;
   options.chord_error_mm = tolerance;
   options.folder = scratch("build");
   options.dry_run = true;
-  return build(file, options);
+  return pipeline::build(file, options);
 }
 
 TEST_P(Known, FaultGivesAPulleyThatPassesAllChecks) {
@@ -126,24 +127,25 @@ TEST_P(Known, FaultGivesAPulleyThatPassesAllChecks) {
   const Joint joint = joint_of(file);
   DeclaredMechanism corrected = joint.made.declared;
   corrected.identified = known_correction(joint, case_of(joint, name)).identified;
-  const BuildResult result = built(corrected);
-  EXPECT_EQ(result.status, BuildStatus::done) << result.product.synthesis.brief();
+  const pipeline::BuildResult result = built(corrected);
+  EXPECT_EQ(result.status, pipeline::BuildStatus::done) << result.product.synthesis.brief();
   for (const Check& check : result.product.checks)
     EXPECT_TRUE(check.ok) << check.name << " " << check.value << " " << check.where;
 }
 
 /// Groove floor of the drawing, as the pitch curve of the rig's outline.
-Outline outline_of(const BuildResult& result, const std::string& layer, Side side, double diameter) {
+profile::Outline outline_of(const pipeline::BuildResult& result, const std::string& layer, transmission::Side side,
+                            double diameter) {
   for (const OutputFile& output : result.outputs) {
     if (output.name != "profile.dxf") continue;
-    for (const DrawingPath& path : read_dxf(output.bytes, output.name).paths) {
+    for (const formats::DrawingPath& path : formats::read_dxf(output.bytes, output.name).paths) {
       if (path.layer != layer) continue;
       const Polygon corners = convex_hull(path.points);
-      Outline outline;
+      profile::Outline outline;
       outline.side = side;
       for (std::size_t i = 0; i < corners.size(); ++i) {
         const Vec2 along = corners[(i + 1) % corners.size()] - corners[(i + corners.size() - 1) % corners.size()];
-        OutlinePoint point;
+        profile::OutlinePoint point;
         point.normal = Vec2(along.y(), -along.x()).normalized();
         point.psi = std::atan2(point.normal.y(), point.normal.x());
         point.position = corners[i] + 0.5 * diameter * point.normal;
@@ -163,10 +165,10 @@ TEST(WholeLoop, DrawingOfBuildCorrectsFault) {
   hidden.hidden.guide_outward = 0.5;
   DeclaredMechanism corrected = joint.made.declared;
   corrected.identified = known_correction(joint, hidden).identified;
-  const BuildResult result = built(corrected, 2e-4);
+  const pipeline::BuildResult result = built(corrected, 2e-4);
   MadeJoint drawn = joint.made;
-  drawn.p1 = outline_of(result, "P1_FLOOR", Side::left, corrected.tendon.diameter);
-  drawn.p2 = outline_of(result, "P2_FLOOR", Side::right, corrected.tendon.diameter);
+  drawn.p1 = outline_of(result, "P1_FLOOR", transmission::Side::left, corrected.tendon.diameter);
+  drawn.p2 = outline_of(result, "P2_FLOOR", transmission::Side::right, corrected.tendon.diameter);
   EXPECT_GT(degrees(joint_error(joint.made, hidden, 0)), 0.3);
   EXPECT_LT(degrees(joint_error(drawn, hidden, 0)), 0.01);
 }
@@ -175,7 +177,7 @@ TEST(WholeLoop, TheWrongCauseIsSeen) {
   // A loop with half of the truth leaves half of the error: the rig does not trust the correction.
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "pulley_runout");
-  Correction half = known_correction(joint, hidden);
+  correction::Correction half = known_correction(joint, hidden);
   half.identified.pulley.outline.runout_x *= 0.5;
   half.identified.pulley.outline.runout_y *= 0.5;
   const double before = joint_error(joint.made, hidden, 0);
@@ -185,7 +187,7 @@ TEST(WholeLoop, TheWrongCauseIsSeen) {
 TEST(WholeLoop, TableCorrectsUntiedLoad) {
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "tendon_stretch");
-  const Correction correction = known_correction(joint, hidden);
+  const correction::Correction correction = known_correction(joint, hidden);
   EXPECT_LT(degrees(correction.tied_at), -0.2);  // the motor pulls ahead of the load
   const double after = joint_error(corrected_joint(joint, correction), hidden, 0);
   EXPECT_NEAR(after, correction.error_with_pulley, 0.2 * after);
@@ -197,14 +199,14 @@ TEST(WholeLoop, GoesOnFromACorrectedFile) {
   // nothing is forgotten.
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "guide_position");
-  const Correction first = known_correction(joint, hidden);
+  const correction::Correction first = known_correction(joint, hidden);
   DeclaredMechanism corrected = joint.made.declared;
   corrected.identified = first.identified;
-  const Measurement again = measured(corrected_joint(joint, first), hidden, scratch("again"));
-  const Calibration second = calibrate(expected_joint(corrected), again);
-  EXPECT_EQ(second.verdict, CalibrationVerdict::no_effect) << second.summary;
+  const measurement::Measurement again = measured(corrected_joint(joint, first), hidden, scratch("again"));
+  const calibration::Calibration second = calibration::calibrate(joint::expected_joint(corrected), again);
+  EXPECT_EQ(second.verdict, calibration::CalibrationVerdict::no_effect) << second.summary;
   EXPECT_LT(degrees(second.before.rms), 0.022);
-  EXPECT_EQ(correct(corrected, again, second).identified, first.identified);
+  EXPECT_EQ(correction::correct(corrected, again, second).identified, first.identified);
 }
 
 TEST(WholeLoop, LaterFindingIsAdded) {
@@ -214,12 +216,13 @@ TEST(WholeLoop, LaterFindingIsAdded) {
   corrected.identified.tendon.stretch = 1;
   corrected.identified.pulley.scale = 0.01;
   corrected.identified.shaft.backlash = 0.02;
-  Calibration second;
+  calibration::Calibration second;
   second.identified.pins.radius = 0.5;
   second.identified.tendon.stretch = 0.5;
   second.identified.pulley.scale = 0.01;
   const Imperfections total =
-      correct(corrected, measured(joint.made, case_of(joint, "guide_radius"), scratch("added")), second).identified;
+      correction::correct(corrected, measured(joint.made, case_of(joint, "guide_radius"), scratch("added")), second)
+          .identified;
   EXPECT_EQ(total.pins.radius, 1.5);
   EXPECT_EQ(total.tendon.stretch, 2.0);
   EXPECT_NEAR(total.pulley.scale, 0.0201, 1e-12);

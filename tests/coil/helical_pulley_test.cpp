@@ -1,6 +1,4 @@
 // Helical grooves as meshes, on spirals with a closed form.
-#include "fusee/coil.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -8,11 +6,12 @@
 #include <fstream>
 
 #include "coil/spirals.h"
+#include "fusee/coil.h"
 #include "solid/print.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::coil {
 namespace {
 
 using fusee::testing::growing;
@@ -28,7 +27,7 @@ Mechanism plain() {
 }
 
 // Writes the mesh to the folder FUSEE_KEEP, for inspection.
-void keep(const TriangleMesh& mesh, const std::string& name) {
+void keep(const solid::TriangleMesh& mesh, const std::string& name) {
   const char* folder = std::getenv("FUSEE_KEEP");
   if (folder == nullptr) return;
   std::ofstream file(std::string(folder) + "/" + name + ".off");
@@ -51,7 +50,7 @@ void expect_good(const HelicalPulley& pulley, const std::string& name) {
   keep(pulley.mesh, name);
   ASSERT_TRUE(pulley.made) << pulley.brief();
   EXPECT_EQ(failures(check_helical_pulley(pulley.mesh, pulley, section)), "");
-  EXPECT_EQ(failures(check_print(pulley.mesh)), "");
+  EXPECT_EQ(failures(solid::check_print(pulley.mesh)), "");
 }
 
 TEST(HelicalPulley, RoundHelix) {
@@ -66,11 +65,11 @@ TEST(HelicalPulley, RoundHelix) {
 TEST(HelicalPulley, BriefSearchAgreesWithThorough) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 0.0) + 0.05, slope = lead / (k_two_pi * 16.0);
-  const auto made = [&](TieOffSearch search) {
+  const auto made = [&](solid::TieOffSearch search) {
     return make_helical_pulley(mechanism, spiral_of(testing::round_curve(16.0), 0.3, 3, slope),
                                spiral_of(testing::round_curve(18.0), 1.1, 3, slope), 0.05, search);
   };
-  const HelicalPulley brief = made(TieOffSearch::brief), thorough = made(TieOffSearch::thorough);
+  const HelicalPulley brief = made(solid::TieOffSearch::brief), thorough = made(solid::TieOffSearch::thorough);
   ASSERT_TRUE(brief.made) << brief.brief();
   EXPECT_EQ(brief.mesh.vertices, thorough.mesh.vertices);
   EXPECT_EQ(brief.mesh.triangles, thorough.mesh.triangles);
@@ -118,4 +117,4 @@ TEST(HelicalPulley, RejectsIntersectingTurns) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::coil

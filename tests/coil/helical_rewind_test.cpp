@@ -1,22 +1,21 @@
 // Strings wound on helical grooves in meshes, against closed forms.
-#include "fusee/coil.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "coil/spirals.h"
 #include "fusee/base.h"
+#include "fusee/coil.h"
 #include "fusee/transmission.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::coil {
 namespace {
 
 /// Distance of a point from the spiral's floor.
-double away_from(const Spiral& spiral, const SpiralPlace& place, const Vec3& point) {
-  const auto floor = [&](const SpiralRow& row) {
+double away_from(const helix::Spiral& spiral, const SpiralPlace& place, const Vec3& point) {
+  const auto floor = [&](const helix::SpiralRow& row) {
     return Vec3(row.x - 0.5 * std::cos(row.turn), row.y - 0.5 * std::sin(row.turn), place.height(row.z));
   };
   double least = 1e9;
@@ -33,8 +32,8 @@ TEST(HelicalFloors, MatchTheSpirals) {
   mechanism.body = testing::plain_mechanism().body;
   mechanism.print = testing::plain_mechanism().print;
   const double lead = least_lead(helical_section(mechanism), 2.4) + 0.3, slope = lead / (k_two_pi * 12.0);
-  const Spiral p1 = testing::spiral_of(testing::growing(12, 2.4, 0.3), 0.3, 5, slope);
-  const Spiral p2 = testing::spiral_of(testing::growing(24, -2.4, 1.1), 1.1, 5, slope);
+  const helix::Spiral p1 = testing::spiral_of(testing::growing(12, 2.4, 0.3), 0.3, 5, slope);
+  const helix::Spiral p2 = testing::spiral_of(testing::growing(24, -2.4, 1.1), 1.1, 5, slope);
   const HelicalPulley pulley = make_helical_pulley(mechanism, p1, p2);
   ASSERT_TRUE(pulley.made) << pulley.brief();
   const auto floors = helical_floors(pulley.mesh, pulley.layout.scale);
@@ -67,7 +66,7 @@ struct RoundCapstan {
     mechanism.pulley.law = Law::linear;
     mechanism.pulley.ratio = drum / radius;
     slope = (least_lead(helical_section(mechanism), 0.0) + 0.2) / (k_two_pi * radius);
-    const Transmission law(mechanism);
+    const transmission::Transmission law(mechanism);
     for (int k = 0; k <= 60; ++k)
       stroke.push_back(law.at_alpha(law.alpha_min() + (law.alpha_max() - law.alpha_min()) * k / 60));
     p1 = spiral_about(law.at_alpha(0).t1.lower_normal, law);
@@ -77,23 +76,23 @@ struct RoundCapstan {
     pulley = make_helical_pulley(mechanism, p1, p2);
   }
 
-  Spiral spiral_about(double home, const Transmission& law) const {
+  helix::Spiral spiral_about(double home, const transmission::Transmission& law) const {
     const double spare = k_two_pi, begin = home + law.alpha_min() - spare;
     const double turns = (law.alpha_max() - law.alpha_min() + 2 * spare) / k_two_pi;
-    Spiral spiral = testing::spiral_of(testing::round_curve(radius), begin, turns, slope);
+    helix::Spiral spiral = testing::spiral_of(testing::round_curve(radius), begin, turns, slope);
     const double per_row = turns * k_two_pi / static_cast<double>(spiral.rows.size() - 1);
     spiral.first_used = static_cast<std::size_t>(std::lround(spare / per_row));
     spiral.last_used = spiral.rows.size() - 1 - spiral.first_used;
     return spiral;
   }
   /// Height of the take-off in the spiral's frame at α.
-  double take_off(const Spiral& spiral, double alpha) const {
+  double take_off(const helix::Spiral& spiral, double alpha) const {
     const double middle = 0.5 * (spiral.rows.front().z + spiral.rows.back().z);
     const double offset = 0.5 * (stroke.front().alpha + stroke.back().alpha);
     return middle + slope * radius * (alpha - offset);
   }
   /// θ at which a string is as long as at home. `hand`: +1 for tendon 2.
-  double theta(double alpha, double hand, double free, double end_z, const Spiral& spiral) const {
+  double theta(double alpha, double hand, double free, double end_z, const helix::Spiral& spiral) const {
     const auto length = [&](double a, double t) {
       return hand * radius * a * std::hypot(1.0, slope) +
              std::hypot(free - hand * drum * t, end_z - take_off(spiral, a));
@@ -108,8 +107,8 @@ struct RoundCapstan {
 
   Mechanism mechanism = testing::forearm();
   double slope = 0, free1 = 0, free2 = 0;
-  std::vector<TransmissionPoint> stroke;
-  Spiral p1, p2;
+  std::vector<transmission::TransmissionPoint> stroke;
+  helix::Spiral p1, p2;
   HelicalPulley pulley;
 };
 
@@ -124,7 +123,7 @@ TEST(HelicalRewind, MatchesClosedForm) {
     const HelicalRewind wound = rewind_helical(joint.pulley.mesh, joint.mechanism, joint.stroke, laid);
     ASSERT_EQ(wound.result.points.size(), joint.stroke.size());
     double fleet = 0;
-    for (const RewindPoint& point : wound.result.points) {
+    for (const profile::RewindPoint& point : wound.result.points) {
       const double by_hand = joint.theta(point.alpha, -1.0, joint.free1, end1, joint.p1);
       EXPECT_NEAR(degrees(point.theta), degrees(by_hand), 0.0015) << degrees(point.alpha);
       // Effect of the path's slope on the joint, which the planar law does not contain.
@@ -155,4 +154,4 @@ TEST(HelicalRewind, RejectsGrooveEndingWithinRange) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::coil

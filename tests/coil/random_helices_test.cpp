@@ -13,12 +13,12 @@
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::coil {
 namespace {
 
 struct RandomPulley {
   Mechanism mechanism = testing::forearm();
-  Spiral p1, p2;
+  helix::Spiral p1, p2;
   std::string words;
 };
 
@@ -46,7 +46,7 @@ class PulleyGenerator {
  private:
   double within(double low, double high) { return low + (high - low) * static_cast<double>(random_()) / 4294967295.0; }
 
-  Spiral spiral(const HelicalSection& section, std::string& words) {
+  helix::Spiral spiral(const HelicalSection& section, std::string& words) {
     const double turns = within(1.2, 8.0), radius = within(9, 28), begin = within(-10, 10);
     const double per_turn = within(-0.5, 0.5) * (radius - 5.0) / turns,
                  wave = within(0, 0.14) * std::min(radius, radius + per_turn * turns);
@@ -55,7 +55,7 @@ class PulleyGenerator {
         (testing::slope_for(curve, begin, turns, section) * within(1.0, 1.3) + 1e-6) * (within(0, 1) < 0.2 ? -1 : 1);
     words += " r " + std::to_string(radius) + " turns " + std::to_string(turns) + " per turn " +
              std::to_string(per_turn) + " wave " + std::to_string(wave);
-    Spiral spiral = testing::spiral_of(curve, begin, turns, slope);
+    helix::Spiral spiral = testing::spiral_of(curve, begin, turns, slope);
     // Every spiral has a free end that is long enough.
     spiral.first_used = spiral.last_used = spiral.rows.size() / 2;
     return spiral;
@@ -94,7 +94,7 @@ TEST(RandomHelices, AreSolidsOrReportWhyNot) {
     }
     ++made;
     EXPECT_EQ(failed(check_helical_pulley(pulley.mesh, pulley, helical_section(random.mechanism))), "") << which;
-    EXPECT_EQ(failed(check_print(pulley.mesh)), "") << which;
+    EXPECT_EQ(failed(solid::check_print(pulley.mesh)), "") << which;
     EXPECT_EQ(helical_floors(pulley.mesh, pulley.layout.scale).size(), 2u) << which;
   }
   EXPECT_GT(made, count / 2);
@@ -103,4 +103,4 @@ TEST(RandomHelices, AreSolidsOrReportWhyNot) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::coil

@@ -10,17 +10,17 @@
 #include "fusee/base.h"
 #include "solid/self_intersection.h"
 
-namespace fusee {
+namespace fusee::coil {
 namespace {
 
 constexpr double k_radius = 12.0, k_from_face = 9.0;
 
-GrooveEnd end_on(Side side) {
+GrooveEnd end_on(transmission::Side side) {
   GrooveEnd end;
   end.side = side;
   end.row = {{k_radius, 0}, {1, 0}, 0, k_radius, 20};
-  end.along = side == Side::left ? 1 : -1;
-  end.outward = side == Side::left ? -1 : 1;
+  end.along = side == transmission::Side::left ? 1 : -1;
+  end.outward = side == transmission::Side::left ? -1 : 1;
   end.face = end.row.height + end.outward * k_from_face;
   return end;
 }
@@ -48,7 +48,7 @@ RunOutSizes sizes_of(const Sizes& wanted) {
 }
 
 /// Angle of the flattest upward face of the cut volume, except its faces and ends.
-double flattest_ceiling(const TriangleMesh& tool, const GrooveEnd& end) {
+double flattest_ceiling(const solid::TriangleMesh& tool, const GrooveEnd& end) {
   double flattest = 0.5 * k_pi;
   for (const auto& [ia, ib, ic] : tool.triangles) {
     const Vec3 &a = tool.vertices[ia], &b = tool.vertices[ib], &c = tool.vertices[ic];
@@ -63,15 +63,16 @@ double flattest_ceiling(const TriangleMesh& tool, const GrooveEnd& end) {
 // A ball with a cone on it sweeps the channel: its ceiling is as steep as the cone, 57.5°, except for the twist of
 // facets. A ceiling built across the channel was only 37° steep on the sharpest bends and needed supports.
 TEST(RunOut, CeilingsKeepTheirSlope) {
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     for (const Sizes& wanted :
          {Sizes{0.6, 2.8, 0.6, 0}, Sizes{1.0, 2.8, 0.3, 0.3}, Sizes{0.45, 4, 0.3, 0.2}, Sizes{0.8, 3.3, 0.4, 0.5}}) {
       const GrooveEnd end = end_on(side);
       for (int variant = 0; variant < 3; ++variant) {
         const auto tool = run_out_tool(end, sizes_of(wanted), variant);
         ASSERT_TRUE(tool) << wanted.radius;
-        EXPECT_FALSE(find_crossing(*tool).facets) << wanted.radius;
-        EXPECT_GT(degrees(flattest_ceiling(*tool, end)), 47.0) << wanted.radius << (side == Side::left ? " P1" : " P2");
+        EXPECT_FALSE(solid::find_crossing(*tool).facets) << wanted.radius;
+        EXPECT_GT(degrees(flattest_ceiling(*tool, end)), 47.0)
+            << wanted.radius << (side == transmission::Side::left ? " P1" : " P2");
       }
     }
   }
@@ -79,12 +80,12 @@ TEST(RunOut, CeilingsKeepTheirSlope) {
 
 // The sections of the sharpest bends do not intersect one another for any steepness of the ceiling.
 TEST(RunOut, ChannelsDoNotSelfIntersect) {
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     for (const double peak : {57.5, 60.0, 65.0, 72.0, 80.0}) {
       for (const Sizes& wanted : {Sizes{0.6, 2.8, 0.6, 0, peak}, Sizes{1.0, 2.8, 0.3, 0.3, peak}}) {
         const auto tool = run_out_tool(end_on(side), sizes_of(wanted), 0);
         ASSERT_TRUE(tool) << peak;
-        EXPECT_FALSE(find_crossing(*tool).facets) << peak;
+        EXPECT_FALSE(solid::find_crossing(*tool).facets) << peak;
       }
     }
   }
@@ -92,7 +93,7 @@ TEST(RunOut, ChannelsDoNotSelfIntersect) {
 
 // The end of a channel that rises into a wider pocket has no face as flat as the channel itself, 45°.
 TEST(RunOut, RisingChannelEndsInAPoint) {
-  const GrooveEnd end = end_on(Side::right);
+  const GrooveEnd end = end_on(transmission::Side::right);
   const ChannelRing last = channel_rings(end, sizes_of({1.0, 2.8, 0.6, 0}), 0).back();
   EXPECT_LT(last.radius, 0.06);
   EXPECT_LT(last.ridge.z(), end.face);
@@ -101,8 +102,8 @@ TEST(RunOut, RisingChannelEndsInAPoint) {
 // The cone over a pocket ends in a tip. A flat disc as wide as the channel would be an overhang.
 TEST(RunOut, PocketOpeningBelowHasNoCeiling) {
   const RunOutSizes sizes = sizes_of({0.6, 3, 0.5, 0.1});
-  const std::vector<Vec2> below = pocket_profile(end_on(Side::left), sizes),
-                          above = pocket_profile(end_on(Side::right), sizes);
+  const std::vector<Vec2> below = pocket_profile(end_on(transmission::Side::left), sizes),
+                          above = pocket_profile(end_on(transmission::Side::right), sizes);
   EXPECT_LT(below.back().x(), 0.25 * sizes.channel_radius);
   for (std::size_t k = 1; k < below.size(); ++k) {
     const Vec2 step = below[k] - below[k - 1];
@@ -112,4 +113,4 @@ TEST(RunOut, PocketOpeningBelowHasNoCeiling) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::coil

@@ -12,7 +12,7 @@
 #include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::correction {
 namespace {
 
 using ::testing::HasSubstr;
@@ -45,17 +45,17 @@ DeclaredMechanism frictionless() {
 
 /// Deviation from the law of `wanted`, rad, of a joint with the true geometry `truth` and a pulley drawn for
 /// `made_for`. Tendons are wound on its outline, scaled by `scale`, `offset` further out and moved by `runout`.
-double miss(const Mechanism& wanted, const Mechanism& truth, const JointAsItIs& made_for, double scale = 1,
+double miss(const Mechanism& wanted, const Mechanism& truth, const joint::JointAsItIs& made_for, double scale = 1,
             double offset = 0, const Vec2& runout = {0, 0}) {
   const Mechanism& drawn = made_for.mechanism;
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.tolerance = 0.001;
-  SynthesisResult made = synthesise(drawn, options);
+  profile::SynthesisResult made = profile::synthesise(drawn, options);
   if (!made.made()) return std::numeric_limits<double>::quiet_NaN();
-  draw_for_making(made, made_for.outline);
+  joint::draw_for_making(made, made_for.outline);
   const double printed = scale / (1 - drawn.material.shrinkage);
-  const auto floor = [&](const Outline& outline) {
-    Polygon polygon = parallel(outline, -0.5 * drawn.tendon.diameter);
+  const auto floor = [&](const profile::Outline& outline) {
+    Polygon polygon = profile::parallel(outline, -0.5 * drawn.tendon.diameter);
     for (Vec2& point : polygon) point = printed * point + runout;
     return polygon;
   };
@@ -65,9 +65,9 @@ double miss(const Mechanism& wanted, const Mechanism& truth, const JointAsItIs& 
   joint.guides.radius -= offset;
   joint.pulley = wanted.pulley;
   joint.joint.theta_min = wanted.joint.theta_min;
-  const Transmission law(wanted);
+  const transmission::Transmission law(wanted);
   double worst = 0;
-  for (const RewindPoint& point : rewind(joint, floor(made.p1), floor(made.p2)).points) {
+  for (const profile::RewindPoint& point : profile::rewind(joint, floor(made.p1), floor(made.p2)).points) {
     if (point.alpha < law.alpha_min() || point.alpha > law.alpha_max()) continue;
     worst = std::max(worst, std::abs(point.theta - law.theta(point.alpha)));
   }
@@ -75,22 +75,22 @@ double miss(const Mechanism& wanted, const Mechanism& truth, const JointAsItIs& 
 }
 
 TEST(AsItIs, IsDeclaredWithoutIdentification) {
-  EXPECT_EQ(as_it_is(declared()).mechanism, static_cast<const Mechanism&>(declared()));
-  EXPECT_EQ(as_it_is(declared()).outline, OutlineError{});
+  EXPECT_EQ(joint::as_it_is(declared()).mechanism, static_cast<const Mechanism&>(declared()));
+  EXPECT_EQ(joint::as_it_is(declared()).outline, OutlineError{});
   DeclaredMechanism backlash = declared();
   backlash.identified.shaft.backlash = 0.1;
   backlash.identified.sensor.lag = 0.1;
-  EXPECT_EQ(as_it_is(backlash).mechanism.pulley, declared().pulley);
+  EXPECT_EQ(joint::as_it_is(backlash).mechanism.pulley, declared().pulley);
 }
 
 TEST(AsItIs, IsExpectedByNextCalibration) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pins.radius = 1.5;
   mechanism.identified.pulley.outline.runout_x = 0.1;
-  const DeclaredMechanism expected = expected_joint(mechanism);
-  EXPECT_EQ(static_cast<const Mechanism&>(expected), as_it_is(mechanism).mechanism);
+  const DeclaredMechanism expected = joint::expected_joint(mechanism);
+  EXPECT_EQ(static_cast<const Mechanism&>(expected), joint::as_it_is(mechanism).mechanism);
   EXPECT_EQ(expected.identified, Imperfections{});
-  EXPECT_EQ(expected_joint(expected), expected);
+  EXPECT_EQ(joint::expected_joint(expected), expected);
 }
 
 // The brief search is used for hundreds of candidate mechanisms: it is close to the full search, and equal without
@@ -100,20 +100,22 @@ TEST(AsItIs, BriefSearchIsCloseToFull) {
   mechanism.load.tip_force = 15.0;
   mechanism.identified.tendon.stretch = 12.0;
   mechanism.identified.joint.mean_load = 4.0;
-  const Mechanism whole = as_it_is(mechanism).mechanism, brief = as_it_is(mechanism, LawSearch::brief).mechanism;
+  const Mechanism whole = joint::as_it_is(mechanism).mechanism,
+                  brief = joint::as_it_is(mechanism, joint::LawSearch::brief).mechanism;
   EXPECT_EQ(brief.pulley.law, whole.pulley.law);
   EXPECT_LT(2 * brief.pulley.rows.size(), whole.pulley.rows.size());
-  const Transmission law(whole), near(brief);
+  const transmission::Transmission law(whole), near(brief);
   double moved = 0, apart = 0;
   for (double alpha = law.alpha_min(); alpha <= law.alpha_max(); alpha += radians(5.0)) {
-    moved = std::max(moved, std::abs(law.theta(alpha) - Transmission(declared()).theta(alpha)));
+    moved = std::max(moved, std::abs(law.theta(alpha) - transmission::Transmission(declared()).theta(alpha)));
     apart = std::max(apart, std::abs(law.theta(alpha) - near.theta(alpha)));
   }
   EXPECT_GT(degrees(moved), 0.5);
   EXPECT_LT(degrees(apart), 0.1);
   mechanism.identified = {};
   mechanism.identified.pins.radius = 2.0;
-  EXPECT_EQ(as_it_is(mechanism, LawSearch::brief).mechanism.joint, as_it_is(mechanism).mechanism.joint);
+  EXPECT_EQ(joint::as_it_is(mechanism, joint::LawSearch::brief).mechanism.joint,
+            joint::as_it_is(mechanism).mechanism.joint);
 }
 
 TEST(AsItIs, CorrectsGuideRadius) {
@@ -121,9 +123,9 @@ TEST(AsItIs, CorrectsGuideRadius) {
   mechanism.identified.pins.radius = 2.0;
   DeclaredMechanism truth = declared();
   truth.guides.radius += 2.0;
-  const double before = miss(declared(), truth, as_it_is(declared()));
+  const double before = miss(declared(), truth, joint::as_it_is(declared()));
   EXPECT_GT(degrees(before), 0.2);
-  EXPECT_LT(degrees(miss(declared(), truth, as_it_is(mechanism))), 0.03);
+  EXPECT_LT(degrees(miss(declared(), truth, joint::as_it_is(mechanism))), 0.03);
 }
 
 TEST(AsItIs, CorrectsLength) {
@@ -131,50 +133,50 @@ TEST(AsItIs, CorrectsLength) {
   mechanism.identified.joint.length = 2.0;
   DeclaredMechanism truth = declared();
   truth.joint.R += 2.0;
-  const double before = miss(declared(), truth, as_it_is(declared()));
-  EXPECT_LT(miss(declared(), truth, as_it_is(mechanism)), 0.1 * before);
+  const double before = miss(declared(), truth, joint::as_it_is(declared()));
+  EXPECT_LT(miss(declared(), truth, joint::as_it_is(mechanism)), 0.1 * before);
 }
 
 TEST(AsItIs, CorrectsPulleyOffset) {
   for (const double offset : {0.2, -0.3}) {
     DeclaredMechanism mechanism = declared();
     mechanism.identified.pulley.outline.offset = offset;
-    const double before = miss(declared(), declared(), as_it_is(declared()), 1, offset);
+    const double before = miss(declared(), declared(), joint::as_it_is(declared()), 1, offset);
     EXPECT_GT(degrees(before), 0.2);
-    EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 1, offset), 0.05 * before);
+    EXPECT_LT(miss(declared(), declared(), joint::as_it_is(mechanism), 1, offset), 0.05 * before);
     // Grooves, anchors and holes are those of the actual tendon.
-    EXPECT_EQ(as_it_is(mechanism).mechanism.tendon, declared().tendon);
+    EXPECT_EQ(joint::as_it_is(mechanism).mechanism.tendon, declared().tendon);
   }
 }
 
 TEST(AsItIs, CorrectsPulleyScale) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pulley.scale = -0.02;
-  const double before = miss(declared(), declared(), as_it_is(declared()), 0.98);
-  EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 0.98), 0.05 * before);
+  const double before = miss(declared(), declared(), joint::as_it_is(declared()), 0.98);
+  EXPECT_LT(miss(declared(), declared(), joint::as_it_is(mechanism), 0.98), 0.05 * before);
 }
 
 TEST(AsItIs, CorrectsRunout) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pulley.outline.runout_x = 0.3;
   mechanism.identified.pulley.outline.runout_y = -0.2;
-  const double before = miss(declared(), declared(), as_it_is(declared()), 1, 0, {0.3, -0.2});
-  EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 1, 0, {0.3, -0.2}), 0.05 * before);
+  const double before = miss(declared(), declared(), joint::as_it_is(declared()), 1, 0, {0.3, -0.2});
+  EXPECT_LT(miss(declared(), declared(), joint::as_it_is(mechanism), 1, 0, {0.3, -0.2}), 0.05 * before);
 }
 
 TEST(RoundChoice, StaysRoundIfSufficient) {
   DeclaredMechanism mechanism = declared();
-  EXPECT_TRUE(round_choice(mechanism).suffices);
-  EXPECT_NEAR(round_choice(mechanism).r1, 16, 1e-3);
+  EXPECT_TRUE(joint::round_choice(mechanism).suffices);
+  EXPECT_NEAR(joint::round_choice(mechanism).r1, 16, 1e-3);
   mechanism.identified.pins.left.outward = mechanism.identified.pins.right.outward = 5;
-  EXPECT_FALSE(round_choice(mechanism).suffices);
-  EXPECT_GT(degrees(round_choice(mechanism).max_error), 0.005);
+  EXPECT_FALSE(joint::round_choice(mechanism).suffices);
+  EXPECT_GT(degrees(joint::round_choice(mechanism).max_error), 0.005);
 }
 
-Calibration found_guide_radius() {
-  Calibration calibration;
-  calibration.verdict = CalibrationVerdict::explained;
-  FoundEffect effect;
+calibration::Calibration found_guide_radius() {
+  calibration::Calibration calibration;
+  calibration.verdict = calibration::CalibrationVerdict::explained;
+  calibration::FoundEffect effect;
   effect.name = "guide_radius";
   effect.place = ChainPlace::pins;
   effect.group = {"guide_radius"};
@@ -200,7 +202,7 @@ TEST(CorrectedToml, KeepsFileAndAddsIdentified) {
 }
 
 TEST(CorrectedToml, NamesPossibleFurtherEffect) {
-  Calibration calibration = found_guide_radius();
+  calibration::Calibration calibration = found_guide_radius();
   calibration.effects.front().group.emplace_back("joint_sensor_gain");
   calibration.effects.front().beside = {{"joint_sensor_gain", {{"gain_percent", 1.25, 1, 1.5}}}};
   EXPECT_THAT(
@@ -222,19 +224,19 @@ TEST(CorrectedToml, SecondCalibrationReplacesFirst) {
 
 /// One run up and down, simulated with hysteresis: θ lags by half of `loop` each way.
 struct HysteresisRun {
-  Measurement measurement;
-  Calibration calibration;
+  measurement::Measurement measurement;
+  calibration::Calibration calibration;
 };
 
 HysteresisRun hysteresis_run(const DeclaredMechanism& mechanism, double loop) {
-  const Transmission law(mechanism);
+  const transmission::Transmission law(mechanism);
   HysteresisRun data;
-  Run run;
+  measurement::Run run;
   std::vector<double> before;
   for (int i = 0; i < 400; ++i) {
     const bool up = i < 200;
     const double share = up ? i / 199.0 : (399 - i) / 199.0;
-    Sample sample;
+    measurement::Sample sample;
     sample.alpha = law.alpha_min() + (law.alpha_max() - law.alpha_min()) * share;
     sample.theta = law.theta(sample.alpha) + (up ? -0.5 : 0.5) * loop;
     run.samples.push_back(sample);
@@ -250,10 +252,11 @@ HysteresisRun hysteresis_run(const DeclaredMechanism& mechanism, double loop) {
 
 /// Logs the run as the identified joint does, in rows that were not fitted.
 void log_as_identified(const DeclaredMechanism& mechanism, HysteresisRun& data) {
-  Run& run = data.measurement.runs.front();
+  measurement::Run& run = data.measurement.runs.front();
   run.name = "run.csv";
-  Calibration& calibration = data.calibration;
-  const Readings theta = predict(expected_joint(mechanism), calibration.identified, bench_log(data.measurement));
+  calibration::Calibration& calibration = data.calibration;
+  const joint::Readings theta = joint::predict(joint::expected_joint(mechanism), calibration.identified,
+                                               measurement::bench_log(data.measurement));
   for (std::size_t i = 0; i < run.samples.size(); ++i) run.samples[i].theta = theta[0][i];
   calibration.left_out = {{{run.name}, calibration.identified}};
   calibration.effects.resize(1);
@@ -271,7 +274,7 @@ TEST(Correct, HysteresisGoesIntoTable) {
   // The play is taken up in a few rows, which are omitted.
   EXPECT_GT(correction.by_table, 0.97 * correction.error_now);
   ASSERT_GT(correction.table.size(), 20u);
-  const Transmission law(frictionless());
+  const transmission::Transmission law(frictionless());
   for (const CompensationRow& row : correction.table) {
     const double play = data.calibration.identified.shaft.backlash;
     EXPECT_NEAR(row.alpha_up, law.alpha(row.theta) + 0.5 * play, 1e-3);
@@ -342,4 +345,4 @@ TEST(Correct, RatioHasTableOnly) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::correction

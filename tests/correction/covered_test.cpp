@@ -23,28 +23,28 @@ std::filesystem::path scratch(const std::string& name) {
   return std::filesystem::path(testing::TempDir()) / ("fusee_covered_" + name);
 }
 
-Measurement read(const Case& made) {
+measurement::Measurement read(const Case& made) {
   const std::filesystem::path folder = scratch(made.truth + std::to_string(made.seed));
-  Measurement measurement = read_measurement(write_case(made, folder), made.joint.declared);
+  measurement::Measurement measurement = measurement::read_measurement(write_case(made, folder), made.joint.declared);
   std::filesystem::remove_all(folder);
   return measurement;
 }
 
 struct Answer {
   Case made;
-  Calibration calibration;
-  Correction correction;
+  calibration::Calibration calibration;
+  correction::Correction correction;
 };
 
 Answer answer(const std::vector<std::string>& faults, std::uint64_t seed, Protocol protocol = Protocol::full) {
   CaseOptions options;
   options.protocol = protocol;
   Answer answer{make_case({faults.front(), faults}, seed, options), {}, {}};
-  const Measurement measurement = read(answer.made);
-  CalibrationOptions quick;
+  const measurement::Measurement measurement = read(answer.made);
+  calibration::CalibrationOptions quick;
   quick.audit = false;
-  answer.calibration = calibrate(answer.made.joint.declared, measurement, quick);
-  answer.correction = correct(answer.made.joint.declared, measurement, answer.calibration);
+  answer.calibration = calibration::calibrate(answer.made.joint.declared, measurement, quick);
+  answer.correction = correction::correct(answer.made.joint.declared, measurement, answer.calibration);
   return answer;
 }
 
@@ -64,14 +64,15 @@ struct RemainingError {
 };
 
 RemainingError error_on_new_runs(const Answer& answer) {
-  const EmpiricalCurve& curve = answer.calibration.curve;
-  const Measurement again = read(measured_again(answer.made));
-  const Readings model = predict(answer.made.joint.declared, answer.calibration.identified, bench_log(again));
+  const calibration::EmpiricalCurve& curve = answer.calibration.curve;
+  const measurement::Measurement again = read(measured_again(answer.made));
+  const joint::Readings model =
+      joint::predict(answer.made.joint.declared, answer.calibration.identified, measurement::bench_log(again));
   double without = 0, with = 0, rows = 0;
   for (std::size_t r = 0; r < again.runs.size(); ++r) {
-    for (const Stroke& stroke : again.runs[r].strokes) {
+    for (const measurement::Stroke& stroke : again.runs[r].strokes) {
       for (std::size_t i = stroke.first; !stroke.partial && i <= stroke.last; ++i) {
-        const Sample& sample = again.runs[r].samples[i];
+        const measurement::Sample& sample = again.runs[r].samples[i];
         const double off = sample.theta - model[r][i];
         if (sample.alpha < curve.alpha.front() || sample.alpha > curve.alpha.back() || !std::isfinite(off)) continue;
         without += off * off;
@@ -123,16 +124,16 @@ double deviation_from_table(const Log& log, const std::vector<Line>& table, bool
   return std::sqrt(squares / rows);
 }
 
-std::vector<std::string> names_of(const Calibration& calibration) {
+std::vector<std::string> names_of(const calibration::Calibration& calibration) {
   std::vector<std::string> names;
-  for (const FoundEffect& effect : calibration.effects)
+  for (const calibration::FoundEffect& effect : calibration.effects)
     names.insert(names.end(), effect.group.begin(), effect.group.end());
   return names;
 }
 
 TEST(Covered, CoversBumpAsPredicted) {
   const Answer found = answer({"lump"}, 1);
-  const EmpiricalCurve& curve = found.calibration.curve;
+  const calibration::EmpiricalCurve& curve = found.calibration.curve;
   ASSERT_TRUE(curve.used) << curve.why;
   EXPECT_GT(degrees(curve.gain), 0.15);
   const RemainingError left = error_on_new_runs(found);
@@ -145,7 +146,7 @@ TEST(Covered, CoversBumpAsPredicted) {
 
 TEST(Covered, TableReducesControllerError) {
   const Answer found = answer({"lump"}, 1);
-  const std::vector<Line> table = lines_of(compensation_csv(found.correction));
+  const std::vector<Line> table = lines_of(correction::compensation_csv(found.correction));
   const Case again = measured_again(found.made);
   const Log& unloaded = again.logs.front();
   const double before = deviation_from_table(unloaded, table, false),
@@ -157,7 +158,7 @@ TEST(Covered, TableReducesControllerError) {
 
 TEST(Covered, DistinguishesDirections) {
   const Answer found = answer({"climbing_flank"}, 3);  // acts only while tendon 2 is wound in
-  const EmpiricalCurve& curve = found.calibration.curve;
+  const calibration::EmpiricalCurve& curve = found.calibration.curve;
   ASSERT_TRUE(curve.used) << curve.why;
   double up = 0, down = 0;
   for (std::size_t i = 0; i < curve.alpha.size(); ++i) {
@@ -185,9 +186,10 @@ TEST(Covered, RejectsLoadOrTimeDependence) {
   for (const UncorrectableFault& one : {UncorrectableFault{"flat_on_pin", 2}, {"tightening_knots", 1}}) {
     const Answer found = answer({one.fault}, one.seed);
     EXPECT_FALSE(found.calibration.curve.used) << one.fault;
-    EXPECT_EQ(found.calibration.curve.why.empty(), found.calibration.verdict != CalibrationVerdict::unexplained);
+    EXPECT_EQ(found.calibration.curve.why.empty(),
+              found.calibration.verdict != calibration::CalibrationVerdict::unexplained);
     EXPECT_EQ(found.correction.by_curve, 0) << one.fault;
-    EXPECT_THAT(compensation_csv(found.correction), StartsWith("theta_deg,alpha_up_deg,alpha_down_deg\n"));
+    EXPECT_THAT(correction::compensation_csv(found.correction), StartsWith("theta_deg,alpha_up_deg,alpha_down_deg\n"));
   }
 }
 
@@ -201,7 +203,7 @@ TEST(Covered, IsEmptyWithoutDiscrepancy) {
   const Answer found = answer({"backlash"}, 1);
   EXPECT_EQ(found.calibration.curve.why, "");
   EXPECT_TRUE(found.calibration.curve.alpha.empty());
-  EXPECT_THAT(compensation_csv(found.correction), Not(HasSubstr("empirical")));
+  EXPECT_THAT(correction::compensation_csv(found.correction), Not(HasSubstr("empirical")));
 }
 
 // Long: the figures of the empirical curve in docs/background/calibration-results.md.

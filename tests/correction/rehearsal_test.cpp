@@ -1,16 +1,15 @@
 // Each slider of the report shows the effect's influence, compared with independent equations where they exist.
-#include "fusee/correction.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "fusee/base.h"
+#include "fusee/correction.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::correction {
 namespace {
 
 using ::testing::IsEmpty;
@@ -25,8 +24,8 @@ DeclaredMechanism stiff() {
   return declared;
 }
 
-Calibration with_play(double width) {
-  Calibration calibration;
+calibration::Calibration with_play(double width) {
+  calibration::Calibration calibration;
   calibration.effects.push_back({});
   calibration.effects.back().name = "backlash";
   calibration.identified.shaft.backlash = width;
@@ -37,7 +36,7 @@ TEST(Rehearse, PlayLagsByHalfItsWidth) {
   const double width = radians(2);
   const Rehearsal rehearsal = rehearse(stiff(), {}, with_play(width));
   ASSERT_THAT(rehearsal.effects, SizeIs(1));
-  const Transmission law(stiff());
+  const transmission::Transmission law(stiff());
   const auto& stroke = rehearsal.synthesis.stroke;
   for (std::size_t s = 0; s < k_rehearsed_shares.size(); ++s) {
     const RehearsedShare& share = rehearsal.effects[0].shares[s];
@@ -53,7 +52,7 @@ TEST(Rehearse, PlayLagsByHalfItsWidth) {
 
 // Regression: the slider showed "slack 0.004 mm, pretension 5 N" for a joint identified without pretension.
 TEST(Rehearse, InertEffectShowsZero) {
-  Calibration calibration = with_play(0);
+  calibration::Calibration calibration = with_play(0);
   calibration.effects.back().name = "slack";
   calibration.identified.tendon.slack = 0.3;
   const Rehearsal rehearsal = rehearse(stiff(), {}, calibration);
@@ -66,12 +65,12 @@ TEST(Rehearse, InertEffectShowsZero) {
 }
 
 TEST(Rehearse, UsesLoggedLoads) {
-  Measurement measurement;
+  measurement::Measurement measurement;
   measurement.load_unit = "N";
-  fusee::Run run;
+  fusee::measurement::Run run;
   run.has_load = true;
   for (const double load : {0.0, 4.0, 12.0}) {
-    Sample sample;
+    measurement::Sample sample;
     sample.load = load;
     run.samples.push_back(sample);
   }
@@ -96,4 +95,4 @@ TEST(Rehearse, IsEmptyWithoutMotionOrPulley) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::correction

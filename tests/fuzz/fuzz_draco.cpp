@@ -12,8 +12,8 @@
 
 namespace {
 
-using fusee::TriangleMesh;
 using fusee::Vec3;
+using fusee::solid::TriangleMesh;
 
 constexpr std::size_t k_most_corners = 64;
 
@@ -36,11 +36,11 @@ TriangleMesh prism(const std::vector<double>& radii, double height) {
     mesh.triangles.push_back({i, next, count + next});
     mesh.triangles.push_back({i, count + next, count + i});
   }
-  return fusee::rounded_to_float(std::move(mesh));
+  return fusee::solid::rounded_to_float(std::move(mesh));
 }
 
 bool is_solid(const TriangleMesh& mesh) {
-  const std::vector<fusee::Check> checks = fusee::check_mesh(mesh);
+  const std::vector<fusee::Check> checks = fusee::solid::check_mesh(mesh);
   return std::all_of(checks.begin(), checks.end(), [](const fusee::Check& check) { return check.ok; });
 }
 
@@ -63,7 +63,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::size_t i = 3; i < std::min(size, 3 + k_most_corners); ++i) radii.push_back(scale * (1 + data[i] / 16.0));
   const TriangleMesh mesh = prism(radii, height);
   if (!is_solid(mesh)) return 0;
-  const TriangleMesh again = fusee::read_mesh(fusee::draco_bytes(mesh, tolerance), "fuzz.drc");
+  const TriangleMesh again = fusee::formats::read_mesh(fusee::formats::draco_bytes(mesh, tolerance), "fuzz.drc");
   const double reach = tolerance + 1e-6 * (height + 17 * scale);  // rounding of floats
   if (again.triangles.size() != mesh.triangles.size() || !is_solid(again)) std::abort();
   if (!lies_within(mesh, again, reach) || !lies_within(again, mesh, reach)) std::abort();

@@ -7,7 +7,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    fusee::check_drawing(fusee::read_dxf({reinterpret_cast<const char*>(data), size}, "fuzz.dxf"));
+    fusee::formats::check_drawing(fusee::formats::read_dxf({reinterpret_cast<const char*>(data), size}, "fuzz.dxf"));
   } catch (const fusee::InputError&) {
   }
   return 0;

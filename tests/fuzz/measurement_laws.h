@@ -12,16 +12,16 @@
 namespace fusee::testing {
 
 /// The broken law of a run, or "".
-inline std::string broken_law(const Run& run) {
+inline std::string broken_law(const measurement::Run& run) {
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
-    const Sample& sample = run.samples[i];
+    const measurement::Sample& sample = run.samples[i];
     if (!std::isfinite(sample.alpha) || !std::isfinite(sample.theta)) return "an angle is no number";
     if (run.has_load && !std::isfinite(sample.load)) return "a load is no number";
     if (run.has_time && i > 0 && !(sample.time >= run.samples[i - 1].time)) return "time goes back";
   }
   if (!run.samples.empty() && run.samples.front().after_break) return "the log begins again before it began";
   std::size_t next = 0;
-  for (const Stroke& stroke : run.strokes) {
+  for (const measurement::Stroke& stroke : run.strokes) {
     if (stroke.first < next || stroke.last < stroke.first || stroke.last >= run.samples.size())
       return "strokes overlap or leave the run";
     const bool stands = run.strokes.size() == 1 && stroke.first == 0 && stroke.last + 1 == run.samples.size();
@@ -35,7 +35,7 @@ inline std::string broken_law(const Run& run) {
 /// bytes.
 inline std::string broken_law(std::string_view bytes) {
   // A first byte ! selects other columns, ? columns without units, & counts, so that one corpus covers the options.
-  MeasurementOptions options;
+  measurement::MeasurementOptions options;
   const char first = bytes.empty() ? ' ' : bytes.front();
   if (first == '!') options.columns = {{"load", "x"}, {"alpha", "a_rad"}, {"time", "t_ms"}};
   if (first == '?') options.columns = {{"load", "x"}, {"alpha", "a"}, {"theta", "b"}, {"time", "t"}};
@@ -45,18 +45,20 @@ inline std::string broken_law(std::string_view bytes) {
     options.units = {{"time", "us"}, {"load", "lbf"}};
   }
   const bool has_options = std::string_view("!?&").find(first) != std::string_view::npos;
-  Measurement measurement;
-  measurement.runs.push_back(parse_run(bytes.substr(has_options ? 1 : 0), "run.csv", options, measurement));
+  measurement::Measurement measurement;
+  measurement.runs.push_back(
+      measurement::parse_run(bytes.substr(has_options ? 1 : 0), "run.csv", options, measurement));
   Mechanism ratio;
   ratio.transmission = RatioTransmission{4.0};
   const std::string broken = broken_law(measurement.runs[0]);
   if (!broken.empty()) return broken;
   if (!measurement.not_testable.empty()) return {};
-  compare_with_declared(ratio, measurement);
-  const NoiseFloor floor = noise_floor(measurement);
+  measurement::compare_with_declared(ratio, measurement);
+  const measurement::NoiseFloor floor = measurement::noise_floor(measurement);
   if (!(floor.rms >= 0) || !std::isfinite(floor.rms) || !std::isfinite(floor.degrees_of_freedom))
     return "the noise floor is no number";
-  const Iso230 figures = iso230(measurement, {std::vector<double>(measurement.runs[0].samples.size(), 1.0)});
+  const measurement::Iso230 figures =
+      measurement::iso230(measurement, {std::vector<double>(measurement.runs[0].samples.size(), 1.0)});
   if (std::abs(figures.A) > 1e-9 || std::abs(figures.R) > 1e-9) return "a constant residual has a range";
   return {};
 }

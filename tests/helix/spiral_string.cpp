@@ -4,7 +4,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::helix {
 namespace {
 
 /// The tangent point of a string from `from` to a circle. The circle lies on the string's left (sense +1) or right
@@ -26,11 +26,11 @@ double wrapped(double angle) { return angle - k_two_pi * std::floor(angle / k_tw
 
 // The left tendon is mirrored to a right-hand one. The string comes from C, passes the pin on its right and winds
 // counter-clockwise on the turned pulley, seen backwards from its take-off.
-StringLength string_length(const Mechanism& mechanism, Side side, const Spiral& spiral, double attachment_z,
-                           double alpha, double theta) {
-  const double mirror = side == Side::right ? 1.0 : -1.0;
+StringLength string_length(const Mechanism& mechanism, transmission::Side side, const Spiral& spiral,
+                           double attachment_z, double alpha, double theta) {
+  const double mirror = side == transmission::Side::right ? 1.0 : -1.0;
   const Guides& guides = mechanism.guides;
-  const double e = side == Side::right ? guides.ED : guides.EB;
+  const double e = side == transmission::Side::right ? guides.ED : guides.EB;
   const double rho = guides.radius + 0.5 * mechanism.tendon.diameter;
   const Vec2 pin(e, -guides.OE);
   const Vec2 axis(0.0, -guides.OE - mechanism.pulley.EF);
@@ -52,7 +52,7 @@ StringLength string_length(const Mechanism& mechanism, Side side, const Spiral& 
     const Vec2 along = (lower - here).normalized();
     // The outward normal points to the right of the way from the pulley to the pin.
     const double normal = angle_of(-turned_left(along));
-    const double row = side == Side::right ? spiral.rows[i].turn : k_pi - spiral.rows[i].turn;
+    const double row = side == transmission::Side::right ? spiral.rows[i].turn : k_pi - spiral.rows[i].turn;
     const double miss = std::abs(row - mirror * alpha - normal);
     if (miss < least) {
       least = miss;
@@ -72,14 +72,14 @@ StringLength string_length(const Mechanism& mechanism, Side side, const Spiral& 
   double wound = 0;
   for (std::size_t i = 1; i < n; ++i) {
     const SpiralRow &a = spiral.rows[i - 1], &b = spiral.rows[i];
-    const bool is_wound = side == Side::right ? i <= best : i > best;
+    const bool is_wound = side == transmission::Side::right ? i <= best : i > best;
     if (is_wound) wound += std::hypot(std::hypot(b.x - a.x, b.y - a.y), b.z - a.z);
   }
   length.total += wound;
-  const SpiralRow& next = spiral.rows[side == Side::right ? best - 1 : best + 1];
+  const SpiralRow& next = spiral.rows[side == transmission::Side::right ? best - 1 : best + 1];
   length.fleet = length.slope - std::atan2(row.z - next.z, -std::hypot(row.x - next.x, row.y - next.y)) - k_pi;
   length.fleet = std::remainder(length.fleet, k_pi);
   return length;
 }
 
-}  // namespace fusee
+}  // namespace fusee::helix

@@ -7,7 +7,7 @@
 #include "fusee/mechanism.h"
 #include "fusee/transmission.h"
 
-namespace fusee {
+namespace fusee::helix {
 
 struct StringLength {
   double total = 0;  ///< wound and free length together, up to a constant, mm
@@ -16,7 +16,7 @@ struct StringLength {
 };
 
 /// A joint without drum, both tendons at C. `attachment_z` in the spiral's frame.
-StringLength string_length(const Mechanism& mechanism, Side side, const Spiral& spiral, double attachment_z,
-                           double alpha, double theta);
+StringLength string_length(const Mechanism& mechanism, transmission::Side side, const Spiral& spiral,
+                           double attachment_z, double alpha, double theta);
 
-}  // namespace fusee
+}  // namespace fusee::helix

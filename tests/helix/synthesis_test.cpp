@@ -1,5 +1,3 @@
-#include "fusee/helix.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,9 +5,10 @@
 #include <cmath>
 #include <string>
 
+#include "fusee/helix.h"
 #include "helix/spiral_string.h"
 
-namespace fusee {
+namespace fusee::helix {
 namespace {
 
 /// A shallow groove whose turns need 45° wherever one overhangs its neighbour.
@@ -34,19 +33,21 @@ Mechanism wrist() {
   return m;
 }
 
-const HelixSide& side_of(const HelixSynthesis& made, Side side) { return made.sides[side == Side::left ? 0 : 1]; }
+const HelixSide& side_of(const HelixSynthesis& made, transmission::Side side) {
+  return made.sides[side == transmission::Side::left ? 0 : 1];
+}
 
 struct Variation {
   double length = 0, fleet = 0;
 };
 
 /// Variation of a string's length over the stroke, with α of the law and θ of the synthesis.
-Variation variation_of(const Mechanism& m, const HelixSynthesis& made, Side side) {
-  const HelixSide& helix = made.sides[side == Side::left ? 0 : 1];
+Variation variation_of(const Mechanism& m, const HelixSynthesis& made, transmission::Side side) {
+  const HelixSide& helix = made.sides[side == transmission::Side::left ? 0 : 1];
   double least = 1e300, most = -1e300;
   Variation variation;
   for (std::size_t i = 0; i < made.stroke.size(); i += 3) {
-    const TransmissionPoint& point = made.stroke[i];
+    const transmission::TransmissionPoint& point = made.stroke[i];
     const StringLength string = string_length(m, side, helix.spiral, helix.attachment_z, point.alpha, point.theta);
     least = std::min(least, string.total);
     most = std::max(most, string.total);
@@ -58,7 +59,7 @@ Variation variation_of(const Mechanism& m, const HelixSynthesis& made, Side side
 
 std::string failures(const HelixSynthesis& made) {
   std::string text;
-  for (const Condition& condition : made.conditions)
+  for (const profile::Condition& condition : made.conditions)
     if (!condition.ok) text += condition.name + ": " + condition.message + "\n";
   return text;
 }
@@ -66,10 +67,10 @@ std::string failures(const HelixSynthesis& made) {
 void expect_closed(const Mechanism& m, double limit = 0.0002) {
   const HelixSynthesis made = synthesise_helix(m, groove(), {.tolerance = 1e-5});
   ASSERT_TRUE(made.made()) << failures(made);
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     const Variation variation = variation_of(m, made, side);
-    EXPECT_LT(variation.length, limit) << pulley_name(side);
-    EXPECT_LT(degrees(variation.fleet), 0.001) << pulley_name(side);
+    EXPECT_LT(variation.length, limit) << transmission::pulley_name(side);
+    EXPECT_LT(degrees(variation.fleet), 0.001) << transmission::pulley_name(side);
   }
 }
 
@@ -90,8 +91,8 @@ TEST(HelixSynthesis, PlanarCurvesChangeLengthWithCollars) {
   ASSERT_TRUE(planar.made() && sloped.made());
   HelixSynthesis mixed = planar;
   mixed.sides[1].attachment_z = sloped.sides[1].attachment_z;
-  EXPECT_GT(variation_of(m, mixed, Side::right).length, 0.02);
-  EXPECT_LT(variation_of(m, sloped, Side::right).length, 0.001);
+  EXPECT_GT(variation_of(m, mixed, transmission::Side::right).length, 0.02);
+  EXPECT_LT(variation_of(m, sloped, transmission::Side::right).length, 0.001);
 }
 
 /// Over smooth pins a tendon with the groove's slope is straight when unrolled. The fleet angle is zero and the radii
@@ -100,20 +101,20 @@ TEST(HelixSynthesis, HasNoFleetAngleOverSmoothPins) {
   const Mechanism m = wrist();
   const HelixSynthesis made = synthesise_helix(m, groove(), {});
   ASSERT_TRUE(made.made()) << failures(made);
-  const Transmission planar(m);
-  for (const TransmissionPoint& point : made.stroke) {
+  const transmission::Transmission planar(m);
+  for (const transmission::TransmissionPoint& point : made.stroke) {
     EXPECT_NEAR(point.t1.p, planar.at_alpha(point.alpha).t1.p, 1e-6);
     EXPECT_NEAR(point.t2.p, planar.at_alpha(point.alpha).t2.p, 1e-6);
   }
-  EXPECT_LT(degrees(side_of(made, Side::left).fleet), 1e-6);
-  EXPECT_LT(degrees(side_of(made, Side::right).fleet), 1e-6);
+  EXPECT_LT(degrees(side_of(made, transmission::Side::left).fleet), 1e-6);
+  EXPECT_LT(degrees(side_of(made, transmission::Side::right).fleet), 1e-6);
 }
 
 TEST(HelixSynthesis, KeepsSlopeAndDistanceOfTurns) {
   const Mechanism m = wrist();
   const HelixSynthesis made = synthesise_helix(m, groove(), {});
   ASSERT_TRUE(made.made()) << failures(made);
-  for (const Side side : {Side::left, Side::right}) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     const Spiral& spiral = side_of(made, side).spiral;
     EXPECT_NEAR(side_of(made, side).turns,
                 (spiral.rows[spiral.last_used].turn - spiral.rows[spiral.first_used].turn) / k_two_pi, 1e-9);
@@ -156,4 +157,4 @@ TEST(HelixSynthesis, KeepsStringLengthOfRoundP1) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::helix

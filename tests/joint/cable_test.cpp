@@ -9,7 +9,7 @@
 #include "support/mechanisms.h"
 #include "support/rubbed_chain.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 using testing::forearm;
@@ -177,4 +177,4 @@ TEST(WavyTendon, ConservesEnergy) {
 TEST(WavyTendon, KeepsHome) { EXPECT_NEAR(loaded(wavy(k_waves), 0, 3).back().theta, 0, 1e-12); }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::joint

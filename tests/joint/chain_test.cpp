@@ -13,7 +13,7 @@
 #include "fusee/joint.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 struct UpperLine {
@@ -47,14 +47,15 @@ struct Lower {
 };
 
 /// The contact is the intersection of neighbouring lines in the pulley's frame.
-Lower free_below(const Transmission& law, Side side, double image_alpha) {
+Lower free_below(const transmission::Transmission& law, transmission::Side side, double image_alpha) {
   struct Line {
     double p, reach, normal;
   };
   const auto line = [&](double alpha) {
-    const TransmissionPoint at = law.at_alpha(mirror_sign(side) * alpha);
-    const TendonPoint& tendon = side == Side::right ? at.t2 : at.t1;
-    return Line{tendon.p, tendon.lower_reach, side == Side::right ? tendon.lower_normal : k_pi - tendon.lower_normal};
+    const transmission::TransmissionPoint at = law.at_alpha(transmission::mirror_sign(side) * alpha);
+    const transmission::TendonPoint& tendon = side == transmission::Side::right ? at.t2 : at.t1;
+    return Line{tendon.p, tendon.lower_reach,
+                side == transmission::Side::right ? tendon.lower_normal : k_pi - tendon.lower_normal};
   };
   constexpr double step = 1e-4;
   const Line here = line(image_alpha), before = line(image_alpha - step), after = line(image_alpha + step);
@@ -67,11 +68,11 @@ Lower free_below(const Transmission& law, Side side, double image_alpha) {
 
 /// Inputs from the mechanism for one tendon, in its right-hand image.
 struct Given {
-  Given(const Mechanism& mechanism, Side its_side)
+  Given(const Mechanism& mechanism, transmission::Side its_side)
       : law(mechanism),
         side(its_side),
         R(mechanism.joint.R),
-        pin(side == Side::right ? mechanism.guides.ED : mechanism.guides.EB, -mechanism.guides.OE),
+        pin(side == transmission::Side::right ? mechanism.guides.ED : mechanism.guides.EB, -mechanism.guides.OE),
         rho(mechanism.guide_pitch_radius()),
         EA(mechanism.tendon.modulus * k_pi / 4 * mechanism.tendon.diameter * mechanism.tendon.diameter) {}
 
@@ -79,12 +80,12 @@ struct Given {
   Lower lower(double image_alpha) const { return free_below(law, side, image_alpha); }
   /// Moment arm about the pulley's axis.
   double arm(double image_alpha) const {
-    const TransmissionPoint at = law.at_alpha(mirror_sign(side) * image_alpha);
-    return side == Side::right ? at.t2.p : at.t1.p;
+    const transmission::TransmissionPoint at = law.at_alpha(transmission::mirror_sign(side) * image_alpha);
+    return side == transmission::Side::right ? at.t2.p : at.t1.p;
   }
 
-  Transmission law;
-  Side side;
+  transmission::Transmission law;
+  transmission::Side side;
   double R;
   Vec2 pin;
   double rho, EA;
@@ -103,7 +104,7 @@ double tension(const Piece& piece, double EA) {
 /// One tendon, in its right-hand image.
 class Chain {
  public:
-  Chain(const Mechanism& mechanism, Side side, double home_tension, int points)
+  Chain(const Mechanism& mechanism, transmission::Side side, double home_tension, int points)
       : given_(mechanism, side), mu_(mechanism.guides.mu), lower_(given_.lower(0.0)) {
     const double home = given_.upper(0.0).normal;
     const double spacing = (home - lower_.normal) / points;
@@ -293,7 +294,7 @@ class Chain {
 /// with its strain on the pulley. Those beyond the take-off form the span.
 class Elements {
  public:
-  Elements(const Mechanism& mechanism, Side side, double home_tension, int count)
+  Elements(const Mechanism& mechanism, transmission::Side side, double home_tension, int count)
       : given_(mechanism, side), mu_(mechanism.pulley.mu) {
     survey();
     const double home = home_tension / given_.EA;
@@ -348,7 +349,7 @@ class Elements {
   /// Arc from the knot and turn of the normal along the range: material passing the pin (∫p dα) minus the change of the
   /// lower line.
   void survey() {
-    const bool right = given_.side == Side::right;
+    const bool right = given_.side == transmission::Side::right;
     const double from = right ? given_.law.alpha_min() : -given_.law.alpha_max();
     const double to = right ? given_.law.alpha_max() : -given_.law.alpha_min();
     constexpr int count = 4000;
@@ -424,8 +425,8 @@ std::vector<Simulated> simulate(const Mechanism& mechanism, const std::vector<Ro
   const double T1 = mechanism.tendon.pretension;
   const double T2 =
       T1 * upper_line(mechanism.joint.R, 0, left_pin, rho).arm / upper_line(mechanism.joint.R, 0, right_pin, rho).arm;
-  Tendon left(mechanism, Side::left, T1, points);
-  Tendon right(mechanism, Side::right, T2, points);
+  Tendon left(mechanism, transmission::Side::left, T1, points);
+  Tendon right(mechanism, transmission::Side::right, T2, points);
   std::vector<Simulated> results;
   double theta = 0;
   for (const auto& [alpha, load] : rows) {
@@ -457,7 +458,7 @@ std::vector<Simulated> simulate(const Mechanism& mechanism, const std::vector<Ro
 }
 
 std::vector<Row> up_and_down(const Mechanism& mechanism, double load, int steps) {
-  const Transmission law(mechanism);
+  const transmission::Transmission law(mechanism);
   std::vector<Row> rows;
   const auto run = [&](double from, double to) {
     for (int i = 1; i <= steps; ++i) rows.push_back({from + (to - from) * i / steps, load});
@@ -478,7 +479,7 @@ struct Disagreement {
 Disagreement disagreement(const Mechanism& mechanism, const std::vector<Row>& rows,
                           const std::vector<Simulated>& other) {
   JointMotion motion(joint_model(mechanism));
-  const Transmission law(mechanism);
+  const transmission::Transmission law(mechanism);
   double theta = 0;
   double deviation = 0;
   double off = 0;
@@ -549,4 +550,4 @@ TEST(Elements, AgreeWithGrooveSliding) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::joint

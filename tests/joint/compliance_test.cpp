@@ -6,7 +6,7 @@
 #include "joint/creep_memory.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 using testing::forearm;
@@ -18,7 +18,7 @@ using testing::unsymmetric;
 /// springs.
 struct ExactFrame {
   MadePulleys made;
-  std::array<PinPlace, 2> pins;
+  std::array<transmission::PinPlace, 2> pins;
   double EA = 0;
   double per_newton = 0;
   std::array<double, 2> material{};
@@ -37,14 +37,16 @@ struct ExactFrame {
     }
   }
 
-  PinPlace place(std::size_t i) const {
-    PinPlace place = pins[i];
+  transmission::PinPlace place(std::size_t i) const {
+    transmission::PinPlace place = pins[i];
     place.e += moved[i].x();
     place.oe -= moved[i].y();
     place.ef += moved[i].y();
     return place;
   }
-  UpperSpan upper(std::size_t i, double theta) const { return upper_span(place(i), (i == 0 ? -1 : 1) * theta); }
+  transmission::UpperSpan upper(std::size_t i, double theta) const {
+    return transmission::upper_span(place(i), (i == 0 ? -1 : 1) * theta);
+  }
   LowerPath lower(std::size_t i) const { return made.paths({place(0), place(1)}, 0)[i]; }
   double arm(std::size_t i, double theta) const { return upper(i, theta).m; }
   double length(std::size_t i, double theta) const {
@@ -152,7 +154,8 @@ TEST(Bearing, HoldsJointUpToLimit) {
   model.bearing_friction = friction;
   JointMotion motion(model);
   const auto pulled_by = [&](const EquilibriumPoint& point) {
-    const double m1 = upper_span(model.pins[0], -point.theta).m, m2 = upper_span(model.pins[1], point.theta).m;
+    const double m1 = transmission::upper_span(model.pins[0], -point.theta).m,
+                 m2 = transmission::upper_span(model.pins[1], point.theta).m;
     return point.t2.upper * m2 - point.t1.upper * m1 - point.load_torque;
   };
   for (int i = 1; i <= 40; ++i) {
@@ -197,10 +200,11 @@ TEST(Loose, RestsWhereLastPushed) {
   mechanism.tendon.pretension = 0;
   JointModel model = joint_model(mechanism);
   model.slack = 0.6;  // of each tendon
-  const Transmission law(mechanism);
+  const transmission::Transmission law(mechanism);
   JointMotion motion(model);
   const auto play = [&](double theta) {  // of each tendon, at the joint
-    return std::array{0.6 / upper_span(model.pins[0], -theta).m, 0.6 / upper_span(model.pins[1], theta).m};
+    return std::array{0.6 / transmission::upper_span(model.pins[0], -theta).m,
+                      0.6 / transmission::upper_span(model.pins[1], theta).m};
   };
   for (int i = 1; i <= 60; ++i) motion.to({0.01 * i, 0, 0});
   const EquilibriumPoint up = motion.to({0.6, 0, 0});
@@ -240,4 +244,4 @@ TEST(CreepMemory, SuperposesLoads) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::joint

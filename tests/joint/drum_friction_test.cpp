@@ -10,7 +10,7 @@
 #include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 /// A string from its end over a drum, in links of the unstretched length h that keep their material. A knot between two
@@ -94,7 +94,7 @@ Compared with_links(Mechanism mechanism, double force, int links_per_rad) {
   mechanism.guides.mu = 0;
   mechanism.pulley.mu = 1e6;
   const JointModel model = joint_model(mechanism);
-  const Transmission law(mechanism);
+  const transmission::Transmission law(mechanism);
   std::vector<JointStep> steps;
   constexpr int winding = 200, loading = 60;
   for (int i = 0; i <= winding; ++i) steps.push_back({law.alpha_max() * i / winding, 0.2 * force, 0.0});
@@ -103,16 +103,16 @@ Compared with_links(Mechanism mechanism, double force, int links_per_rad) {
       steps.push_back({law.alpha_max(), force * std::lerp(from, to, double(i) / loading), 0.0});
   }
   const std::vector<EquilibriumPoint> points = follow(model, steps);
-  const PinPlace& place = model.pins[1];
-  const double EA = model.EA,
-               home = mechanism.tendon.pretension * upper_span(model.pins[0], 0).m / upper_span(place, 0).m;
-  const UpperSpan at_home = upper_span(place, 0.0);
+  const transmission::PinPlace& place = model.pins[1];
+  const double EA = model.EA, home = mechanism.tendon.pretension * transmission::upper_span(model.pins[0], 0).m /
+                                     transmission::upper_span(place, 0).m;
+  const transmission::UpperSpan at_home = transmission::upper_span(place, 0.0);
   StringInLinks string(place.drum, at_home.behind_drum, mechanism.joint.drum_mu, EA, place.drum / links_per_rad, home);
   const LowerPath lower_home = model.lower(0.0)[1];
   double wound = 0;
   LowerPath before = lower_home;
   double tension = home;
-  const auto held_beside = [&](const UpperSpan& span, const LowerPath& lower, double now) {
+  const auto held_beside = [&](const transmission::UpperSpan& span, const LowerPath& lower, double now) {
     const double on_drum = span.on_drum > 0 ? place.drum * span.on_drum + span.behind_drum : 0.0;
     return (span.free - on_drum + place.rho * (span.normal - lower.normal) + lower.reach) / (1.0 + now / EA);
   };
@@ -120,7 +120,7 @@ Compared with_links(Mechanism mechanism, double force, int links_per_rad) {
   const double all = held_beside(at_home, lower_home, home) + string.material(at_home.on_drum);
   for (const EquilibriumPoint& point : points) {
     EXPECT_EQ(point.status, EquilibriumStatus::held);
-    const UpperSpan span = upper_span(place, point.theta);
+    const transmission::UpperSpan span = transmission::upper_span(place, point.theta);
     const LowerPath lower = model.lower(point.alpha)[1];
     wound += 0.5 * (lower.wound - before.wound) * (1.0 / (1.0 + tension / EA) + 1.0 / (1.0 + point.t2.upper / EA));
     before = lower;
@@ -161,8 +161,11 @@ TEST(DrumFriction, BoundsEndTensionOnly) {
     const EquilibriumPoint point = motion.to(step);
     const double rho = mechanism.drum_pitch_radius();
     EXPECT_NEAR((point.t2.upper - point.t1.upper) * rho, point.load_torque, 1e-8);
-    for (const auto& [tendon, side] : {std::pair{point.t1, Side::left}, std::pair{point.t2, Side::right}}) {
-      const double wrap = upper_span(model.pins[side == Side::right], mirror_sign(side) * point.theta).on_drum;
+    for (const auto& [tendon, side] :
+         {std::pair{point.t1, transmission::Side::left}, std::pair{point.t2, transmission::Side::right}}) {
+      const double wrap = transmission::upper_span(model.pins[side == transmission::Side::right],
+                                                   transmission::mirror_sign(side) * point.theta)
+                              .on_drum;
       const double most = std::exp(0.3 * wrap) * (1 + 1e-9);
       EXPECT_LE(tendon.end, tendon.upper * most);
       EXPECT_LE(tendon.upper, tendon.end * most);
@@ -206,12 +209,13 @@ TEST(DrumFriction, AgreesWithPaperForces) {
     EquilibriumPoint loaded;
     for (int i = 1; i <= 50; ++i) loaded = motion.to({0.4, 0.4 * i, 0.0});
     mechanism.load.tip_force = 20.0;
-    const TransmissionPoint at = Transmission(mechanism).at_alpha(0.4);
-    const PaperForces forces = paper_forces(mechanism, at);
+    const transmission::TransmissionPoint at = transmission::Transmission(mechanism).at_alpha(0.4);
+    const transmission::PaperForces forces = transmission::paper_forces(mechanism, at);
     // The free length ends at the contact on the pulley, not at the foot of the axis' perpendicular. On a round pulley
     // they coincide.
     EXPECT_NEAR(unloaded - loaded.theta, forces.theta_error, 2e-3 * forces.theta_error) << friction;
-    const double wrap = upper_span(pin_place(mechanism, Side::right, 1.3), at.theta).on_drum;
+    const double wrap =
+        transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::right, 1.3), at.theta).on_drum;
     EXPECT_NEAR(loaded.t2.end, forces.T2 * std::exp(-friction * wrap), 1e-3 * forces.T2);
     spared = friction == 0 ? forces.theta_error : spared - forces.theta_error;
     if (friction > 0) {
@@ -223,7 +227,7 @@ TEST(DrumFriction, AgreesWithPaperForces) {
 TEST(DrumFriction, ConservesEnergy) {
   for (const Mechanism& joint : {testing::finger(), testing::ankle()}) {
     const Mechanism mechanism = rubbing(joint, 0.25, 3000.0);
-    const Transmission law(mechanism);
+    const transmission::Transmission law(mechanism);
     const auto missing = [&](int steps, double* lost) {
       std::vector<JointStep> way;
       const auto run = [&](double from, double to) {
@@ -255,4 +259,4 @@ TEST(DrumFriction, ConservesEnergy) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::joint

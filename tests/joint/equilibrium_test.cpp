@@ -1,12 +1,11 @@
-#include "fusee/joint.h"
-
 #include <gtest/gtest.h>
 
-#include "transmission/load.h"
+#include "fusee/joint.h"
 #include "fusee/transmission.h"
 #include "support/mechanisms.h"
+#include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 using testing::forearm;
@@ -22,7 +21,7 @@ struct Sweep {
 
 /// Home, gradual loading, up to the highest α, down to the lowest, and home again.
 std::vector<JointStep> cycles(const Mechanism& mechanism, const Sweep& sweep) {
-  const Transmission transmission(mechanism);
+  const transmission::Transmission transmission(mechanism);
   std::vector<JointStep> steps;
   for (int i = 0; i <= sweep.steps; ++i) steps.push_back({0.0, sweep.tip_force * i / sweep.steps, 0.0});
   const auto run = [&](double from, double to, int count) {
@@ -54,7 +53,7 @@ Mechanism held(Mechanism mechanism) {
 double modulus_of(double EA) { return EA / (k_pi / 4); }
 
 double miss(const Mechanism& mechanism, const EquilibriumPoint& point) {
-  return point.theta - Transmission(mechanism).theta(point.alpha);
+  return point.theta - transmission::Transmission(mechanism).theta(point.alpha);
 }
 
 double largest_miss(const Mechanism& mechanism, const Sweep& sweep) {
@@ -77,7 +76,8 @@ TEST(Equilibrium, AgreesWithPaperTension) {
   const Mechanism mechanism = with(forearm(), 0.0, 0.0);
   for (const EquilibriumPoint& point : follow(joint_model(mechanism), cycles(mechanism, {10.0}))) {
     if (point.load_torque < 1000.0) continue;  // still loading
-    const double m2 = upper_span(pin_place(mechanism, Side::right, 2.5), point.theta).m;
+    const double m2 =
+        transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::right, 2.5), point.theta).m;
     EXPECT_EQ(point.t1.upper, 0.0);
     EXPECT_GT(point.t1.slack, 0.0);
     EXPECT_NEAR(point.t2.upper, 10.0 * 100.0 / m2, 1e-9 * point.t2.upper);  // [6]
@@ -111,15 +111,15 @@ TEST(Equilibrium, AgreesWithPaperErrorForStiffTendons) {
   for (const double modulus : {1e5, 1e6, 1e7}) {
     Mechanism mechanism = held(with(reference(), 0.0, 0.0, modulus));
     double worst = 0;
-    const Transmission transmission(mechanism);
+    const transmission::Transmission transmission(mechanism);
     for (const double alpha : {-1.2, -0.4, 0.3, 1.1}) {
       JointMotion motion(joint_model(mechanism));
       const double unloaded = motion.to({alpha, 0.0, 0.0}).theta;
       const double loaded = motion.to({alpha, 10.0, 0.0}).theta;
       mechanism.load.tip_force = 10.0;
-      const TransmissionPoint at = transmission.at_alpha(alpha);
+      const transmission::TransmissionPoint at = transmission.at_alpha(alpha);
       const double on_the_groove = at.t2.lower_reach - joint_model(mechanism).lower(alpha)[1].reach;
-      const double paper = paper_forces(mechanism, at).theta_error * (1.0 - on_the_groove / at.t2.length);
+      const double paper = transmission::paper_forces(mechanism, at).theta_error * (1.0 - on_the_groove / at.t2.length);
       mechanism.load.tip_force = 0.0;
       worst = std::max(worst, std::abs((unloaded - loaded) / paper - 1.0));
     }
@@ -153,8 +153,10 @@ TEST(Equilibrium, BalancesTorques) {
     ASSERT_EQ(point.status, EquilibriumStatus::held);
     // Horizontal at home: the weight's lever follows a cosine.
     EXPECT_NEAR(point.load_torque, 100.0 * steps[i].tip_force + 0.4 * 9.80665 * 60.0 * std::cos(point.theta), 1e-9);
-    const double m1 = upper_span(pin_place(mechanism, Side::left, 2.5), -point.theta).m;
-    const double m2 = upper_span(pin_place(mechanism, Side::right, 2.5), point.theta).m;
+    const double m1 =
+        transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::left, 2.5), -point.theta).m;
+    const double m2 =
+        transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::right, 2.5), point.theta).m;
     EXPECT_NEAR(point.t2.upper * m2 - point.t1.upper * m1, point.load_torque, 1e-8);
     for (const TendonState& tendon : {point.t1, point.t2}) {
       const double most = std::exp(0.15 * tendon.wrap) * (1 + 1e-12);
@@ -168,7 +170,7 @@ TEST(Equilibrium, BalancesTorques) {
 TEST(Equilibrium, MotorTorqueSatisfiesVirtualWork) {
   // Stiff, without friction and pretension: motor power equals load power.
   Mechanism mechanism = with(forearm(), 0.0, 0.0, 1e9);
-  const Transmission transmission(mechanism);
+  const transmission::Transmission transmission(mechanism);
   for (const double alpha : {-1.8, 0.2, 1.7}) {
     JointMotion motion(joint_model(mechanism));
     const EquilibriumPoint point = motion.to({alpha, 10.0, 0.0});
@@ -237,7 +239,7 @@ TEST(Equilibrium, KeepsWindingStrainWithInfiniteFriction) {
                                  {-2.075609030498998, -0.52862324871168798, 27.895995777617888, 26.989060547160314},
                                  {2.0819734361926203, 0.49873870737563619, 15.54180723358683, 40.89269464327208},
                                  {0.30000000000000004, 0.06564536743175188, 29.126368606886022, 28.048198794183818}};
-  const Transmission law(mechanism);
+  const transmission::Transmission law(mechanism);
   JointMotion motion(joint_model(mechanism));
   double from = 0;
   std::size_t row = 0;
@@ -263,11 +265,12 @@ TEST(Equilibrium, IsOneSpringWithoutFriction) {
   const auto length = [&](std::size_t i, double alpha, double theta) {
     const double sign = i == 0 ? -1 : 1;
     const LowerPath low = model.lower(alpha)[i];
-    const UpperSpan up = upper_span(model.pins[i], sign * theta);
+    const transmission::UpperSpan up = transmission::upper_span(model.pins[i], sign * theta);
     const double knot = model.lower(i == 0 ? model.alpha_most : model.alpha_least)[i].wound - 5.0;
     return up.free + model.pins[i].rho * (up.normal - low.normal) + low.reach + low.wound - knot;
   };
-  const double arm1 = upper_span(model.pins[0], 0.0).m, arm2 = upper_span(model.pins[1], 0.0).m;
+  const double arm1 = transmission::upper_span(model.pins[0], 0.0).m,
+               arm2 = transmission::upper_span(model.pins[1], 0.0).m;
   const double home[] = {20.0, 20.0 * arm1 / arm2};
   for (const EquilibriumPoint& at : follow(model, cycles(mechanism, {6.0, 60, 2}))) {
     for (std::size_t i = 0; i < 2; ++i) {
@@ -296,14 +299,14 @@ TEST(SeveralTurns, AreOneSpringWithoutFriction) {
   mechanism.body.spare_turns = 1.5;
   const double r = mechanism.pulley.r1, drum = mechanism.drum_pitch_radius();
   const JointModel model = joint_model(mechanism);
-  const Transmission law(mechanism);
+  const transmission::Transmission law(mechanism);
   ASSERT_GT(law.alpha_max() - law.alpha_min(), 2.0 * k_two_pi);
   const double home[] = {20.0, 20.0};
   for (const EquilibriumPoint& at : follow(model, cycles(mechanism, {2.0, 60, 2}))) {
     for (std::size_t i = 0; i < 2; ++i) {
       const double sign = i == 0 ? -1 : 1;
       const LowerPath low = model.lower(0.0)[i];
-      const UpperSpan up = upper_span(model.pins[i], 0.0);
+      const transmission::UpperSpan up = transmission::upper_span(model.pins[i], 0.0);
       const double still = up.length + low.reach - model.pins[i].rho * model.pins[i].off_pin(low.normal);
       const double range = sign * (i == 0 ? law.alpha_max() : law.alpha_min());
       const double laid = r * (1.5 * k_two_pi - range);
@@ -374,7 +377,7 @@ TEST(Equilibrium, DeflectsLikeReferenceRig) {
     Mechanism mechanism = with(forearm(), 5.0, 0.12, modulus_of(7070.0));
     mechanism.pulley.mu = friction;
     JointMotion motion(joint_model(mechanism));
-    const Transmission law(mechanism);
+    const transmission::Transmission law(mechanism);
     double from = 0, sum = 0;
     int count = 0, stroke = 0;
     for (const double to : {100.0, -100.0, 100.0, -100.0, 100.0, -100.0}) {
@@ -406,7 +409,7 @@ TEST(Equilibrium, StiffnessAgreesWithDifferences) {
     mechanism.load = {0.0, 0.0, 2.0, 150.0, radians(20.0)};  // a weight that tips the joint over
     for (const double theta : {-0.3, 0.0, 0.4}) {
       JointMotion motion(joint_model(mechanism));
-      const double alpha = Transmission(mechanism).alpha(theta);
+      const double alpha = transmission::Transmission(mechanism).alpha(theta);
       for (int i = 0; i <= 60; ++i) motion.to({alpha * i / 60, 0.0, 0.0});
       // Off the ends of the stick range, into its middle.
       motion.to({alpha, 0.0, 60.0});
@@ -466,14 +469,14 @@ TEST(Equilibrium, MotorHoldsLoadOfTorqueLaw) {
     varied.pulley.torque_rows.push_back({radians(degree), 1000.0 + 10.0 * degree});
   for (const Mechanism& mechanism : {arm, varied}) {
     JointMotion motion(joint_model(mechanism));
-    const Transmission law(mechanism);
+    const transmission::Transmission law(mechanism);
     for (int i = 0; i <= 20; ++i) {
       const double alpha = law.alpha_min() + (law.alpha_max() - law.alpha_min()) * i / 20;
       const EquilibriumPoint point = motion.to({alpha, 4.0, 100.0});
       ASSERT_EQ(point.status, EquilibriumStatus::held);
       const double wanted = mechanism.pulley.torque_rows.empty() ? 900.0 : 1000.0 + 10.0 * degrees(point.theta);
       EXPECT_NEAR(point.motor_torque, wanted, 2e-6 * wanted) << i;
-      EXPECT_NEAR(point.load_torque, load_torque(mechanism, point.theta), 1e-8) << i;
+      EXPECT_NEAR(point.load_torque, transmission::load_torque(mechanism, point.theta), 1e-8) << i;
     }
   }
 }
@@ -484,8 +487,10 @@ TEST(Equilibrium, MirroredJointHasMirroredEquilibrium) {
   mechanism.pulley.ratio = 3.0;
   Mechanism image = testing::mirrored(mechanism);
   // Tendon 1's pretension becomes tendon 2's in the image.
-  const double arm1 = upper_span(pin_place(mechanism, Side::left, 2.5), 0.0).m;
-  const double arm2 = upper_span(pin_place(mechanism, Side::right, 2.5), 0.0).m;
+  const double arm1 =
+      transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::left, 2.5), 0.0).m;
+  const double arm2 =
+      transmission::upper_span(transmission::pin_place(mechanism, transmission::Side::right, 2.5), 0.0).m;
   image.tendon.pretension = 5.0 * arm1 / arm2;
   JointMotion motion(joint_model(mechanism));
   JointMotion mirrored(joint_model(image));
@@ -559,18 +564,20 @@ TEST(Equilibrium, IsNeverNaN) {
 TEST(MadePulleys, FollowLawWhenMountedAsDeclared) {
   const Mechanism mechanism = with(linear_wrist(), 0.0, 0.0);
   const MadePulleys made(mechanism);
-  const Transmission transmission(mechanism);
+  const transmission::Transmission transmission(mechanism);
   for (const double theta : {-0.4, 0.0, 0.3}) {
-    const TransmissionPoint at = transmission.at_theta(theta);
-    const auto paths = made.paths({transmission.place(Side::left), transmission.place(Side::right)}, at.alpha);
+    const transmission::TransmissionPoint at = transmission.at_theta(theta);
+    const auto paths = made.paths(
+        {transmission.place(transmission::Side::left), transmission.place(transmission::Side::right)}, at.alpha);
     EXPECT_NEAR(paths[0].p, at.t1.p, 1e-12);
     EXPECT_NEAR(paths[1].p, at.t2.p, 1e-12);
     for (std::size_t i = 0; i < 2; ++i) {
       // The contact is the intersection of neighbouring lines in the pulley's frame: along them by the change of their
       // distance per turn.
-      const TendonPoint& tendon = i == 0 ? at.t1 : at.t2;
+      const transmission::TendonPoint& tendon = i == 0 ? at.t1 : at.t2;
       const double per_turn =
-          tendon.dp / (mirror_sign(i == 0 ? Side::left : Side::right) + tendon.dp / tendon.lower_reach);
+          tendon.dp / (transmission::mirror_sign(i == 0 ? transmission::Side::left : transmission::Side::right) +
+                       tendon.dp / tendon.lower_reach);
       EXPECT_NEAR(paths[i].reach, tendon.lower_reach - per_turn, 1e-12);
       EXPECT_GT(std::abs(per_turn), 0.05);
     }
@@ -600,4 +607,4 @@ TEST(MadePulleys, SatisfyVirtualWork) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::joint

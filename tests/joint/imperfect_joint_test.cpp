@@ -6,12 +6,12 @@
 #include "joint/forward.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 /// Every angle twice, up and down, a second apart.
 BenchRun swept(const Mechanism& mechanism, double load) {
-  const Transmission law(mechanism);
+  const transmission::Transmission law(mechanism);
   BenchRun run;
   run.has_load = true;
   for (int i = 0; i <= 240; ++i) {
@@ -90,20 +90,22 @@ TEST(Paths, SatisfyVirtualWork) {
   Mechanism mechanism = testing::linear_wrist();
   mechanism.tendon.pretension = 40;
   const Imperfections at = wandering();
-  const auto length = [&](Side side, double theta) {
-    const double image = side == Side::left ? -theta : theta;
-    const PathError& longer = side == Side::left ? at.joint.path1 : at.joint.path2;
-    return upper_span(pin_place(mechanism, side, mechanism.seen_pitch_radius()), image).length + longer.slope * image +
-           longer.square * std::pow(image, 2) + longer.cube * std::pow(image, 3);
+  const auto length = [&](transmission::Side side, double theta) {
+    const double image = side == transmission::Side::left ? -theta : theta;
+    const PathError& longer = side == transmission::Side::left ? at.joint.path1 : at.joint.path2;
+    return transmission::upper_span(transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius()), image)
+               .length +
+           longer.slope * image + longer.square * std::pow(image, 2) + longer.cube * std::pow(image, 3);
   };
   constexpr double way = 1e-5;
   double most = 0;
-  const auto states = simulate(mechanism, at, {swept(mechanism, 0)});
+  const auto states = joint::simulate(mechanism, at, {swept(mechanism, 0)});
   for (const JointState& state : states.front()) {
-    const auto work = [&](Side side, double tension) {
+    const auto work = [&](transmission::Side side, double tension) {
       return tension * (length(side, state.theta + way) - length(side, state.theta - way)) / (2 * way);
     };
-    const double left = work(Side::left, state.t1.upper), right = work(Side::right, state.t2.upper);
+    const double left = work(transmission::Side::left, state.t1.upper),
+                 right = work(transmission::Side::right, state.t2.upper);
     EXPECT_NEAR(left + right, 0.0, 1e-6 * std::abs(left)) << state.theta;
     most = std::max(most, std::abs(state.t1.upper - state.t2.upper));
   }
@@ -116,9 +118,10 @@ TEST(Rubbing, FollowsFrictionLaws) {
   mechanism.tendon.pretension = 40;
   mechanism.tendon.modulus = 2000;
   constexpr double way = 1e-5;
-  const auto arm = [&](Side side, double theta) {
+  const auto arm = [&](transmission::Side side, double theta) {
     const auto length = [&](double at) {
-      return upper_span(pin_place(mechanism, side, mechanism.seen_pitch_radius()), side == Side::left ? -at : at)
+      return transmission::upper_span(transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius()),
+                                      side == transmission::Side::left ? -at : at)
           .length;
     };
     return std::abs(length(theta + way) - length(theta - way)) / (2 * way);
@@ -127,13 +130,14 @@ TEST(Rubbing, FollowsFrictionLaws) {
   for (const RubbingError& rubbing : {RubbingError{200, 0}, {0, 200}, {100, 100}}) {
     Imperfections at;
     at.joint.rubbing = rubbing;
-    const std::vector<JointState> states = simulate(mechanism, at, log).front();
+    const std::vector<JointState> states = joint::simulate(mechanism, at, log).front();
     int moved = 0, held = 0;
     double least = 1e9, most = 0;
     for (std::size_t i = 1; i < states.size(); ++i) {
       const auto& [t1, t2] = std::pair(states[i].t1.upper, states[i].t2.upper);
       const double theta = states[i].theta, turned = theta - states[i - 1].theta;
-      const double pull = t2 * arm(Side::right, theta) - t1 * arm(Side::left, theta) - 6 * mechanism.joint.R;
+      const double pull = t2 * arm(transmission::Side::right, theta) - t1 * arm(transmission::Side::left, theta) -
+                          6 * mechanism.joint.R;
       const double dry = rubbing.by_area * (std::cbrt(t1 * t1) + std::cbrt(t2 * t2)) / (2 * std::cbrt(100.0)) +
                          rubbing.by_lesser * std::min(t1, t2) / 10;
       if (std::abs(turned) > 1e-9) {
@@ -212,4 +216,4 @@ TEST(Creep, PersistsBetweenRuns) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::joint

@@ -1,15 +1,14 @@
 // Simulation along a log: agreement with predict(), and the other results.
-#include "fusee/joint.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "mechanism/effect.h"
+#include "fusee/joint.h"
 #include "fusee/transmission.h"
+#include "mechanism/effect.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 /// A cycle over most of the range.
@@ -37,7 +36,7 @@ TEST(Simulate, AgreesWithPrediction) {
   for (const Imperfections& at : {Imperfections{}, several()}) {
     for (const double load : {0.0, 12.0}) {
       const Readings predicted = predict(joint, at, swept(load));
-      const auto states = simulate(joint, at, swept(load));
+      const auto states = joint::simulate(joint, at, swept(load));
       ASSERT_EQ(states.front().size(), predicted.front().size());
       for (std::size_t i = 0; i < states.front().size(); ++i) EXPECT_EQ(states[0][i].shown, predicted[0][i]);
     }
@@ -46,7 +45,7 @@ TEST(Simulate, AgreesWithPrediction) {
 
 TEST(Simulate, DistinguishesAngleAndReading) {
   const Imperfections at = several();
-  const auto states = simulate(testing::forearm(), at, swept(5));
+  const auto states = joint::simulate(testing::forearm(), at, swept(5));
   for (const JointState& state : states.front())
     EXPECT_NEAR(state.shown, at.sensor.zero + (1 + at.sensor.gain) * state.theta, 1e-14);
 }
@@ -84,12 +83,12 @@ TEST(Simulate, MotorWorkEqualsLoadWork) {
   joint.guides.mu = 0;
   joint.pulley.mu = 0;
   joint.tendon.modulus = 4e6;
-  const Transmission law(joint);
+  const transmission::Transmission law(joint);
   const double force = 15;
   const BenchLog log = swept(force);
-  const std::vector<JointState> states = simulate(joint, {}, log).front();
+  const std::vector<JointState> states = joint::simulate(joint, {}, log).front();
   for (std::size_t i = 20; i < states.size(); i += 20) {
-    const TransmissionPoint point = law.at_alpha(log[0].rows[i].alpha);
+    const transmission::TransmissionPoint point = law.at_alpha(log[0].rows[i].alpha);
     EXPECT_NEAR(states[i].motor_torque, force * joint.joint.R * point.g, 0.01 * force * joint.joint.R * point.g);
     EXPECT_NEAR(states[i].motor_torque, states[i].t2.lower * point.t2.p - states[i].t1.lower * point.t1.p, 0.2);
   }
@@ -100,7 +99,7 @@ TEST(Simulate, ReportsLooseJoint) {
   at.tendon.slack = 3;
   DeclaredMechanism joint = testing::forearm();
   bool loose = false;
-  const auto states = simulate(joint, at, swept(0));
+  const auto states = joint::simulate(joint, at, swept(0));
   for (const JointState& state : states.front()) {
     if (state.status != EquilibriumStatus::loose) continue;
     loose = true;
@@ -132,7 +131,7 @@ DeclaredMechanism geared(double ratio) {
 }
 
 TEST(Simulate, RatioJointHasAnglesOnly) {
-  const auto states = simulate(geared(4), {}, swept(0));
+  const auto states = joint::simulate(geared(4), {}, swept(0));
   for (const JointState& state : states.front()) {
     EXPECT_TRUE(std::isfinite(state.theta));
     EXPECT_TRUE(std::isnan(state.motor_torque));
@@ -180,10 +179,10 @@ TEST(Simulate, AccountsForEncoderRotation) {
   BenchLog log = swept(0);
   log[0].mounting.joint_sensor_turned = 0.5;
   const double phase = 0.5;
-  const auto states = simulate(testing::forearm(), at, log);
+  const auto states = joint::simulate(testing::forearm(), at, log);
   for (const JointState& state : states.front())
     EXPECT_NEAR(state.shown - state.theta, 0.02 * (std::sin(state.theta + phase) - std::sin(phase)), 1e-14);
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::joint

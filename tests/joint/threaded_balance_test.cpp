@@ -10,7 +10,7 @@
 #include <random>
 #include <utility>
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 constexpr std::size_t k_bends = ThreadedSpans::k_bends;
@@ -127,4 +127,4 @@ TEST(Threaded, SlidingFrontStartsAtPulledEnd) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::joint

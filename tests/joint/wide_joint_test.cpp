@@ -8,12 +8,12 @@
 #include "joint/upper_span_table.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 /// Up, down and home again under a tip force, `rounds` times; the load is applied at home.
 std::vector<JointStep> there_and_back(const Mechanism& mechanism, double tip_force, int rounds = 1) {
-  const Transmission law(mechanism);
+  const transmission::Transmission law(mechanism);
   std::vector<JointStep> steps;
   for (int i = 0; i <= 40; ++i) steps.push_back({0.0, tip_force * i / 40, 0.0});
   const auto run = [&](double from, double to) {
@@ -31,7 +31,7 @@ TEST(WideJoint, FollowsLawWithoutTension) {
   for (Mechanism mechanism : {testing::finger(), testing::ankle()}) {
     mechanism.tendon.pretension = 0;
     mechanism.guides.mu = 0;
-    const Transmission law(mechanism);
+    const transmission::Transmission law(mechanism);
     ASSERT_FALSE(law.dead_centre());
     for (const EquilibriumPoint& point : follow(joint_model(mechanism), there_and_back(mechanism, 0)))
       EXPECT_NEAR(point.theta, law.theta(point.alpha), 1e-11) << mechanism.name;
@@ -40,13 +40,14 @@ TEST(WideJoint, FollowsLawWithoutTension) {
 
 TEST(WideJoint, SpanTableHasKink) {
   const Mechanism mechanism = testing::ankle();
-  const PinPlace place = pin_place(mechanism, Side::left, mechanism.seen_pitch_radius());
-  const double leaves = *lift_off(place);
+  const transmission::PinPlace place =
+      transmission::pin_place(mechanism, transmission::Side::left, mechanism.seen_pitch_radius());
+  const double leaves = *transmission::lift_off(place);
   const UpperSpanTable table(place, -0.9, 0.9);
   ASSERT_GT(leaves, -0.5);
   ASSERT_LT(leaves, 0.5);
   for (double theta = -0.9; theta < 0.9; theta += 0.0071) {
-    const UpperSpan span = upper_span(place, theta);
+    const transmission::UpperSpan span = transmission::upper_span(place, theta);
     const UpperSpanTable::Values look = table.at(theta);
     EXPECT_NEAR(look.length, span.length, 1e-8);
     EXPECT_NEAR(look.m, span.m, 1e-7);
@@ -71,9 +72,10 @@ TEST(WideJoint, DrumTensionIsTorqueOverRadius) {
 /// friction.
 TEST(WideJoint, DrumFrictionKeepsTorque) {
   const Mechanism mechanism = testing::finger();
-  const PinPlace place = pin_place(mechanism, Side::right, mechanism.seen_pitch_radius());
+  const transmission::PinPlace place =
+      transmission::pin_place(mechanism, transmission::Side::right, mechanism.seen_pitch_radius());
   for (const double theta : {-0.3, 0.0, 1.2}) {
-    const UpperSpan span = upper_span(place, theta);
+    const transmission::UpperSpan span = transmission::upper_span(place, theta);
     ASSERT_GT(span.on_drum, 0);
     for (const double friction : {0.0, 0.2, -0.2}) {
       constexpr int links = 1000;
@@ -102,7 +104,7 @@ TEST(WideJoint, IdlerEqualsPinAtConstantWrap) {
   idler.guides.kind = GuideKind::idler;
   idler.guides.bearing_radius = 1.0;
   idler.guides.bearing_friction = 0.3;
-  const double wrap = Transmission(idler).at_theta(0.2).t2.wrap;
+  const double wrap = transmission::Transmission(idler).at_theta(0.2).t2.wrap;
   const double epsilon = 0.3 * 1.0 / 1.3 * std::sin(0.5 * wrap);
   Mechanism pin = testing::finger();
   pin.guides.mu = std::log((1 + epsilon) / (1 - epsilon)) / wrap;
@@ -129,13 +131,13 @@ TEST(WideJoint, IdlerLossBalancesMoments) {
         const double pressed = std::hypot(1.0 - T2 * std::cos(wrap), T2 * std::sin(wrap));
         (T2 - 1.0 < turning * pressed ? low : high) = T2;
       }
-      const GuideFriction guide{0, turning, true};
+      const transmission::GuideFriction guide{0, turning, true};
       EXPECT_NEAR(std::exp(guide.log_ratio(wrap)) - 1.0, low - 1.0, 0.03 * turning * (low - 1.0) + 1e-14);
       constexpr double step = 1e-5;
       EXPECT_NEAR(guide.slope(wrap), (guide.log_ratio(wrap + step) - guide.log_ratio(wrap - step)) / (2 * step), 1e-8);
     }
   }
-  EXPECT_EQ(GuideFriction({0, 0.02, true}).log_ratio(-0.1), 0.0);
+  EXPECT_EQ(transmission::GuideFriction({0, 0.02, true}).log_ratio(-0.1), 0.0);
 }
 
 /// A finger whose tendons stay on its drum, so that elongation is proportional to the angle; the motor is elsewhere.
@@ -150,7 +152,7 @@ Mechanism finger_with_sheath(const Sheath& sheath) {
 TEST(WideJoint, FollowsLawWithSheath) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.tendon.pretension = mechanism.guides.mu = mechanism.sheath.mu = 0;
-  const Transmission law(mechanism);
+  const transmission::Transmission law(mechanism);
   for (const EquilibriumPoint& point : follow(joint_model(mechanism), there_and_back(mechanism, 0)))
     EXPECT_NEAR(point.theta, law.theta(point.alpha), 1e-11);
 }
@@ -198,8 +200,8 @@ TEST(WideJoint, SheathActsAsSpring) {
 TEST(WideJoint, PaperForcesIncludeSheaths) {
   Mechanism mechanism = testing::sheathed_wrist();
   mechanism.load.tip_force = 10;
-  const TransmissionPoint at = Transmission(mechanism).at_theta(0.2);
-  const PaperForces forces = paper_forces(mechanism, at);
+  const transmission::TransmissionPoint at = transmission::Transmission(mechanism).at_theta(0.2);
+  const transmission::PaperForces forces = transmission::paper_forces(mechanism, at);
   const double off_pin = forces.T2 * std::exp(0.12 * at.t2.wrap), lost = std::exp(0.08 * radians(150.0));
   EXPECT_NEAR(forces.Tb, off_pin * lost, 1e-12 * forces.Tb);
   // Each part under its own tension, pin and sheath under the mean of theirs.
@@ -220,11 +222,11 @@ TEST(WideJoint, PaperForcesIncludeIdlers) {
   mechanism.guides.kind = GuideKind::idler;
   mechanism.guides.bearing_radius = 1.5;
   mechanism.guides.bearing_friction = 0.1;
-  const TransmissionPoint at = Transmission(mechanism).at_theta(0.2);
-  const PaperForces forces = paper_forces(mechanism, at);
+  const transmission::TransmissionPoint at = transmission::Transmission(mechanism).at_theta(0.2);
+  const transmission::PaperForces forces = transmission::paper_forces(mechanism, at);
   const double epsilon = 0.1 * 1.5 / 2.5 * std::sin(0.5 * at.t2.wrap);
   EXPECT_NEAR(forces.Tb, forces.T2 * (1 + epsilon) / (1 - epsilon), 1e-12 * forces.Tb);
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::joint

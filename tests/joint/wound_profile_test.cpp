@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace fusee {
+namespace fusee::joint {
 namespace {
 
 constexpr double k_radius = 10.0;
@@ -137,4 +137,4 @@ TEST(WoundProfile, DissipatesFrictionWork) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::joint

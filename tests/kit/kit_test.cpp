@@ -22,19 +22,19 @@ using ::testing::HasSubstr;
 
 struct Model {
   Mechanism mechanism;
-  SynthesisResult synthesis;
-  Pulley pulley;
-  KitPlan plan;
+  profile::SynthesisResult synthesis;
+  solid::Pulley pulley;
+  kit::KitPlan plan;
 };
 
 Model model_of(const std::string& profile, const std::vector<Setting>& settings = {}) {
   const MechanismFile file =
       read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (profile + ".toml"), settings);
-  const JointAsItIs joint = as_it_is(file.mechanism);
-  Model model{joint.mechanism, synthesise(joint.mechanism, {.advice = false}), {}, {}};
-  draw_for_making(model.synthesis, joint.outline);
-  model.pulley = make_pulley(joint.mechanism, model.synthesis);
-  model.plan = plan_kit(joint.mechanism, model.synthesis, model.pulley.layout);
+  const joint::JointAsItIs joint = joint::as_it_is(file.mechanism);
+  Model model{joint.mechanism, profile::synthesise(joint.mechanism, {.advice = false}), {}, {}};
+  joint::draw_for_making(model.synthesis, joint.outline);
+  model.pulley = solid::make_pulley(joint.mechanism, model.synthesis);
+  model.plan = kit::plan_kit(joint.mechanism, model.synthesis, model.pulley.layout);
   return model;
 }
 
@@ -71,9 +71,9 @@ std::vector<Vec2> dotted(const std::vector<Vec2>& path, bool closed) {
   return dots;
 }
 
-TriangleMesh pulley_standing(const Model& model, double alpha) {
-  TriangleMesh mesh = model.pulley.mesh;
-  const Vec2 axis = pulley_axis(model.mechanism);
+solid::TriangleMesh pulley_standing(const Model& model, double alpha) {
+  solid::TriangleMesh mesh = model.pulley.mesh;
+  const Vec2 axis = formats::pulley_axis(model.mechanism);
   for (Vec3& v : mesh.vertices) {
     v /= model.pulley.layout.scale;
     const Vec2 at = axis + turned(Vec2(v.x(), v.y()), -alpha);
@@ -84,14 +84,15 @@ TriangleMesh pulley_standing(const Model& model, double alpha) {
 
 struct Standing {
   std::string name;
-  TriangleMesh mesh;
+  solid::TriangleMesh mesh;
   bool moves = false;
 };
 
 std::vector<Standing> put_together(const Model& model, double theta, double alpha) {
   std::vector<Standing> all;
-  for (const KitPart& part : model.plan.parts) {
-    for (const KitPlace& place : part.places) all.push_back({part.name, standing(part, place, theta), place.on_link});
+  for (const kit::KitPart& part : model.plan.parts) {
+    for (const kit::KitPlace& place : part.places)
+      all.push_back({part.name, kit::standing(part, place, theta), place.on_link});
   }
   all.push_back({"pulley", pulley_standing(model, alpha), true});
   return all;
@@ -116,8 +117,8 @@ TEST_P(Kit, MovingPartsDoNotCollide) {
     for (double z = low + 0.23; z < high; z += 1.37) {
       std::vector<std::vector<Polygon>> cuts;
       for (const Standing& part : all) {
-        const Bounds box = bounds(part.mesh);
-        cuts.push_back(box.low.z() < z && z < box.high.z() ? section(part.mesh, z) : std::vector<Polygon>());
+        const solid::Bounds box = solid::bounds(part.mesh);
+        cuts.push_back(box.low.z() < z && z < box.high.z() ? solid::section(part.mesh, z) : std::vector<Polygon>());
       }
       for (std::size_t i = 0; i < all.size(); ++i) {
         if (!all[i].moves || cuts[i].empty()) continue;
@@ -141,10 +142,10 @@ TEST_P(Kit, TendonsRunFree) {
   const auto& stroke = model.synthesis.stroke;
   for (const std::size_t place : {std::size_t{0}, stroke.size() / 3, stroke.size() / 2, stroke.size() - 1}) {
     const std::vector<Standing> all = put_together(model, stroke[place].theta, stroke[place].alpha);
-    for (const Side side : {Side::left, Side::right}) {
-      const bool left = side == Side::left;
-      const auto trace = trace_tendon(model.mechanism, left ? model.synthesis.p1 : model.synthesis.p2,
-                                      stroke[place].alpha, stroke[place].theta);
+    for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+      const bool left = side == transmission::Side::left;
+      const auto trace = formats::trace_tendon(model.mechanism, left ? model.synthesis.p1 : model.synthesis.p2,
+                                               stroke[place].alpha, stroke[place].theta);
       ASSERT_TRUE(trace);
       std::vector<Vec2> line = trace->free_path;
       line.pop_back();  // from there it lies in its groove
@@ -158,7 +159,7 @@ TEST_P(Kit, TendonsRunFree) {
            {z - 0.5 * model.mechanism.tendon.diameter, z, z + 0.5 * model.mechanism.tendon.diameter}) {
         for (const Standing& part : all) {
           if (part.name == "pulley" || part.name == (left ? "pin_b_sleeve" : "pin_d_sleeve")) continue;
-          EXPECT_GT(distance(section(part.mesh, height), dotted(line, false)),
+          EXPECT_GT(distance(solid::section(part.mesh, height), dotted(line, false)),
                     0.5 * model.mechanism.tendon.diameter + 0.2)
               << part.name << " touches tendon " << (left ? 1 : 2) << " at theta = " << degrees(stroke[place].theta);
         }
@@ -169,32 +170,32 @@ TEST_P(Kit, TendonsRunFree) {
 
 TEST_P(Kit, PinsMatchTheMechanism) {
   const Model model = model_of(GetParam());
-  for (const KitPin& pin : model.plan.pins) {
-    EXPECT_NEAR((pin.place - pin_centre(model.mechanism, pin.side)).norm(), 0, 1e-9);
+  for (const kit::KitPin& pin : model.plan.pins) {
+    EXPECT_NEAR((pin.place - formats::pin_centre(model.mechanism, pin.side)).norm(), 0, 1e-9);
     // The tendon's plane lies half-way between the collars, in the plane of the pulley's groove.
-    const double groove = pin.side == Side::left ? model.pulley.layout.z_p1 : model.pulley.layout.z_p2;
+    const double groove = pin.side == transmission::Side::left ? model.pulley.layout.z_p1 : model.pulley.layout.z_p2;
     EXPECT_NEAR(0.5 * (pin.gap_low + pin.gap_high), model.plan.sizes.pulley_low + groove, 1e-9);
   }
   // The plate has their holes.
-  const KitPart& base = model.plan.parts.front();
-  const auto loops = section(mesh_of(base.body), 1.0);
-  for (const KitPin& pin : model.plan.pins) EXPECT_FALSE(is_inside(loops, pin.place));
+  const kit::KitPart& base = model.plan.parts.front();
+  const auto loops = solid::section(kit::mesh_of(base.body), 1.0);
+  for (const kit::KitPin& pin : model.plan.pins) EXPECT_FALSE(is_inside(loops, pin.place));
   EXPECT_FALSE(is_inside(loops, Vec2(0, 0)));
-  EXPECT_FALSE(is_inside(loops, pulley_axis(model.mechanism)));
+  EXPECT_FALSE(is_inside(loops, formats::pulley_axis(model.mechanism)));
 }
 
 TEST_P(Kit, PostStandsAtC) {
   const Model model = model_of(GetParam());
-  for (const KitPart& part : model.plan.parts) {
+  for (const kit::KitPart& part : model.plan.parts) {
     if (part.name != "post") continue;
-    for (const TransmissionPoint& at : {model.synthesis.stroke.front(), model.synthesis.stroke.back()}) {
-      const TriangleMesh mesh = standing(part, part.places.front(), at.theta);
-      EXPECT_NEAR(bounds(mesh).low.z(), model.plan.sizes.post_low, 1e-4);
-      const auto loops = section(mesh, model.plan.sizes.z_tendon2);
+    for (const transmission::TransmissionPoint& at : {model.synthesis.stroke.front(), model.synthesis.stroke.back()}) {
+      const solid::TriangleMesh mesh = kit::standing(part, part.places.front(), at.theta);
+      EXPECT_NEAR(solid::bounds(mesh).low.z(), model.plan.sizes.post_low, 1e-4);
+      const auto loops = solid::section(mesh, model.plan.sizes.z_tendon2);
       ASSERT_EQ(loops.size(), 2u);  // waist and bore
       Vec2 middle(0, 0);
       for (const Vec2& point : loops[0]) middle += point / static_cast<double>(loops[0].size());
-      EXPECT_NEAR((middle - attachment(model.mechanism, Side::left, at.theta)).norm(), 0, 0.02);
+      EXPECT_NEAR((middle - formats::attachment(model.mechanism, transmission::Side::left, at.theta)).norm(), 0, 0.02);
     }
   }
 }
@@ -203,9 +204,9 @@ INSTANTIATE_TEST_SUITE_P(Of, Kit, ::testing::Values("forearm", "finger", "wrist_
 
 // ---- advice of rejected kits ----------------------------------------------------------------------------------------
 
-std::string reasons(const KitPlan& plan) {
+std::string reasons(const kit::KitPlan& plan) {
   std::string text;
-  for (const Condition& condition : failed_of(plan.conditions))
+  for (const profile::Condition& condition : profile::failed_of(plan.conditions))
     text += condition.name + ": " + condition.message + "\n";
   return text;
 }
@@ -235,11 +236,11 @@ TEST(KitOfOne, SmallFingerGetsSmallBearings) {
 
 TEST(KitOfOne, CouponHasFiveOfEach) {
   const Model model = model_of("forearm");
-  const TriangleMesh mesh = mesh_of(coupon_body(model.mechanism));
-  for (const Check& check : check_mesh(mesh)) EXPECT_TRUE(check.ok) << check.name << " " << check.where;
+  const solid::TriangleMesh mesh = kit::mesh_of(kit::coupon_body(model.mechanism));
+  for (const Check& check : solid::check_mesh(mesh)) EXPECT_TRUE(check.ok) << check.name << " " << check.where;
   std::vector<double> bores;
   std::size_t pegs = 0;
-  for (const Polygon& loop : section(mesh, 1.0)) {
+  for (const Polygon& loop : solid::section(mesh, 1.0)) {
     Vec2 middle(0, 0);
     for (const Vec2& point : loop) middle += point / static_cast<double>(loop.size());
     if (middle.y() > 40) bores.push_back(2 * distance_to_edges(loop, middle));
@@ -249,7 +250,7 @@ TEST(KitOfOne, CouponHasFiveOfEach) {
   ASSERT_EQ(bores.size(), 5u);
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(bores[static_cast<std::size_t>(i)], 5 + 0.1 * i, 0.03);
   EXPECT_EQ(pegs, 5u);
-  for (const CouponReading& reading : coupon_readings(model.mechanism)) {
+  for (const kit::CouponReading& reading : kit::coupon_readings(model.mechanism)) {
     const std::string key = reading.key.substr(0, reading.key.find(' '));
     if (key.find('.') == std::string::npos) continue;
     EXPECT_NE(find_field(key), nullptr) << key;
@@ -259,16 +260,16 @@ TEST(KitOfOne, CouponHasFiveOfEach) {
 // ---- the verb -------------------------------------------------------------------------------------------------------
 
 TEST(KitOfOne, ChecksEveryWrittenPart) {
-  KitOptions options;
+  pipeline::KitOptions options;
   options.dry_run = true;
   options.folder = std::filesystem::temp_directory_path() / "fusee-kit-test";
-  const KitResult made =
-      kit(read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/paper_optimum.toml"), options);
-  EXPECT_EQ(made.ending, KitEnding::done);
+  const pipeline::KitResult made =
+      pipeline::kit(read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/paper_optimum.toml"), options);
+  EXPECT_EQ(made.ending, pipeline::KitEnding::done);
   EXPECT_FALSE(made.published);
   for (const Check& check : made.product.checks)
     EXPECT_TRUE(check.ok) << check.name << " " << check.value << " " << check.where;
-  for (const KitPart& part : made.product.plan.parts) {
+  for (const kit::KitPart& part : made.product.plan.parts) {
     for (const char* what : {"_open_edges", "_overhang", "_volume_error", "_3mf_deviation"})
       EXPECT_TRUE(std::any_of(made.product.checks.begin(), made.product.checks.end(),
                               [&](const Check& check) { return check.name == part.name + what; }))
@@ -278,25 +279,25 @@ TEST(KitOfOne, ChecksEveryWrittenPart) {
 }
 
 TEST(KitOfOne, TendonLengthCoversItsPath) {
-  KitOptions options;
+  pipeline::KitOptions options;
   options.dry_run = true;
   options.folder = std::filesystem::temp_directory_path() / "fusee-kit-test";
-  const KitResult made =
-      kit(read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml"), options);
-  const Product& product = made.product.pulley;
-  for (const KitCut& cut : kit_cuts(made.product)) {
-    const bool left = cut.side == Side::left;
-    const Outline& outline = left ? product.synthesis.p1 : product.synthesis.p2;
-    const auto trace = trace_tendon(product.joint.mechanism, outline, 0, 0);
+  const pipeline::KitResult made =
+      pipeline::kit(read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml"), options);
+  const formats::Product& product = made.product.pulley;
+  for (const formats::KitCut& cut : formats::kit_cuts(made.product)) {
+    const bool left = cut.side == transmission::Side::left;
+    const profile::Outline& outline = left ? product.synthesis.p1 : product.synthesis.p2;
+    const auto trace = formats::trace_tendon(product.joint.mechanism, outline, 0, 0);
     // Up the post, and along the link to the slide's screw.
     double way = trace->free_length;
     if (left) {
-      const KitSizes& sizes = made.product.plan.sizes;
+      const kit::KitSizes& sizes = made.product.plan.sizes;
       way += sizes.link_low + sizes.link + sizes.flange - sizes.post_low;
       way += 2.5 + sizes.post;
     }
     EXPECT_GT(cut.between_knots, way);
-    EXPECT_LT(cut.between_knots, way + 1.5 * perimeter(parallel(outline, 0)));
+    EXPECT_LT(cut.between_knots, way + 1.5 * perimeter(profile::parallel(outline, 0)));
     EXPECT_GT(cut.cut, cut.between_knots + 100);
   }
 }
@@ -305,25 +306,27 @@ TEST(KitOfOne, TendonLengthCoversItsPath) {
 
 /// Two bearings of the catalogue lie in the link, on a ledge that touches the outer rings only. The ring below the
 /// inner ones passes through the drum.
-void expect_bearings_seated(const KitPlan& plan, const Joint& joint) {
+void expect_bearings_seated(const kit::KitPlan& plan, const Joint& joint) {
   const auto part = [&](const std::string& name) {
-    return std::find_if(plan.parts.begin(), plan.parts.end(), [&](const KitPart& one) { return one.name == name; });
+    return std::find_if(plan.parts.begin(), plan.parts.end(),
+                        [&](const kit::KitPart& one) { return one.name == name; });
   };
   const auto ring = part("bearing_ring"), link = part("link_template"), drum = part("drum");
   const auto bearing = std::find_if(bearing_types().begin(), bearing_types().end(), [&](const BearingType& one) {
-    return std::any_of(plan.items.begin(), plan.items.end(),
-                       [&](const KitItem& item) { return item.what.starts_with("ball bearing " + one.name + " "); });
+    return std::any_of(plan.items.begin(), plan.items.end(), [&](const kit::KitItem& item) {
+      return item.what.starts_with("ball bearing " + one.name + " ");
+    });
   });
   ASSERT_EQ(ring == plan.parts.end(), bearing == bearing_types().end());
   if (ring == plan.parts.end()) return;
-  const auto radius_at = [](const KitPart& one, double z) {
+  const auto radius_at = [](const kit::KitPart& one, double z) {
     double least = 1e9;
-    for (const Polygon& loop : section(standing(one, one.places.front(), 0), one.places.front().z + z)) {
+    for (const Polygon& loop : solid::section(kit::standing(one, one.places.front(), 0), one.places.front().z + z)) {
       if (is_inside({loop}, {0, 0})) least = std::min(least, distance_to_edges(loop, {0, 0}));
     }
     return least;
   };
-  const auto top = [](const KitPart& one) { return one.body.slabs.back().high; };
+  const auto top = [](const kit::KitPart& one) { return one.body.slabs.back().high; };
   EXPECT_NEAR(radius_at(*link, top(*link) - 0.1), 0.5 * bearing->outer, 0.02);
   EXPECT_NEAR(top(*link) - link->body.slabs.front().high, 2 * bearing->width, 1e-9);
   EXPECT_LT(radius_at(*link, 0.5), 0.5 * bearing->outer - 0.2);
@@ -345,11 +348,11 @@ TEST_P(Template, HasAHoleAtEveryAxis) {
   const Mechanism& mechanism = model.mechanism;
   const auto loops_of = [&](const std::string& name) {
     const auto part = std::find_if(model.plan.parts.begin(), model.plan.parts.end(),
-                                   [&](const KitPart& one) { return one.name == name; });
+                                   [&](const kit::KitPart& one) { return one.name == name; });
     if (part == model.plan.parts.end()) return std::vector<Polygon>();
-    const TriangleMesh mesh = standing(*part, part->places.front(), 0);
-    for (const Check& check : check_mesh(mesh)) EXPECT_TRUE(check.ok) << name << ": " << check.name;
-    return section(mesh, part->places.front().z + 1.0);
+    const solid::TriangleMesh mesh = kit::standing(*part, part->places.front(), 0);
+    for (const Check& check : solid::check_mesh(mesh)) EXPECT_TRUE(check.ok) << name << ": " << check.name;
+    return solid::section(mesh, part->places.front().z + 1.0);
   };
   const auto base = loops_of("base_template"), link = loops_of("link_template"), drum = loops_of("drum");
   const Guides& guides = mechanism.guides;
@@ -363,7 +366,7 @@ TEST_P(Template, HasAHoleAtEveryAxis) {
   // All of them, and those of the motor's screws if it fits.
   const auto mounted = std::find_if(motor_types().begin(), motor_types().end(), [&](const MotorType& motor) {
     return std::any_of(model.plan.items.begin(), model.plan.items.end(),
-                       [&](const KitItem& item) { return item.what.starts_with(motor.name + ":"); });
+                       [&](const kit::KitItem& item) { return item.what.starts_with(motor.name + ":"); });
   });
   const std::size_t screws = mounted == motor_types().end() ? 0 : mounted->two_holes ? 2 : 4;
   EXPECT_EQ(base.size(), bored.size() + 1 + screws);
@@ -391,13 +394,13 @@ INSTANTIATE_TEST_SUITE_P(Of, Template,
 
 TEST(TemplatePage, DrawsDrumIdlersAndSheaths) {
   for (const char* profile : {"elbow_idlers", "wrist_sheath"}) {
-    KitOptions options;
+    pipeline::KitOptions options;
     options.dry_run = true;
     options.folder = std::filesystem::temp_directory_path() / "fusee-kit-test";
-    const KitResult made =
-        kit(read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (std::string(profile) + ".toml")),
-            options);
-    ASSERT_EQ(made.ending, KitEnding::done);
+    const pipeline::KitResult made = pipeline::kit(
+        read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (std::string(profile) + ".toml")),
+        options);
+    ASSERT_EQ(made.ending, pipeline::KitEnding::done);
     const auto page = std::find_if(made.outputs.begin(), made.outputs.end(),
                                    [](const OutputFile& file) { return file.name == "kit.html"; });
     ASSERT_NE(page, made.outputs.end());

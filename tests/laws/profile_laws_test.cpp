@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fusee/profile.h"
-#include "transmission/load.h"
 #include "laws/random_mechanism.h"
+#include "transmission/load.h"
 
 namespace fusee {
 namespace {
@@ -24,14 +24,14 @@ bool is_convex(const Polygon& polygon) {
 
 TEST(ProfileLaws, AcceptedProfilesRewindToLaw) {
   expect_law(400, [](const Mechanism& mechanism) {
-    const SynthesisResult result = synthesise(mechanism, {.advice = false});
+    const profile::SynthesisResult result = profile::synthesise(mechanism, {.advice = false});
     if (!result.made()) return false;
     const double half = 0.5 * mechanism.tendon.diameter;
-    const Polygon floor1 = parallel(result.p1, -half);
-    const Polygon floor2 = parallel(result.p2, -half);
+    const Polygon floor1 = profile::parallel(result.p1, -half);
+    const Polygon floor2 = profile::parallel(result.p2, -half);
     RC_ASSERT(is_convex(floor1));
     RC_ASSERT(is_convex(floor2));
-    const RewindResult wound = rewind(mechanism, floor1, floor2);
+    const profile::RewindResult wound = profile::rewind(mechanism, floor1, floor2);
     RC_ASSERT(degrees(wound.max_theta_error) < 0.05);
     RC_ASSERT(wound.max_slack < 0.05);
     return true;
@@ -40,15 +40,15 @@ TEST(ProfileLaws, AcceptedProfilesRewindToLaw) {
 
 /// True if the mechanism is feasible; then it must be convex and rewind to its law.
 bool rewinds_to_its_law(const Mechanism& mechanism) {
-  const SynthesisResult result = synthesise(mechanism, {.advice = false});
-  for (const Condition& condition : result.conditions) RC_ASSERT(condition.ok == condition.message.empty());
+  const profile::SynthesisResult result = profile::synthesise(mechanism, {.advice = false});
+  for (const profile::Condition& condition : result.conditions) RC_ASSERT(condition.ok == condition.message.empty());
   if (!result.made()) return false;
   const double half = 0.5 * mechanism.tendon.diameter;
-  const Polygon floor1 = parallel(result.p1, -half), floor2 = parallel(result.p2, -half);
+  const Polygon floor1 = profile::parallel(result.p1, -half), floor2 = profile::parallel(result.p2, -half);
   RC_ASSERT(is_convex(floor1));
   RC_ASSERT(is_convex(floor2));
   // At a fifth of the arm, position errors are five times as large.
-  const RewindResult wound = rewind(mechanism, floor1, floor2);
+  const profile::RewindResult wound = profile::rewind(mechanism, floor1, floor2);
   RC_ASSERT(degrees(wound.max_theta_error) < 0.02);
   RC_ASSERT(wound.max_slack < 0.005 * mechanism.joint.R);
   return true;
@@ -76,16 +76,18 @@ TEST(ProfileLaws, TorqueLawsRewindToLaw) {
   expect_law(
       300,
       [](const Mechanism& mechanism) {
-        const SynthesisResult result = synthesise(mechanism, {.advice = false});
-        for (const Condition& condition : result.conditions) RC_ASSERT(condition.ok == condition.message.empty());
+        const profile::SynthesisResult result = profile::synthesise(mechanism, {.advice = false});
+        for (const profile::Condition& condition : result.conditions)
+          RC_ASSERT(condition.ok == condition.message.empty());
         if (!result.made()) return false;
         const double half = 0.5 * mechanism.tendon.diameter;
-        const RewindResult wound = rewind(mechanism, parallel(result.p1, -half), parallel(result.p2, -half));
+        const profile::RewindResult wound =
+            profile::rewind(mechanism, profile::parallel(result.p1, -half), profile::parallel(result.p2, -half));
         RC_ASSERT(degrees(wound.max_theta_error) < 0.02);
-        for (const RewindPoint& point : wound.points) {
+        for (const profile::RewindPoint& point : wound.points) {
           if (mechanism.pulley.motor_torque == 0) break;
           const double work = mechanism.pulley.motor_torque * point.alpha;
-          const double torque = load_torque(mechanism, point.theta);
+          const double torque = transmission::load_torque(mechanism, point.theta);
           RC_ASSERT(std::abs(work - work_of_load(mechanism, point.theta)) < radians(0.02) * torque);
         }
         return true;
@@ -95,11 +97,11 @@ TEST(ProfileLaws, TorqueLawsRewindToLaw) {
 
 TEST(ProfileLaws, RejectionsHaveReasons) {
   expect_law(400, [](const Mechanism& mechanism) {
-    const SynthesisResult result = synthesise(mechanism, {.advice = false});
-    const auto failed =
-        std::count_if(result.conditions.begin(), result.conditions.end(), [](const Condition& c) { return !c.ok; });
+    const profile::SynthesisResult result = profile::synthesise(mechanism, {.advice = false});
+    const auto failed = std::count_if(result.conditions.begin(), result.conditions.end(),
+                                      [](const profile::Condition& c) { return !c.ok; });
     RC_ASSERT(result.made() == (failed == 0));
-    for (const Condition& condition : result.conditions) {
+    for (const profile::Condition& condition : result.conditions) {
       RC_ASSERT(condition.ok == condition.message.empty());
       RC_ASSERT(std::isfinite(condition.alpha));
       if (condition.ok) RC_ASSERT(std::isfinite(condition.value));
@@ -110,14 +112,14 @@ TEST(ProfileLaws, RejectionsHaveReasons) {
 
 TEST(ProfileLaws, TendonsClearClosingArc) {
   expect_law(200, [](const Mechanism& mechanism) {
-    const SynthesisResult result = synthesise(mechanism, {.advice = false});
+    const profile::SynthesisResult result = profile::synthesise(mechanism, {.advice = false});
     if (!result.made()) return false;
-    for (const TransmissionPoint& at : result.stroke) {
+    for (const transmission::TransmissionPoint& at : result.stroke) {
       const Vec2 normal1 = unit(at.t1.lower_normal + at.alpha);
       const Vec2 normal2 = unit(at.t2.lower_normal + at.alpha);
-      for (const OutlinePoint& point : result.p1.points)
+      for (const profile::OutlinePoint& point : result.p1.points)
         RC_ASSERT(point.position.dot(normal1) <= at.t1.p + 1e-9 * mechanism.joint.R);
-      for (const OutlinePoint& point : result.p2.points)
+      for (const profile::OutlinePoint& point : result.p2.points)
         RC_ASSERT(point.position.dot(normal2) <= at.t2.p + 1e-9 * mechanism.joint.R);
     }
     return true;
@@ -125,10 +127,10 @@ TEST(ProfileLaws, TendonsClearClosingArc) {
 }
 
 /// Maximum depth of the outline inside a much finer sample of the same curve.
-double deepest_chord(const Outline& outline, const Outline& fine) {
+double deepest_chord(const profile::Outline& outline, const profile::Outline& fine) {
   double deepest = 0;
   std::size_t corner = 0;
-  for (const OutlinePoint& point : fine.points) {
+  for (const profile::OutlinePoint& point : fine.points) {
     // Both polygons run in the same direction, so that the supporting corner for this normal is near the previous one.
     const auto reach = [&](std::size_t i) {
       return outline.points[i % outline.points.size()].position.dot(point.normal);
@@ -143,9 +145,9 @@ double deepest_chord(const Outline& outline, const Outline& fine) {
 TEST(ProfileLaws, ChordsAreWithinTolerance) {
   expect_law(100, [](const Mechanism& mechanism) {
     constexpr double tolerance = 0.01;
-    const SynthesisResult result = synthesise(mechanism, {.tolerance = tolerance, .advice = false});
+    const profile::SynthesisResult result = profile::synthesise(mechanism, {.tolerance = tolerance, .advice = false});
     if (!result.made()) return false;
-    const SynthesisResult fine = synthesise(mechanism, {.tolerance = 1e-5, .advice = false});
+    const profile::SynthesisResult fine = profile::synthesise(mechanism, {.tolerance = 1e-5, .advice = false});
     RC_ASSERT(deepest_chord(result.p1, fine.p1) <= tolerance);
     RC_ASSERT(deepest_chord(result.p2, fine.p2) <= tolerance);
     return true;

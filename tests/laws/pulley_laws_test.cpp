@@ -15,21 +15,21 @@ using testing::expect_law;
 // reason.
 TEST(PulleyLaws, AcceptedPulleysAreValidAndRewind) {
   expect_law(60, [](const Mechanism& mechanism) {
-    const SynthesisResult synthesis = synthesise(mechanism, {.advice = false});
+    const profile::SynthesisResult synthesis = profile::synthesise(mechanism, {.advice = false});
     if (!synthesis.made()) return false;
-    const Pulley pulley = make_pulley(mechanism, synthesis);
+    const solid::Pulley pulley = solid::make_pulley(mechanism, synthesis);
     if (!pulley.made()) {
       RC_ASSERT(std::any_of(pulley.conditions.begin(), pulley.conditions.end(),
-                            [](const Condition& c) { return !c.ok && !c.message.empty(); }));
+                            [](const profile::Condition& c) { return !c.ok && !c.message.empty(); }));
       return false;
     }
-    for (const Check& check : check_pulley(pulley.mesh, mechanism, synthesis, pulley, 0.01)) {
+    for (const Check& check : solid::check_pulley(pulley.mesh, mechanism, synthesis, pulley, 0.01)) {
       RC_LOG() << check.name << " " << check.value << " " << check.limit << " " << check.where << "\n";
       RC_ASSERT(check.ok);
     }
-    const Polygon floor1 = outer_loop(section(pulley.mesh, pulley.layout.z_p1));
-    const Polygon floor2 = outer_loop(section(pulley.mesh, pulley.layout.z_p2));
-    const RewindResult wound = rewind(mechanism, floor1, floor2);
+    const Polygon floor1 = solid::outer_loop(solid::section(pulley.mesh, pulley.layout.z_p1));
+    const Polygon floor2 = solid::outer_loop(solid::section(pulley.mesh, pulley.layout.z_p2));
+    const profile::RewindResult wound = profile::rewind(mechanism, floor1, floor2);
     RC_ASSERT(degrees(wound.max_theta_error) < 0.05);
     RC_ASSERT(wound.max_slack < 0.05);
     return true;

@@ -109,7 +109,8 @@ inline Mechanism random_torque_mechanism() {
     mechanism.joint.theta_max = std::min(mechanism.joint.theta_max, mechanism.load.tilt - radians(20.0));
   const double low = mechanism.joint.theta_min, high = mechanism.joint.theta_max;
   double mean = 0;
-  for (int i = 0; i <= 20; ++i) mean += law_load_torque(mechanism, low + (high - low) * i / 20).value / 21;
+  for (int i = 0; i <= 20; ++i)
+    mean += transmission::law_load_torque(mechanism, low + (high - low) * i / 20).value / 21;
   const double sign = *between(0.0, 1.0) < 0.05 ? -1.0 : 1.0, torque = sign * mean * (high - low) / *between(1.2, 4.0);
   if (*rc::gen::element(true, false)) {
     mechanism.pulley.motor_torque = torque;

@@ -20,20 +20,20 @@ using testing::BruteString;
 using testing::expect_law;
 
 /// Lengths over the range, and arms by their differences, of one tendon.
-void expect_string(const Mechanism& mechanism, const Transmission& law, Side side) {
-  PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
+void expect_string(const Mechanism& mechanism, const transmission::Transmission& law, transmission::Side side) {
+  transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius());
   // Without a drum the string is laid round a tiny circle at the axis, which it never touches while there is an arm.
   if (place.drum == 0) place.drum = 1e-3 * place.R;
-  const double sign = mirror_sign(side), R = place.R;
-  const auto leaves = lift_off(place);
+  const double sign = transmission::mirror_sign(side), R = place.R;
+  const auto leaves = transmission::lift_off(place);
   if (!leaves) return;
   BruteString string(place);
   double before = 0, formula_before = 0;
   for (int i = 0; i <= 8; ++i) {
-    const TransmissionPoint at = law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 8.0));
+    const transmission::TransmissionPoint at = law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 8.0));
     const double theta = sign * at.theta;
-    const TendonPoint& tendon = side == Side::left ? at.t1 : at.t2;
-    const UpperSpan span = upper_span(place, theta);
+    const transmission::TendonPoint& tendon = side == transmission::Side::left ? at.t1 : at.t2;
+    const transmission::UpperSpan span = transmission::upper_span(place, theta);
     // At lift-off the last touching point is arbitrary. The string is coarse where the end is within a few polygon
     // points of the pin.
     if (std::abs(theta - *leaves) < 0.02 || (span.on_drum == 0 && span.free < 0.5 * R)) {
@@ -45,8 +45,9 @@ void expect_string(const Mechanism& mechanism, const Transmission& law, Side sid
     RC_ASSERT(std::abs(tendon.m - span.m) <= 1e-12 * R);
     const double turned = 0.005;
     const double arm = -(string.length(theta + turned) - string.length(theta - turned)) / (2 * turned);
-    const double formula =
-        -(upper_span(place, theta + turned).length - upper_span(place, theta - turned).length) / (2 * turned);
+    const double formula = -(transmission::upper_span(place, theta + turned).length -
+                             transmission::upper_span(place, theta - turned).length) /
+                           (2 * turned);
     RC_ASSERT(std::abs(arm - formula) < 1e-4 * R);
     RC_ASSERT(std::abs(arm - tendon.m) < 0.02 * R);
     string.length(theta);
@@ -59,18 +60,18 @@ TEST(WideLaws, LengthsAgreeWithBruteForceString) {
   expect_law(
       400,
       [](const Mechanism& mechanism) {
-        const Transmission law(mechanism);
+        const transmission::Transmission law(mechanism);
         if (law.dead_centre()) return false;
-        expect_string(mechanism, law, Side::left);
-        expect_string(mechanism, law, Side::right);
+        expect_string(mechanism, law, transmission::Side::left);
+        expect_string(mechanism, law, transmission::Side::right);
         return true;
       },
       testing::random_wide_mechanism);
 }
 
 /// Up, down and home under a load, twice.
-std::vector<JointStep> round_trip(const Transmission& law, double tip_force, int steps) {
-  std::vector<JointStep> way;
+std::vector<joint::JointStep> round_trip(const transmission::Transmission& law, double tip_force, int steps) {
+  std::vector<joint::JointStep> way;
   for (int i = 0; i <= 200; ++i) way.push_back({0.0, tip_force * i / 200, 0.0});
   const auto run = [&](double from, double to) {
     for (int i = 1; i <= steps; ++i) way.push_back({std::lerp(from, to, double(i) / steps), tip_force, 0.0});
@@ -90,8 +91,8 @@ bool loses_no_energy(Mechanism mechanism) {
   mechanism.load = {};
   mechanism.spring = {};
   // The statics does not cover tendons off their pins and hollow pulleys.
-  if (!synthesise(mechanism, {.advice = false}).made()) return false;
-  const Transmission law(mechanism);
+  if (!profile::synthesise(mechanism, {.advice = false}).made()) return false;
+  const transmission::Transmission law(mechanism);
   mechanism.tendon.pretension = *between(5.0, 40.0);
   mechanism.tendon.modulus = *between(5000.0, 50000.0);
   mechanism.guides.mu = *between(0.0, 0.3);
@@ -103,17 +104,18 @@ bool loses_no_energy(Mechanism mechanism) {
     mechanism.guides.bearing_friction = *between(0.001, 0.3);
   }
   const double force = *between(-5.0, 5.0);
-  const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), round_trip(law, force, 1500));
+  const std::vector<joint::EquilibriumPoint> points =
+      joint::follow(joint::joint_model(mechanism), round_trip(law, force, 1500));
   double motor = 0, load = 0, most = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
     // A very soft joint that snaps through loses energy at once; a loose one has no torque.
-    if (points[i].status != EquilibriumStatus::held) return false;
+    if (points[i].status != joint::EquilibriumStatus::held) return false;
     if (std::abs(points[i].theta - law.theta(points[i].alpha)) > radians(5)) return false;
     motor += 0.5 * (points[i].motor_torque + points[i - 1].motor_torque) * (points[i].alpha - points[i - 1].alpha);
     load += 0.5 * (points[i].load_torque + points[i - 1].load_torque) * (points[i].theta - points[i - 1].theta);
     most = std::max(most, std::abs(points[i].motor_torque));
   }
-  const EquilibriumPoint& end = points.back();
+  const joint::EquilibriumPoint& end = points.back();
   const double missing = motor - load - end.stored - end.friction - end.groove_friction;
   RC_LOG() << write_mechanism(DeclaredMechanism(mechanism)) << "missing " << missing << " friction " << end.friction
            << " groove " << end.groove_friction << " stored " << end.stored << " force " << force << " R " << R;
@@ -143,17 +145,18 @@ TEST(WideLaws, PermanentDrumWrapMakesRoundPulleys) {
         const double end1 = radians(90.0) + low - radians(20.0), end2 = -(radians(90.0) - high - radians(20.0));
         mechanism.joint.attachment1 = Attachment{rho * std::sin(-end1), rho * std::cos(end1)};
         mechanism.joint.attachment2 = Attachment{rho * std::sin(-end2), rho * std::cos(end2)};
-        const Transmission law(mechanism);
+        const transmission::Transmission law(mechanism);
         if (law.dead_centre()) return false;
-        for (const Side side : {Side::left, Side::right}) {
-          const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
-          const auto leaves = lift_off(place);
-          const double furthest = side == Side::right ? high : -low;
+        for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+          const transmission::PinPlace place = transmission::pin_place(mechanism, side, mechanism.seen_pitch_radius());
+          const auto leaves = transmission::lift_off(place);
+          const double furthest = side == transmission::Side::right ? high : -low;
           if (!leaves || *leaves < furthest) return false;
         }
         const double radius = rho / mechanism.pulley.ratio;
         for (int i = 0; i <= 20; ++i) {
-          const TransmissionPoint at = law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 20.0));
+          const transmission::TransmissionPoint at =
+              law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 20.0));
           RC_ASSERT(at.t1.m == rho && at.t2.m == rho);
           RC_ASSERT(std::abs(at.t1.p - radius) <= 4e-16 * radius);
           RC_ASSERT(std::abs(at.t2.p - radius) <= 4e-16 * radius);

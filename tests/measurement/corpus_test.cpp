@@ -6,7 +6,7 @@
 #include "fusee/base.h"
 #include "fuzz/measurement_laws.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 TEST(MeasurementCorpus, ReadsOrRefusesEveryFile) {
@@ -30,13 +30,13 @@ TEST(MeasurementCorpus, ReadsOrRefusesEveryFile) {
 
 // Each law detects a deliberately broken run.
 TEST(MeasurementCorpus, LawsDetectBrokenRuns) {
-  fusee::Run run;
+  fusee::measurement::Run run;
   run.samples.resize(3);
   for (std::size_t i = 0; i < 3; ++i) run.samples[i].time = static_cast<double>(i);
   run.has_time = true;
   run.strokes = {{0, 1, 1, 0, false}, {2, 2, -1, 0, false}};
   EXPECT_EQ(testing::broken_law(run), "");
-  fusee::Run other = run;
+  fusee::measurement::Run other = run;
   other.samples[1].theta = std::nan("");
   EXPECT_EQ(testing::broken_law(other), "an angle is no number");
   other = run;
@@ -54,4 +54,4 @@ TEST(MeasurementCorpus, LawsDetectBrokenRuns) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::measurement

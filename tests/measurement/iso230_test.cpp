@@ -6,7 +6,7 @@
 
 #include "fusee/measurement.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 // Worked by hand, three positions, three repeats:
@@ -90,7 +90,7 @@ TEST(Iso230, IsZeroWithoutData) {
 
 TEST(Iso230, InterpolatesResidualsAtPositions) {
   Measurement measurement;
-  fusee::Run run;
+  fusee::measurement::Run run;
   std::vector<double> residuals;
   for (int i = 0; i <= 200; ++i) {
     Sample sample;
@@ -117,4 +117,4 @@ TEST(Iso230, InterpolatesResidualsAtPositions) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -14,7 +14,7 @@
 #include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 using ::testing::HasSubstr;
@@ -46,7 +46,7 @@ double quarter(double alpha) { return 0.25 * alpha; }
 
 struct Parsed {
   Measurement measurement;
-  fusee::Run run;
+  fusee::measurement::Run run;
 };
 
 Parsed parsed(const std::string& text, const MeasurementOptions& options = {}) {
@@ -354,7 +354,7 @@ std::vector<double> dwelling(const std::vector<double>& values, std::size_t ever
   return found;
 }
 
-std::string directions_of(const fusee::Run& run) {
+std::string directions_of(const fusee::measurement::Run& run) {
   std::string signs;
   for (const Stroke& stroke : run.strokes)
     signs += std::string(stroke.partial ? "(" : "") + (stroke.direction > 0 ? "+" : "-") + (stroke.partial ? ")" : "");
@@ -550,7 +550,7 @@ TEST(Measurement, ThinsManyLongFiles) {
   const Scratch one(text, "one"), other(replaced(text, ",6\n", ",5\n"), "other");
   const Measurement measurement = read_measurement({one.path(), other.path()});
   std::size_t kept = 0;
-  for (const fusee::Run& run : measurement.runs) kept += run.samples.size();
+  for (const fusee::measurement::Run& run : measurement.runs) kept += run.samples.size();
   EXPECT_LE(kept, std::size_t{1} << 20);
   EXPECT_GT(kept, std::size_t{1} << 19);
 }
@@ -560,7 +560,7 @@ TEST(Measurement, FileAndTextAgree) {
   const Scratch file(text);
   const Measurement measurement = read_measurement({file.path()});
   ASSERT_THAT(measurement.runs, SizeIs(1));
-  const fusee::Run run = parsed(text).run;
+  const fusee::measurement::Run run = parsed(text).run;
   ASSERT_EQ(measurement.runs[0].samples.size(), run.samples.size());
   for (std::size_t i = 0; i < run.samples.size(); ++i)
     ASSERT_EQ(measurement.runs[0].samples[i].theta, run.samples[i].theta);
@@ -584,7 +584,7 @@ TEST(Measurement, ThinsLongLog) {
 // ---- comparison with the file ---------------------------------------------------------------------------------------
 
 Measurement of_joint(double alpha_factor, double theta_factor, bool exchanged = false) {
-  const Transmission law(testing::forearm());
+  const transmission::Transmission law(testing::forearm());
   Measurement measurement;
   const double most = degrees(law.alpha_max());
   std::string text = exchanged ? "theta_deg,alpha_deg\n" : "alpha_deg,theta_deg\n";
@@ -609,7 +609,7 @@ TEST(MeasurementAgainstDeclared, ReportsSwappedSignedOrRadianColumns) {
 
 TEST(MeasurementAgainstDeclared, RemovesWholeTurns) {
   // An encoder from 0 to 360 deg reads a turn too much below home.
-  const Transmission law(testing::forearm());
+  const transmission::Transmission law(testing::forearm());
   const double most = degrees(law.alpha_max());
   const auto wrapped = [](double value) { return value < 0 ? value + 360 : value; };
   std::string text = "alpha_deg,theta_deg\n";
@@ -642,7 +642,7 @@ TEST(MeasurementAgainstDeclared, RatioRunsStartOnSameTurn) {
 }
 
 TEST(MeasurementAgainstDeclared, ReportsUnsetZero) {
-  const Transmission law(testing::forearm());
+  const transmission::Transmission law(testing::forearm());
   const double most = degrees(law.alpha_max());
   const auto beside = [&](double offset) {
     Measurement measurement;
@@ -713,8 +713,8 @@ TEST(Mounting, IsConstantInRun) {
   const std::string head = "alpha_deg,theta_deg,joint_sensor_turned_deg\n";
   EXPECT_DOUBLE_EQ(parsed(head + "0,0,90\n1,0,\n2,0,90\n").run.mounting.joint_sensor_turned, radians(90.0));
   EXPECT_THAT(error_of(head + "0,0,90\n1,0,0\n"), HasSubstr("changes within the run"));
-  EXPECT_EQ(parsed("alpha_deg,theta_deg\n0,0\n1,0\n").run.mounting, fusee::Mounting{});
+  EXPECT_EQ(parsed("alpha_deg,theta_deg\n0,0\n1,0\n").run.mounting, fusee::joint::Mounting{});
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -7,7 +7,7 @@
 #include "fusee/base.h"
 #include "fusee/measurement.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 /// Parameters of a simulated bench.
@@ -297,4 +297,4 @@ TEST(NoiseFloor, IsLowerBoundWithoutRepeats) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::measurement

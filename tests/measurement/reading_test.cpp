@@ -12,7 +12,7 @@
 #include "measurement/units.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 using ::testing::HasSubstr;
@@ -375,7 +375,7 @@ TEST(LoggedLoads, RequireOneUnit) {
   };
   Measurement measurement;
   EXPECT_EQ(parse_run(logged("load_Nmm"), "a.csv", {}, measurement).samples[3].load, 2);
-  const fusee::Run second = parse_run(logged("load_Nm"), "b.csv", {}, measurement);
+  const fusee::measurement::Run second = parse_run(logged("load_Nm"), "b.csv", {}, measurement);
   EXPECT_EQ(second.samples[3].load, 2000);
   EXPECT_NEAR(second.mean_load, 2000, 1e-9);
   EXPECT_EQ(measurement.load_unit, "Nmm");
@@ -529,4 +529,4 @@ TEST(ColumnNames, StateTheirUnits) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::measurement

@@ -9,7 +9,7 @@
 #include "fusee/measurement.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::measurement {
 namespace {
 
 using ::testing::Each;
@@ -59,7 +59,7 @@ std::string reasons_of(const Measurement& measurement) {
 }
 
 /// Directions from which each dwell is approached: "+40 -40 …", with "·" between strokes.
-std::string stands_of(const fusee::Run& run) {
+std::string stands_of(const fusee::measurement::Run& run) {
   std::string words;
   for (const Segment& segment : run.segments) {
     const int direction = run.strokes[segment.stroke].direction;
@@ -185,7 +185,7 @@ TEST(Segments, LoadLevelsCutStroke) {
     ramped.push_back({alphas[i], 15.0 * static_cast<double>(i) / static_cast<double>(alphas.size())});
     bound.push_back({alphas[i], 5 + 0.1 * alphas[i]});
   }
-  const fusee::Run run = read(stepped).runs[0];
+  const fusee::measurement::Run run = read(stepped).runs[0];
   EXPECT_EQ(run.strokes.size(), 6u);
   EXPECT_GT(run.segments.size(), 9u);
   for (const Segment& segment : run.segments) {
@@ -205,4 +205,4 @@ TEST(Segments, LoadLevelsCutStroke) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::measurement

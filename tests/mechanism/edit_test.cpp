@@ -1,7 +1,6 @@
-#include "fusee/mechanism_file.h"
-
 #include <gmock/gmock.h>
 
+#include "fusee/mechanism_file.h"
 #include "mechanism/mechanism_text.h"
 
 namespace fusee {

@@ -3,8 +3,8 @@
 
 #include <set>
 
-#include "mechanism/effect.h"
 #include "fusee/mechanism_file.h"
+#include "mechanism/effect.h"
 
 namespace fusee {
 namespace {

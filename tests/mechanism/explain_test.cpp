@@ -5,10 +5,10 @@
 #include <regex>
 #include <sstream>
 
-#include "fusee/base.h"
 #include "base/text.h"
-#include "mechanism/catalogue.h"
+#include "fusee/base.h"
 #include "fusee/mechanism_file.h"
+#include "mechanism/catalogue.h"
 
 namespace fusee {
 namespace {

@@ -1,10 +1,9 @@
-#include "fusee/mechanism_file.h"
-
 #include <gmock/gmock.h>
 
 #include <random>
 #include <set>
 
+#include "fusee/mechanism_file.h"
 #include "mechanism/mechanism_text.h"
 
 namespace fusee {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mechanism/catalogue.h"
 #include "fusee/mechanism_file.h"
+#include "mechanism/catalogue.h"
 #include "mechanism/mechanism_text.h"
 
 namespace fusee {

@@ -1,13 +1,12 @@
 // Models for simulators and firmware, compared with independent results: polynomials with known best fits, P1's radius
 // as the rate at which its tendon is wound, and a string pulled taut in steps. Damaged files must be rejected.
-#include "fusee/pipeline.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "fusee/base.h"
 #include "fusee/joint.h"
+#include "fusee/pipeline.h"
 
 namespace {
 
@@ -19,14 +18,14 @@ MechanismFile profile(const std::string& name, const std::vector<Setting>& setti
   return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (name + ".toml"), settings);
 }
 
-ModelResult dry(const MechanismFile& file, ModelOptions options = {}) {
+pipeline::ModelResult dry(const MechanismFile& file, pipeline::ModelOptions options = {}) {
   options.folder = std::filesystem::temp_directory_path() / "fusee-model-test";
   options.dry_run = true;
-  return model(file, options);
+  return pipeline::model(file, options);
 }
 
-std::vector<FitPoint> sampled(double low, double high, double (*f)(double)) {
-  std::vector<FitPoint> points;
+std::vector<model::FitPoint> sampled(double low, double high, double (*f)(double)) {
+  std::vector<model::FitPoint> points;
   for (int i = 0; i <= 2000; ++i) {
     const double x = std::lerp(low, high, i / 2000.0);
     points.push_back({x, f(x)});
@@ -38,28 +37,31 @@ std::vector<FitPoint> sampled(double low, double high, double (*f)(double)) {
 
 TEST(LeastLargestError, MatchesChebyshev) {
   // x^n − T_n/2^(n−1) is the best polynomial of degree n − 1, with the error 2^(1−n).
-  EXPECT_NEAR(least_largest_error(sampled(-1, 1, [](double x) { return x * x * x; }), 2).error, 0.25, 1e-6);
-  EXPECT_NEAR(least_largest_error(sampled(-1, 1, [](double x) { return std::pow(x, 5); }), 4).error, 0.0625, 1e-6);
+  EXPECT_NEAR(model::least_largest_error(sampled(-1, 1, [](double x) { return x * x * x; }), 2).error, 0.25, 1e-6);
+  EXPECT_NEAR(model::least_largest_error(sampled(-1, 1, [](double x) { return std::pow(x, 5); }), 4).error, 0.0625,
+              1e-6);
   //
   // x
   // by a parabola: x² + 1/8.
-  const PolynomialFit corner = least_largest_error(sampled(-1, 1, [](double x) { return std::abs(x); }), 2);
+  const model::PolynomialFit corner =
+      model::least_largest_error(sampled(-1, 1, [](double x) { return std::abs(x); }), 2);
   EXPECT_NEAR(corner.error, 0.125, 1e-6);
   EXPECT_THAT(corner.p.c, ElementsAre(DoubleNear(0.125, 1e-6), DoubleNear(0, 1e-6), DoubleNear(1, 1e-5)));
 }
 
 TEST(LeastLargestError, ReproducesPolynomialOnAnyRange) {
-  const PolynomialFit fit = least_largest_error(sampled(30, 31, [](double x) { return 2 - x + 0.5 * x * x; }), 4);
+  const model::PolynomialFit fit =
+      model::least_largest_error(sampled(30, 31, [](double x) { return 2 - x + 0.5 * x * x; }), 4);
   EXPECT_LT(fit.error, 1e-9);
   for (const double x : {30.0, 30.3, 31.0}) EXPECT_NEAR(fit.p(x), 2 - x + 0.5 * x * x, 1e-9);
 }
 
 TEST(LeastLargestError, ErrorsAlternate) {
-  const std::vector<FitPoint> points = sampled(-0.3, 2, [](double x) { return std::exp(x); });
-  const PolynomialFit fit = least_largest_error(points, 4);
+  const std::vector<model::FitPoint> points = sampled(-0.3, 2, [](double x) { return std::exp(x); });
+  const model::PolynomialFit fit = model::least_largest_error(points, 4);
   int alternations = 0;
   double last = 0;
-  for (const FitPoint& point : points) {
+  for (const model::FitPoint& point : points) {
     const double error = point.y - fit.p(point.x);
     EXPECT_LE(std::abs(error), fit.error * (1 + 1e-6));
     if (std::abs(error) > 0.999 * fit.error && error * last <= 0) {
@@ -71,7 +73,7 @@ TEST(LeastLargestError, ErrorsAlternate) {
 }
 
 /// θ of an equality, solved by bisection and independently of the model.
-double theta_of(const EqualityFit& fit, double alpha) {
+double theta_of(const model::EqualityFit& fit, double alpha) {
   if (fit.of_alpha) return fit.p(alpha);
   double low = -2, high = 2;
   for (int i = 0; i < 80; ++i) {
@@ -85,8 +87,8 @@ class OfProfile : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(OfProfile, EqualityErrorsAreTrue) {
   const MechanismFile file = profile(GetParam());
-  const AngleMap map = joint_curves(file.mechanism)->physical.middle;
-  for (const EqualityFit& fit : {fit_equality(map), fit_line(map)}) {
+  const model::AngleMap map = model::joint_curves(file.mechanism)->physical.middle;
+  for (const model::EqualityFit& fit : {model::fit_equality(map), model::fit_line(map)}) {
     double largest = 0;
     for (int i = 0; i <= 777; ++i) {
       const double alpha = std::lerp(map.alpha_min, map.alpha_max, i / 777.0);
@@ -99,7 +101,7 @@ TEST_P(OfProfile, EqualityErrorsAreTrue) {
 
 /// Length of a taut string from C over a pin to the anchor. Its middle is a chain of points outside the pin, shortened
 /// link by link without tangents.
-double taut(const WrappedTendon& tendon, const Vec2& C) {
+double taut(const model::WrappedTendon& tendon, const Vec2& C) {
   constexpr int links = 400;
   const Vec2 outward = (tendon.outer - tendon.pin).normalized();
   // Over the outer side, the chain's points lie on rays from the pin between the directions of C and of the anchor.
@@ -134,11 +136,11 @@ double taut(const WrappedTendon& tendon, const Vec2& C) {
 class Taut : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Taut, LengthsMatchTautString) {
-  const ModelResult made = dry(profile(GetParam()));
+  const pipeline::ModelResult made = dry(profile(GetParam()));
   ASSERT_TRUE(made.product.tendons);
-  const TendonModel& tendons = *made.product.tendons;
-  const WrappedTendon& held = tendons.tendons[tendons.constrained == Side::left ? 0 : 1];
-  const AngleMap& map = made.product.curves.physical.middle;
+  const model::TendonModel& tendons = *made.product.tendons;
+  const model::WrappedTendon& held = tendons.tendons[tendons.constrained == transmission::Side::left ? 0 : 1];
+  const model::AngleMap& map = made.product.curves.physical.middle;
   for (int i = 0; i <= 6; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, i / 6.0), theta = map.theta(alpha);
     const Vec2 end(std::cos(theta) * held.end.x() + std::sin(theta) * held.end.y(),
@@ -152,10 +154,10 @@ TEST_P(Taut, LengthsMatchTautString) {
 
 TEST_P(OfProfile, RoundP1HasItsRadius) {
   const MechanismFile file = profile(GetParam());
-  const TendonModel tendons = *dry(file).product.tendons;
+  const model::TendonModel tendons = *dry(file).product.tendons;
   if (file.mechanism.pulley.law == Law::compensate) {
     // α(θ) = (L1(θ) − L1(0))/r1.
-    EXPECT_EQ(tendons.constrained, Side::left);
+    EXPECT_EQ(tendons.constrained, transmission::Side::left);
     EXPECT_THAT(tendons.length.c, ElementsAre(DoubleNear(0, 1e-9), DoubleNear(file.mechanism.pulley.r1, 1e-9)));
     EXPECT_LT(tendons.error, 1e-12);
   } else {
@@ -177,31 +179,31 @@ INSTANTIATE_TEST_SUITE_P(Of, Taut,
 /// The path by sites and one cylinder. The length wound on a drum is its radius times the joint's angle.
 TEST(Tendons, DrumTendonsFollowWoundLength) {
   for (const char* name : {"finger_mcp", "elbow_capstan"}) {
-    const ModelResult made = dry(profile(name));
+    const pipeline::ModelResult made = dry(profile(name));
     ASSERT_TRUE(made.product.tendons) << name;
-    const TendonModel& tendons = *made.product.tendons;
+    const model::TendonModel& tendons = *made.product.tendons;
     const double rho = made.product.mechanism.drum_pitch_radius();
-    for (const WrappedTendon& tendon : tendons.tendons) {
+    for (const model::WrappedTendon& tendon : tendons.tendons) {
       EXPECT_EQ(tendon.drum, rho);
       // Every place on the link lies on the drum, and the tendon leaves it for a place further out.
       for (const Vec2& at : tendon.on_drum) EXPECT_NEAR(at.norm(), rho, 1e-5 * rho);
       EXPECT_GT(tendon.off_drum.norm(), 1.001 * rho);
       EXPECT_GT(tendon.drum_outer.norm(), rho);
     }
-    const AngleMap& map = made.product.curves.physical.middle;
-    const double sign = tendons.constrained == Side::left ? 1 : -1;
+    const model::AngleMap& map = made.product.curves.physical.middle;
+    const double sign = tendons.constrained == transmission::Side::left ? 1 : -1;
     EXPECT_NEAR(tendons.length.slope(0), sign * rho * map.slope(0), 1e-6 * rho);
     EXPECT_LT(tendons.error, 1e-8);
   }
 }
 
 TEST(Tendons, OmitsTendonLeavingDrumWithReason) {
-  const ModelResult pip = dry(profile("finger_pip"));
+  const pipeline::ModelResult pip = dry(profile("finger_pip"));
   ASSERT_TRUE(pip.product.tendons);
-  EXPECT_EQ(pip.product.tendons->constrained, Side::right);
+  EXPECT_EQ(pip.product.tendons->constrained, transmission::Side::right);
   EXPECT_THAT(pip.product.tendons->omission[0], ::testing::HasSubstr("leaves the drum within the range"));
   EXPECT_THAT(pip.product.notes, ::testing::Contains(::testing::HasSubstr("omits tendon 1")));
-  const ModelResult elbow = dry(profile("elbow_idlers"));
+  const pipeline::ModelResult elbow = dry(profile("elbow_idlers"));
   EXPECT_FALSE(elbow.product.tendons);
   EXPECT_THAT(elbow.product.without_tendons, ::testing::HasSubstr("leaves the drum within the range"));
 }
@@ -213,23 +215,23 @@ TEST(Tendons, FollowWideRanges) {
                                                 {"guides.OE_mm", "0"},
                                                 {"guides.EB_mm", "25"},
                                                 {"guides.ED_mm", "30"}});
-  const Transmission law(file.mechanism);
+  const transmission::Transmission law(file.mechanism);
   ASSERT_FALSE(law.dead_centre());
-  const AngleMap map = angle_map(law);
+  const model::AngleMap map = model::angle_map(law);
   std::string why_not;
-  const auto model = tendon_model(file.mechanism, map, why_not);
+  const auto model = model::tendon_model(file.mechanism, map, why_not);
   ASSERT_TRUE(model) << why_not;
-  const WrappedTendon& held = model->tendons[0];
-  EXPECT_EQ(model->constrained, Side::left);
-  EXPECT_LT(tendon_error(held, model->length, map), 1e-9);
+  const model::WrappedTendon& held = model->tendons[0];
+  EXPECT_EQ(model->constrained, transmission::Side::left);
+  EXPECT_LT(model::tendon_error(held, model->length, map), 1e-9);
 }
 
 // ---- curves ---------------------------------------------------------------------------------------------------------
 
 TEST(JointCurve, DeclaredJointFollowsItsLaw) {
   const MechanismFile file = profile("forearm");
-  const Transmission law(file.mechanism);
-  const JointCurves curves = *joint_curves(file.mechanism);
+  const transmission::Transmission law(file.mechanism);
+  const model::JointCurves curves = *model::joint_curves(file.mechanism);
   EXPECT_FALSE(curves.sensed.ways);
   for (const double alpha : {-1.9, 0.0, 0.7, 2.0}) {
     EXPECT_EQ(curves.sensed.middle.theta(alpha), law.theta(alpha));
@@ -241,7 +243,7 @@ TEST(JointCurve, DeclaredJointFollowsItsLaw) {
 TEST(JointCurve, HysteresisEqualsPlay) {
   const MechanismFile file =
       profile("forearm", {{"identified.backlash_deg", "1.5"}, {"guides.friction", "0"}, {"pulley.friction", "0"}});
-  const JointCurve curve = joint_curves(file.mechanism)->sensed;
+  const model::JointCurve curve = model::joint_curves(file.mechanism)->sensed;
   ASSERT_TRUE(curve.ways);
   for (const double theta : {-0.4, -0.1, 0.2, 0.45})
     EXPECT_NEAR(degrees((*curve.ways)[0].alpha(theta) - (*curve.ways)[1].alpha(theta)), 1.5, 0.01);
@@ -250,17 +252,17 @@ TEST(JointCurve, HysteresisEqualsPlay) {
 TEST(JointCurve, SensorGainAffectsFirmwareOnly) {
   const MechanismFile file =
       profile("forearm", {{"identified.gain_percent", "2"}, {"guides.friction", "0"}, {"pulley.friction", "0"}});
-  const JointCurves curves = *joint_curves(file.mechanism);
+  const model::JointCurves curves = *model::joint_curves(file.mechanism);
   for (const double alpha : {-1.5, 0.3, 1.0})
     EXPECT_NEAR(curves.sensed.middle.theta(alpha), 1.02 * curves.physical.middle.theta(alpha), radians(0.002));
 }
 
 TEST(Compensation, KeepsShapeOfLawBetweenRows) {
   const MechanismFile file = profile("forearm");
-  const Transmission law(file.mechanism);
-  std::vector<TwoWayRow> rows;
+  const transmission::Transmission law(file.mechanism);
+  std::vector<model::TwoWayRow> rows;
   for (int i = -5; i <= 5; ++i) rows.push_back({0.1 * i, law.alpha(0.1 * i) + 0.01, law.alpha(0.1 * i) - 0.01});
-  const JointCurve curve = two_way_curve(refined(rows, law), CurveSource::compensation);
+  const model::JointCurve curve = model::two_way_curve(model::refined(rows, law), model::CurveSource::compensation);
   for (const double theta : {-0.45, 0.03, 0.22}) {
     EXPECT_NEAR((*curve.ways)[0].alpha(theta), law.alpha(theta) + 0.01, 1e-6);
     EXPECT_NEAR((*curve.ways)[1].alpha(theta), law.alpha(theta) - 0.01, 1e-6);
@@ -269,7 +271,7 @@ TEST(Compensation, KeepsShapeOfLawBetweenRows) {
 
 TEST(Compensation, ReadsOrRejectsAnyBytes) {
   const std::string sound = "theta_deg,alpha_up_deg,alpha_down_deg\n-5,-20,-21\n# a comment\n0,1,-1\n5,22.5,19\n";
-  ASSERT_EQ(read_compensation(sound, "c.csv").size(), 3u);
+  ASSERT_EQ(model::read_compensation(sound, "c.csv").size(), 3u);
   std::uint32_t state = 1;
   const auto next = [&state](std::uint32_t below) {
     state = state * 1664525u + 1013904223u;
@@ -287,7 +289,7 @@ TEST(Compensation, ReadsOrRejectsAnyBytes) {
       if (text.empty()) text = "\n";
     }
     try {
-      const std::vector<TwoWayRow> rows = read_compensation(text, "c.csv");
+      const std::vector<model::TwoWayRow> rows = model::read_compensation(text, "c.csv");
       ASSERT_GE(rows.size(), 2u);
       for (std::size_t k = 1; k < rows.size(); ++k)
         ASSERT_TRUE(rows[k].theta > rows[k - 1].theta && rows[k].up > rows[k - 1].up &&
@@ -301,26 +303,26 @@ TEST(Compensation, ReadsOrRejectsAnyBytes) {
 // ---- tables ---------------------------------------------------------------------------------------------------------
 
 TEST(Table, StraightLineIsExact) {
-  const ModelResult made = dry(profile("linear_wrist"));
+  const pipeline::ModelResult made = dry(profile("linear_wrist"));
   EXPECT_EQ(made.product.table.pieces, 16);
   EXPECT_LT(degrees(made.product.table.errors.returned), 1e-5);
 }
 
 TEST(Table, ErrorQuartersWithTwiceThePieces) {
   const MechanismFile file = profile("paper_optimum");
-  const JointCurve curve = joint_curves(file.mechanism)->sensed;
-  const JointTable coarse = *joint_table(curve, file.mechanism, {}, radians(0.05)),
-                   fine = *joint_table(curve, file.mechanism, {}, radians(0.002));
+  const model::JointCurve curve = model::joint_curves(file.mechanism)->sensed;
+  const model::JointTable coarse = *model::joint_table(curve, file.mechanism, {}, radians(0.05)),
+                          fine = *model::joint_table(curve, file.mechanism, {}, radians(0.002));
   ASSERT_EQ(coarse.pieces, 16);
   ASSERT_EQ(fine.pieces, 64);
   EXPECT_NEAR(coarse.errors.theta / fine.errors.theta, 16, 3);
 }
 
 TEST(Table, RejectsRangeBeyondFloats) {
-  ModelOptions options;
+  pipeline::ModelOptions options;
   options.most_table_error = radians(1e-6);
-  const ModelResult made = dry(profile("forearm"), options);
-  EXPECT_EQ(made.ending, ModelEnding::table_off);
+  const pipeline::ModelResult made = dry(profile("forearm"), options);
+  EXPECT_EQ(made.ending, pipeline::ModelEnding::table_off);
   EXPECT_TRUE(made.outputs.empty());
   ASSERT_EQ(made.changes.size(), 1u);
 }
@@ -344,8 +346,8 @@ struct Broken {
 };
 
 TEST(Files, DetectsDamagedFiles) {
-  const ModelResult made = dry(profile("forearm"));
-  ASSERT_EQ(made.ending, ModelEnding::done);
+  const pipeline::ModelResult made = dry(profile("forearm"));
+  ASSERT_EQ(made.ending, pipeline::ModelEnding::done);
   for (const Broken& broken :
        std::vector<Broken>{{"joint.xml", "polycoef=\"0.0003", "polycoef=\"0.0303", "joint_xml_theta_error"},
                            {"joint.xml", "joint2=\"theta\"", "joint2=\"alpha\"", "joint_xml_theta_error"},
@@ -365,12 +367,12 @@ TEST(Files, DetectsDamagedFiles) {
       output.bytes.replace(at, broken.from.size(), broken.to);
     }
     value_of(made.product.checks, broken.check, true);
-    value_of(check_model(made.product, outputs), broken.check, false);
+    value_of(formats::check_model(made.product, outputs), broken.check, false);
   }
 }
 
 TEST(Files, StateTheirAssumptions) {
-  const ModelResult made = dry(profile("finger", {{"load.mass_kg", "0"}}));
+  const pipeline::ModelResult made = dry(profile("finger", {{"load.mass_kg", "0"}}));
   for (const OutputFile& output : made.outputs) {
     const bool simulated =
         output.name.find(".xml") != std::string::npos || output.name.find(".urdf") != std::string::npos;

@@ -1,15 +1,14 @@
-#include "fusee/optimize.h"
-
 #include <gmock/gmock.h>
 
 #include "fusee/base.h"
+#include "fusee/optimize.h"
 #include "fusee/profile.h"
 #include "optimize/bound.h"
 #include "optimize/problem_text.h"
 #include "optimize/random.h"
 #include "profile/feasibility.h"
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 using fusee::testing::paper_problem;
@@ -500,7 +499,7 @@ TEST(Certified, FeasibleOptimumIsDrawable) {
   const CertifiedResult result = certified_optimum(problem, Objective::max_tension, options);
   ASSERT_TRUE(result.found);
   EXPECT_TRUE(result.proven) << result.relative_gap << " after " << result.boxes;
-  EXPECT_TRUE(synthesise(mechanism_at(problem, result.best)).made());
+  EXPECT_TRUE(profile::synthesise(mechanism_at(problem, result.best)).made());
   Random random(3);
   for (int i = 0; i < 300; ++i) {
     const Evaluation evaluation = evaluate_design(problem, Objective::max_tension, random_design(problem, random));
@@ -581,9 +580,9 @@ TEST(Feasible, FastTestAgreesWithSynthesis) {
   int made = 0, refused = 0;
   for (int i = 0; i < 150; ++i) {
     const Mechanism mechanism = mechanism_at(problem, random_design(problem, random));
-    const Transmission transmission(mechanism);
-    const bool is_made = attempt(mechanism, transmission).feasible();
-    EXPECT_EQ(!obstacle_to(mechanism), is_made);
+    const transmission::Transmission transmission(mechanism);
+    const bool is_made = profile::attempt(mechanism, transmission).feasible();
+    EXPECT_EQ(!profile::obstacle_to(mechanism), is_made);
     ++(is_made ? made : refused);
   }
   EXPECT_GT(made, 5);
@@ -602,7 +601,7 @@ TEST(Genetic, FeasibleDesignIsDrawable) {
   options.generations = 5;
   const GeneticResult result = genetic_optimum(problem, Objective::max_tension, options);
   ASSERT_TRUE(result.found) << result.reason;
-  EXPECT_TRUE(synthesise(mechanism_at(problem, result.best)).made());
+  EXPECT_TRUE(profile::synthesise(mechanism_at(problem, result.best)).made());
 }
 
 TEST(Pareto, FrontIsNonDominated) {
@@ -623,4 +622,4 @@ TEST(Pareto, FrontIsNonDominated) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::optimize

@@ -1,16 +1,15 @@
-#include "fusee/optimize.h"
-
 #include <gmock/gmock.h>
 
 #include "fusee/base.h"
 #include "fusee/mechanism_file.h"
+#include "fusee/optimize.h"
 #include "fusee/transmission.h"
 #include "optimize/objective_at.h"
 #include "optimize/problem_text.h"
 #include "support/mechanisms.h"
 #include "transmission/interval.h"
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 using testing::paper_problem;
@@ -18,14 +17,14 @@ using testing::paper_problem;
 /// Maximum of a value of the paper's formulas over a fine stroke, by Transmission: an independent route.
 template <typename Value>
 double largest(const Mechanism& mechanism, Value value) {
-  const Transmission transmission(mechanism);
+  const transmission::Transmission transmission(mechanism);
   Mechanism loaded = mechanism;
   loaded.load.tip_force = 1.0;
   double most = -1e300;
   for (int i = 0; i <= 2000; ++i) {
     const double theta = mechanism.joint.theta_min + (mechanism.joint.theta_max - mechanism.joint.theta_min) * i / 2000;
-    const TransmissionPoint point = transmission.at_theta(theta);
-    most = std::max(most, value(point, paper_forces(loaded, point)));
+    const transmission::TransmissionPoint point = transmission.at_theta(theta);
+    most = std::max(most, value(point, transmission::paper_forces(loaded, point)));
   }
   return most;
 }
@@ -60,17 +59,17 @@ TEST(Objectives, ScaleWithTheirUnits) {
 /// All derivatives used by the proof, compared with finite differences.
 TEST(Formulas, DerivativesAgreeWithDifferences) {
   const FileNumbers<double> at = file_numbers(testing::forearm());
-  using Member = std::pair<double FileNumbers<double>::*, Jet FileNumbers<Jet>::*>;
-  const std::vector<Member> members = {{&FileNumbers<double>::R, &FileNumbers<Jet>::R},
-                                       {&FileNumbers<double>::EB, &FileNumbers<Jet>::EB},
-                                       {&FileNumbers<double>::ED, &FileNumbers<Jet>::ED},
-                                       {&FileNumbers<double>::OE, &FileNumbers<Jet>::OE},
-                                       {&FileNumbers<double>::EF, &FileNumbers<Jet>::EF},
-                                       {&FileNumbers<double>::r1, &FileNumbers<Jet>::r1},
-                                       {&FileNumbers<double>::mu, &FileNumbers<Jet>::mu},
-                                       {&FileNumbers<double>::radius, &FileNumbers<Jet>::radius},
-                                       {&FileNumbers<double>::diameter, &FileNumbers<Jet>::diameter},
-                                       {&FileNumbers<double>::theta_min, &FileNumbers<Jet>::theta_min}};
+  using Member = std::pair<double FileNumbers<double>::*, transmission::Jet FileNumbers<transmission::Jet>::*>;
+  const std::vector<Member> members = {{&FileNumbers<double>::R, &FileNumbers<transmission::Jet>::R},
+                                       {&FileNumbers<double>::EB, &FileNumbers<transmission::Jet>::EB},
+                                       {&FileNumbers<double>::ED, &FileNumbers<transmission::Jet>::ED},
+                                       {&FileNumbers<double>::OE, &FileNumbers<transmission::Jet>::OE},
+                                       {&FileNumbers<double>::EF, &FileNumbers<transmission::Jet>::EF},
+                                       {&FileNumbers<double>::r1, &FileNumbers<transmission::Jet>::r1},
+                                       {&FileNumbers<double>::mu, &FileNumbers<transmission::Jet>::mu},
+                                       {&FileNumbers<double>::radius, &FileNumbers<transmission::Jet>::radius},
+                                       {&FileNumbers<double>::diameter, &FileNumbers<transmission::Jet>::diameter},
+                                       {&FileNumbers<double>::theta_min, &FileNumbers<transmission::Jet>::theta_min}};
   for (const ObjectiveInfo& info : objectives()) {
     if (!info.certifiable) continue;
     for (const bool point_pins : {false, true}) {
@@ -78,18 +77,19 @@ TEST(Formulas, DerivativesAgreeWithDifferences) {
         const auto value = [&, number = number](double shift) {
           FileNumbers<double> shifted = at;
           shifted.*number += shift;
-          Domain domain;
+          transmission::Domain domain;
           return objective_at(info.objective, design_numbers(shifted, Law::compensate, point_pins), 0.1, domain);
         };
         const double step = 1e-5;
         const double difference = (value(step) - value(-step)) / (2 * step);
-        const RoundingUp rounding;
-        FileNumbers<Jet> jets{at.R,  at.EB,     at.ED,       at.OE,      at.EF,        at.r1,       at.ratio,
-                              at.mu, at.radius, at.diameter, at.modulus, at.theta_min, at.theta_max};
-        jets.*jet = Jet::variable(at.*number, 0, 1);
-        Domain domain;
-        const Jet result =
-            objective_at(info.objective, design_numbers(jets, Law::compensate, point_pins), Jet(0.1), domain);
+        const transmission::RoundingUp rounding;
+        FileNumbers<transmission::Jet> jets{at.R,       at.EB,        at.ED,       at.OE,     at.EF,
+                                            at.r1,      at.ratio,     at.mu,       at.radius, at.diameter,
+                                            at.modulus, at.theta_min, at.theta_max};
+        jets.*jet = transmission::Jet::variable(at.*number, 0, 1);
+        transmission::Domain domain;
+        const transmission::Jet result = objective_at(info.objective, design_numbers(jets, Law::compensate, point_pins),
+                                                      transmission::Jet(0.1), domain);
         const double slope = result.count == 0 ? 0.0 : result.slope[0].lower();
         EXPECT_NEAR(slope, difference, 1e-6 * (1 + std::abs(difference))) << info.name;
       }
@@ -167,4 +167,4 @@ TEST(Problem, RejectsVariableWithoutEffect) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::optimize

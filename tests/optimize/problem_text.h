@@ -34,11 +34,12 @@ tied = ["guides.EB_mm = guides.ED_mm"]
 constraints = ["guides.EB_mm <= 0.5 * joint.length_mm"]
 )";
 
-inline Problem paper_problem(const std::vector<Setting>& settings = {}, const std::string& text = k_paper_problem) {
+inline optimize::Problem paper_problem(const std::vector<Setting>& settings = {},
+                                       const std::string& text = k_paper_problem) {
   MechanismFile file;
   file.path = "paper.toml";
   file.mechanism = parse_mechanism(text, file.path, ".", settings);
-  return make_problem(file);
+  return optimize::make_problem(file);
 }
 
 }  // namespace fusee::testing

@@ -7,7 +7,7 @@
 #include "profile/take_off.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 /// min max over two lines and one condition, solved by hand: t = max(x, 1 − x) with x + y <= 0.4 gives x = 0.4, t =
@@ -70,7 +70,7 @@ TEST(LinesBelow, ProveOnlyValidBounds) {
 /// The formulas of a proof, for a box that is a design, agree with those that draw a pulley.
 TEST(Conditions, AgreeWithDrawing) {
   for (const Mechanism& mechanism : {testing::forearm(), testing::linear_wrist(), testing::unsymmetric()}) {
-    const Transmission transmission(mechanism);
+    const transmission::Transmission transmission(mechanism);
     const auto d = design_numbers(file_numbers(mechanism), mechanism.pulley.law, mechanism.has_point_pins());
     const double range = mechanism.joint.theta_max - mechanism.joint.theta_min;
     for (const double place : {0.0, 0.3, 0.8, 1.0}) {
@@ -78,13 +78,13 @@ TEST(Conditions, AgreeWithDrawing) {
       ASSERT_TRUE(conditions_at(d, place, k_max_conditions, values));
       const auto value = [&](DesignCondition which) { return values[static_cast<std::size_t>(which)].value; };
       const double theta = mechanism.joint.theta_min + place * range;
-      const TakeOff left = TakeOffs(transmission, Side::left).at(-theta),
-                    right = TakeOffs(transmission, Side::right).at(theta);
+      const profile::TakeOff left = profile::TakeOffs(transmission, transmission::Side::left).at(-theta),
+                             right = profile::TakeOffs(transmission, transmission::Side::right).at(theta);
       EXPECT_NEAR(value(DesignCondition::wrap_B), left.stroke.t1.wrap, 1e-9);
       EXPECT_NEAR(value(DesignCondition::wrap_D), right.stroke.t2.wrap, 1e-9);
       EXPECT_NEAR(value(DesignCondition::advance_1), left.dpsi, 1e-9);
       EXPECT_NEAR(value(DesignCondition::advance_2), right.dpsi, 1e-9);
-      const double least = d.half + k_least_floor_radius;
+      const double least = d.half + profile::k_least_floor_radius;
       EXPECT_NEAR(value(DesignCondition::floor_1), (left.curve.radius - least) * std::pow(left.dpsi, 3), 1e-7);
       EXPECT_NEAR(value(DesignCondition::floor_2), (right.curve.radius - least) * std::pow(right.dpsi, 3), 1e-7);
     }
@@ -92,4 +92,4 @@ TEST(Conditions, AgreeWithDrawing) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::optimize

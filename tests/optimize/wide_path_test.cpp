@@ -5,7 +5,7 @@
 #include "fusee/transmission.h"
 #include "optimize/random.h"
 
-namespace fusee {
+namespace fusee::optimize {
 namespace {
 
 struct Pose {
@@ -19,13 +19,13 @@ Pose random_pose(Random& random) {
 }
 
 /// The path by upper_span().
-UpperSpan span_of(const Pose& pose) {
-  PinPlace place{pose.e, pose.oe, 50, pose.rho, std::hypot(pose.across, pose.along)};
+transmission::UpperSpan span_of(const Pose& pose) {
+  transmission::PinPlace place{pose.e, pose.oe, 50, pose.rho, std::hypot(pose.across, pose.along)};
   place.twist = std::atan2(pose.across, pose.along);
   place.drum = pose.drum;
   place.at_C = false;
   place.R = std::max(place.R, place.drum);
-  return upper_span(place, pose.theta);
+  return transmission::upper_span(place, pose.theta);
 }
 
 TEST(WidePath, AgreesWithTransmission) {
@@ -33,8 +33,8 @@ TEST(WidePath, AgreesWithTransmission) {
   int on_drum = 0, free = 0;
   for (int i = 0; i < 3000; ++i) {
     const Pose pose = random_pose(random);
-    const UpperSpan span = span_of(pose);
-    Domain domain;
+    const transmission::UpperSpan span = span_of(pose);
+    transmission::Domain domain;
     const std::optional<double> drum = pose.drum;
     const TendonEnd<double> end =
         tendon_end(std::hypot(pose.across, pose.along), twist_of(pose.across, pose.along, domain), drum);
@@ -58,38 +58,43 @@ TEST(WidePath, EnclosesPathsInBox) {
   for (int i = 0; i < 2000; ++i) {
     const Pose pose = random_pose(random);
     const double size = std::pow(10.0, -4.0 * random.fraction());
-    const auto interval = [&](double middle, double half) { return Interval(middle - half, middle + half); };
+    const auto interval = [&](double middle, double half) {
+      return transmission::Interval(middle - half, middle + half);
+    };
     const double half_drum = 3 * size, half_end = 5 * size;
-    std::vector<std::pair<Pose, UpperSpan>> inside;
+    std::vector<std::pair<Pose, transmission::UpperSpan>> inside;
     int lying = 0;
     for (int k = 0; k < 10; ++k) {
       Pose one = pose;
       one.drum += half_drum * (2 * random.fraction() - 1);
       one.across += half_end * (2 * random.fraction() - 1);
-      const UpperSpan span = span_of(one);
+      const transmission::UpperSpan span = span_of(one);
       if (!(span.m > 0)) continue;
       lying += span.on_drum > 0;
       inside.emplace_back(one, span);
     }
-    const UpperSpan middle = span_of(pose);
-    const RoundingUp rounding;
-    Domain domain;
-    const Jet across = Jet::variable(interval(pose.across, half_end), 0, 2);
-    const std::optional<Jet> drum = Jet::variable(interval(pose.drum, half_drum), 1, 2);
-    const Jet along(pose.along);
-    const TendonEnd<Jet> end = tendon_end(Jet(hypot(across, along)), twist_of(across, along, domain), drum);
-    const WidePath<Jet> path = wide_path(end, drum, Jet(pose.e), Jet(pose.oe), Jet(pose.rho), Jet(pose.theta), domain);
+    const transmission::UpperSpan middle = span_of(pose);
+    const transmission::RoundingUp rounding;
+    transmission::Domain domain;
+    const transmission::Jet across = transmission::Jet::variable(interval(pose.across, half_end), 0, 2);
+    const std::optional<transmission::Jet> drum = transmission::Jet::variable(interval(pose.drum, half_drum), 1, 2);
+    const transmission::Jet along(pose.along);
+    const TendonEnd<transmission::Jet> end =
+        tendon_end(transmission::Jet(transmission::hypot(across, along)), twist_of(across, along, domain), drum);
+    const WidePath<transmission::Jet> path =
+        wide_path(end, drum, transmission::Jet(pose.e), transmission::Jet(pose.oe), transmission::Jet(pose.rho),
+                  transmission::Jet(pose.theta), domain);
     if (inside.empty()) continue;
     ASSERT_TRUE(domain.possible);
     about_lift_off += lying > 0 && lying < static_cast<int>(inside.size());
     for (const auto& [one, span] : inside) {
-      const auto holds = [&, &one = one](const Jet& jet, double value, double at_middle) {
+      const auto holds = [&, &one = one](const transmission::Jet& jet, double value, double at_middle) {
         constexpr double k_rounding = 1e-9;
         EXPECT_GE(value, jet.value.lower() - k_rounding);
         EXPECT_LE(value, jet.value.upper() + k_rounding);
         if (!domain.whole || !(middle.m > 0)) return;
-        const Interval along_box =
-            jet.slope[0] * Interval(one.across - pose.across) + jet.slope[1] * Interval(one.drum - pose.drum);
+        const transmission::Interval along_box = jet.slope[0] * transmission::Interval(one.across - pose.across) +
+                                                 jet.slope[1] * transmission::Interval(one.drum - pose.drum);
         EXPECT_GE(value - at_middle, along_box.lower() - k_rounding);
         EXPECT_LE(value - at_middle, along_box.upper() + k_rounding);
         ++compared;
@@ -105,4 +110,4 @@ TEST(WidePath, EnclosesPathsInBox) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::optimize

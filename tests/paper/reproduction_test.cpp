@@ -5,7 +5,7 @@
 #include "fusee/optimize.h"
 #include "paper/windows.h"
 
-namespace fusee {
+namespace fusee::paper {
 namespace {
 
 using ::testing::HasSubstr;
@@ -69,8 +69,8 @@ TEST_F(Paper, WindowOfMuIsCorrect) {
                                       {window.high + 0.002, false}}) {
     PaperAssumptions assumptions;
     assumptions.mu = value;
-    const CertifiedResult best =
-        certified_optimum(make_problem(paper_problem_file(assumptions)), Objective::max_tension);
+    const optimize::CertifiedResult best = optimize::certified_optimum(
+        optimize::make_problem(paper_problem_file(assumptions)), optimize::Objective::max_tension);
     const bool table_4 =
         std::abs(best.best[0] - 100) < 1e-3 && std::abs(best.best[1] - 50) < 1e-3 && std::abs(best.best[2] + 40) < 1e-3;
     EXPECT_EQ(table_4, inside) << value;
@@ -99,4 +99,4 @@ TEST_F(Paper, OnlyLinearLawIsStraight) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::paper

@@ -25,7 +25,7 @@ void leave(const std::vector<OutputFile>& outputs, const fs::path& folder) {
 int run(const fs::path& folder, const std::vector<std::string>& wanted) {
   std::map<std::string, Hashes> lists;
   for (const PinnedRun& one : runs()) {
-    if (one.name.rfind(k_step_runs, 0) == 0 && step_missing()) continue;
+    if (one.name.rfind(k_step_runs, 0) == 0 && formats::step_missing()) continue;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), one.name) == wanted.end()) continue;
     const std::vector<OutputFile> outputs = one.outputs();
     leave(outputs, folder / one.name);

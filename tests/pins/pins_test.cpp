@@ -49,7 +49,7 @@ class Outputs : public ::testing::TestWithParam<PinnedRun> {};
 TEST_P(Outputs, MatchPins) {
   const PinnedRun& run = GetParam();
   if (run.name.rfind(k_step_runs, 0) == 0) {
-    if (const auto why = step_missing()) GTEST_SKIP() << *why;
+    if (const auto why = formats::step_missing()) GTEST_SKIP() << *why;
   }
   const std::vector<OutputFile> outputs = run.outputs();
   const std::vector<std::string> words = differences(pinned_of(run.name), hashes_of(run.name, outputs));

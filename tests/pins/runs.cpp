@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "base/text.h"
-#include "fusee/base.h"
 #include "export/report/analysis.h"
 #include "export/report/paper.h"
+#include "fusee/base.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/optimize.h"
 #include "fusee/pipeline.h"
@@ -40,28 +40,28 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& beginn
 
 /// Only the part for CAD: the other files are pinned without it.
 Outputs built_for_cad(const fs::path& spec) {
-  BuildOptions options;
+  pipeline::BuildOptions options;
   options.step = true;
   options.folder = fs::temp_directory_path() / "fusee-pins";
   options.dry_run = true;
-  Outputs outputs = build(read_mechanism(spec), options).outputs;
+  Outputs outputs = pipeline::build(read_mechanism(spec), options).outputs;
   std::erase_if(outputs, [](const OutputFile& file) { return file.name != "pulley.step"; });
   return outputs;
 }
 
-Outputs built(const MechanismFile& file, DxfVersion dxf) {
-  BuildOptions options;
+Outputs built(const MechanismFile& file, formats::DxfVersion dxf) {
+  pipeline::BuildOptions options;
   options.dxf = dxf;
   options.folder = fs::temp_directory_path() / "fusee-pins";
   options.dry_run = true;
-  return build(file, options).outputs;
+  return pipeline::build(file, options).outputs;
 }
 
 Outputs calibration_outputs(const fs::path& spec, const std::vector<fs::path>& measured) {
-  CalibrateOptions options;
+  pipeline::CalibrateOptions options;
   options.folder = fs::temp_directory_path() / "fusee-pins";
   options.dry_run = true;
-  return calibrate(read_mechanism(spec), measured, options).outputs;
+  return pipeline::calibrate(read_mechanism(spec), measured, options).outputs;
 }
 
 /// The pulley of a calibration's corrected.toml.
@@ -73,17 +73,17 @@ Outputs built_corrected(const fs::path& spec, const std::vector<fs::path>& measu
   file.path = corrected->name;
   file.sha256 = sha256(corrected->bytes);
   file.mechanism = parse_mechanism(corrected->bytes, file.path, k_root, {}, &file.warnings);
-  return built(file, DxfVersion::ac1015);
+  return built(file, formats::DxfVersion::ac1015);
 }
 
 /// The new file, and the figures of `fusee optimize` with a fixed number of digits.
 Outputs optimum_outputs(const fs::path& spec) {
-  const Problem problem = make_problem(read_mechanism(spec));
-  const CertifiedResult result = certified_optimum(problem, problem.objectives.front());
+  const optimize::Problem problem = optimize::make_problem(read_mechanism(spec));
+  const optimize::CertifiedResult result = optimize::certified_optimum(problem, problem.objectives.front());
   const std::string said = "value " + rounded(result.value, 7) + "\ntheta_deg " + rounded(degrees(result.theta), 4) +
                            "\nlower_bound " + rounded(result.lower_bound, 8) + "\nboxes " +
                            std::to_string(result.boxes) + "\nevaluations " + std::to_string(result.evaluations) + "\n";
-  return {{"new.toml", edit_values(read_file(spec, k_largest_spec), edits_of(problem, result.best))},
+  return {{"new.toml", edit_values(read_file(spec, k_largest_spec), optimize::edits_of(problem, result.best))},
           {"said.txt", said}};
 }
 
@@ -92,8 +92,8 @@ Outputs optimum_outputs(const fs::path& spec) {
 void add_builds(std::vector<PinnedRun>& all) {
   for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml")) {
     const std::string name = spec.stem().string();
-    all.push_back({"build/" + name, [spec] { return built(read_mechanism(spec), DxfVersion::ac1015); }});
-    all.push_back({"build_r12/" + name, [spec] { return built(read_mechanism(spec), DxfVersion::r12); }});
+    all.push_back({"build/" + name, [spec] { return built(read_mechanism(spec), formats::DxfVersion::ac1015); }});
+    all.push_back({"build_r12/" + name, [spec] { return built(read_mechanism(spec), formats::DxfVersion::r12); }});
   }
 }
 
@@ -117,33 +117,33 @@ void add_analyses(std::vector<PinnedRun>& all) {
   for (const std::string name : {"forearm", "paper_optimum"})
     all.push_back({"analyze/" + name, [name]() -> Outputs {
                      const MechanismFile file = read_mechanism(k_root / "profiles" / (name + ".toml"));
-                     const AnalysisResult result = analyze(file);
-                     return {{"page.html", analysis_html(file, result, {}, result.warnings)},
-                             {"plots.svg", analysis_svg(file, result)}};
+                     const analysis::AnalysisResult result = pipeline::analyze(file);
+                     return {{"page.html", formats::analysis_html(file, result, {}, result.warnings)},
+                             {"plots.svg", formats::analysis_svg(file, result)}};
                    }});
 }
 
 Outputs planned(const fs::path& spec) {
-  PlanFilesOptions options;
+  pipeline::PlanFilesOptions options;
   options.folder = fs::temp_directory_path() / "fusee-pins";
   options.dry_run = true;
-  return plan(read_mechanism(spec), options).outputs;
+  return pipeline::plan(read_mechanism(spec), options).outputs;
 }
 
-Outputs kits(const fs::path& spec, DxfVersion dxf) {
-  KitOptions options;
+Outputs kits(const fs::path& spec, formats::DxfVersion dxf) {
+  pipeline::KitOptions options;
   options.folder = fs::temp_directory_path() / "fusee-pins";
   options.dry_run = true;
   options.dxf = dxf;
-  return kit(read_mechanism(spec), options).outputs;
+  return pipeline::kit(read_mechanism(spec), options).outputs;
 }
 
-Outputs modelled(const MechanismFile& file, const MotorUnit& unit) {
-  ModelOptions options;
+Outputs modelled(const MechanismFile& file, const model::MotorUnit& unit) {
+  pipeline::ModelOptions options;
   options.folder = fs::temp_directory_path() / "fusee-pins";
   options.dry_run = true;
   options.unit = unit;
-  return model(file, options).outputs;
+  return pipeline::model(file, options).outputs;
 }
 
 /// A measured run simulated with play, an eccentric encoder and noise; also with the corrected pulley.
@@ -153,11 +153,12 @@ Outputs simulated() {
       read_mechanism(k_root / "profiles/forearm.toml", {{"identified.backlash_deg", "1"},
                                                         {"identified.pulley_scale_percent", "-1.2"},
                                                         {"identified.joint_eccentricity_sin_deg", "0.5"}});
-  SimulateOptions options;
+  pipeline::SimulateOptions options;
   options.noise = radians(0.02);
-  const std::string now = simulation_csv(simulate(file, log, options).simulation);
+  const std::string now = formats::simulation_csv(pipeline::simulate(file, log, options).simulation);
   options.corrected = true;
-  return {{"now.csv", now}, {"corrected.csv", simulation_csv(simulate(file, log, options).simulation)}};
+  return {{"now.csv", now},
+          {"corrected.csv", formats::simulation_csv(pipeline::simulate(file, log, options).simulation)}};
 }
 
 void add_plans(std::vector<PinnedRun>& all) {
@@ -165,7 +166,8 @@ void add_plans(std::vector<PinnedRun>& all) {
     all.push_back({"plan/" + spec.stem().string(), [spec] { return planned(spec); }});
   for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml")) {
     // One drawing in the old format is enough.
-    const DxfVersion dxf = spec.stem() == "unsymmetric" ? DxfVersion::r12 : DxfVersion::ac1015;
+    const formats::DxfVersion dxf =
+        spec.stem() == "unsymmetric" ? formats::DxfVersion::r12 : formats::DxfVersion::ac1015;
     all.push_back({"kit/" + spec.stem().string(), [spec, dxf] { return kits(spec, dxf); }});
   }
   all.push_back({"simulate/forearm", simulated});
@@ -207,7 +209,7 @@ std::vector<PinnedRun> runs() {
   add_corrected_builds(all);
   add_plans(all);
   add_models(all);
-  all.push_back({"reproduce/paper", [] { return paper_files(reproduce_paper()); }});
+  all.push_back({"reproduce/paper", [] { return formats::paper_files(paper::reproduce_paper()); }});
   all.push_back({"optimize/paper_optimum", [] { return optimum_outputs(k_root / "profiles/paper_optimum.toml"); }});
   return all;
 }

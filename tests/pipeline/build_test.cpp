@@ -45,7 +45,7 @@ class Build : public ::testing::Test {
 
   fs::path scratch_;
   MechanismFile file_;
-  BuildOptions options_;
+  pipeline::BuildOptions options_;
 };
 
 std::vector<std::string> names_of(const std::vector<Check>& checks) {
@@ -61,11 +61,11 @@ std::vector<std::string> names_of(const std::vector<OutputFile>& outputs) {
 }
 
 TEST_F(Build, WritesNamedFiles) {
-  const BuildResult built = build(file_, options_);
-  EXPECT_EQ(built.status, BuildStatus::done);
+  const pipeline::BuildResult built = pipeline::build(file_, options_);
+  EXPECT_EQ(built.status, pipeline::BuildStatus::done);
   EXPECT_TRUE(built.published);
   EXPECT_THAT(names_in(options_.folder), ::testing::UnorderedElementsAreArray(names_of(built.outputs)));
-  EXPECT_THAT(names_of(built.outputs), ::testing::IsSubsetOf(output_names()));
+  EXPECT_THAT(names_of(built.outputs), ::testing::IsSubsetOf(pipeline::output_names()));
   for (const OutputFile& output : built.outputs) {
     EXPECT_EQ(read_file(options_.folder / output.name, std::size_t{1} << 30), output.bytes) << output.name;
   }
@@ -75,43 +75,47 @@ TEST_F(Build, WritesNamedFiles) {
 
 TEST_F(Build, TwoPartsAreInPrintOrientation) {
   file_.mechanism.print.parts = Parts::two;
-  const BuildResult built = build(file_, options_);
-  EXPECT_EQ(built.status, BuildStatus::done);
+  const pipeline::BuildResult built = pipeline::build(file_, options_);
+  EXPECT_EQ(built.status, pipeline::BuildStatus::done);
   EXPECT_THAT(names_in(options_.folder), IsSupersetOf({"pulley.stl", "pulley_p1.stl", "pulley_p2.stl"}));
   const std::string manifest = read_file(options_.folder / "manifest.json", 1 << 20);
   EXPECT_THAT(words_of(manifest),
               HasSubstr(R"("print":[{"file":"pulley_p1.stl","part":"P1"},{"file":"pulley_p2.stl","part":"P2"}])"));
   // The 3mf has both parts side by side.
-  const auto bodies = bodies_of(std::get<TriangleMesh>(read_part(options_.folder / "pulley.3mf")));
+  const auto bodies =
+      solid::bodies_of(std::get<solid::TriangleMesh>(pipeline::read_part(options_.folder / "pulley.3mf")));
   ASSERT_EQ(bodies.size(), 2u);
   double volume = 0;
   for (std::size_t k = 0; k < 2; ++k) {
-    const auto part = std::get<TriangleMesh>(read_part(options_.folder / (k == 0 ? "pulley_p1.stl" : "pulley_p2.stl")));
+    const auto part = std::get<solid::TriangleMesh>(
+        pipeline::read_part(options_.folder / (k == 0 ? "pulley_p1.stl" : "pulley_p2.stl")));
     EXPECT_EQ(bodies[k].triangles.size(), part.triangles.size());
-    EXPECT_NEAR(enclosed_volume(bodies[k]), enclosed_volume(part), 1e-6 * enclosed_volume(part));
-    EXPECT_NEAR(bounds(part).low.z(), 0, 1e-5);
-    volume += enclosed_volume(part);
+    EXPECT_NEAR(solid::enclosed_volume(bodies[k]), solid::enclosed_volume(part), 1e-6 * solid::enclosed_volume(part));
+    EXPECT_NEAR(solid::bounds(part).low.z(), 0, 1e-5);
+    volume += solid::enclosed_volume(part);
   }
-  EXPECT_NEAR(enclosed_volume(std::get<TriangleMesh>(read_part(options_.folder / "pulley.stl"))), volume,
-              1e-6 * volume);
+  EXPECT_NEAR(
+      solid::enclosed_volume(std::get<solid::TriangleMesh>(pipeline::read_part(options_.folder / "pulley.stl"))),
+      volume, 1e-6 * volume);
 }
 
 TEST_F(Build, OnePartWritesNoOther) {
   file_.mechanism.print.parts = Parts::one;
-  const BuildResult built = build(file_, options_);
-  EXPECT_EQ(built.status, BuildStatus::done);
+  const pipeline::BuildResult built = pipeline::build(file_, options_);
+  EXPECT_EQ(built.status, pipeline::BuildStatus::done);
   EXPECT_THAT(names_in(options_.folder), Not(Contains(::testing::StartsWith("pulley_p"))));
   const std::string manifest = read_file(options_.folder / "manifest.json", 1 << 20);
   EXPECT_THAT(words_of(manifest), HasSubstr(R"("print":[{"file":"pulley.stl")"));
   EXPECT_THAT(words_of(manifest), Not(HasSubstr("pulley_p")));
-  EXPECT_EQ(bodies_of(std::get<TriangleMesh>(read_part(options_.folder / "pulley.3mf"))).size(), 1u);
+  EXPECT_EQ(solid::bodies_of(std::get<solid::TriangleMesh>(pipeline::read_part(options_.folder / "pulley.3mf"))).size(),
+            1u);
 }
 
 TEST_F(Build, OnePartRemovesEarlierParts) {
   file_.mechanism.print.parts = Parts::two;
-  build(file_, options_);
+  pipeline::build(file_, options_);
   file_.mechanism.print.parts = Parts::one;
-  const BuildResult built = build(file_, options_);
+  const pipeline::BuildResult built = pipeline::build(file_, options_);
   EXPECT_TRUE(built.published);
   EXPECT_THAT(names_in(options_.folder), ::testing::UnorderedElementsAreArray(names_of(built.outputs)));
 }
@@ -121,8 +125,8 @@ TEST_F(Build, ComparesOverhangsWithLimit) {
   for (const double overhang : {35.0, 55.0}) {
     file_.mechanism.print.overhang = radians(overhang);
     options_.dry_run = true;
-    const BuildResult built = build(file_, options_);
-    EXPECT_EQ(built.status, BuildStatus::done);
+    const pipeline::BuildResult built = pipeline::build(file_, options_);
+    EXPECT_EQ(built.status, pipeline::BuildStatus::done);
     for (const std::string name : {"p1_overhang", "p2_overhang"}) {
       EXPECT_THAT(built.product.checks,
                   Contains(::testing::AllOf(Field(&Check::name, name), Field(&Check::value, ::testing::Ge(overhang)),
@@ -135,8 +139,8 @@ TEST_F(Build, SupportsAllowOverhangs) {
   for (const Parts parts : {Parts::one, Parts::two}) {
     file_.mechanism.print = {parts, radians(45), true};
     options_.dry_run = true;
-    const BuildResult built = build(file_, options_);
-    EXPECT_EQ(built.status, BuildStatus::done);
+    const pipeline::BuildResult built = pipeline::build(file_, options_);
+    EXPECT_EQ(built.status, pipeline::BuildStatus::done);
     EXPECT_THAT(names_of(built.product.checks), Not(Contains(HasSubstr("overhang"))));
   }
 }
@@ -147,7 +151,7 @@ TEST_F(Build, WarnsOfThinWalls) {
     file_.mechanism.print.nozzle = nozzle;
     options_.dry_run = true;
     std::vector<std::string> words;
-    for (const Diagnostic& warning : build(file_, options_).product.file.warnings) {
+    for (const Diagnostic& warning : pipeline::build(file_, options_).product.file.warnings) {
       if (warning.message.find("print.nozzle_mm") != std::string::npos)
         words.push_back(warning.message + " | " + warning.hint);
     }
@@ -166,77 +170,77 @@ TEST_F(Build, WarnsOfThinWalls) {
 }
 
 TEST_F(Build, NamesEveryCheckOnce) {
-  std::vector<std::string> names = names_of(build(file_, options_).product.checks);
+  std::vector<std::string> names = names_of(pipeline::build(file_, options_).product.checks);
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::unique(names.begin(), names.end()), names.end());
 }
 
 TEST_F(Build, IsReproducible) {
-  const BuildResult first = build(file_, options_);
+  const pipeline::BuildResult first = pipeline::build(file_, options_);
   options_.folder = scratch_ / "again";
-  const BuildResult second = build(file_, options_);
+  const pipeline::BuildResult second = pipeline::build(file_, options_);
   for (std::size_t i = 0; i < first.outputs.size(); ++i)
     EXPECT_EQ(first.outputs[i].bytes, second.outputs[i].bytes) << first.outputs[i].name;
 }
 
 TEST_F(Build, DryRunWritesNothing) {
   options_.dry_run = true;
-  const BuildResult dry = build(file_, options_);
+  const pipeline::BuildResult dry = pipeline::build(file_, options_);
   EXPECT_FALSE(dry.published);
   EXPECT_THAT(names_in(scratch_), IsEmpty());
   options_.dry_run = false;
-  EXPECT_EQ(names_of(dry.product.checks), names_of(build(file_, options_).product.checks));
+  EXPECT_EQ(names_of(dry.product.checks), names_of(pipeline::build(file_, options_).product.checks));
 }
 
 TEST_F(Build, StoppedBuildLeavesNothing) {
   struct Stop {};
   int steps = 0;
-  build(file_, options_, {.progress = [&steps](std::string_view, std::optional<double>) { ++steps; }});
+  pipeline::build(file_, options_, {.progress = [&steps](std::string_view, std::optional<double>) { ++steps; }});
   ASSERT_GT(steps, 5);
   fs::remove_all(options_.folder);
   for (int last = 0; last < steps; ++last) {
     const auto thrower = [left = last](std::string_view, std::optional<double>) mutable {
       if (left-- == 0) throw Stop();
     };
-    EXPECT_THROW(build(file_, options_, {.progress = thrower}), Stop);
+    EXPECT_THROW(pipeline::build(file_, options_, {.progress = thrower}), Stop);
     EXPECT_THAT(names_in(scratch_), IsEmpty()) << "stopped before step " << last;
     if (last + 1 == steps) continue;  // nothing asks after the last step
     std::stop_source source;
     const auto stopper = [&source, left = last](std::string_view, std::optional<double>) mutable {
       if (left-- == 0) source.request_stop();
     };
-    EXPECT_THROW(build(file_, options_, {.progress = stopper, .stop = source.get_token()}), Stopped);
+    EXPECT_THROW(pipeline::build(file_, options_, {.progress = stopper, .stop = source.get_token()}), Stopped);
     EXPECT_THAT(names_in(scratch_), IsEmpty()) << "asked to stop in step " << last;
   }
 }
 
 TEST_F(Build, InfeasibleDesignIsValue) {
   file_.mechanism.pulley.r1 = 60;
-  const BuildResult no_curves = build(file_, options_);
-  EXPECT_EQ(no_curves.status, BuildStatus::infeasible);
+  const pipeline::BuildResult no_curves = pipeline::build(file_, options_);
+  EXPECT_EQ(no_curves.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(no_curves.outputs, IsEmpty());
   file_ = read_mechanism(k_profiles / "forearm.toml");
   file_.mechanism.body.bore_diameter = 60;
-  const BuildResult no_body = build(file_, options_);
-  EXPECT_EQ(no_body.status, BuildStatus::infeasible);
+  const pipeline::BuildResult no_body = pipeline::build(file_, options_);
+  EXPECT_EQ(no_body.status, pipeline::BuildStatus::infeasible);
   EXPECT_TRUE(no_body.product.synthesis.made());
   EXPECT_THAT(names_in(scratch_), IsEmpty());
 }
 
 TEST_F(Build, FailedBuildKeepsEarlierRun) {
   options_.limits.theta_error_deg = 0;
-  const BuildResult first = build(file_, options_);
-  EXPECT_EQ(first.status, BuildStatus::check_failed);
+  const pipeline::BuildResult first = pipeline::build(file_, options_);
+  EXPECT_EQ(first.status, pipeline::BuildStatus::check_failed);
   EXPECT_TRUE(first.published);
-  EXPECT_FALSE(build(file_, options_).published);
+  EXPECT_FALSE(pipeline::build(file_, options_).published);
   options_.force = true;
-  EXPECT_TRUE(build(file_, options_).published);
+  EXPECT_TRUE(pipeline::build(file_, options_).published);
 }
 
 TEST_F(Build, PaperMethodReportsSlack) {
   file_.mechanism.pulley.method = Method::paper;
-  const BuildResult built = build(file_, options_);
-  EXPECT_EQ(built.status, BuildStatus::done);
+  const pipeline::BuildResult built = pipeline::build(file_, options_);
+  EXPECT_EQ(built.status, pipeline::BuildStatus::done);
   EXPECT_GT(built.product.as_built.max_slack, 0.05);
   EXPECT_THAT(names_of(built.product.checks),
               ::testing::AllOf(::testing::Contains("slack_reported"), ::testing::Not(::testing::Contains("slack"))));
@@ -245,8 +249,8 @@ TEST_F(Build, PaperMethodReportsSlack) {
 class Profiles : public Build, public ::testing::WithParamInterface<fs::path> {};
 
 TEST_P(Profiles, PassesEveryCheck) {
-  const BuildResult built = build(read_mechanism(GetParam()), options_);
-  EXPECT_EQ(built.status, BuildStatus::done);
+  const pipeline::BuildResult built = pipeline::build(read_mechanism(GetParam()), options_);
+  EXPECT_EQ(built.status, pipeline::BuildStatus::done);
   EXPECT_THAT(built.product.checks, Each(Field(&Check::ok, true)));
 }
 

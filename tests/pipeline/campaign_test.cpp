@@ -14,8 +14,8 @@
 #include <random>
 #include <set>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 #include "fusee/kit.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/pipeline.h"
@@ -151,31 +151,32 @@ int number_from(const char* variable, int otherwise) {
 enum class End { made, refused, bad_input };
 
 /// The test rig is designed, or refused with the reason.
-void expect_kit_or_reasons(const Product& product) {
+void expect_kit_or_reasons(const formats::Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
-  const KitPlan plan = plan_kit(mechanism, product.synthesis, product.pulley.layout);
-  for (const Condition& condition : plan.conditions)
+  const kit::KitPlan plan = kit::plan_kit(mechanism, product.synthesis, product.pulley.layout);
+  for (const profile::Condition& condition : plan.conditions)
     EXPECT_EQ(condition.ok, condition.message.empty()) << condition.name;
-  EXPECT_EQ(plan.made(), failed_of(plan.conditions).empty());
+  EXPECT_EQ(plan.made(), profile::failed_of(plan.conditions).empty());
   EXPECT_EQ(plan.made(), !plan.parts.empty());
-  for (const KitPart& part : plan.parts) {
-    const double volume = printed_volume(part, mechanism, product.pulley.layout);
-    EXPECT_NEAR(enclosed_volume(printed_mesh(part, mechanism, product.pulley.layout)) / volume, 1, 1e-4) << part.name;
+  for (const kit::KitPart& part : plan.parts) {
+    const double volume = kit::printed_volume(part, mechanism, product.pulley.layout);
+    EXPECT_NEAR(solid::enclosed_volume(kit::printed_mesh(part, mechanism, product.pulley.layout)) / volume, 1, 1e-4)
+        << part.name;
   }
 }
 
 /// `read` returns the mechanism; bad input is a valid outcome.
 template <typename Read>
 End end_of(Read read, double tolerance) {
-  BuildOptions options;
+  pipeline::BuildOptions options;
   options.chord_error_mm = tolerance;
   options.dry_run = true;
   options.advice = false;  // tested elsewhere, and takes longer than the rest
   try {
-    const BuildResult built = build(read(), options);
+    const pipeline::BuildResult built = pipeline::build(read(), options);
     for (const Check& check : built.product.checks)
       EXPECT_TRUE(check.ok) << check.name << " " << check.value << ", limit " << check.limit << "; " << check.where;
-    if (built.status == BuildStatus::infeasible) return End::refused;
+    if (built.status == pipeline::BuildStatus::infeasible) return End::refused;
     expect_kit_or_reasons(built.product);
     return End::made;
   } catch (const InputError&) {

@@ -6,7 +6,7 @@
 
 #include "fusee/pipeline.h"
 
-namespace fusee {
+namespace fusee::pipeline {
 namespace {
 
 using ::testing::AllOf;
@@ -61,11 +61,11 @@ TEST(PlausibilityWarnings, AppearForInfeasibleBuild) {
 }
 
 TEST(PlausibilityWarnings, BreakingTendonIsError) {
-  const AnalysisResult result = analyze(slipped_forearm());
+  const analysis::AnalysisResult result = analyze(slipped_forearm());
   EXPECT_TRUE(result.breaks_at);
   EXPECT_THAT(messages(result.warnings), ElementsAre(HasSubstr("guides.OE_mm = 40")));
   // An estimated strength gives a warning, not an error.
-  const AnalysisResult likely =
+  const analysis::AnalysisResult likely =
       analyze(profile("forearm", {{"load.tip_force_N", "500"}, {"tendon.diameter_mm", "0.9"}}));
   EXPECT_FALSE(likely.breaks_at);
   EXPECT_THAT(messages(likely.warnings), ElementsAre(HasSubstr("an estimate")));
@@ -94,4 +94,4 @@ TEST(PlausibilityWarnings, OrdinaryFileHasNone) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::pipeline

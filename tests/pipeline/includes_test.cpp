@@ -24,12 +24,12 @@ const std::map<std::string, int>& flow() {
 
 /// For each inner module of export, the inner modules that it may use. The mesh formats know no pulley. All may use
 /// tool.h, the program's name.
-const std::map<std::string, std::set<std::string>> k_export_uses = {
-    {"mesh_files", {}}, {"drawings", {}},
-    {"report", {"mesh_files", "drawings"}},
-    {"kit", {"mesh_files", "drawings", "report"}},
-    {"model", {}},
-    {"step", {}}};
+const std::map<std::string, std::set<std::string>> k_export_uses = {{"mesh_files", {}},
+                                                                    {"drawings", {}},
+                                                                    {"report", {"mesh_files", "drawings"}},
+                                                                    {"kit", {"mesh_files", "drawings", "report"}},
+                                                                    {"model", {}},
+                                                                    {"step", {}}};
 
 struct Include {
   fs::path file;  ///< relative to the source tree
@@ -123,6 +123,25 @@ TEST(Includes, OwnHeadersAreQuoted) {
       EXPECT_TRUE(beside || !room_of(include.target).empty()) << include.says();
     } else {
       EXPECT_NE(include.target.rfind("fusee/", 0), 0u) << include.says();
+    }
+  }
+}
+
+/// Base and mechanism are the vocabulary of all modules; `export` is a keyword. The build makes fusee::embedded.
+std::string namespace_of(const std::string& room) {
+  if (room == "base" || room == "mechanism") return "fusee";
+  return "fusee::" + (room == "export" ? "formats" : room);
+}
+
+TEST(Modules, HaveTheirOwnNamespace) {
+  static const std::regex pattern("\\nnamespace (fusee[a-z_:]*) \\{");
+  for (const house::Source& source : house::sources_under({"include", "src", "export"})) {
+    const std::string expected = namespace_of(home_of(source.path));
+    for (std::sregex_iterator match(source.text.begin(), source.text.end(), pattern), last; match != last; ++match) {
+      const std::string found = (*match)[1];
+      EXPECT_TRUE(found == expected || found.starts_with(expected + "::") || found == "fusee" ||
+                  found == "fusee::embedded")
+          << source.path << " opens " << found << " in place of " << expected;
     }
   }
 }

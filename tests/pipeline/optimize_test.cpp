@@ -27,8 +27,8 @@ double tension_of_build(const Mechanism& mechanism) {
   Mechanism loaded = mechanism;
   loaded.load.tip_force = 1.0;
   double most = 0;
-  for (const TransmissionPoint& point : synthesise(mechanism).stroke)
-    most = std::max(most, paper_forces(loaded, point).Tb);
+  for (const transmission::TransmissionPoint& point : profile::synthesise(mechanism).stroke)
+    most = std::max(most, transmission::paper_forces(loaded, point).Tb);
   return most;
 }
 
@@ -36,9 +36,9 @@ double tension_of_analyze(const Mechanism& mechanism) {
   MechanismFile file;
   file.mechanism = DeclaredMechanism(mechanism);
   file.mechanism.load.tip_force = 1.0;
-  AnalysisOptions options;
+  analysis::AnalysisOptions options;
   options.samples = 10;
-  return analyze(file, options).largest_paper_tension.value;
+  return pipeline::analyze(file, options).largest_paper_tension.value;
 }
 
 /// A pin of radius 0 is not a point: its tendon's centre line runs at half the tendon's diameter. Only method = "paper"
@@ -50,10 +50,11 @@ TEST(Pins, AreEqualInOptimizeAnalyzeAndBuild) {
       mechanism.guides.radius = radius;
       mechanism.pulley.method = method;
       EXPECT_EQ(mechanism.has_point_pins(), method == Method::paper);
-      const double optimized = evaluate(Objective::max_tension, mechanism).value;
+      const double optimized = optimize::evaluate(optimize::Objective::max_tension, mechanism).value;
       EXPECT_NEAR(optimized, tension_of_build(mechanism), 1e-9) << radius;
       EXPECT_NEAR(optimized, tension_of_analyze(mechanism), 1e-9) << radius;
-      EXPECT_DOUBLE_EQ(Transmission(mechanism).place(Side::right).rho, mechanism.seen_pitch_radius());
+      EXPECT_DOUBLE_EQ(transmission::Transmission(mechanism).place(transmission::Side::right).rho,
+                       mechanism.seen_pitch_radius());
     }
   }
 }
@@ -77,26 +78,28 @@ class Optimize : public ::testing::Test {
   }
 
   fs::path scratch_;
-  OptimizeOptions options_;
+  pipeline::OptimizeOptions options_;
 };
 
 const std::string k_identified = "[identified]\nfriction = 0.1\nlength_mm = 4.0\n";
 
 TEST_F(Optimize, UsesIdentifiedJoint) {
   const MechanismFile file = file_with(k_identified);
-  const OptimizeResult result = optimize(file, options_);
+  const pipeline::OptimizeResult result = pipeline::optimize(file, options_);
   ASSERT_TRUE(result.found) << result.reason;
-  const auto value = [](const Mechanism& mechanism) { return evaluate(Objective::max_tension, mechanism).value; };
-  const DeclaredMechanism declared = mechanism_at(result.problem, result.design);
-  EXPECT_DOUBLE_EQ(result.value, value(as_it_is(declared).mechanism));
-  EXPECT_DOUBLE_EQ(result.before.value, value(as_it_is(file.mechanism).mechanism));
+  const auto value = [](const Mechanism& mechanism) {
+    return optimize::evaluate(optimize::Objective::max_tension, mechanism).value;
+  };
+  const DeclaredMechanism declared = optimize::mechanism_at(result.problem, result.design);
+  EXPECT_DOUBLE_EQ(result.value, value(joint::as_it_is(declared).mechanism));
+  EXPECT_DOUBLE_EQ(result.before.value, value(joint::as_it_is(file.mechanism).mechanism));
   EXPECT_GT(result.value, 1.02 * value(declared));
 }
 
 /// Bounds and results are declared numbers; identified effects are added to them.
 TEST_F(Optimize, WritesDeclaredNumbers) {
   options_.new_file = scratch_ / "new.toml";
-  const OptimizeResult result = optimize(file_with(k_identified), options_);
+  const pipeline::OptimizeResult result = pipeline::optimize(file_with(k_identified), options_);
   const DeclaredMechanism written = read_mechanism(options_.new_file).mechanism;
   EXPECT_EQ(written.joint.R, result.design[0]);
   EXPECT_GE(written.joint.R, 100.0);
@@ -106,13 +109,14 @@ TEST_F(Optimize, WritesDeclaredNumbers) {
 }
 
 TEST_F(Optimize, CertifiesObjectivesWithIntervalForm) {
-  EXPECT_EQ(optimize(file_with(k_identified), options_).method(), SearchMethod::genetic);
+  EXPECT_EQ(pipeline::optimize(file_with(k_identified), options_).method(), pipeline::SearchMethod::genetic);
   // Manufacturing errors of the pulley change no objective.
   EXPECT_EQ(
-      optimize(file_with("[identified]\nradius_offset_mm = 0.1\npulley_scale_percent = 1.0\n"), options_).method(),
-      SearchMethod::certified);
-  options_.method = SearchMethod::certified;
-  EXPECT_THROW(optimize(file_with(k_identified), options_), InputError);
+      pipeline::optimize(file_with("[identified]\nradius_offset_mm = 0.1\npulley_scale_percent = 1.0\n"), options_)
+          .method(),
+      pipeline::SearchMethod::certified);
+  options_.method = pipeline::SearchMethod::certified;
+  EXPECT_THROW(pipeline::optimize(file_with(k_identified), options_), InputError);
 }
 
 // ---- fronts ---------------------------------------------------------------------------------------------------------
@@ -121,8 +125,8 @@ class Front : public Optimize {
  protected:
   Front() { options_.front_folder = scratch_ / "front"; }
 
-  OptimizeResult front() const {
-    return optimize(file_with("", {{"optimize.objective", R"(["max_tension", "footprint"])"}}), options_);
+  pipeline::OptimizeResult front() const {
+    return pipeline::optimize(file_with("", {{"optimize.objective", R"(["max_tension", "footprint"])"}}), options_);
   }
   std::size_t files() const {
     return static_cast<std::size_t>(
@@ -131,8 +135,8 @@ class Front : public Optimize {
 };
 
 TEST_F(Front, HasValueAndFiles) {
-  const OptimizeResult result = front();
-  const auto& points = std::get<ParetoResult>(result.search).front;
+  const pipeline::OptimizeResult result = front();
+  const auto& points = std::get<optimize::ParetoResult>(result.search).front;
   ASSERT_GT(points.size(), 1u);
   ASSERT_EQ(result.front_files.size(), points.size());
   EXPECT_EQ(files(), points.size());
@@ -142,7 +146,7 @@ TEST_F(Front, HasValueAndFiles) {
     EXPECT_NEAR(read_mechanism(path).mechanism.joint.R, points[i].design[0], 1e-9);
   }
   EXPECT_TRUE(std::any_of(points.begin(), points.end(),
-                          [&](const FrontPoint& point) { return point.design == result.design; }));
+                          [&](const optimize::FrontPoint& point) { return point.design == result.design; }));
 }
 
 /// The second file cannot be written: the first must not remain either.
@@ -165,24 +169,24 @@ TEST_F(Front, DryRunWritesNothing) {
 TEST(Analyze, RejectsJointWithoutTendons) {
   MechanismFile file;
   file.mechanism.transmission = RatioTransmission{2.0};
-  EXPECT_THROW(analyze(file), InputError);
+  EXPECT_THROW(pipeline::analyze(file), InputError);
 }
 
 TEST(Analyze, UsesIdentifiedJoint) {
   MechanismFile file;
   file.mechanism = joints::forearm();
   file.mechanism.load.tip_force = 10.0;
-  AnalysisOptions options;
+  analysis::AnalysisOptions options;
   options.samples = 10;
-  const double declared = analyze(file, options).largest_paper_tension.value;
+  const double declared = pipeline::analyze(file, options).largest_paper_tension.value;
   file.mechanism.identified.pins.friction = 0.2;
-  EXPECT_GT(analyze(file, options).largest_paper_tension.value, 1.02 * declared);
+  EXPECT_GT(pipeline::analyze(file, options).largest_paper_tension.value, 1.02 * declared);
 }
 
 // ---- several turns --------------------------------------------------------------------------------------------------
 
 /// The smaller r1, the smaller the motor torque: over 110 degrees of a drum of 90 mm it determines the number of turns.
-OptimizeResult least_torque(const std::string& winding, const char* bend_ratio = "8") {
+pipeline::OptimizeResult least_torque(const std::string& winding, const char* bend_ratio = "8") {
   const MechanismFile file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / "elbow_capstan.toml",
                                             {{"pulley.r1_mm", "35"},
                                              {"pulley.winding", winding},
@@ -193,16 +197,16 @@ OptimizeResult least_torque(const std::string& winding, const char* bend_ratio =
                                              {"optimize.lower", "[7]"},
                                              {"optimize.upper", "[45]"},
                                              {"optimize.feasible", "true"}});
-  OptimizeOptions options;
-  options.method = SearchMethod::genetic;
+  pipeline::OptimizeOptions options;
+  options.method = pipeline::SearchMethod::genetic;
   options.genetic.population = 16;
   options.genetic.generations = 8;
   options.dry_run = true;
-  return optimize(file, options);
+  return pipeline::optimize(file, options);
 }
 
 TEST(OptimizeTurns, FindsBuildablePulleys) {
-  const OptimizeResult one = least_torque("\"one_turn\""), several = least_torque("\"auto\"");
+  const pipeline::OptimizeResult one = least_torque("\"one_turn\""), several = least_torque("\"auto\"");
   ASSERT_TRUE(one.found) << one.reason;
   ASSERT_TRUE(several.found) << several.reason;
   // 110 degrees of 90 mm are 172.8 mm: a round pulley that winds them in one turn is larger than 27.5 mm.
@@ -212,23 +216,23 @@ TEST(OptimizeTurns, FindsBuildablePulleys) {
 
   MechanismFile found;
   found.path = "found.toml";
-  found.mechanism = mechanism_at(several.problem, several.design);
-  BuildOptions options;
+  found.mechanism = optimize::mechanism_at(several.problem, several.design);
+  pipeline::BuildOptions options;
   options.folder = fs::temp_directory_path() / "fusee-optimize-turns";
   options.dry_run = true;
-  const BuildResult built = build(found, options);
-  ASSERT_EQ(built.status, BuildStatus::done);
+  const pipeline::BuildResult built = pipeline::build(found, options);
+  ASSERT_EQ(built.status, pipeline::BuildStatus::done);
   ASSERT_TRUE(built.product.helix);
   EXPECT_GT(built.product.helix->synthesis.sides[0].turns, 3.0);
   EXPECT_LT(degrees(built.product.as_built.max_theta_error), 0.01);
 
   // The bend of the 0.6 mm tendon is the limit if it requires more than r1 ≥ 7 mm.
-  const OptimizeResult gentle = least_torque("\"auto\"", "40");
+  const pipeline::OptimizeResult gentle = least_torque("\"auto\"", "40");
   ASSERT_TRUE(gentle.found) << gentle.reason;
   EXPECT_GT(gentle.design[0], 12.0);
   EXPECT_LT(gentle.design[0], 13.0);
 
-  const auto says_level = [](const OptimizeResult& result) {
+  const auto says_level = [](const pipeline::OptimizeResult& result) {
     return std::any_of(result.warnings.begin(), result.warnings.end(), [](const Diagnostic& warning) {
       return warning.message.find("level tendons") != std::string::npos;
     });

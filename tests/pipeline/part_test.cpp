@@ -19,8 +19,8 @@ class MadePart : public ::testing::Test {
   static void SetUpTestSuite() {
     mechanism_ =
         new Mechanism(read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml").mechanism);
-    synthesis_ = new SynthesisResult(synthesise(*mechanism_));
-    mesh_ = new TriangleMesh(make_pulley(*mechanism_, *synthesis_).mesh);
+    synthesis_ = new profile::SynthesisResult(profile::synthesise(*mechanism_));
+    mesh_ = new solid::TriangleMesh(solid::make_pulley(*mechanism_, *synthesis_).mesh);
   }
   static void TearDownTestSuite() {
     delete mechanism_;
@@ -29,30 +29,31 @@ class MadePart : public ::testing::Test {
   }
 
   template <typename Change>
-  static TriangleMesh changed(Change change) {
-    TriangleMesh mesh = *mesh_;
+  static solid::TriangleMesh changed(Change change) {
+    solid::TriangleMesh mesh = *mesh_;
     for (Vec3& vertex : mesh.vertices) change(vertex);
     return mesh;
   }
   /// The names of failed checks after winding tendons on the part.
-  static std::vector<std::string> failures(const Part& part) {
+  static std::vector<std::string> failures(const pipeline::Part& part) {
     std::vector<std::string> names;
-    for (const Check& check : as_built_checks(*mechanism_, rewind_part({*mechanism_, {}}, part), {})) {
+    for (const Check& check :
+         pipeline::as_built_checks(*mechanism_, pipeline::rewind_part({*mechanism_, {}}, part), {})) {
       if (!check.ok) names.push_back(check.name);
     }
     return names;
   }
-  static DrawingPath path(const std::string& layer, const Outline& outline, double distance) {
-    return {layer, "LWPOLYLINE", 1, true, parallel(outline, distance)};
+  static formats::DrawingPath path(const std::string& layer, const profile::Outline& outline, double distance) {
+    return {layer, "LWPOLYLINE", 1, true, profile::parallel(outline, distance)};
   }
 
   static Mechanism* mechanism_;
-  static SynthesisResult* synthesis_;
-  static TriangleMesh* mesh_;
+  static profile::SynthesisResult* synthesis_;
+  static solid::TriangleMesh* mesh_;
 };
 Mechanism* MadePart::mechanism_ = nullptr;
-SynthesisResult* MadePart::synthesis_ = nullptr;
-TriangleMesh* MadePart::mesh_ = nullptr;
+profile::SynthesisResult* MadePart::synthesis_ = nullptr;
+solid::TriangleMesh* MadePart::mesh_ = nullptr;
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -61,10 +62,10 @@ using ::testing::IsEmpty;
 TEST_F(MadePart, UnchangedPartPasses) { EXPECT_THAT(failures(*mesh_), IsEmpty()); }
 
 TEST_F(MadePart, InsideOutHasSameAngles) {
-  TriangleMesh mesh = *mesh_;
+  solid::TriangleMesh mesh = *mesh_;
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  EXPECT_NEAR(rewind_part({*mechanism_, {}}, mesh).max_theta_error,
-              rewind_part({*mechanism_, {}}, *mesh_).max_theta_error, 1e-9);
+  EXPECT_NEAR(pipeline::rewind_part({*mechanism_, {}}, mesh).max_theta_error,
+              pipeline::rewind_part({*mechanism_, {}}, *mesh_).max_theta_error, 1e-9);
 }
 
 TEST_F(MadePart, DetectsSmallPrint) {
@@ -87,37 +88,38 @@ TEST_F(MadePart, DetectsTurnOnShaft) {
 }
 
 TEST_F(MadePart, RejectsPartWithoutGrooves) {
-  EXPECT_THROW(rewind_part({*mechanism_, {}}, changed([](Vec3& v) { v.z() += 1000; })), InputError);
-  EXPECT_THROW(rewind_part({*mechanism_, {}}, TriangleMesh()), InputError);
+  EXPECT_THROW(pipeline::rewind_part({*mechanism_, {}}, changed([](Vec3& v) { v.z() += 1000; })), InputError);
+  EXPECT_THROW(pipeline::rewind_part({*mechanism_, {}}, solid::TriangleMesh()), InputError);
 }
 
 // ---- moved parts ---------------------------------------------------------------------------------
 
 /// Turned over about x or not, then turned about its axis, then moved; rounded to floats as in an STL.
-TriangleMesh put(TriangleMesh mesh, bool over, double turn_deg, const Vec3& by) {
+solid::TriangleMesh put(solid::TriangleMesh mesh, bool over, double turn_deg, const Vec3& by) {
   for (Vec3& v : mesh.vertices) {
     if (over) v = Vec3(v.x(), -v.y(), -v.z());
     v.head<2>() = turned(v.head<2>(), radians(turn_deg));
     v += by;
   }
-  return rounded_to_float(mesh);
+  return solid::rounded_to_float(mesh);
 }
 
 TEST_F(MadePart, UnmovedPartIsNotChanged) {
-  const RewoundPart part = rewind_moved_part({*mechanism_, {}}, *mesh_);
-  EXPECT_EQ(part.place, PartPlace::as_made);
+  const pipeline::RewoundPart part = pipeline::rewind_moved_part({*mechanism_, {}}, *mesh_);
+  EXPECT_EQ(part.place, pipeline::PartPlace::as_made);
   EXPECT_THAT(part.placements, IsEmpty());
-  const RewindResult as_it_lies = rewind_part({*mechanism_, {}}, *mesh_);
+  const profile::RewindResult as_it_lies = pipeline::rewind_part({*mechanism_, {}}, *mesh_);
   EXPECT_EQ(part.as_built.max_theta_error, as_it_lies.max_theta_error);
   EXPECT_EQ(part.as_built.max_slack, as_it_lies.max_slack);
 }
 
 TEST_F(MadePart, MovedPartHasSameAngles) {
-  const RewindResult unmoved = rewind_part({*mechanism_, {}}, *mesh_);
+  const profile::RewindResult unmoved = pipeline::rewind_part({*mechanism_, {}}, *mesh_);
   for (const bool over : {false, true}) {
     for (const double turn : {0.0, 90.0, 213.4}) {
-      const RewoundPart part = rewind_moved_part({*mechanism_, {}}, put(*mesh_, over, turn, Vec3(125, 105, 30)));
-      ASSERT_EQ(part.place, PartPlace::found);
+      const pipeline::RewoundPart part =
+          pipeline::rewind_moved_part({*mechanism_, {}}, put(*mesh_, over, turn, Vec3(125, 105, 30)));
+      ASSERT_EQ(part.place, pipeline::PartPlace::found);
       ASSERT_EQ(part.placements.size(), 1u);
       EXPECT_EQ(part.placements[0].turned_over, over);
       for (std::size_t i = 0; i < unmoved.points.size(); ++i)
@@ -129,19 +131,20 @@ TEST_F(MadePart, MovedPartHasSameAngles) {
 
 TEST_F(MadePart, FaultRemainsAfterMove) {
   // Half a per cent too small: the part fits no better elsewhere, so it was not moved, and its error remains.
-  const TriangleMesh small = changed([](Vec3& v) { v.head<2>() *= 0.995; });
-  const RewindResult as_it_lies = rewind_part({*mechanism_, {}}, small);
-  EXPECT_EQ(rewind_moved_part({*mechanism_, {}}, small).place, PartPlace::as_made);
-  const RewoundPart moved = rewind_moved_part({*mechanism_, {}}, put(small, true, 40, Vec3(125, 105, 30)));
-  EXPECT_EQ(moved.place, PartPlace::found);
+  const solid::TriangleMesh small = changed([](Vec3& v) { v.head<2>() *= 0.995; });
+  const profile::RewindResult as_it_lies = pipeline::rewind_part({*mechanism_, {}}, small);
+  EXPECT_EQ(pipeline::rewind_moved_part({*mechanism_, {}}, small).place, pipeline::PartPlace::as_made);
+  const pipeline::RewoundPart moved =
+      pipeline::rewind_moved_part({*mechanism_, {}}, put(small, true, 40, Vec3(125, 105, 30)));
+  EXPECT_EQ(moved.place, pipeline::PartPlace::found);
   EXPECT_NEAR(degrees(moved.as_built.max_theta_error), degrees(as_it_lies.max_theta_error), 0.02);
   EXPECT_GT(degrees(moved.as_built.max_theta_error), 0.05);
 }
 
 TEST_F(MadePart, RejectsMirroredOrScaledPart) {
-  const auto message = [](const TriangleMesh& mesh) {
+  const auto message = [](const solid::TriangleMesh& mesh) {
     try {
-      rewind_moved_part({*mechanism_, {}}, mesh);
+      pipeline::rewind_moved_part({*mechanism_, {}}, mesh);
     } catch (const InputError& error) {
       return error.diagnostics().front().message + "; " + error.diagnostics().front().hint;
     }
@@ -159,27 +162,28 @@ TEST_F(MadePart, RejectsMirroredOrScaledPart) {
 }
 
 TEST_F(MadePart, FindsPulleysSideBySide) {
-  const BodyLayout layout = resolve_layout(*mechanism_, *synthesis_);
+  const solid::BodyLayout layout = solid::resolve_layout(*mechanism_, *synthesis_);
   const double middle = 0.5 * (layout.z_p1 + layout.z_p2);
   // Facets between the grooves bridge the cut, and are omitted.
-  TriangleMesh lower{mesh_->vertices, {}}, upper = lower;
+  solid::TriangleMesh lower{mesh_->vertices, {}}, upper = lower;
   for (const auto& triangle : mesh_->triangles) {
     const auto is_above = [&](std::uint32_t vertex) { return mesh_->vertices[vertex].z() > middle; };
     const auto above = std::count_if(triangle.begin(), triangle.end(), is_above);
     if (above == 0) lower.triangles.push_back(triangle);
     if (above == 3) upper.triangles.push_back(triangle);
   }
-  const RewoundPart p2 = rewind_moved_part({*mechanism_, {}}, put(upper, true, 70, Vec3(60, 0, 20)));
-  EXPECT_EQ(p2.alone, Side::right);
+  const pipeline::RewoundPart p2 =
+      pipeline::rewind_moved_part({*mechanism_, {}}, put(upper, true, 70, Vec3(60, 0, 20)));
+  EXPECT_EQ(p2.alone, transmission::Side::right);
   EXPECT_LT(degrees(p2.as_built.max_theta_error), 0.01);
   EXPECT_EQ(p2.as_built.max_slack, 0);
 
-  TriangleMesh both = put(lower, false, 10, Vec3(-40, 7, 0));
-  const TriangleMesh other = put(upper, true, 70, Vec3(60, 0, 20));
+  solid::TriangleMesh both = put(lower, false, 10, Vec3(-40, 7, 0));
+  const solid::TriangleMesh other = put(upper, true, 70, Vec3(60, 0, 20));
   const auto first = static_cast<std::uint32_t>(both.vertices.size());
   both.vertices.insert(both.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const auto& [a, b, c] : other.triangles) both.triangles.push_back({first + a, first + b, first + c});
-  const RewoundPart part = rewind_moved_part({*mechanism_, {}}, both);
+  const pipeline::RewoundPart part = pipeline::rewind_moved_part({*mechanism_, {}}, both);
   ASSERT_EQ(part.placements.size(), 2u);
   EXPECT_FALSE(part.alone);
   EXPECT_LT(degrees(part.as_built.max_theta_error), 0.01);
@@ -190,31 +194,31 @@ TEST_F(MadePart, ReportsPartOfAnotherMechanism) {
   Mechanism other = *mechanism_;
   other.guides.ED = 62;
   other.guides.OE = -25;
-  EXPECT_EQ(rewind_moved_part({other, {}}, *mesh_).place, PartPlace::not_recognised);
+  EXPECT_EQ(pipeline::rewind_moved_part({other, {}}, *mesh_).place, pipeline::PartPlace::not_recognised);
   try {
-    rewind_moved_part({other, {}}, put(*mesh_, false, 0, Vec3(0, 0, 500)));
+    pipeline::rewind_moved_part({other, {}}, put(*mesh_, false, 0, Vec3(0, 0, 500)));
     ADD_FAILURE() << "taken";
   } catch (const InputError& error) {
     EXPECT_THAT(error.diagnostics().front().hint, ::testing::HasSubstr("nor do its grooves fit anywhere else"));
   }
   Mechanism impossible = *mechanism_;
   impossible.pulley.r1 = 60;
-  EXPECT_THROW(rewind_moved_part({impossible, {}}, *mesh_), InputError);
+  EXPECT_THROW(pipeline::rewind_moved_part({impossible, {}}, *mesh_), InputError);
 }
 
 TEST_F(MadePart, HasItsSize) {
-  const PartSize size = size_of(*mesh_, check_part(*mesh_));
-  const Bounds box = bounds(*mesh_);
+  const pipeline::PartSize size = pipeline::size_of(*mesh_, pipeline::check_part(*mesh_));
+  const solid::Bounds box = solid::bounds(*mesh_);
   EXPECT_EQ(*size.extent, box.high - box.low);
-  EXPECT_DOUBLE_EQ(*size.volume, enclosed_volume(*mesh_));
+  EXPECT_DOUBLE_EQ(*size.volume, solid::enclosed_volume(*mesh_));
   EXPECT_FALSE(size.contours);
-  TriangleMesh open = *mesh_;
+  solid::TriangleMesh open = *mesh_;
   open.triangles.pop_back();
-  EXPECT_FALSE(size_of(open, check_part(open)).volume);
-  EXPECT_FALSE(size_of(TriangleMesh(), {}).extent);
-  Drawing drawing;
+  EXPECT_FALSE(pipeline::size_of(open, pipeline::check_part(open)).volume);
+  EXPECT_FALSE(pipeline::size_of(solid::TriangleMesh(), {}).extent);
+  formats::Drawing drawing;
   drawing.paths = {{"A", "LWPOLYLINE", 1, true, {{0, 0}, {3, 0}, {3, 4}}}, {"A", "LINE", 2, false, {{0, 0}, {-1, 0}}}};
-  const PartSize flat = size_of(drawing, check_part(drawing));
+  const pipeline::PartSize flat = pipeline::size_of(drawing, pipeline::check_part(drawing));
   EXPECT_EQ(*flat.extent, Vec3(4, 4, 0));
   EXPECT_EQ(flat.contours, 1u);
   EXPECT_FALSE(flat.volume);
@@ -229,20 +233,20 @@ TEST_F(MadePart, ReadsUtf16AndCarriageReturns) {
     // Without a file name ending that shows the format.
     const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "round_part";
     std::ofstream(file, std::ios::binary) << bytes;
-    const Part part = read_part(file);
-    ASSERT_TRUE(std::holds_alternative<Drawing>(part));
-    EXPECT_EQ(*size_of(part, check_part(part)).extent, Vec3(100, 100, 0));
+    const pipeline::Part part = pipeline::read_part(file);
+    ASSERT_TRUE(std::holds_alternative<formats::Drawing>(part));
+    EXPECT_EQ(*pipeline::size_of(part, pipeline::check_part(part)).extent, Vec3(100, 100, 0));
     std::filesystem::remove(file);
   }
 }
 
 TEST_F(MadePart, DrawingHasSameAngles) {
   const double floor = -0.5 * mechanism_->tendon.diameter;
-  Drawing floors, pitches;
+  formats::Drawing floors, pitches;
   floors.paths = {path("P1_FLOOR", synthesis_->p1, floor), path("P2_FLOOR", synthesis_->p2, floor)};
   pitches.paths = {path("P1_PITCH", synthesis_->p1, 0), path("P2_PITCH", synthesis_->p2, 0)};
-  const RewindResult by_floors = rewind_part({*mechanism_, {}}, floors),
-                     by_pitches = rewind_part({*mechanism_, {}}, pitches);
+  const profile::RewindResult by_floors = pipeline::rewind_part({*mechanism_, {}}, floors),
+                              by_pitches = pipeline::rewind_part({*mechanism_, {}}, pitches);
   EXPECT_LT(degrees(by_floors.max_theta_error), 0.005);
   // Chord error of the polygons: 0.01 mm of tendon is 0.01° here.
   EXPECT_NEAR(degrees(by_floors.max_theta_error), degrees(by_pitches.max_theta_error), 0.005);
@@ -251,39 +255,39 @@ TEST_F(MadePart, DrawingHasSameAngles) {
 }
 
 TEST_F(MadePart, RejectsDrawingWithoutLayers) {
-  Drawing drawing;
+  formats::Drawing drawing;
   drawing.paths = {path("P1_FLOOR", synthesis_->p1, 0)};
-  EXPECT_THROW(rewind_part({*mechanism_, {}}, drawing), InputError);
+  EXPECT_THROW(pipeline::rewind_part({*mechanism_, {}}, drawing), InputError);
 }
 
 TEST_F(MadePart, RewindsAtShrunkSize) {
   Mechanism shrinking = *mechanism_;
   shrinking.material.shrinkage = 0.02;
-  const TriangleMesh mesh = make_pulley(shrinking, synthesise(shrinking)).mesh;
-  EXPECT_LT(degrees(rewind_part({shrinking, {}}, mesh).max_theta_error), 0.005);
-  EXPECT_GT(degrees(rewind_part({*mechanism_, {}}, mesh).max_theta_error), 0.1);
+  const solid::TriangleMesh mesh = solid::make_pulley(shrinking, profile::synthesise(shrinking)).mesh;
+  EXPECT_LT(degrees(pipeline::rewind_part({shrinking, {}}, mesh).max_theta_error), 0.005);
+  EXPECT_GT(degrees(pipeline::rewind_part({*mechanism_, {}}, mesh).max_theta_error), 0.1);
 }
 
 bool agree(const std::vector<Check>& checks) { return all_ok(checks); }
 
 TEST_F(MadePart, EqualsOnlyItself) {
-  EXPECT_TRUE(agree(same_mesh(*mesh_, *mesh_)));
-  TriangleMesh moved = *mesh_;
+  EXPECT_TRUE(agree(pipeline::same_mesh(*mesh_, *mesh_)));
+  solid::TriangleMesh moved = *mesh_;
   moved.vertices[100].x() = std::nextafter(static_cast<float>(moved.vertices[100].x()), 1000.0F);
-  EXPECT_FALSE(agree(same_mesh(*mesh_, moved)));
-  TriangleMesh fewer = *mesh_;
+  EXPECT_FALSE(agree(pipeline::same_mesh(*mesh_, moved)));
+  solid::TriangleMesh fewer = *mesh_;
   fewer.triangles.pop_back();
-  EXPECT_FALSE(agree(same_mesh(*mesh_, fewer)));
-  EXPECT_FALSE(agree(near_mesh(*mesh_, fewer, 0.01)));
+  EXPECT_FALSE(agree(pipeline::same_mesh(*mesh_, fewer)));
+  EXPECT_FALSE(agree(pipeline::near_mesh(*mesh_, fewer, 0.01)));
 }
 
 TEST_F(MadePart, ToleratesReorderingAndRounding) {
-  TriangleMesh other = changed([](Vec3& v) { v = (v * 256.0).array().round() / 256.0; });
+  solid::TriangleMesh other = changed([](Vec3& v) { v = (v * 256.0).array().round() / 256.0; });
   std::reverse(other.triangles.begin(), other.triangles.end());
-  EXPECT_TRUE(agree(near_mesh(*mesh_, other, 0.01)));
-  EXPECT_FALSE(agree(near_mesh(*mesh_, other, 0.001)));
+  EXPECT_TRUE(agree(pipeline::near_mesh(*mesh_, other, 0.01)));
+  EXPECT_FALSE(agree(pipeline::near_mesh(*mesh_, other, 0.001)));
   other.vertices[7].z() += 0.5;
-  EXPECT_FALSE(agree(near_mesh(*mesh_, other, 0.01)));
+  EXPECT_FALSE(agree(pipeline::near_mesh(*mesh_, other, 0.01)));
 }
 
 }  // namespace

@@ -106,23 +106,23 @@ struct Outcome {
   double theta_error = 0;  ///< rad
 };
 
-void expect_true_reasons(const std::vector<Condition>& conditions) {
-  for (const Condition& condition : failed_of(conditions)) {
+void expect_true_reasons(const std::vector<profile::Condition>& conditions) {
+  for (const profile::Condition& condition : profile::failed_of(conditions)) {
     EXPECT_NE(condition.name, "features") << condition.message;
     EXPECT_NE(condition.name.rfind("body_", 0), 0u) << condition.message;
   }
 }
 
-Outcome outcome_of(const TurningJoint& joint, BuildOptions options) {
+Outcome outcome_of(const TurningJoint& joint, pipeline::BuildOptions options) {
   options.dry_run = true;
   options.advice = false;  // tested elsewhere
   const auto path = std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (joint.profile + ".toml");
   try {
-    const BuildResult built = build(read_mechanism(path, joint.settings), options);
+    const pipeline::BuildResult built = pipeline::build(read_mechanism(path, joint.settings), options);
     for (const Check& check : built.product.checks)
       EXPECT_TRUE(check.ok) << check.name << " " << check.value << ", limit " << check.limit << "; " << check.where;
     expect_true_reasons(built.product.pulley.conditions);
-    if (built.status == BuildStatus::infeasible) return {End::refused, 0};
+    if (built.status == pipeline::BuildStatus::infeasible) return {End::refused, 0};
     return {End::made, built.product.as_built.max_theta_error};
   } catch (const InputError&) {
     return {End::bad_input, 0};

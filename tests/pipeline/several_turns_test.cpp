@@ -8,11 +8,11 @@
 #include <sstream>
 #include <vector>
 
+#include "export/mesh_files/mesh_files.h"
 #include "export/report/tendon_trace.h"
 #include "fusee/base.h"
 #include "fusee/coil.h"
 #include "fusee/export.h"
-#include "export/mesh_files/mesh_files.h"
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "fusee/transmission.h"
@@ -28,18 +28,18 @@ MechanismFile read_profile(const std::string& name, const std::vector<Setting>& 
   return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (name + ".toml"), settings);
 }
 
-BuildResult made(const MechanismFile& file) {
-  BuildOptions options;
+pipeline::BuildResult made(const MechanismFile& file) {
+  pipeline::BuildOptions options;
   options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns";
   options.dry_run = true;
-  return build(file, options);
+  return pipeline::build(file, options);
 }
 
-std::string failures_of(const BuildResult& built) {
+std::string failures_of(const pipeline::BuildResult& built) {
   std::string text;
-  for (const Condition& condition : built.product.synthesis.conditions)
+  for (const profile::Condition& condition : built.product.synthesis.conditions)
     if (!condition.ok) text += condition.message + "\n";
-  for (const Condition& condition : built.product.pulley.conditions)
+  for (const profile::Condition& condition : built.product.pulley.conditions)
     if (!condition.ok) text += condition.message + "\n";
   for (const Check& check : built.product.checks)
     if (!check.ok) text += check.name + " " + std::to_string(check.value) + " " + check.where + "\n";
@@ -47,14 +47,14 @@ std::string failures_of(const BuildResult& built) {
 }
 
 /// All messages of a successful build.
-std::string words_of(const BuildResult& built) {
+std::string words_of(const pipeline::BuildResult& built) {
   std::string text;
   for (const std::string& warning : built.product.synthesis.warnings) text += "warning: " + warning + "\n";
   for (const std::string& note : built.product.pulley.layout.notes) text += "note: " + note + "\n";
   return text;
 }
 
-std::string text_of(const BuildResult& built, const std::string& name) {
+std::string text_of(const pipeline::BuildResult& built, const std::string& name) {
   for (const OutputFile& output : built.outputs)
     if (output.name == name) return output.bytes;
   return "";
@@ -63,8 +63,8 @@ std::string text_of(const BuildResult& built, const std::string& name) {
 class SeveralTurns : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(SeveralTurns, FollowDeclaredLaw) {
-  const BuildResult built = made(read_profile(GetParam()));
-  ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
+  const pipeline::BuildResult built = made(read_profile(GetParam()));
+  ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   ASSERT_TRUE(built.product.helix);
   EXPECT_GT(built.product.helix->synthesis.sides[0].turns, 2.5);
   EXPECT_LT(degrees(built.product.as_built.max_theta_error), 0.0005);
@@ -76,11 +76,11 @@ INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurns, ::testing::Values("wrist_turns"
                          [](const auto& which) { return which.param; });
 
 /// Smallest error of θ, deg, when pins, lengths and grooves deviate and the pulley is not corrected.
-double uncorrected(const std::string& profile, const JointAsItIs& joint) {
-  const Product product = made(read_profile(profile)).product;
-  const std::vector<FloorLine> floors = helical_floors(product.pulley.mesh, product.pulley.layout.scale);
-  const HelicalRewind wound = rewind_floors(floors.at(0), floors.at(1), with_inset(joint), product.synthesis.stroke,
-                                            product.helix->laid(false));
+double uncorrected(const std::string& profile, const joint::JointAsItIs& joint) {
+  const formats::Product product = made(read_profile(profile)).product;
+  const std::vector<coil::FloorLine> floors = coil::helical_floors(product.pulley.mesh, product.pulley.layout.scale);
+  const coil::HelicalRewind wound = coil::rewind_floors(floors.at(0), floors.at(1), joint::with_inset(joint),
+                                                        product.synthesis.stroke, product.helix->laid(false));
   return degrees(wound.result.max_theta_error);
 }
 
@@ -96,13 +96,14 @@ class IdentifiedTurns : public ::testing::TestWithParam<Found> {};
 // The corrected pulley follows the declared law on the identified joint, rewound on its mesh.
 TEST_P(IdentifiedTurns, AreCorrectedByPulley) {
   const Found& found = GetParam();
-  const BuildResult built = made(read_profile(found.profile, {{std::string("identified.") + found.key, found.value}}));
-  ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
+  const pipeline::BuildResult built =
+      made(read_profile(found.profile, {{std::string("identified.") + found.key, found.value}}));
+  ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   ASSERT_TRUE(built.product.helix);
-  const BuildResult declared = made(read_profile(found.profile));
-  const Transmission law(declared.product.joint.mechanism);
+  const pipeline::BuildResult declared = made(read_profile(found.profile));
+  const transmission::Transmission law(declared.product.joint.mechanism);
   double off = 0;
-  for (const RewindPoint& point : built.product.as_built.points) {
+  for (const profile::RewindPoint& point : built.product.as_built.points) {
     if (point.alpha > law.alpha_min() && point.alpha < law.alpha_max())
       off = std::max(off, std::abs(degrees(point.theta - law.theta(point.alpha))));
   }
@@ -151,8 +152,8 @@ std::map<std::string, std::vector<Place>> curves_in(const std::string& table) {
 TEST(TheFuseeOfAClock, PullTimesRadiusIsConstant) {
   constexpr double k_barrel = 50.3, k_pin = 8.3, k_torque = 66.6667;
   const double to_pin = std::hypot(70.0, 180.0);
-  const BuildResult built = made(read_profile("fusee_proper"));
-  ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
+  const pipeline::BuildResult built = made(read_profile("fusee_proper"));
+  ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   for (const auto& [pulley, curve] : curves_in(text_of(built, "profile.csv"))) {
     const double hand = pulley == "P2" ? 1.0 : -1.0;
     std::vector<double> paid_out;
@@ -183,18 +184,18 @@ TEST(TheFuseeOfAClock, PullTimesRadiusIsConstant) {
 
 // The work that turns the wound mesh equals the energy in the spring: 66.67 alpha = 400 theta + 50.93 theta²/2.
 TEST(TheFuseeOfAClock, SpringStoresWork) {
-  const BuildResult built = made(read_profile("fusee_proper"));
-  ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
+  const pipeline::BuildResult built = made(read_profile("fusee_proper"));
+  ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   ASSERT_GT(built.product.as_built.points.size(), 50U);
-  for (const RewindPoint& point : built.product.as_built.points) {
+  for (const profile::RewindPoint& point : built.product.as_built.points) {
     const double theta = (std::sqrt(400.0 * 400.0 + 2.0 * 50.93 * 66.6667 * point.alpha) - 400.0) / 50.93;
     EXPECT_NEAR(degrees(point.theta), degrees(theta), 0.0005) << degrees(point.alpha);
   }
 }
 
 TEST(SeveralTurnsFiles, ListHelicalCurves) {
-  const BuildResult built = made(read_profile("wrist_turns"));
-  ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
+  const pipeline::BuildResult built = made(read_profile("wrist_turns"));
+  ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   std::istringstream profile(text_of(built, "profile.csv"));
   std::string header, row;
   std::getline(profile, header);
@@ -211,17 +212,17 @@ TEST(SeveralTurnsFiles, ListHelicalCurves) {
 
 // Both polylines of each groove as another program reads them: turns of the working arc, and height from end to end.
 TEST(SeveralTurnsFiles, DrawSpiralsInSpace) {
-  for (const DxfVersion version : {DxfVersion::ac1015, DxfVersion::r12}) {
-    BuildOptions options;
+  for (const formats::DxfVersion version : {formats::DxfVersion::ac1015, formats::DxfVersion::r12}) {
+    pipeline::BuildOptions options;
     options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns";
     options.dry_run = true;
     options.dxf = version;
-    const BuildResult built = build(read_profile("elbow_capstan"), options);
-    ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
-    const Drawing drawing = read_dxf(text_of(built, "profile.dxf"), "profile.dxf");
+    const pipeline::BuildResult built = pipeline::build(read_profile("elbow_capstan"), options);
+    ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
+    const formats::Drawing drawing = formats::read_dxf(text_of(built, "profile.dxf"), "profile.dxf");
     for (const std::string layer : {"P1_SPIRAL", "P2_SPIRAL"}) {
       const auto path = std::find_if(drawing.paths.begin(), drawing.paths.end(),
-                                     [&](const DrawingPath& one) { return one.layer == layer; });
+                                     [&](const formats::DrawingPath& one) { return one.layer == layer; });
       ASSERT_NE(path, drawing.paths.end()) << layer;
       EXPECT_TRUE(path->in_space);
       double turned = 0;
@@ -237,7 +238,7 @@ TEST(SeveralTurnsFiles, DrawSpiralsInSpace) {
 }
 
 TEST(SeveralTurnsFiles, ScadHasBothGrooves) {
-  const BuildResult built = made(read_profile("fusee_proper"));
+  const pipeline::BuildResult built = made(read_profile("fusee_proper"));
   const std::string program = text_of(built, "pulley.scad");
   for (const char* has :
        {"\nedge_bulges1 = [", "\nP1 = [", "\nP2 = [", "module run_out", "module bore_hole", "module screw_hole"})
@@ -250,9 +251,9 @@ TEST(SeveralTurnsFiles, ScadHasBothGrooves) {
 TEST(SeveralTurnsPrint, FitEveryPrinter) {
   for (const char* profile : {"wrist_turns", "elbow_capstan"}) {
     for (const char* overhang : {"20", "35", "60", "70"})
-      EXPECT_EQ(made(read_profile(profile, {{"print.overhang_deg", overhang}})).status, BuildStatus::done)
+      EXPECT_EQ(made(read_profile(profile, {{"print.overhang_deg", overhang}})).status, pipeline::BuildStatus::done)
           << profile << " at " << overhang;
-    EXPECT_EQ(made(read_profile(profile, {{"print.supports", "true"}})).status, BuildStatus::done) << profile;
+    EXPECT_EQ(made(read_profile(profile, {{"print.supports", "true"}})).status, pipeline::BuildStatus::done) << profile;
   }
 }
 
@@ -260,7 +261,7 @@ TEST(SeveralTurnsPrint, FitEveryPrinter) {
 TEST(SeveralTurnsWords, NoteErrorOfLevelTendons) {
   const auto note_of = [](const std::vector<Setting>& settings) {
     std::string text;
-    for (const Diagnostic& one : analyze(read_profile("wrist_turns", settings)).warnings) text += one.message;
+    for (const Diagnostic& one : pipeline::analyze(read_profile("wrist_turns", settings)).warnings) text += one.message;
     return text;
   };
   EXPECT_THAT(note_of({}),
@@ -293,22 +294,22 @@ TEST(SeveralTurnsWords, ReportUnusedKeys) {
 /// The message gives the required number of turns, and a value that builds.
 TEST(SeveralTurnsWords, ReportTooManyTurns) {
   const std::vector<Setting> many{{"pulley.r1_mm", "1.2"}};
-  const BuildResult built = made(read_profile("elbow_capstan", many));
-  ASSERT_EQ(built.status, BuildStatus::infeasible);
+  const pipeline::BuildResult built = made(read_profile("elbow_capstan", many));
+  ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built),
               HasSubstr("P1 would wind 23 turns over the range: at most 12 are supported, 52 % of this"));
   ASSERT_FALSE(built.advice.alone.empty());
-  const Change& change = built.advice.alone.front();
+  const profile::Change& change = built.advice.alone.front();
   EXPECT_EQ(change.key, "pulley.r1_mm");
   EXPECT_EQ(made(read_profile("elbow_capstan", {{"pulley.r1_mm", std::to_string(change.to)}})).status,
-            BuildStatus::done);
+            pipeline::BuildStatus::done);
 }
 
 /// Marks and plates.dxf do not exist for several turns; the notes say so, whatever the file requests.
 TEST(SeveralTurnsWords, ListOmittedFeatures) {
   for (const char* marks : {"engraved", "raised"}) {
-    const BuildResult built = made(read_profile("wrist_turns", {{"body.marks", marks}}));
-    ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
+    const pipeline::BuildResult built = made(read_profile("wrist_turns", {{"body.marks", marks}}));
+    ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
     for (const std::string& text : {words_of(built), text_of(built, "manifest.json")}) {
       EXPECT_THAT(text, HasSubstr("multi-turn pulleys have no marks and no slots for the tails"));
       EXPECT_THAT(text, HasSubstr("there is no plates.dxf: plates cannot have helical grooves"));
@@ -319,17 +320,17 @@ TEST(SeveralTurnsWords, ListOmittedFeatures) {
 
 /// This joint has no other obstacle: the advised ratio builds.
 TEST(SeveralTurnsWords, SheathsAdviseRatio) {
-  const BuildResult built = made(read_profile("wrist_sheath", {{"pulley.ratio", "13"}}));
-  ASSERT_EQ(built.status, BuildStatus::infeasible);
+  const pipeline::BuildResult built = made(read_profile("wrist_sheath", {{"pulley.ratio", "13"}}));
+  ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built),
               HasSubstr("more than one turn (a tendon out of a sheath is not wound several times yet)"));
   EXPECT_FALSE(built.advice.empty());
-  EXPECT_EQ(made(read_profile("wrist_sheath", {{"pulley.ratio", "4.55"}})).status, BuildStatus::done);
+  EXPECT_EQ(made(read_profile("wrist_sheath", {{"pulley.ratio", "4.55"}})).status, pipeline::BuildStatus::done);
 }
 
 TEST(SeveralTurnsWords, AdviceBuilds) {
-  const BuildResult built = made(read_profile("wrist_turns", {{"body.lead_mm", "1.2"}}));
-  ASSERT_EQ(built.status, BuildStatus::infeasible);
+  const pipeline::BuildResult built = made(read_profile("wrist_turns", {{"body.lead_mm", "1.2"}}));
+  ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built), HasSubstr("is too small"));
   EXPECT_FALSE(built.advice.empty());
 }
@@ -340,18 +341,18 @@ std::vector<Setting> with_collars(double ef, double lead) {
 
 /// Without collars there is no fleet angle; with them the pulley's distance and the lead determine it.
 TEST(FleetAngles, GrowingAnglesAreReported) {
-  const BuildResult none = made(read_profile("wrist_turns"));
+  const pipeline::BuildResult none = made(read_profile("wrist_turns"));
   EXPECT_THAT(words_of(none), Not(HasSubstr("fleet angle of")));
-  const BuildResult small = made(read_profile("wrist_turns", with_collars(300, 0)));
-  ASSERT_EQ(small.status, BuildStatus::done) << failures_of(small);
+  const pipeline::BuildResult small = made(read_profile("wrist_turns", with_collars(300, 0)));
+  ASSERT_EQ(small.status, pipeline::BuildStatus::done) << failures_of(small);
   EXPECT_THAT(words_of(small), Not(HasSubstr("fleet angle of")));
   EXPECT_THAT(words_of(small), Not(HasSubstr("leaves its groove")));
-  const BuildResult noted = made(read_profile("wrist_turns", with_collars(170, 0)));
-  ASSERT_EQ(noted.status, BuildStatus::done) << failures_of(noted);
+  const pipeline::BuildResult noted = made(read_profile("wrist_turns", with_collars(170, 0)));
+  ASSERT_EQ(noted.status, pipeline::BuildStatus::done) << failures_of(noted);
   EXPECT_THAT(words_of(noted), HasSubstr("note: a fleet angle of 1.95° exceeds the 1.5° limit of smooth drums"));
   EXPECT_THAT(words_of(noted), Not(HasSubstr("leaves its groove")));
-  const BuildResult warned = made(read_profile("wrist_turns", with_collars(60, 7)));
-  ASSERT_EQ(warned.status, BuildStatus::done) << failures_of(warned);
+  const pipeline::BuildResult warned = made(read_profile("wrist_turns", with_collars(60, 7)));
+  ASSERT_EQ(warned.status, pipeline::BuildStatus::done) << failures_of(warned);
   EXPECT_THAT(words_of(warned), HasSubstr("warning: tendon 1 leaves its groove at a fleet angle of up to 5.57° (α"));
   EXPECT_THAT(words_of(warned), Not(HasSubstr("note: a fleet angle of")));
 }
@@ -359,15 +360,15 @@ TEST(FleetAngles, GrowingAnglesAreReported) {
 /// The default lower wall leans by 25°, at a largest radius of 10.2 mm and 1 mm deep: tan 25° √(1/20.4) is 5.9°. The
 /// seat is slightly wider than the tendon, which gives the rest.
 TEST(FleetAngles, LargeAnglesAreRefusedWithAdvice) {
-  const BuildResult built = made(read_profile("wrist_turns", with_collars(60, 8)));
-  ASSERT_EQ(built.status, BuildStatus::infeasible);
+  const pipeline::BuildResult built = made(read_profile("wrist_turns", with_collars(60, 8)));
+  ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built), HasSubstr("tendon 1 leaves its groove at a fleet angle of 6.29° at α = "));
   EXPECT_THAT(failures_of(built), HasSubstr("above 6.14° it touches the groove edge"));
   ASSERT_FALSE(built.advice.alone.empty());
-  for (const Change& change : built.advice.alone) {
+  for (const profile::Change& change : built.advice.alone) {
     std::vector<Setting> mended = with_collars(60, 8);
     mended.push_back({change.key, std::to_string(change.to)});
-    EXPECT_EQ(made(read_profile("wrist_turns", mended)).status, BuildStatus::done) << change.text;
+    EXPECT_EQ(made(read_profile("wrist_turns", mended)).status, pipeline::BuildStatus::done) << change.text;
   }
 }
 
@@ -378,21 +379,21 @@ TEST(FleetAngles, LeaningGroovesAllowLargerAngles) {
   leaning.push_back({"body.groove_angle_deg", "80"});
   EXPECT_THAT(failures_of(made(read_profile("wrist_turns", steep))),
               HasSubstr("above 0.921° it touches the groove edge"));
-  EXPECT_EQ(made(read_profile("wrist_turns", leaning)).status, BuildStatus::done);
+  EXPECT_EQ(made(read_profile("wrist_turns", leaning)).status, pipeline::BuildStatus::done);
 }
 
 /// The number that the refusal of a body advises builds.
 TEST(SeveralTurnsWords, BodyAdviceBuilds) {
   const std::vector<Setting> pocket{{"tendon.diameter_mm", "1.07"}, {"body.knot_pocket_mm", "7"}};
-  const BuildResult built = made(read_profile("elbow_capstan", pocket));
-  ASSERT_EQ(built.status, BuildStatus::infeasible);
+  const pipeline::BuildResult built = made(read_profile("elbow_capstan", pocket));
+  ASSERT_EQ(built.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built), HasSubstr("knot pocket"));
   const auto change = std::find_if(built.advice.alone.begin(), built.advice.alone.end(),
-                                   [](const Change& one) { return one.key == "body.knot_pocket_mm"; });
+                                   [](const profile::Change& one) { return one.key == "body.knot_pocket_mm"; });
   ASSERT_NE(change, built.advice.alone.end());
   std::vector<Setting> mended = pocket;
   mended.back().value = std::to_string(change->to);
-  EXPECT_EQ(made(read_profile("elbow_capstan", mended)).status, BuildStatus::done);
+  EXPECT_EQ(made(read_profile("elbow_capstan", mended)).status, pipeline::BuildStatus::done);
 }
 
 /// Regressions: each of these bodies once intersected itself or broke through its rim.
@@ -401,26 +402,26 @@ TEST(SeveralTurnsBodies, PassRegressions) {
       {{"tendon.diameter_mm", "0.72"}, {"pulley.r1_mm", "6.61"}, {"body.spare_turns", "1.7"}},
       {{"tendon.diameter_mm", "0.9"}, {"body.anchor_hole_mm", "2"}}};
   for (const std::vector<Setting>& settings : designs) {
-    const BuildResult built = made(read_profile("elbow_capstan", settings));
-    EXPECT_EQ(built.status, BuildStatus::done) << settings.front().value << "\n" << failures_of(built);
+    const pipeline::BuildResult built = made(read_profile("elbow_capstan", settings));
+    EXPECT_EQ(built.status, pipeline::BuildStatus::done) << settings.front().value << "\n" << failures_of(built);
   }
   // Turns of one normal are far apart sideways.
-  const BuildResult aside = made(read_profile("wrist_turns", {{"pulley.ratio", "6.71"},
-                                                              {"joint.length_mm", "246.3"},
-                                                              {"guides.EB_mm", "136.6"},
-                                                              {"guides.ED_mm", "159.3"},
-                                                              {"pulley.EF_mm", "162.2"},
-                                                              {"joint.range_deg", "[-35.3, 29.7]"},
-                                                              {"body.groove", "u"}}));
-  EXPECT_EQ(aside.status, BuildStatus::done) << failures_of(aside);
+  const pipeline::BuildResult aside = made(read_profile("wrist_turns", {{"pulley.ratio", "6.71"},
+                                                                        {"joint.length_mm", "246.3"},
+                                                                        {"guides.EB_mm", "136.6"},
+                                                                        {"guides.ED_mm", "159.3"},
+                                                                        {"pulley.EF_mm", "162.2"},
+                                                                        {"joint.range_deg", "[-35.3, 29.7]"},
+                                                                        {"body.groove", "u"}}));
+  EXPECT_EQ(aside.status, pipeline::BuildStatus::done) << failures_of(aside);
 }
 
 TEST(SeveralTurnsWords, RejectWideHub) {
-  const BuildResult wide = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "90"}}));
-  EXPECT_EQ(wide.status, BuildStatus::infeasible);
+  const pipeline::BuildResult wide = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "90"}}));
+  EXPECT_EQ(wide.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(wide), HasSubstr("the upper flange has space for a hub of"));
-  const BuildResult thin = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "2"}}));
-  EXPECT_EQ(thin.status, BuildStatus::infeasible);
+  const pipeline::BuildResult thin = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "2"}}));
+  EXPECT_EQ(thin.status, pipeline::BuildStatus::infeasible);
   EXPECT_THAT(failures_of(thin), HasSubstr("body.hub_diameter_mm) leaves"));
 }
 
@@ -429,23 +430,23 @@ TEST(SeveralTurnsWords, RejectWideHub) {
 /// As found by the build, on each of its mesh files; shrinking materials are printed larger.
 TEST_P(SeveralTurns, RewindOnFiles) {
   const MechanismFile file = read_profile(GetParam(), {{"material.shrinkage_percent", "0.8"}});
-  const BuildResult built = made(file);
-  ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
+  const pipeline::BuildResult built = made(file);
+  ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   for (const char* name : {"pulley.stl", "pulley.3mf", "pulley.drc"}) {
-    const TriangleMesh mesh = read_mesh(text_of(built, name), name);
-    const RewoundPart wound = rewind_moved_part(as_it_is(file.mechanism), mesh);
-    EXPECT_EQ(wound.place, PartPlace::as_made) << name;
+    const solid::TriangleMesh mesh = formats::read_mesh(text_of(built, name), name);
+    const pipeline::RewoundPart wound = pipeline::rewind_moved_part(joint::as_it_is(file.mechanism), mesh);
+    EXPECT_EQ(wound.place, pipeline::PartPlace::as_made) << name;
     EXPECT_LT(degrees(wound.as_built.max_theta_error), 0.0005) << name;
     EXPECT_EQ(wound.as_built.points.size(), built.product.as_built.points.size());
-    TriangleMesh moved = mesh;
+    solid::TriangleMesh moved = mesh;
     for (Vec3& vertex : moved.vertices) vertex.x() += 0.2;
-    EXPECT_GT(degrees(rewind_part(as_it_is(file.mechanism), moved).max_theta_error), 0.01) << name;
+    EXPECT_GT(degrees(pipeline::rewind_part(joint::as_it_is(file.mechanism), moved).max_theta_error), 0.01) << name;
   }
 }
 
 TEST(SeveralTurnsWords, RejectDrawing) {
   try {
-    rewind_part(as_it_is(read_profile("wrist_turns").mechanism), Drawing{});
+    pipeline::rewind_part(joint::as_it_is(read_profile("wrist_turns").mechanism), formats::Drawing{});
     FAIL() << "rewound on a drawing";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("pulley.stl"));
@@ -455,10 +456,10 @@ TEST(SeveralTurnsWords, RejectDrawing) {
 // ---- the kit
 
 /// One turn of the spiral around the row `turn`, as a plane curve.
-Outline turn_about(const Spiral& spiral, Side side, double turn) {
-  Outline outline;
+profile::Outline turn_about(const helix::Spiral& spiral, transmission::Side side, double turn) {
+  profile::Outline outline;
   outline.side = side;
-  for (const SpiralRow& row : spiral.rows) {
+  for (const helix::SpiralRow& row : spiral.rows) {
     if (std::abs(row.turn - turn) < k_pi)
       outline.points.push_back({row.turn, Vec2(row.x, row.y), unit(row.turn), row.rho});
   }
@@ -468,24 +469,24 @@ Outline turn_about(const Spiral& spiral, Side side, double turn) {
 
 /// A tendon at one place of the stroke, by tangents to the drawing: from its end on the joint to the row it leaves.
 struct Strung {
-  TendonTrace trace;
+  formats::TendonTrace trace;
   std::size_t row = 0;
 };
-Strung strung(const Product& product, Side side, std::size_t place) {
-  const HelixSide& helix = product.helix->synthesis.sides.at(side == Side::left ? 0 : 1);
+Strung strung(const formats::Product& product, transmission::Side side, std::size_t place) {
+  const helix::HelixSide& helix = product.helix->synthesis.sides.at(side == transmission::Side::left ? 0 : 1);
   const double z = helix.stroke.at(place).z;
   std::size_t near = 0;
   for (std::size_t i = 0; i < helix.spiral.rows.size(); ++i)
     if (std::abs(helix.spiral.rows[i].z - z) < std::abs(helix.spiral.rows[near].z - z)) near = i;
-  const TransmissionPoint& at = product.synthesis.stroke.at(place);
-  const auto trace = trace_tendon(product.joint.mechanism, turn_about(helix.spiral, side, helix.spiral.rows[near].turn),
-                                  at.alpha, at.theta);
+  const transmission::TransmissionPoint& at = product.synthesis.stroke.at(place);
+  const auto trace = formats::trace_tendon(
+      product.joint.mechanism, turn_about(helix.spiral, side, helix.spiral.rows[near].turn), at.alpha, at.theta);
   EXPECT_TRUE(trace.has_value());
-  const Vec2 left = turned(trace->take_off - pulley_axis(product.joint.mechanism), at.alpha);
+  const Vec2 left = turned(trace->take_off - formats::pulley_axis(product.joint.mechanism), at.alpha);
   std::size_t row = near;
   double nearest = 1e9;
   for (std::size_t i = 0; i < helix.spiral.rows.size(); ++i) {
-    const SpiralRow& own = helix.spiral.rows[i];
+    const helix::SpiralRow& own = helix.spiral.rows[i];
     const double off = std::hypot(own.x - left.x(), own.y - left.y());
     if (std::abs(own.turn - helix.spiral.rows[near].turn) > 3.0 || off >= nearest) continue;
     nearest = off;
@@ -502,35 +503,35 @@ double planar(const std::vector<Vec2>& path, std::size_t last) {
 
 class SeveralTurnsKit : public ::testing::TestWithParam<std::string> {
  protected:
-  static KitResult made_kit() {
-    KitOptions options;
+  static pipeline::KitResult made_kit() {
+    pipeline::KitOptions options;
     options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";
     options.dry_run = true;
-    return kit(read_profile(GetParam()), options);
+    return pipeline::kit(read_profile(GetParam()), options);
   }
 };
 
 /// Cut length from knot to knot: along the drawn path in plan with its rise, along the rows in space, and to the
 /// pocket.
 TEST_P(SeveralTurnsKit, CutLengthMatchesWoundLength) {
-  const KitResult made = made_kit();
-  ASSERT_EQ(made.ending, KitEnding::done);
-  const Product& product = made.product.pulley;
+  const pipeline::KitResult made = made_kit();
+  ASSERT_EQ(made.ending, pipeline::KitEnding::done);
+  const formats::Product& product = made.product.pulley;
   const auto& stroke = product.synthesis.stroke;
   std::size_t home = 0;
   for (std::size_t i = 0; i < stroke.size(); ++i)
     if (std::abs(stroke[i].alpha) < std::abs(stroke[home].alpha)) home = i;
-  const std::vector<KitCut> cuts = kit_cuts(made.product);
+  const std::vector<formats::KitCut> cuts = formats::kit_cuts(made.product);
   ASSERT_EQ(cuts.size(), 2u);
-  for (const KitCut& cut : cuts) {
-    const HelixSide& side = product.helix->synthesis.sides.at(cut.side == Side::left ? 0 : 1);
-    const std::vector<SpiralRow>& rows = side.spiral.rows;
+  for (const formats::KitCut& cut : cuts) {
+    const helix::HelixSide& side = product.helix->synthesis.sides.at(cut.side == transmission::Side::left ? 0 : 1);
+    const std::vector<helix::SpiralRow>& rows = side.spiral.rows;
     const auto [trace, row] = strung(product, cut.side, home);
     double length = std::hypot(trace.free_length, rows[row].z - side.attachment_z);
-    const std::size_t end = cut.side == Side::left ? rows.size() - 1 : 0;
+    const std::size_t end = cut.side == transmission::Side::left ? rows.size() - 1 : 0;
     for (std::size_t i = std::min(row, end); i < std::max(row, end); ++i)
       length += Vec3(rows[i + 1].x - rows[i].x, rows[i + 1].y - rows[i].y, rows[i + 1].z - rows[i].z).norm();
-    for (const HelicalAnchor& anchor : product.helix->pulley.anchors)
+    for (const coil::HelicalAnchor& anchor : product.helix->pulley.anchors)
       if (anchor.side == cut.side) length += (anchor.pocket - anchor.exit).norm();
     EXPECT_NEAR(cut.between_knots, length, 0.05) << GetParam();
     EXPECT_GT(cut.cut, cut.between_knots + 100);
@@ -539,19 +540,19 @@ TEST_P(SeveralTurnsKit, CutLengthMatchesWoundLength) {
 
 /// A tendon rises evenly over drum and pins, and reaches each of the given heights once.
 TEST_P(SeveralTurnsKit, ReportsTendonHeights) {
-  const KitResult made = made_kit();
+  const pipeline::KitResult made = made_kit();
   ASSERT_TRUE(made.product.plan.heights);
-  const TendonHeights& heights = *made.product.plan.heights;
-  const Product& product = made.product.pulley;
-  TendonHeights::Span on_drum;
-  for (const Side side : {Side::left, Side::right}) {
-    const std::size_t i = side == Side::left ? 0 : 1;
-    const HelixSide& helix = product.helix->synthesis.sides.at(i);
-    const SpiralPlace& lies = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
+  const kit::TendonHeights& heights = *made.product.plan.heights;
+  const formats::Product& product = made.product.pulley;
+  kit::TendonHeights::Span on_drum;
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const std::size_t i = side == transmission::Side::left ? 0 : 1;
+    const helix::HelixSide& helix = product.helix->synthesis.sides.at(i);
+    const coil::SpiralPlace& lies = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
     const double end = lies.height(helix.attachment_z);
     EXPECT_NEAR(heights.ends.at(i), end, 1e-9);
     on_drum.see(end);
-    TendonHeights::Span on_guide;
+    kit::TendonHeights::Span on_guide;
     for (std::size_t k = 0; k < product.synthesis.stroke.size(); k += 5) {
       const auto [trace, row] = strung(product, side, k);
       const double off = lies.height(helix.spiral.rows[row].z);
@@ -560,7 +561,7 @@ TEST_P(SeveralTurnsKit, ReportsTendonHeights) {
       };
       for (std::size_t point = 0; point < trace.free_path.size(); ++point) {
         const Vec2 at = trace.free_path[point];
-        if ((at - pin_centre(product.joint.mechanism, side)).norm() <
+        if ((at - formats::pin_centre(product.joint.mechanism, side)).norm() <
             product.joint.mechanism.guide_pitch_radius() + 1e-6)
           on_guide.see(height(point));
         if (at.norm() < product.joint.mechanism.joint.drum_radius + product.joint.mechanism.tendon.diameter)
@@ -572,9 +573,9 @@ TEST_P(SeveralTurnsKit, ReportsTendonHeights) {
   }
   EXPECT_NEAR(on_drum.low, heights.drum.low, 0.1) << GetParam();
   EXPECT_NEAR(on_drum.high, heights.drum.high, 0.1) << GetParam();
-  for (const KitPart& part : made.product.plan.parts) {
+  for (const kit::KitPart& part : made.product.plan.parts) {
     if (part.name != "drum") continue;
-    const Bounds box = bounds(mesh_of(part.body));
+    const solid::Bounds box = solid::bounds(kit::mesh_of(part.body));
     EXPECT_NEAR(box.high.z() - box.low.z(),
                 heights.drum.high - heights.drum.low + 2 * (product.joint.mechanism.tendon.diameter + 1), 1e-5);
   }
@@ -585,21 +586,23 @@ INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurnsKit, ::testing::Values("wrist_tur
 
 /// A printer that requires slopes of 55° gets steeper chamfers at the bed.
 TEST(SeveralTurnsKitWords, PartsFollowOverhangLimit) {
-  KitOptions options;
+  pipeline::KitOptions options;
   options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";
   options.dry_run = true;
-  const KitResult made = kit(read_profile("elbow_capstan", {{"print.overhang_deg", "55"}}), options);
+  const pipeline::KitResult made =
+      pipeline::kit(read_profile("elbow_capstan", {{"print.overhang_deg", "55"}}), options);
   for (const Check& check : made.product.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value;
-  EXPECT_EQ(made.ending, KitEnding::done);
+  EXPECT_EQ(made.ending, pipeline::KitEnding::done);
 }
 
 /// The refusal names the obstacle and tested changes.
 TEST(SeveralTurnsKitWords, AdviceMakesRoom) {
-  KitOptions options;
+  pipeline::KitOptions options;
   options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";
   options.dry_run = true;
-  const KitResult refused = kit(read_profile("wrist_turns", {{"guides.radius_mm", "0.2"}}), options);
-  EXPECT_EQ(refused.ending, KitEnding::no_kit);
+  const pipeline::KitResult refused =
+      pipeline::kit(read_profile("wrist_turns", {{"guides.radius_mm", "0.2"}}), options);
+  EXPECT_EQ(refused.ending, pipeline::KitEnding::no_kit);
   ASSERT_FALSE(refused.advice.alone.empty());
   EXPECT_EQ(refused.advice.alone.front().key, "guides.radius_mm");
 }

@@ -156,21 +156,21 @@ int wide_number(const char* variable, int otherwise) {
 
 /// Limit of the rewinding error, deg: 0.005 for joints with tendon arms of 8 mm or more, and the same length of tendon
 /// for smaller ones.
-double rewinding_limit(const SynthesisResult& synthesis) {
+double rewinding_limit(const profile::SynthesisResult& synthesis) {
   double arm = 1e9;
-  for (const TransmissionPoint& at : synthesis.stroke) arm = std::min({arm, at.t1.m, at.t2.m});
+  for (const transmission::TransmissionPoint& at : synthesis.stroke) arm = std::min({arm, at.t1.m, at.t2.m});
   return 0.005 * std::max(1.0, 8.0 / arm);
 }
 
 /// Drill plates are sound solids, or the obstacle is reported.
-void expect_plates_or_reasons(const Product& product) {
+void expect_plates_or_reasons(const formats::Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
-  const KitPlan plan = plan_kit(mechanism, product.synthesis, product.pulley.layout);
-  EXPECT_EQ(plan.made(), failed_of(plan.conditions).empty());
+  const kit::KitPlan plan = kit::plan_kit(mechanism, product.synthesis, product.pulley.layout);
+  EXPECT_EQ(plan.made(), profile::failed_of(plan.conditions).empty());
   EXPECT_EQ(plan.made(), !plan.parts.empty());
-  for (const KitPart& part : plan.parts) {
+  for (const kit::KitPart& part : plan.parts) {
     if (part.places.empty()) continue;
-    for (const Check& check : check_mesh(printed_mesh(part, mechanism, product.pulley.layout)))
+    for (const Check& check : solid::check_mesh(kit::printed_mesh(part, mechanism, product.pulley.layout)))
       EXPECT_TRUE(check.ok) << part.name << " " << check.name << " " << check.value;
   }
 }
@@ -178,17 +178,17 @@ void expect_plates_or_reasons(const Product& product) {
 enum class WideEnd { made, refused, bad_input };
 
 WideEnd wide_end(const std::string& text) {
-  BuildOptions options;
+  pipeline::BuildOptions options;
   options.dry_run = true;
   options.advice = std::getenv("FUSEE_LONG_TESTS") != nullptr;
   try {
     MechanismFile file;
     file.mechanism = parse_mechanism(text, "wide.toml");
-    const BuildResult built = build(file, options);
+    const pipeline::BuildResult built = pipeline::build(file, options);
     for (const Check& check : built.product.checks)
       EXPECT_TRUE(check.ok) << check.name << " " << check.value << ", limit " << check.limit << "; " << check.where;
-    if (built.status == BuildStatus::infeasible) return WideEnd::refused;
-    const RewindResult& wound = built.product.as_built;
+    if (built.status == pipeline::BuildStatus::infeasible) return WideEnd::refused;
+    const profile::RewindResult& wound = built.product.as_built;
     // Pulleys of several turns are tested in random_turns_test.cpp.
     if (!built.product.helix) {
       EXPECT_LT(degrees(wound.max_theta_error), rewinding_limit(built.product.synthesis))

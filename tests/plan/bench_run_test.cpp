@@ -1,16 +1,15 @@
 // Bench runs as rows, and the next measurements.
-#include "fusee/plan.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "fusee/mechanism_file.h"
+#include "fusee/plan.h"
 #include "joint/sensors.h"
 #include "mechanism/effect.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::plan {
 namespace {
 
 using ::testing::HasSubstr;
@@ -30,7 +29,7 @@ TEST(PlannedRun, RowsCoverStrokesInThatTime) {
   for (const double dwell : {0.0, 30.0}) {
     PlannedRun run = k_run;
     run.dwell = dwell;
-    const BenchRun rows = driven(run, 20);
+    const joint::BenchRun rows = driven(run, 20);
     EXPECT_DOUBLE_EQ(rows.rows.front().alpha, run.from);
     EXPECT_DOUBLE_EQ(rows.rows.back().alpha, run.from);
     EXPECT_NEAR(rows.rows.back().time, 60 * minutes_of(run), 1e-9);
@@ -69,12 +68,12 @@ TEST(TurnedEncoder, ShiftsMotorError) {
   motor.wave_order = 3;
   const double turn = mounting_of(BenchChange::motor_sensor_turned).motor_sensor_turned;
   ASSERT_NE(turn, 0);
-  const auto error = [&](double alpha) { return shaft_angle(alpha, motor) - alpha; };
+  const auto error = [&](double alpha) { return joint::shaft_angle(alpha, motor) - alpha; };
   for (const double alpha : {-2.0, -0.3, 0.0, 1.1, 4.0}) {
-    const double shown = shaft_angle(alpha, turned(motor, turn)) - alpha;
+    const double shown = joint::shaft_angle(alpha, joint::turned(motor, turn)) - alpha;
     EXPECT_NEAR(shown, error(alpha + turn) - error(turn), 1e-15);
   }
-  EXPECT_EQ(turned(motor, 0.0), motor);
+  EXPECT_EQ(joint::turned(motor, 0.0), motor);
 }
 
 TEST(TurnedEncoder, ShiftsJointError) {
@@ -82,12 +81,12 @@ TEST(TurnedEncoder, ShiftsJointError) {
   sensor.eccentricity_sin = 0.02;
   sensor.eccentricity_cos = 0.03;
   const double turn = 0.7;
-  const BenchRun run{.rows = {{0, 0, 0, 0}, {1, 0, 0, 0}}};
+  const joint::BenchRun run{.rows = {{0, 0, 0, 0}, {1, 0, 0, 0}}};
   const auto error = [&](double theta, const JointSensorError& of) {
-    return sensed(run, {theta, theta}, of)[1] - theta;
+    return joint::sensed(run, {theta, theta}, of)[1] - theta;
   };
   for (const double theta : {-0.5, 0.2})
-    EXPECT_NEAR(error(theta, turned(sensor, turn)), error(theta + turn, sensor) - error(turn, sensor), 1e-15);
+    EXPECT_NEAR(error(theta, joint::turned(sensor, turn)), error(theta + turn, sensor) - error(turn, sensor), 1e-15);
 }
 
 TEST(NextMeasurement, DescribesEachKind) {
@@ -99,7 +98,7 @@ TEST(NextMeasurement, DescribesEachKind) {
   turned.change = BenchChange::joint_sensor_turned;
   EXPECT_EQ(next_run(turned, k_run.speed, "N").kind(), "turn_sensor");
   EXPECT_GT(next_run(turned, k_run.speed, "N").minutes, run.minutes);
-  const EffectParameter& pin = find_effect("guide_radius", JointKind::tendons)->parameters.front();
+  const fusee::EffectParameter& pin = find_effect("guide_radius", JointKind::tendons)->parameters.front();
   EXPECT_EQ(next_reading({&pin}).kind(), "caliper");
   EXPECT_EQ(next_reading({&pin}).words, pin.by_hand.words);
   EXPECT_DOUBLE_EQ(next_reading({&pin, &pin}).minutes, 2 * next_reading({&pin}).minutes);
@@ -111,7 +110,7 @@ TEST(NextMeasurement, DescribesEachKind) {
 
 // A reading that is written into the file is not requested again.
 TEST(UnreadNumbers, WritesToItsKey) {
-  for (const EffectParameter* number : unread_numbers(testing::forearm())) {
+  for (const fusee::EffectParameter* number : unread_numbers(testing::forearm())) {
     DeclaredMechanism joint = testing::forearm();
     const Field* field = find_field(number->by_hand.key);
     ASSERT_NE(field, nullptr) << number->by_hand.key;
@@ -135,4 +134,4 @@ TEST(BenchChanges, HaveInstructions) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::plan

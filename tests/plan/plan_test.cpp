@@ -11,7 +11,7 @@
 #include "plan/separation.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::plan {
 namespace {
 
 using ::testing::Contains;
@@ -114,7 +114,7 @@ TEST(Plan, OmitsKnownReadings) {
   DeclaredMechanism known = testing::forearm();
   const auto asks = [](const DeclaredMechanism& joint) {
     std::vector<std::string> keys;
-    for (const EffectParameter* reading : unread_numbers(joint)) keys.emplace_back(reading->key.name);
+    for (const fusee::EffectParameter* reading : unread_numbers(joint)) keys.emplace_back(reading->key.name);
     return keys;
   };
   EXPECT_THAT(asks(known), Contains("pulley_scale_percent"));
@@ -187,4 +187,4 @@ TEST_F(Separations, CaliperResolvesScaleFromOffset) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::plan

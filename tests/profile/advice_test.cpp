@@ -1,5 +1,3 @@
-#include "fusee/profile.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,9 +5,10 @@
 #include <chrono>
 #include <thread>
 
+#include "fusee/profile.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 const Change* find(const std::vector<Change>& changes, const std::string& key) {
@@ -157,4 +156,4 @@ TEST(Advice, KeepsRangeWithinTable) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 TEST(ClosingArc, ReproducesCircle) {
@@ -47,4 +47,4 @@ TEST(ClosingArc, IsNullWithoutConvexArc) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::profile

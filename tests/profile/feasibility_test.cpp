@@ -7,7 +7,7 @@
 #include "fusee/profile.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 using ::testing::HasSubstr;
@@ -211,4 +211,4 @@ TEST(Feasibility, ListsAllConditions) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::profile

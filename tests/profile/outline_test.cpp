@@ -1,12 +1,11 @@
-#include "fusee/profile.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "fusee/profile.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 TEST(Outline, ActiveArcMayWrapPastTheEnd) {
@@ -17,9 +16,9 @@ TEST(Outline, ActiveArcMayWrapPastTheEnd) {
   EXPECT_TRUE(outline.is_active(8));
   EXPECT_TRUE(outline.is_active(0));
   EXPECT_FALSE(outline.is_active(5));
-  outline.side = Side::right;
+  outline.side = transmission::Side::right;
   EXPECT_EQ(outline.anchor_end(), 7U);
-  outline.side = Side::left;
+  outline.side = transmission::Side::left;
   EXPECT_EQ(outline.anchor_end(), 2U);
 }
 
@@ -62,4 +61,4 @@ TEST(Outline, SagittaIsSmallForBendAtOneEnd) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::profile

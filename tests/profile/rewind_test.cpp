@@ -1,11 +1,10 @@
-#include "fusee/profile.h"
-
 #include <gtest/gtest.h>
 
 #include "fusee/base.h"
+#include "fusee/profile.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 using testing::forearm;
@@ -98,4 +97,4 @@ TEST(Rewind, RejectsInvalidFloors) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::profile

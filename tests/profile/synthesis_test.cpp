@@ -1,10 +1,9 @@
-#include "fusee/profile.h"
-
 #include <gtest/gtest.h>
 
+#include "fusee/profile.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::profile {
 namespace {
 
 using testing::forearm;
@@ -15,7 +14,9 @@ using testing::scaled;
 using testing::unsymmetric;
 
 /// Direction of the tendon's normal in the frame of the pulley turned by α.
-double body_normal(const TransmissionPoint& at, const TendonPoint& tendon) { return tendon.lower_normal + at.alpha; }
+double body_normal(const transmission::TransmissionPoint& at, const transmission::TendonPoint& tendon) {
+  return tendon.lower_normal + at.alpha;
+}
 
 double distance_from(const Outline& outline, double psi) {
   double support = -1e9;
@@ -37,7 +38,7 @@ TEST(Synthesis, TendonLinesTouchOutline) {
   for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
     const SynthesisResult result = synthesise(mechanism, {.tolerance = 1e-4});
     ASSERT_TRUE(result.made()) << result.brief();
-    for (const TransmissionPoint& at : result.stroke) {
+    for (const transmission::TransmissionPoint& at : result.stroke) {
       const double reach1 = distance_from(result.p1, body_normal(at, at.t1));
       const double reach2 = distance_from(result.p2, body_normal(at, at.t2));
       EXPECT_LE(reach1, at.t1.p + 1e-9);
@@ -74,8 +75,8 @@ TEST(Synthesis, CurvatureAgreesWithPoints) {
 TEST(Synthesis, ActiveArcsEndWithStroke) {
   const SynthesisResult result = synthesise(forearm());
   ASSERT_TRUE(result.made());
-  const TransmissionPoint& first = result.stroke.front();
-  const TransmissionPoint& last = result.stroke.back();
+  const transmission::TransmissionPoint& first = result.stroke.front();
+  const transmission::TransmissionPoint& last = result.stroke.back();
   const auto at_normal = [](const Outline& outline, std::size_t i, double psi) {
     return std::abs(std::remainder(outline.points[i].psi - psi, k_two_pi)) < radians(0.11);
   };
@@ -153,4 +154,4 @@ TEST(Synthesis, BriefReportsStrokeAndRadii) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::profile

@@ -72,17 +72,17 @@ double find_root(double guess, double at_zero, Function function) {
 }
 
 /// A point of the printed curve with all errors of the print, in the right-hand image.
-Vec2 print_point(const OutlinePoint& point, std::size_t side, const Hidden& hidden) {
+Vec2 print_point(const profile::OutlinePoint& point, std::size_t side, const Hidden& hidden) {
   const double wave = hidden.profile_error * std::cos(hidden.profile_harmonic * point.psi + hidden.profile_phase);
   const Vec2 moved = (1.0 + hidden.pulley_scale) * point.position + (hidden.radius_offset + wave) * point.normal +
                      Vec2(hidden.runout_x, hidden.runout_y);
   return in_image(side, moved);
 }
 
-Hull print_outline(const Outline& outline, std::size_t side, const Hidden& hidden) {
+Hull print_outline(const profile::Outline& outline, std::size_t side, const Hidden& hidden) {
   Polygon corners;
   corners.reserve(outline.points.size());
-  for (const OutlinePoint& point : outline.points) corners.push_back(print_point(point, side, hidden));
+  for (const profile::OutlinePoint& point : outline.points) corners.push_back(print_point(point, side, hidden));
   return hull_of(corners);
 }
 
@@ -90,7 +90,7 @@ Hull print_outline(const Outline& outline, std::size_t side, const Hidden& hidde
 Hull print_spiral(const MadeSpiral& made, std::size_t side, const Hidden& hidden) {
   Polygon corners;
   std::vector<double> heights;
-  for (const SpiralRow& row : made.rows) {
+  for (const helix::SpiralRow& row : made.rows) {
     corners.push_back(print_point({row.turn, {row.x, row.y}, {std::cos(row.turn), std::sin(row.turn)}}, side, hidden));
     heights.push_back(row.z);
   }

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "base/json.h"
-#include "fusee/base.h"
 #include "calibration/words.h"
-#include "joint/joint_effects.h"
+#include "fusee/base.h"
 #include "fusee/joint.h"
 #include "fusee/mechanism_file.h"
+#include "joint/joint_effects.h"
 #include "rig/sharpness.h"
 
 namespace fusee::rig {
@@ -29,7 +29,8 @@ using Values = std::vector<double>;
 /// The predicted joint angles of the rows that are written.
 class SampledJoint {
  public:
-  explicit SampledJoint(const CaseInput& input) : declared_(input.declared), log_(bench_log(input.measurement)) {
+  explicit SampledJoint(const CaseInput& input)
+      : declared_(input.declared), log_(measurement::bench_log(input.measurement)) {
     for (std::size_t run = 0; run < log_.size(); ++run) {
       const std::size_t all = log_[run].rows.size(), count = std::min(all, k_rows_of_run);
       for (std::size_t k = 0; k < count; ++k) rows_.emplace_back(run, k * all / count);
@@ -39,7 +40,7 @@ class SampledJoint {
   const std::vector<std::pair<std::size_t, std::size_t>>& rows() const { return rows_; }  ///< run, row
 
   Values predicted(const Imperfections& at) const {
-    const Readings all = predict(declared_, at, log_);
+    const joint::Readings all = joint::predict(declared_, at, log_);
     Values angles;
     for (const auto& [run, row] : rows_) angles.push_back(all[run][row]);
     return angles;
@@ -47,7 +48,7 @@ class SampledJoint {
 
   /// Evenly over the session.
   Values slip_times() const {
-    const Values clock = bench_clock(log_);
+    const Values clock = joint::bench_clock(log_);
     const double first = clock.front() + log_.front().rows.front().time;
     const double last = clock.back() + log_.back().rows.back().time;
     Values times;
@@ -57,7 +58,7 @@ class SampledJoint {
 
  private:
   const Mechanism& declared_;
-  BenchLog log_;
+  joint::BenchLog log_;
   std::vector<std::pair<std::size_t, std::size_t>> rows_;
 };
 
@@ -114,9 +115,9 @@ void add_columns(const Effect& effect, const SampledJoint& joint, std::vector<Co
   }
 }
 
-std::vector<int> directions(const Run& run) {
+std::vector<int> directions(const measurement::Run& run) {
   std::vector<int> all(run.samples.size(), 0);
-  for (const Stroke& stroke : run.strokes) {
+  for (const measurement::Stroke& stroke : run.strokes) {
     for (std::size_t row = stroke.first; row <= stroke.last; ++row) all[row] = stroke.direction;
   }
   return all;
@@ -131,17 +132,17 @@ std::string text_of(double value) {
 std::string slopes_csv(const CaseInput& input) {
   const SampledJoint joint(input);
   std::vector<Column> columns = {{"declared_deg", joint.predicted({})}};
-  for (const Effect* effect : effects_of(input.declared)) {
+  for (const Effect* effect : joint::effects_of(input.declared)) {
     if (effect->is_tested) add_columns(*effect, joint, columns);
   }
   std::string text = "run,time_s,alpha_deg,theta_deg,load_N,direction";
   for (const Column& column : columns) text += "," + column.title;
   text += "\n";
   std::vector<std::vector<int>> direction;
-  for (const Run& run : input.measurement.runs) direction.push_back(directions(run));
+  for (const measurement::Run& run : input.measurement.runs) direction.push_back(directions(run));
   for (std::size_t i = 0; i < joint.rows().size(); ++i) {
     const auto [run, row] = joint.rows()[i];
-    const Sample& sample = input.measurement.runs[run].samples[row];
+    const measurement::Sample& sample = input.measurement.runs[run].samples[row];
     text += std::to_string(run + 1);
     for (const double value :
          {sample.time, degrees(sample.alpha), degrees(sample.theta), std::isfinite(sample.load) ? sample.load : 0.0})
@@ -175,11 +176,11 @@ Json truth_of(const Case& made, const std::string& kind) {
 }
 
 Json answer_of(const TimedAnswer& answer) {
-  const Calibration& found = answer.found;
+  const calibration::Calibration& found = answer.found;
   Json effects = Json::array();
-  for (const FoundEffect& effect : found.effects) {
+  for (const calibration::FoundEffect& effect : found.effects) {
     Json numbers = Json::array();
-    for (const FittedParameter& number : effect.parameters) {
+    for (const calibration::FittedParameter& number : effect.parameters) {
       numbers.push_back({{"name", number.name},
                          {"value", nine_digits(number.value)},
                          {"ci95", {nine_digits(number.low), nine_digits(number.high)}},
@@ -191,7 +192,7 @@ Json answer_of(const TimedAnswer& answer) {
                        {"log_odds_over_unmodelled", nine_digits(effect.unmodelled.log_odds)},
                        {"numbers", numbers}});
   }
-  return {{"verdict", word(found.verdict)},
+  return {{"verdict", calibration::word(found.verdict)},
           {"effects", effects},
           {"unmodelled_log_odds", nine_digits(unmodelled_log_odds(found))},
           {"unexplained_rms_deg", angle_json(found.unexplained_rms)},
@@ -211,8 +212,8 @@ CaseInput read_case(const Case& made, const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> runs;
   for (std::size_t run = 0; run < made.logs.size(); ++run)
     runs.push_back(folder / ("run_" + std::to_string(run + 1) + ".csv"));
-  CaseInput input{read_mechanism(folder / "spec.toml").mechanism, read_measurement(runs)};
-  compare_with_declared(input.declared, input.measurement);
+  CaseInput input{read_mechanism(folder / "spec.toml").mechanism, measurement::read_measurement(runs)};
+  measurement::compare_with_declared(input.declared, input.measurement);
   return input;
 }
 

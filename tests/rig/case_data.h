@@ -12,14 +12,14 @@ namespace fusee::rig {
 /// Mechanism and runs as calibrate() reads them.
 struct CaseInput {
   DeclaredMechanism declared;
-  Measurement measurement;
+  measurement::Measurement measurement;
 };
 /// Reads the files of write_case() back.
 CaseInput read_case(const Case& made, const std::filesystem::path& folder);
 
 /// The answer of calibrate() with its processor time. Calibrations that run at the same time count together.
 struct TimedAnswer {
-  Calibration found;
+  calibration::Calibration found;
   double seconds = 0;
 };
 

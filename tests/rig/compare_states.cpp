@@ -49,18 +49,18 @@ struct PairJudgement {
   std::string words;
 };
 
-std::string words_of(const StatePair& pair, const Comparison& comparison) {
+std::string words_of(const StatePair& pair, const calibration::Comparison& comparison) {
   std::string text = pair.change + (pair.common.empty() ? "" : " beside " + pair.common) + ", seen " +
-                     rounded(pair.seen, 2) + " times the noise: " + std::string(word(comparison.verdict));
-  for (const StateChange& change : comparison.found) {
+                     rounded(pair.seen, 2) + " times the noise: " + std::string(calibration::word(comparison.verdict));
+  for (const calibration::StateChange& change : comparison.found) {
     text += " | by runs " + rounded(change.by_runs, 2) + ":";
     for (const std::string& name : change.group) text += " " + name;
-    for (const ChangedParameter& number : change.parameters)
+    for (const calibration::ChangedParameter& number : change.parameters)
       text += " " + number.name + " " + rounded(number.change(), 3) + " (" + rounded(number.low, 3) + " ... " +
               rounded(number.high, 3) + ")";
   }
-  for (const FoundEffect& effect : comparison.changes.effects) {
-    const auto is_this = [&](const StateChange& change) { return change.name == effect.name; };
+  for (const calibration::FoundEffect& effect : comparison.changes.effects) {
+    const auto is_this = [&](const calibration::StateChange& change) { return change.name == effect.name; };
     if (std::any_of(comparison.found.begin(), comparison.found.end(), is_this)) continue;
     text += " | not reported: " + effect.name + ", by runs " + rounded(effect.by_runs, 2) + ", held out " +
             rounded(degrees(effect.rms_drop), 2) + " deg less";
@@ -69,12 +69,12 @@ std::string words_of(const StatePair& pair, const Comparison& comparison) {
          rounded(degrees(comparison.changes.after.held_out_rms), 4) + " deg";
 }
 
-PairJudgement judge(const StatePair& pair, const Comparison& comparison) {
+PairJudgement judge(const StatePair& pair, const calibration::Comparison& comparison) {
   PairJudgement answer;
   answer.words = words_of(pair, comparison);
   answer.is_null = pair.change == "nothing";
-  answer.is_right = answer.is_null && comparison.verdict == ComparisonVerdict::no_change;
-  for (const StateChange& change : comparison.found) {
+  answer.is_right = answer.is_null && comparison.verdict == calibration::ComparisonVerdict::no_change;
+  for (const calibration::StateChange& change : comparison.found) {
     const bool holds = std::find(change.group.begin(), change.group.end(), pair.effect) != change.group.end();
     answer.is_right = answer.is_right || (holds && !answer.is_null);
     answer.is_alone = answer.is_alone || (holds && change.group.size() == 1);
@@ -108,7 +108,7 @@ std::vector<PairJudgement> run_pairs(const std::vector<PairJob>& jobs, std::size
     std::string words;
     try {
       const StatePair pair = make_pair(jobs[i].change, jobs[i].seed, folder / std::to_string(i));
-      answer = judge(pair, compare_states(pair.joint.declared, pair.runs));
+      answer = judge(pair, calibration::compare_states(pair.joint.declared, pair.runs));
       words = (!answer->is_right ? "MISSED " : answer->is_false ? "FALSE " : "") + answer->words;
     } catch (const std::exception& error) {
       words = jobs[i].change + ": left out: " + error.what();

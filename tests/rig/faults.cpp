@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 #include "rig/fault_table.h"
 
 namespace fusee::rig {

@@ -325,7 +325,7 @@ TEST(Chance, SpanDiffersFromRunToRun) {
 // ---- places: an action in a list of Hidden reaches the log ----------------------------------------------------------
 
 TEST(Place, ShaftTurnsPulley) {
-  const Transmission law(stiff().declared);
+  const transmission::Transmission law(stiff().declared);
   for (const Row& row : run_of(with("gearbox_error", 0.01), single_protocol().front(), stiff()))
     EXPECT_NEAR(row.theta, law.theta(row.alpha + 0.01 * (std::sin(3.7 * row.alpha + 1.0) - s1)), 3e-6);
 }
@@ -333,7 +333,7 @@ TEST(Place, ShaftTurnsPulley) {
 TEST(Place, TorqueTwistsCompliantJoint) {
   const RunPlan fast{0.0, radians(90.0), 2, 0.0};
   const Log plain = run_of({}, fast, soft()), greased = run_of(with("grease", 2000.0), fast, soft());
-  const TransmissionPoint home = Transmission(soft().declared).at_alpha(0.0);
+  const transmission::TransmissionPoint home = transmission::Transmission(soft().declared).at_alpha(0.0);
   const double EA = section_stiffness(soft().declared.tendon);
   const double stiffness = EA * (home.t1.m * home.t1.m / home.t1.length + home.t2.m * home.t2.m / home.t2.length);
   const double rate = (plain[201].theta - plain[199].theta) / (plain[201].time - plain[199].time);

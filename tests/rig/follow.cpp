@@ -24,14 +24,14 @@ const Effect& effect_of(const EffectParameter& number) {
   throw InputError("rig", "no effect has the number " + number.name);
 }
 
-void make_run(const PlannedRun& run, Case& made) {
+void make_run(const plan::PlannedRun& run, Case& made) {
   RunPlan plan;
   plan.load = run.load;
   plan.speed = run.speed;
   plan.cycles = run.cycles;
   plan.dwell = run.dwell;
-  plan.motor_turned = run.change == BenchChange::motor_sensor_turned ? k_quarter : 0.0;
-  plan.joint_turned = run.change == BenchChange::joint_sensor_turned ? k_quarter : 0.0;
+  plan.motor_turned = run.change == plan::BenchChange::motor_sensor_turned ? k_quarter : 0.0;
+  plan.joint_turned = run.change == plan::BenchChange::joint_sensor_turned ? k_quarter : 0.0;
   made.plans.push_back(plan);
   made.logs = log_runs(made.joint, made.hidden, made.plans, made.sensors, made.motion);
 }
@@ -73,7 +73,7 @@ double read_by_hand(const EffectParameter& number, const Case& made) {
   throw InputError("rig", "the rig knows no " + number.name);
 }
 
-bool perform(const NextMeasurement& next, Case& made) {
+bool perform(const plan::NextMeasurement& next, Case& made) {
   if (next.run) {
     make_run(*next.run, made);
     return true;

@@ -49,9 +49,9 @@ TEST(Follow, ProtractorReadingIncludesSensorWaves) {
 }
 
 TEST(Follow, WritesReadingsIntoTheFile) {
-  for (const EffectParameter* asked : unread_numbers(soft().declared)) {
+  for (const EffectParameter* asked : plan::unread_numbers(soft().declared)) {
     Case made = case_of({});
-    ASSERT_TRUE(perform(next_reading({asked}), made)) << asked->by_hand.key;
+    ASSERT_TRUE(perform(plan::next_reading({asked}), made)) << asked->by_hand.key;
     const std::vector<CaliperReading> readings = asked->by_hand.readings(made.joint.declared);
     ASSERT_FALSE(readings.empty()) << asked->by_hand.key;
     EXPECT_NEAR(readings.back().value, 0, 4 * asked->by_hand.uncertainty) << asked->by_hand.key;
@@ -63,9 +63,9 @@ TEST(Follow, WritesReadingsIntoTheFile) {
 TEST(Follow, DrivesRunsAfterThoseThatWereMade) {
   Case made = case_of({.joint_eccentricity = 0.02});
   const Log first = made.logs.front();
-  PlannedRun run{.from = first.front().alpha, .to = -first.front().alpha, .cycles = 1, .speed = radians(30.0)};
-  run.change = BenchChange::joint_sensor_turned;
-  ASSERT_TRUE(perform(next_run(run, run.speed, "N"), made));
+  plan::PlannedRun run{.from = first.front().alpha, .to = -first.front().alpha, .cycles = 1, .speed = radians(30.0)};
+  run.change = plan::BenchChange::joint_sensor_turned;
+  ASSERT_TRUE(perform(plan::next_run(run, run.speed, "N"), made));
   ASSERT_EQ(made.logs.size(), 2u);
   EXPECT_EQ(made.logs[0].back().theta, first.back().theta);
   EXPECT_GT(made.logs[1].front().time, first.back().time);
@@ -78,7 +78,7 @@ TEST(Follow, DrivesRunsAfterThoseThatWereMade) {
 
 TEST(Follow, RejectsInspections) {
   Case made = case_of({});
-  EXPECT_FALSE(perform(next_inspection("mark the tendon"), made));
+  EXPECT_FALSE(perform(plan::next_inspection("mark the tendon"), made));
   EXPECT_EQ(made.plans.size(), 1u);
 }
 

@@ -72,7 +72,7 @@ std::vector<double> flat(const std::vector<Log>& logs) {
   return theta;
 }
 
-std::vector<double> flat(const Readings& readings) {
+std::vector<double> flat(const joint::Readings& readings) {
   std::vector<double> theta;
   for (const std::vector<double>& run : readings) theta.insert(theta.end(), run.begin(), run.end());
   return theta;
@@ -101,21 +101,22 @@ void expect_same(const DeclaredMechanism& declared, const SameFault& fault, doub
   motion.loaded_first = true;  // as in the model, which knows no history before a run
   const std::vector<RunPlan> runs = full_protocol(load);
   const std::vector<Log> faulty = log_runs(joint, hidden, runs, silent, motion);
-  BenchLog log;
+  joint::BenchLog log;
   for (const Log& run : faulty) {
-    BenchRun& bench = log.emplace_back();
+    joint::BenchRun& bench = log.emplace_back();
     bench.has_load = bench.has_temperature = true;
     for (const Row& row : run) bench.rows.push_back({row.time, row.alpha, row.load, row.temperature});
   }
   Imperfections at;
   fault.imitate(at);
   const std::vector<double> simulated = less(flat(faulty), flat(log_runs(joint, {}, runs, silent, motion)));
-  const std::vector<double> predicted = less(flat(predict(declared, at, log)), flat(predict(declared, {}, log)));
+  const std::vector<double> predicted =
+      less(flat(joint::predict(declared, at, log)), flat(joint::predict(declared, {}, log)));
   const double size = rms(simulated, std::vector<double>(simulated.size(), 0.0));
   const double miss = rms(simulated, predicted);
   EXPECT_GT(degrees(size), 0.01);
   EXPECT_LT(miss, fault.share * size) << degrees(size) << " deg, missed " << degrees(miss);
-  EXPECT_LT(degrees(rms(flat(faulty), flat(predict(declared, at, log)))), 0.005);
+  EXPECT_LT(degrees(rms(flat(faulty), flat(joint::predict(declared, at, log)))), 0.005);
 }
 
 TEST_P(SameModel, FaultActsAlike) {

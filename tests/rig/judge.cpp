@@ -7,17 +7,18 @@
 #include <set>
 #include <utility>
 
-#include "fusee/base.h"
 #include "base/text.h"
 #include "calibration/words.h"
+#include "fusee/base.h"
 #include "fusee/mechanism_file.h"
 
 namespace fusee::rig {
 namespace {
 
-constexpr std::array k_verdicts = {CalibrationVerdict::explained,      CalibrationVerdict::confounded,
-                                   CalibrationVerdict::unexplained,    CalibrationVerdict::no_effect,
-                                   CalibrationVerdict::not_repeatable, CalibrationVerdict::not_testable};
+constexpr std::array k_verdicts = {
+    calibration::CalibrationVerdict::explained,      calibration::CalibrationVerdict::confounded,
+    calibration::CalibrationVerdict::unexplained,    calibration::CalibrationVerdict::no_effect,
+    calibration::CalibrationVerdict::not_repeatable, calibration::CalibrationVerdict::not_testable};
 
 bool holds(const std::vector<std::string>& group, const std::string& name) {
   return std::find(group.begin(), group.end(), name) != group.end();
@@ -48,20 +49,20 @@ bool holds_truth(const std::vector<std::string>& group, const Case& made, const 
 }
 
 /// The reported detectable size of a fault, rad at the joint; 0: none reported.
-double detectable_size(const Calibration& found, const std::string& fault) {
-  for (const Detectable& one : found.detectable) {
+double detectable_size(const calibration::Calibration& found, const std::string& fault) {
+  for (const calibration::Detectable& one : found.detectable) {
     if (one.name == fault) return one.smallest;
   }
   return 0;
 }
 
 /// Checks the intervals that `effect` reports for `fault`.
-void check_intervals(const std::string& fault, const FoundEffect& effect, const Case& made,
+void check_intervals(const std::string& fault, const calibration::FoundEffect& effect, const Case& made,
                      std::vector<IntervalCheck>& all) {
   const auto numbers = find_fault(fault).numbers;
   if (effect.name != fault || numbers == nullptr) return;
   for (const auto& [name, value] : numbers(made.hidden, made.joint)) {
-    for (const FittedParameter& found : effect.parameters) {
+    for (const calibration::FittedParameter& found : effect.parameters) {
       // Integers, such as the order of a wave, have no interval.
       if (found.name != name || !(found.high > found.low)) continue;
       const double away = (value - 0.5 * (found.low + found.high)) / (0.5 * (found.high - found.low));
@@ -125,7 +126,7 @@ std::string coverage_table(const std::vector<Judgement>& judgements) {
 
 }  // namespace
 
-Judgement judge(const Case& made, const Calibration& found, const std::vector<std::string>& without) {
+Judgement judge(const Case& made, const calibration::Calibration& found, const std::vector<std::string>& without) {
   Judgement one;
   one.truth = made.truth;
   one.verdict = found.verdict;
@@ -137,18 +138,19 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
       one.outside.push_back(fault);
       continue;
     }
-    for (const FoundEffect& effect : found.effects) check_intervals(fault, effect, made, one.numbers);
+    for (const calibration::FoundEffect& effect : found.effects) check_intervals(fault, effect, made, one.numbers);
     if (i < made.seen.size() && made.seen[i] < k_visible) continue;
     ++one.named;
     const auto is_in_group = [&](const auto& accepts) {
-      return std::any_of(found.effects.begin(), found.effects.end(), [&](const FoundEffect& effect) {
+      return std::any_of(found.effects.begin(), found.effects.end(), [&](const calibration::FoundEffect& effect) {
         return holds(effect.group, fault) && accepts(effect.group);
       });
     };
     using Group = std::vector<std::string>;
     const bool is_held = is_in_group([](const Group&) { return true; });
     one.held += is_held ? 1 : 0;
-    one.held_by_names += is_in_group([](const Group& group) { return !holds(group, k_unmodelled); }) ? 1 : 0;
+    one.held_by_names +=
+        is_in_group([](const Group& group) { return !holds(group, calibration::k_unmodelled); }) ? 1 : 0;
     one.alone += is_in_group([](const Group& group) { return group.size() == 1; }) ? 1 : 0;
     if (is_held) continue;
     const double size = i < made.seen.size() ? made.seen[i] * made.sensors.noise : 0;
@@ -157,12 +159,12 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
     lost += "  (" + fault + " " + (least > 0 ? rounded(size / least, 2) : "?") + ")";
   }
   std::string groups;
-  for (const FoundEffect& effect : found.effects) {
+  for (const calibration::FoundEffect& effect : found.effects) {
     if (has_other_groove(made) && !holds(made.faults, "groove_friction"))
       check_intervals("groove_friction", effect, made, one.numbers);
     const bool wrong = !holds_truth(effect.group, made, without);
     one.false_groups += wrong ? 1 : 0;
-    one.false_names += wrong && !holds(effect.group, k_unmodelled) ? 1 : 0;
+    one.false_names += wrong && !holds(effect.group, calibration::k_unmodelled) ? 1 : 0;
     one.wrong_alone += wrong && effect.group.size() == 1 ? 1 : 0;
     groups += (wrong ? "  !{" : "  {") + joined(effect.group) + "}" + rounded(effect.evidence, 2) + "~" +
               rounded(effect.unmodelled.log_odds, 2) + "[" + effect.unmodelled.words + "]";
@@ -170,7 +172,7 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
   std::string seen;
   for (const double times : made.seen) seen += (seen.empty() ? "" : ", ") + rounded(times, 3);
   one.words = made.truth + " #" + std::to_string(made.seed) + " (" + (seen.empty() ? "-" : seen) +
-              " x noise): " + std::string(word(one.verdict)) + groups;
+              " x noise): " + std::string(calibration::word(one.verdict)) + groups;
   for (const IntervalCheck& number : one.numbers)
     one.words += "  <" + number.name + " " + rounded(number.away, 2) + ">";
   one.words += lost;
@@ -191,12 +193,12 @@ std::vector<std::filesystem::path> write_case(const Case& made, const std::files
 Answer calibrate_case(const Case& made, const std::filesystem::path& folder, const std::vector<std::string>& without) {
   const std::vector<std::filesystem::path> runs = write_case(made, folder);
   const DeclaredMechanism declared = read_mechanism(folder / "spec.toml").mechanism;
-  Measurement measurement = read_measurement(runs);
-  compare_with_declared(declared, measurement);
-  CalibrationOptions options;
+  measurement::Measurement measurement = measurement::read_measurement(runs);
+  measurement::compare_with_declared(declared, measurement);
+  calibration::CalibrationOptions options;
   options.without = without;
   Answer answer;
-  answer.found = calibrate(declared, measurement, options);
+  answer.found = calibration::calibrate(declared, measurement, options);
   answer.judgement = judge(made, answer.found, without);
   return answer;
 }
@@ -222,18 +224,18 @@ Rates rates(const std::vector<Judgement>& judgements) {
     add_to(all.held_by_names, one.held_by_names, one.named);
     add_to(all.alone, one.alone, one.named);
     count(all.wrong_alone, one.wrong_alone > 0);
-    count(all.untestable, one.verdict == CalibrationVerdict::not_testable);
+    count(all.untestable, one.verdict == calibration::CalibrationVerdict::not_testable);
     if (is_modelled) {
       add_to(all.miss, one.named - one.held, one.named);
       all.beyond += one.beyond;
     } else {
       add_to(all.kept, one.held, one.named);
-      count(all.unexplained_outside,
-            one.verdict == CalibrationVerdict::unexplained || one.verdict == CalibrationVerdict::not_repeatable);
+      count(all.unexplained_outside, one.verdict == calibration::CalibrationVerdict::unexplained ||
+                                         one.verdict == calibration::CalibrationVerdict::not_repeatable);
     }
     if (one.nothing) {
       count(all.empty_groups_nothing, one.false_groups > 0);
-      count(all.quiet, one.verdict == CalibrationVerdict::no_effect);
+      count(all.quiet, one.verdict == calibration::CalibrationVerdict::no_effect);
     }
     for (const IntervalCheck& number : one.numbers) count(all.covered, number.within);
   }
@@ -278,7 +280,8 @@ std::string rate_table(const std::vector<Judgement>& judgements) {
 
 std::string matrix(const std::vector<Judgement>& judgements) {
   std::string text = "| truth | joints | held | alone | missed | false group | false and alone";
-  for (const CalibrationVerdict verdict : k_verdicts) text += " | " + std::string(word(verdict));
+  for (const calibration::CalibrationVerdict verdict : k_verdicts)
+    text += " | " + std::string(calibration::word(verdict));
   text += " |\n|---|";
   for (std::size_t i = 0; i < 6 + k_verdicts.size(); ++i) text += "--:|";
   text += "\n";

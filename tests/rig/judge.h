@@ -24,7 +24,7 @@ struct IntervalCheck {
 /// Counts for one joint. Faults that are hardly visible are not counted.
 struct Judgement {
   std::string truth;
-  CalibrationVerdict verdict = CalibrationVerdict::not_testable;
+  calibration::CalibrationVerdict verdict = calibration::CalibrationVerdict::not_testable;
   std::size_t named = 0;             ///< named faults
   std::size_t held = 0;              ///< of `named`: in a reported group
   std::size_t held_by_names = 0;     ///< of `named`: in a group without `unmodelled`
@@ -42,12 +42,12 @@ struct Judgement {
 };
 
 /// `without`: effects that were left out of the catalogue. A fault of that name counts as unmodelled.
-Judgement judge(const Case& made, const Calibration& found, const std::vector<std::string>& without = {});
+Judgement judge(const Case& made, const calibration::Calibration& found, const std::vector<std::string>& without = {});
 
 /// Writes the files of a case. Returns the paths of the runs.
 std::vector<std::filesystem::path> write_case(const Case& made, const std::filesystem::path& folder);
 struct Answer {
-  Calibration found;
+  calibration::Calibration found;
   Judgement judgement;
 };
 /// Writes the files of a case, reads them and calibrates.

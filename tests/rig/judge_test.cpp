@@ -17,11 +17,12 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Calibration answer(CalibrationVerdict verdict, const std::vector<std::vector<std::string>>& groups) {
-  Calibration found;
+calibration::Calibration answer(calibration::CalibrationVerdict verdict,
+                                const std::vector<std::vector<std::string>>& groups) {
+  calibration::Calibration found;
   found.verdict = verdict;
   for (const std::vector<std::string>& group : groups) {
-    FoundEffect effect;
+    calibration::FoundEffect effect;
     effect.name = group.front();
     effect.group = group;
     found.effects.push_back(effect);
@@ -37,8 +38,9 @@ Case with(const std::vector<std::string>& faults) {
 }
 
 TEST(Judge, CountsFoundAndMissed) {
-  const Judgement one = judge(with({"tendon_stretch", "backlash"}),
-                              answer(CalibrationVerdict::confounded, {{"creep", "tendon_stretch"}, {"sensor_lag"}}));
+  const Judgement one =
+      judge(with({"tendon_stretch", "backlash"}),
+            answer(calibration::CalibrationVerdict::confounded, {{"creep", "tendon_stretch"}, {"sensor_lag"}}));
   EXPECT_EQ(one.named, 2u);
   EXPECT_EQ(one.held, 1u);
   EXPECT_EQ(one.alone, 0u);
@@ -50,7 +52,7 @@ TEST(Judge, CountsFoundAndMissed) {
 // Such a group counts as false group, but not as false positive.
 TEST(Judge, UnmodelledGroupIsNoFalsePositive) {
   const Judgement one = judge(with({"tendon_stretch", "backlash"}),
-                              answer(CalibrationVerdict::confounded,
+                              answer(calibration::CalibrationVerdict::confounded,
                                      {{"tendon_stretch", "unmodelled"}, {"sensor_lag", "unmodelled"}, {"backlash"}}));
   EXPECT_EQ(one.held, 2u);
   EXPECT_EQ(one.held_by_names, 1u);
@@ -70,33 +72,34 @@ TEST(Judge, CountsMissesBelowDetectable) {
   Case made = with({"tendon_stretch", "backlash", "creep"});
   made.seen = {5, 5, 5};
   const double size = 5 * made.sensors.noise;
-  Calibration found = answer(CalibrationVerdict::confounded, {{"creep"}});
+  calibration::Calibration found = answer(calibration::CalibrationVerdict::confounded, {{"creep"}});
   found.detectable = {{"tendon_stretch", 1.1 * size}, {"backlash", 0.9 * size}};
   const Judgement one = judge(made, found);
   EXPECT_EQ(one.named, 3u);
   EXPECT_EQ(one.held, 1u);
   EXPECT_EQ(one.beyond, 1u);
-  EXPECT_EQ(judge(made, answer(CalibrationVerdict::not_testable, {})).beyond, 3u)
+  EXPECT_EQ(judge(made, answer(calibration::CalibrationVerdict::not_testable, {})).beyond, 3u)
       << "without detectable sizes all count";
   EXPECT_THAT(matrix({one}), HasSubstr("smaller than `detectable` | 50.0 % | 2 |"));
 }
 
 TEST(Judge, KinIsNoFalsePositive) {
-  const Judgement kin = judge(with({"grease"}), answer(CalibrationVerdict::explained, {{"sensor_lag"}}));
+  const Judgement kin = judge(with({"grease"}), answer(calibration::CalibrationVerdict::explained, {{"sensor_lag"}}));
   EXPECT_FALSE(kin.outside.empty());
   EXPECT_EQ(kin.false_groups, 0u);
-  EXPECT_EQ(judge(with({"grease"}), answer(CalibrationVerdict::explained, {{"backlash"}})).false_groups, 1u);
+  EXPECT_EQ(judge(with({"grease"}), answer(calibration::CalibrationVerdict::explained, {{"backlash"}})).false_groups,
+            1u);
   EXPECT_THAT(matrix({kin}), HasSubstr(" grease is like sensor_lag.\n"));
 }
 
 TEST(Judge, RatesAreShares) {
   const std::vector<Judgement> all = {
-      judge(with({}), answer(CalibrationVerdict::no_effect, {})),
-      judge(with({}), answer(CalibrationVerdict::explained, {{"backlash"}})),
-      judge(with({"backlash"}), answer(CalibrationVerdict::explained, {{"backlash"}})),
-      judge(with({"backlash"}), answer(CalibrationVerdict::no_effect, {})),
-      judge(with({"lump"}), answer(CalibrationVerdict::unexplained, {})),
-      judge(with({"lump"}), answer(CalibrationVerdict::confounded, {{"profile_error", "gravity"}})),
+      judge(with({}), answer(calibration::CalibrationVerdict::no_effect, {})),
+      judge(with({}), answer(calibration::CalibrationVerdict::explained, {{"backlash"}})),
+      judge(with({"backlash"}), answer(calibration::CalibrationVerdict::explained, {{"backlash"}})),
+      judge(with({"backlash"}), answer(calibration::CalibrationVerdict::no_effect, {})),
+      judge(with({"lump"}), answer(calibration::CalibrationVerdict::unexplained, {})),
+      judge(with({"lump"}), answer(calibration::CalibrationVerdict::confounded, {{"profile_error", "gravity"}})),
   };
   const Rates found = rates(all);
   EXPECT_DOUBLE_EQ(found.miss.share(), 0.5);
@@ -112,12 +115,13 @@ TEST(Judge, RatesAreShares) {
 
 TEST(Judge, LeftOutEffectIsUnmodelled) {
   const Case lash = with({"backlash"});
-  EXPECT_EQ(judge(lash, answer(CalibrationVerdict::explained, {{"slack"}})).false_groups, 1u);
-  const Judgement kin = judge(lash, answer(CalibrationVerdict::explained, {{"slack"}}), {"backlash"});
+  EXPECT_EQ(judge(lash, answer(calibration::CalibrationVerdict::explained, {{"slack"}})).false_groups, 1u);
+  const Judgement kin = judge(lash, answer(calibration::CalibrationVerdict::explained, {{"slack"}}), {"backlash"});
   EXPECT_FALSE(kin.outside.empty());
   EXPECT_EQ(kin.named, 0u);
   EXPECT_EQ(kin.false_groups, 0u);
-  EXPECT_EQ(judge(lash, answer(CalibrationVerdict::explained, {{"creep"}}), {"backlash"}).false_groups, 1u);
+  EXPECT_EQ(judge(lash, answer(calibration::CalibrationVerdict::explained, {{"creep"}}), {"backlash"}).false_groups,
+            1u);
 }
 
 TEST(Judge, LeftOutEffectIsNeverReported) {
@@ -132,8 +136,9 @@ TEST(Judge, LeftOutEffectIsNeverReported) {
 }
 
 TEST(Judge, CountsEffectsBesideUnmodelled) {
-  const Rates found = rates({judge(with({"backlash", "lump"}), answer(CalibrationVerdict::unexplained, {{"backlash"}})),
-                             judge(with({"creep", "lump"}), answer(CalibrationVerdict::unexplained, {}))});
+  const Rates found =
+      rates({judge(with({"backlash", "lump"}), answer(calibration::CalibrationVerdict::unexplained, {{"backlash"}})),
+             judge(with({"creep", "lump"}), answer(calibration::CalibrationVerdict::unexplained, {}))});
   EXPECT_EQ(found.kept.part, 1u);
   EXPECT_EQ(found.kept.all, 2u);
   EXPECT_EQ(found.miss.all, 0u);
@@ -141,7 +146,7 @@ TEST(Judge, CountsEffectsBesideUnmodelled) {
 
 TEST(Judge, GrooveFrictionMayBeReported) {
   Case other = with({});
-  const Calibration named = answer(CalibrationVerdict::explained, {{"groove_friction"}});
+  const calibration::Calibration named = answer(calibration::CalibrationVerdict::explained, {{"groove_friction"}});
   EXPECT_EQ(judge(other, named).false_groups, 1u);
   other.hidden.groove_friction = 0.4;
   EXPECT_EQ(judge(other, named).false_groups, 0u);
@@ -150,7 +155,7 @@ TEST(Judge, GrooveFrictionMayBeReported) {
 TEST(Judge, ComparesNumbersWithIntervals) {
   Case lash = with({"backlash"});
   lash.hidden.backlash = radians(1.0);
-  Calibration found = answer(CalibrationVerdict::explained, {{"backlash"}});
+  calibration::Calibration found = answer(calibration::CalibrationVerdict::explained, {{"backlash"}});
   found.effects[0].parameters = {{.name = "width_deg", .value = 1.1, .low = 0.9, .high = 1.3}};
   ASSERT_EQ(judge(lash, found).numbers.size(), 1u);
   EXPECT_TRUE(judge(lash, found).numbers[0].within);
@@ -169,7 +174,7 @@ TEST(Judge, WilsonBounds) {
 }
 
 TEST(Truths, NameEveryEffect) {
-  for (const char* name : k_contract_effects) EXPECT_TRUE(has_name(name));
+  for (const char* name : calibration::k_contract_effects) EXPECT_TRUE(has_name(name));
   for (const char* name :
        {"groove_friction", "joint_friction", "frame_compliance", "motor_sensor_harmonic", "joint_sensor_harmonic"})
     EXPECT_TRUE(has_name(name));

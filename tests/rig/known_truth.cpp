@@ -215,8 +215,8 @@ Answer calibrate_and_judge(const Case& made, const Job& job, const Request& requ
 }
 
 /// Makes the first measurement that the rig can make. False if it can make none.
-bool perform_first(const std::vector<NextMeasurement>& asked, Case& made, std::string& words) {
-  for (const NextMeasurement& next : asked) {
+bool perform_first(const std::vector<plan::NextMeasurement>& asked, Case& made, std::string& words) {
+  for (const plan::NextMeasurement& next : asked) {
     if (!perform(next, made)) continue;
     words += "\n    " + std::string(next.kind()) + ": " + next.text();
     return true;

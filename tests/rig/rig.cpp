@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 #include "fusee/helix.h"
 #include "fusee/profile.h"
 #include "rig/bench.h"
@@ -235,22 +235,22 @@ class Session {
 };
 
 /// A groove slightly wider than its tendon.
-HelixGroove groove_of(const Mechanism& mechanism) {
+helix::HelixGroove groove_of(const Mechanism& mechanism) {
   const double depth = mechanism.groove_depth(), d = mechanism.tendon.diameter;
   return {depth, d, [depth, d](double step) { return d + 2.0 * depth + std::max(1.0, std::abs(step)); }};
 }
 
 MadeJoint make_helical_joint(const DeclaredMechanism& declared) {
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.tolerance = 2e-4;
-  const HelixSynthesis made = synthesise_helix(declared, groove_of(declared), options);
+  const helix::HelixSynthesis made = helix::synthesise_helix(declared, groove_of(declared), options);
   if (!made.made()) throw InputError("rig", "no helical grooves for " + declared.name);
   MadeJoint joint{declared, {}, {}, made.stroke.front().alpha, made.stroke.back().alpha};
   const auto home = std::min_element(made.stroke.begin(), made.stroke.end(), [](const auto& a, const auto& b) {
     return std::abs(a.alpha) < std::abs(b.alpha);
   });
   for (std::size_t side = 0; side < 2; ++side) {
-    const HelixSide& own = made.sides[side];
+    const helix::HelixSide& own = made.sides[side];
     const double height = own.stroke[static_cast<std::size_t>(home - made.stroke.begin())].z;
     const auto at_home = static_cast<std::size_t>(&own.spiral.row_at(height) - own.spiral.rows.data());
     joint.spirals[side] = {own.spiral.rows, own.attachment_z, at_home};
@@ -276,11 +276,11 @@ double joint_sensor_reading(const Hidden& hidden, double theta) {
 }
 
 MadeJoint make_joint(const DeclaredMechanism& declared) {
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.tolerance = 2e-5;
   options.advice = false;
-  const SynthesisResult made = synthesise(declared, options);
-  if (need_several_turns(made)) return make_helical_joint(declared);
+  const profile::SynthesisResult made = profile::synthesise(declared, options);
+  if (profile::need_several_turns(made)) return make_helical_joint(declared);
   if (!made.made()) throw InputError("rig", made.brief());
   return {declared, made.p1, made.p2, made.stroke.front().alpha, made.stroke.back().alpha};
 }

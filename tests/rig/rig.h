@@ -139,15 +139,15 @@ using Log = std::vector<Row>;
 
 /// A helical groove as made.
 struct MadeSpiral {
-  std::vector<SpiralRow> rows;  ///< none: the pulley has an outline
-  double held_at = 0;           ///< height of the tendon's end on the joint, or of the collar that holds it at its pin
-  std::size_t home = 0;         ///< the row near which the tendon leaves it at home
+  std::vector<helix::SpiralRow> rows;  ///< none: the pulley has an outline
+  double held_at = 0;    ///< height of the tendon's end on the joint, or of the collar that holds it at its pin
+  std::size_t home = 0;  ///< the row near which the tendon leaves it at home
 };
 
 /// Both pitch curves that were made for a declared mechanism.
 struct MadeJoint {
   DeclaredMechanism declared;
-  Outline p1, p2;
+  profile::Outline p1, p2;
   double alpha_min = 0;  ///< of the declared range
   double alpha_max = 0;
   std::array<MadeSpiral, 2> spirals = {};  ///< in place of p1, p2 where one turn is too little

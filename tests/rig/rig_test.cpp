@@ -14,13 +14,13 @@
 #include "fusee/joint.h"
 #include "fusee/measurement.h"
 #include "fusee/mechanism_file.h"
-#include "transmission/load.h"
 #include "fusee/transmission.h"
 #include "rig/bench.h"
 #include "rig/random.h"
 #include "rig/string_geometry.h"
 #include "rig/test_joints.h"
 #include "rig/truths.h"
+#include "transmission/load.h"
 
 namespace fusee::rig {
 namespace {
@@ -86,7 +86,7 @@ DeclaredMechanism ideal(DeclaredMechanism mechanism) {
 TEST(Rig, FollowsDeclaredLaw) {
   for (const DeclaredMechanism& mechanism : {testing::forearm(), testing::unsymmetric(), testing::linear_wrist()}) {
     const DeclaredMechanism rigid = ideal(mechanism);
-    const Transmission law(rigid);
+    const transmission::Transmission law(rigid);
     for (const Row& row : run_of(make_joint(rigid), {})) {
       ASSERT_NEAR(row.theta, law.theta(row.alpha), 2e-6) << mechanism.name << " at " << degrees(row.alpha) << " deg";
     }
@@ -154,7 +154,7 @@ TEST(Fault, EncoderInterpolationAdds) {
 }
 
 TEST(Fault, CoggingTurnsShaft) {
-  const Transmission law(stiff().declared);
+  const transmission::Transmission law(stiff().declared);
   const Hidden hidden{.cogging = 0.004};
   for (const Row& row : unloaded(hidden))
     EXPECT_NEAR(row.theta, law.theta(row.alpha + 0.004 * std::sin(30 * row.alpha)), 3e-6);
@@ -192,13 +192,13 @@ DeclaredMechanism elastic() {
 
 /// Rotational stiffness at home by constant moment arms: Σ EA m²/l, N·mm/rad.
 double stiffness_by_hand(const DeclaredMechanism& mechanism, double modulus) {
-  const TransmissionPoint home = Transmission(mechanism).at_alpha(0.0);
+  const transmission::TransmissionPoint home = transmission::Transmission(mechanism).at_alpha(0.0);
   const double EA = modulus * 0.25 * k_pi * mechanism.tendon.diameter * mechanism.tendon.diameter;
   return EA * (home.t1.m * home.t1.m / home.t1.length + home.t2.m * home.t2.m / home.t2.length);
 }
 
 TEST(Fault, PulleyBedsIn) {
-  const Transmission law(stiff().declared);
+  const transmission::Transmission law(stiff().declared);
   const Hidden hidden{.bedding = 0.02};
   const Log log = unloaded(hidden);
   const double half_stroke = 0.5 * (log[80].alpha - log[0].alpha);
@@ -236,13 +236,13 @@ TEST(Fault, LoadStretchesTendons) {
 
 TEST(Fault, GrooveFrictionStiffens) {
   const MadeJoint joint = make_joint(elastic());
-  const TransmissionPoint home = Transmission(joint.declared).at_alpha(0.0);
+  const transmission::TransmissionPoint home = transmission::Transmission(joint.declared).at_alpha(0.0);
   const double EA = section_stiffness(joint.declared.tendon);
   const auto under_load = [&](double friction) { return -theta_under(joint, {.groove_friction = friction}, 3.0); };
   double stiffness = 0;
   const Bench bench(joint, sliding());
   for (const std::size_t side : {0u, 1u}) {
-    const TendonPoint& tendon = side == 0 ? home.t1 : home.t2;
+    const transmission::TendonPoint& tendon = side == 0 ? home.t1 : home.t2;
     stiffness += EA * tendon.m * tendon.m / (tendon.length + bench.tendon(side).laid.length());
   }
   const double longer = 300.0 / stiffness;
@@ -259,7 +259,7 @@ TEST(Fault, SlipTurnsJoint) {
   at.load = 60.0;  // tendon 1 is slack
   const double before = bench.to(0.0, 0.0, at);
   EXPECT_EQ(bench.tendon(0).upper_tension, 0.0);
-  const double arm = Transmission(joint.declared).at_theta(before).t2.m;
+  const double arm = transmission::Transmission(joint.declared).at_theta(before).t2.m;
   at.let_go[1] = 0.2;
   EXPECT_NEAR(before - bench.to(0.0, 0.0, at), 0.2 / arm, 0.01 * 0.2 / arm);
 }
@@ -270,11 +270,11 @@ TEST(Fault, PinFrictionReachesCapstanRatio) {
   const MadeJoint joint = make_joint(declared);
   Bench bench(joint, {});
   Conditions at;
-  const Transmission law(declared);
+  const transmission::Transmission law(declared);
   for (int step = 1; step <= 60; ++step) {
     const double alpha = 0.01 * step;
     bench.to(alpha, alpha, at);
-    const TransmissionPoint point = law.at_theta(bench.theta());
+    const transmission::TransmissionPoint point = law.at_theta(bench.theta());
     for (const std::size_t side : {0u, 1u}) {
       const double limit = 0.3 * (side == 0 ? point.t1.wrap : point.t2.wrap);
       const double used = std::log(bench.tendon(side).lower_tension / bench.tendon(side).upper_tension);
@@ -330,8 +330,8 @@ TEST(Fault, PinFrictionTakesWork) {
     const CycleWork work = work_of_a_cycle(joint, held(hidden));
     EXPECT_NEAR(work.load, 0.0, 1e-3);
     // Both tendons over their pins, four times the swing a cycle.
-    const TransmissionPoint home = Transmission(joint.declared).at_alpha(0.0);
-    const double swing = Transmission(joint.declared).theta(0.5);
+    const transmission::TransmissionPoint home = transmission::Transmission(joint.declared).at_alpha(0.0);
+    const double swing = transmission::Transmission(joint.declared).theta(0.5);
     const double by_hand = 20.0 * mu * (home.t1.wrap * home.t1.m + home.t2.wrap * home.t2.m) * 4.0 * swing;
     EXPECT_NEAR(work.motor, by_hand, 0.1 * by_hand + 0.05);
   }
@@ -355,7 +355,7 @@ TEST(Fault, HardeningTendonMeetsDeclaredStiffness) {
 
 TEST(Fault, LumpMovesJointLocally) {
   const Hidden hidden{.lump = 0.1, .lump_at = radians(40), .lump_width = radians(5)};
-  const Transmission law(stiff().declared);
+  const transmission::Transmission law(stiff().declared);
   const double arm = law.at_alpha(radians(40)).t2.m;
   double most = 0, far = 0;
   for (const Row& row : unloaded(hidden)) {
@@ -492,8 +492,8 @@ TEST(Programme, RandomIsWithinBoundsAndRepeatable) {
 
 TEST(Rig, FilesAreReadByFusee) {
   const std::vector<Log> logs = log_runs(stiff(), {}, full_protocol(6.0));
-  Measurement measurement;
-  const fusee::Run run = parse_run(csv_text(logs[1], true), "run_2.csv", {}, measurement);
+  measurement::Measurement measurement;
+  const fusee::measurement::Run run = measurement::parse_run(csv_text(logs[1], true), "run_2.csv", {}, measurement);
   EXPECT_EQ(run.samples.size(), logs[1].size());
   EXPECT_TRUE(run.has_time && run.has_load && run.has_temperature);
   EXPECT_EQ(run.strokes.size(), 6u);

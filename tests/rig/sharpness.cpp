@@ -28,18 +28,19 @@ bool is_there(const std::string& effect, const Case& made) {
 /// A fitted number with its reported value.
 struct Reported {
   const EffectParameter* parameter = nullptr;
-  const FittedParameter* number = nullptr;
+  const calibration::FittedParameter* number = nullptr;
 };
 
 /// Numbers of the reported effects that are faults of the joint.
-std::vector<Reported> true_numbers(const Case& made, const CaseInput& input, const Calibration& found) {
+std::vector<Reported> true_numbers(const Case& made, const CaseInput& input, const calibration::Calibration& found) {
   std::vector<Reported> all;
-  for (const FoundEffect& reported : found.effects) {
+  for (const calibration::FoundEffect& reported : found.effects) {
     const Effect* effect = find_effect(reported.name, kind_of(input.declared));
     if (effect == nullptr || !is_there(effect->name, made)) continue;
     for (const EffectParameter& parameter : effect->parameters) {
-      const auto number = std::find_if(reported.parameters.begin(), reported.parameters.end(),
-                                       [&](const FittedParameter& one) { return one.name == parameter.name; });
+      const auto number =
+          std::find_if(reported.parameters.begin(), reported.parameters.end(),
+                       [&](const calibration::FittedParameter& one) { return one.name == parameter.name; });
       if (!parameter.searched && number != reported.parameters.end() && !is_idle(parameter, found.identified))
         all.push_back({&parameter, &*number});
     }
@@ -48,7 +49,7 @@ std::vector<Reported> true_numbers(const Case& made, const CaseInput& input, con
 }
 
 Eigen::VectorXd predicted(const CaseInput& input, const Imperfections& at) {
-  const Readings readings = predict(input.declared, at, bench_log(input.measurement));
+  const joint::Readings readings = joint::predict(input.declared, at, measurement::bench_log(input.measurement));
   std::vector<double> all;
   for (const std::vector<double>& run : readings) all.insert(all.end(), run.begin(), run.end());
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
@@ -135,20 +136,20 @@ std::string median_text(const std::vector<double>& values) {
 
 }  // namespace
 
-double unmodelled_log_odds(const Calibration& found) {
-  if (found.verdict == CalibrationVerdict::not_repeatable) return k_certain;
+double unmodelled_log_odds(const calibration::Calibration& found) {
+  if (found.verdict == calibration::CalibrationVerdict::not_repeatable) return k_certain;
   double odds = -k_certain;
-  for (const FoundEffect& effect : found.effects) odds = std::max(odds, -effect.unmodelled.log_odds);
-  for (const DiscrepancyComponent& part : found.discrepancy) odds = std::max(odds, part.evidence);
+  for (const calibration::FoundEffect& effect : found.effects) odds = std::max(odds, -effect.unmodelled.log_odds);
+  for (const calibration::DiscrepancyComponent& part : found.discrepancy) odds = std::max(odds, part.evidence);
   return std::min(odds, k_certain);
 }
 
 Sharpness sharpness_of(const Case& made, const CaseInput& input, const Answer& answer) {
-  const Calibration& found = answer.found;
+  const calibration::Calibration& found = answer.found;
   Sharpness one;
   one.has_unmodelled = !answer.judgement.outside.empty();
   one.unmodelled_log_odds = unmodelled_log_odds(found);
-  for (const FoundEffect& effect : found.effects) one.group_sizes.push_back(effect.group.size());
+  for (const calibration::FoundEffect& effect : found.effects) one.group_sizes.push_back(effect.group.size());
   const std::vector<Reported> numbers = true_numbers(made, input, found);
   if (numbers.empty()) return one;
   const Eigen::VectorXd bounds = bounds_of(made, input, found.identified, numbers);

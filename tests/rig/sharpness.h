@@ -24,7 +24,7 @@ struct Sharpness {
 
 /// The log odds for an unmodelled cause, between −1000 and 1000: of the discrepancy beside all effects, or of the best
 /// alternative to an effect, whichever is more. 1000 if the runs are not repeatable, −1000 if nothing speaks for it.
-double unmodelled_log_odds(const Calibration& found);
+double unmodelled_log_odds(const calibration::Calibration& found);
 
 /// The Cramér-Rao bound takes all rows, the sensor's true noise, and the reported effects that are faults of the joint
 /// as the only unknown ones. `input`: the files of the case.

@@ -18,7 +18,7 @@ TEST(Sharpness, AreaCountsEqualScoresHalf) {
 }
 
 TEST(Sharpness, LogOddsFollowBestAlternative) {
-  Calibration found;
+  calibration::Calibration found;
   EXPECT_EQ(unmodelled_log_odds(found), -1000);
   found.effects.resize(2);
   found.effects[0].unmodelled.log_odds = 20;
@@ -27,12 +27,12 @@ TEST(Sharpness, LogOddsFollowBestAlternative) {
   found.discrepancy.resize(1);
   found.discrepancy[0].evidence = 12;
   EXPECT_EQ(unmodelled_log_odds(found), 12);
-  found.verdict = CalibrationVerdict::not_repeatable;
+  found.verdict = calibration::CalibrationVerdict::not_repeatable;
   EXPECT_EQ(unmodelled_log_odds(found), 1000);
 }
 
 /// The Cramér-Rao bound of a constant offset in n rows is the noise over the root of n.
-TEST(Sharpness, BoundOfOffsetIsNoiseOverRootOfRows) {
+TEST(Sharpness, OffsetBoundIsNoiseOverRootOfRows) {
   const Case made = make_case(truth_of("zero_offset"), 980501);
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "sharpness_of_offset";
   write_case(made, folder);
@@ -43,11 +43,11 @@ TEST(Sharpness, BoundOfOffsetIsNoiseOverRootOfRows) {
   const double variance = made.sensors.noise * made.sensors.noise + made.sensors.quantum * made.sensors.quantum / 12;
   const double fewer = (1 - made.sensors.colour) / (1 + made.sensors.colour);
   const double bound = degrees(std::sqrt(variance / (fewer * static_cast<double>(rows))));
-  Calibration found;
-  FoundEffect effect;
+  calibration::Calibration found;
+  calibration::FoundEffect effect;
   effect.name = "zero_offset";
   effect.group = {"zero_offset", "motor_offset"};
-  FittedParameter number;
+  calibration::FittedParameter number;
   number.name = "offset_deg";
   number.low = -3 * bound;
   number.high = 3 * bound;

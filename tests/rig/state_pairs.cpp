@@ -102,11 +102,11 @@ bool try_pair(StatePair& pair, Random& random, std::uint64_t seed, const std::fi
   const std::vector<Log> second = logs_of(after, plans, sensors);
   if (rms_difference(first, second) == 0) return false;
   Paths files = write_runs(first, folder / "before");
-  pair.runs.before = read_measurement(files, pair.joint.declared);
+  pair.runs.before = measurement::read_measurement(files, pair.joint.declared);
   const Paths later = write_runs(second, folder / "after");
-  pair.runs.after = read_measurement(later, pair.joint.declared);
+  pair.runs.after = measurement::read_measurement(later, pair.joint.declared);
   files.insert(files.end(), later.begin(), later.end());
-  pair.runs.both = read_measurement(files, pair.joint.declared);
+  pair.runs.both = measurement::read_measurement(files, pair.joint.declared);
   return true;
 }
 

@@ -17,7 +17,7 @@ struct StatePair {
   std::string effect;  ///< its name in the catalogue
   std::string common;  ///< a fault of both states; "": none
   MadeJoint joint;
-  ComparedRuns runs;
+  calibration::ComparedRuns runs;
   double seen = 0;  ///< movement of the reading by the change, rms per noise rms
 };
 

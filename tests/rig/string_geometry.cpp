@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "fusee/base.h"
 #include "base/text.h"
+#include "fusee/base.h"
 
 namespace fusee::rig {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/base.h"
 #include "base/text.h"
-#include "joint/joint_effects.h"
+#include "fusee/base.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/transmission.h"
+#include "joint/joint_effects.h"
 
 namespace fusee::rig {
 namespace {
@@ -35,7 +35,7 @@ SensorPlan sensors_of(const std::string& truth, std::uint64_t seed) {
 
 /// Tip force per tendon force at home: the smaller moment arm over the lever of the tip force.
 double tip_force_ratio(const MadeJoint& joint) {
-  const TransmissionPoint home = Transmission(joint.declared).at_alpha(0.0);
+  const transmission::TransmissionPoint home = transmission::Transmission(joint.declared).at_alpha(0.0);
   return std::min(home.t1.m, home.t2.m) / joint.declared.joint.R;
 }
 
@@ -148,7 +148,7 @@ bool has_name(const std::string& name) {
 
 std::vector<Truth> wide_truths(const MadeJoint& joint) {
   std::vector<Truth> truths = {{"nothing", {}}};
-  const std::vector<const Effect*> possible = effects_of(joint.declared);
+  const std::vector<const Effect*> possible = joint::effects_of(joint.declared);
   const auto add_possible = [&](const char* list) {
     for (const std::string& name : names_in(list)) {
       const auto is = [&](const Effect* effect) { return effect->name == name; };

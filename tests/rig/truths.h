@@ -106,6 +106,6 @@ double read_by_hand(const EffectParameter& number, const Case& made);
 
 /// Adds a run to the case, or writes readings with their usual error into [prior] of its file. False and no change if
 /// the rig cannot make the measurement.
-bool perform(const NextMeasurement& next, Case& made);
+bool perform(const plan::NextMeasurement& next, Case& made);
 
 }  // namespace fusee::rig

@@ -11,7 +11,7 @@
 #include "solid/plane_distance.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using testing::circle;
@@ -25,11 +25,12 @@ double frustum(int n, double a, double b, double height) {
   return 0.5 * n * std::sin(k_two_pi / n) * height * (a * a + a * b + b * b) / 3.0;
 }
 
-FlangeRims rims_of(const Mechanism& mechanism, const SynthesisResult& shape) {
+FlangeRims rims_of(const Mechanism& mechanism, const profile::SynthesisResult& shape) {
   return flange_rims(shape.p1, shape.p2, mechanism.tendon.diameter, mechanism.groove_depth(), mechanism.body.flange);
 }
 
-BodyLayout layout_of(const Mechanism& mechanism, const SynthesisResult& shape, Parts parts, double hub_radius = 0) {
+BodyLayout layout_of(const Mechanism& mechanism, const profile::SynthesisResult& shape, Parts parts,
+                     double hub_radius = 0) {
   BodyLayout layout = axial_layout(mechanism, rims_of(mechanism, shape), parts, k_steep_lean);
   layout.bore = bore_layout(mechanism, 5);
   ceiling_recess(layout);
@@ -59,7 +60,7 @@ void expect_volume(const RingStack& stack, double expected) {
 TEST(Body, RoundPulleyMatchesFrustumVolumes) {
   const int n = 240;
   const Mechanism mechanism = plain_mechanism();
-  const SynthesisResult shape = pulley_of(circle(20), circle(20), n);
+  const profile::SynthesisResult shape = pulley_of(circle(20), circle(20), n);
   const BodyLayout layout = layout_of(mechanism, shape, Parts::one, 8);
   const RingStack stack = body_stack(shape.p1, shape.p2, 1.0, Flange::follow, layout);
   const double slope = std::tan(radians(47.5)), t = 1.2, foot = 0.4, foot_rise = foot * slope;
@@ -87,7 +88,7 @@ TEST(Body, TwoPartPulleyMatchesFrustumVolumes) {
   const int n = 240;
   Mechanism mechanism = plain_mechanism();
   mechanism.body.flange = Flange::round;
-  const SynthesisResult shape = pulley_of(circle(20), circle(18), n);
+  const profile::SynthesisResult shape = pulley_of(circle(20), circle(18), n);
   const BodyLayout layout = layout_of(mechanism, shape, Parts::two);
   const double foot = 0.4, foot_rise = foot * std::tan(radians(47.5));
   const double groove_edge1 = 19.5 + layout.groove_depth, groove_edge2 = 17.5 + layout.groove_depth;
@@ -116,7 +117,7 @@ TEST(Body, IsSolidForAnyConvexPair) {
       for (const SupportShape& p2 : shapes) {
         Mechanism mechanism = plain_mechanism();
         mechanism.body.flange = flange;
-        const SynthesisResult shape = pulley_of(p1, p2, 180);
+        const profile::SynthesisResult shape = pulley_of(p1, p2, 180);
         for (const auto& [parts, piece] : {std::pair{Parts::one, Piece::whole}, std::pair{Parts::two, Piece::whole},
                                            std::pair{Parts::two, Piece::p1}, std::pair{Parts::two, Piece::p2}}) {
           const BodyLayout layout = layout_of(mechanism, shape, parts, 7);
@@ -131,7 +132,7 @@ TEST(Body, IsSolidForAnyConvexPair) {
 }
 
 TEST(Body, MiddleFlangeContainsBothGrooveEdges) {
-  const SynthesisResult shape = pulley_of(circle(20, {4, 0}), circle(20, {-4, 0}), 180);
+  const profile::SynthesisResult shape = pulley_of(circle(20, {4, 0}), circle(20, {-4, 0}), 180);
   const FlangeRims rims = flange_rims(shape.p1, shape.p2, 1.0, 2.0, Flange::follow);
   for (const Polygon* groove_edge : {&rims.groove_edge1, &rims.groove_edge2}) {
     for (const Vec2& point : *groove_edge) EXPECT_GT(depth_inside(rims.middle, point), 0.15);
@@ -232,7 +233,7 @@ TEST(Bore, HornRecessKeepsScrewHoles) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.bore = Bore::horn;
   mechanism.body.horn = "disc-25T-M3";
-  const SynthesisResult shape = pulley_of(circle(20), circle(20), 180);
+  const profile::SynthesisResult shape = pulley_of(circle(20), circle(20), 180);
   const BodyLayout layout = layout_of(mechanism, shape, Parts::one);
   const RingStack stack = scaled_to_float(body_stack(shape.p1, shape.p2, 1.0, Flange::follow, layout), 1.0);
   EXPECT_EQ(failed(check_mesh(mesh_of(stack))), "");
@@ -240,4 +241,4 @@ TEST(Bore, HornRecessKeepsScrewHoles) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -10,7 +10,7 @@
 #include "fusee/base.h"
 #include "solid/tools.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 TriangleMesh box(const Vec3& low, const Vec3& high) {
@@ -173,4 +173,4 @@ TEST(Boolean, RejectsSelfIntersectingBody) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -10,7 +10,7 @@
 #include "mechanism/catalogue.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using testing::plain_mechanism;
@@ -103,4 +103,4 @@ TEST(RecessCone, EndsInTheHoleForEveryCatalogueHorn) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

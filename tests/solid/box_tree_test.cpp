@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using Pairs = std::multiset<std::pair<std::size_t, std::size_t>>;
@@ -60,4 +60,4 @@ TEST(BoxTree, StopsOnRequest) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -10,20 +10,20 @@
 namespace fusee::testing {
 
 /// [x0, x0 + side]³, outward: 12 facets.
-inline TriangleMesh cube(double side, const Vec3& corner = Vec3::Zero()) {
-  TriangleMesh mesh;
+inline solid::TriangleMesh cube(double side, const Vec3& corner = Vec3::Zero()) {
+  solid::TriangleMesh mesh;
   for (int k = 0; k < 8; ++k) mesh.vertices.push_back(corner + side * Vec3(k & 1, (k >> 1) & 1, (k >> 2) & 1));
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
 }
 
-inline TriangleMesh turned_inside_out(TriangleMesh mesh) {
+inline solid::TriangleMesh turned_inside_out(solid::TriangleMesh mesh) {
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   return mesh;
 }
 
-inline TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
+inline solid::TriangleMesh joined(solid::TriangleMesh a, const solid::TriangleMesh& b) {
   const auto first = static_cast<std::uint32_t>(a.vertices.size());
   a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
   for (const auto& [i, j, k] : b.triangles) a.triangles.push_back({first + i, first + j, first + k});

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 struct Case {
@@ -196,4 +196,4 @@ TEST(ChannelEntries, CeilingsKeepTheirRise) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -10,7 +10,7 @@
 #include "fusee/base.h"
 #include "solid/broken.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using testing::check_named;
@@ -279,4 +279,4 @@ TEST(RoundedToFloat, EveryCoordinate) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -7,10 +7,10 @@
 #include <functional>
 #include <random>
 
-#include "solid/print.h"
 #include "solid/broken.h"
+#include "solid/print.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using testing::check_named;
@@ -657,4 +657,4 @@ TEST(CheckPrint, ChecksFiftyThousandFacetsQuickly) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

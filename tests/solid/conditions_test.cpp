@@ -12,7 +12,7 @@
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using testing::circle;
@@ -27,13 +27,13 @@ Mechanism forearm() {
   return mechanism;
 }
 
-const SynthesisResult& round_pulley() {
-  static const SynthesisResult shape = pulley_of(circle(20), circle(18));
+const profile::SynthesisResult& round_pulley() {
+  static const profile::SynthesisResult shape = pulley_of(circle(20), circle(18));
   return shape;
 }
 
-const Condition& condition_named(const Pulley& pulley, const std::string& name) {
-  for (const Condition& condition : pulley.conditions) {
+const profile::Condition& condition_named(const Pulley& pulley, const std::string& name) {
+  for (const profile::Condition& condition : pulley.conditions) {
     if (condition.name == name) return condition;
   }
   throw std::out_of_range("no condition named " + name);
@@ -41,7 +41,7 @@ const Condition& condition_named(const Pulley& pulley, const std::string& name) 
 
 TEST(Conditions, HoldForDefaultBody) {
   const Pulley pulley = make_pulley(plain_mechanism(), round_pulley());
-  for (const Condition& condition : pulley.conditions) {
+  for (const profile::Condition& condition : pulley.conditions) {
     EXPECT_TRUE(condition.ok) << condition.message;
   }
 }
@@ -83,7 +83,7 @@ TEST(Conditions, RejectTooLargeParts) {
     mechanism.print.parts = parts;
     return make_pulley(mechanism, pulley_of(circle(100), circle(400)));
   };
-  const Condition tall = condition_named(pulley_with(75, Parts::one), k_height_condition);
+  const profile::Condition tall = condition_named(pulley_with(75, Parts::one), k_height_condition);
   EXPECT_FALSE(tall.ok);
   EXPECT_GT(tall.value, k_tallest);
   EXPECT_NE(tall.message.find("print.overhang_deg"), std::string::npos) << tall.message;
@@ -91,8 +91,9 @@ TEST(Conditions, RejectTooLargeParts) {
   // Each of two parts is printed separately, without the cone between them.
   EXPECT_THROW(condition_named(pulley_with(75, Parts::two), k_height_condition), std::out_of_range);
 
-  EXPECT_FALSE(too_far_out(Side::left, 999, 300));
-  const auto active = too_far_out(Side::left, 1200, 1200), closing = too_far_out(Side::right, 1200, 300);
+  EXPECT_FALSE(too_far_out(transmission::Side::left, 999, 300));
+  const auto active = too_far_out(transmission::Side::left, 1200, 1200),
+             closing = too_far_out(transmission::Side::right, 1200, 300);
   ASSERT_TRUE(active && closing);
   EXPECT_EQ(active->message, "P1 would reach 1.2 m from the axis: at most 1 m is supported");
   EXPECT_NE(closing->message.find("the arc that closes P2"), std::string::npos) << closing->message;
@@ -114,8 +115,9 @@ TEST(Conditions, RejectFlatOutsideShaft) {
   expect_refused_for({"bore_flat", &Body::bore_flat, 2.5, 2.6}, mechanism);
   mechanism.body.bore_flat = 2.5;
   for (const char* key : {"body.bore_flat_mm", "body.bore_diameter_mm"}) {
-    const std::vector<Change> advice = body_advice(mechanism).alone;
-    const auto change = std::find_if(advice.begin(), advice.end(), [key](const Change& c) { return c.key == key; });
+    const std::vector<profile::Change> advice = body_advice(mechanism).alone;
+    const auto change =
+        std::find_if(advice.begin(), advice.end(), [key](const profile::Change& c) { return c.key == key; });
     ASSERT_NE(change, advice.end()) << key;
     Mechanism changed = mechanism;
     set_number(changed, *find_field(key), 0, change->to);
@@ -224,9 +226,10 @@ TEST(BodyAdvice, EachChangeAloneSuffices) {
     Mechanism mechanism = forearm();
     mechanism.body.*bad.number = bad.value;
     ASSERT_FALSE(obstacles(mechanism).empty());
-    const std::vector<Change> advice = body_advice(mechanism).alone;
-    EXPECT_TRUE(std::any_of(advice.begin(), advice.end(), [&](const Change& change) { return change.key == bad.key; }));
-    for (const Change& change : advice) {
+    const std::vector<profile::Change> advice = body_advice(mechanism).alone;
+    EXPECT_TRUE(std::any_of(advice.begin(), advice.end(),
+                            [&](const profile::Change& change) { return change.key == bad.key; }));
+    for (const profile::Change& change : advice) {
       const Field* field = find_field(change.key);
       if (field == nullptr || field->kind != FieldKind::number) continue;
       EXPECT_GE(change.to, field->least) << change.text;
@@ -245,15 +248,15 @@ TEST(BodyAdvice, EachChangeAloneSuffices) {
 TEST(BodyAdvice, FindsPairsOfChanges) {
   Mechanism mechanism = forearm();
   const auto judge = [](const Mechanism& m) {
-    std::vector<Condition> left;
+    std::vector<profile::Condition> left;
     if (m.pulley.r1 > 12.0) left.push_back({"a", false, 0, m.pulley.r1, 12.0, "mm", ""});
     if (m.pulley.EF < 90.0) left.push_back({"b", false, 0, m.pulley.EF, 90.0, "mm", ""});
     return left;
   };
-  const Advice advice = body_advice(mechanism, {judge});
+  const profile::Advice advice = body_advice(mechanism, {judge});
   EXPECT_TRUE(advice.alone.empty());
   ASSERT_EQ(advice.together.size(), 2U);
-  for (const Change& change : advice.together) set_number(mechanism, *find_field(change.key), 0, change.to);
+  for (const profile::Change& change : advice.together) set_number(mechanism, *find_field(change.key), 0, change.to);
   EXPECT_TRUE(judge(mechanism).empty());
 }
 
@@ -263,14 +266,14 @@ TEST(BodyAdvice, ClampScrewGetsThickerFlangeOrIsDropped) {
   mechanism.body.clamp_screw = "M3";
   mechanism.print.parts = Parts::two;
   ASSERT_FALSE(obstacles(mechanism).empty());
-  const Advice advice = body_advice(mechanism);
+  const profile::Advice advice = body_advice(mechanism);
   const auto has = [&advice](const char* key) {
     return std::any_of(advice.alone.begin(), advice.alone.end(),
-                       [key](const Change& change) { return change.key == key; });
+                       [key](const profile::Change& change) { return change.key == key; });
   };
   EXPECT_TRUE(has("body.flange_thickness_mm"));
   EXPECT_TRUE(has("body.clamp_screw"));
-  for (const Condition& condition : obstacles(mechanism))
+  for (const profile::Condition& condition : obstacles(mechanism))
     EXPECT_EQ(condition.message.find("smaller screw"), std::string::npos) << condition.message;
 }
 
@@ -282,9 +285,9 @@ TEST(BodyAdvice, WordsAndNumbersShareBuildBudget) {
   mechanism.print.parts = Parts::two;
   for (const int most : {0, 1, 2}) {
     int made = 0;
-    const FeasibilityOracle judge{.obstacles = obstacles,
-                                  .made = [&made](const Mechanism&) { return ++made, false; },
-                                  .builds_left = [&made, most] { return most - made; }};
+    const profile::FeasibilityOracle judge{.obstacles = obstacles,
+                                           .made = [&made](const Mechanism&) { return ++made, false; },
+                                           .builds_left = [&made, most] { return most - made; }};
     EXPECT_TRUE(body_advice(mechanism, judge).empty());
     EXPECT_EQ(made, most);
   }
@@ -297,7 +300,7 @@ TEST(Conditions, ReportMissingRim) {
   ASSERT_TRUE(rims.outside);
   rims.outside = false;
   const auto conditions = conditions_of(mechanism, round_pulley(), resolve_layout(mechanism, round_pulley()), rims, {});
-  const std::vector<Condition> failed = failed_of(conditions);
+  const std::vector<profile::Condition> failed = profile::failed_of(conditions);
   ASSERT_EQ(failed.size(), 1U);
   EXPECT_EQ(failed[0].name, "flange_rims");
 }
@@ -306,7 +309,7 @@ TEST(Conditions, ReportMissingRim) {
 TEST(Conditions, AutomaticSizesShrinkWithNote) {
   Mechanism mechanism = plain_mechanism();
   mechanism.tendon.diameter = 0.4;
-  const SynthesisResult small = pulley_of(circle(6), circle(5.5));
+  const profile::SynthesisResult small = pulley_of(circle(6), circle(5.5));
   const Pulley pulley = make_pulley(mechanism, small);
   ASSERT_TRUE(pulley.made()) << pulley.brief();
   EXPECT_FALSE(pulley.layout.notes.empty());
@@ -323,4 +326,4 @@ TEST(Conditions, LayoutAgreesWithPulley) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

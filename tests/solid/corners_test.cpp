@@ -7,7 +7,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using ::testing::ElementsAreArray;
@@ -66,4 +66,4 @@ TEST(Corners, KeepsThreePointsOfDegenerateOutline) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -1,16 +1,15 @@
 // Loads of the knots, compared with tendons laid over polygons step by step.
-#include "fusee/solid.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <optional>
 
 #include "fusee/mechanism_file.h"
+#include "fusee/solid.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using ::testing::HasSubstr;
@@ -30,23 +29,23 @@ DeclaredMechanism loaded_forearm() {
 struct Held {
   explicit Held(const DeclaredMechanism& declared)
       : mechanism(declared),
-        synthesis(synthesise(declared)),
+        synthesis(profile::synthesise(declared)),
         pulley(make_pulley(declared, synthesis)),
         holding(tendon_holding(declared, synthesis, pulley)) {}
 
   DeclaredMechanism mechanism;
-  SynthesisResult synthesis;
+  profile::SynthesisResult synthesis;
   Pulley pulley;
   Holding holding;
 };
 
 /// The tension that remains at `exit` of a taut string over the turned pitch polygon, after friction at each corner.
 /// The take-off is the last corner that the line from the pin touches.
-double left_at(const Held& held, Side side, double alpha, double tension, const Vec2& exit) {
+double left_at(const Held& held, transmission::Side side, double alpha, double tension, const Vec2& exit) {
   const Mechanism& m = held.mechanism;
-  const Outline& outline = side == Side::left ? held.synthesis.p1 : held.synthesis.p2;
-  const double outward = side == Side::left ? -1.0 : 1.0;
-  const Vec2 pin(side == Side::left ? -m.guides.EB : m.guides.ED, m.pulley.EF);
+  const profile::Outline& outline = side == transmission::Side::left ? held.synthesis.p1 : held.synthesis.p2;
+  const double outward = side == transmission::Side::left ? -1.0 : 1.0;
+  const Vec2 pin(side == transmission::Side::left ? -m.guides.EB : m.guides.ED, m.pulley.EF);
   const double rho = m.guide_pitch_radius();
   const std::size_t n = outline.points.size();
   const auto place = [&](std::size_t i) { return turned(outline.points[i % n].position, -alpha); };
@@ -64,7 +63,7 @@ double left_at(const Held& held, Side side, double alpha, double tension, const 
     const double distance = outward * cross(Vec2(std::sin(a), std::cos(a)), p) * -1.0;
     if (distance > best) best = distance, take_off = i;
   }
-  const std::size_t step = side == Side::left ? 1 : n - 1;
+  const std::size_t step = side == transmission::Side::left ? 1 : n - 1;
   for (std::size_t i = take_off; (outline.points[i].position - exit).norm() > 0.6; i = (i + step) % n) {
     const std::size_t j = (i + step) % n, k = (j + step) % n;
     const Vec2 in = outline.points[j].position - outline.points[i].position,
@@ -90,17 +89,17 @@ TEST(Holding, KnotLoadMatchesStringOnPolygon) {
     ASSERT_TRUE(exit.has_value());
     double most = 0;
     for (const Mechanism& moved : {static_cast<const Mechanism&>(held.mechanism), unloaded}) {
-      AnalysisOptions quick;
+      analysis::AnalysisOptions quick;
       quick.samples = 10;
-      for (const AnalysisRow& row : analyse(moved, quick).rows) {
-        for (const EquilibriumPoint& point : {row.rising, row.falling}) {
-          const double tension = (knot.side == Side::left ? point.t1 : point.t2).lower;
+      for (const analysis::AnalysisRow& row : analysis::analyse(moved, quick).rows) {
+        for (const joint::EquilibriumPoint& point : {row.rising, row.falling}) {
+          const double tension = (knot.side == transmission::Side::left ? point.t1 : point.t2).lower;
           most = std::max(most, left_at(held, knot.side, point.alpha, tension, *exit));
         }
       }
     }
     // The polygon's take-off is a corner, and its exit the nearest one.
-    EXPECT_NEAR(knot.at_knot, most, 0.02 * most) << pulley_name(knot.side);
+    EXPECT_NEAR(knot.at_knot, most, 0.02 * most) << transmission::pulley_name(knot.side);
     EXPECT_NEAR(knot.at_knot, knot.tension * std::exp(-0.2 * knot.wrap_left), 1e-9);
   }
 }
@@ -109,7 +108,7 @@ TEST(Holding, KnotCarriesFullTensionWithoutFriction) {
   DeclaredMechanism mechanism = loaded_forearm();
   mechanism.pulley.mu = 0;
   const Held held(mechanism);
-  const double most = analyse(mechanism, {.samples = 10}).largest_tension.tension;
+  const double most = analysis::analyse(mechanism, {.samples = 10}).largest_tension.tension;
   double bears = 0;
   for (const KnotHold& knot : held.holding.knots) bears = std::max(bears, knot.at_knot);
   // The largest value lies between two places of the analysis.
@@ -120,7 +119,7 @@ TEST(Holding, KnotCarriesFullTensionWithoutFriction) {
 TEST(Holding, RelievedTendonKeepsPretension) {
   const Held held(loaded_forearm());
   const KnotHold& first = held.holding.knots.front();
-  ASSERT_EQ(first.side, Side::left);
+  ASSERT_EQ(first.side, transmission::Side::left);
   EXPECT_GT(first.tension, held.mechanism.tendon.pretension);
 }
 
@@ -171,11 +170,11 @@ TEST_P(Profile, WrapsFurtherAndHoldsTendons) {
   EXPECT_TRUE(held.holding.warnings.empty());
   const bool thick = std::string(GetParam()) == "paper_optimum";
   for (const KnotHold& knot : held.holding.knots)
-    EXPECT_GE(degrees(knot.wrap_left), thick ? 19 : 35) << pulley_name(knot.side);
+    EXPECT_GE(degrees(knot.wrap_left), thick ? 19 : 35) << transmission::pulley_name(knot.side);
 }
 INSTANTIATE_TEST_SUITE_P(All, Profile,
                          ::testing::Values("finger", "forearm", "gripper", "linear_wrist", "paper_optimum",
                                            "unsymmetric", "wrist_exo"));
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

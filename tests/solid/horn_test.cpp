@@ -4,13 +4,13 @@
 
 #include <map>
 
-#include "mechanism/catalogue.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/solid.h"
+#include "mechanism/catalogue.h"
 #include "solid/broken.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using testing::circle;
@@ -118,7 +118,7 @@ constexpr double k_compensation = 0.2;  // of plain_mechanism()
 
 struct BuiltPiece {
   Mechanism mechanism;
-  SynthesisResult shape = pulley_of(circle(30), circle(28, {2, 1}));
+  profile::SynthesisResult shape = pulley_of(circle(30), circle(28, {2, 1}));
   Pulley pulley;
   explicit BuiltPiece(Mechanism m) : mechanism(std::move(m)), pulley(make_pulley(mechanism, shape)) {}
 };
@@ -222,7 +222,7 @@ void expect_refused(const Horn& bad, const Horn& good, const std::string& condit
   SCOPED_TRACE(words);
   const Pulley refused = BuiltPiece(with_horn(bad)).pulley;
   ASSERT_FALSE(refused.made());
-  for (const Condition& one : refused.conditions) {
+  for (const profile::Condition& one : refused.conditions) {
     EXPECT_EQ(one.ok, one.name != condition) << one.name;
     if (one.name == condition) {
       EXPECT_THAT(one.message, HasSubstr(words));
@@ -269,13 +269,14 @@ TEST(Horn, AdviceForCustomHornIsTried) {
                                          {"horn.boss_diameter_mm", "8"},
                                          {"horn.boss_height_mm", "2"}});
   ASSERT_FALSE(obstacles(mechanism).empty());
-  const std::vector<Change> advice = body_advice(mechanism).alone;
-  const auto wider =
-      std::find_if(advice.begin(), advice.end(), [](const Change& c) { return c.key == "horn.bolt_circle_mm"; });
+  const std::vector<profile::Change> advice = body_advice(mechanism).alone;
+  const auto wider = std::find_if(advice.begin(), advice.end(),
+                                  [](const profile::Change& c) { return c.key == "horn.bolt_circle_mm"; });
   ASSERT_NE(wider, advice.end());
   mechanism.horn.bolt_circle = wider->to;
   EXPECT_TRUE(obstacles(mechanism).empty());
-  for (const Change& change : advice) EXPECT_FALSE(change.key.starts_with("horn.") && change.to == 0) << change.text;
+  for (const profile::Change& change : advice)
+    EXPECT_FALSE(change.key.starts_with("horn.") && change.to == 0) << change.text;
 }
 
 TEST(Shaft, EveryCatalogueShaftFits) {
@@ -308,4 +309,4 @@ TEST(Shaft, EveryCatalogueShaftFits) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

@@ -16,7 +16,7 @@
 #include "solid/support_attribution.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using testing::circle;
@@ -212,12 +212,12 @@ TEST(Layers, BedSupportsSecondLayer) {
 TEST(SupportAttribution, AttributesNearestTieOffAndMovesIt) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.tail = Tail::none;
-  const SynthesisResult shape = pulley_of(circle(20), circle(18));
+  const profile::SynthesisResult shape = pulley_of(circle(20), circle(18));
   const BodyPlan plan = plan_body(mechanism, shape);
   const Vec3 far(0, 0, plan.layout.z_p1);
   EXPECT_TRUE(attribute_supports({far}, plan).empty());
   for (const PlannedAnchor& anchor : plan.anchors) {
-    const double z = anchor.side == Side::left ? plan.layout.z_p1 : plan.layout.z_p2;
+    const double z = anchor.side == transmission::Side::left ? plan.layout.z_p1 : plan.layout.z_p2;
     const Vec3 place(anchor.start().x(), anchor.start().y(), z);
     const std::vector<Rejection> blamed = attribute_supports({place, place}, plan);
     ASSERT_EQ(blamed.size(), 1u);
@@ -231,4 +231,4 @@ TEST(SupportAttribution, AttributesNearestTieOffAndMovesIt) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

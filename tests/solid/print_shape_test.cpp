@@ -7,11 +7,11 @@
 #include <functional>
 
 #include "fusee/solid.h"
-#include "solid/print.h"
 #include "solid/broken.h"
+#include "solid/print.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using testing::check_named;
@@ -33,9 +33,9 @@ constexpr double k_above_bed = 0.41;
 
 struct BuiltPiece {
   Mechanism mechanism;
-  SynthesisResult shape;
+  profile::SynthesisResult shape;
   Pulley pulley;
-  BuiltPiece(Mechanism m, SynthesisResult s)
+  BuiltPiece(Mechanism m, profile::SynthesisResult s)
       : mechanism(std::move(m)), shape(std::move(s)), pulley(make_pulley(mechanism, shape)) {}
 
   /// The parts to print.
@@ -61,9 +61,9 @@ Mechanism printed(Parts parts, double overhang = 45) {
 
 // ---- slopes ---------------------------------------------------------------------------------------------------------
 
-bool outside(const Outline& outline, double distance, const Vec2& point) {
+bool outside(const profile::Outline& outline, double distance, const Vec2& point) {
   return std::any_of(outline.points.begin(), outline.points.end(),
-                     [&](const OutlinePoint& at) { return (point - at.position).dot(at.normal) > distance; });
+                     [&](const profile::OutlinePoint& at) { return (point - at.position).dot(at.normal) > distance; });
 }
 
 // Least slope of downward faces of grooves, cones and rims above the bed; 90° if there is none.
@@ -221,7 +221,7 @@ TEST(PrintShapes, SeatsTendonInBothHalves) {
 }
 
 TEST(PrintShapes, LoadedHalfIsEqualWithSupports) {
-  const SynthesisResult shape = pulley_of(circle(20), circle(22));
+  const profile::SynthesisResult shape = pulley_of(circle(20), circle(22));
   Mechanism mechanism = printed(Parts::two);
   const BodyLayout apart = resolve_layout(mechanism, shape);
   mechanism.print.parts = Parts::one;
@@ -269,7 +269,7 @@ TEST(TwoParts, FormTheWhole) {
 TEST(TwoParts, LieOnTheirMatingFaces) {
   const BuiltPiece made = two_parts();
   for (const PrintedPart& part : made.pulley.parts) {
-    EXPECT_NEAR(bounds(part.mesh).low.z(), 0, k_flat) << pulley_name(part.side);
+    EXPECT_NEAR(bounds(part.mesh).low.z(), 0, k_flat) << transmission::pulley_name(part.side);
     EXPECT_EQ(failed(check_printed_part(part.mesh, part)), "");
     double bed = 0, higher = 0;
     for (const auto& [a, b, c] : part.mesh.triangles) {
@@ -278,7 +278,7 @@ TEST(TwoParts, LieOnTheirMatingFaces) {
       (std::max({p.z(), q.z(), r.z()}) < k_flat ? bed : higher) -= std::min(shadow, 0.0);
     }
     // Only the chamfer at the bed, ceilings and pin holes look down above it.
-    EXPECT_GT(bed, higher) << pulley_name(part.side);
+    EXPECT_GT(bed, higher) << transmission::pulley_name(part.side);
     EXPECT_NEAR(bed, section_area(part.mesh, 1e-3), 0.01 * bed);
   }
   const BodyLayout& layout = made.pulley.layout;
@@ -363,8 +363,8 @@ TEST(TwoParts, PinsClearTieOffs) {
     Polygon hole;
     for (int k = 0; k < 48; ++k) hole.push_back(place + 0.5 * layout.dowels.hole_diameter * unit(k_two_pi * k / 48));
     for (const Anchor& anchor : made.pulley.anchors) {
-      if (anchor.side == Side::right && layout.dowels.z_end < layout.z_p2) continue;
-      EXPECT_GE(gap_between(hole, anchor.channel), layout.min_wall - 0.01) << pulley_name(anchor.side);
+      if (anchor.side == transmission::Side::right && layout.dowels.z_end < layout.z_p2) continue;
+      EXPECT_GE(gap_between(hole, anchor.channel), layout.min_wall - 0.01) << transmission::pulley_name(anchor.side);
     }
   }
   // In the sections of both grooves the pin holes are separate loops.
@@ -397,7 +397,7 @@ TEST(OneOrTwo, DependsOnConeUnderMiddleFlange) {
 }
 
 TEST(OneOrTwo, FollowsTheFile) {
-  const SynthesisResult near = pulley_of(circle(20), circle(20)), far = pulley_of(circle(20), circle(27));
+  const profile::SynthesisResult near = pulley_of(circle(20), circle(20)), far = pulley_of(circle(20), circle(27));
   EXPECT_EQ(resolve_layout(printed(Parts::two), near).parts, Parts::two);
   EXPECT_EQ(resolve_layout(printed(Parts::one), far).parts, Parts::one);
 }
@@ -418,4 +418,4 @@ TEST(OneOrTwo, IsOneWithoutSpaceForPins) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

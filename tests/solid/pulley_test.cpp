@@ -1,15 +1,14 @@
 // Complete bodies with all features, and a damaged part for each check.
-#include "fusee/solid.h"
-
 #include <gmock/gmock.h>
 
 #include "base/text.h"
-#include "mechanism/catalogue.h"
 #include "fusee/mechanism_file.h"
+#include "fusee/solid.h"
+#include "mechanism/catalogue.h"
 #include "solid/broken.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using testing::check_named;
@@ -21,13 +20,13 @@ using testing::SupportShape;
 
 constexpr double k_tolerance = 0.01;
 
-std::string failures(const Pulley& pulley, const Mechanism& mechanism, const SynthesisResult& shape) {
+std::string failures(const Pulley& pulley, const Mechanism& mechanism, const profile::SynthesisResult& shape) {
   return failed(check_pulley(pulley.mesh, mechanism, shape, pulley, k_tolerance));
 }
 
 struct BuiltPiece {
   Mechanism mechanism = plain_mechanism();
-  SynthesisResult shape = pulley_of(circle(20), circle(18, {3, 1}));
+  profile::SynthesisResult shape = pulley_of(circle(20), circle(18, {3, 1}));
   Pulley pulley = make_pulley(mechanism, shape);
 };
 
@@ -49,7 +48,7 @@ TEST(Pulley, IsDeterministic) {
 }
 
 TEST(Pulley, BuildsEveryKindOfBody) {
-  const SynthesisResult shape = pulley_of({22, {{2, 2, 0.5}, {1, 3, 0}}}, {25, {{2, -1.5, 1}}});
+  const profile::SynthesisResult shape = pulley_of({22, {{2, 2, 0.5}, {1, 3, 0}}}, {25, {{2, -1.5, 1}}});
   for (const Bore bore : {Bore::round, Bore::d, Bore::hex, Bore::square, Bore::keyway}) {
     for (const Flange flange : {Flange::follow, Flange::round}) {
       Mechanism mechanism = plain_mechanism();
@@ -68,7 +67,7 @@ TEST(Pulley, RaisedMarksProjectFromFace) {
   mechanism.body.marks = Marks::none;
   mechanism.body.hub_height = 0;
   mechanism.body.set_screw = "none";
-  const SynthesisResult shape = pulley_of(circle(20), circle(20));
+  const profile::SynthesisResult shape = pulley_of(circle(20), circle(20));
   const Pulley plain = make_pulley(mechanism, shape);
   mechanism.body.marks = Marks::raised;
   const Pulley raised = make_pulley(mechanism, shape);
@@ -78,7 +77,7 @@ TEST(Pulley, RaisedMarksProjectFromFace) {
 
 TEST(Pulley, ShrinkageScalesMeshOnly) {
   Mechanism mechanism = plain_mechanism();
-  const SynthesisResult shape = pulley_of(circle(20), circle(18, {3, 1}));
+  const profile::SynthesisResult shape = pulley_of(circle(20), circle(18, {3, 1}));
   const Pulley plain = make_pulley(mechanism, shape);
   mechanism.material.shrinkage = 0.02;
   const Pulley larger = make_pulley(mechanism, shape);
@@ -89,7 +88,7 @@ TEST(Pulley, ShrinkageScalesMeshOnly) {
 
 TEST(Pulley, SectionsAtGroovesAreFloors) {
   const BuiltPiece made;
-  const Polygon floor = parallel(made.shape.p1, -0.5);
+  const Polygon floor = profile::parallel(made.shape.p1, -0.5);
   const Polygon loop = outer_loop(section(made.pulley.mesh, made.pulley.layout.z_p1));
   // Every point of the active arc is a point of the section.
   for (std::size_t i = 0; i < floor.size(); ++i) {
@@ -104,11 +103,11 @@ TEST(Pulley, TieOffsStartPastWoundEnds) {
   const BuiltPiece made;
   for (const Anchor& anchor : made.pulley.anchors) {
     if (!anchor.wound_end) continue;
-    const Outline& outline = anchor.side == Side::left ? made.shape.p1 : made.shape.p2;
+    const profile::Outline& outline = anchor.side == transmission::Side::left ? made.shape.p1 : made.shape.p2;
     const Vec2 end = outline.points[outline.anchor_end()].position;
     EXPECT_GE((anchor.exit - end).norm(), 1.5);
     // P1's tendon continues counter-clockwise, P2's clockwise.
-    EXPECT_EQ(cross(end, anchor.exit) > 0, anchor.side == Side::left);
+    EXPECT_EQ(cross(end, anchor.exit) > 0, anchor.side == transmission::Side::left);
     EXPECT_GT(signed_area(anchor.channel), 0);
   }
 }
@@ -117,7 +116,7 @@ TEST(Pulley, TieOffsStartPastWoundEnds) {
 
 TEST(CheckPulley, WrongRadius) {
   BuiltPiece made;
-  const SynthesisResult larger = pulley_of(circle(20.05), circle(18, {3, 1}));
+  const profile::SynthesisResult larger = pulley_of(circle(20.05), circle(18, {3, 1}));
   const auto checks = check_pulley(made.pulley.mesh, made.mechanism, larger, made.pulley, k_tolerance);
   EXPECT_EQ(failed(checks), "floor_deviation_P1 groove_depth_P1");
   EXPECT_NEAR(check_named(checks, "floor_deviation_P1").value, 0.05, 0.005);
@@ -173,7 +172,7 @@ TEST(CheckPulley, ShallowAndNarrowGroove) {
 TEST(CheckPulley, MeasuresGrooveDepthBesideTailSlot) {
   const Mechanism mechanism = parse_mechanism(find_template("paper_optimum"), "paper_optimum.toml", ".",
                                               {{"body.flange", "round"}, {"print.parts", "two"}});
-  const SynthesisResult shape = synthesise(mechanism);
+  const profile::SynthesisResult shape = profile::synthesise(mechanism);
   ASSERT_TRUE(shape.made());
   const Pulley pulley = make_pulley(mechanism, shape);
   ASSERT_TRUE(pulley.made()) << pulley.brief();
@@ -201,7 +200,7 @@ TEST(Pulley, PassesChecksOrReportsWhyNot) {
     mechanism.tendon.diameter = 0.3 + 0.1 * (k % 7);
     mechanism.body.groove = static_cast<Groove>(k % 3);
     mechanism.body.flange = static_cast<Flange>(k % 2);
-    const SynthesisResult shape = pulley_of(p1, p2, 160 + 16 * k);
+    const profile::SynthesisResult shape = pulley_of(p1, p2, 160 + 16 * k);
     const Pulley pulley = make_pulley(mechanism, shape);
     if (!pulley.made()) {
       EXPECT_NE(pulley.brief().find(" mm"), std::string::npos) << pulley.brief();
@@ -214,4 +213,4 @@ TEST(Pulley, PassesChecksOrReportsWhyNot) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

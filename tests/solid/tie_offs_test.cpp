@@ -11,7 +11,7 @@
 #include "solid/wrap.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::solid {
 namespace {
 
 using testing::check_named;
@@ -22,35 +22,38 @@ using testing::plain_mechanism;
 using testing::pulley_of;
 using testing::SupportShape;
 
-const Outline& outline_of(const SynthesisResult& shape, Side side) { return side == Side::left ? shape.p1 : shape.p2; }
+const profile::Outline& outline_of(const profile::SynthesisResult& shape, transmission::Side side) {
+  return side == transmission::Side::left ? shape.p1 : shape.p2;
+}
 
 /// Angle along the winding from the end of the active arc.
-double wrap_at(const SynthesisResult& shape, const Anchor& anchor) {
-  const Outline& outline = outline_of(shape, anchor.side);
+double wrap_at(const profile::SynthesisResult& shape, const Anchor& anchor) {
+  const profile::Outline& outline = outline_of(shape, anchor.side);
   return degrees(wound_arc(outline, outline.anchor_end(), index_at_place(outline, anchor.exit)).turn);
 }
 
-const Anchor& find(const Pulley& pulley, Side side, bool wound) {
+const Anchor& find(const Pulley& pulley, transmission::Side side, bool wound) {
   for (const Anchor& anchor : pulley.anchors) {
     if (anchor.side == side && anchor.wound_end == wound) return anchor;
   }
   throw std::runtime_error("no such tie-off");
 }
 
-std::string failures(const Pulley& pulley, const Mechanism& mechanism, const SynthesisResult& shape) {
+std::string failures(const Pulley& pulley, const Mechanism& mechanism, const profile::SynthesisResult& shape) {
   return failed(check_pulley(pulley.mesh, mechanism, shape, pulley, 0.01));
 }
 
 TEST(TieOffs, WrapUpToTheSpareTieOff) {
   const Mechanism mechanism = plain_mechanism();
   for (const double radius : {16.0, 20.0, 30.0, 45.0}) {
-    const SynthesisResult shape = pulley_of(circle(radius), circle(0.9 * radius, {0.1 * radius, 0.05 * radius}));
+    const profile::SynthesisResult shape =
+        pulley_of(circle(radius), circle(0.9 * radius, {0.1 * radius, 0.05 * radius}));
     const Pulley pulley = make_pulley(mechanism, shape);
     ASSERT_TRUE(pulley.made()) << pulley.brief();
-    for (const Side side : {Side::left, Side::right}) {
+    for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
       const double wound = wrap_at(shape, find(pulley, side, true)), spare = wrap_at(shape, find(pulley, side, false));
       // 160 degrees are not active.
-      EXPECT_GE(wound, 60) << radius << " " << pulley_name(side);
+      EXPECT_GE(wound, 60) << radius << " " << transmission::pulley_name(side);
       EXPECT_LT(wound, spare);
       EXPECT_LT(spare, 160);
     }
@@ -59,12 +62,12 @@ TEST(TieOffs, WrapUpToTheSpareTieOff) {
 
 TEST(TieOffs, BeginAtRequestedWrap) {
   Mechanism mechanism = plain_mechanism();
-  const SynthesisResult shape = pulley_of(circle(20), circle(20));
+  const profile::SynthesisResult shape = pulley_of(circle(20), circle(20));
   for (const double wrap : {10.0, 30.0, 55.0}) {
     mechanism.body.wrap = radians(wrap);
     const Pulley pulley = make_pulley(mechanism, shape);
     ASSERT_TRUE(pulley.made()) << pulley.brief();
-    for (const Side side : {Side::left, Side::right}) {
+    for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
       EXPECT_GE(wrap_at(shape, find(pulley, side, true)), wrap - 1.6);
       EXPECT_LE(wrap_at(shape, find(pulley, side, true)), wrap + 10);
     }
@@ -89,7 +92,7 @@ TEST(TieOffs, SmallPulleysAreBuilt) {
         mechanism.tendon.diameter = diameter;
         mechanism.body.min_wall = 0;
         mechanism.body.bore_diameter = bore;
-        const SynthesisResult shape = pulley_of(circle(radius), circle(1.05 * radius, {0.1, 0}));
+        const profile::SynthesisResult shape = pulley_of(circle(radius), circle(1.05 * radius, {0.1, 0}));
         const Pulley pulley = make_pulley(mechanism, shape);
         ASSERT_TRUE(pulley.made()) << radius << " " << diameter << " " << bore << ": " << pulley.brief();
         EXPECT_EQ(failures(pulley, mechanism, shape), "") << radius << " " << diameter << " " << bore;
@@ -121,9 +124,9 @@ r1_mm = 2.9809104028189957
 diameter_mm = 0.2
 )",
                                               "wall.toml");
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.tolerance = 0.0025991;
-  const SynthesisResult shape = synthesise(mechanism, options);
+  const profile::SynthesisResult shape = profile::synthesise(mechanism, options);
   const Pulley pulley = make_pulley(mechanism, shape);
   ASSERT_TRUE(pulley.made()) << pulley.brief();
   EXPECT_EQ(failed(check_pulley(pulley.mesh, mechanism, shape, pulley, options.tolerance)), "");
@@ -136,13 +139,13 @@ TEST(TieOffs, FaceSlotIsRoundBelowOpenAbove) {
   mechanism.body.bore_diameter = 3;
   for (const Parts parts : {Parts::one, Parts::two}) {
     mechanism.print.parts = parts;
-    const SynthesisResult shape = pulley_of(circle(3.2), circle(3.4));
+    const profile::SynthesisResult shape = pulley_of(circle(3.2), circle(3.4));
     const Pulley pulley = make_pulley(mechanism, shape);
     ASSERT_TRUE(pulley.made()) << pulley.brief();
     EXPECT_EQ(failures(pulley, mechanism, shape), "");
     for (const Anchor& anchor : pulley.anchors) {
       ASSERT_TRUE(anchor.seat.has_value());
-      const bool left = anchor.side == Side::left;
+      const bool left = anchor.side == transmission::Side::left;
       const double floor = (left ? 3.2 : 3.4) - 0.25, width = pulley.layout.channel_width;
       const Vec2 out = anchor.exit.normalized(), aside = turned_left(out);
       double nearest = 1e9, furthest = 0, widest = 0;
@@ -193,11 +196,11 @@ Mechanism thick_flanged() {
 }
 
 TEST(Tails, HavePeakedCeilingOnBed) {
-  const SynthesisResult shape = pulley_of(circle(20), circle(18));
+  const profile::SynthesisResult shape = pulley_of(circle(20), circle(18));
   Mechanism apart = plain_mechanism();
   apart.print.parts = Parts::two;
   const auto slot_of = [&](const Mechanism& mechanism) {
-    return find(make_pulley(mechanism, shape), Side::left, true).tail;
+    return find(make_pulley(mechanism, shape), transmission::Side::left, true).tail;
   };
   for (const Mechanism& mechanism : std::vector<Mechanism>{plain_mechanism(), thick_flanged()}) {
     ASSERT_TRUE(slot_of(mechanism).has_value());
@@ -217,7 +220,7 @@ TEST(Tails, LeaveTwoLayersOverChannels) {
   mechanism.print.parts = Parts::two;
   int beside = 0;
   for (const double radius : {26.0, 29.0, 32.0}) {
-    const SynthesisResult shape = pulley_of(circle(radius), circle(1.1 * radius));
+    const profile::SynthesisResult shape = pulley_of(circle(radius), circle(1.1 * radius));
     const Pulley pulley = make_pulley(mechanism, shape);
     ASSERT_TRUE(pulley.made()) << pulley.brief();
     EXPECT_EQ(failures(pulley, mechanism, shape), "") << radius;
@@ -225,7 +228,7 @@ TEST(Tails, LeaveTwoLayersOverChannels) {
     for (const Anchor& anchor : pulley.anchors) {
       if (!anchor.tail) continue;
       const TailSlot& slot = *anchor.tail;
-      const double to_plane = anchor.side == Side::left ? layout.z_p1 : layout.z_top - layout.z_p2;
+      const double to_plane = anchor.side == transmission::Side::left ? layout.z_p1 : layout.z_top - layout.z_p2;
       if (to_plane - 0.5 * layout.channel_width - layout.channel_ceiling - slot.depth >= 0.4) continue;
       ++beside;
       const Anchor& spare = find(pulley, anchor.side, false);
@@ -239,7 +242,7 @@ TEST(Tails, LeaveTwoLayersOverChannels) {
 TEST(Tails, MatchTheirDimensions) {
   Mechanism mechanism = thick_flanged();
   mechanism.body.marks = Marks::none;
-  const SynthesisResult shape = pulley_of(circle(20), circle(18));
+  const profile::SynthesisResult shape = pulley_of(circle(20), circle(18));
   const Pulley with = make_pulley(mechanism, shape);
   mechanism.body.tail = Tail::none;
   const Pulley without = make_pulley(mechanism, shape);
@@ -276,13 +279,13 @@ TEST(Tails, MatchTheirDimensions) {
 TEST(Tails, ClampScrewHasPilotAtEnd) {
   Mechanism mechanism = thick_flanged();
   mechanism.body.marks = Marks::none;
-  const SynthesisResult shape = pulley_of(circle(36), circle(35));
+  const profile::SynthesisResult shape = pulley_of(circle(36), circle(35));
   for (const char* name : {"M2", "M2.5", "M3"}) {
     mechanism.body.clamp_screw = name;
     const Pulley pulley = make_pulley(mechanism, shape);
     ASSERT_TRUE(pulley.made()) << pulley.brief();
     EXPECT_EQ(failures(pulley, mechanism, shape), "") << name;
-    const TailSlot& slot = *find(pulley, Side::left, true).tail;
+    const TailSlot& slot = *find(pulley, transmission::Side::left, true).tail;
     EXPECT_GT(slot.pilot_diameter, 1.6);
     // A blind hole is visible in a section half-way down, and not in the groove above the middle flange's top.
     const auto hole_at = [&](double z) {
@@ -301,7 +304,7 @@ TEST(Tails, RejectsClampScrewWithoutSpace) {
   Mechanism mechanism = plain_mechanism();
   mechanism.tendon.diameter = 0.5;
   mechanism.body.min_wall = 0;
-  const SynthesisResult shape = pulley_of(circle(6), circle(6.5));
+  const profile::SynthesisResult shape = pulley_of(circle(6), circle(6.5));
   ASSERT_TRUE(make_pulley(mechanism, shape).made());
   mechanism.body.clamp_screw = "M3";
   const Pulley pulley = make_pulley(mechanism, shape);
@@ -310,4 +313,4 @@ TEST(Tails, RejectsClampScrewWithoutSpace) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::solid

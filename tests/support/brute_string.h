@@ -50,7 +50,7 @@ inline int tangent_point(const std::vector<Vec2>& points, const Vec2& far, bool 
 /// A string from the pin's rightmost point over any obstacles to the end.
 class BruteString {
  public:
-  explicit BruteString(const PinPlace& place)
+  explicit BruteString(const transmission::PinPlace& place)
       : place_(place), pin_(circle(place.pin(), place.rho)), drum_(circle({0, 0}, place.drum)) {
     // The line with all of both circles on its left: its ends move until no point is on its right.
     int i = 0, j = 0;
@@ -103,7 +103,7 @@ class BruteString {
            (by - k_string_points * static_cast<int>(std::lround(by / double(k_string_points))));
   }
 
-  PinPlace place_;
+  transmission::PinPlace place_;
   std::vector<Vec2> pin_, drum_;
   int pin_leaves_ = 0, drum_meets_ = 0, drum_leaves_ = 0;
   int wound_ = 0;  ///< points in contact, turns counted; negative: the string is clear of the drum

@@ -40,8 +40,9 @@ inline SupportShape circle(double radius, Vec2 centre = Vec2::Zero()) {
   return {radius, {{1, centre.x(), centre.y()}}};
 }
 
-inline Outline sampled(const SupportShape& shape, Side side, int count, double active_from, double active_to) {
-  Outline outline;
+inline profile::Outline sampled(const SupportShape& shape, transmission::Side side, int count, double active_from,
+                                double active_to) {
+  profile::Outline outline;
   outline.side = side;
   for (int i = 0; i < count; ++i) {
     const double psi = k_two_pi * i / count;
@@ -58,13 +59,13 @@ inline Outline sampled(const SupportShape& shape, Side side, int count, double a
 }
 
 /// Both outlines at the same `count` normals; both active arcs are 200° long.
-inline SynthesisResult pulley_of(const SupportShape& p1, const SupportShape& p2, int count = 240) {
-  SynthesisResult result;
-  result.status = SynthesisStatus::made;
-  result.p1 = sampled(p1, Side::left, count, radians(80), radians(280));
-  result.p2 = sampled(p2, Side::right, count, radians(270), radians(110));
+inline profile::SynthesisResult pulley_of(const SupportShape& p1, const SupportShape& p2, int count = 240) {
+  profile::SynthesisResult result;
+  result.status = profile::SynthesisStatus::made;
+  result.p1 = sampled(p1, transmission::Side::left, count, radians(80), radians(280));
+  result.p2 = sampled(p2, transmission::Side::right, count, radians(270), radians(110));
   for (const double alpha : {radians(-90), 0.0, radians(90)}) {
-    TransmissionPoint point;
+    transmission::TransmissionPoint point;
     point.alpha = alpha;
     result.stroke.push_back(point);
   }

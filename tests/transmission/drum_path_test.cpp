@@ -13,7 +13,7 @@
 #include "support/brute_string.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::transmission {
 namespace {
 
 using testing::BruteString;
@@ -332,4 +332,4 @@ TEST(DrumOffTheAxis, DerivativesAgreeWithDifferences) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "transmission/load.h"
 #include "fusee/transmission.h"
 #include "support/mechanisms.h"
 #include "transmission/interval.h"
+#include "transmission/load.h"
 
-namespace fusee {
+namespace fusee::transmission {
 namespace {
 
 TEST(Interval, EnclosesTrueValue) {
@@ -94,4 +94,4 @@ TEST(Equations, IntervalsEncloseNumbers) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::transmission

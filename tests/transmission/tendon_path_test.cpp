@@ -1,10 +1,9 @@
-#include "fusee/transmission.h"
-
 #include <gtest/gtest.h>
 
+#include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::transmission {
 namespace {
 
 constexpr PinPlace k_place{47.0, -33.0, 70.0, 3.5, 95.0};
@@ -62,4 +61,4 @@ TEST(UpperSpan, IsContinuousBelowPin) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -1,10 +1,9 @@
-#include "fusee/transmission.h"
-
 #include <gtest/gtest.h>
 
+#include "fusee/transmission.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::transmission {
 namespace {
 
 TEST(PaperForces, VerticalTendonPullsTwiceTheTipForce) {
@@ -89,4 +88,4 @@ TEST(PaperForces, TipAnglesExceedRightAngle) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -3,12 +3,12 @@
 #include <array>
 #include <cmath>
 
-#include "transmission/load.h"
-#include "transmission/torque.h"
 #include "fusee/transmission.h"
 #include "support/mechanisms.h"
+#include "transmission/load.h"
+#include "transmission/torque.h"
 
-namespace fusee {
+namespace fusee::transmission {
 namespace {
 
 /// A weight on a lever, horizontal at home, on a joint with drum: a constant motor torque holds it.
@@ -159,4 +159,4 @@ TEST(TorqueLaw, AddsSpringToLoad) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::transmission

@@ -4,7 +4,7 @@
 
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::transmission {
 namespace {
 
 using testing::forearm;
@@ -152,4 +152,4 @@ TEST(Transmission, TendonLengthsAddUp) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::transmission

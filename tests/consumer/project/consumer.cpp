@@ -7,7 +7,7 @@
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fusee::MechanismFile file = fusee::read_mechanism(arguments[1]);
-  const fusee::SynthesisResult synthesis = fusee::synthesise(file.mechanism);
+  const fusee::profile::SynthesisResult synthesis = fusee::profile::synthesise(file.mechanism);
   if (!synthesis.made()) return 4;
   const auto [least, most] = std::minmax_element(synthesis.stroke.begin(), synthesis.stroke.end(),
                                                  [](const auto& a, const auto& b) { return a.t2.p < b.t2.p; });

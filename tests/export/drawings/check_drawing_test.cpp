@@ -5,7 +5,7 @@
 #include "export/drawings/dxf_writer.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using testing::check_named;
@@ -249,4 +249,4 @@ TEST(CheckDrawing, HandlesHundredThousandLines) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -32,9 +32,9 @@ inline std::string dxf_of(const std::string& entities, int units = 4, const std:
          entities + tags({{0, "ENDSEC"}, {0, "EOF"}});
 }
 
-inline std::vector<DrawingPath> on_layer(const Drawing& drawing, const std::string& layer) {
-  std::vector<DrawingPath> paths;
-  for (const DrawingPath& path : drawing.paths) {
+inline std::vector<formats::DrawingPath> on_layer(const formats::Drawing& drawing, const std::string& layer) {
+  std::vector<formats::DrawingPath> paths;
+  for (const formats::DrawingPath& path : drawing.paths) {
     if (path.layer == layer) paths.push_back(path);
   }
   return paths;
@@ -47,8 +47,8 @@ inline const Check& check_named(const std::vector<Check>& checks, const std::str
 }
 
 /// Input of drawings: pitch curves of known shape, on a shaft of 6 mm, cut from plates of 3 mm.
-inline Product product_of(const SupportShape& p1, const SupportShape& p2) {
-  Product product;
+inline formats::Product product_of(const SupportShape& p1, const SupportShape& p2) {
+  formats::Product product;
   Mechanism& mechanism = product.joint.mechanism;
   mechanism = plain_mechanism();
   mechanism.body.bore_diameter = 6;
@@ -57,7 +57,7 @@ inline Product product_of(const SupportShape& p1, const SupportShape& p2) {
   return product;
 }
 
-inline Product egg() { return product_of(circle(16), {18, {{1, 0.5, 1}, {2, 1, 0.3}}}); }
+inline formats::Product egg() { return product_of(circle(16), {18, {{1, 0.5, 1}, {2, 1, 0.3}}}); }
 
 /// The names of the failed checks.
 inline std::vector<std::string> failed(const std::vector<Check>& checks) {

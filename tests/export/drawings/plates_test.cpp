@@ -15,7 +15,7 @@
 #include "solid/bore.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using ::testing::Contains;
@@ -29,13 +29,13 @@ using testing::product_of;
 /// A knot pocket and a channel that opens at P1's floor.
 Product egg_with_anchor() {
   Product product = egg();
-  Anchor anchor;
-  anchor.side = Side::left;
+  solid::Anchor anchor;
+  anchor.side = transmission::Side::left;
   anchor.exit = Vec2::Zero();
   anchor.pocket = {-8, -8};
   anchor.channel = {{-8.7, -8}, {-8.7, -17}, {-7.3, -17}, {-7.3, -8}};
   product.pulley.anchors = {anchor};
-  product.pulley.layout = resolve_layout(product.joint.mechanism, product.synthesis);
+  product.pulley.layout = solid::resolve_layout(product.joint.mechanism, product.synthesis);
   return product;
 }
 
@@ -230,7 +230,7 @@ TEST(CutHole, KeepsArcAboutItsCentre) {
   mechanism.material.hole_compensation = 0;
   mechanism.body.bore = Bore::d;
   mechanism.body.bore_flat = 9;
-  const auto cut = cut_hole(bore_contour(bore_layout(mechanism, 10)), 1);
+  const auto cut = cut_hole(bore_contour(solid::bore_layout(mechanism, 10)), 1);
   ASSERT_TRUE(cut);
   const auto vertices = vertices_of(*cut);
   ASSERT_EQ(vertices.size(), 2u);
@@ -246,7 +246,7 @@ TEST(CutHole, KeepsFlatsOfKeyway) {
   Mechanism mechanism = testing::plain_mechanism();
   mechanism.material.hole_compensation = 0;
   mechanism.body.bore = Bore::keyway;
-  const auto cut = cut_hole(bore_contour(bore_layout(mechanism, 8)), 0.4);
+  const auto cut = cut_hole(bore_contour(solid::bore_layout(mechanism, 8)), 0.4);
   ASSERT_TRUE(cut);
   const auto vertices = vertices_of(*cut);
   ASSERT_EQ(vertices.size(), 4u);
@@ -353,4 +353,4 @@ TEST(Nesting, PacksWithoutOverlapDeterministically) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

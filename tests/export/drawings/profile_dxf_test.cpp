@@ -8,7 +8,7 @@
 #include "solid/nearest_segment.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using testing::egg;
@@ -28,16 +28,17 @@ TEST_P(BothVersions, CurvesComeBackToTheMicron) {
   const Product product = egg();
   const Drawing drawing = drawn(product);
   EXPECT_TRUE(drawing.millimetres);
-  const std::vector<std::pair<std::string, Polygon>> expected = {{"P1_PITCH", parallel(product.synthesis.p1, 0)},
-                                                                 {"P1_FLOOR", parallel(product.synthesis.p1, -0.5)},
-                                                                 {"P2_PITCH", parallel(product.synthesis.p2, 0)},
-                                                                 {"P2_FLOOR", parallel(product.synthesis.p2, -0.5)}};
+  const std::vector<std::pair<std::string, Polygon>> expected = {
+      {"P1_PITCH", profile::parallel(product.synthesis.p1, 0)},
+      {"P1_FLOOR", profile::parallel(product.synthesis.p1, -0.5)},
+      {"P2_PITCH", profile::parallel(product.synthesis.p2, 0)},
+      {"P2_FLOOR", profile::parallel(product.synthesis.p2, -0.5)}};
   for (const auto& [layer, points] : expected) {
     const auto paths = on_layer(drawing, layer);
     ASSERT_EQ(paths.size(), 1u) << layer;
     EXPECT_TRUE(paths[0].closed);
     // The arcs stay within half a micron of the outline, and the reader's chords within one of the arcs.
-    const NearestSegment drawn_curve({paths[0].points});
+    const solid::NearestSegment drawn_curve({paths[0].points});
     for (const Vec2& point : points) EXPECT_LE(drawn_curve.distance(point), 0.0016) << layer;
     EXPECT_NEAR(signed_area(paths[0].points) / signed_area(points), 1, 5e-3) << layer;
   }
@@ -72,8 +73,8 @@ TEST(ProfileDxf, FitsFewTangentArcs) {
 
 // Normals that belong to no smooth curve leave the outline's own edges.
 TEST(ProfileDxf, KeepsEdgesWithoutArcs) {
-  Outline outline = egg().synthesis.p2;
-  for (OutlinePoint& point : outline.points) point.normal = -point.normal;
+  profile::Outline outline = egg().synthesis.p2;
+  for (profile::OutlinePoint& point : outline.points) point.normal = -point.normal;
   const std::vector<BulgeVertex> edges = fitted_arcs(outline, 0, 0.0005);
   ASSERT_EQ(edges.size(), outline.points.size());
   for (const BulgeVertex& edge : edges) EXPECT_EQ(edge.bulge, 0);
@@ -172,4 +173,4 @@ TEST(OffsetEdges, IsExactForPolygons) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -10,7 +10,7 @@
 #include "export/drawings/plane_shapes.h"
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using testing::dxf_of;
@@ -385,4 +385,4 @@ TEST(ReadDxf, AnyBytesAreSafe) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

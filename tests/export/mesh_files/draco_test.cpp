@@ -4,52 +4,52 @@
 
 #include "mesh_samples.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using testing::error_of;
 using ::testing::HasSubstr;
 
-double distance_to_nearest(const Vec3& place, const TriangleMesh& mesh) {
+double distance_to_nearest(const Vec3& place, const solid::TriangleMesh& mesh) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Vec3& vertex : mesh.vertices) nearest = std::min(nearest, (vertex - place).norm());
   return nearest;
 }
 
 TEST(Draco, MovesVerticesWithinTolerance) {
-  const TriangleMesh mesh = testing::torus();
+  const solid::TriangleMesh mesh = testing::torus();
   std::size_t larger = std::numeric_limits<std::size_t>::max();
   for (const double tolerance : {0.001, 0.01, 0.1}) {
     const std::string bytes = draco_bytes(mesh, tolerance);
     EXPECT_LT(bytes.size(), larger) << "a coarser tolerance gives a smaller file";
     larger = bytes.size();
-    const TriangleMesh read = read_mesh(bytes, "torus.drc");
+    const solid::TriangleMesh read = read_mesh(bytes, "torus.drc");
     ASSERT_EQ(read.vertices.size(), mesh.vertices.size());
     ASSERT_EQ(read.triangles.size(), mesh.triangles.size());
     for (const Vec3& vertex : mesh.vertices) EXPECT_LE(distance_to_nearest(vertex, read), tolerance);
-    EXPECT_NEAR(enclosed_volume(read), enclosed_volume(mesh), 3000 * tolerance);
+    EXPECT_NEAR(solid::enclosed_volume(read), solid::enclosed_volume(mesh), 3000 * tolerance);
   }
 }
 
 TEST(Draco, KeepsThinFaces) {
   // A thin prism, 0.001 mm thick: on a grid of 0.01 mm its sides would coincide.
-  TriangleMesh needle = testing::tetrahedron();
+  solid::TriangleMesh needle = testing::tetrahedron();
   for (Vec3& vertex : needle.vertices) vertex.y() *= 0.00025;
-  const TriangleMesh read = read_mesh(draco_bytes(rounded_to_float(needle), 0.01), "needle.drc");
+  const solid::TriangleMesh read = read_mesh(draco_bytes(solid::rounded_to_float(needle), 0.01), "needle.drc");
   EXPECT_EQ(read.vertices.size(), 4U);
-  EXPECT_NEAR(enclosed_volume(read) / enclosed_volume(needle), 1.0, 0.5);
+  EXPECT_NEAR(solid::enclosed_volume(read) / solid::enclosed_volume(needle), 1.0, 0.5);
 }
 
 TEST(Draco, KeepsFloatsOfVeryFineMesh) {
   // A small part far from a large one: even the finest of Draco's grids, 24 bits of a kilometre, is too coarse.
-  TriangleMesh small = testing::tetrahedron(), large = testing::tetrahedron();
+  solid::TriangleMesh small = testing::tetrahedron(), large = testing::tetrahedron();
   for (Vec3& vertex : small.vertices) vertex *= 1e-6;
   for (Vec3& vertex : large.vertices) vertex = 1e5 * vertex + Vec3(1e3, 1e3, 1e3);
-  TriangleMesh both = small;
+  solid::TriangleMesh both = small;
   both.vertices.insert(both.vertices.end(), large.vertices.begin(), large.vertices.end());
   for (const auto& [a, b, c] : large.triangles) both.triangles.push_back({a + 4, b + 4, c + 4});
-  both = rounded_to_float(std::move(both));
-  const TriangleMesh read = read_mesh(draco_bytes(both, 0.01), "both.drc");
+  both = solid::rounded_to_float(std::move(both));
+  const solid::TriangleMesh read = read_mesh(draco_bytes(both, 0.01), "both.drc");
   ASSERT_EQ(read.vertices.size(), both.vertices.size());
   for (const Vec3& vertex : both.vertices) EXPECT_EQ(distance_to_nearest(vertex, read), 0.0);
 }
@@ -82,4 +82,4 @@ TEST(DracoReader, RejectsTruncations) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

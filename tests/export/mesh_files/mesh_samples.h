@@ -9,18 +9,18 @@
 #include <string>
 #include <string_view>
 
-#include "fusee/base.h"
 #include "export/mesh_files/mesh_files.h"
+#include "fusee/base.h"
 
 namespace fusee::testing {
 
-inline TriangleMesh tetrahedron() {
+inline solid::TriangleMesh tetrahedron() {
   return {{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {0, 0, 5}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
 /// Coordinates without short decimals, rounded to floats.
-inline TriangleMesh torus(int around = 40, int across = 24) {
-  TriangleMesh mesh;
+inline solid::TriangleMesh torus(int around = 40, int across = 24) {
+  solid::TriangleMesh mesh;
   const auto at = [&](int i, int j) { return static_cast<std::uint32_t>((i % around) * across + j % across); };
   for (int i = 0; i < around; ++i) {
     for (int j = 0; j < across; ++j) {
@@ -31,11 +31,11 @@ inline TriangleMesh torus(int around = 40, int across = 24) {
       mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   }
-  return rounded_to_float(std::move(mesh));
+  return solid::rounded_to_float(std::move(mesh));
 }
 
 /// The corners of the faces in order, as floats: equal for equal meshes with any vertex numbering.
-inline std::vector<std::array<std::array<float, 3>, 3>> facets(const TriangleMesh& mesh) {
+inline std::vector<std::array<std::array<float, 3>, 3>> facets(const solid::TriangleMesh& mesh) {
   std::vector<std::array<std::array<float, 3>, 3>> list;
   for (const auto& t : mesh.triangles) {
     auto& facet = list.emplace_back();
@@ -49,7 +49,7 @@ inline std::vector<std::array<std::array<float, 3>, 3>> facets(const TriangleMes
 /// The error message for bytes that are no mesh; "" if they are one.
 inline std::string error_of(std::string_view bytes, const std::string& name) {
   try {
-    read_mesh(bytes, name);
+    formats::read_mesh(bytes, name);
   } catch (const InputError& error) {
     return error.what();
   }

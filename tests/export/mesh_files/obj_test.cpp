@@ -4,7 +4,7 @@
 
 #include "mesh_samples.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using ::testing::ElementsAre;
@@ -16,23 +16,23 @@ using Triangle = std::array<std::uint32_t, 3>;
 constexpr std::string_view k_square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST(Obj, RoundTripIsExactInFloats) {
-  const TriangleMesh mesh = testing::torus();
-  const TriangleMesh read = rounded_to_float(read_mesh(obj_text(mesh, "torus"), "torus.obj"));
+  const solid::TriangleMesh mesh = testing::torus();
+  const solid::TriangleMesh read = solid::rounded_to_float(read_mesh(obj_text(mesh, "torus"), "torus.obj"));
   EXPECT_EQ(read.vertices, mesh.vertices);
   EXPECT_EQ(read.triangles, mesh.triangles);
 }
 
 // A reader that uses doubles computes the volume of the STL.
 TEST(Obj, VolumeMatchesFloats) {
-  TriangleMesh mesh = testing::torus();
+  solid::TriangleMesh mesh = testing::torus();
   for (Vec3& vertex : mesh.vertices) vertex = 31.7 * vertex + Vec3(0, 0, 37.9);
-  mesh = rounded_to_float(mesh);
-  const double volume = enclosed_volume(mesh);
-  EXPECT_NEAR(enclosed_volume(read_mesh(obj_text(mesh, "torus"), "torus.obj")), volume, 2e-8 * volume);
+  mesh = solid::rounded_to_float(mesh);
+  const double volume = solid::enclosed_volume(mesh);
+  EXPECT_NEAR(solid::enclosed_volume(read_mesh(obj_text(mesh, "torus"), "torus.obj")), volume, 2e-8 * volume);
 }
 
 TEST(Obj, NamesItsObjectAndWritesNineDigits) {
-  const TriangleMesh mesh{{{0.1, -0.0, 1e-7}, {16777216, 0, 0}, {0, 1.0 / 3.0, 0}}, {{0, 1, 2}}};
+  const solid::TriangleMesh mesh{{{0.1, -0.0, 1e-7}, {16777216, 0, 0}, {0, 1.0 / 3.0, 0}}, {{0, 1, 2}}};
   const std::string text = obj_text(mesh, "a\nname");
   EXPECT_THAT(
       text, HasSubstr("\no a\\x0aname\nv 0.100000001 0 1.00000001e-07\nv 16777216 0 0\nv 0 0.333333343 0\nf 1 2 3\n"));
@@ -40,7 +40,7 @@ TEST(Obj, NamesItsObjectAndWritesNineDigits) {
 }
 
 TEST(Obj, NameEndsItsLine) {
-  const TriangleMesh mesh = testing::torus();
+  const solid::TriangleMesh mesh = testing::torus();
   for (const char* name : {"a \\", "\\", "a\\\n", "# \\"}) {
     const std::string text = obj_text(mesh, name);
     EXPECT_THAT(text, Not(HasSubstr("\\\n"))) << name;
@@ -87,7 +87,7 @@ TEST(ObjReader, SkipsOtherStatements) {
       "\xEF\xBB\xBF# made by hand\r\nmtllib a.mtl\r\n\r\ng all\r\nvn 0 0 1\r\nvt 0 0\r\nv 0 0 0 1 0.5 0.5 0.5 # "
       "coloured\r\nv 1 0 0\r\n"
       "usemtl red\r\ns off\r\nf 1/1/1 2/1/1 \\\r\n 3/1/1\r\nv 1 1 nan\r\nl 1 2\r\n";
-  const TriangleMesh mesh = read_mesh(text, "x");
+  const solid::TriangleMesh mesh = read_mesh(text, "x");
   EXPECT_THAT(mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
   EXPECT_TRUE(std::isnan(mesh.vertices[2].z()));
 }
@@ -141,11 +141,11 @@ TEST(Obj, IsIndependentOfLocale) {
   const std::string before = obj_text(testing::torus(), "x");
   const std::locale old = std::locale::global(std::locale(std::locale::classic(), new CommaPoint));
   const std::string after = obj_text(testing::torus(), "x");
-  const TriangleMesh read = read_mesh(after, "x.obj");
+  const solid::TriangleMesh read = read_mesh(after, "x.obj");
   std::locale::global(old);
   EXPECT_EQ(after, before);
   EXPECT_EQ(facets(read), facets(testing::torus()));
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -4,7 +4,7 @@
 
 #include "mesh_samples.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using ::testing::ElementsAre;
@@ -14,7 +14,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 TEST(OffReader, ReadsAllKindsOfVerticesAndFaces) {
   const std::string plain = "OFF\n# a square\n4 1 4\n0 0 0\n1 0 0\n1 1 0\n\n0 1 0\n4 0 1 2 3\n";
-  const TriangleMesh square = read_mesh(plain, "x");
+  const solid::TriangleMesh square = read_mesh(plain, "x");
   EXPECT_THAT(square.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
   EXPECT_EQ(square.vertices[2], Vec3(1, 1, 0));
   const std::string coloured =
@@ -41,7 +41,7 @@ TEST(OffReader, CountsWordsNotLines) {
         // A colour that the keyword does not declare, and one of three numbers where four are declared.
         std::string("OFF\n4 2 5\n0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2 1 0 0\n3 0 2 3\n"),
         std::string("COFF\n4 2 5\n0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n3 0 2 3\n")}) {
-    const TriangleMesh mesh = read_mesh(text, "x.off");
+    const solid::TriangleMesh mesh = read_mesh(text, "x.off");
     EXPECT_EQ(mesh.triangles, expected) << text;
     EXPECT_EQ(mesh.vertices[2], Vec3(1, 1, 0)) << text;
   }
@@ -81,4 +81,4 @@ TEST(OffReader, ReadsOrRejectsTruncations) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -5,7 +5,7 @@
 
 #include "mesh_samples.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using ::testing::ElementsAre;
@@ -62,11 +62,11 @@ std::string changed(std::string_view text, std::string_view from, std::string_vi
 }
 
 TEST(PlyReader, ReadsTextAndBothOrdersOfBytes) {
-  const TriangleMesh ascii = read_mesh(k_ascii, "x");
+  const solid::TriangleMesh ascii = read_mesh(k_ascii, "x");
   EXPECT_THAT(ascii.triangles, ElementsAre(Triangle{0, 1, 2}));
   EXPECT_TRUE(std::isnan(ascii.vertices[2].z()));
   for (const bool big_endian : {false, true}) {
-    const TriangleMesh square = read_mesh(binary_square(big_endian), "x");
+    const solid::TriangleMesh square = read_mesh(binary_square(big_endian), "x");
     EXPECT_THAT(square.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
     EXPECT_EQ(square.vertices[2], Vec3(1, 1, -0.25));
   }
@@ -76,7 +76,7 @@ TEST(PlyReader, CountsWordsNotLines) {
   const std::size_t body = k_ascii.find("0 0 0 1");
   const std::string head(k_ascii.substr(0, body));
   for (const char* rows : {"0 0\n0 1 1 0 0 1\n1 1 2 1\n3 0\n1 2\n", "0 0 0 1 1 0 0 1 1 1 2 1 3 0 1 2"}) {
-    const TriangleMesh mesh = read_mesh(head + rows, "x.ply");
+    const solid::TriangleMesh mesh = read_mesh(head + rows, "x.ply");
     EXPECT_THAT(mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
     EXPECT_EQ(mesh.vertices[2], Vec3(1, 1, 2));
   }
@@ -150,4 +150,4 @@ TEST(PlyReader, RejectsTruncations) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

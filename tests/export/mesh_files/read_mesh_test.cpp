@@ -5,7 +5,7 @@
 #include "fusee/base.h"
 #include "mesh_samples.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using testing::error_of;
@@ -13,7 +13,7 @@ using testing::facets;
 using ::testing::HasSubstr;
 
 TEST(ReadMesh, IdentifiesFormatByContent) {
-  const TriangleMesh mesh = testing::tetrahedron();
+  const solid::TriangleMesh mesh = testing::tetrahedron();
   for (const std::string& bytes :
        {stl_bytes(mesh, "x"), obj_text(mesh, "x"), threemf_bytes(mesh, "x"), draco_bytes(mesh, 0.01)}) {
     EXPECT_EQ(read_mesh(bytes, "no.ending").triangles.size(), 4U);
@@ -23,11 +23,11 @@ TEST(ReadMesh, IdentifiesFormatByContent) {
 
 // A vertex far away, or one that is not a number, is not part of the mesh if no facet uses it.
 TEST(ReadMesh, OmitsUnusedVertices) {
-  const TriangleMesh mesh = read_mesh("v nan 0 0\nv 0 0 0\nv 500 500 500\nv 1 0 0\nv 0 1 0\nf 2 4 5\n", "x.obj");
+  const solid::TriangleMesh mesh = read_mesh("v nan 0 0\nv 0 0 0\nv 500 500 500\nv 1 0 0\nv 0 1 0\nf 2 4 5\n", "x.obj");
   ASSERT_EQ(mesh.vertices.size(), 3U);
   ASSERT_EQ(mesh.triangles.size(), 1U);
   EXPECT_EQ(mesh.vertices[mesh.triangles[0][1]], Vec3(1, 0, 0));
-  EXPECT_EQ(bounds(mesh).high, Vec3(1, 1, 0));
+  EXPECT_EQ(solid::bounds(mesh).high, Vec3(1, 1, 0));
 }
 
 TEST(ReadMesh, ErrorListsFormats) {
@@ -57,4 +57,4 @@ TEST(ReadMesh, ReadsOrRejectsFuzzCorpus) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -5,7 +5,7 @@
 
 #include "mesh_samples.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using testing::error_of;
@@ -42,7 +42,7 @@ TEST(StlWriter, FollowsTheFormat) {
 }
 
 TEST(StlWriter, NormalsAreTrue) {
-  const TriangleMesh mesh = testing::torus();
+  const solid::TriangleMesh mesh = testing::torus();
   const std::string bytes = stl_bytes(mesh, "torus");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
@@ -56,7 +56,7 @@ TEST(StlWriter, NormalsAreTrue) {
 }
 
 TEST(StlWriter, DegenerateFaceHasNoNormal) {
-  const TriangleMesh line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
+  const solid::TriangleMesh line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
   const std::string bytes = stl_bytes(line, "line");
   for (int k = 0; k < 3; ++k) EXPECT_EQ(float_at(bytes, 84 + 4 * k), 0.0F);
 }
@@ -67,9 +67,11 @@ bool has_high_byte(std::string_view bytes) {
 
 TEST(StlWriter, IsNotMistakenForText) {
   // Upward facets whose numbers have only bytes below 128 (0, 2, 0.5), and finally a downward one.
-  const TriangleMesh mesh{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, {{0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 2, 1}}};
-  const TriangleMesh flat{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 0.5}}, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {0, 2, 1}}};
-  for (const TriangleMesh& m : {mesh, flat, testing::tetrahedron(), testing::torus()}) {
+  const solid::TriangleMesh mesh{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}},
+                                 {{0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 2, 1}}};
+  const solid::TriangleMesh flat{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 0.5}},
+                                 {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {0, 2, 1}}};
+  for (const solid::TriangleMesh& m : {mesh, flat, testing::tetrahedron(), testing::torus()}) {
     const std::string bytes = stl_bytes(m, "x");
     EXPECT_TRUE(has_high_byte(bytes.substr(84, 128)));
     std::vector<std::array<std::array<float, 3>, 3>> written = facets(read_mesh(bytes, "x.stl")), given = facets(m);
@@ -86,8 +88,8 @@ TEST(StlWriter, NeverStartsWithSolidAndCutsLongNames) {
 }
 
 TEST(Stl, RoundTrip) {
-  const TriangleMesh mesh = testing::torus();
-  const TriangleMesh read = read_mesh(stl_bytes(mesh, "torus"), "torus.stl");
+  const solid::TriangleMesh mesh = testing::torus();
+  const solid::TriangleMesh read = read_mesh(stl_bytes(mesh, "torus"), "torus.stl");
   EXPECT_EQ(read.vertices.size(), mesh.vertices.size());
   EXPECT_EQ(facets(read), facets(mesh));
 }
@@ -99,17 +101,17 @@ TEST(Stl, AcceptsBinaryStartingWithSolid) {
 }
 
 TEST(Stl, ReadsNanAndInfinity) {
-  TriangleMesh mesh = testing::tetrahedron();
+  solid::TriangleMesh mesh = testing::tetrahedron();
   mesh.vertices[3].z() = std::numeric_limits<double>::infinity();
   mesh.vertices[2].x() = std::numeric_limits<double>::quiet_NaN();
-  const TriangleMesh read = read_mesh(stl_bytes(mesh, "x"), "x.stl");
+  const solid::TriangleMesh read = read_mesh(stl_bytes(mesh, "x"), "x.stl");
   EXPECT_EQ(read.triangles.size(), 4U);
   EXPECT_TRUE(std::any_of(read.vertices.begin(), read.vertices.end(), [](const Vec3& v) { return std::isinf(v.z()); }));
   EXPECT_TRUE(std::any_of(read.vertices.begin(), read.vertices.end(), [](const Vec3& v) { return std::isnan(v.x()); }));
 }
 
 TEST(StlAscii, ReadsVariants) {
-  const TriangleMesh plain = read_mesh(ascii(k_ascii_facet), "x.stl");
+  const solid::TriangleMesh plain = read_mesh(ascii(k_ascii_facet), "x.stl");
   ASSERT_EQ(plain.triangles.size(), 1U);
   EXPECT_EQ(plain.vertices[plain.triangles[0][1]], Vec3(0, 4, 0));
   const std::string shouted =
@@ -117,7 +119,7 @@ TEST(StlAscii, ReadsVariants) {
       "0\r\nENDLOOP ENDFACET\r\nENDSOLID";
   EXPECT_EQ(facets(read_mesh(shouted, "x")), facets(plain));
   // Several solids form one mesh, and their corners are welded.
-  const TriangleMesh twice = read_mesh(ascii(k_ascii_facet) + ascii(k_ascii_facet), "x.stl");
+  const solid::TriangleMesh twice = read_mesh(ascii(k_ascii_facet) + ascii(k_ascii_facet), "x.stl");
   EXPECT_EQ(twice.triangles.size(), 2U);
   EXPECT_EQ(twice.vertices.size(), 3U);
   EXPECT_EQ(read_mesh("solid nothing\nendsolid nothing\n", "x.stl").triangles.size(), 0U);
@@ -136,7 +138,7 @@ TEST(StlAscii, ErrorsNameThePlace) {
 
 // Exporters write an invalid normal as their C library prints it, or omit the normal.
 TEST(StlAscii, IgnoresNormals) {
-  const TriangleMesh plain = read_mesh(ascii(k_ascii_facet), "x.stl");
+  const solid::TriangleMesh plain = read_mesh(ascii(k_ascii_facet), "x.stl");
   const std::string text = ascii(k_ascii_facet);
   const std::size_t at = text.find("normal"), end = text.find("outer");
   for (const char* normal :
@@ -151,7 +153,7 @@ TEST(StlAscii, IgnoresNormals) {
 }
 
 TEST(StlAscii, ReadsSolidsOnOneLine) {
-  const TriangleMesh plain = read_mesh(ascii(k_ascii_facet), "x.stl");
+  const solid::TriangleMesh plain = read_mesh(ascii(k_ascii_facet), "x.stl");
   std::string line = ascii(k_ascii_facet);
   std::replace(line.begin(), line.end(), '\n', ' ');
   EXPECT_EQ(facets(read_mesh(line, "x.stl")), facets(plain));
@@ -203,4 +205,4 @@ TEST(Stl, RejectsTruncations) {
 TEST(Stl, IsDeterministic) { EXPECT_EQ(stl_bytes(testing::torus(), "x"), stl_bytes(testing::torus(), "x")); }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -9,7 +9,7 @@
 
 #include "mesh_samples.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using testing::error_of;
@@ -63,7 +63,7 @@ std::string model(const std::string& resources, const std::string& items, const 
   return "<model " + attributes + "><resources>" + resources + "</resources><build>" + items + "</build></model>";
 }
 
-Vec3 corner(const TriangleMesh& mesh, std::size_t triangle, std::size_t k) {
+Vec3 corner(const solid::TriangleMesh& mesh, std::size_t triangle, std::size_t k) {
   return mesh.vertices.at(mesh.triangles.at(triangle)[k]);
 }
 
@@ -86,8 +86,8 @@ TEST(ThreemfWriter, WritesNamedObjectInMillimetres) {
 }
 
 TEST(Threemf, RoundTripIsExactInFloats) {
-  const TriangleMesh mesh = testing::torus();
-  const TriangleMesh read = rounded_to_float(read_mesh(threemf_bytes(mesh, "torus"), "torus.3mf"));
+  const solid::TriangleMesh mesh = testing::torus();
+  const solid::TriangleMesh read = solid::rounded_to_float(read_mesh(threemf_bytes(mesh, "torus"), "torus.3mf"));
   EXPECT_EQ(read.vertices, mesh.vertices);
   EXPECT_EQ(read.triangles, mesh.triangles);
 }
@@ -110,7 +110,7 @@ TEST(ThreemfReader, ConvertsEveryUnit) {
                                    {"inch", 25.4},
                                    {"foot", 304.8},
                                    {"meter", 1000.0}}) {
-    const TriangleMesh mesh =
+    const solid::TriangleMesh mesh =
         read_mesh(package(model(object, "<item objectid='1'/>", "unit='" + std::string(unit) + "'")), "x");
     EXPECT_EQ(corner(mesh, 0, 1), Vec3(size, 0, 0)) << unit;
   }
@@ -136,7 +136,7 @@ TEST(ThreemfReader, PlacesItemsAndComponents) {
   const std::string items =
       "<item objectid='2' transform='0 1 0 -1 0 0 0 0 1 0 0 5'/><item objectid='1' transform='-1 0 0 0 1 0 0 0 1 0 0 "
       "0'/>";
-  const TriangleMesh mesh = read_mesh(package(model(resources, items)), "x.3mf");
+  const solid::TriangleMesh mesh = read_mesh(package(model(resources, items)), "x.3mf");
   ASSERT_EQ(mesh.triangles.size(), 3U);
   EXPECT_EQ(corner(mesh, 0, 0), Vec3(0, 10, 5));
   EXPECT_EQ(corner(mesh, 0, 1), Vec3(0, 11, 5));
@@ -152,7 +152,7 @@ TEST(ThreemfReader, FollowsPathsToOtherParts) {
   const std::string root =
       model("<object id='1'><components><component p:path='/3D/other.model' objectid='7'/></components></object>",
             "<item objectid='1'/>");
-  const TriangleMesh mesh =
+  const solid::TriangleMesh mesh =
       read_mesh(zip_of({{"_rels/.rels", k_rels}, {"3D/part.model", root}, {"3D/other.model", other}}), "x.3mf");
   EXPECT_EQ(corner(mesh, 0, 1), Vec3(10, 0, 0));
 }
@@ -162,7 +162,7 @@ TEST(ThreemfReader, ReadsPrefixedNames) {
       R"(<m:model xmlns:m="core"><m:resources><m:object id="1"><m:mesh><m:vertices><m:vertex x="+1" y="0" z="inf"/></m:vertices>)"
       R"(<m:triangles><m:triangle v1="0" v2="0" v3="0"/></m:triangles></m:mesh></m:object>)"
       R"(</m:resources><m:build><m:item objectid="1"/></m:build></m:model>)";
-  const TriangleMesh mesh = read_mesh(package(text), "x.3mf");
+  const solid::TriangleMesh mesh = read_mesh(package(text), "x.3mf");
   ASSERT_EQ(mesh.vertices.size(), 1U);
   EXPECT_TRUE(std::isinf(mesh.vertices[0].z()));
 }
@@ -213,7 +213,7 @@ TEST(ThreemfReader, AcceptsBlanksAroundNumbers) {
   std::string object = "<object id=' 1 '>" + k_triangle + "</object>";
   object.replace(object.find("x=\"1\""), 5, "x=\"\n 1\t\"");
   object.replace(object.find("v2=\"1\""), 6, "v2=\" 1 \"");
-  const TriangleMesh mesh = read_mesh(package(model(object, "<item objectid='1 '/>")), "x.3mf");
+  const solid::TriangleMesh mesh = read_mesh(package(model(object, "<item objectid='1 '/>")), "x.3mf");
   EXPECT_EQ(corner(mesh, 0, 1), Vec3(1, 0, 0));
   object.replace(object.find("v2=\" 1 \""), 8, "v2=\"1 1\"");
   EXPECT_THAT(error_of(package(model(object, "<item objectid='1'/>")), "x.3mf"), HasSubstr("found '1 1'"));
@@ -266,4 +266,4 @@ TEST(ThreemfReader, RejectsTruncations) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -3,11 +3,11 @@
 
 #include <pugixml.hpp>
 
-#include "export/report/tables.h"
 #include "export/report/analysis.h"
+#include "export/report/tables.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -15,8 +15,8 @@ using ::testing::Not;
 
 struct Analysed {
   MechanismFile file;
-  AnalysisOptions options;
-  AnalysisResult result;
+  analysis::AnalysisOptions options;
+  analysis::AnalysisResult result;
 };
 
 Analysed analysed() {
@@ -25,7 +25,7 @@ Analysed analysed() {
   analysed.file.mechanism.name = "fore<arm>";
   analysed.file.path = "somewhere/forearm.toml";
   analysed.options.samples = 10;
-  analysed.result = analyse(analysed.file.mechanism, analysed.options);
+  analysed.result = analysis::analyse(analysed.file.mechanism, analysed.options);
   return analysed;
 }
 
@@ -63,4 +63,4 @@ TEST(AnalysisPage, HasOnlyForcesWithoutCurves) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -3,7 +3,7 @@
 
 #include "fusee/export.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 TEST(ParameterWords, SayWhatTheSignMeans) {
@@ -18,4 +18,4 @@ TEST(ParameterWords, GiveTheNarrowerIntervalFirst) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

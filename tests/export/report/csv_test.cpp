@@ -6,7 +6,7 @@
 #include "export/report/report.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using ::testing::ElementsAre;
@@ -34,10 +34,10 @@ Product round_product() {
   product.joint.mechanism = testing::plain_mechanism();
   product.joint.mechanism.load.tip_force = 10;
   product.synthesis = testing::pulley_of(testing::circle(20), testing::circle(15), 8);
-  const Transmission transmission(product.joint.mechanism);
+  const transmission::Transmission transmission(product.joint.mechanism);
   product.synthesis.stroke = {transmission.at_theta(radians(-20)), transmission.at_theta(0),
                               transmission.at_theta(radians(20))};
-  for (const TransmissionPoint& point : product.synthesis.stroke) {
+  for (const transmission::TransmissionPoint& point : product.synthesis.stroke) {
     product.as_built.points.push_back({point.alpha, point.theta, point.theta + radians(0.01), 0.002});
   }
   return product;
@@ -62,7 +62,7 @@ TEST(ProfileCsv, HoldsBothPitchCurves) {
 TEST(PitchCurveCsv, HoldsOneClosedCurveInSpace) {
   Product product = round_product();
   product.pulley.layout.z_p2 = 7.25;
-  const auto rows = cells(pitch_curve_csv(product, Side::right));
+  const auto rows = cells(pitch_curve_csv(product, transmission::Side::right));
   ASSERT_EQ(rows.size(), 1U + 8 + 1);
   EXPECT_THAT(rows[0], ElementsAre("x_mm", "y_mm", "z_mm"));
   EXPECT_THAT(rows[1], ElementsAre("15.000000", "0.000000", "7.250000"));
@@ -79,7 +79,7 @@ TEST(TransmissionCsv, RowsMatchComputation) {
   const auto rows = cells(transmission_csv(product));
   ASSERT_EQ(rows.size(), 4U);
   for (std::size_t i = 0; i < 3; ++i) {
-    const TransmissionPoint& point = product.synthesis.stroke[i];
+    const transmission::TransmissionPoint& point = product.synthesis.stroke[i];
     const std::vector<std::string>& row = rows[i + 1];
     ASSERT_EQ(row.size(), rows[0].size());
     const auto value = [&](const std::string& column) {
@@ -120,4 +120,4 @@ TEST(TransmissionCsv, HasNumbersOnly) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -3,11 +3,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "export/report/tendon_lengths.h"
 #include "export/report/report.h"
+#include "export/report/tendon_lengths.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using Json = nlohmann::json;
@@ -85,17 +85,17 @@ TEST(TendonLengths, MatchesCircle) {
   Product product = made_product();
   const Mechanism& m = product.joint.mechanism;
   product.synthesis = testing::pulley_of(testing::circle(20), testing::circle(20), 3600);
-  const Transmission transmission(m);
+  const transmission::Transmission transmission(m);
   product.synthesis.stroke = {transmission.at_alpha(0)};
-  const TransmissionPoint& home = product.synthesis.stroke[0];
+  const transmission::TransmissionPoint& home = product.synthesis.stroke[0];
   // A tendon that leaves at `normal` and is wound on for a quarter turn: counter-clockwise on P1, clockwise on P2.
-  for (const Side side : {Side::left, Side::right}) {
-    const TendonPoint& tendon = side == Side::left ? home.t1 : home.t2;
-    const double r = side == Side::left ? 20.0 : tendon.p;
-    Outline& outline = side == Side::left ? product.synthesis.p1 : product.synthesis.p2;
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const transmission::TendonPoint& tendon = side == transmission::Side::left ? home.t1 : home.t2;
+    const double r = side == transmission::Side::left ? 20.0 : tendon.p;
+    profile::Outline& outline = side == transmission::Side::left ? product.synthesis.p1 : product.synthesis.p2;
     outline = testing::sampled(testing::circle(r), side, 3600, 0, 1);
-    const double turn = side == Side::left ? k_pi / 2 : -k_pi / 2;
-    Anchor anchor;
+    const double turn = side == transmission::Side::left ? k_pi / 2 : -k_pi / 2;
+    solid::Anchor anchor;
     anchor.side = side;
     anchor.exit = (r - 0.5) * unit(tendon.lower_normal + turn);
     anchor.pocket = 0.5 * anchor.exit;
@@ -108,8 +108,8 @@ TEST(TendonLengths, MatchesCircle) {
   const std::vector<TendonLength> lengths = tendon_lengths(product);
   ASSERT_EQ(lengths.size(), 2U);
   for (const TendonLength& length : lengths) {
-    const TendonPoint& tendon = length.side == Side::left ? home.t1 : home.t2;
-    const double r = length.side == Side::left ? 20.0 : tendon.p;
+    const transmission::TendonPoint& tendon = length.side == transmission::Side::left ? home.t1 : home.t2;
+    const double r = length.side == transmission::Side::left ? 20.0 : tendon.p;
     // The exit is exact to half a step of the outline.
     EXPECT_NEAR(length.between_knots, tendon.length + r * k_pi / 2 + 0.5 * (r - 0.5), 0.5 * r * k_two_pi / 3600);
     EXPECT_NEAR(length.spare_lap, k_pi / 4, 0.004);
@@ -118,7 +118,7 @@ TEST(TendonLengths, MatchesCircle) {
     EXPECT_LT(length.cut, length.between_knots + 24 * m.tendon.diameter + 105);
     EXPECT_EQ(std::fmod(length.cut, 5.0), 0.0);
     EXPECT_EQ(length.joint_knot, Vec2(0, 100));
-    EXPECT_DOUBLE_EQ(length.pulley_knot.z(), 1.01 * (length.side == Side::left ? 3.0 : 8.0));
+    EXPECT_DOUBLE_EQ(length.pulley_knot.z(), 1.01 * (length.side == transmission::Side::left ? 3.0 : 8.0));
   }
 }
 
@@ -139,4 +139,4 @@ TEST(Manifest, ReportsDerivedNumbers) {
   EXPECT_EQ(manifest["derived"].size(), 2u);
 }
 
-}  // namespace fusee
+}  // namespace fusee::formats

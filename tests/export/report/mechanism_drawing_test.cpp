@@ -8,12 +8,12 @@
 #include "fusee/base.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 TEST(MechanismFigures, AreToScale) {
   const Mechanism mechanism = testing::forearm();
-  const auto figures = mechanism_figures(mechanism, synthesise(mechanism), {{0, 0}});
+  const auto figures = mechanism_figures(mechanism, profile::synthesise(mechanism), {{0, 0}});
   ASSERT_EQ(figures.size(), 1u);
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(inline_svg(figures[0]).c_str()));
@@ -31,7 +31,7 @@ TEST(MechanismFigures, AreToScale) {
 
 TEST(MechanismFigures, HaveMovableGroups) {
   const Mechanism mechanism = testing::forearm();
-  const auto figures = mechanism_figures(mechanism, synthesise(mechanism), {{radians(90), radians(20)}});
+  const auto figures = mechanism_figures(mechanism, profile::synthesise(mechanism), {{radians(90), radians(20)}});
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(inline_svg(figures[0]).c_str()));
   EXPECT_EQ(document.select_nodes("/svg/g[@class='tendon tendon1']").size(), 1u);
@@ -42,7 +42,7 @@ TEST(MechanismFigures, HaveMovableGroups) {
 
 TEST(MovingFigures, GiveTheirOrigin) {
   const Mechanism mechanism = testing::forearm();
-  const auto figures = moving_figures(mechanism, synthesise(mechanism));
+  const auto figures = moving_figures(mechanism, profile::synthesise(mechanism));
   ASSERT_EQ(figures.size(), 2u);
   for (const Figure& figure : figures) {
     pugi::xml_document document;
@@ -59,9 +59,9 @@ TEST(MovingFigures, GiveTheirOrigin) {
 
 TEST(PolarFigure, ReportsErrorOfPolarDrawing) {
   const Mechanism mechanism = testing::forearm();
-  const SynthesisResult synthesis = synthesise(mechanism);
-  EXPECT_FALSE(polar_figure(synthesis, Side::left)) << "P1 is round: both are one";
-  const auto figure = polar_figure(synthesis, Side::right);
+  const profile::SynthesisResult synthesis = profile::synthesise(mechanism);
+  EXPECT_FALSE(polar_figure(synthesis, transmission::Side::left)) << "P1 is round: both are one";
+  const auto figure = polar_figure(synthesis, transmission::Side::right);
   ASSERT_TRUE(figure);
   double said = 0;
   const std::size_t at = figure->body.find("furthest apart: ");
@@ -72,7 +72,7 @@ TEST(PolarFigure, ReportsErrorOfPolarDrawing) {
   // The exact profile's radius where the tendon leaves it is larger than the tendon's distance from the axis:
   // √(r2² + r2'²), and it stands as much further on.
   double most = 0;
-  for (const TransmissionPoint& point : synthesis.stroke)
+  for (const transmission::TransmissionPoint& point : synthesis.stroke)
     most = std::max(most, std::hypot(point.t2.p, point.t2.dp) - point.t2.p);
   EXPECT_GT(std::abs(said), 0.2 * most);
   EXPECT_LT(std::abs(said), 20 * most);
@@ -89,4 +89,4 @@ TEST(Thinned, StaysWithinItsTolerance) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -8,7 +8,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -172,4 +172,4 @@ TEST(PlotFigure, WordsAreEscaped) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

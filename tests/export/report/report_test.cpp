@@ -12,7 +12,7 @@
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using ::testing::ContainsRegex;
@@ -22,8 +22,8 @@ using ::testing::Not;
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A closed tube of `count` × `rings` vertices about z: as regular as the meshes of pulleys.
-TriangleMesh tube(std::uint32_t count, std::uint32_t rings) {
-  TriangleMesh mesh;
+solid::TriangleMesh tube(std::uint32_t count, std::uint32_t rings) {
+  solid::TriangleMesh mesh;
   for (std::uint32_t ring = 0; ring < rings; ++ring) {
     for (std::uint32_t i = 0; i < count; ++i) {
       const Vec2 place = (15 + 3 * std::sin(0.7 * ring)) * unit(k_two_pi * i / count);
@@ -58,16 +58,16 @@ Product sample(Mechanism mechanism = forearm()) {
   product.joint.mechanism = std::move(mechanism);
   product.file.path = "profiles/forearm.toml";
   product.file.sha256 = std::string(64, 'a');
-  product.synthesis = synthesise(product.joint.mechanism);
-  product.pulley.status = PulleyStatus::made;
-  product.pulley.layout = resolve_layout(product.joint.mechanism, product.synthesis);
+  product.synthesis = profile::synthesise(product.joint.mechanism);
+  product.pulley.status = solid::PulleyStatus::made;
+  product.pulley.layout = solid::resolve_layout(product.joint.mechanism, product.synthesis);
   product.pulley.mesh = tube(60, 5);
-  const Outline& p1 = product.synthesis.p1;
+  const profile::Outline& p1 = product.synthesis.p1;
   const Vec2 exit = p1.points[p1.anchor_end()].position;
   product.pulley.anchors = {
-      {Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, {}, 0.6 * exit, {}, {}}};
+      {transmission::Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, {}, 0.6 * exit, {}, {}}};
   product.pulley.conditions = {{"wall_to_bore", true, 0, 3.1, 1.2, "mm", ""}};
-  for (const TransmissionPoint& point : product.synthesis.stroke) {
+  for (const transmission::TransmissionPoint& point : product.synthesis.stroke) {
     product.as_built.points.push_back(
         {point.alpha, point.theta, point.theta + radians(0.004) * std::sin(point.alpha), 0.002});
   }
@@ -142,7 +142,7 @@ TEST(Report, ListsEveryCheckAndCondition) {
   }
   EXPECT_THAT(checks, HasSubstr("pulley.obj"));
   const std::string conditions = words_of(document.select_node("//section[@id='feasibility']").node());
-  for (const Condition& condition : product.synthesis.conditions)
+  for (const profile::Condition& condition : product.synthesis.conditions)
     EXPECT_THAT(conditions, HasSubstr(plain_name(condition.name)));
   EXPECT_THAT(conditions, HasSubstr("Wall to bore"));
 }
@@ -184,7 +184,7 @@ TEST(Report, ExplainsPolyhole) {
   product.pulley.layout.bore.circle = std::nullopt;
   product.pulley.layout.bore.outline = {{2.6, -2.6}, {2.6, 2.6}, {-2.6, 2.6}, {-2.6, -2.6}};
   EXPECT_THAT(report_html(product), Not(HasSubstr("printed corners cut inside")));
-  product.pulley.layout.bore.circle = RoundHole{Vec2::Zero(), 5.2};
+  product.pulley.layout.bore.circle = solid::RoundHole{Vec2::Zero(), 5.2};
   EXPECT_THAT(report_html(product), HasSubstr("a polygon of 4 sides on purpose: printed corners cut inside"));
   EXPECT_THAT(report_html(product), HasSubstr("⌀ 5.2 inside the polygon"));
 }
@@ -237,7 +237,7 @@ TEST(Report, AcceptsInvalidNumbers) {
   product.checks.push_back(at_most("deviation", k_nan, 0.01, "mm"));
   product.as_built.max_theta_error = k_nan;
   product.as_built.max_slack = std::numeric_limits<double>::infinity();
-  for (RewindPoint& point : product.as_built.points) point.slack = k_nan;
+  for (profile::RewindPoint& point : product.as_built.points) point.slack = k_nan;
   product.synthesis.stroke[3].t2.p = k_nan;
   product.synthesis.stroke[4].theta = -std::numeric_limits<double>::infinity();
   product.synthesis.p2.points[7].position.x() = k_nan;
@@ -282,7 +282,7 @@ std::vector<std::uint32_t> bytes_of(const std::string& base64) {
 }
 
 /// An independent reader of viewer.js' format.
-TriangleMesh decoded(const MeshCode& code) {
+solid::TriangleMesh decoded(const MeshCode& code) {
   const auto bytes = bytes_of(code.base64);
   std::size_t at = 0;
   const auto varint = [&] {
@@ -293,7 +293,7 @@ TriangleMesh decoded(const MeshCode& code) {
       if (byte < 128) return value;
     }
   };
-  TriangleMesh mesh;
+  solid::TriangleMesh mesh;
   std::array<int, 3> level{0, 0, 0};
   for (std::size_t t = 0; t < code.triangles; ++t) {
     std::array<std::uint32_t, 3> triangle{};
@@ -316,10 +316,10 @@ TriangleMesh decoded(const MeshCode& code) {
 }
 
 TEST(MeshCodes, RoundTripIsExactToHalfAStep) {
-  for (const TriangleMesh& mesh : {tube(7, 3), tube(100, 11), tube(301, 4)}) {
+  for (const solid::TriangleMesh& mesh : {tube(7, 3), tube(100, 11), tube(301, 4)}) {
     const auto code = encode_mesh(mesh);
     ASSERT_TRUE(code.has_value());
-    const TriangleMesh back = decoded(*code);
+    const solid::TriangleMesh back = decoded(*code);
     ASSERT_EQ(back.triangles.size(), mesh.triangles.size());
     EXPECT_EQ(back.vertices.size(), mesh.vertices.size());
     EXPECT_LT(code->step, 0.001);
@@ -334,7 +334,7 @@ TEST(MeshCodes, RoundTripIsExactToHalfAStep) {
 
 TEST(MeshCodes, RejectInvalidMesh) {
   EXPECT_FALSE(encode_mesh({}).has_value());
-  TriangleMesh mesh = tube(7, 3);
+  solid::TriangleMesh mesh = tube(7, 3);
   mesh.triangles[2][1] = 1000;
   EXPECT_FALSE(encode_mesh(mesh).has_value());
   mesh = tube(7, 3);
@@ -346,4 +346,4 @@ TEST(MeshCodes, RejectInvalidMesh) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -7,7 +7,7 @@
 #include "export/report/report.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -17,7 +17,7 @@ Product product_of(int count = 240) {
   Product product;
   product.joint.mechanism = testing::plain_mechanism();
   product.synthesis = testing::pulley_of(testing::circle(16), {18, {{1, 0.5, 1}, {2, 1, 0.3}}}, count);
-  product.pulley.layout = resolve_layout(product.joint.mechanism, product.synthesis);
+  product.pulley.layout = solid::resolve_layout(product.joint.mechanism, product.synthesis);
   return product;
 }
 
@@ -59,7 +59,7 @@ TEST(Scad, ThinnedPointsKeepCurveAndBox) {
 TEST(Scad, ParametersAreAtTheTop) {
   Product product = product_of();
   product.joint.mechanism.body.bore_diameter = 6;
-  product.pulley.layout = resolve_layout(product.joint.mechanism, product.synthesis);
+  product.pulley.layout = solid::resolve_layout(product.joint.mechanism, product.synthesis);
   const std::string text = scad_text(product);
   EXPECT_THAT(text, HasSubstr("/* [Bore] */"));
   EXPECT_THAT(text, HasSubstr("\nbore = 6; // [1:0.1:40]"));
@@ -112,7 +112,7 @@ Product printed_as(Parts parts, Flange flange = Flange::follow, bool supports = 
   mechanism.print.parts = parts;
   mechanism.print.supports = supports;
   mechanism.body.flange = flange;
-  product.pulley.layout = resolve_layout(mechanism, product.synthesis);
+  product.pulley.layout = solid::resolve_layout(mechanism, product.synthesis);
   return product;
 }
 
@@ -128,7 +128,7 @@ TEST(Scad, LedgeWidthMatchesCone) {
   for (const Parts parts : {Parts::one, Parts::two}) {
     const Product product = printed_as(parts, Flange::round);
     const std::string text = scad_text(product);
-    const BodyLayout& layout = product.pulley.layout;
+    const solid::BodyLayout& layout = product.pulley.layout;
     const double steep = std::tan(layout.ceiling_slope);
     EXPECT_NEAR(number_named(text, "upper_ledge") * steep, layout.upper_cone, 2e-5);
     if (parts == Parts::one) {
@@ -154,7 +154,7 @@ TEST(Scad, ContainsServoTeeth) {
   EXPECT_THAT(scad_text(product), HasSubstr("\nhorn_teeth = [];"));
   product.joint.mechanism.body.bore = Bore::horn;
   product.joint.mechanism.body.horn = "spline-25T-futaba";
-  product.pulley.layout = resolve_layout(product.joint.mechanism, product.synthesis);
+  product.pulley.layout = solid::resolve_layout(product.joint.mechanism, product.synthesis);
   const std::string text = scad_text(product);
   const std::size_t from = text.find("\nhorn_teeth = [["), to = text.find("]];", from);
   ASSERT_NE(from, std::string::npos);
@@ -172,16 +172,16 @@ TEST(Scad, NamesStayInComments) {
 TEST(Scad, ContainsEveryTieOff) {
   Product product = product_of();
   EXPECT_THAT(scad_text(product), HasSubstr("\nchannels = [];\n"));
-  Anchor channel;
-  channel.side = Side::right;
+  solid::Anchor channel;
+  channel.side = transmission::Side::right;
   channel.pocket = {4, 1.5};
   channel.entry = {{0, 0}, {1, 0}, {2, 1}, {4, 1}, {4, 2}, {2, 2}, {1, 1}, {0, 1}};
-  Anchor hole;
-  hole.side = Side::left;
+  solid::Anchor hole;
+  hole.side = transmission::Side::left;
   hole.exit = 16 * unit(radians(90));
   hole.channel = {{0.5, 15}, {0, 15.5}, {-0.5, 15}, {0, 14.5}};
-  hole.seat = FaceSeat{1.5, 0.75, 0, {0, 15}, 1.9};
-  hole.tail = TailSlot{{0, 14}, {5, 14}, 1.3, 1, 0.25, 1.8, 4.5, 3};
+  hole.seat = solid::FaceSeat{1.5, 0.75, 0, {0, 15}, 1.9};
+  hole.tail = solid::TailSlot{{0, 14}, {5, 14}, 1.3, 1, 0.25, 1.8, 4.5, 3};
   product.pulley.anchors = {channel, hole};
   product.joint.mechanism.material.hole_compensation = 0.2;
   const std::string text = scad_text(product);
@@ -195,4 +195,4 @@ TEST(Scad, ContainsEveryTieOff) {
 TEST(Scad, IsDeterministic) { EXPECT_EQ(scad_text(product_of()), scad_text(product_of())); }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

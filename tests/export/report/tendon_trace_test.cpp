@@ -10,19 +10,19 @@
 #include "fusee/profile.h"
 #include "support/mechanisms.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 struct Case {
   Mechanism mechanism;
-  SynthesisResult synthesis;
+  profile::SynthesisResult synthesis;
 };
 
 Case made(const Mechanism& mechanism, double tolerance = 0.002) {
-  SynthesisOptions options;
+  profile::SynthesisOptions options;
   options.tolerance = tolerance;
   options.advice = false;
-  Case result{mechanism, synthesise(mechanism, options)};
+  Case result{mechanism, profile::synthesise(mechanism, options)};
   EXPECT_TRUE(result.synthesis.made()) << result.synthesis.brief();
   return result;
 }
@@ -32,10 +32,12 @@ std::vector<Case> cases() {
           made(testing::mirrored(testing::unsymmetric()))};
 }
 
-const Outline& outline_of(const Case& c, Side side) { return side == Side::left ? c.synthesis.p1 : c.synthesis.p2; }
+const profile::Outline& outline_of(const Case& c, transmission::Side side) {
+  return side == transmission::Side::left ? c.synthesis.p1 : c.synthesis.p2;
+}
 
-Vec2 pin_of(const Mechanism& mechanism, Side side) {
-  return {side == Side::left ? -mechanism.guides.EB : mechanism.guides.ED, -mechanism.guides.OE};
+Vec2 pin_of(const Mechanism& mechanism, transmission::Side side) {
+  return {side == transmission::Side::left ? -mechanism.guides.EB : mechanism.guides.ED, -mechanism.guides.OE};
 }
 
 double distance_to_line(const Vec2& point, const Vec2& from, const Vec2& to) {
@@ -44,8 +46,8 @@ double distance_to_line(const Vec2& point, const Vec2& from, const Vec2& to) {
 
 template <typename Look>
 void for_each_trace(const Case& c, Look look) {
-  for (const Side side : {Side::left, Side::right}) {
-    for (const TransmissionPoint& point : c.synthesis.stroke) {
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    for (const transmission::TransmissionPoint& point : c.synthesis.stroke) {
       const auto trace = trace_tendon(c.mechanism, outline_of(c, side), point.alpha, point.theta);
       ASSERT_TRUE(trace.has_value());
       look(side, point, *trace);
@@ -56,7 +58,7 @@ void for_each_trace(const Case& c, Look look) {
 TEST(TendonTrace, TouchesThePinAtItsPitchRadius) {
   for (const Case& c : cases()) {
     const double rho = c.mechanism.guide_pitch_radius();
-    for_each_trace(c, [&](Side side, const TransmissionPoint&, const TendonTrace& trace) {
+    for_each_trace(c, [&](transmission::Side side, const transmission::TransmissionPoint&, const TendonTrace& trace) {
       const Vec2 pin = pin_of(c.mechanism, side);
       EXPECT_NEAR(distance_to_line(pin, trace.attachment, trace.onto_pin), rho, 1e-9);
       EXPECT_NEAR(distance_to_line(pin, trace.off_pin, trace.take_off), rho, 1e-9);
@@ -64,7 +66,7 @@ TEST(TendonTrace, TouchesThePinAtItsPitchRadius) {
       EXPECT_NEAR((trace.off_pin - pin).norm(), rho, 1e-9);
       for (std::size_t i = 1; i + 1 < trace.free_path.size(); ++i)
         EXPECT_NEAR((trace.free_path[i] - pin).norm(), rho, 1e-9);
-      EXPECT_GT(mirror_sign(side) * (trace.onto_pin - pin).x(), 0) << "it passes the outer side";
+      EXPECT_GT(transmission::mirror_sign(side) * (trace.onto_pin - pin).x(), 0) << "it passes the outer side";
     });
   }
 }
@@ -72,20 +74,21 @@ TEST(TendonTrace, TouchesThePinAtItsPitchRadius) {
 TEST(TendonTrace, PulleyIsOnInnerSide) {
   for (const Case& c : cases()) {
     const Vec2 axis(0, -c.mechanism.guides.OE - c.mechanism.pulley.EF);
-    for_each_trace(c, [&](Side side, const TransmissionPoint& point, const TendonTrace& trace) {
-      const Vec2 down = (trace.take_off - trace.off_pin).normalized();
-      for (const OutlinePoint& vertex : outline_of(c, side).points) {
-        const Vec2 place = axis + Eigen::Rotation2Dd(-point.alpha) * vertex.position;
-        EXPECT_LE(mirror_sign(side) * cross(down, place - trace.take_off), 1e-9);
-      }
-    });
+    for_each_trace(
+        c, [&](transmission::Side side, const transmission::TransmissionPoint& point, const TendonTrace& trace) {
+          const Vec2 down = (trace.take_off - trace.off_pin).normalized();
+          for (const profile::OutlinePoint& vertex : outline_of(c, side).points) {
+            const Vec2 place = axis + Eigen::Rotation2Dd(-point.alpha) * vertex.position;
+            EXPECT_LE(transmission::mirror_sign(side) * cross(down, place - trace.take_off), 1e-9);
+          }
+        });
   }
 }
 
 /// Largest less smallest length of the whole string over the stroke.
-double length_change(const Case& c, Side wanted) {
+double length_change(const Case& c, transmission::Side wanted) {
   double least = 1e9, most = 0;
-  for_each_trace(c, [&](Side side, const TransmissionPoint&, const TendonTrace& trace) {
+  for_each_trace(c, [&](transmission::Side side, const transmission::TransmissionPoint&, const TendonTrace& trace) {
     if (side != wanted) return;
     least = std::min(least, trace.free_length + trace.wound_length);
     most = std::max(most, trace.free_length + trace.wound_length);
@@ -95,15 +98,15 @@ double length_change(const Case& c, Side wanted) {
 
 TEST(TendonTrace, KeepsItsLengthOverTheStroke) {
   for (const Case& c : cases()) {
-    EXPECT_LT(length_change(c, Side::left), 0.005);
-    EXPECT_LT(length_change(c, Side::right), 0.005);
+    EXPECT_LT(length_change(c, transmission::Side::left), 0.005);
+    EXPECT_LT(length_change(c, transmission::Side::right), 0.005);
   }
 }
 
 TEST(TendonTrace, DetectsWrongPulley) {
   Case c = made(testing::forearm());
-  for (OutlinePoint& point : c.synthesis.p2.points) point.position *= 1.01;
-  EXPECT_GT(length_change(c, Side::right), 0.05);
+  for (profile::OutlinePoint& point : c.synthesis.p2.points) point.position *= 1.01;
+  EXPECT_GT(length_change(c, transmission::Side::right), 0.05);
 }
 
 TEST(TendonTrace, AgreesWithTransmissionOnRoundPulley) {
@@ -114,19 +117,20 @@ TEST(TendonTrace, AgreesWithTransmissionOnRoundPulley) {
       trace_tendon(c.mechanism, c.synthesis.p1, c.synthesis.stroke.front().alpha, c.synthesis.stroke.front().theta);
   ASSERT_TRUE(first.has_value());
   const double start = first->free_length + first->wound_length - c.synthesis.stroke.front().t1.length;
-  for_each_trace(c, [&](Side side, const TransmissionPoint& point, const TendonTrace& trace) {
-    if (side == Side::right) return;
-    const double wound = trace.free_length + trace.wound_length - point.t1.length;
-    EXPECT_NEAR(start - wound, c.mechanism.pulley.r1 * (point.alpha - c.synthesis.stroke.front().alpha), 0.005);
-  });
+  for_each_trace(
+      c, [&](transmission::Side side, const transmission::TransmissionPoint& point, const TendonTrace& trace) {
+        if (side == transmission::Side::right) return;
+        const double wound = trace.free_length + trace.wound_length - point.t1.length;
+        EXPECT_NEAR(start - wound, c.mechanism.pulley.r1 * (point.alpha - c.synthesis.stroke.front().alpha), 0.005);
+      });
 }
 
 TEST(TendonTrace, IsEmptyInsidePin) {
   Case c = made(testing::forearm());
   c.mechanism.guides.radius = 80;
   EXPECT_FALSE(trace_tendon(c.mechanism, c.synthesis.p1, 0, 0).has_value());
-  EXPECT_FALSE(trace_tendon(testing::forearm(), Outline{}, 0, 0).has_value());
+  EXPECT_FALSE(trace_tendon(testing::forearm(), profile::Outline{}, 0, 0).has_value());
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -16,7 +16,7 @@
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using testing::growing;
@@ -42,8 +42,8 @@ struct Known {
 TEST(ClimbingCurve, FollowsKnownCurve) {
   const Known known;
   // Rows further apart than those of any pulley.
-  const Spiral spiral = spiral_of(known.shape, known.begin, 5.0, known.slope, 0.1);
-  const SpiralPlace place{60.0, -1.0};
+  const helix::Spiral spiral = spiral_of(known.shape, known.begin, 5.0, known.slope, 0.1);
+  const coil::SpiralPlace place{60.0, -1.0};
   const ClimbingCurve curve(spiral, place);
   for (int i = 0; i < 1000; ++i) {
     const double turn = known.begin + 5.0 * k_two_pi * (i + 0.37) / 1000;
@@ -66,11 +66,12 @@ class Skin : public ::testing::Test {
       product.joint.mechanism = declared;
       const Mechanism& mechanism = product.joint.mechanism;
       HelixProduct& helix = product.helix.emplace();
-      const HelicalSection section = helical_section(mechanism);
+      const coil::HelicalSection section = coil::helical_section(mechanism);
       const auto p1 = oval(9.0, 0.6, 0.3, 0.4), p2 = growing(13.0, -0.8, 2.0);
       helix.synthesis.sides[0].spiral = spiral_of(p1, 0.4, 4.3, 1.02 * testing::slope_for(p1, 0.4, 4.3, section));
       helix.synthesis.sides[1].spiral = spiral_of(p2, 2.0, 3.6, 1.02 * testing::slope_for(p2, 2.0, 3.6, section));
-      helix.pulley = make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral);
+      helix.pulley =
+          coil::make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral);
       product.pulley.layout = helix.pulley.layout;
       return product;
     }();
@@ -189,13 +190,13 @@ TEST_F(Skin, VolumeMatchesBlank) {
       }
     }
   }
-  const HelicalPlan& plan = *product().helix->pulley.plan;
-  const BodyLayout& layout = product().helix->pulley.layout;
-  const TriangleMesh blank = helical_blank(plan.fan, plan.section, layout, plan.heights);
+  const coil::HelicalPlan& plan = *product().helix->pulley.plan;
+  const solid::BodyLayout& layout = product().helix->pulley.layout;
+  const solid::TriangleMesh blank = coil::helical_blank(plan.fan, plan.section, layout, plan.heights);
   const double bore = std::abs(signed_area(layout.bore.outline)) * plan.heights.hub_top;
-  const double expected = std::pow(layout.scale, 3) * (enclosed_volume(blank) + bore);
+  const double expected = std::pow(layout.scale, 3) * (solid::enclosed_volume(blank) + bore);
   EXPECT_NEAR(volume, expected, 0.002 * expected);
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -39,4 +39,4 @@ TEST(CompactStep, KeepsTenDigitsAndPoint) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -7,7 +7,7 @@
 
 #include "fusee/base.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 constexpr int k_samples = 190;
@@ -150,4 +150,4 @@ TEST(NormalSpline, StraightBetweenSamplesIsStraight) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats

@@ -12,7 +12,7 @@
 #include "pipeline/design.h"
 #include "pipeline/several_turns.h"
 
-namespace fusee {
+namespace fusee::formats {
 namespace {
 
 using ::testing::Contains;
@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 Product designed(const std::string& profile, const std::vector<Setting>& settings = {}) {
   Product product;
   product.file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / (profile + ".toml"), settings);
-  product.joint = as_it_is(product.file.mechanism);
-  design(product, 0.01, {}, TieOffSearch::brief);
+  product.joint = joint::as_it_is(product.file.mechanism);
+  pipeline::design(product, 0.01, {}, solid::TieOffSearch::brief);
   return product;
 }
 
@@ -94,8 +94,8 @@ const Product& climbing() {
     Product made;
     made.file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / "wrist_turns.toml",
                                {{"pulley.ratio", "5.5"}, {"body.spare_turns", "0.5"}});
-    made.joint = as_it_is(made.file.mechanism);
-    design_several_turns(made, 0.02, {});
+    made.joint = joint::as_it_is(made.file.mechanism);
+    pipeline::design_several_turns(made, 0.02, {});
     return made;
   }();
   return product;
@@ -118,7 +118,7 @@ TEST_F(ClimbingStep, IsSoundSolidAndWinds) {
   ASSERT_EQ(file().complaint, "");
   const StepInspection look = look_at(file().bytes);
   for (const Check& check : look.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value;
-  const HelicalRewind wound = rewind_several_turns(climbing(), look.climbing);
+  const coil::HelicalRewind wound = pipeline::rewind_several_turns(climbing(), look.climbing);
   // Measured on the surfaces themselves: the error is far below that of facets.
   EXPECT_LT(degrees(wound.result.max_theta_error), 0.002);
   EXPECT_LT(wound.result.max_slack, 0.001);
@@ -151,8 +151,8 @@ TEST(StepPart, RoundGrooveHasCircles) {
 
 TEST(StepPart, RejectsTooLargePartsEarly) {
   Product product = small();
-  for (Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
-    for (OutlinePoint& point : outline->points) point.position *= 100;
+  for (profile::Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
+    for (profile::OutlinePoint& point : outline->points) point.position *= 100;
   }
   try {
     step_part(product);
@@ -163,4 +163,4 @@ TEST(StepPart, RejectsTooLargePartsEarly) {
 }
 
 }  // namespace
-}  // namespace fusee
+}  // namespace fusee::formats
