@@ -56,12 +56,12 @@ plan::PlannedRun as_before(const measurement::Measurement& measurement) {
 
 /// True if a run at about this speed and load was measured.
 bool was_measured(const plan::PlannedRun& run, const measurement::Measurement& measurement) {
-  constexpr double k_alike = 0.2;
+  constexpr double k_same_share = 0.2;
   if (run.change != plan::BenchChange::none || run.dwell > 0) return false;
   return std::any_of(measurement.runs.begin(), measurement.runs.end(), [&](const measurement::Run& known) {
     const double load = known.has_load ? known.mean_load : 0.0;
-    const bool is_load = std::abs(load - run.load) <= k_alike * std::max(std::abs(load), std::abs(run.load));
-    const bool is_pace = !known.has_time || std::abs(known.speed - run.speed) <= k_alike * run.speed;
+    const bool is_load = std::abs(load - run.load) <= k_same_share * std::max(std::abs(load), std::abs(run.load));
+    const bool is_pace = !known.has_time || std::abs(known.speed - run.speed) <= k_same_share * run.speed;
     return is_load && is_pace;
   });
 }
