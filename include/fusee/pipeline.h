@@ -5,10 +5,10 @@
 ///     AnalysisResult   analyze(file, options)            the transmission and the forces over the range
 ///     OptimizeResult   optimize(file, options)           better numbers for the mechanism
 ///     CalibrateResult  calibrate(file, runs, options)    measured runs: the causes of the error, a better file
-///     CompareResult    compare(file, before, after, options)  what changed between two states (fusee/pipeline.h)
+///     CompareResult    compare(file, before, after, options)  what changed between two states
 ///     PlanResult       plan(file, options)               which runs to measure, what they can show
-///     KitResult        kit(file, options)                the test rig: parts, plates, a page (fusee/pipeline.h)
-///     ModelResult      model(file, options)              the joint for simulators and firmware (fusee/pipeline.h)
+///     KitResult        kit(file, options)                the test rig: parts, plates, a page
+///     ModelResult      model(file, options)              the joint for simulators and firmware
 ///     SimulateResult   simulate(file, log, options)      logged motor angles and loads: joint angle, tensions, torque
 ///
 /// Every verb takes a RunContext last: progress, a request to stop, and access to files (fusee/base.h). It throws
@@ -17,9 +17,9 @@
 /// The steps of build() are public, too:
 ///
 ///     MechanismFile    file = read_mechanism("forearm.toml")            the declared joint (fusee/mechanism_file.h)
-///     SynthesisResult  synthesis = synthesise(file.mechanism)           θ(α) → both pitch curves (fusee/profile.h)
-///     Pulley           pulley = make_pulley(file.mechanism, synthesis)  → one checked solid (fusee/solid.h)
-///     RewindResult     as_built = rewind(file.mechanism, floor1, floor2)  θ(α) of the part as made (fusee/profile.h)
+///     SynthesisResult  synthesis = profile::synthesise(file.mechanism)  θ(α) → both pitch curves (fusee/profile.h)
+///     Pulley           pulley = solid::make_pulley(file.mechanism, synthesis)  → one checked solid (fusee/solid.h)
+///     RewindResult     as_built = profile::rewind(file.mechanism, floor1, floor2)  θ(α) of the part as made
 #pragma once
 
 #include <cstdint>
@@ -38,6 +38,53 @@
 #include "fusee/solid.h"
 
 namespace fusee::pipeline {
+
+// ---- Build ----------------------------------------------------------------------------------------------------------
+
+/// Largest deviations of the pulley as built that pass the checks.
+struct AsBuiltLimits {
+  double theta_error_deg = 0.05;
+  double slack = 0.05;  ///< mm
+};
+
+struct BuildOptions {
+  double chord_error_mm = 0.01;  ///< largest distance of a facet from its curve (sagitta)
+  AsBuiltLimits limits;
+  formats::DxfVersion dxf = formats::DxfVersion::ac1015;
+  /// Writes pulley.step, too. build() throws InputError if the part is too large for it, or if step_missing().
+  bool step = false;
+  std::filesystem::path folder;  ///< folder of the output files
+  bool force = false;
+  /// Does everything except publishing. Files that are read back are staged in the system's temporary folder.
+  bool dry_run = false;
+  /// Searches for changes that make an infeasible design feasible.
+  bool advice = true;
+};
+
+enum class BuildStatus { done, infeasible, check_failed };
+
+struct BuildResult {
+  BuildStatus status = BuildStatus::done;
+  formats::Product product;
+  profile::Advice advice;           ///< for an infeasible design: changes with which the build passes every check
+  std::vector<OutputFile> outputs;  ///< manifest.json last; empty if infeasible
+  bool published = false;
+};
+
+/// Builds the checked pulley in every format. Every mesh and drawing is read back from the disk and checked. Infeasible
+/// designs and failed checks are values; throws InputError and OutputError. A build with failed checks is published
+/// only if it replaces no earlier run, or with `force`.
+BuildResult build(const MechanismFile& file, const BuildOptions& options, const RunContext& context = {});
+
+/// The files of build(), in the order in which they are written.
+const std::vector<std::string>& output_names();
+
+// ---- Analysis -------------------------------------------------------------------------------------------------------
+
+/// Forces over the range of the identified joint. Throws InputError for a joint with [transmission], which has no
+/// tendons.
+analysis::AnalysisResult analyze(const MechanismFile& file, const analysis::AnalysisOptions& options = {},
+                                 const RunContext& context = {});
 
 // ---- Optimization ---------------------------------------------------------------------------------------------------
 // Options and result of fusee optimize.
@@ -78,6 +125,10 @@ struct OptimizeResult {
 
   SearchMethod method() const { return static_cast<SearchMethod>(search.index()); }
 };
+
+/// Runs the search of [optimize] on the identified joint, in terms of the declared numbers. A box without a feasible
+/// design and a stopped search are values; throws InputError and OutputError.
+OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options = {}, const RunContext& context = {});
 
 // ---- Calibration ----------------------------------------------------------------------------------------------------
 // Calibration: measured runs → causes of the error, and the file of a better pulley.
@@ -256,53 +307,6 @@ struct SimulateResult {
 /// marked. Throws InputError for unreadable input.
 SimulateResult simulate(const MechanismFile& file, const std::filesystem::path& log,
                         const SimulateOptions& options = {}, const RunContext& context = {});
-
-/// Largest deviations of the pulley as built that pass the checks.
-struct AsBuiltLimits {
-  double theta_error_deg = 0.05;
-  double slack = 0.05;  ///< mm
-};
-
-struct BuildOptions {
-  double chord_error_mm = 0.01;  ///< largest distance of a facet from its curve (sagitta)
-  AsBuiltLimits limits;
-  formats::DxfVersion dxf = formats::DxfVersion::ac1015;
-  /// Writes pulley.step, too. build() throws InputError if the part is too large for it, or if step_missing().
-  bool step = false;
-  std::filesystem::path folder;  ///< folder of the output files
-  bool force = false;
-  /// Does everything except publishing. Files that are read back are staged in the system's temporary folder.
-  bool dry_run = false;
-  /// Searches for changes that make an infeasible design feasible.
-  bool advice = true;
-};
-
-enum class BuildStatus { done, infeasible, check_failed };
-
-struct BuildResult {
-  BuildStatus status = BuildStatus::done;
-  formats::Product product;
-  profile::Advice advice;           ///< for an infeasible design: changes with which the build passes every check
-  std::vector<OutputFile> outputs;  ///< manifest.json last; empty if infeasible
-  bool published = false;
-};
-
-/// Builds the checked pulley in every format. Every mesh and drawing is read back from the disk and checked. Infeasible
-/// designs and failed checks are values; throws InputError and OutputError. A build with failed checks is published
-/// only if it replaces no earlier run, or with `force`.
-BuildResult build(const MechanismFile& file, const BuildOptions& options, const RunContext& context = {});
-
-/// The files of build(), in the order in which they are written.
-const std::vector<std::string>& output_names();
-
-/// Forces over the range of the identified joint. Throws InputError for a joint with [transmission], which has no
-/// tendons.
-analysis::AnalysisResult analyze(const MechanismFile& file, const analysis::AnalysisOptions& options = {},
-                                 const RunContext& context = {});
-
-/// Runs the search of [optimize] on the identified joint, in terms of the declared numbers. A box without a feasible
-/// design and a stopped search are values; throws InputError and OutputError.
-OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options = {}, const RunContext& context = {});
 
 // ---- Parts from files -----------------------------------------------------------------------------------------------
 
