@@ -181,7 +181,7 @@ TEST(Truths, NameEveryEffect) {
   EXPECT_GE(names_in("tuning").size(), 12u);
   for (const std::string& name : names_in("tuning")) EXPECT_FALSE(has_name(name));
   EXPECT_THROW(has_name("backlesh"), InputError);
-  EXPECT_THROW(random_truth(Kind::unknown, "tunning", 1), InputError);
+  EXPECT_THROW(random_truth(Kind::unknown, "unknown_split", 1), InputError);
 }
 
 TEST(Truths, FaultsAreWellSeen) {
