@@ -45,7 +45,7 @@ void catch_signals() {
   if (before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
 }
 
-void watch(std::stop_source source) {
+void watch(const std::stop_source& source) {
   do {
     while (::sem_wait(&wake) != 0) {
     }
