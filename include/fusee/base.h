@@ -113,8 +113,10 @@ inline constexpr double k_pi = std::numbers::pi;
 inline constexpr double k_two_pi = 2.0 * std::numbers::pi;
 
 constexpr double radians(double degrees) { return degrees * (k_pi / 180.0); }
-/// The inverse of radians(): by division, so that a number of a file is written back with its own digits.
-constexpr double degrees(double radians) { return radians / (k_pi / 180.0); }
+constexpr double degrees(double radians) { return radians * (180.0 / k_pi); }
+/// The number of a file whose radians() is `radians`: division undoes that multiplication to the last bit, which
+/// degrees() does for 19 numbers in 20.
+constexpr double degrees_as_read(double radians) { return radians / (k_pi / 180.0); }
 
 // ---- Points and polygons of the plane -------------------------------------------------------------------------------
 // Points, directions and closed polygons in the plane of the mechanism. mm.

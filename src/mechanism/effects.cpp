@@ -176,7 +176,7 @@ IdentifiedKey plain(std::string_view name, std::string_view unit, double least, 
   return {name, unit, meaning, least, most, unconverted, unconverted};
 }
 IdentifiedKey in_degrees(std::string_view name, double least, double most, std::string_view meaning) {
-  return {name, "deg", meaning, least, most, degrees, radians};
+  return {name, "deg", meaning, least, most, degrees_as_read, radians};
 }
 IdentifiedKey in_percent(std::string_view name, double least, double most, std::string_view meaning) {
   return {name, "%", meaning, least, most, percent, fraction};

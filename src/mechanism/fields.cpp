@@ -193,7 +193,7 @@ Field range_field() {
   field.least = -175;
   field.most = 175;
   field.get = [](const DeclaredMechanism& m, int end) {
-    return degrees(end == 0 ? m.joint.theta_min : m.joint.theta_max);
+    return degrees_as_read(end == 0 ? m.joint.theta_min : m.joint.theta_max);
   };
   field.set = [](DeclaredMechanism& m, int end, double value) {
     (end == 0 ? m.joint.theta_min : m.joint.theta_max) = radians(value);
@@ -259,7 +259,7 @@ void add_load(std::vector<Field>& table) {
       number<load, &Load::mass>({"load.mass_kg", "", "0", "mass of the link and what it carries"}, "kg", 0, 10000));
   table.push_back(number<load, &Load::lever>(
       {"load.lever_mm", "", "0", "from the joint axis along OC to the centre of that mass"}, "mm", -10000, 10000));
-  table.push_back(number<load, &Load::tilt, degrees, radians>(
+  table.push_back(number<load, &Load::tilt, degrees_as_read, radians>(
       {"load.tilt_deg", "", "0",
        "the joint angle at which OC points straight up; 0: upright at home; 90: horizontal at home, so that the weight "
        "loads tendon 2; 180: hanging down at home"},
@@ -281,7 +281,7 @@ void add_sheath(std::vector<Field>& table) {
                                        "points straight down at the pin"},
                                       "mm", 1, 100000),
       asked);
-  add(number<sheath, &Sheath::bend, degrees, radians>(
+  add(number<sheath, &Sheath::bend, degrees_as_read, radians>(
           {"sheath.bend_deg", "", "", "total bend of a sheath, ends included: 180 for a half turn of any radius"},
           "deg", 0, 3600),
       asked);
@@ -316,7 +316,7 @@ void add_spring(std::vector<Field>& table) {
   table.push_back(number<spring, &Spring::preload>(
       {"spring.preload_Nmm", "", "0", "its torque at free_deg, positive against +theta"}, "Nmm", -10000000, 10000000));
   table.back().is_set = has_spring;
-  table.push_back(number<spring, &Spring::free, degrees, radians>(
+  table.push_back(number<spring, &Spring::free, degrees_as_read, radians>(
       {"spring.free_deg", "", "0",
        "the joint angle at which the spring's torque is preload_Nmm; without preload: its rest angle"},
       "deg", -360, 360));
@@ -453,7 +453,7 @@ void add_body(std::vector<Field>& table) {
   table.push_back(choice<body, &Body::groove>(
       {"body.groove", "", "\"u\"",
        "section of the grooves: u has a round seat, v sloping walls only, flat a flat floor"}));
-  table.push_back(number<body, &Body::groove_angle, degrees, radians>(
+  table.push_back(number<body, &Body::groove_angle, degrees_as_read, radians>(
       {"body.groove_angle_deg", "", "50", "full angle between the walls of a groove"}, "deg", 0, 120));
   table.push_back(number<body, &Body::groove_depth>(
       {"body.groove_depth_mm", "", "0",
@@ -504,7 +504,7 @@ void add_body(std::vector<Field>& table) {
       {"body.knot_pocket_mm", "", "0",
        "diameter of the pocket for a tendon's knot; 0: 3.5 tendon diameters, less where space is short"},
       "mm", 0, 100));
-  table.push_back(number<body, &Body::wrap, degrees, radians>(
+  table.push_back(number<body, &Body::wrap, degrees_as_read, radians>(
       {"body.wrap_deg", "", "0",
        "minimum wrap of a tendon between its active arc and its tie-off, which relieves the knot; 0: as much as fits"},
       "deg", 0, 330));
@@ -545,7 +545,7 @@ void add_horn(std::vector<Field>& table) {
       {"horn.bolt_hole_mm", "", "0", "diameter of the screws' clearance holes; material.hole_compensation_mm is added",
        k_when},
       "mm", 0, 50));
-  table.push_back(number<horn, &Horn::first_bolt, degrees, radians>(
+  table.push_back(number<horn, &Horn::first_bolt, degrees_as_read, radians>(
       {"horn.first_bolt_deg", "", "0", "direction of the first screw at home, from +x towards +y", k_when}, "deg", -360,
       360));
   table.push_back(number<horn, &Horn::centre_hole>(
@@ -596,7 +596,7 @@ void add_making(std::vector<Field>& table) {
       {"print.parts", "", "\"auto\"",
        "one: P1 and P2 in one part, with an overhang support cone under the middle flange where it extends beyond P1; "
        "two: printed separately and pinned together; auto: one, unless that cone would be high"}));
-  table.push_back(number<print, &Print::overhang, degrees, radians>(
+  table.push_back(number<print, &Print::overhang, degrees_as_read, radians>(
       {"print.overhang_deg", "", "45",
        "flattest printable slope of a downward face above the horizontal; 90: vertical"},
       "deg", 20, 75));
