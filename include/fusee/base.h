@@ -184,8 +184,6 @@ class FileAccess {
 
 /// The files of the disk. The object has no state.
 FileAccess& disk();
-/// As disk().read().
-void read_from_disk(const ReadRequest& request, const TakeBlock& take);
 
 // ---- Progress and stopping ------------------------------------------------------------------------------------------
 // The part of a run that its caller controls: progress, stop, and access to files.
@@ -244,13 +242,15 @@ struct OutputFile {
 ///
 /// stage() writes the files into a private folder next to the output folder. publish() flushes them to disk and
 /// replaces the earlier folder by the private one, which also receives the unrelated entries of the earlier folder. The
-/// destructor removes staged files that were not published, and the folders made for them. So does a request to stop, at
-/// once and in the thread that makes it; from then on stage() and publish() throw Stopped. A request during publish() waits
-/// until the files are in place. A kill at any moment leaves
-/// the old set or the new one; the next publish() into that folder restores or removes what the killed run set aside.
-/// Some folders cannot be renamed: the current folder of the process, a mount point, a folder of another owner. There,
-/// files are replaced one by one. manifest.json is removed first and written last, so a folder without it after a kill
-/// holds no complete set.
+/// destructor removes staged files that were not published, and the folders made for them.
+///
+/// A request to stop does the same, at once and in the thread that makes it. From then on stage() and publish() throw
+/// Stopped. A request during publish() waits until the files are in place.
+///
+/// A kill at any moment leaves the old set or the new one. The next publish() into that folder restores or removes what
+/// the killed run set aside. Some folders cannot be renamed: the current folder of the process, a mount point, a folder
+/// of another owner. There, files are replaced one by one. manifest.json is removed first and written last, so a folder
+/// without it after a kill holds no complete set.
 ///
 /// Ownership: a folder that fusee wrote holds a manifest.json that lists its outputs with their SHA-256. claim() and
 /// publish() throw OutputError when they would overwrite an unlisted file, or a listed file whose bytes were changed,
@@ -284,8 +284,8 @@ class OutputFolder {
   /// For temporary().
   explicit OutputFolder(const RunContext& context);
 
-  /// Removes staged files and the folders made for them from the disk. Paths stay valid, because other threads may still
-  /// call staged_path().
+  /// Removes staged files and the folders made for them from the disk. Paths stay valid, because other threads may
+  /// still call staged_path().
   void discard() const;
   void report_obstacle(const std::filesystem::path& path) const { context_.files->in_the_way(path); }
   void demand_subfolder(const std::filesystem::path& folder) const;

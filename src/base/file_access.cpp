@@ -30,14 +30,12 @@ std::size_t demand_readable(const ReadRequest& request, const Descriptor& file) 
 
 }  // namespace
 
-void FileAccess::read(const ReadRequest& request, const TakeBlock& take) { read_from_disk(request, take); }
-
 FileAccess& disk() {
   static FileAccess files;
   return files;
 }
 
-void read_from_disk(const ReadRequest& request, const TakeBlock& take) {
+void FileAccess::read(const ReadRequest& request, const TakeBlock& take) {
   const std::string name = request.path.string();
   // O_NONBLOCK: a pipe without a writer must not block. Where pipes are accepted, a writer exists.
   const int waiting = request.pipes ? 0 : O_NONBLOCK;

@@ -84,11 +84,11 @@ void Recording::read(const ReadRequest& request, const TakeBlock& take) {
   const std::string name = names_.inner(request.path);
   const bool known = std::any_of(bundle_.files.begin(), bundle_.files.end(),
                                  [&name](const BundledFile& file) { return file.path == name; });
-  if (known) return read_from_disk(request, take);  // a file that is read twice is packed once
+  if (known) return FileAccess::read(request, take);  // a file that is read twice is packed once
   BundledFile& entry = bundle_.files.emplace_back(BundledFile{name, {}, {}});
   bool taking = false;
   try {
-    read_from_disk(request, [&](std::string_view block) {
+    FileAccess::read(request, [&](std::string_view block) {
       kept_ += block.size();
       if (kept_ <= k_largest_bundle) entry.bytes += block;
       taking = true;

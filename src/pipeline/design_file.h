@@ -14,6 +14,6 @@ struct DesignFile {
 
 /// `file` with the design's numbers at their keys, and with the numeric values of `settings`.
 DesignFile design_file(const MechanismFile& file, const optimize::Problem& problem, const optimize::Design& design,
-                       const std::vector<Setting>& settings, FileAccess& files = disk());
+                       const std::vector<Setting>& settings, FileAccess& files);
 
 }  // namespace fusee::pipeline

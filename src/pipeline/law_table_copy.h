@@ -14,10 +14,10 @@ namespace fusee::pipeline {
 std::optional<std::string> law_table_name(const Mechanism& mechanism);
 
 /// Content of the table under that name.
-OutputFile law_table_copy(const MechanismFile& file, FileAccess& files = disk());
+OutputFile law_table_copy(const MechanismFile& file, FileAccess& files);
 
 /// `text` with the value of pulley.table or pulley.torque_table replaced by the table's file name. `text` must describe
 /// `file.mechanism`.
-std::string with_table_beside(const std::string& text, const MechanismFile& file, FileAccess& files = disk());
+std::string with_table_beside(const std::string& text, const MechanismFile& file, FileAccess& files);
 
 }  // namespace fusee::pipeline

@@ -17,7 +17,7 @@ void CarriedAccess::read(const ReadRequest& request, const TakeBlock& take) {
     return;
   }
   std::string bytes;
-  read_from_disk(request, [&](std::string_view block) {
+  FileAccess::read(request, [&](std::string_view block) {
     if (seen_ != nullptr) bytes += block;
     take(block);
   });

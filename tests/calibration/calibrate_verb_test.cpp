@@ -311,9 +311,9 @@ TEST(LawTable, TheValueAloneIsEdited) {
   const std::string text = read_file(file.path, 1 << 20);
   std::string expected = text;
   expected.replace(expected.find("table = \"laws/law.csv\""), 22, "table = \"law.csv\"");
-  EXPECT_EQ(pipeline::with_table_beside(text, file), expected);
-  EXPECT_EQ(pipeline::law_table_copy(file).name, "law.csv");
-  EXPECT_EQ(pipeline::law_table_copy(file).bytes,
+  EXPECT_EQ(pipeline::with_table_beside(text, file, disk()), expected);
+  EXPECT_EQ(pipeline::law_table_copy(file, disk()).name, "law.csv");
+  EXPECT_EQ(pipeline::law_table_copy(file, disk()).bytes,
             read_file(std::filesystem::path(file.path).parent_path() / "laws/law.csv", 9999));
 }
 
@@ -321,7 +321,7 @@ TEST(LawTable, OtherWaysToWriteItAreFound) {
   for (const char* quoted : {"'laws/law.csv'", "\"laws\\u002Flaw.csv\""}) {
     const std::filesystem::path folder = scratch("quoted");
     const MechanismFile file = tabled(folder, quoted);
-    const std::string text = pipeline::with_table_beside(read_file(file.path, 1 << 20), file);
+    const std::string text = pipeline::with_table_beside(read_file(file.path, 1 << 20), file, disk());
     const Mechanism read = parse_mechanism(text, "corrected.toml", folder / "laws");
     EXPECT_EQ(read.pulley.table, "law.csv") << quoted;
     EXPECT_EQ(read.pulley.rows, file.mechanism.pulley.rows) << quoted;
@@ -338,8 +338,9 @@ TEST(LawTable, TorqueGoesBesideToo) {
   text.replace(text.find("table = \"laws/law.csv\""), 22, "torque_table = \"laws/torque.csv\"");
   leave(folder / "arm.toml", text);
   const MechanismFile file = read_mechanism(folder / "arm.toml");
-  EXPECT_EQ(pipeline::law_table_copy(file).name, "torque.csv");
-  const Mechanism read = parse_mechanism(pipeline::with_table_beside(text, file), "corrected.toml", folder / "laws");
+  EXPECT_EQ(pipeline::law_table_copy(file, disk()).name, "torque.csv");
+  const Mechanism read =
+      parse_mechanism(pipeline::with_table_beside(text, file, disk()), "corrected.toml", folder / "laws");
   EXPECT_EQ(read.pulley.torque_table, "torque.csv");
   EXPECT_EQ(read.pulley.torque_rows, file.mechanism.pulley.torque_rows);
 }
@@ -348,7 +349,7 @@ TEST(LawTable, BesideItsFileItStaysAsItIs) {
   const std::filesystem::path folder = scratch("beside");
   MechanismFile file = tabled(folder);
   file.mechanism.pulley.table = "law.csv";
-  EXPECT_EQ(pipeline::with_table_beside("anything \"law.csv\"", file), "anything \"law.csv\"");
+  EXPECT_EQ(pipeline::with_table_beside("anything \"law.csv\"", file, disk()), "anything \"law.csv\"");
 }
 
 // ---- page and JSON --------------------------------------------------------------------------------------------------
