@@ -89,7 +89,7 @@ std::string problem_words(const CalibrationProduct& product) {
   const bool is_clear = most->first > 0.5 * all.squares;
   return (is_clear ? most->second : "The joint is wrong by up to " + angle_words(calibration.before.max)) + ": " +
          angle_words(calibration.before.held_out_rms) + " rms, " + angle_words(calibration.after.held_out_rms) +
-         " with what was found.";
+         (calibration.curve.used ? " with the causes found and an empirical curve." : " with the causes found.");
 }
 
 // ---- why ------------------------------------------------------------------------------------------------------------

@@ -131,8 +131,8 @@ std::string figures_section(const CalibrationProduct& product) {
   const std::string rows =
       figures_row("RMS", c.before.rms, c.after.rms) + figures_row("Largest", c.before.max, c.after.max) +
       figures_row("RMS on data that were not fitted", c.before.held_out_rms, c.after.held_out_rms) +
-      (c.curve.used ? "<tr>" + html_cell("The same, with the empirical curve") + html_number_cell("–") +
-                          html_number_cell(degree_words(c.curve.held_out_rms)) + "</tr>"
+      (c.curve.used ? "<tr>" + html_cell("The same, without the empirical curve") + html_number_cell("–") +
+                          html_number_cell(degree_words(c.after_effects.held_out_rms)) + "</tr>"
                     : std::string()) +
       figures_row("ISO 230-2 A, accuracy", c.iso_before.A, c.iso_after.A) +
       figures_row("ISO 230-2 R, repeatability both ways", c.iso_before.R, c.iso_after.R) +

@@ -182,13 +182,14 @@ std::string where_seen(const CalibrationProduct& product) {
   return words;
 }
 
-}  // namespace
+std::string ratio_curve_words(const CalibrationProduct& product) {
+  if (product.calibration.identified.ratio_joint.curve == RatioCurve{}) return "";
+  return "compensation.csv also removes a smooth curve of the angle, with a part proportional to the load: the ratio "
+         "changes with the angle, or an unmodelled cause has the same effect";
+}
 
-std::string curve_words(const CalibrationProduct& product) {
+std::string empirical_curve_words(const CalibrationProduct& product) {
   const calibration::EmpiricalCurve& curve = product.calibration.curve;
-  if (product.calibration.identified.ratio_joint.curve != RatioCurve{})
-    return "compensation.csv also removes a smooth curve of the angle, with a part proportional to the load: the ratio "
-           "changes with the angle, or an unmodelled cause has the same effect";
   if (!curve.used)
     return curve.why.empty() ? "" : "compensation.csv does not cover the unmodelled residual: " + curve.why;
   return "an empirical curve in compensation.csv covers what depends on place and direction alone: it takes " +
@@ -197,6 +198,14 @@ std::string curve_words(const CalibrationProduct& product) {
          "°). It is no cause, and holds for this joint as it was measured (" + where_seen(product) +
          "). If the joint's own sensor is what is wrong, the table makes the joint wrong by as much; if the pulley is, "
          "another pulley asks for other runs";
+}
+
+}  // namespace
+
+std::string curve_words(const CalibrationProduct& product) {
+  const std::string of_ratio = ratio_curve_words(product), empirical = empirical_curve_words(product);
+  if (of_ratio.empty()) return empirical;
+  return product.calibration.curve.used ? of_ratio + ". " + first_upper(empirical) : of_ratio;
 }
 
 std::vector<std::string> next_texts(const calibration::Calibration& calibration) {

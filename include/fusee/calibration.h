@@ -172,8 +172,10 @@ struct Calibration {
   std::string noise_varies;  ///< dependence of the noise on load and speed, in a sentence; "" if there is none
   std::vector<Candidate> tried;
   measurement::NoiseFloor noise;
-  ErrorFigures before, after;
-  StateDifference difference;                         ///< given if CalibrationOptions::earlier is
+  ErrorFigures before;
+  ErrorFigures after;          ///< corrected by the effects, and by the empirical curve if it is used
+  ErrorFigures after_effects;  ///< corrected by the effects alone
+  StateDifference difference;  ///< given if CalibrationOptions::earlier is
   std::vector<std::vector<double>> residuals_before;  ///< rad, run by run, sample by sample
   std::vector<std::vector<double>> residuals_after;
   std::vector<std::string> held_out_factors;  ///< "load", "speed"
@@ -193,6 +195,9 @@ struct Calibration {
 /// Only effects that predict held-out rows are reported.
 Calibration calibrate(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
                       const CalibrationOptions& options = {});
+
+/// Rejects the empirical curve of a calibration of `measurement`: it is not handed over, and no figure includes it.
+void reject_curve(const measurement::Measurement& measurement, const std::string& why, Calibration& calibration);
 
 // ---- Likely input errors --------------------------------------------------------------------------------------------
 // Likely errors of the file or the logged columns (a wrong sign, unit or exchange), for data that no effect explains.

@@ -58,7 +58,7 @@ struct Stroke {
   std::size_t last = 0;   ///< included
   int direction = 0;  ///< +1: α grows, −1: α falls, 0: α is constant throughout the run and the load moves the joint
   int cycle = 0;
-  bool partial = false;  ///< first stroke of a run that does not begin at a reversal: its play state is unknown
+  bool partial = false;  ///< its play state is unknown: the first of a run, away from a reversal or unlike its repeats
 };
 
 /// Rows of a stroke that count as one observation: the whole stroke, one load level of it, or one dwell.

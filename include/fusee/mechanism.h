@@ -207,6 +207,7 @@ struct CableFriction {
 /// A ratio and a compliance that change with the angle, for example through a linkage behind the cable. u: rotation of
 /// the joint from home by the declared ratio, rad.
 struct RatioCurve {
+  double linear = 0;       ///< coefficient of u: relative error of the ratio
   double square = 0;       ///< coefficient of u² in the rotation, 1/rad
   double cube = 0;         ///< coefficient of u³, 1/rad²
   double give_slope = 0;   ///< compliance per u, 1 per unit of load
@@ -214,7 +215,7 @@ struct RatioCurve {
 
   /// Rotation beyond u under `load`, rad.
   double added(double u, double load) const {
-    return u * (u * (square + u * cube) - load * (give_slope + u * give_square));
+    return u * (linear + u * (square + u * cube) - load * (give_slope + u * give_square));
   }
 
   bool operator==(const RatioCurve&) const = default;

@@ -4,6 +4,7 @@
 #include "calibration/audit.h"
 #include "calibration/catalogue.h"
 #include "calibration/changes.h"
+#include "calibration/empirical_curve.h"
 #include "calibration/expected_sizes.h"
 #include "calibration/explanation.h"
 #include "calibration/next_measurements.h"
@@ -93,6 +94,27 @@ void validate(const Mechanism& declared, const measurement::Measurement& kept, c
   calibration.after.held_out_rms = rms(answer.reported.estimate.fit.at);
   calibration.held_out_runs.clear();
   for (const measurement::Run& run : kept.runs) calibration.held_out_runs.push_back(run.name);
+}
+
+/// Adds the curve, times `sign`, to the residuals, and computes their figures.
+void add_curve(const measurement::Measurement& measurement, double sign, double held_out, Calibration& calibration) {
+  for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
+    const std::vector<double> values = curve_at_samples(measurement.runs[r], calibration.curve);
+    for (std::size_t i = 0; i < values.size(); ++i) calibration.residuals_after[r][i] += sign * values[i];
+  }
+  calibration.after = figures(measurement, calibration.residuals_after, held_out);
+  calibration.iso_after = measurement::iso230(measurement, calibration.residuals_after);
+}
+
+/// Corrects by the empirical curve if it holds on every logged row.
+void apply_curve(const measurement::Measurement& measurement, const EmpiricalCurve& curve,
+                 const std::vector<std::string>& hold_out, Calibration& calibration) {
+  calibration.after_effects = calibration.after;
+  calibration.curve = curve;
+  validate_curve(measurement, calibration.residuals_after, hold_out, calibration.curve);
+  if (!calibration.curve.used) return;
+  const double square = std::pow(calibration.after_effects.held_out_rms, 2) - std::pow(calibration.curve.gain, 2);
+  add_curve(measurement, -1.0, std::sqrt(std::max(0.0, square)), calibration);
 }
 
 /// The elastic model of tendons requires a force in N across OC; read_measurement() and compare_with_declared() convert
@@ -226,19 +248,25 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const measurement::M
   describe_errors(evidence, measurement, answer, calibration);
   name_held_out(evidence, calibration);
   validate(declared, kept, answer, calibration);
-  calibration.curve = answer.reported.curve;
+  apply_curve(measurement, answer.reported.curve, options.hold_out, calibration);
   conclude(evidence, selection, answer.unmodelled, calibration);
   if (!options.earlier) {
     calibration.next = next_measurements(evidence, selection, calibration);
     ask_for_both_sides(learnt_from, calibration.next);
   }
   summarize(evidence, selection, calibration);
-  validate_curve(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
   if (options.earlier) describe_changes(evidence, selection, calibration);
   return calibration;
 }
 
 }  // namespace
+
+void reject_curve(const measurement::Measurement& measurement, const std::string& why, Calibration& calibration) {
+  if (!calibration.curve.used) return;
+  add_curve(measurement, 1.0, calibration.after_effects.held_out_rms, calibration);
+  calibration.curve.used = false;
+  calibration.curve.why = why;
+}
 
 Calibration calibrate(const DeclaredMechanism& declared, const measurement::Measurement& measurement,
                       const CalibrationOptions& options) {

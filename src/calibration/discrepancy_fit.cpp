@@ -198,14 +198,26 @@ struct FactorSelection {
   std::vector<std::pair<const FactorWords*, double>> factors;  ///< with the evidence that each added, nats
 };
 
-FactorSelection select_factors(const EvidenceModel& evidence_model, const TangentSums& sums, double size) {
+/// Amplitudes of none of the factors; the model's own error as it is fixed, unless it is not considered.
+Amplitudes no_discrepancy(const EvidenceModel& evidence_model, bool (*is_considered)(Factor)) {
+  Amplitudes amplitudes = evidence_model.without_discrepancy();
+  const std::vector<Family>& families = evidence_model.discrepancy().families;
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    if (!is_considered(families[f].factor)) amplitudes.families[static_cast<Eigen::Index>(f)] = 0;
+  }
+  return amplitudes;
+}
+
+FactorSelection select_factors(const EvidenceModel& evidence_model, const TangentSums& sums, double size,
+                               bool (*is_considered)(Factor)) {
   const std::vector<Family>& families = evidence_model.discrepancy().families;
   FactorSelection found;
-  found.posterior = evidence_model.best(sums, evidence_model.without_discrepancy());
+  found.posterior = evidence_model.best(sums, no_discrepancy(evidence_model, is_considered));
   for (std::size_t step = 0; step < k_most_parts; ++step) {
     const FactorWords* taken = nullptr;
     Posterior better = found.posterior;
     for (const FactorWords& factor : k_words) {
+      if (!is_considered(factor.factor)) continue;
       Amplitudes wider = found.posterior.amplitudes;
       bool any = false;
       for (std::size_t f = 0; f < families.size(); ++f) {
@@ -245,16 +257,19 @@ double noise_beyond_floor(const Evidence& evidence, double noise) {
 
 bool is_of_place(Factor factor) { return factor == Factor::place || factor == Factor::direction; }
 
-DiscrepancyFit describe_discrepancy(const Evidence& evidence, const Fit& fit) {
+bool is_any(Factor) { return true; }
+
+DiscrepancyFit describe_discrepancy(const Evidence& evidence, const Fit& fit, bool (*is_considered)(Factor)) {
   const EvidenceModel& evidence_model = *evidence.evidence_model;
   const Discrepancy& discrepancy = evidence_model.discrepancy();
   const Tangent tangent = tangent_of(evidence, fit);
   const TangentSums sums = evidence_model.sums_of(tangent);
   const Angles angles = angles_of(evidence);
-  const FactorSelection all = select_factors(evidence_model, sums, std::max(evidence.floor, rms_of(tangent.residual)));
+  const FactorSelection all =
+      select_factors(evidence_model, sums, std::max(evidence.floor, rms_of(tangent.residual)), is_considered);
   DiscrepancyFit unmodelled;
   const double excess = noise_beyond_floor(evidence, all.posterior.amplitudes.noise);
-  const Amplitudes nothing = evidence_model.without_discrepancy();
+  const Amplitudes nothing = no_discrepancy(evidence_model, is_considered);
   const Posterior as_noise = excess > 0 ? evidence_model.at(sums, nothing) : evidence_model.best(sums, nothing);
   unmodelled.evidence = all.posterior.log_evidence - as_noise.log_evidence;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());

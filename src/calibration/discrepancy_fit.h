@@ -19,8 +19,12 @@ struct DiscrepancyFit {
 /// True for factors of motor angle and direction alone.
 bool is_of_place(Factor factor);
 
-/// Describes the discrepancy beside `fit`. Components that the data hardly require are omitted.
-DiscrepancyFit describe_discrepancy(const Evidence& evidence, const Fit& fit);
+/// True for every factor.
+bool is_any(Factor factor);
+
+/// Describes the discrepancy beside `fit` by the considered factors. Components that the data hardly require are
+/// omitted.
+DiscrepancyFit describe_discrepancy(const Evidence& evidence, const Fit& fit, bool (*is_considered)(Factor) = is_any);
 
 /// True if the residual exceeds noise and the model's own error.
 bool is_unexplained(const DiscrepancyFit& unmodelled, double floor);

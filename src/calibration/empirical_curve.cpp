@@ -18,10 +18,6 @@ constexpr int k_pieces = 60;
 constexpr double k_widest_gap = 0.12;
 /// Standard errors that the gain must exceed.
 constexpr double k_sure = 3.0;
-/// Share of a level's mean square by which the curve may raise it by chance. The mean square of a stroke of 60 rows of
-/// noise varies by as much.
-constexpr double k_worse = 0.05;
-
 /// Share of the gain that all rows together must show.
 constexpr double k_kept_between = 0.5;
 
@@ -136,12 +132,10 @@ Fold all_blocks(const Evidence& evidence) {
   return all;
 }
 
-/// True if the curve worsens a fold: its run, load or speed differs from the others.
-bool harms(const Evidence& evidence, const HeldOutBeside& held, const std::vector<Fold>& folds) {
-  return std::any_of(folds.begin(), folds.end(), [&](const Fold& fold) {
-    const Gain gain = gain_in(evidence, held, fold);
-    return gain.mean < -k_worse * gain.before;
-  });
+/// True if the curve worsens a fold by more than it improves all: its run, load or speed differs from the others.
+bool harms(const Evidence& evidence, const HeldOutBeside& held, const std::vector<Fold>& folds, const Gain& all) {
+  return std::any_of(folds.begin(), folds.end(),
+                     [&](const Fold& fold) { return gain_in(evidence, held, fold).mean < -all.mean; });
 }
 
 /// Standard error of the gain: 2 rms(curve) rms(residual) / √(independent rows).
@@ -155,9 +149,10 @@ std::string why_not(const Evidence& evidence, const HeldOutBeside& by_run, const
   if (gain.mean < std::pow(k_thresholds.least_residual * evidence.floor, 2) ||
       gain.mean < k_sure * error_of(evidence, gain, curve_rms))
     return "on data that it was not made from it takes away no more than chance would";
-  if (harms(evidence, by_run, evidence.run_folds)) return "it makes a run worse that it was not made from";
-  if (harms(evidence, by_factor, evidence.factor_folds))
-    return "it makes a level of load or speed worse that it was not made from";
+  if (harms(evidence, by_run, evidence.run_folds, gain))
+    return "it makes a run that it was not made from worse by more than it improves all";
+  if (harms(evidence, by_factor, evidence.factor_folds, gain))
+    return "it makes a level of load or speed that it was not made from worse by more than it improves all";
   return "";
 }
 
@@ -170,15 +165,19 @@ struct Squares {
   double gain() const { return rows > 0 ? (without - with) / rows : 0.0; }
 };
 
+bool covers(const EmpiricalCurve& curve, double alpha) {
+  return !curve.alpha.empty() && alpha >= curve.alpha.front() && alpha <= curve.alpha.back();
+}
+
 void add(const measurement::Run& run, const std::vector<double>& residuals, const EmpiricalCurve& curve,
          Squares& squares) {
+  const std::vector<double> removed = curve_at_samples(run, curve);
   for (const measurement::Stroke& stroke : run.strokes) {
     if (stroke.partial || stroke.direction == 0) continue;
     for (std::size_t i = stroke.first; i <= stroke.last; ++i) {
-      const double alpha = run.samples[i].alpha;
-      if (!std::isfinite(residuals[i]) || alpha < curve.alpha.front() || alpha > curve.alpha.back()) continue;
+      if (!std::isfinite(residuals[i]) || !covers(curve, run.samples[i].alpha)) continue;
       squares.without += residuals[i] * residuals[i];
-      squares.with += std::pow(residuals[i] - curve.at(alpha, stroke.direction > 0), 2);
+      squares.with += std::pow(residuals[i] - removed[i], 2);
       squares.rows += 1;
     }
   }
@@ -250,6 +249,16 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const D
   curve.held_out_rms = std::sqrt(by_run.with_place.mean_square);
   curve.gain = std::sqrt(std::max(0.0, gain.mean));
   return curve;
+}
+
+std::vector<double> curve_at_samples(const measurement::Run& run, const EmpiricalCurve& curve) {
+  std::vector<double> values(run.samples.size(), 0.0);
+  for (const measurement::Stroke& stroke : run.strokes) {
+    for (std::size_t i = stroke.first; stroke.direction != 0 && i <= stroke.last; ++i) {
+      if (covers(curve, run.samples[i].alpha)) values[i] = curve.at(run.samples[i].alpha, stroke.direction > 0);
+    }
+  }
+  return values;
 }
 
 void validate_curve(const measurement::Measurement& measurement, const std::vector<std::vector<double>>& residuals,

@@ -17,4 +17,7 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const D
 void validate_curve(const measurement::Measurement& measurement, const std::vector<std::vector<double>>& residuals,
                     const std::vector<std::string>& kept, EmpiricalCurve& curve);
 
+/// Curve at each sample of a run, rad. Zero beyond the curve's ends and where the motor stands.
+std::vector<double> curve_at_samples(const measurement::Run& run, const EmpiricalCurve& curve);
+
 }  // namespace fusee::calibration

@@ -319,6 +319,10 @@ Fit Fitter::fit_least_squares(const Fit& fit) const {
   return with_evidence(std::move(best));
 }
 
+Fit Fitter::fit_beside(const Fit& fit, const Amplitudes& amplitudes) const {
+  return with_evidence(descend(linearize_at(fit.effects, fit.at, fit.loose_row), 0, k_most_steps_down, amplitudes, 1));
+}
+
 Fit Fitter::descend_fully(const EffectSet& effects, const Imperfections& from, LooseRow loose_row) const {
   Fit start = linearize_at(effects, from, loose_row);
   if (!start.usable) return start;

@@ -78,7 +78,7 @@ struct Baseline {
 Baseline baseline_of(const Calibration& found) {
   constexpr double nothing = std::numeric_limits<double>::infinity();
   if (found.verdict == CalibrationVerdict::not_testable) return {nothing, nothing};
-  return {found.before.held_out_rms, found.after.held_out_rms, is_explained(found)};
+  return {found.before.held_out_rms, found.after_effects.held_out_rms, is_explained(found)};
 }
 
 /// True if the corrected file alone explains data that several large effects explain equally well.
@@ -103,7 +103,7 @@ bool explains(Trial& trial, const measurement::Measurement& as_read, const Basel
   const Calibration found = calibrate(trial.hypothesis.joint, corrected_data(as_read, trial.hypothesis));
   if (!is_explained(found)) return is_clear(trial, baseline);
   for (const FoundEffect& effect : found.effects) error.beside.push_back(effect.name);
-  error.rms = found.after.held_out_rms;
+  error.rms = found.after_effects.held_out_rms;
   return true;
 }
 

@@ -103,14 +103,21 @@ class LazyLeastSquares {
   std::optional<LeastSquaresFits> fitted_;
 };
 
-/// Least-squares parameters have no empirical curve.
-ReportedParameters report_least_squares(const Evidence& evidence, const LeastSquaresFits& squares,
-                                        const DiscrepancyFit& unmodelled) {
-  ReportedParameters reported{{squares.handed_over, {}}, squares.reported, {}};
-  if (reported.estimate.fit.at.ratio_joint.curve != RatioCurve{})
-    reported.curve.why = "the identified joint contains the dependence on the angle, as a curve of its ratio";
-  else if (is_unexplained(unmodelled, evidence.floor))
-    reported.curve.why = "the effects' numbers take away more than it would of runs that they were not fitted to";
+ReportedParameters report_least_squares(const LeastSquaresFits& squares) {
+  return {{squares.handed_over, {}}, squares.reported, {}};
+}
+
+/// The least-squares set, fitted together with an empirical curve. Other factors than place and direction are left out:
+/// they would take over a part of the curve, which alone would not predict.
+ReportedParameters report_with_curve(const Evidence& evidence, const Fitter& fitter, const LeastSquaresFits& squares) {
+  ReportedParameters reported = report_least_squares(squares);
+  const auto beside = [&](const Fit& fit) { return describe_discrepancy(evidence, fit, is_of_place); };
+  const Fit fit = fitter.fit_beside(squares.handed_over, beside(squares.handed_over).posterior.amplitudes);
+  if (!fit.usable) return reported;
+  const DiscrepancyFit residual = beside(fit);
+  if (!is_unexplained(residual, evidence.floor)) return reported;
+  reported.estimate = {fit, amplitudes_beside(evidence, fit, residual)};
+  reported.curve = empirical_curve(evidence, fit, residual);
   return reported;
 }
 
@@ -137,18 +144,36 @@ std::size_t least_needed(const Selection& selection) {
   return least;
 }
 
+/// The least-squares set, with an empirical curve if both predict better than the effects alone.
+struct LeastSquaresAnswer {
+  ReportedParameters reported;
+  HeldOutErrors errors;
+};
+
+LeastSquaresAnswer least_squares_answer(const Evidence& evidence, const Fitter& fitter,
+                                        const LeastSquaresFits& squares) {
+  LeastSquaresAnswer alone{report_least_squares(squares), held_out_errors(squares.handed_over)};
+  ReportedParameters curved = report_with_curve(evidence, fitter, squares);
+  if (!curved.curve.used) {
+    alone.reported.curve.why = curved.curve.why;
+    return alone;
+  }
+  const HeldOutErrors errors = held_out_errors_of_mode(evidence, curved.estimate, true);
+  if (errors.runs < alone.errors.runs && errors.levels < alone.errors.levels) return {std::move(curved), errors};
+  alone.reported.curve.why = "the effects' numbers take away more than it would of runs that they were not fitted to";
+  return alone;
+}
+
 /// `squares`: least-squares fits of the same selection.
-ReportedParameters best_answer(const Evidence& evidence, const Selection& selection, const DiscrepancyFit& unmodelled,
-                               LazyLeastSquares& squares) {
+ReportedParameters best_answer(const Evidence& evidence, FitterPool& pool, const Selection& selection,
+                               const DiscrepancyFit& unmodelled, LazyLeastSquares& squares) {
   ReportedParameters all{{selection.best, amplitudes_beside(evidence, selection.best, unmodelled)}, selection.best, {}};
   if (!is_unexplained(unmodelled, evidence.floor) || is_walking(stroke_scatter(evidence, selection.best))) return all;
   all.curve = empirical_curve(evidence, selection.best, unmodelled);
-  if (selection.best.effects.empty()) return all;
-  const Fit& handed_over = squares.fitted().handed_over;
-  if (!handed_over.usable ||
-      !is_better(held_out_errors(handed_over), held_out_errors_of_mode(evidence, all.estimate, all.curve.used)))
-    return all;
-  return report_least_squares(evidence, squares.fitted(), unmodelled);
+  if (selection.best.effects.empty() || !squares.fitted().handed_over.usable) return all;
+  LeastSquaresAnswer other = least_squares_answer(evidence, pool.one(), squares.fitted());
+  const HeldOutErrors by_mode = held_out_errors_of_mode(evidence, all.estimate, all.curve.used);
+  return is_better(other.errors, by_mode) ? std::move(other.reported) : std::move(all);
 }
 
 }  // namespace
@@ -156,7 +181,7 @@ ReportedParameters best_answer(const Evidence& evidence, const Selection& select
 ReportedParameters choose_reported_parameters(const Evidence& evidence, FitterPool& pool, const Selection& selection,
                                               const DiscrepancyFit& unmodelled) {
   LazyLeastSquares squares(evidence, pool, selection);
-  return best_answer(evidence, selection, unmodelled, squares);
+  return best_answer(evidence, pool, selection, unmodelled, squares);
 }
 
 ValidatedAnswer validate_answer(const Evidence& evidence, FitterPool& pool, const measurement::Measurement& kept,
@@ -167,14 +192,14 @@ ValidatedAnswer validate_answer(const Evidence& evidence, FitterPool& pool, cons
   for (;;) {
     answer.unmodelled = describe_discrepancy(evidence, selection.best);
     LazyLeastSquares squares(evidence, pool, selection);
-    answer.reported = best_answer(evidence, selection, answer.unmodelled, squares);
+    answer.reported = best_answer(evidence, pool, selection, answer.unmodelled, squares);
     if (selection.best.effects.empty()) {
       answer.reported = as_declared(answer.declared, std::move(answer.reported));
       return answer;
     }
     if (rows.worse_at(answer.reported.estimate).empty()) return answer;
     // Without discrepancy the effects keep their whole share of the error.
-    ReportedParameters alone = report_least_squares(evidence, squares.fitted(), answer.unmodelled);
+    ReportedParameters alone = report_least_squares(squares.fitted());
     const std::string where = alone.estimate.fit.usable ? rows.worse_at(alone.estimate) : "all rows";
     if (where.empty()) {
       answer.reported = std::move(alone);

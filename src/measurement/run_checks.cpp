@@ -149,7 +149,7 @@ void check_run(const Run& run, Measurement& into, const NoteSink& add_note) {
   const Stroke& first = run.strokes.front();
   if (first.partial) {
     add_note("the first stroke (" + rows_text(first.last - first.first + 1) +
-             ") does not begin at a reversal: its play is unknown, it is omitted");
+             ") does not begin at a reversal, or begins unlike its repeats: its play is unknown, it is omitted");
   }
 }
 

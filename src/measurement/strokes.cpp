@@ -1,7 +1,10 @@
 #include "measurement/strokes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "fusee/base.h"
 
@@ -121,6 +124,52 @@ bool begins_at_reversal(const std::vector<Sample>& samples, const std::vector<St
   return strokes.size() == 2 && std::abs(samples[strokes.back().last].alpha - start) <= 3 * threshold;
 }
 
+/// θ of a stroke at α, linear between rows; NaN outside the stroke.
+double theta_at(const std::vector<Sample>& samples, const Stroke& stroke, double alpha) {
+  for (std::size_t i = stroke.first; i < stroke.last; ++i) {
+    const Sample &one = samples[i], &next = samples[i + 1];
+    if (std::min(one.alpha, next.alpha) > alpha || std::max(one.alpha, next.alpha) < alpha) continue;
+    const double step = next.alpha - one.alpha;
+    return step == 0 ? one.theta : one.theta + (alpha - one.alpha) / step * (next.theta - one.theta);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Mean squares of a part of a stroke's way: its deviation from the mean of its repeats, and their range.
+struct Departure {
+  double deviation = 0;
+  double range = 0;
+
+  void add(double theta, const std::vector<double>& repeats) {
+    if (repeats.size() < 2 || !std::isfinite(theta)) return;
+    const auto [least, most] = std::minmax_element(repeats.begin(), repeats.end());
+    const double mean = std::accumulate(repeats.begin(), repeats.end(), 0.0) / static_cast<double>(repeats.size());
+    deviation += (theta - mean) * (theta - mean);
+    range += (*most - *least) * (*most - *least);
+  }
+};
+
+/// True if the first stroke differs from at least two repeats where it begins, by three times their range, and by half
+/// of that or less where it ends: play or friction was in another state before the log.
+bool begins_in_another_state(const std::vector<Sample>& samples, const std::vector<Stroke>& strokes) {
+  constexpr int thirds = 3, places_a_third = 8;
+  constexpr double ranges = 3.0, decayed = 0.5;
+  const Stroke& first = strokes.front();
+  const double from = samples[first.first].alpha, way = samples[first.last].alpha - from;
+  std::array<Departure, thirds> departures;
+  for (int i = 0; i < thirds * places_a_third; ++i) {
+    const double alpha = from + way * (i + 0.5) / (thirds * places_a_third);
+    std::vector<double> repeats;
+    for (std::size_t s = 1; s < strokes.size(); ++s) {
+      if (strokes[s].direction != first.direction || strokes[s].partial) continue;
+      if (const double theta = theta_at(samples, strokes[s], alpha); std::isfinite(theta)) repeats.push_back(theta);
+    }
+    departures[static_cast<std::size_t>(i / places_a_third)].add(theta_at(samples, first, alpha), repeats);
+  }
+  const Departure &begin = departures.front(), &end = departures.back();
+  return begin.deviation > ranges * ranges * begin.range && end.deviation < decayed * decayed * begin.deviation;
+}
+
 }  // namespace
 
 double median_of(std::vector<double> values) {
@@ -184,7 +233,8 @@ std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std:
   if (strokes.empty()) return strokes;
   // In a point-to-point log the play is known from the second dwell on, wherever the first one is.
   strokes.front().partial =
-      dwells.empty() && (strokes.front().partial || !begins_at_reversal(samples, strokes, 0, threshold));
+      dwells.empty() && (strokes.front().partial || !begins_at_reversal(samples, strokes, 0, threshold) ||
+                         begins_in_another_state(samples, strokes));
   for (std::size_t i = 1; i < strokes.size(); ++i) {
     if (strokes[i].partial && samples[strokes[i].first].after_break)
       strokes[i].partial = !begins_at_reversal(samples, strokes, i, threshold);

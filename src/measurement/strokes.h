@@ -11,7 +11,7 @@ namespace fusee::measurement {
 
 /// Strokes by direction of α, robust to noise and quantisation. A reversal counts once α has returned from its extreme
 /// by more than both and by 1 % of the run's span. A time gap over which α moved begins a `partial` stroke, whose play
-/// state is unknown. Between dwells there are no gaps. Empty if α only jitters.
+/// state is unknown; so does a run whose first stroke departs from its repeats at the beginning alone. Between dwells there are no gaps. Empty if α only jitters.
 std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<RowRange>& dwells,
                                   double alpha_quantum, bool has_time);
 

@@ -65,9 +65,10 @@ void conclude(const CalibrationContext& context, const RunFiles& runs) {
   product.calibration = calibration::calibrate(expected, product.measurement, options);
   context.run.begin_step("checking for input errors");
   product.slips = calibration::find_input_errors(declared, as_read, product.calibration);
-  if (!product.slips.empty() && product.calibration.curve.used) {
-    product.calibration.curve.used = false;
-    product.calibration.curve.why = "an input error in the file or the log may explain the data: check it first";
+  if (!product.slips.empty()) {
+    calibration::reject_curve(product.measurement,
+                              "an input error in the file or the log may explain the data: check it first",
+                              product.calibration);
   }
   context.run.begin_step("computing the correction");
   product.correction.identified = declared.identified;

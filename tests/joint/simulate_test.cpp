@@ -141,13 +141,13 @@ TEST(Simulate, RatioJointHasAnglesOnly) {
 TEST(Simulate, RatioCurveIsSeriesOfAngleAndLoad) {
   Imperfections at;
   at.ratio_joint.compliance = 0.004;
-  at.ratio_joint.curve = {.square = 0.03, .cube = -0.02, .give_slope = 0.002, .give_square = -0.001};
+  at.ratio_joint.curve = {.linear = 0.01, .square = 0.03, .cube = -0.02, .give_slope = 0.002, .give_square = -0.001};
   const BenchLog log = swept(5);
   const Readings shown = predict(geared(2), at, log);
   for (std::size_t i = 0; i < log[0].rows.size(); ++i) {
     const double u = log[0].rows[i].alpha / 2;
     const double compliance = 0.004 + 0.002 * u - 0.001 * u * u;
-    EXPECT_NEAR(shown[0][i], u + 0.03 * u * u - 0.02 * u * u * u - compliance * 5, 1e-14);
+    EXPECT_NEAR(shown[0][i], 1.01 * u + 0.03 * u * u - 0.02 * u * u * u - compliance * 5, 1e-14);
   }
 }
 

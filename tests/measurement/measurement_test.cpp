@@ -375,6 +375,19 @@ TEST(Strokes, FewRowsBeginAtReversal) {
   EXPECT_EQ(directions_of(parsed(csv(triangle(40, 8, 6), quarter)).run), "+-+-+-");
 }
 
+/// Strokes of a joint with a play of 4° of α, which is `behind` α when the log begins.
+std::string directions_behind_play(double behind) {
+  return directions_of(parsed(csv(triangle(40, 50, 6), [&](double alpha) {
+                         behind = std::clamp(behind, alpha - 2.0, alpha + 2.0);
+                         return 0.25 * behind;
+                       })).run);
+}
+
+TEST(Strokes, UnlikeItsRepeatsAtTheBeginningIsPartial) {
+  EXPECT_EQ(directions_behind_play(-38.0), "+-+-+-");  // as after every reversal
+  EXPECT_EQ(directions_behind_play(-42.0), "(+)-+-+-");
+}
+
 TEST(Strokes, DwellsDoNotCutStrokes) {
   const std::vector<double> alphas = triangle(40, 50, 6);
   for (const std::size_t every :

@@ -20,7 +20,8 @@ EffectParameter number_of(std::string_view name, double& (*number)(Imperfections
 
 }  // namespace
 
-/// Taylor series to the third power in the angle. The declared ratio is its linear term.
+/// Taylor series to the third power in the angle. Its linear term is an error of the declared ratio, without which the
+/// others would be fitted about a wrong slope.
 Effect ratio_curve(JointKind) {
   Effect effect;
   effect.name = "ratio_curve";
@@ -34,6 +35,9 @@ Effect ratio_curve(JointKind) {
   effect.is_tested = false;
   effect.parameters = {
       number_of(
+          "ratio_error", [](Imperfections& at) -> double& { return at.ratio_joint.curve.linear; }, PriorUnit::own,
+          "joint declared by a ratio: relative error of the rotation by the ratio"),
+      number_of(
           "ratio_square_per_rad", [](Imperfections& at) -> double& { return at.ratio_joint.curve.square; },
           PriorUnit::own, "joint declared by a ratio: coefficient of the squared angle"),
       number_of(
@@ -45,7 +49,7 @@ Effect ratio_curve(JointKind) {
       number_of(
           "ratio_give_square_per_load", [](Imperfections& at) -> double& { return at.ratio_joint.curve.give_square; },
           PriorUnit::at_largest_load, "joint declared by a ratio: compliance per squared angle")};
-  effect.starts = {{0, 0, 0, 0}};
+  effect.starts = {{0, 0, 0, 0, 0}};
   return effect;
 }
 
