@@ -47,7 +47,7 @@ void add_cuts(DxfDocument& drawing, const Plates& plates) {
   }
 }
 
-/// Below the sheets, where nothing is cut.
+/// Adds the notes and a 10 mm square for checking the scale, below the sheets, where nothing is cut.
 void add_notes(DxfDocument& drawing, const std::vector<std::string>& notes) {
   drawing.closed("CHECK_10MM", rectangle({0, -15}, {10, -5}));
   double y = -5 - k_text_height;

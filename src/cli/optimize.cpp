@@ -34,7 +34,7 @@ std::optional<optimize::Objective> second_objective(const Arguments& arguments) 
                    nearest.empty() ? "fusee explain optimize.objective lists them" : "did you mean " + nearest + "?");
 }
 
-/// A progress bar that is drawn when it grows.
+/// A progress bar that is redrawn only when it has changed.
 RunContext::Progress search_bar(Console& console) {
   return [&console, shown = std::string()](std::string_view best, std::optional<double> share) mutable {
     const std::string bar = progress_bar(share.value_or(0));
@@ -59,7 +59,7 @@ pipeline::OptimizeOptions optimize_options_from(const Arguments& arguments) {
   return options;
 }
 
-/// Checks options that belong to one method before the search, so that a refusal costs no time.
+/// Throws UsageError if an option belongs to another method. Called before the search, which takes long.
 void demand_agreement(const MechanismFile& file, const pipeline::OptimizeOptions& options) {
   if (!options.then && options.front_folder.empty()) return;
   const pipeline::SearchMethod method = options.method ? *options.method : pipeline::strongest_method(file);

@@ -61,9 +61,9 @@ std::string limit_deg(double angle) {
 
 /// The law over `share` of its range, rounded to thousandths of a degree.
 DeclaredMechanism narrowed(DeclaredMechanism mechanism, double share) {
-  const auto to_hand = [share](double angle) { return radians(std::trunc(1000 * share * degrees(angle)) / 1000); };
-  mechanism.joint.theta_min = to_hand(mechanism.joint.theta_min);
-  mechanism.joint.theta_max = to_hand(mechanism.joint.theta_max);
+  const auto truncated = [share](double angle) { return radians(std::trunc(1000 * share * degrees(angle)) / 1000); };
+  mechanism.joint.theta_min = truncated(mechanism.joint.theta_min);
+  mechanism.joint.theta_max = truncated(mechanism.joint.theta_max);
   return mechanism;
 }
 
