@@ -141,9 +141,9 @@ std::string plan_manifest_json(const PlanProduct& product, const std::vector<Out
 std::string hanging_words(const PlanProduct& product, const plan::PlannedRun& run);
 /// The expected false-positive rate in words, for simulated joints.
 std::vector<std::string> false_positive_words(const plan::Plan& plan);
-/// The predicted gain of a step over the steps before it, such as "sees creep; tells … from …".
+/// The predicted gain of a step over the steps before it, such as "detects creep; distinguishes … from …".
 std::string gain_words(const plan::PlanStep& step);
-/// The predicted gain of the first minutes, such as "by minute 3: 3 cycles, slow …; tells …".
+/// The predicted gain of the first minutes, such as "by minute 3: 3 cycles, slow …; distinguishes …".
 std::string minute_words(const plan::PlanStep& step, const std::string& gain);
 std::vector<std::string> minute_words(const std::vector<plan::PlanStep>& steps);
 
@@ -273,8 +273,8 @@ std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
 
 // In words, for the page and for a terminal alike.
 
-/// "EA = 4515 N (95 %: 4479 … 4551 if nothing else is there, else 4420 … 4610)": the unit is taken from the end of the
-/// name; `load_unit` is that of the load column.
+/// "EA = 4515 N (95 %: 4479 … 4551 if it is the only cause, otherwise 4420 … 4610)": the unit is taken from the end of
+/// the name; `load_unit` is that of the load column.
 std::string parameter_words(const calibration::FittedParameter& parameter, const std::string& load_unit);
 /// The group without the effect itself.
 std::vector<std::string> rivals_of(const calibration::FoundEffect& effect);

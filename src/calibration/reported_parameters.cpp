@@ -110,7 +110,7 @@ ReportedParameters report_least_squares(const Evidence& evidence, const LeastSqu
   if (reported.estimate.fit.at.ratio_joint.curve != RatioCurve{})
     reported.curve.why = "the identified joint contains the dependence on the angle, as a curve of its ratio";
   else if (is_unexplained(unmodelled, evidence.floor))
-    reported.curve.why = "the effects' numbers take away more than it would of runs that they were not fitted to";
+    reported.curve.why = "the effects alone correct more of the runs that they were not fitted to";
   return reported;
 }
 

@@ -103,7 +103,7 @@ Command completion_command() {
           "shell completion",
           "Prints a script for SHELL (bash, zsh or fish) that lets the Tab key offer\n"
           "commands, options, templates, keys of the mechanism file and their values.\n"
-          "Scripts call 'fusee completion candidates LINE': one word and meaning a line.",
+          "Scripts call 'fusee completion candidates LINE': a word and meaning per line.",
           {},
           {{"source <(fusee completion bash)", "in this shell; in ~/.bashrc for all"},
            {"fusee completion fish > fusee.fish", "for ~/.config/fish/completions"},

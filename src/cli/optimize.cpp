@@ -89,7 +89,7 @@ Reply run_optimize(const Arguments& arguments, Console& console, const RunContex
 Command optimize_command() {
   return {"optimize",
           "SPEC",
-          "better numbers for the mechanism",
+          "the best numbers for the mechanism",
           "Varies the variables of [optimize] in SPEC within their bounds and\n"
           "constraints to find the best value of the objective. If the equations\n"
           "allow it, the optimum is proven. The result includes the proven bound\n"
@@ -98,13 +98,13 @@ Command optimize_command() {
            {"--method", "NAME", "certified, ga or pareto (default: certified where\npossible)", false,
             "certified ga pareto"},
            {"--then", "OBJECTIVE", "second objective, among designs that tie (certified)"},
-           {"--seed", "N", "of ga and pareto (default 1)"},
+           {"--seed", "N", "random seed of ga and pareto (default 1)"},
            {"--population", "N", "designs in a generation (default 48)"},
-           {"--generations", "N", "of ga and pareto (default 100)"},
+           {"--generations", "N", "generations of ga and pareto (default 100)"},
            {"--front", "DIR", "write each point of the front as a mechanism file\n(pareto)"}},
           {{"fusee new paper_optimum > paper.toml", "a mechanism with [optimize] in it"},
            {"fusee optimize paper.toml -o better.toml", "the best numbers, proven"},
-           {"fusee optimize paper.toml --method ga --seed 7", "the paper's way"}},
+           {"fusee optimize paper.toml --method ga --seed 7", "the paper's genetic algorithm"}},
           run_optimize};
 }
 

@@ -370,7 +370,7 @@ class PartMaker {
          {{{0, 0}, sizes_.bracket_low, false, false}},
          1,
          true});
-    buy(1, board.name + ": " + board.description, "reads the joint's angle; as assumed: " + board.source);
+    buy(1, board.name + ": " + board.description, "reads the joint's angle; assumed: " + board.source);
     buy(4, screw_words(thread_within(board.hole), sizes_.bracket + 3 + board.thickness + 4) + " with nuts",
         "board, under the bracket");
   }

@@ -347,10 +347,11 @@ class RowReader {
       return fail(column_of(cell), message, "is this a second header line? Begin it with #");
     }
     fail(column_of(cell), message,
-         column.quantity == Quantity::time ? "write numbers, or time stamps as 2025-03-01T10:00:00.020 in all rows"
-                                           : "write one number a cell, with one decimal mark in the whole file; leave "
-                                             "the cell empty where nothing was "
-                                             "logged");
+         column.quantity == Quantity::time
+             ? "write numbers, or time stamps as 2025-03-01T10:00:00.020 in all rows"
+             : "write one number per cell, with one decimal mark in the whole file; leave "
+               "the cell empty where nothing was "
+               "logged");
   }
 
   void keep(Sample sample) {

@@ -61,7 +61,7 @@ struct ManualMeasurement {
   double (*read)(const Imperfections& joint, const Mechanism& declared) = nullptr;
 };
 
-/// Descriptions of a parameter below and above zero, where the sign is not obvious: "both pulleys too small".
+/// Descriptions of a parameter below and above zero, where the sign is not obvious: "both pulleys are too small".
 struct SignWords {
   std::string_view below;
   std::string_view above;

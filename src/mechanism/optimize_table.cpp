@@ -63,8 +63,9 @@ class OptimizeTableCheck {
     for (const auto& [key, values] : {std::pair{"lower", &table_.lower}, std::pair{"upper", &table_.upper}}) {
       if (values->size() == count) continue;
       fail(item_place_(key, count),
-           "optimize." + std::string(key) + " holds " + std::to_string(values->size()) + " numbers for " +
-               std::to_string(count) + " variables",
+           "optimize." + std::string(key) + " has " + std::to_string(values->size()) +
+               (values->size() == 1 ? " number for " : " numbers for ") + std::to_string(count) +
+               (count == 1 ? " variable" : " variables"),
            "one number for each variable, in their order");
     }
     if (table_.lower.size() != count || table_.upper.size() != count) return;

@@ -74,7 +74,7 @@ class BodyAdviser {
       };
       if (std::any_of(failed.begin(), failed.end(), is_about)) add_word(advice.alone, words);
     }
-    // Where the curves themselves are impossible, no number of the body would help.
+    // If the curves themselves are impossible, no number of the body helps.
     profile::FeasibilityOracle judge = judge_;
     judge.is_expensive = !profile::obstacle_to(mechanism_);  // each try plans a body
     std::vector<std::string> keys = judge.is_expensive ? written_keys(mechanism_) : std::vector<std::string>{};
