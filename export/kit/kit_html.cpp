@@ -105,8 +105,8 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   tendons.tendons = true;
   tendons.words = {
       "Tendon 2 over pin D, between its collars, to the post: a bowline round its waist, free to turn.",
-      "Tendon 1 over pin B to the post's lower end, up through it, along the link, once round the slide's screw and "
-      "under its washer.",
+      "Tendon 1 over pin B to the post's lower end, up through it, along the link, one turn and a half round the "
+      "slide's screw and under its washer.",
       "The tensioner's screw through the wall at the link's end into the nut in the slide: turn it until, at home, "
       "tendon 1 "
       "carries " +
@@ -130,8 +130,8 @@ std::string pictures(const KitProduct& product) {
     html += "<div><h3>" + std::to_string(i + 1) + ". " + safe_text(steps[i].title) + "</h3>" +
             inline_svg(kit_picture(product, steps, i)) + html_list(steps[i].words, "ol") + "</div>";
   return html_section("assembly", "Step by step",
-                      "<p class=\"lead\">Drawn from the parts themselves. Added parts are coloured: blue: print, tan: "
-                      "buy.</p><div class=\"pictures\">" +
+                      "<p class=\"lead\">Drawn from the parts themselves. Added parts are coloured: blue ones are "
+                      "printed, tan ones are bought.</p><div class=\"pictures\">" +
                           html + "</div>");
 }
 
@@ -253,8 +253,8 @@ std::vector<std::string> template_words(const KitProduct& product) {
         std::string("lie on the drum at the heights of ") + (climbs ? "the table." : "P1 and P2."));
   if (climbs)
     words.push_back(
-        "Tie the tendons to the link at their heights: a wrong one is a fleet angle, and the tendon climbs the rib "
-        "between two turns.");
+        "Tie the tendons to the link at their heights: a wrong height causes a fleet angle, and the tendon climbs the "
+        "rib between two turns.");
   if (mechanism.sheath.is_there())
     words.push_back(
         "Sheaths from beside the pins, straight down there, to the sheath exits above the pulley. Their length and "
@@ -305,12 +305,12 @@ std::string template_sections(const KitProduct& product) {
   return html_section("assembly", "Layout",
                       "<div class=\"pictures\"><div>" + inline_svg(kit_template_view(product)) + "</div><div>" +
                           html_list(template_words(product), "ol") + "</div></div>") +
-         html_section(
-             "tendons", "Tendons",
-             html_table(heads, cuts) +
-                 "<p class=\"hint\">Taut: from the knot on the pulley to that at its end on the link, with " +
-                 std::string(mechanism.sheath.is_there() ? "what lies in its sheath" : "all that it runs over") +
-                 ".</p>") +
+         html_section("tendons", "Tendons",
+                      html_table(heads, cuts) +
+                          "<p class=\"hint\">Taut: from the knot on the pulley to that at its end on the link, with " +
+                          std::string(mechanism.sheath.is_there() ? "its length in the sheath"
+                                                                  : "its length on guide and drum") +
+                          ".</p>") +
          (climbs ? heights_section(product) : std::string()) +
          html_section("fit", "Between holes", html_table({"", "# distance", "# at least"}, rows));
 }

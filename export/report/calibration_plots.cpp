@@ -84,8 +84,7 @@ class ProfileSum {
     });
   }
 
-  /// Fast runs have fewer rows than there are places: what lies between two that have some is on the line between
-  /// these.
+  /// The mean at each place. Fast runs have fewer rows than there are places: gaps are interpolated linearly.
   Profile mean() const {
     Profile profile;
     profile.fill(k_gap);

@@ -16,7 +16,7 @@ namespace fusee::calibration {
 enum class Factor {
   place,            ///< α alone, at any direction, load and speed
   direction,        ///< odd in the direction of motion
-  reversal,         ///< dies away over some way behind a reversal
+  reversal,         ///< decays with the distance since a reversal
   load,             ///< in proportion to the load
   load_size,        ///< with the size of the load, whichever its sign
   load_direction,   ///< hysteresis that grows with the load
