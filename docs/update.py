@@ -275,9 +275,9 @@ def columns_page(bench):
 
 def json_page(bench):
     """After columns_page(), whose files it reads."""
-    text = f"# JSON documents\n\n{WRITTEN}\n`--json` puts one document on stdout and nothing else, also when a command fails. Every document has\n\n"
+    text = f"# JSON documents\n\n{WRITTEN}\n`--json` puts one document on stdout and nothing else, even if a command fails. Every document has\n\n"
     text += "| key | value |\n|---|---|\n| `schema` | 1 |\n| `command` | the command |\n| `ok` | true where `exit` is 0 |\n| `exit` | the exit code |\n"
-    text += "| `errors`, `warnings` | lists of objects with `file`, `line`, `column`, `message`, `hint` |\n\nAngles are in degrees, lengths in mm; the unit stands in the key.\n"
+    text += "| `errors`, `warnings` | lists of objects with `file`, `line`, `column`, `message`, `hint` |\n\nAngles are in degrees, lengths in mm; the unit is part of the key.\n"
     for name, command in DOCUMENTS:
         document = json.loads("\n".join(bench.run(command + " 2>/dev/null")[1]))
         text += f"\n## {name}\n\n`{command}`\n\n| key | value |\n|---|---|\n"
