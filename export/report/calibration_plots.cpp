@@ -160,7 +160,7 @@ constexpr int k_shades = 8;
 constexpr double k_row_height = 11;
 constexpr double k_run_gap = 3;
 
-/// The mean residuals of all runs at one time, two rows a run.
+/// The mean residuals of all runs at one time, two rows per run.
 struct Map {
   std::vector<std::array<Profile, 2>> rows;  ///< [run][0: α grows, 1: falls]
 };

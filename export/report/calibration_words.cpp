@@ -191,8 +191,8 @@ std::string curve_words(const CalibrationProduct& product) {
   if (!curve.used)
     return curve.why.empty() ? "" : "compensation.csv does not cover the unmodelled residual: " + curve.why;
   return "an empirical curve in compensation.csv corrects the error that depends on place and direction alone: by " +
-         rounded(degrees(curve.gain), 3) + "° rms on data that it was not made from (" +
-         rounded(degrees(curve.held_out_effects), 3) + "° → " + rounded(degrees(curve.held_out_rms), 3) +
+         rounded(degrees(curve.gain), 3) + "° rms on held-out data (" + rounded(degrees(curve.held_out_effects), 3) +
+         "° → " + rounded(degrees(curve.held_out_rms), 3) +
          "°). It states no cause, and holds for this joint as it was measured (" + where_seen(product) +
          "). If the joint's sensor causes the error, the table makes the joint wrong by as much. If the pulley does, "
          "measure again after another pulley is mounted";

@@ -22,9 +22,9 @@ enum class Factor {
   load_direction,   ///< hysteresis that grows with the load
   speed,            ///< in proportion to the speed, the same both ways
   speed_direction,  ///< hysteresis that grows with speed
-  run,              ///< one constant a run
+  run,              ///< one constant per run
   drift,            ///< steadily in time within a run
-  stroke,           ///< one constant a stroke
+  stroke,           ///< one constant per stroke
   model_error,      ///< error of the model itself
 };
 

@@ -154,10 +154,9 @@ std::string why_not(const Evidence& evidence, const HeldOutBeside& by_run, const
                     const Gain& gain, double curve_rms) {
   if (gain.mean < std::pow(k_thresholds.least_residual * evidence.floor, 2) ||
       gain.mean < k_sure * error_of(evidence, gain, curve_rms))
-    return "on data that it was not made from it corrects no more than chance would";
-  if (harms(evidence, by_run, evidence.run_folds)) return "it makes a run worse that it was not made from";
-  if (harms(evidence, by_factor, evidence.factor_folds))
-    return "it makes a level of load or speed worse that it was not made from";
+    return "on held-out data it corrects no more than chance would";
+  if (harms(evidence, by_run, evidence.run_folds)) return "it makes a held-out run worse";
+  if (harms(evidence, by_factor, evidence.factor_folds)) return "it makes a held-out level of load or speed worse";
   return "";
 }
 

@@ -193,9 +193,9 @@ class Conditions {
       std::string hint = change;
       if (const auto place = hint.find("{}"); place != std::string::npos)
         hint.replace(place, 2, trimmed_fixed(std::ceil(10 * (limit - found.value)) / 10, 1) + " mm");
-      condition.message = what + ": the clearance is " + rounded(found.value, 3) + " mm, and at least " +
-                          rounded(limit, 3) + " mm is required (α = " + rounded(degrees(found.alpha), 3) + "°); " +
-                          hint;
+      condition.message = what + ": " + rounded(found.value, 3) + " mm, and at least " + rounded(limit, 3) +
+                          " mm is required (α = " + rounded(degrees(found.alpha), 3) + "°)";
+      if (!hint.empty()) condition.message += "; try " + hint;
     }
     plan_.conditions.push_back(condition);
   }
@@ -422,10 +422,14 @@ KitPlan with_bearing(const Scene& scene, const profile::SynthesisResult& synthes
   for (const double side : {-1.0, 1.0}) {
     if (const auto place = foot_on(room, side, reach)) plan.feet.push_back(*place);
   }
-  checks.at_least("feet", {static_cast<double>(plan.feet.size()), 0}, 2,
-                  "there is no place for the feet of scale and bracket beside link, tendons and pulley",
-                  "a smaller range (joint.range_deg) or a longer pulley.EF_mm");
-  plan.conditions.back().unit = "1";
+  checks.at_least("feet", {static_cast<double>(plan.feet.size()), 0}, 2, "", "");
+  profile::Condition& feet = plan.conditions.back();
+  feet.unit = "1";
+  if (!feet.ok) {
+    feet.message =
+        "there is no place for the feet of scale and bracket beside link, tendons and pulley; "
+        "try a smaller range (joint.range_deg) or a larger pulley.EF_mm";
+  }
   check_link(checks, scene, plan);
   place_legs(scene, plan);
   plan.status = profile::failed_of(plan.conditions).empty() ? KitStatus::made : KitStatus::impossible;

@@ -117,7 +117,7 @@ class RowReader {
                                 "the quotation mark that opens a cell here is never closed", "close or remove it"}
                    : Diagnostic{Severity::error, place(line, 1),
                                 "a line of more than " + most + " bytes: this is not a table of measured data",
-                                "write one row a line, ended by LF, CR LF or CR"};
+                                "write one row per line, ended by LF, CR LF or CR"};
     throw InputError(problem);
   }
 

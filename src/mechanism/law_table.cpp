@@ -166,7 +166,7 @@ bool is_torque_row(PairTableReader& reader, const PairRow* before, const PairRow
     return false;
   }
   if (before != nullptr)
-    reader.check_increasing("theta_deg", before->first, row.first, row.line, "one row an angle, from low to high");
+    reader.check_increasing("theta_deg", before->first, row.first, row.line, "one row per angle, from low to high");
   return true;
 }
 

@@ -128,7 +128,7 @@ class OptimizeTableCheck {
         fail(place, key + " is tied, and a variable as well", "leave it out of the variables");
       }
       if (std::find(earlier.begin(), earlier.end(), key) != earlier.end())
-        fail(place, key + " is tied twice, or used before it is tied", "one tie a key, in the order of use");
+        fail(place, key + " is tied twice, or used before it is tied", "one tie per key, in the order of use");
       earlier.push_back(key);
       for (const LinearTerm& term : tie->right.terms) earlier.push_back(term.key);
     }
