@@ -350,8 +350,7 @@ class RowReader {
          column.quantity == Quantity::time
              ? "write numbers, or time stamps as 2025-03-01T10:00:00.020 in all rows"
              : "write one number per cell, with one decimal mark in the whole file; leave "
-               "the cell empty where nothing was "
-               "logged");
+               "the cell empty where nothing was logged");
   }
 
   void keep(Sample sample) {
