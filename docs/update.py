@@ -219,9 +219,9 @@ def catalogue_page(program):
 COLUMNS = tomllib.loads((SOURCE / "docs/reference/columns.toml").read_text())
 DIRECTIONS = {"rising_": ", α growing", "falling_": ", α falling"}
 RUNS = [  # file, what makes it (in the bench's folder), what it is
-    ("profile.csv", "fusee build arm.toml", "out/arm/profile.csv", "Both pitch curves, one row a point"),
+    ("profile.csv", "fusee build arm.toml", "out/arm/profile.csv", "Both pitch curves, one row per point"),
     ("profile_p1.csv", None, "out/arm/profile_p1.csv", "Points of P1 for a spline in CAD; `profile_p2.csv` has those of P2"),
-    ("transmission.csv", None, "out/arm/transmission.csv", "The joint over the stroke, one row an angle of the motor"),
+    ("transmission.csv", None, "out/arm/transmission.csv", "The joint over the stroke, one row per motor angle"),
     ("transmission.csv, several turns", "fusee build profiles/wrist_turns.toml", "out/wrist_turns/transmission.csv",
      "Of a pulley in helical grooves it also has the slopes"),
     ("analyze -o FILE.csv", "fusee analyze arm.toml -o a.csv", "a.csv", "Forces over the stroke: by the paper, and by the full model with α rising and falling"),
@@ -275,9 +275,9 @@ def columns_page(bench):
 
 def json_page(bench):
     """After columns_page(), whose files it reads."""
-    text = f"# JSON documents\n\n{WRITTEN}\n`--json` puts one document on stdout and nothing else, also when a command fails. Every document has\n\n"
+    text = f"# JSON documents\n\n{WRITTEN}\n`--json` puts one document on stdout and nothing else, even if a command fails. Every document has\n\n"
     text += "| key | value |\n|---|---|\n| `schema` | 1 |\n| `command` | the command |\n| `ok` | true where `exit` is 0 |\n| `exit` | the exit code |\n"
-    text += "| `errors`, `warnings` | lists of objects with `file`, `line`, `column`, `message`, `hint` |\n\nAngles are in degrees, lengths in mm; the unit stands in the key.\n"
+    text += "| `errors`, `warnings` | lists of objects with `file`, `line`, `column`, `message`, `hint` |\n\nAngles are in degrees, lengths in mm; the unit is part of the key.\n"
     for name, command in DOCUMENTS:
         document = json.loads("\n".join(bench.run(command + " 2>/dev/null")[1]))
         text += f"\n## {name}\n\n`{command}`\n\n| key | value |\n|---|---|\n"

@@ -18,11 +18,12 @@ solid::BodyLayout layout_to_cut(const Product& product);
 Contour bore_contour(const solid::BoreLayout& bore);
 
 /// Moves every edge outward by `distance` (inward if negative) with mitred corners, exactly for the polygon. Input and
-/// output are counter-clockwise. An edge shorter than its reduction is inverted, which is_simple() and the area show.
+/// output are counter-clockwise. An edge that is shortened by more than its length points the other way:
+/// is_simple() or the sign of the area reveals it.
 Polygon offset_edges(const Polygon& polygon, double distance);
 
-/// The cutter's path around a plate of this outline, at `distance` outside it: offset_edges() without the edges that
-/// would be inverted in a hollow narrower than the cutter.
+/// The cutter's path around a plate of this outline, `distance` outside it: offset_edges() without the edges that would
+/// be inverted where a concave corner is narrower than the cutter.
 Polygon cut_round(const Polygon& outline, double distance);
 
 /// The cutter's path for a hole of this outline: half a kerf inside it, with circles and arcs kept. Empty if the kerf
@@ -38,7 +39,7 @@ class Material2d {
   void add_hole(const Polygon& hole);
   /// True if `point` is in the material and at least `margin` away from every edge.
   bool holds(const Vec2& point, double margin) const;
-  /// True if holds() is true for every point of an axis-parallel box, on a grid of a millimetre.
+  /// True if holds() is true at every point of a 1 mm grid over an axis-aligned box.
   bool holds_box(const Vec2& low, const Vec2& size, double margin) const;
 
  private:

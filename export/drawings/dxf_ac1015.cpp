@@ -6,8 +6,8 @@
 namespace fusee::formats {
 namespace {
 
-// Every object of AC1015 has a handle and names its owner's. Handles that other objects name are fixed here. Table
-// records and entities are numbered from k_first_free.
+// Every object of AC1015 has a handle, and refers to the handle of its owner. Handles that other objects refer to are
+// fixed here. Table records and entities are numbered from k_first_free.
 enum Handle : int {
   k_layer_table = 0x1,
   k_ltype_table = 0x2,
@@ -49,7 +49,7 @@ class Ac1015Writer {
       if (path.circle)
         write_circle(path.layer, *path.circle);
       else if (!path.heights.empty())
-        write_climbing(path);
+        write_polyline_3d(path);
       else
         write_polyline(path);
     }
@@ -213,8 +213,8 @@ class Ac1015Writer {
     }
   }
 
-  /// A polyline in space, with an entity for each vertex.
-  void write_climbing(const DxfPath& path) {
+  /// A 3-D polyline has an entity for each vertex.
+  void write_polyline_3d(const DxfPath& path) {
     const int polyline = next_;
     begin_entity("POLYLINE", "AcDb3dPolyline", k_model_record, path.layer);
     tags_.integer(66, 1);

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: writes a document in either DXF version. dxf_text() has validated it.
+/// Internal: writers of both DXF versions. Their documents have been validated by dxf_text().
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ void write_remarks(DxfTagWriter& tags, const DxfDocument& document);
 void write_variables(DxfTagWriter& tags, std::string_view version, const Box2d& box);
 /// Writes centre and radius.
 void write_circle_values(DxfTagWriter& tags, const solid::RoundHole& circle);
-/// The values of the one text style, which no text uses.
+/// Writes the values of the text style that readers require, although text is drawn as strokes.
 void write_style_values(DxfTagWriter& tags);
 
 }  // namespace fusee::formats

@@ -90,7 +90,7 @@ std::string dxf_text(const DxfDocument& document, DxfVersion version) {
   for (const DxfPath& path : document.paths) {
     if (path.circle) {
       demand(path.circle->diameter > 0 && path.circle->centre.allFinite(),
-             "a circle on layer " + path.layer + " is none");
+             "a circle on layer " + path.layer + " is not finite or has no diameter");
       continue;
     }
     demand(path.vertices.size() >= 2, "a path on layer " + path.layer + " has fewer than two points");

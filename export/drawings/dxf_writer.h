@@ -1,7 +1,7 @@
 /// \file
 /// Internal: a drawing of polylines and circles as DXF text. AC1015 (AutoCAD 2000) has every table, owner and
-/// dictionary that strict readers require; R12 (AC1009) is for laser shops. Millimetres, nine decimals. No splines or
-/// texts: an arc is a polyline's bulge, and a helical curve is a polyline in space.
+/// dictionary that strict readers require. R12 (AC1009) is for laser shops. Millimetres, nine decimals. No splines or
+/// text entities: an arc is a polyline's bulge, a helical curve a 3-D polyline, and text is drawn as strokes.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct DxfPath {
   std::vector<BulgeVertex> vertices;  ///< empty for a circle
   bool closed = true;
   std::optional<solid::RoundHole> circle;
-  std::vector<double> heights = {};  ///< heights of the vertices, for a polyline in space
+  std::vector<double> heights = {};  ///< z of the vertices of a 3-D polyline; empty in the plane
 };
 
 struct DxfDocument {
@@ -36,9 +36,9 @@ struct DxfDocument {
   void closed(std::string layer, const Contour& contour, const Vec2& shift = Vec2::Zero());
   void closed_arcs(std::string layer, std::vector<BulgeVertex> vertices);
   void open(std::string layer, const Polygon& points);
-  /// A polyline in space whose plan view is the plane polyline.
+  /// Adds an open 3-D polyline.
   void in_space(std::string layer, const std::vector<Vec3>& points);
-  /// A line of single-stroke text with its lower left corner at `origin`.
+  /// Adds a line of single-stroke text with its lower left corner at `origin`.
   void text(const std::string& layer, std::string_view text, const Vec2& origin, double height);
 };
 

@@ -11,7 +11,7 @@ std::size_t EndPoints::CellHash::operator()(const Cell& cell) const {
   return static_cast<std::size_t>((x ^ (x >> 31)) + (y ^ (y >> 29)));
 }
 
-// Cells are much wider than k_joined: most points require only their own cell, and a cell holds about one point.
+// Cells are much wider than k_joined, so that most points need only their own cell, yet hold about one point.
 std::size_t EndPoints::number(const Vec2& point) {
   constexpr double k_cell = 500 * k_joined;
   const auto cell_of = [](double along) { return static_cast<std::int64_t>(std::floor(along / k_cell)); };

@@ -14,8 +14,8 @@ namespace fusee::formats {
 /// The circle about the axis through all of these points; empty if there is none.
 std::optional<solid::RoundHole> circle_about_axis(const Polygon& points);
 
-/// parallel(outline, distance) as arcs with common tangents: biarcs through some of its points, each as long as it
-/// stays within `tolerance` (mm) of the points between. Edges without such arcs stay straight. Closed.
+/// parallel(outline, distance) as a closed curve of tangent arcs: biarcs through some of its points, each as long as
+/// possible within `tolerance` (mm) of the points between. Edges that no such arc can replace stay straight.
 std::vector<BulgeVertex> fitted_arcs(const profile::Outline& outline, double distance, double tolerance);
 
 }  // namespace fusee::formats

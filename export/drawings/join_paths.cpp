@@ -66,7 +66,7 @@ class PathJoiner {
 
   DrawingPath chain_of(std::size_t i) {
     DrawingPath path = std::move(paths_[i]);
-    paths_[i].points = {path.points.front(), path.points.back()};  // its ends are still looked up
+    paths_[i].points = {path.points.front(), path.points.back()};  // extend() still looks up the ends
     paths_[i].layer = path.layer;
     used_[i] = true;
     if (path.closed) return path;

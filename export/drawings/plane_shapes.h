@@ -12,7 +12,7 @@
 
 namespace fusee::formats {
 
-/// The axis-parallel square or rectangle from `low` to `high`, counter-clockwise.
+/// The axis-aligned rectangle with the corners `low` and `high`, counter-clockwise.
 Polygon rectangle(const Vec2& low, const Vec2& high);
 /// A circle as a regular polygon, counter-clockwise, with its corners *on* the circle; sagitta at most 0.002 mm, at
 /// least 24 corners.
@@ -26,7 +26,7 @@ struct Contour {
 };
 
 Contour circle_contour(const solid::RoundHole& hole);
-/// The vertices of a contour that is no circle, with the arc as one edge with a bulge.
+/// The vertices of a contour that is not a circle; its arc is one edge with a bulge.
 std::vector<BulgeVertex> vertices_of(const Contour& contour);
 /// The angle from `from` to `to` about the origin, counter-clockwise, in (0, 2π]. rad.
 double turn_between(const Vec2& from, const Vec2& to);

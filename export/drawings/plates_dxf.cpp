@@ -47,7 +47,7 @@ void add_cuts(DxfDocument& drawing, const Plates& plates) {
   }
 }
 
-/// Below the sheets, where nothing is cut.
+/// Adds the notes and a 10 mm square for checking the scale, below the sheets, where nothing is cut.
 void add_notes(DxfDocument& drawing, const std::vector<std::string>& notes) {
   drawing.closed("CHECK_10MM", rectangle({0, -15}, {10, -5}));
   double y = -5 - k_text_height;
@@ -66,10 +66,11 @@ std::string plates_dxf(const Product& product, DxfVersion version) {
   drawing.layers = {{"ENGRAVE", 3},      {"CUT_INNER", 5},    {"CUT_OUTER", 1},
                     {"SHEET", 8, false}, {"NOTES", 8, false}, {"CHECK_10MM", 9, false}};
   drawing.remarks = plates.notes;
-  drawing.remarks.insert(drawing.remarks.begin(),
-                         {mechanism.name + ": plates to cut, true size in mm, not scaled for a print's shrinkage",
-                          "lines are the cutter's middle: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
-                              " mm) outside, holes half a kerf inside; the square is 10 mm wide"});
+  drawing.remarks.insert(
+      drawing.remarks.begin(),
+      {mechanism.name + ": plates to cut, true size in mm, not scaled for a print's shrinkage",
+       "lines are the centre of the cut: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
+           " mm) outside, holes half a kerf inside; the square is 10 mm wide"});
   add_engraving(drawing, plates);
   add_cuts(drawing, plates);
   add_sheets(drawing, plates);

@@ -25,13 +25,13 @@ std::optional<double> diameter_of(const EllipticArc& arc) {
   return is_round ? std::optional<double>(2 * radius) : std::nullopt;
 }
 
-/// Half of the longest diameter.
+/// The semi-major axis.
 double longest_radius(const EllipticArc& arc) {
   const double uu = arc.u.squaredNorm(), vv = arc.v.squaredNorm(), uv = arc.u.dot(arc.v);
   return std::sqrt(0.5 * (uu + vv) + std::hypot(0.5 * (uu - vv), uv));
 }
 
-/// The ends of the arc, and its extreme points in x and y, in increasing order.
+/// Parameters of the arc's ends and of its extreme points in x and y, in increasing order.
 std::vector<double> breaks_of(const EllipticArc& arc) {
   std::vector<double> breaks = {arc.from};
   for (const int axis : {0, 1}) {
@@ -75,7 +75,7 @@ void append_bulge(Polygon& points, const Vec2& from, const Vec2& to, double bulg
   points.push_back(place(to));
 }
 
-/// The diameter of two half circles on one chord, the polyline form of a circle.
+/// The diameter of a circle drawn as a polyline: two half circles on one chord.
 std::optional<double> diameter_of(const std::vector<BulgeVertex>& vertices, bool closed,
                                   const DrawingPlacement& place) {
   if (!closed || vertices.size() != 2) return std::nullopt;
@@ -84,7 +84,7 @@ std::optional<double> diameter_of(const std::vector<BulgeVertex>& vertices, bool
   return diameter_of(EllipticArc{Vec2::Zero(), radius, turned_left(radius)}.placed(place));
 }
 
-/// De Boor's algorithm.
+/// The point of a rational B-spline at `t` in its knot span `span`, by de Boor's algorithm.
 Vec2 point_at(const BSpline& spline, double t, std::size_t span) {
   std::vector<Vec3> d(spline.poles.begin() + static_cast<std::ptrdiff_t>(span) - spline.degree,
                       spline.poles.begin() + static_cast<std::ptrdiff_t>(span) + 1);

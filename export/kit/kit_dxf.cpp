@@ -150,7 +150,7 @@ std::vector<std::string> remarks_of(const KitProduct& product, const std::vector
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   std::vector<std::string> remarks{
       mechanism.name + ": the test rig's plates to cut, true size in mm",
-      "lines are the cutter's middle: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
+      "lines are the centre of the cut: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
           " mm) outside, holes half a kerf inside; the square is 10 mm wide",
       "sheets of " + rounded(mechanism.cut.plate) + " mm; plates of one name are glued one upon another"};
   for (const KitPlate& plate : plates) {

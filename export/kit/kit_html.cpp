@@ -81,7 +81,7 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   pulley.words = {
       "Tie both tendons to the pulley first (see Tendons), then put it on the motor, P1 down, its lower face " +
           mm(sizes.pulley_low) + " above the plate.",
-      "Turn it so that its home mark points to the joint's axis side (+y, to C) when the motor stands at 0."};
+      "Turn it so that its home mark points to +y, the direction from O to C, with the motor at 0."};
   steps.push_back(pulley);
 
   KitStep scale;
@@ -105,8 +105,8 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   tendons.tendons = true;
   tendons.words = {
       "Tendon 2 over pin D, between its collars, to the post: a bowline round its waist, free to turn.",
-      "Tendon 1 over pin B to the post's lower end, up through it, along the link, once round the slide's screw and "
-      "under its washer.",
+      "Tendon 1 over pin B to the post's lower end, up through it, along the link, one turn and a half round the "
+      "slide's screw and under its washer.",
       "The tensioner's screw through the wall at the link's end into the nut in the slide: turn it until, at home, "
       "tendon 1 "
       "carries " +
@@ -117,7 +117,7 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   sensor.title = "Encoder";
   sensor.parts = {"foot_tube", "bracket", "board_spacer"};
   sensor.words = {"Board (" + sizes.board->name + ") under the bracket on its spacers, chip down.",
-                  "Bracket onto the feet, nuts on top: " + mm(sizes.board->gap) + " are left between magnet and chip.",
+                  "Bracket onto the feet, nuts on top: " + mm(sizes.board->gap) + " remain between magnet and chip.",
                   "At home the link's pointer stands at 0 of the scale: set both zeros there."};
   steps.push_back(sensor);
   return steps;
@@ -130,8 +130,8 @@ std::string pictures(const KitProduct& product) {
     html += "<div><h3>" + std::to_string(i + 1) + ". " + safe_text(steps[i].title) + "</h3>" +
             inline_svg(kit_picture(product, steps, i)) + html_list(steps[i].words, "ol") + "</div>";
   return html_section("assembly", "Step by step",
-                      "<p class=\"lead\">Drawn from the parts themselves. Added parts are coloured: blue: print, tan: "
-                      "buy.</p><div class=\"pictures\">" +
+                      "<p class=\"lead\">Drawn from the parts themselves. Added parts are coloured: blue ones are "
+                      "printed, tan ones are bought.</p><div class=\"pictures\">" +
                           html + "</div>");
 }
 
@@ -149,13 +149,12 @@ std::string tendon_section(const KitProduct& product) {
   }
   return html_section("tendons", "Tendons",
                       html_table({"", "path", "# taut, at home", "# cut at", "# left on the pulley at full pay-out",
-                                  "which way it is wound"},
+                                  "direction of winding"},
                                  rows) +
                           "<p class=\"hint\">Taut: from the knot on the pulley to C, and for tendon 1 on through the "
                           "post to the slide’s screw. "
-                          "The cut holds that, what is wound round screw or post, both knots and a tail of 50 mm at "
-                          "each end, rounded up to 5 "
-                          "mm.</p>" +
+                          "The cut length adds the turns round screw or post, both knots and a tail of 50 mm at each "
+                          "end, rounded up to 5 mm.</p>" +
                           html_list({"On the pulley: a figure-eight knot in each tendon’s end, pulled into its pocket; "
                                      "the other spare hole of each groove "
                                      "stays empty.",
@@ -242,7 +241,7 @@ std::vector<std::string> template_words(const KitProduct& product) {
   const bool idlers = mechanism.guides.kind == GuideKind::idler;
   const bool climbs = product.plan.heights.has_value();
   std::vector<std::string> words{
-      "Drill base and link by their plates, or cut them (kit.dxf): every hole is at the axis given in the file.",
+      "Use the plates of base and link as drilling templates, or cut them (kit.dxf): every hole is at its axis.",
       idlers ? climbs && !mechanism.guides.collar
                    ? "Smooth rollers onto bolts at B and D, over the whole height range of the tendons there."
                    : "Idlers onto bolts at B and D, their grooves at the heights of both tendons."
@@ -254,13 +253,13 @@ std::vector<std::string> template_words(const KitProduct& product) {
         std::string("lie on the drum at the heights of ") + (climbs ? "the table." : "P1 and P2."));
   if (climbs)
     words.push_back(
-        "Tie the tendons to the link at their heights: a wrong one is a fleet angle, and the tendon climbs the rib "
-        "between two turns.");
+        "Tie the tendons to the link at their heights: a wrong height causes a fleet angle, and the tendon climbs the "
+        "rib between two turns.");
   if (mechanism.sheath.is_there())
     words.push_back(
         "Sheaths from beside the pins, straight down there, to the sheath exits above the pulley. Their length and "
         "bends are the file’s; the part of the base with the pulley may be mounted anywhere.");
-  words.push_back("At home the link’s hole C stands straight away from the pulley over the axle.");
+  words.push_back("At home, the axle is on the straight line from the pulley to the link’s hole C.");
   return words;
 }
 
@@ -299,19 +298,19 @@ std::string template_sections(const KitProduct& product) {
   }
   std::vector<std::string> heads{"", "# taut, at home", "# cut at"};
   if (climbs) heads.emplace_back("# turns on the pulley at home");
-  heads.emplace_back("which way it is wound");
+  heads.emplace_back("direction of winding");
   for (const profile::Condition& condition : product.plan.conditions)
     rows += "<tr>" + html_cell(plain_name(condition.name)) + html_number_cell(mm(condition.value, 2)) +
             html_number_cell(mm(condition.limit, 2)) + "</tr>";
   return html_section("assembly", "Layout",
                       "<div class=\"pictures\"><div>" + inline_svg(kit_template_view(product)) + "</div><div>" +
                           html_list(template_words(product), "ol") + "</div></div>") +
-         html_section(
-             "tendons", "Tendons",
-             html_table(heads, cuts) +
-                 "<p class=\"hint\">Taut: from the knot on the pulley to that at its end on the link, with " +
-                 std::string(mechanism.sheath.is_there() ? "what lies in its sheath" : "all that it runs over") +
-                 ".</p>") +
+         html_section("tendons", "Tendons",
+                      html_table(heads, cuts) +
+                          "<p class=\"hint\">Taut: from the knot on the pulley to that at its end on the link, with " +
+                          std::string(mechanism.sheath.is_there() ? "its length in the sheath"
+                                                                  : "its length on guide and drum") +
+                          ".</p>") +
          (climbs ? heights_section(product) : std::string()) +
          html_section("fit", "Between holes", html_table({"", "# distance", "# at least"}, rows));
 }

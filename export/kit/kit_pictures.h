@@ -14,7 +14,7 @@ namespace fusee::formats {
 struct KitStep {
   std::string title;
   std::vector<std::string> parts;  ///< names of the parts added
-  bool motor = false;              ///< other additions
+  bool motor = false;              ///< true: the step adds the motor; likewise below
   bool rods = false;
   bool pulley = false;
   bool tendons = false;

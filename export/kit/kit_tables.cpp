@@ -14,8 +14,8 @@
 namespace fusee::formats {
 namespace {
 
-/// Rounded to a micrometre, because the last digits of a sum are meaningless.
-double to_hand(double value) { return std::round(1000 * value) / 1000 + 0.0; }
+/// Rounds to a micrometre, because the last digits of a sum are meaningless. Adding 0.0 turns −0 into 0.
+double rounded_to_micrometre(double value) { return std::round(1000 * value) / 1000 + 0.0; }
 
 std::string csv_quoted(const std::string& words) {
   std::string text = "\"";
@@ -23,16 +23,16 @@ std::string csv_quoted(const std::string& words) {
   return text + "\"";
 }
 
-Json point_json(const Vec2& point) { return {to_hand(point.x()), to_hand(point.y())}; }
+Json point_json(const Vec2& point) { return {rounded_to_micrometre(point.x()), rounded_to_micrometre(point.y())}; }
 
 Json parts_json(const KitProduct& product) {
   Json list = Json::array();
   for (const kit::KitPart& part : product.plan.parts) {
     Json places = Json::array();
     for (const kit::KitPlace& place : part.places)
-      places.push_back({{"x_mm", to_hand(place.shift.x())},
-                        {"y_mm", to_hand(place.shift.y())},
-                        {"z_mm", to_hand(place.z)},
+      places.push_back({{"x_mm", rounded_to_micrometre(place.shift.x())},
+                        {"y_mm", rounded_to_micrometre(place.shift.y())},
+                        {"z_mm", rounded_to_micrometre(place.z)},
                         {"turned_over", place.turned_over},
                         {"on_link", place.on_link}});
     list.push_back({{"name", part.name},
@@ -46,8 +46,10 @@ Json parts_json(const KitProduct& product) {
 }
 
 Json heights_json(const kit::TendonHeights& heights) {
-  const auto span = [](const kit::TendonHeights::Span& of) { return Json{to_hand(of.low), to_hand(of.high)}; };
-  return {{"ends", {to_hand(heights.ends[0]), to_hand(heights.ends[1])}},
+  const auto span = [](const kit::TendonHeights::Span& of) {
+    return Json{rounded_to_micrometre(of.low), rounded_to_micrometre(of.high)};
+  };
+  return {{"ends", {rounded_to_micrometre(heights.ends[0]), rounded_to_micrometre(heights.ends[1])}},
           {"guides", {span(heights.guides[0]), span(heights.guides[1])}},
           {"drum", span(heights.drum)}};
 }
@@ -63,11 +65,11 @@ Json places_json(const kit::KitPlan& plan) {
   for (const Vec2& foot : plan.feet) feet.push_back(point_json(foot));
   return {{"pins_mm", {point_json(plan.pins[0].place), point_json(plan.pins[1].place)}},
           {"feet_mm", feet},
-          {"pulley_z_mm", {to_hand(sizes.pulley_low), to_hand(sizes.pulley_high)}},
-          {"tendon_z_mm", {to_hand(sizes.z_tendon1), to_hand(sizes.z_tendon2)}},
-          {"scale_z_mm", to_hand(sizes.scale_low)},
-          {"link_z_mm", to_hand(sizes.link_low)},
-          {"bracket_z_mm", to_hand(sizes.bracket_low)},
+          {"pulley_z_mm", {rounded_to_micrometre(sizes.pulley_low), rounded_to_micrometre(sizes.pulley_high)}},
+          {"tendon_z_mm", {rounded_to_micrometre(sizes.z_tendon1), rounded_to_micrometre(sizes.z_tendon2)}},
+          {"scale_z_mm", rounded_to_micrometre(sizes.scale_low)},
+          {"link_z_mm", rounded_to_micrometre(sizes.link_low)},
+          {"bracket_z_mm", rounded_to_micrometre(sizes.bracket_low)},
           {"motor", sizes.motor ? Json(sizes.motor->name) : Json(nullptr)},
           {"bearing", sizes.bearing->name},
           {"board", sizes.board->name}};
@@ -114,8 +116,8 @@ std::string kit_manifest_json(const KitProduct& product, const std::vector<Outpu
   json["tendons_at_home"] = Json::array();
   for (const KitCut& cut : kit_cuts(product))
     json["tendons_at_home"].push_back({{"tendon", cut.side == transmission::Side::left ? 1 : 2},
-                                       {"between_knots_mm", to_hand(cut.between_knots)},
-                                       {"cut_length_mm", to_hand(cut.cut)}});
+                                       {"between_knots_mm", rounded_to_micrometre(cut.between_knots)},
+                                       {"cut_length_mm", rounded_to_micrometre(cut.cut)}});
   json["buy"] = Json::array();
   for (const kit::KitItem& item : product.plan.items)
     json["buy"].push_back({{"count", item.count}, {"item", item.what}, {"use", item.use}});

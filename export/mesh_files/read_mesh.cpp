@@ -107,7 +107,7 @@ solid::TriangleMesh read_mesh(std::string_view bytes, const std::string& file_na
   Reader reader = reader_by_content(source);
   if (reader == nullptr) reader = reader_by_name(file_name);
   if (reader == nullptr) {
-    throw InputError(file_name, "expected a mesh, and neither its first bytes nor its name say of which format",
+    throw InputError(file_name, "expected a mesh, but neither its first bytes nor its name identify the format",
                      "fusee reads .stl, .obj, .3mf, .off, .ply, .drc and .dxf");
   }
   return without_unused_vertices(reader(source));

@@ -32,14 +32,13 @@ std::string key_numbers_of(const analysis::AnalysisResult& result, const Mechani
   KeyNumbers numbers;
   numbers.add("Largest tension", with_unit(most.tension, "N"),
               analysis::place_words(most, mechanism) + ", " + at_words(most.alpha));
-  numbers.add("By the paper’s chain", with_unit(result.largest_paper_tension.value, "N"),
+  numbers.add("By the paper’s formulas", with_unit(result.largest_paper_tension.value, "N"),
               at_words(result.largest_paper_tension.alpha));
   if (result.strength)
     numbers.add("Strength of the tendon", with_unit(result.strength->tension, "N"),
                 with_unit(result.strength->at_knot, "N") + " at a knot");
   numbers.add("Motor torque", with_unit(result.largest_torque.value, "N mm"), at_words(result.largest_torque.alpha));
-  numbers.add("Between directions", with_unit(degrees(result.hysteresis.value), "deg"),
-              at_words(result.hysteresis.alpha));
+  numbers.add("Hysteresis", with_unit(degrees(result.hysteresis.value), "deg"), at_words(result.hysteresis.alpha));
   numbers.add("Tendon 1 slack", ranges_words(result.slack1));
   numbers.add("Tendon 2 slack", ranges_words(result.slack2),
               result.taut_pretension ? "taut with tendon.pretension_N ≥ " + rounded(*result.taut_pretension, 3) : "");
@@ -119,7 +118,7 @@ std::string sources_table(const std::vector<analysis::ErrorSource>& sources) {
   for (const analysis::ErrorSource& source : sources)
     rows += "<tr>" + html_cell(source.meaning) + angle_cell(source.least, 4) + angle_cell(source.most, 4) +
             angle_cell(source.worst_at, 1) + "</tr>";
-  return html_table({"θ off the declared law by", "#from (°)", "#to (°)", "#worst at α (°)"}, rows);
+  return html_table({"error of θ from", "#from (°)", "#to (°)", "#worst at α (°)"}, rows);
 }
 
 std::string tolerances_table(const std::vector<analysis::ToleranceEffect>& effects) {
@@ -176,11 +175,11 @@ std::string analysis_html(const MechanismFile& file, const analysis::AnalysisRes
                html_section("budget", "Causes of the angular error", sources_table(result.sources)) +
                html_section("tolerances", "Tolerances",
                             "<p class=\"lead\">Each dimension within " + safe_text(with_unit(options.tolerance, "mm")) +
-                                " (95 %): joint angle and slack stay within these.</p>" +
+                                " (95 %), and the resulting limits of joint angle and slack.</p>" +
                                 tolerances_table(result.tolerances)),
        .foot =
            "Lengths in mm, angles in degrees, forces in N. Tensions are the full model’s in its third cycle, unless "
-           "they are called the paper’s.",
+           "they are marked as the paper’s.",
        .styles = {embedded::figure_css, embedded::page_css},
        .scripts = {embedded::readout_js, joint_script(file.mechanism)}});
 }

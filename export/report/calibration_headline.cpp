@@ -89,7 +89,8 @@ std::string problem_words(const CalibrationProduct& product) {
   const bool is_clear = most->first > 0.5 * all.squares;
   return (is_clear ? most->second : "The joint is wrong by up to " + angle_words(calibration.before.max)) + ": " +
          angle_words(calibration.before.held_out_rms) + " rms, " + angle_words(calibration.after.held_out_rms) +
-         (calibration.curve.used ? " with the causes found and an empirical curve." : " with the causes found.");
+         (calibration.curve.used ? " with the identified causes and an empirical curve."
+                                 : " with the identified causes.");
 }
 
 // ---- why ------------------------------------------------------------------------------------------------------------
@@ -105,14 +106,12 @@ struct CandidateWords {
   std::vector<std::string> numbers;
 };
 
-/// "both pulleys too small" and "scale −1.2 %"; by its name where the words of the sign stand for a part that they do
-/// not name ("the sensor reads too little").
+/// "both pulleys are too small" and "scale −1.2 %"; the name of an effect whose sign has no words.
 CandidateWords candidate_words(const std::string& name, const std::vector<calibration::FittedParameter>& numbers,
                                const std::string& load_unit) {
   if (numbers.empty()) return {open_words(name), {}};
   const calibration::FittedParameter& first = numbers.front();
-  const bool is_named = first.sense.empty() || first.sense.rfind("it ", 0) == 0;
-  return {is_named ? open_words(name) : first.sense, {number_words(first, load_unit)}};
+  return {first.sense.empty() ? open_words(name) : first.sense, {number_words(first, load_unit)}};
 }
 
 bool may_be_unmodelled(const calibration::FoundEffect& effect) {
@@ -178,14 +177,12 @@ std::string cause_words(const CalibrationProduct& product) {
 
 // ---- what to do -----------------------------------------------------------------------------------------------------
 
-/// The instruction alone. What it distinguishes, and the key to write, are shown below.
+/// The instruction up to the first colon. The remainder is shown below.
 std::string first_clause(const std::string& sentence) {
-  std::string clause = sentence.substr(0, std::min(sentence.find(": "), sentence.find(" and write")));
-  if (!clause.empty() && clause.back() == ',') clause.pop_back();
-  return first_upper(clause) + ".";
+  return first_upper(sentence.substr(0, sentence.find(": "))) + ".";
 }
 
-/// An effect that is taken out where it is.
+/// The repair of an effect that is best corrected at its source; "" for others.
 std::string repair_words(const calibration::FoundEffect& effect, const std::string& load_unit) {
   constexpr std::array<std::pair<const char*, const char*>, 6> k_repairs = {
       {{"zero_offset", "Re-zero the joint sensor"},

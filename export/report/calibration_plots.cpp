@@ -84,8 +84,7 @@ class ProfileSum {
     });
   }
 
-  /// Fast runs have fewer rows than there are places: what lies between two that have some is on the line between
-  /// these.
+  /// The mean at each place. Fast runs have fewer rows than there are places: gaps are interpolated linearly.
   Profile mean() const {
     Profile profile;
     profile.fill(k_gap);
@@ -161,7 +160,7 @@ constexpr int k_shades = 8;
 constexpr double k_row_height = 11;
 constexpr double k_run_gap = 3;
 
-/// The mean residuals of all runs at one time, two rows a run.
+/// The mean residuals of all runs at one time, two rows per run.
 struct Map {
   std::vector<std::array<Profile, 2>> rows;  ///< [run][0: α grows, 1: falls]
 };
@@ -203,7 +202,7 @@ int shade_of(double value, double most) {
   return std::isfinite(value) && most > 0 ? static_cast<int>(std::lround(value / most * k_shades)) : 0;
 }
 
-/// A run's name may be as long as it likes; its end tells it apart.
+/// Keeps the end of a long name, where names of runs differ.
 std::string short_name(const std::string& name, std::size_t most) {
   return name.size() <= most || most < 4 ? name : "…" + name.substr(name.size() - most + 1);
 }
@@ -373,8 +372,8 @@ std::string residual_map_html(const CalibrationProduct& product) {
   const Map after = map_of(product, product.calibration.residuals_after, alpha);
   const double most = std::max({largest(before), largest(after), 1e-3});
   return "<p class=\"lead\">Every run at a glance: mean of measured less model at each place of α, with α growing (↑) "
-         "and falling (↓). Rows that differ by "
-         "load speak of stretch or friction, ↑ against ↓ of lost motion, columns of geometry.</p><div "
+         "and falling (↓). Differences between loads indicate stretch or friction, between ↑ and ↓ lost motion, "
+         "between columns geometry.</p><div "
          "class=\"plots\">" +
          in_div(map_figure(product, before, "Before", most, alpha)) +
          in_div(map_figure(product, after, "After, same colours", most, alpha)) + "</div>";

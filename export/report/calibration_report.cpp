@@ -99,8 +99,8 @@ std::string key_numbers(const CalibrationProduct& product) {
   numbers.add("Unexplained beyond the noise, RMS", degree_words(c.unexplained_rms));
   numbers.add("Reversal error (ISO 230-2 B)", degree_words(c.iso_before.B) + " → " + degree_words(c.iso_after.B));
   if (product.correction.has_pulley)
-    numbers.add("Taken out by a new pulley, RMS", degree_words(product.correction.by_pulley));
-  numbers.add("Taken out by the table, RMS", degree_words(product.correction.by_table),
+    numbers.add("Corrected by a new pulley, RMS", degree_words(product.correction.by_pulley));
+  numbers.add("Corrected by the table, RMS", degree_words(product.correction.by_table),
               product.correction.by_curve > 0
                   ? degree_words(product.correction.by_curve) + " of it by an empirical curve, without a cause"
                   : "");
@@ -152,14 +152,14 @@ std::vector<std::string> correction_items(const CalibrationProduct& product) {
   const correction::Correction& correction = product.correction;
   std::vector<std::string> items;
   if (correction.has_pulley) {
-    items.push_back("fusee build corrected.toml makes a pulley that takes away " + degree_words(correction.by_pulley) +
-                    " rms off rows that were not fitted.");
+    items.push_back("fusee build corrected.toml makes a pulley that removes " + degree_words(correction.by_pulley) +
+                    " rms on rows that were not fitted.");
     if (correction.round.r1 > 0) items.push_back(round_words(correction) + ".");
     if (correction.tied_at != 0) items.push_back(first_upper(tied_words(correction)) + ".");
   } else if (!correction.infeasible.empty()) {
     items.push_back(first_upper(infeasible_words(correction)) + ".");
   } else if (correction.why_no_pulley_file.empty()) {
-    items.push_back("Nothing was identified that another pulley would take out.");
+    items.push_back("Nothing was identified that another pulley would correct.");
   }
   if (!correction.why_no_pulley_file.empty())
     items.push_back("corrected.toml is not written: " + correction.why_no_pulley_file + ".");
@@ -167,7 +167,7 @@ std::vector<std::string> correction_items(const CalibrationProduct& product) {
     items.push_back("compensation.csv is not written: " + correction.why_no_table + ".");
   if (!correction.table.empty()) {
     items.push_back("compensation.csv, loaded into the motor’s controller" +
-                    std::string(correction.has_pulley ? " with the corrected pulley," : ",") + " takes away " +
+                    std::string(correction.has_pulley ? " with the corrected pulley," : ",") + " removes " +
                     degree_words(correction.by_table) + (correction.has_pulley ? " rms more." : " rms."));
   }
   if (const std::string curve = curve_words(product); !curve.empty()) items.push_back(first_upper(curve) + ".");
@@ -194,7 +194,7 @@ std::string action_section(const CalibrationProduct& product) {
   const calibration::Calibration& calibration = product.calibration;
   std::string html;
   if (!calibration.next.empty())
-    html += "<h3>Measure next, what tells most first</h3>" + html_list(next_texts(calibration), "ol", "next");
+    html += "<h3>Measure next, the most decisive first</h3>" + html_list(next_texts(calibration), "ol", "next");
   html += "<h3>Correction</h3>" + html_list(correction_items(product)) + compensation_html(product) +
           compensation_table(product.correction);
   return html_section("actions", "What to do", html);
@@ -211,8 +211,8 @@ std::string effect_card(const calibration::FoundEffect& effect, const Signatures
       "</h3><p class=\"found\">";
   for (std::size_t i = 0; i < effect.parameters.size(); ++i)
     html += (i > 0 ? "<br/>" : "") + safe_text(parameter_words(effect.parameters[i], load_unit));
-  html += "</p><p>Takes " + safe_text(degree_words(effect.rms_drop)) +
-          " rms off the error on data that were not fitted. " + std::string(calibration::remedy_words(effect)) + "</p>";
+  html += "</p><p>Reduces the error on data that were not fitted by " + safe_text(degree_words(effect.rms_drop)) +
+          " rms. " + std::string(calibration::remedy_words(effect)) + "</p>";
   if (const auto found = known.find(effect.name); found != known.end())
     html += "<p>How it shows: " + safe_text(found->second->signature) + ".</p>";
   if (const std::string audit = audit_words(effect); !audit.empty()) html += "<p>" + safe_text(audit) + "</p>";
@@ -241,9 +241,8 @@ std::string effects_section(const CalibrationProduct& product) {
   if (html.empty()) html = "<p>None was accepted.</p>";
   if (!calibration.null_combinations.empty()) {
     html +=
-        "<h3>Causes that these data do not distinguish</h3><p class=\"lead\">In these runs the one looks like the "
-        "other, with "
-        "these numbers and but for this difference at the joint.</p>" +
+        "<h3>Causes that these data do not distinguish</h3><p class=\"lead\">With these numbers, both causes look the "
+        "same in these runs, except for this difference at the joint.</p>" +
         html_list(calibration.null_combinations);
   }
   return html_section("effects", "Effects found", html);
@@ -253,9 +252,9 @@ std::string moving_section(const CalibrationProduct& product) {
   const std::string joint = moving_joint(product.rehearsal);
   if (joint.empty()) return "";
   return html_section("moving", "What they do",
-                      "<p class=\"lead\">The joint with what was found in it, simulated in a slow stroke back and "
-                      "forth: turn each effect up and down, to twice what was found. Each is simulated alone and added "
-                      "to the declared joint under that load, whose tensions and torque are shown.</p>" +
+                      "<p class=\"lead\">The joint with the identified effects, simulated in a slow stroke back and "
+                      "forth. Sliders change each effect up to twice its identified size. Each is simulated alone and "
+                      "added to the declared joint under that load, whose tensions and torque are shown.</p>" +
                           joint);
 }
 
@@ -360,7 +359,7 @@ std::string evidence_row(const calibration::Candidate& candidate, double most, b
                    open_words(candidate.name)) +
          "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
          html_number_cell(std::isfinite(candidate.evidence) ? calibration::odds(candidate.evidence) : "–") +
-         html_cell(candidate.why + (as_good ? "; as good in another's place" : "")) + "</tr>";
+         html_cell(candidate.why + (as_good ? "; equally likely in place of another" : "")) + "</tr>";
 }
 
 std::string evidence_section(const calibration::Calibration& calibration) {
@@ -377,8 +376,8 @@ std::string evidence_section(const calibration::Calibration& calibration) {
   if (rows.empty()) return "";
   return html_section(
       "evidence", "Evidence",
-      "<p class=\"lead\">Odds of the data with an effect to those without it, beside everything else that was found "
-      "and a discrepancy that may take any smooth shape. A name needs 400 : 1.</p>" +
+      "<p class=\"lead\">Odds of the data with an effect to those without it, beside all identified effects and a "
+      "discrepancy that may take any smooth shape. A reported effect requires 400 : 1.</p>" +
           html_table({"effect", "", "#odds", "why"}, rows));
 }
 
@@ -387,11 +386,10 @@ std::string detectable_section(const calibration::Calibration& calibration) {
   for (const auto& [size, names] : detectable_groups(calibration))
     rows += "<tr>" + html_number_cell(degree_words(size)) + html_cell(open_words(joined(names, ", "))) + "</tr>";
   if (rows.empty()) return "";
-  return html_section(
-      "detectable", "What would have been seen",
-      "<p class=\"lead\">The smallest error at the joint, rms, with which these data would have shown an "
-      "effect that was not found.</p>" +
-          html_table({"#at the joint", "effects"}, rows));
+  return html_section("detectable", "Detectable sizes",
+                      "<p class=\"lead\">The smallest error at the joint, rms, at which these data would have shown an "
+                      "effect that was not identified.</p>" +
+                          html_table({"#at the joint", "effects"}, rows));
 }
 
 std::string data_section(const measurement::Measurement& measurement) {

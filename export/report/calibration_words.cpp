@@ -57,16 +57,16 @@ std::string first_upper(std::string words) {
 std::string audit_words(const calibration::FoundEffect& effect) {
   if (effect.audit.data_sets == 0) return "";
   return "In " + std::to_string(effect.audit.data_sets) + " simulated joints without " + open_words(effect.name) +
-         ", these runs would have named it in " + std::to_string(effect.audit.false_positives) + ".";
+         ", these runs would have reported it in " + std::to_string(effect.audit.false_positives) + ".";
 }
 
 std::string unmodelled_words(const calibration::FoundEffect& effect) {
   if (effect.group.empty() || effect.group.back() != calibration::k_unmodelled) return "";
   const calibration::UnmodelledAlternative& rival = effect.unmodelled;
   const std::string in_its_place = (rival.words.empty() ? "a smooth curve" : rival.words) +
-                                   " in its place; odds for the named cause " + calibration::odds(rival.log_odds);
-  return "Or an unmodelled cause that does the same: " + in_its_place +
-         (rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".");
+                                   " in its place; odds for the reported cause " + calibration::odds(rival.log_odds);
+  return "Or an unmodelled cause with the same effect: " + in_its_place +
+         (rival.separating_run.empty() ? "." : ". To distinguish them: " + rival.separating_run + ".");
 }
 
 std::string beside_words(const calibration::FoundEffect& effect, const std::string& load_unit) {
@@ -79,7 +79,7 @@ std::string beside_words(const calibration::FoundEffect& effect, const std::stri
   }
   if (members.empty()) return "";
   return "Perhaps " + joined(members, " and ") +
-         " beside it: with both, as they are in corrected.toml and compensation.csv, runs that were left out are "
+         " beside it: with both, as in corrected.toml and compensation.csv, runs that were left out are "
          "predicted best.";
 }
 
@@ -108,7 +108,7 @@ std::string parameter_words(const calibration::FittedParameter& parameter, const
   const std::string own = readable_rounded(parameter.low_if_only) + " … " + readable_rounded(parameter.high_if_only),
                     all = readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high);
   return name + " = " + readable_rounded(parameter.value) + unit + " (95 %: " + own +
-         (own == all ? "" : " if nothing else is there, else " + all) + ")" +
+         (own == all ? "" : " if it is the only cause, otherwise " + all) + ")" +
          (parameter.sense.empty() ? "" : ", " + parameter.sense);
 }
 
@@ -122,11 +122,10 @@ std::vector<std::string> rivals_of(const calibration::FoundEffect& effect) {
 
 std::string round_words(const correction::Correction& correction) {
   const double error = degrees(correction.round.max_error);
-  const std::string radius = "at its best radius of " + rounded(correction.round.r1, 5) + " mm it ";
+  const std::string radius = "at its best radius of " + rounded(correction.round.r1, 5) + " mm the joint ";
   const std::string miss = error < 0.001 ? "by less than 0.001°" : "by up to " + rounded(error, 3) + "°";
-  if (correction.round.suffices)
-    return "P1 stays round: " + radius + "misses the law " + miss + "; shaped, it would miss nothing";
-  return "P1 is shaped and misses nothing; round, " + radius + "would miss the law " + miss;
+  if (correction.round.suffices) return "P1 stays round: " + radius + "deviates from its law " + miss;
+  return "P1 is not round, so that the joint follows its law; round, " + radius + "would deviate " + miss;
 }
 
 std::string infeasible_words(const correction::Correction& correction) {
@@ -192,12 +191,12 @@ std::string empirical_curve_words(const CalibrationProduct& product) {
   const calibration::EmpiricalCurve& curve = product.calibration.curve;
   if (!curve.used)
     return curve.why.empty() ? "" : "compensation.csv does not cover the unmodelled residual: " + curve.why;
-  return "an empirical curve in compensation.csv covers what depends on place and direction alone: it takes " +
-         rounded(degrees(curve.gain), 3) + "° rms off data that it was not made from (" +
-         rounded(degrees(curve.held_out_effects), 3) + "° → " + rounded(degrees(curve.held_out_rms), 3) +
-         "°). It is no cause, and holds for this joint as it was measured (" + where_seen(product) +
-         "). If the joint's own sensor is what is wrong, the table makes the joint wrong by as much; if the pulley is, "
-         "another pulley asks for other runs";
+  return "an empirical curve in compensation.csv corrects the error that depends on place and direction alone: by " +
+         rounded(degrees(curve.gain), 3) + "° rms on held-out data (" + rounded(degrees(curve.held_out_effects), 3) +
+         "° → " + rounded(degrees(curve.held_out_rms), 3) +
+         "°). It states no cause, and holds for this joint as it was measured (" + where_seen(product) +
+         "). If the joint's sensor causes the error, the table makes the joint wrong by as much. If the pulley does, "
+         "measure again after another pulley is mounted";
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct ChangeWords {
   std::string_view name;  ///< in a table
   std::string_view grew;
   std::string_view shrank;
-  std::string_view remedy;  ///< what to do, of either
+  std::string_view remedy;  ///< the remedy for both signs
 };
 
 constexpr std::array<ChangeWords, 20> k_words{{

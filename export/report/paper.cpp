@@ -124,9 +124,9 @@ std::string assumptions_text(const paper::PaperAssumptions& a) {
 
 std::string claims_section(const paper::Reproduction& all) {
   std::string text =
-      "## Claims\n\nA claim \"holds\" when it does for all of the searched μ, r1 and EF, each turned alone; where it "
-      "does for some of them, the last column says "
-      "which. These windows are found by search: 41 values, then halving at each border.\n\n";
+      "## Claims\n\nA claim \"holds\" if it holds for all searched values of μ, r1 and EF, varied one at a time. If it "
+      "holds for some of them, the last column lists these. The windows are found with 41 values, then by bisection at "
+      "each border.\n\n";
   text += row({"claim", "the paper says", "its equations give", "verdict", "it holds for"}) + "|---|---|---|---|---|\n";
   for (const paper::Claim& claim : all.claims) {
     text += row({open_words(claim.name), claim.paper_says, claim.equations_give,
@@ -154,7 +154,7 @@ std::string laws_section(const paper::Reproduction& all) {
   std::string text =
       "## Both laws on the paper's optimum\n\n`compensate` is the paper's: P1 round, P2 follows. `linear` makes both "
       "non-circular, for the same turn of the motor.\n\n";
-  text += row({"law", "θ(α) off its best line", "r1", "r2", "smallest bend radius", "largest T_b/F_c",
+  text += row({"law", "deviation of θ(α) from its best line", "r1", "r2", "smallest bend radius", "largest T_b/F_c",
                "largest torque/F_c", "torque, largest/smallest"}) +
           "|---|---|---|---|---|---|---|---|\n";
   for (const paper::LawCost& law : all.laws) {
@@ -164,15 +164,15 @@ std::string laws_section(const paper::Reproduction& all) {
                  fixed(law.tension, 4), rounded(law.torque) + " mm", rounded(law.torque_ripple, 3)});
   }
   return text +
-         "\nA bend radius below zero is a hollow that no tendon lies in: with these r1 and EF the pulley cannot be "
-         "made.\n";
+         "\nA negative bend radius is a concave place, which no tendon follows: with these r1 and EF the pulley "
+         "cannot be made.\n";
 }
 
 std::string figures_section(const paper::Reproduction& all) {
   std::string text =
       "## Figures\n\n`fusee reproduce -o DIR` draws them and writes their numbers. The paper's text is not part of "
-      "this project: each is read as said here.\n\n";
-  text += row({"figure", "read as", "files"}) + "|---|---|---|\n";
+      "this project: the table states how each figure is interpreted.\n\n";
+  text += row({"figure", "interpreted as", "files"}) + "|---|---|---|\n";
   for (const paper::PaperFigure& figure : all.figures) {
     const std::string name = "fig_" + two_digits(figure.number);
     text += row({std::to_string(figure.number), figure.reading, name + ".svg, " + name + ".csv"});
@@ -193,7 +193,7 @@ std::string claim_windows_text(const paper::Claim& claim) {
   std::string text;
   for (const paper::ParameterWindows& of : claim.windows)
     text += (text.empty() ? "" : "; ") + of.parameter + " " + paper::windows_text(of);
-  return text.empty() ? "no assumed number decides" : text;
+  return text.empty() ? "does not depend on assumed numbers" : text;
 }
 
 std::string paper_page(const paper::Reproduction& reproduction) {

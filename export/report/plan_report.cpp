@@ -82,9 +82,9 @@ std::string step_items(const PlanProduct& product) {
 std::string steps_section(const PlanProduct& product) {
   return html_section(
       "steps", "At the bench",
-      "<p class=\"lead\">In this order: each step is the most informative one for its minutes, so whoever has "
-      "to stop early has measured the best of it. Begin every run at the end of the range, coming from home; "
-      "do not touch zeros between runs unless it says so.</p>" +
+      "<p class=\"lead\">Keep this order: each step is the most informative one for its minutes, so you can stop "
+      "after any of them. Begin every run at the end of the range, coming from home. Do not reset zeros between "
+      "runs unless a step says so.</p>" +
           step_items(product));
 }
 
@@ -110,10 +110,12 @@ std::string causes_section(const plan::Plan& plan) {
   }
   return html_section(
       "causes", "What these runs can show",
-      "<p class=\"lead\">At the joint, rms over the runs: the effect of each cause at its usual size, the smallest "
-      "it that would be seen, the least that could be named alone, and what it could not be told from.</p>"
+      "<p class=\"lead\">Error at the joint, rms over the runs: of each cause at its usual size, at the smallest size "
+      "that these runs detect, and at the smallest that they identify alone. The last column has the causes from "
+      "which they do not distinguish it.</p>"
       "<div class=\"scroll\"><table><thead><tr><th>cause</th><th class=\"number\">usual</th><th "
-      "class=\"number\">seen from</th><th class=\"number\">alone from</th><th>not told from</th></tr></thead><tbody>" +
+      "class=\"number\">detected from</th><th class=\"number\">identified from</th><th>not distinguished from</th>"
+      "</tr></thead><tbody>" +
           rows + "</tbody></table></div>");
 }
 
@@ -130,7 +132,7 @@ std::string key_numbers(const PlanProduct& product) {
   for (const plan::PlannedCause& cause : plan.causes) alone += cause.smallest_alone.has_value();
   KeyNumbers numbers;
   numbers.add("Minutes", fixed(plan.minutes, 1), "of " + rounded(product.minutes, 4));
-  numbers.add("Causes that can be named alone", std::to_string(alone), "of " + std::to_string(plan.causes.size()));
+  numbers.add("Causes that can be identified alone", std::to_string(alone), "of " + std::to_string(plan.causes.size()));
   numbers.add("Noise of the joint's sensor", size_words(product.noise), "assumed");
   numbers.add("Motor", readable(degrees(plan.from), 1) + "° … " + readable(degrees(plan.to), 1) + "°");
   return html_section("numbers", "In short", numbers.html());
@@ -174,7 +176,7 @@ std::string plan_html(const PlanProduct& product) {
       .styles = {embedded::page_css, embedded::plan_css},
       .scripts = {}};
   if (!product.plan.beyond.empty())
-    page.body += html_section("more", "What more minutes would buy", html_list(more_items(product.plan.beyond)));
+    page.body += html_section("more", "What more minutes would show", html_list(more_items(product.plan.beyond)));
   page.body += causes_section(product.plan) +
                html_section("false_positives", "False-positive rate", html_list(false_positive_words(product.plan))) +
                left_out_section(product.plan);

@@ -386,7 +386,7 @@ std::string tendon_table(const Product& product) {
          rows + "</tbody></table></div><p class=\"hint\">From " +
          std::string(product.joint.mechanism.joint.is_plain() ? "C" : "its end") +
          " to the knot’s pocket, taut, with the joint and the pulley at "
-         "home. The cut holds that, both knots, and a tail of 50 mm at each end to pull them tight with, rounded up to "
+         "home. The cut length adds both knots and a tail of 50 mm at each end to pull them tight with, rounded up to "
          "5 mm.</p>";
 }
 
@@ -470,7 +470,7 @@ std::vector<std::string> steps(const Product& product) {
                     " % larger, for the shrinkage of " + product.joint.mechanism.material.name +
                     ": do not scale again.");
   }
-  items.push_back("Measure the bore and the groove with callipers before going on." + polyhole_words(layout.bore));
+  items.push_back("Measure the bore and the groove with a caliper before going on." + polyhole_words(layout.bore));
   items.push_back(mounting(product));
   if (product.helix) {
     items.push_back(std::string(k_winding_words));

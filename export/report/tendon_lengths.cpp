@@ -9,8 +9,7 @@
 namespace fusee::formats {
 namespace {
 
-// Share of the cut for one end: a stopper knot takes about a dozen diameters (figure-eight; assumed), plus a tail to
-// pull it tight.
+// Length at one end: a figure-eight stopper knot takes about a dozen diameters (assumed), and a tail pulls it tight.
 constexpr double k_knot_ratio = 12.0;
 constexpr double k_tail = 50.0;
 constexpr double k_cut_grain = 5.0;
@@ -27,13 +26,12 @@ TendonLength length_to(const Product& product, const solid::Anchor& anchor) {
   const double rho = sheathed ? 0.0 : mechanism.seen_pitch_radius();
   const Vec2 pin = sheathed ? sheath_exit(mechanism, anchor.side) : pin_centre(mechanism, anchor.side);
   const Vec2 axis = pulley_axis(mechanism);
-  // The nearest point is sufficient: a step along the tangent is longer on the arc and shorter on the span by the same
-  // length.
+  // The nearest sampled point is exact enough: a step along the tangent adds to the arc what it takes from the span.
   const std::size_t contact = solid::index_at_normal(outline, tendon.lower_normal);
   const double to_pin = (pin - axis - outline.points[contact].position).norm();
   const double lower_span = std::sqrt(std::max(0.0, (to_pin - rho) * (to_pin + rho)));
 
-  // The channel's centre line leaves the floor; the tendon's centre line, the pitch curve above it.
+  // The channel leaves the floor at `anchor.exit`; the tendon leaves the pitch curve at the nearest point of that.
   const std::size_t exit = solid::index_at_place(outline, anchor.exit);
   const double above_pulley = tendon.length - tendon.lower_reach;
   TendonLength result;
@@ -50,7 +48,7 @@ TendonLength length_to(const Product& product, const solid::Anchor& anchor) {
   return result;
 }
 
-/// Along the sloped path and the groove, and straight from its end to the pocket.
+/// The length along the sloped path and the groove, then straight from the groove's end to the pocket.
 TendonLength length_on_helix(const Product& product, const coil::HelicalAnchor& anchor) {
   const bool left = anchor.side == transmission::Side::left;
   const helix::HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);

@@ -175,8 +175,8 @@ class FileAccess {
   virtual void will_write(const std::filesystem::path&) {}
   /// Called for an existing entry that must not be replaced. The run then ends with OutputError.
   virtual void in_the_way(const std::filesystem::path&) {}
-  /// Called for each file of a set that is complete and is now put in place, which no request to stop prevents.
-  /// `bytes_at`: the file that has the bytes at this moment.
+  /// Called for each file of a complete set just before it is put in place. From then on a request to stop has no
+  /// effect. `bytes_at`: the file that has the bytes at this moment.
   virtual void will_publish(const std::filesystem::path& /*name*/, const std::filesystem::path& /*bytes_at*/) {}
   /// True if the run is recorded or replayed: it must then depend on nothing but what it reads through this object.
   virtual bool is_bundled() const { return false; }
@@ -213,7 +213,7 @@ struct RunContext {
   void throw_if_stopped() const {
     if (stop.stop_requested()) throw Stopped();
   }
-  /// For trials and for other threads.
+  /// For trial builds and for other threads, which report no progress.
   RunContext without_progress() const { return {{}, stop, files}; }
 };
 
@@ -276,8 +276,8 @@ class OutputFolder {
   /// Marks outputs of an earlier run for removal on publish(). Files that were changed since, or that this run writes,
   /// are kept. Stale outputs would be mistaken for outputs of this run.
   void withdraw(const std::vector<std::string>& names);
-  /// Publishes the staged files. If a rename fails, earlier renames are undone. `notes` receives what was restored or
-  /// ignored of killed runs.
+  /// Publishes the staged files. If a rename fails, earlier renames are undone. `notes` lists files of killed runs that
+  /// were restored or ignored.
   void publish(std::vector<Diagnostic>& notes);
 
  private:

@@ -44,7 +44,7 @@ struct FittedParameter {
   double high = 0;
   double low_if_only = 0;  ///< 95 % interval if the found effects are the only ones: never wider
   double high_if_only = 0;
-  /// Its sign in words ("pins too high") if the narrower interval has one sign; empty if nothing has to be said.
+  /// Its sign in words ("both pulleys are too small") if the narrower interval has one sign; empty if it has no words.
   std::string sense = {};
 };
 
@@ -54,10 +54,10 @@ struct Audit {
   int false_positives = 0;
 };
 
-/// Member of a group whose cause may be unmodelled.
+/// Name of the member that a group contains if its cause may be unmodelled.
 inline constexpr const char* k_unmodelled = "unmodelled";
 
-/// UnmodelledAlternative cause that would explain the same data as an effect.
+/// An unmodelled cause that would explain the same data as an effect.
 struct UnmodelledAlternative {
   /// Log odds of the effect against the best unmodelled cause in its place, with unmodelled causes beside both;
   /// infinite: not computed.
@@ -110,8 +110,8 @@ struct DiscrepancyComponent {
   double rms = 0;       ///< rad, over the rows in use
   double evidence = 0;  ///< log Bayes factor of the discrepancy with it to the discrepancy without
   std::string words;    ///< the dependence, and the parts of the chain that can cause it
-  /// Component over the measured range of α, rad, at its largest for what scales with a factor, rising and under
-  /// positive load. Empty if it does not depend on place.
+  /// Component over the measured range of α, rad: for rising α, positive load, and the largest value of the factor that
+  /// it scales with. Empty if it does not depend on place.
   std::vector<double> alpha;
   std::vector<double> theta;
 };
@@ -165,7 +165,7 @@ struct Calibration {
   std::string summary;  ///< finding and figures in words
   std::vector<FoundEffect> effects;
   Imperfections identified;  ///< sum of all effects; all zero without any
-  /// estimates by which a correction is validated; each run is in one of them, or only those kept
+  /// Estimates that validate a correction: each run is left out in one of them, or only the runs kept for validation.
   std::vector<LeftOut> left_out;
   /// Effects that fit the runs and are not reported, because held-out rows are predicted worse with them.
   std::vector<std::string> dropped;

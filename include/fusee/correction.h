@@ -40,11 +40,11 @@ struct Correction {
   double error_with_table = 0;   ///< with the corrected pulley and the table
   // Reduction of the rms error on held-out rows, rad: the square root of the difference of mean squares. 0: no
   // reduction, and the file is not written.
-  double by_pulley = 0;            ///< by the corrected pulley
-  double by_table = 0;             ///< by the table beyond the pulley, including the empirical curve
-  double by_curve = 0;             ///< by the empirical curve alone, on data that it was not made from; 0: not included
-  std::string why_no_pulley_file;  ///< why corrected.toml is not written; "" if it is
-  std::string why_no_table;        ///< why compensation.csv is not written; "" if it is
+  double by_pulley = 0;                ///< by the corrected pulley
+  double by_table = 0;                 ///< by the table beyond the pulley, including the empirical curve
+  double by_curve = 0;                 ///< by the empirical curve alone, on held-out data; 0: not included
+  std::string why_no_pulley_file;      ///< why corrected.toml is not written; "" if it is
+  std::string why_no_table;            ///< why compensation.csv is not written; "" if it is
   std::vector<CompensationRow> table;  ///< for the corrected pulley if there is one, within the measured range
 };
 

@@ -141,9 +141,9 @@ std::string plan_manifest_json(const PlanProduct& product, const std::vector<Out
 std::string hanging_words(const PlanProduct& product, const plan::PlannedRun& run);
 /// The expected false-positive rate in words, for simulated joints.
 std::vector<std::string> false_positive_words(const plan::Plan& plan);
-/// The predicted gain of a step over the steps before it, such as "sees creep; tells … from …".
+/// The predicted gain of a step over the steps before it, such as "detects creep; distinguishes … from …".
 std::string gain_words(const plan::PlanStep& step);
-/// The predicted gain of the first minutes, such as "by minute 3: 3 cycles, slow …; tells …".
+/// The predicted gain of the first minutes, such as "by minute 3: 3 cycles, slow …; distinguishes …".
 std::string minute_words(const plan::PlanStep& step, const std::string& gain);
 std::vector<std::string> minute_words(const std::vector<plan::PlanStep>& steps);
 
@@ -223,42 +223,42 @@ std::vector<Check> check_model(const ModelProduct& product, const std::vector<Ou
 // ---- Calibration ----------------------------------------------------------------------------------------------------
 // Outputs of `fusee calibrate`, as bytes.
 
-/// All that is known after a calibration.
+/// The complete result of a calibration.
 struct CalibrationProduct {
   MechanismFile file;
   measurement::Measurement measurement;
   calibration::Calibration calibration;
-  std::vector<calibration::LikelyInputError>
-      slips;  ///< of the file or of the data, that would explain what no effect does
+  /// Likely errors of the file or the data, for data that no effect explains.
+  std::vector<calibration::LikelyInputError> slips;
   correction::Correction correction;
-  correction::Rehearsal rehearsal;  ///< of what was found
+  correction::Rehearsal rehearsal;  ///< of the identified effects
 };
 
 std::string calibration_json(const CalibrationProduct& product);
-/// The measurements to make next, for the bench: a page and the run files, "next/run_6.csv". None where nothing is asked
-/// for.
+/// The measurements to make next, for the bench: a page and the run files, "next/run_6.csv". Empty if there are none.
 std::vector<OutputFile> next_files(const CalibrationProduct& product);
-/// The file of calibration.next[i]: "next/run_6.csv", numbered after the runs that were read; "" where it is no run.
+/// The file of calibration.next[i]: "next/run_6.csv", numbered after the runs that were read; "" if it is not a run.
 std::string next_file_name(const CalibrationProduct& product, std::size_t i);
-/// The number of the first run file of a plan beside runs of these names: one more than the largest of "run_5.csv".
+/// The number of a plan's first run file, given the names of existing runs: one more than the largest, 6 for
+/// "run_5.csv".
 int first_free_run(const std::vector<std::string>& names);
-/// Names of next_files() with so many runs.
+/// Names of next_files() for this number of runs.
 std::vector<std::string> next_file_names(int first_run, int runs);
 std::string calibration_report_html(const CalibrationProduct& product);
-/// Names the files beside it, so that the next run knows them as ours.
+/// Lists the other outputs, so that the next run recognises them as files of fusee.
 std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs);
 
 // First lines of page and terminal.
 
-/// 60 words at most, without identifiers.
+/// At most 60 words, without identifiers.
 struct Headline {
-  std::string problem;  ///< what the joint does wrong, and by how much
-  std::string cause;    ///< one, or two or three candidates; "" where there is none
-  std::string action;   ///< what to do now
+  std::string problem;  ///< the error of the joint and its size
+  std::string cause;    ///< one cause, or up to three candidates; "" if there is none
+  std::string action;   ///< the next step of the user
 };
 Headline headline(const CalibrationProduct& product);
 
-/// A number of a cause. Share and remedy are empty for its further numbers, and for causes that may be in its place.
+/// A number of a cause. Share and remedy are empty for further numbers of the cause, and for its rivals.
 struct CauseRow {
   std::string cause;
   std::string size;
@@ -271,21 +271,21 @@ struct CauseRow {
 };
 std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
 
-// In words, for the page and for a terminal alike.
+// Texts for page and terminal.
 
-/// "EA = 4515 N (95 %: 4479 … 4551 if nothing else is there, else 4420 … 4610)": the unit is taken from the end of the
-/// name; `load_unit` is that of the load column.
+/// "EA = 4515 N (95 %: 4479 … 4551 if it is the only cause, otherwise 4420 … 4610)": the unit is taken from the end of
+/// the name; `load_unit` is that of the load column.
 std::string parameter_words(const calibration::FittedParameter& parameter, const std::string& load_unit);
 /// The group without the effect itself.
 std::vector<std::string> rivals_of(const calibration::FoundEffect& effect);
-/// Says that P1 stays round, and by how much it misses its law.
+/// States whether P1 stays round, and by how much the joint then deviates from its law.
 std::string round_words(const correction::Correction& correction);
-/// Why no corrected pulley can be made, of a correction that says so.
+/// The reason why no corrected pulley can be made. Requires Correction::infeasible.
 std::string infeasible_words(const correction::Correction& correction);
 /// The assembly angle of a corrected pulley, if the correction requires another than 0.
 std::string tied_words(const correction::Correction& correction);
-/// Effects that were not found by the smallest size that would have shown, rad; what is equal to two digits stands
-/// together. Smallest first.
+/// Effects that were not identified, grouped by their smallest detectable size (rad, equal to two digits), smallest
+/// first.
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const calibration::Calibration& calibration);
 /// The part of the unmodelled residual that the table covers, and where that holds; or why it covers none. "" if
 /// nothing is unmodelled.
@@ -294,28 +294,28 @@ std::string curve_words(const CalibrationProduct& product);
 std::vector<std::string> next_texts(const calibration::Calibration& calibration);
 /// slip_words() of every input error that would explain the data.
 std::vector<std::string> slips_words(const CalibrationProduct& product);
-/// Two of the notes that say the same of many files, and the number of others.
+/// The notes; of those that are alike but for numbers, only two and the count of the others.
 std::vector<std::string> shortened_notes(const std::vector<std::string>& notes);
 
 // ---- Comparison -----------------------------------------------------------------------------------------------------
-// What `fusee compare` says and leaves behind, as words and bytes.
+// Outputs of `fusee compare`, as texts and bytes.
 
-/// All that is known after a comparison.
+/// The complete result of a comparison.
 struct ComparisonProduct {
   MechanismFile file;
   measurement::Measurement measurement;  ///< the runs before, then the runs after
-  std::size_t runs_before = 0;           ///< how many of them
+  std::size_t runs_before = 0;           ///< number of the runs before
   calibration::Comparison comparison;
 };
 
 std::string comparison_json(const ComparisonProduct& product);
 std::string comparison_report_html(const ComparisonProduct& product);
-/// Names the files beside it, so that the next run knows them as ours.
+/// Lists the other outputs, so that the next run recognises them as files of fusee.
 std::string comparison_manifest_json(const ComparisonProduct& product, const std::vector<OutputFile>& outputs);
 
-/// The answer in at most 60 words, without identifiers: what changed, by how much, what to do.
+/// The answer in at most 60 words, without identifiers: the change, its size and the remedy.
 std::string comparison_words(const ComparisonProduct& product);
-/// The largest of the changes that would just have been seen, rms at the joint, rad; 0 where none was asked for.
+/// The largest of the smallest detectable changes, rms at the joint, rad; 0 if none was computed.
 double least_seen(const calibration::Comparison& comparison);
 
 /// A row of the table of changes.
@@ -324,8 +324,8 @@ struct ChangeRow {
   std::string change;     ///< "−4.20 N"
   std::string states;     ///< "20.0 → 15.8"
   std::string interval;   ///< "−4.60 … −3.80 N"
-  std::string share;      ///< how much of the difference between the states, "" but in an effect's first row
-  std::string as_likely;  ///< the other members of its group, "" but in an effect's first row
+  std::string share;      ///< share of the difference between the states; only in an effect's first row
+  std::string as_likely;  ///< the other members of its group; only in an effect's first row
 };
 std::vector<ChangeRow> change_rows(const ComparisonProduct& product);
 

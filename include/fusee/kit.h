@@ -164,8 +164,8 @@ struct KitItem {
 /// Additional lengths of a tendon in the rig, beyond the knots of the pulley.
 struct KitTendon {
   transmission::Side side = transmission::Side::left;
-  double beyond = 0;    ///< from C to its end at the joint, along the tendon
-  double at_joint = 0;  ///< length used by its fastening there, mm
+  double beyond = 0;    ///< length from C to the fastening, mm
+  double at_joint = 0;  ///< length wound up by the fastening itself, mm
 };
 
 /// Heights of tendons on a multi-turn pulley over the whole range, above the pulley's lower face, mm.

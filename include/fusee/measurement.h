@@ -111,7 +111,7 @@ Run parse_run(std::string_view text, const std::string& name, const MeasurementO
 
 /// All roles of columns, each with its default column name: {"alpha", "alpha_deg"} …
 const std::vector<std::pair<std::string, std::string>>& column_roles();
-/// Columns with one value a run: the mounting angles of the encoders.
+/// Columns with one value per run: the mounting angles of the encoders.
 inline constexpr std::string_view k_motor_sensor_turned = "motor_sensor_turned";  ///< role; column …_deg
 inline constexpr std::string_view k_joint_sensor_turned = "joint_sensor_turned";
 
@@ -169,7 +169,7 @@ struct Iso230 {
 };
 /// `deviations[i][d][k]`: position i, direction d (0 up, 1 down), repeat k.
 Iso230 iso230(const std::vector<std::array<std::vector<double>, 2>>& deviations);
-/// `residuals`, rad: one vector a run, parallel to its samples.
+/// `residuals`, rad: one vector per run, parallel to its samples.
 Iso230 iso230(const Measurement& measurement, const std::vector<std::vector<double>>& residuals);
 
 }  // namespace fusee::measurement

@@ -425,7 +425,7 @@ struct Spring {
   double torque(double theta) const { return preload + stiffness * (theta - free); }
 };
 
-/// All passive torques on a joint: what law = torque holds.
+/// All passive torques on a joint, which the motor holds for law = torque.
 struct JointLoad {
   double lever = 0;  ///< OC, at whose end the tip force acts, mm
   Load load;

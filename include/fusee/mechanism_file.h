@@ -173,7 +173,7 @@ struct Template {
   std::string_view text;
 };
 std::vector<Template> templates();
-/// The description in the template's first line.
+/// The description at the template's top: its first lines, up to one that ends a sentence.
 std::string first_comment(const Template& known);
 /// The text of a template. Throws InputError with the nearest name.
 std::string_view find_template(std::string_view name);

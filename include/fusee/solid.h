@@ -319,7 +319,7 @@ std::optional<Polygon> outline_at(const TriangleMesh& mesh, double z);
 
 struct GrooveInMesh {
   double z = 0;   ///< middle of its floor
-  Polygon floor;  ///< as it stands in the mesh
+  Polygon floor;  ///< in the coordinates of the mesh
 };
 /// The grooves that run round the z axis, from below: heights at which the part is thinner than above and below by at
 /// least `least_depth` times its radius. `step`: sampling distance, less than half a groove's width.

@@ -223,10 +223,10 @@ std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const St
   Diagnostic breaks;
   if (largest.at_joint.value > strength.at_knot)
     breaks.message = at(largest.at_joint.alpha) + rounded(largest.at_joint.value) +
-                     " N at its knot at C exceed its strength of " + rounded(strength.at_knot) + " N there (" +
+                     " N at its knot at C exceeds its strength of " + rounded(strength.at_knot) + " N there (" +
                      strength.source + ", tendon.knot_efficiency)";
   else if (largest.anywhere.tension > strength.tension)
-    breaks.message = at(largest.anywhere.alpha) + rounded(largest.anywhere.tension) + " N exceed its strength of " +
+    breaks.message = at(largest.anywhere.alpha) + rounded(largest.anywhere.tension) + " N exceeds its strength of " +
                      rounded(strength.tension) + " N (" + strength.source + ")";
   else
     return std::nullopt;

@@ -88,7 +88,7 @@ ErrorSource full_stretch(const Mechanism& mechanism) {
 }
 
 ErrorSource friction(const Mechanism& mechanism) {
-  return full_model("friction", "half the loop between both directions", mechanism, 0.5, -0.5);
+  return full_model("friction", "half the hysteresis between both directions", mechanism, 0.5, -0.5);
 }
 
 // ---- tolerances -----------------------------------------------------------------------------------------------------

@@ -63,11 +63,11 @@ std::string range_words(const measurement::SeenSpan& span) {
 
 /// Reason why the files cannot be two states of one joint; "" if they can.
 std::string why_not_comparable(const ComparedRuns& runs) {
-  const std::string one_of_both = " Name files of one joint behind --before and --after.";
+  const std::string one_of_both = " Name files of one joint after --before and --after.";
   const std::string& unit = runs.before.load_unit;
   if (!unit.empty() && !runs.after.load_unit.empty() && unit != runs.after.load_unit)
     return "The load is in " + unit + " before and in " + runs.after.load_unit +
-           " after: these are no two states of one joint. Give the load in one unit.";
+           " after: these are not two states of one joint. Give the load in one unit.";
   const bool refused_before = !runs.before.not_testable.empty(), refused_after = !runs.after.not_testable.empty();
   if (refused_before != refused_after)
     return std::string("The runs ") + (refused_before ? "before" : "after") +
@@ -79,7 +79,7 @@ std::string why_not_comparable(const ComparedRuns& runs) {
   const double shared = std::min(before.most, after.most) - std::max(before.least, after.least);
   if (shared < k_thresholds.least_shared_way * std::min(before.size(), after.size()))
     return "The motor moved over " + range_words(before) + " before and over " + range_words(after) +
-           " after: these runs show no place in both states. Measure the same range in both.";
+           " after: these ranges hardly overlap. Measure the same range in both states.";
   return "";
 }
 

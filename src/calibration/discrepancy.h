@@ -16,15 +16,15 @@ namespace fusee::calibration {
 enum class Factor {
   place,            ///< α alone, at any direction, load and speed
   direction,        ///< odd in the direction of motion
-  reversal,         ///< dies away over some way behind a reversal
+  reversal,         ///< decays with the distance since a reversal
   load,             ///< in proportion to the load
   load_size,        ///< with the size of the load, whichever its sign
   load_direction,   ///< hysteresis that grows with the load
   speed,            ///< in proportion to the speed, the same both ways
   speed_direction,  ///< hysteresis that grows with speed
-  run,              ///< one constant a run
+  run,              ///< one constant per run
   drift,            ///< steadily in time within a run
-  stroke,           ///< one constant a stroke
+  stroke,           ///< one constant per stroke
   model_error,      ///< error of the model itself
 };
 

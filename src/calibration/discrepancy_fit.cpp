@@ -31,30 +31,27 @@ struct FactorWords {
 
 constexpr FactorWords k_words[] = {
     {Factor::place, "place",
-     "the same at a place whichever way, load and speed: it sits in what turns or bends with the angle, from the "
-     "motor's "
-     "sensor over pulley and pins to the joint's sensor; re-clock the pulley and see whether it moves along"},
+     "equal at each angle for all directions, loads and speeds: it comes from a part that turns or bends with the "
+     "angle, from the motor's sensor to pulley, pins and the joint's sensor; turn the pulley on its shaft and see "
+     "whether the error moves with it"},
     {Factor::direction, "direction",
-     "turns over with the direction of motion, whatever load and speed: something is loose or compliant before it "
-     "carries, "
-     "between motor shaft and joint"},
-    {Factor::reversal, "way since the reversal",
-     "dies away behind each reversal: something is wound up or taken up before the joint follows, by friction or by "
-     "lost motion"},
+     "changes sign with the direction of motion, at all loads and speeds: there is play or compliance between motor "
+     "shaft and joint"},
+    {Factor::reversal, "distance since the reversal",
+     "decays after each reversal: friction or lost motion must be overcome before the joint follows"},
     {Factor::load, "load",
-     "grows in proportion to the load and turns over with it: something in the loaded chain is compliant, from the "
-     "anchor "
+     "proportional to the load and changes sign with it: something in the loaded chain is compliant, from the anchor "
      "of the tendon to the frame that holds the pins"},
     {Factor::load_size, "load size",
      "grows with the size of the load, whichever its sign: something is compliant under the tension of both tendons"},
     {Factor::load_direction, "load and direction",
-     "a loop that grows with the load: something rubs under the tendons' force, at pins, bearing or groove"},
-    {Factor::speed, "speed", "grows with speed, the same both ways: something dynamic, or the clock of the log"},
+     "hysteresis that grows with the load: something rubs under the tendons' force, at pins, bearing or groove"},
+    {Factor::speed, "speed", "grows with speed, equally in both directions: a dynamic cause, or the clock of the log"},
     {Factor::speed_direction, "speed and direction",
-     "a loop that grows with speed: something is late or viscous, in a sensor, its filter or a bearing"},
-    {Factor::run, "run", "one constant a run: something was touched, slipped or warmed between the runs"},
-    {Factor::drift, "time", "goes on steadily within a run: something creeps, warms or works loose"},
-    {Factor::stroke, "stroke", "differs from stroke to stroke: something is loose or walks"},
+     "hysteresis that grows with speed: something is late or viscous, in a sensor, its filter or a bearing"},
+    {Factor::run, "run", "one constant per run: something was touched, slipped or warmed between the runs"},
+    {Factor::drift, "time", "drifts steadily within a run: something creeps, warms or comes loose"},
+    {Factor::stroke, "stroke", "differs from stroke to stroke: something is loose or drifts"},
 };
 
 /// Rows in use: motor and joint angle, direction of the motor and sign of the load, ±1.
@@ -181,8 +178,8 @@ void find_harmonic(const Angles& angles, const Eigen::VectorXd& residual, double
   component.evidence = 0.5 * best.taken * squares / (noise * noise);
   component.words = "once in " + rounded(360.0 / component.order, 4) + "° of the " +
                     (of_motor ? "motor's shaft" : "joint") +
-                    ", whatever load and direction: look at what turns with it there, " +
-                    (of_motor ? "poles, gear teeth, the sensor's own steps" : "the sensor's ring, balls of a bearing");
+                    ", at all loads and directions: look for a part that turns with it, such as " +
+                    (of_motor ? "poles, gear teeth or steps of the sensor" : "the sensor's ring or balls of a bearing");
   draw(angles, best.part, component);
   parts.push_back(std::move(component));
 }

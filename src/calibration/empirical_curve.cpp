@@ -148,11 +148,11 @@ std::string why_not(const Evidence& evidence, const HeldOutBeside& by_run, const
                     const Gain& gain, double curve_rms) {
   if (gain.mean < std::pow(k_thresholds.least_residual * evidence.floor, 2) ||
       gain.mean < k_sure * error_of(evidence, gain, curve_rms))
-    return "on data that it was not made from it takes away no more than chance would";
+    return "on held-out data it corrects no more than chance would";
   if (harms(evidence, by_run, evidence.run_folds, gain))
-    return "it makes a run that it was not made from worse by more than it improves all";
+    return "it worsens a held-out run by more than it improves all";
   if (harms(evidence, by_factor, evidence.factor_folds, gain))
-    return "it makes a level of load or speed that it was not made from worse by more than it improves all";
+    return "it worsens a held-out level of load or speed by more than it improves all";
   return "";
 }
 
@@ -234,7 +234,7 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const D
   const measurement::SeenSpan seen = seen_both_ways(ways),
                               all = measurement::seen_span(evidence.measurement, &measurement::Sample::alpha);
   if (!seen.any() || std::max(widest_gap(ways.up), widest_gap(ways.down)) > k_widest_gap * all.size()) {
-    curve.why = "there are places between which nothing was measured both ways";
+    curve.why = "parts of the range were not measured in both directions";
     return curve;
   }
   const Amplitudes amplitudes = amplitudes_beside(evidence, fit, unmodelled);
@@ -272,13 +272,13 @@ void validate_curve(const measurement::Measurement& measurement, const std::vect
   }
   // A wave shorter than the spacing of the rows in use appears as a slow one in them.
   if (fitted.gain() < k_kept_between * curve.gain * curve.gain)
-    return reject(curve, "it does not hold in the rows between those that it was made from: what is there is finer");
+    return reject(curve, "it does not hold in the rows between those that it was made from: the error is finer");
   limit_gain(curve, std::min(curve.gain * curve.gain, fitted.gain()));
   if (validate_answer.rows == 0) return;
   curve.held_out_effects = std::sqrt(validate_answer.without / validate_answer.rows);
   curve.held_out_rms = std::sqrt(validate_answer.with / validate_answer.rows);
   curve.gain = std::sqrt(std::max(0.0, validate_answer.gain()));
-  if (!(curve.gain > 0)) reject(curve, "it makes the runs worse that were kept for validation");
+  if (!(curve.gain > 0)) reject(curve, "it makes the runs for validation worse");
 }
 
 }  // namespace fusee::calibration

@@ -12,8 +12,8 @@ Amplitudes amplitudes_beside(const Evidence& evidence, const Fit& fit, const Dis
 
 EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const DiscrepancyFit& unmodelled);
 
-/// Validates a curve on every logged row, of which the fit used a few, and on runs kept for validation, whose figures
-/// are then the held-out ones. `residuals`: measured − model, rad, run by run.
+/// Validates a curve on all logged rows, since the fit used only a few of them, and on runs kept for validation. With
+/// such runs, the held-out figures are theirs. `residuals`: measured − model, rad, run by run.
 void validate_curve(const measurement::Measurement& measurement, const std::vector<std::vector<double>>& residuals,
                     const std::vector<std::string>& kept, EmpiricalCurve& curve);
 

@@ -317,7 +317,7 @@ void ask_for_both_sides(const measurement::Measurement& measurement, std::vector
   }
   const auto both = std::count_if(points.begin(), points.end(), [](const Sides& p) { return p.rising && p.falling; });
   if (2 * static_cast<std::size_t>(both) >= points.size()) return;
-  ask("come to each held point from both sides, up the range and down again: from one side alone play and friction "
+  ask("approach each dwell from both sides, up the range and down again: from one side alone, play and friction "
       "look like an error of the place",
       next);
 }
@@ -353,8 +353,8 @@ std::vector<plan::NextMeasurement> next_measurements(const Evidence& evidence, c
     next.insert(next.begin(), plan::next_inspection(
                                   "tighten what can be loose and repeat one run five times without touching anything"));
   } else if (calibration.verdict == CalibrationVerdict::unexplained) {
-    ask("turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run: what moves with it is the "
-        "pulley's",
+    ask("turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run: an error that moves with it "
+        "is the pulley's",
         next);
   }
   return next;

@@ -160,7 +160,7 @@ LeastSquaresAnswer least_squares_answer(const Evidence& evidence, const Fitter& 
   }
   const HeldOutErrors errors = held_out_errors_of_mode(evidence, curved.estimate, true);
   if (errors.runs < alone.errors.runs && errors.levels < alone.errors.levels) return {std::move(curved), errors};
-  alone.reported.curve.why = "the effects' numbers take away more than it would of runs that they were not fitted to";
+  alone.reported.curve.why = "the effects alone correct more of the runs that they were not fitted to";
   return alone;
 }
 

@@ -526,7 +526,7 @@ bool Selector::test_rivals() {
       added.push_back(candidate);
     }
   }
-  std::vector<Fit> fits = fit_candidates("holding rivals against what was found", added, &Selector::fit_fully);
+  std::vector<Fit> fits = fit_candidates("comparing rivals of the identified effects", added, &Selector::fit_fully);
   for (std::size_t i = 0; i < fits.size(); ++i) selection_.rivals[i].fit = std::move(fits[i]);
   std::erase_if(selection_.rivals, [](const Rival& rival) { return !rival.fit.usable; });
   const double before = score(best);
@@ -817,7 +817,7 @@ void Selector::add_companions() {
   for (const LinearizedCandidate& candidate : candidates_beside_best()) {
     if (candidate.predicted_score > least && likely.size() < k_thresholds.most_companions) likely.push_back(candidate);
   }
-  std::vector<Fit> fits = fit_candidates("looking at what may be there beside it", likely, &Selector::fit_briefly);
+  std::vector<Fit> fits = fit_candidates("trying further effects beside them", likely, &Selector::fit_briefly);
   for (Fit& fit : fits) {
     if (!fit.usable || !(score(fit) > least)) continue;
     const fusee::Effect* effect = fit.effects.back();
@@ -881,7 +881,7 @@ void Selector::record_candidates() {
     Candidate candidate;
     candidate.name = linearized.effect->name;
     candidate.evidence = linearized.predicted_score + neg_log_prior_odds(*linearized.effect) - score(best);
-    candidate.why = candidate.evidence < 0 ? "the data are likelier without it" : "it adds less than a name needs";
+    candidate.why = candidate.evidence < 0 ? "the data are likelier without it" : "it adds less than a report requires";
     if (!std::isfinite(candidate.evidence)) candidate.why = "the joint could not be simulated with it";
     selection_.tried.push_back(candidate);
   }

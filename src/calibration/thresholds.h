@@ -48,7 +48,7 @@ struct Thresholds {
   /// Degrees of freedom of the noise floor.
   double noise_freedom = 30.0;
 
-  // ---- what is reported ----
+  // ---- reported effects ----
 
   /// Synthetic data sets without an effect, and the largest false-positive rate of an effect that is reported alone.
   int data_sets = 200;
@@ -58,7 +58,7 @@ struct Thresholds {
   /// Doubt above which an effect is not reported. Between the false-positive rate and this its group contains
   /// `unmodelled`. 48 joints: of 10 effects that were lost 6 were in the likeliest set.
   double most_doubtful = 0.3;
-  /// Share to which an effect as doubtful must lower the unexplained residual to be reported all the same. Joint
+  /// Share to which an effect as doubtful must lower the unexplained residual to be reported nevertheless. Joint
   /// 950018: without this rule an offset is dropped, 4.4 noise floors remain in place of 2, and the held-out error is
   /// 2.0 times as large.
   double residual_share = 0.8;
@@ -83,7 +83,7 @@ struct Thresholds {
   /// it.
   double interval_factor = 1.5;
 
-  // ---- what is handed over ----
+  // ---- reported numbers ----
 
   /// Beside an unmodelled cause, largest ratio of held-out mean squares, least squares to MAP, at which least squares
   /// are reported. Set on the real jaw: 0.93 by runs, 0.91 by levels.

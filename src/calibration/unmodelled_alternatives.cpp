@@ -71,29 +71,29 @@ const char* separating_run(Dependence dependence) {
   switch (dependence) {
     case Dependence::motor_wave:
       return "turn the pulley and the motor's sensor on their shaft by a quarter of such a wave, one at a time, and "
-             "repeat the slow unloaded run: what moves with either is its own";
+             "repeat the slow unloaded run: an error that moves with one of them is its own";
     case Dependence::joint_wave:
-      return "turn the joint's sensor on its axis by a quarter of such a wave and repeat the slow unloaded run: what "
-             "moves with it is its own";
+      return "turn the joint's sensor on its axis by a quarter of such a wave and repeat the slow unloaded run: an "
+             "error that moves with it is its own";
     case Dependence::place:
       return "repeat the slow unloaded run with ten times as many rows about that place: an effect is smooth there";
     case Dependence::reversal:
-      return "make short strokes, of a tenth of the range, at its middle and at both ends: what dies away behind a "
-             "reversal is all there is in them";
+      return "make short strokes, of a tenth of the range, at its middle and at both ends: they show only the decay "
+             "after reversals";
     case Dependence::direction:
-      return "come to each place from both sides in steps, without load and with the largest";
+      return "approach each place from both sides in steps, without load and with the largest";
     case Dependence::load:
     case Dependence::load_size:
     case Dependence::load_direction:
-      return "stand at three places and put the load on and off in eight steps, both signs: in proportion, from a "
-             "threshold on, or less and less";
+      return "hold the motor at three places and apply and remove the load in eight steps, with both signs: the "
+             "deflection may be proportional, begin at a threshold, or level off";
     case Dependence::speed:
       return "repeat one run at a tenth of its speed and one at five times";
     case Dependence::time:
       return "repeat the first run as the last, touching nothing in between, and mark the tendon at the pulley";
     case Dependence::drift:
-      return "mark both tendons at knots and pulleys, stand at one place for as long as the session took, then move "
-             "without load, then load without moving: what goes on in one of these alone is what it goes on with";
+      return "mark both tendons at knots and pulleys, hold one place for as long as the session took, then move "
+             "without load, then load without moving: the one in which the drift continues shows its cause";
   }
   return "";
 }
@@ -112,24 +112,24 @@ class Shapes {
     const auto load_direction = [](const RowFacts& r) { return std::abs(r.load) * r.direction; };
     add_waves(&RowFacts::alpha, Dependence::motor_wave, "motor");
     add_waves(&RowFacts::theta, Dependence::joint_wave, "joint");
-    add_places(one, Dependence::place, "whatever load and direction");
-    add_places(direction, Dependence::direction, "that turns over with the direction");
+    add_places(one, Dependence::place, "at all loads and directions");
+    add_places(direction, Dependence::direction, "that changes sign with the direction");
     add_ways(one, "");
     if (has_loads_) {
       add_ways(load_size, ", with the size of the load");
       add_places(load, Dependence::load, "in proportion to the load");
       add_places(load_size, Dependence::load_size, "with the size of the load");
-      add_places(load_direction, Dependence::load_direction, "of a loop that grows with the load");
+      add_places(load_direction, Dependence::load_direction, "of a hysteresis that grows with the load");
       add_thresholds();
     }
     if (varies(facts_, &RowFacts::speed, 0.1))
       add_places([](const RowFacts& r) { return r.speed * r.direction; }, Dependence::speed,
-                 "of a loop that grows "
+                 "of a hysteresis that grows "
                  "with speed");
     add_times();
     add_drifts(&RowFacts::session, "time");
-    add_drifts(&RowFacts::way, "way");
-    add_drifts(&RowFacts::loading, "load put on and off");
+    add_drifts(&RowFacts::way, "distance moved");
+    add_drifts(&RowFacts::loading, "load applied and removed");
     columns_.conservativeResize(Eigen::NoChange, used_);
   }
 
@@ -178,7 +178,7 @@ class Shapes {
     const bool centred = dependence == Dependence::place;
     for (int i = 1; i < k_shape_places; ++i) {
       const double place = static_cast<double>(i) / k_shape_places;
-      const std::string at = " at " + rounded(100 * place, 2) + " % of the way, " + how;
+      const std::string at = " at " + rounded(100 * place, 2) + " % of the range, " + how;
       add(dependence, 1, "a kink" + at, {[=](const RowFacts& r) { return times(r) * std::max(0.0, r.place - place); }},
           centred);
       add(dependence, 1, "a jump" + at, {[=](const RowFacts& r) { return r.place > place ? times(r) : 0.0; }}, centred);
@@ -197,8 +197,7 @@ class Shapes {
     for (const double way : k_shape_ways) {
       const auto fading = [=](const RowFacts& r) { return times(r) * std::exp(-r.since / way); };
       const auto ending = [=](const RowFacts& r) { return times(r) * std::max(0.0, 1.0 - r.since / way); };
-      const std::string words =
-          "what dies away over " + rounded(100 * way, 2) + " % of the way behind a reversal" + how;
+      const std::string words = "a decay over " + rounded(100 * way, 2) + " % of the range after a reversal" + how;
       add(Dependence::reversal, 1, words,
           {[=](const RowFacts& r) { return r.direction > 0 ? fading(r) : 0.0; },
            [=](const RowFacts& r) { return r.direction < 0 ? fading(r) : 0.0; }},
@@ -224,7 +223,7 @@ class Shapes {
     for (const RowFacts& row : facts_) last = std::max(last, clock(row));
     for (int i = 1; i < k_times; ++i) {
       const double at = last * i / k_times;
-      add(Dependence::time, 1, "a jump at one time, alike at all places",
+      add(Dependence::time, 1, "a jump at one time, equal at all places",
           {[=](const RowFacts& r) { return clock(r) > at ? 1.0 : 0.0; }}, true);
     }
   }
@@ -232,7 +231,7 @@ class Shapes {
   /// Drifts with time, travel or load changes, decaying or from some moment on.
   void add_drifts(double RowFacts::*by, const std::string& what) {
     for (const double settling : k_settling) {
-      add_drift("a drift that dies away in " + rounded(100 * settling, 2) + " % of the session, by " + what,
+      add_drift("a drift that decays in " + rounded(100 * settling, 2) + " % of the session, by " + what,
                 [=](const RowFacts& r) { return std::exp(-(r.*by) / settling); });
     }
     for (int i = 1; i < k_late; ++i) {

@@ -127,8 +127,8 @@ const std::array<UnmodelledEffect, 2>& unmodelled_effects() {
        "tendons' paths that are longer or shorter by a smooth curve of the joint's angle",
        "measure pins, lever and pulley with a caliper"},
       {rubbing(), alike_one_way,
-       "a friction that is not in proportion to the tendons' pull, or goes by the one that pulls less",
-       "repeat one run with twice the pretension, and with four times: how a loop grows with the pull is its law"},
+       "a friction that is not proportional to the tendons' tension, or depends on the lesser of both tensions",
+       "repeat one run with twice and with four times the pretension: the growth of the hysteresis shows its law"},
   }};
   return all;
 }

@@ -19,7 +19,7 @@ struct Estimate {
 /// The declared joint, with its free offset by least squares.
 Estimate declared_estimate(FitterPool& pool, const Selection& selection);
 
-/// Held-out errors of the effects alone, as hold_out().
+/// Held-out errors of the effects, without the discrepancy that was estimated with them.
 HeldOut hold_out(const Evidence& evidence, const Estimate& estimate, const std::vector<Fold>& folds);
 
 /// The joint refitted without each of the folds.
@@ -32,8 +32,8 @@ class HeldOutRows {
   /// `kept` may have no runs. All must outlive this.
   HeldOutRows(const Evidence& evidence, const Estimate& declared, measurement::Measurement kept);
 
-  /// Rows that the answer predicts worse than the declared joint by more than strokes differ: all of them ("all rows"),
-  /// or one level of load or speed ("run_3.csv"). Empty: none.
+  /// Rows that the answer predicts worse than the declared joint, by more than the scatter between strokes: "all rows",
+  /// or the runs of one level of load or speed ("run_3.csv"). Empty if there are none.
   std::string worse_at(const Estimate& answer) const;
 
  private:
@@ -58,8 +58,8 @@ class HeldOutRows {
   measurement::Measurement kept_;
 };
 
-/// Removes the effect at `place` of the best set; the others as refitted without it. `why` is recorded in
-/// Selection::tried.
+/// Removes the effect at `place` of the best set. The other effects take the values of the fit without it. `why` is
+/// recorded in Selection::tried.
 void drop_effect(FitterPool& pool, std::size_t place, const std::string& why, Selection& selection);
 
 }  // namespace fusee::calibration

@@ -63,7 +63,7 @@ std::string group_words(const FoundEffect& effect) {
   const bool may_be_unmodelled = effect.group.back() == k_unmodelled;
   const std::vector<std::string> names(effect.group.begin(), effect.group.end() - (may_be_unmodelled ? 1 : 0));
   return (names.size() > 1 ? "one of {" + list(names) + "}" : effect.name) +
-         (may_be_unmodelled ? " or an unmodelled cause that does the same" : "");
+         (may_be_unmodelled ? " or an unmodelled cause with the same effect" : "");
 }
 
 std::string effects_words(const std::vector<FoundEffect>& effects) {
@@ -136,8 +136,8 @@ std::string finding(const Calibration& calibration, const ResidualStructure& str
     case CalibrationVerdict::unexplained:
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
              (any_beside(calibration.effects) ? "with these alone " : "") +
-             in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms are left and noise makes " +
-             in_degrees(floor) + " of it: what is more stays unexplained, " + structure.where + "." +
+             in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms remain, of which noise is " +
+             in_degrees(floor) + ": the rest is unexplained, " + structure.where + "." +
              (calibration.discrepancy.empty() ? "" : " It depends on " + calibration.discrepancy.front().factor + ".") +
              (calibration.dropped.empty() ? ""
                                           : " Not reported, since rows that were not fitted are predicted worse with "
@@ -145,11 +145,11 @@ std::string finding(const Calibration& calibration, const ResidualStructure& str
                                                 list(calibration.dropped) + ".");
     case CalibrationVerdict::confounded:
       return (calibration.next.empty() ? "" : "Measure this first: " + calibration.next.front().text() + ". ") +
-             "The data are explained by " + names + ", and cannot tell which.";
+             "The data are explained by " + names + ", but do not decide between the alternatives.";
     case CalibrationVerdict::explained:
       return "The data are explained by " + names + ".";
     case CalibrationVerdict::no_effect:
-      return "The joint does what its file declares, as far as the data can tell.";
+      return "The joint does what its file declares, as far as the data show.";
     case CalibrationVerdict::not_testable:
       break;  // decided before any fit
   }

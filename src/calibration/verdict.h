@@ -17,8 +17,8 @@ struct ResidualStructure {
 };
 ResidualStructure describe_residual(const Evidence& evidence, const Fit& fit);
 
-/// Fills verdict, unexplained_rms and unexplained_where, and adds k_unmodelled to groups. `unmodelled`: discrepancy
-/// beside selection.best.
+/// Fills verdict, unexplained_rms and unexplained_where, and adds k_unmodelled to groups. `unmodelled`: the discrepancy
+/// fitted together with selection.best.
 void conclude(const Evidence& evidence, const Selection& selection, const DiscrepancyFit& unmodelled,
               Calibration& calibration);
 

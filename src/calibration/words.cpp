@@ -37,11 +37,11 @@ std::string odds(double log_odds) {
 std::string_view remedy_words(const FoundEffect& effect) {
   switch (effect.correctable_by) {
     case CorrectableBy::pulley:
-      return "A corrected pulley can take it out.";
+      return "A corrected pulley can correct it.";
     case CorrectableBy::table:
-      return "The table can take it out.";
+      return "The table can correct it.";
     case CorrectableBy::nothing:
-      return "Neither a pulley nor a table can take it out.";
+      return "Neither a pulley nor a table can correct it.";
   }
   return "";
 }

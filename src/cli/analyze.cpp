@@ -41,17 +41,17 @@ std::string tension_line(const analysis::AnalysisResult& result, const Mechanism
 }
 
 std::string strength_line(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
-  if (!result.strength) return line("tendon bears", "unknown: set tendon.strength_N");
+  if (!result.strength) return line("tendon strength", "unknown: set tendon.strength_N");
   const std::string source = result.strength->source == "tendon.strength_N"
                                  ? result.strength->source
                                  : result.strength->source + " of the catalogue";
   std::string margin;
   if (result.largest_tension.tension > 0)
-    margin = ", " + rounded(result.strength->tension / result.largest_tension.tension, 3) + " times that";
-  return line("tendon bears", rounded(result.strength->tension) + " N (" + source + ")" + margin) +
+    margin = ", " + rounded(result.strength->tension / result.largest_tension.tension, 3) + " times the tension";
+  return line("tendon strength", rounded(result.strength->tension) + " N (" + source + ")" + margin) +
          line("", rounded(result.strength->at_knot) + " N at a knot (tendon.knot_efficiency)") +
-         line("", (mechanism.joint.is_plain() ? "at C" : "at its end") + std::string(" it carries up to ") +
-                      rounded(result.largest_at_joint.value) + " N");
+         line("", std::string("its knot ") + (mechanism.joint.is_plain() ? "at C" : "at the joint") +
+                      " carries up to " + rounded(result.largest_at_joint.value) + " N");
 }
 
 std::string drum_lines(const analysis::AnalysisResult& result) {
@@ -116,7 +116,7 @@ std::string summary(const analysis::AnalysisResult& result, const analysis::Anal
                                  alpha_text(result.hysteresis.alpha));
   text += "\nError budget\n" + sources_table(result.sources);
   text += "\nTolerances: each dimension within " + shortest(options.tolerance) +
-          " mm (95 %), theta and slack within these\n" + tolerances_table(result.tolerances);
+          " mm (95 %), and the resulting limits of theta and slack\n" + tolerances_table(result.tolerances);
   return text;
 }
 
@@ -242,7 +242,7 @@ std::string ending_of(const std::string& file) {
 void refuse_unknown_ending(const Arguments& arguments) {
   const std::optional<std::string> file = arguments.text("--out");
   if (!file || std::find(k_endings.begin(), k_endings.end(), ending_of(*file)) != k_endings.end()) return;
-  throw UsageError("analyze cannot write a file with the ending of '" + *file + "'",
+  throw UsageError("analyze cannot write '" + *file + "': its ending is unknown",
                    "use .csv or .json for the table, .html for a page, .svg, .png or .pdf for the plots");
 }
 
@@ -303,20 +303,18 @@ Command analyze_command() {
           "SPEC",
           "the transmission and the forces over the range",
           "Shows angles, radii, tensions, torque, stretch and stiffness over the range of\n"
-          "the mechanism file SPEC: by the paper's formulas, and beside them by the full\n"
+          "the mechanism file SPEC: by the paper's formulas, and also by the full\n"
           "model of two elastic tendons with pretension, friction at the pins and in the\n"
-          "grooves (what lies on a pulley slides as far as that lets it), in its third\n"
-          "cycle, alpha growing. The summary says what is largest, what is slack, and\n"
-          "what makes the joint miss its angle. At the ends of the range the motion turns\n"
-          "back: there both directions show the same state.",
+          "grooves, in its third cycle, with alpha growing. The summary has the largest\n"
+          "forces, the slack, and the causes of an error of the joint angle. At the ends\n"
+          "of the range the motion reverses: there both directions show the same state.",
           {{"-o,--out", "FILE",
-            "write to FILE what its ending says: the plots as\n.svg, .png or .pdf, a page as .html, the table as\n.csv "
-            "or .json"},
+            "write FILE: plots if it ends in .svg, .png or\n.pdf, a page if in .html, the table if in .csv\nor .json"},
            {"--csv", "", "the table as CSV on stdout"},
            {"--steps", "N", "steps of the table (default 60)"},
            {"--tolerance-mm", "MM", "tolerance of every dimension (default 0.1)"},
-           {"--samples", "N", "samples of the Monte Carlo (default 1000)"},
-           {"--seed", "N", "its seed (default 1)"}},
+           {"--samples", "N", "Monte Carlo samples (default 1000)"},
+           {"--seed", "N", "random seed of the samples (default 1)"}},
           {{"fusee analyze arm.toml", "tables and summary"},
            {"fusee analyze arm.toml --set load.tip_force_N=10", "what would a load of 10 N do?"},
            {"fusee analyze arm.toml -o arm.html", "a page on which the joint moves"},

@@ -61,13 +61,13 @@ std::string effect_text(const calibration::FoundEffect& effect, const std::strin
   std::string words = effect.name + " (" + std::string(word(effect.place)) + ")";
   for (std::size_t i = 0; i < effect.parameters.size(); ++i)
     words += (i == 0 ? ": " : "; ") + formats::parameter_words(effect.parameters[i], load_unit);
-  words += ". Takes " + deg(effect.rms_drop) + " deg rms off";
+  words += ". Reduces the error by " + deg(effect.rms_drop) + " deg rms";
   std::vector<std::string> rivals = formats::rivals_of(effect);
   std::erase(rivals, calibration::k_unmodelled);
   const std::string unmodelled = formats::unmodelled_words(effect);
-  words += !rivals.empty()      ? "; as good: " + formats::joined(rivals, ", ")
-           : unmodelled.empty() ? "; nothing else does as well"
-                                : "; no other name does as well";
+  words += !rivals.empty()      ? "; equally likely: " + formats::joined(rivals, ", ")
+           : unmodelled.empty() ? "; nothing else is as likely"
+                                : "; no other cause of the catalogue is as likely";
   std::string sentences;
   for (const std::string& more : {formats::audit_words(effect), formats::beside_words(effect, load_unit), unmodelled})
     sentences += more.empty() ? "" : (sentences.empty() ? ". " : " ") + more;
@@ -89,19 +89,19 @@ std::vector<std::string> correction_texts(const formats::CalibrationProduct& pro
   const correction::Correction& correction = product.correction;
   std::vector<std::string> texts;
   if (correction.has_pulley) {
-    texts.push_back("the pulley of corrected.toml takes away " + deg(correction.by_pulley) + " deg rms");
+    texts.push_back("the pulley of corrected.toml removes " + deg(correction.by_pulley) + " deg rms");
     if (correction.round.r1 > 0) texts.push_back(formats::round_words(correction));
     if (correction.tied_at != 0) texts.push_back(formats::tied_words(correction));
   } else if (!correction.infeasible.empty()) {
     texts.push_back(formats::infeasible_words(correction));
   } else if (correction.why_no_pulley_file.empty()) {
-    texts.push_back("nothing was identified that another pulley would take out");
+    texts.push_back("nothing was identified that another pulley would correct");
   }
   if (!correction.why_no_pulley_file.empty())
     texts.push_back("corrected.toml is not written: " + correction.why_no_pulley_file);
   if (!correction.why_no_table.empty()) texts.push_back("compensation.csv is not written: " + correction.why_no_table);
   if (!correction.table.empty())
-    texts.push_back("compensation.csv takes away " + deg(correction.by_table) + " deg rms" +
+    texts.push_back("compensation.csv removes " + deg(correction.by_table) + " deg rms" +
                     (correction.has_pulley ? " beyond that" : ""));
   if (const std::string curve = formats::curve_words(product); !curve.empty()) texts.push_back(curve);
   return texts;

@@ -4,8 +4,8 @@
 namespace fusee::cli {
 namespace {
 
-// Each script asks the program, so that a shell offers what the program accepts. An answer has a word a line and, after
-// a tab, its meaning. ":files .toml" stands for file names, ":open" for no blank after the word.
+// Each script asks the program, so that a shell offers what the program accepts. An answer has one word per
+// line and, after a tab, its meaning. ":files .toml" stands for file names, ":open" for no blank after the word.
 
 constexpr std::string_view k_bash = R"sh(# In ~/.bashrc: source <(fusee completion bash)
 _fusee() {
@@ -103,7 +103,7 @@ Command completion_command() {
           "shell completion",
           "Prints a script for SHELL (bash, zsh or fish) that lets the Tab key offer\n"
           "commands, options, templates, keys of the mechanism file and their values.\n"
-          "Scripts call 'fusee completion candidates LINE': one word and meaning a line.",
+          "Scripts call 'fusee completion candidates LINE': a word and meaning per line.",
           {},
           {{"source <(fusee completion bash)", "in this shell; in ~/.bashrc for all"},
            {"fusee completion fish > fusee.fish", "for ~/.config/fish/completions"},

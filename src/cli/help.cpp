@@ -72,8 +72,8 @@ std::string main_help() {
 }
 
 std::string command_help(const Command& command) {
-  std::string text =
-      "usage: fusee " + std::string(command.name) + " " + std::string(command.positionals) + " [OPTIONS]\n\n";
+  std::string text = "usage: fusee " + std::string(command.name) + (command.positionals.empty() ? "" : " ") +
+                     std::string(command.positionals) + " [OPTIONS]\n\n";
   text += std::string(command.description) + "\n";
   if (!command.options.empty()) text += "\noptions of this command:\n" + option_lines(command.options);
   text += "\noptions of every command:\n" + option_lines(common_options());

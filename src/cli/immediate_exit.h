@@ -1,5 +1,5 @@
 /// \file
-/// Exit without exceptions, from a signal handler or without memory.
+/// Exits from a signal handler or when memory has run out, where nothing can be thrown or allocated.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace fusee::cli {
 
-/// Selects if exit_at_once() also writes a JSON document to stdout.
+/// Sets whether exit_at_once() also writes a JSON document to stdout.
 void write_json_at_exit(bool json);
 
 /// Writes the error to stderr and exits. Allocates nothing, runs no destructors, and is safe in a signal handler.

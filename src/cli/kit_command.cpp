@@ -56,7 +56,7 @@ std::string kit_summary(const pipeline::KitResult& made, const pipeline::KitOpti
       tightest = &condition;
   }
   std::string text = product.pulley.joint.mechanism.name +
-                     (product.plan.drilled ? ": plates to drill its joint by\n" : ": the test rig\n");
+                     (product.plan.drilled ? ": drilling templates for the joint\n" : ": the test rig\n");
   text += "  parts       " + std::to_string(printed) + " to print, of " + std::to_string(product.plan.parts.size()) +
           " kinds; plates to cut in kit.dxf\n";
   if (!product.plan.drilled) {
@@ -67,8 +67,8 @@ std::string kit_summary(const pipeline::KitResult& made, const pipeline::KitOpti
     text += "  tendon " + std::string(cut.side == transmission::Side::left ? "1" : "2") + "    cut at " +
             fixed(cut.cut, 0) + " mm\n";
   if (tightest)
-    text += "  tightest    " + tightest->name + ", " + fixed(tightest->value, 2) + " mm (at least " +
-            fixed(tightest->limit, 2) + ")\n";
+    text += "  clearance   " + fixed(tightest->value, 2) + " mm or more, " + tightest->name +
+            " (required: " + fixed(tightest->limit, 2) + ")\n";
   if (options.dry_run) return text + "  files       none written (--dry-run)\n";
   if (!made.published)
     return text + "  files       none written: " + options.folder.string() + " keeps its earlier run\n";
@@ -122,7 +122,7 @@ Command kit_command() {
           "steps. If parts would collide over the range, it reports which, and which\n"
           "change of which number makes room.",
           {{"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>_kit)"},
-           {"--tolerance-mm", "MM", "of the pulley's curves (default 0.01)"},
+           {"--tolerance-mm", "MM", "tolerance of the pulley's curves (default 0.01)"},
            {"--dxf", "VERSION", "drawings as ac1015 (default) or r12", false, "ac1015 r12"}},
           {{"fusee kit arm.toml", "everything in out/arm_kit; open its kit.html"},
            {"fusee kit arm.toml --dxf r12 -o model", "drawings for an old cutter"},

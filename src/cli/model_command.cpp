@@ -27,7 +27,7 @@ std::string prefix_from(const Arguments& arguments) {
   constexpr std::size_t k_longest = 40;
   if (arguments.has("--prefix") && (prefix != formats::c_prefix(prefix) || prefix.size() > k_longest))
     throw UsageError(
-        "--prefix must be a name of C of letters, digits and single '_', at most 40; '" + prefix + "' is not",
+        "--prefix must be a C identifier of at most 40 letters, digits and single '_'; '" + prefix + "' is not",
         "for example: --prefix " + formats::c_prefix(prefix));
   return prefix;
 }
@@ -203,10 +203,10 @@ Command model_command() {
        {"--max-table-error-deg", "DEG", "largest error of the tables (default 0.001)"},
        {"--ticks-per-turn", "N", "the motor angle in encoder counts, N a turn;\nnegative if they fall as alpha grows"},
        {"--zero-ticks", "N", "counts of the encoder at home (default 0)"},
-       {"--compensation", "FILE", "make tables of this compensation.csv; none: ignore\nany such file"},
+       {"--compensation", "FILE", "make the tables from this compensation.csv;\nnone: ignore any such file"},
        {"--declared", "", "ignore identified effects"},
        {"--no-polynomial", "", "do not write joint.xml"},
-       {"--prefix", "NAME", "of the names in joint_table.h (default: the joint's\nname)"}},
+       {"--prefix", "NAME", "prefix of names in joint_table.h (default: the\njoint's name)"}},
       {{"fusee model arm.toml", "files in out/arm_model"},
        {"fusee model arm.toml --ticks-per-turn 4096 --zero-ticks 2048", "tables in counts"},
        {"fusee model arm.toml --max-error-deg 0.02 --dry-run", "test a tighter limit without writing files"}},

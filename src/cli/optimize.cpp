@@ -34,7 +34,7 @@ std::optional<optimize::Objective> second_objective(const Arguments& arguments) 
                    nearest.empty() ? "fusee explain optimize.objective lists them" : "did you mean " + nearest + "?");
 }
 
-/// A progress bar that is drawn when it grows.
+/// A progress bar that is redrawn only when it has changed.
 RunContext::Progress search_bar(Console& console) {
   return [&console, shown = std::string()](std::string_view best, std::optional<double> share) mutable {
     const std::string bar = progress_bar(share.value_or(0));
@@ -59,7 +59,7 @@ pipeline::OptimizeOptions optimize_options_from(const Arguments& arguments) {
   return options;
 }
 
-/// Checks options that belong to one method before the search, so that a refusal costs no time.
+/// Throws UsageError if an option belongs to another method. Called before the search, which takes long.
 void demand_agreement(const MechanismFile& file, const pipeline::OptimizeOptions& options) {
   if (!options.then && options.front_folder.empty()) return;
   const pipeline::SearchMethod method = options.method ? *options.method : pipeline::strongest_method(file);
@@ -89,7 +89,7 @@ Reply run_optimize(const Arguments& arguments, Console& console, const RunContex
 Command optimize_command() {
   return {"optimize",
           "SPEC",
-          "better numbers for the mechanism",
+          "the best numbers for the mechanism",
           "Varies the variables of [optimize] in SPEC within their bounds and\n"
           "constraints to find the best value of the objective. If the equations\n"
           "allow it, the optimum is proven. The result includes the proven bound\n"
@@ -98,13 +98,13 @@ Command optimize_command() {
            {"--method", "NAME", "certified, ga or pareto (default: certified where\npossible)", false,
             "certified ga pareto"},
            {"--then", "OBJECTIVE", "second objective, among designs that tie (certified)"},
-           {"--seed", "N", "of ga and pareto (default 1)"},
+           {"--seed", "N", "random seed of ga and pareto (default 1)"},
            {"--population", "N", "designs in a generation (default 48)"},
-           {"--generations", "N", "of ga and pareto (default 100)"},
+           {"--generations", "N", "generations of ga and pareto (default 100)"},
            {"--front", "DIR", "write each point of the front as a mechanism file\n(pareto)"}},
           {{"fusee new paper_optimum > paper.toml", "a mechanism with [optimize] in it"},
            {"fusee optimize paper.toml -o better.toml", "the best numbers, proven"},
-           {"fusee optimize paper.toml --method ga --seed 7", "the paper's way"}},
+           {"fusee optimize paper.toml --method ga --seed 7", "the paper's genetic algorithm"}},
           run_optimize};
 }
 

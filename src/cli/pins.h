@@ -9,7 +9,7 @@ namespace fusee::cli {
 
 std::string pins_text(const Mechanism& mechanism);
 Json pins_json(const Mechanism& mechanism);
-/// Adds a note in cases that users may misread: point pins, and pins of radius 0 that are not points.
+/// Adds a note where users may misread the model: pins as points, or pins of radius 0 that keep the tendon's radius.
 void add_pins_note(const MechanismFile& file, Reply& reply);
 
 }  // namespace fusee::cli

@@ -144,7 +144,7 @@ Command simulate_command() {
           with_reading_options({{"-o,--out", "FILE", "write the table to FILE, and show a summary"},
                                 {"--corrected", "", "with the corrected pulley that 'fusee build SPEC'\nmakes"},
                                 {"--noise-deg", "DEG", "standard deviation of the joint's sensor (default 0)"},
-                                {"--seed", "N", "of that noise (default 1)"}}),
+                                {"--seed", "N", "random seed of that noise (default 1)"}}),
           {{"fusee simulate arm.toml out/arm_plan/run_1.csv > shown.csv", "every row"},
            {"fusee simulate arm.toml shown.csv --set identified.backlash_deg=1", "the influence of play"},
            {"fusee simulate arm.toml shown.csv -o rehearsed.csv --noise-deg 0.02", "as a log of a bench"}},

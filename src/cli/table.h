@@ -15,7 +15,7 @@ struct Column {
   Align align = Align::left;
 };
 
-/// A title line and one line a row, columns two spaces apart, without trailing blanks. Widths are in characters, not
+/// A title line and one line per row, columns two spaces apart, without trailing blanks. Widths are in characters, not
 /// bytes. In a table wider than 80 columns the cells of the widest columns are wrapped.
 std::string table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
 

@@ -320,7 +320,7 @@ class Planner {
     const double bore_wall = least_radius() - reach();
     add("bore_wall", bore_wall, layout.min_wall,
         fmt::format(
-            "the bore leaves {} to a groove's floor or a face's rim, at least {} is required (body.min_wall_mm)",
+            "the bore leaves {} to a groove's floor or a face's rim; at least {} is required (body.min_wall_mm)",
             solid::wall_words(bore_wall), mm(layout.min_wall)));
     if (auto flat = solid::flat_off_shaft(mechanism_.body, layout.bore.shaft))
       pulley_.conditions.push_back(std::move(*flat));
@@ -329,7 +329,7 @@ class Planner {
     if (auto tall = solid::too_tall(layout)) pulley_.conditions.push_back(std::move(*tall));
     for (std::size_t i = 0; i < ends_.size(); ++i) knot_pocket(i);
     add("groove_depth_at_knot", section_.depth, k_least_depth_of_tendon * d_,
-        fmt::format("a groove of {} (body.groove_depth_mm) leaves the channel to the knot open, at least two thirds of "
+        fmt::format("a groove of {} (body.groove_depth_mm) leaves the channel to the knot open; at least two thirds of "
                     "the tendon's diameter is required: {}",
                     mm(section_.depth), mm(k_least_depth_of_tendon * d_)));
     if (layout.bore.horn_recess > 0)
@@ -360,7 +360,7 @@ class Planner {
     const auto pulley = transmission::pulley_name(ends_[i].side);
     const auto one = [&](const std::string& name, double wall, const std::string& to) {
       add(fmt::format("{}_{}", name, pulley), wall, layout.min_wall - k_grain,
-          fmt::format("{}'s knot pocket of {} (body.knot_pocket_mm) leaves {} to {}, at least {} is required "
+          fmt::format("{}'s knot pocket of {} (body.knot_pocket_mm) leaves {} to {}; at least {} is required "
                       "(body.min_wall_mm)",
                       pulley, mm(2.0 * layout.pocket_radius), solid::wall_words(wall), to, mm(layout.min_wall)));
     };
@@ -394,7 +394,7 @@ class Planner {
     const double rise = section_.depth, needed = std::sqrt(rise * (2.0 * rho + rise));
     add(fmt::format("free_end_{}", transmission::pulley_name(side)), there, needed,
         fmt::format(
-            "{}'s groove ends {} beyond the tendon's working arc, at least {} is required for the tendon to clear the "
+            "{}'s groove ends {} beyond the tendon's working arc; at least {} is required for the tendon to clear the "
             "end (body.spare_turns)",
             transmission::pulley_name(side), mm(there), mm(needed)));
   }

@@ -1,5 +1,5 @@
 /// \file
-/// Internal: both spirals on a common fan of normals, which gives the rows of the helical grid.
+/// Internal: samples both spirals at common normals (the fan). The samples are the rows of the helical grid.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct WindingRow {
   double height = 0;
 };
 
-/// A spiral evaluated at any turn: cubic through the positions, tangents and radii of curvature of its rows.
+/// A spiral evaluated at any turn: cubic Hermite interpolation of the positions and tangents of its rows.
 class SpiralCurve {
  public:
   SpiralCurve(const helix::Spiral& spiral, const SpiralPlace& place) : spiral_(spiral), place_(place) {}
@@ -29,11 +29,11 @@ class SpiralCurve {
   double end() const { return spiral_.rows.back().turn; }
   /// Extrapolates slightly beyond the ends.
   WindingRow at(double turn) const;
-  /// The largest radius of curvature of all turns with this normal, within a turn's distance.
+  /// The largest radius of curvature at the points with this normal, one on each turn of the spiral.
   double largest_rho(double turn) const;
 
  private:
-  /// Two neighbouring rows, the turn between them, and the fraction of it at a place.
+  /// A place between two neighbouring rows: the turn from `a` to `b`, and the fraction of it from `a` to the place.
   struct Between {
     const helix::SpiralRow &a, &b;
     double step, u;
@@ -46,16 +46,16 @@ class SpiralCurve {
   SpiralPlace place_;
 };
 
-/// The rows of one groove on the fan: row j has the normal of column (first_column + j) mod columns.
+/// The rows of one groove: row j has the normal of the fan's column (first_column + j) mod columns.
 struct Winding {
   std::size_t first_column = 0;
   std::vector<WindingRow> rows;
   bool falls = false;  ///< height falls as the turn grows
-  /// Numbers of rows at either end that continue the turn before, where the groove is filled up to its edges. They
-  /// surround a channel that leaves the groove with solid.
+  /// Numbers of rows added at either end. They repeat the adjacent turn, with the groove filled up to its edges, so
+  /// that the channel that leaves the groove there is enclosed by solid.
   std::size_t filled_front = 0, filled_back = 0;
 
-  /// Projection of the lower and upper groove edge of the first filled rows over the other rows, mm.
+  /// Distance by which the lower and the upper groove edge of the first filled rows project beyond other rows, mm.
   double bulge_low = 0, bulge_high = 0;
 
   const WindingRow& groove_front() const { return rows[filled_front]; }
@@ -69,7 +69,7 @@ struct Winding {
   bool is_filled(std::size_t row) const { return row < filled_front || row + filled_back >= rows.size(); }
 };
 
-/// The normals at which both grooves have rows, including the ends of both.
+/// The normals at which both grooves have rows. The ends of both grooves are among them.
 struct Fan {
   std::vector<double> angles;  ///< over one turn, in growing order
   Winding p1, p2;
@@ -77,9 +77,10 @@ struct Fan {
   std::size_t columns() const { return angles.size(); }
 };
 
-/// Chords of any curve parallel to the pitch curves, up to `outward` of them, have a sagitta of at most `tolerance`.
-/// `filled`: least length of filled rows that follow P1's end and precede P2's beginning, mm. Rows lie outward of the
-/// curve by a third of a chord's sagitta, so that the polygon is as long as the curve.
+/// Chooses columns such that the chords of any curve parallel to a pitch curve, up to `outward` outside it, have a
+/// sagitta of at most `tolerance`. Rows are moved outward by a third of the sagitta, so that the polygon of the floor,
+/// `floor_inward` inside the pitch curve, is as long as its curve. `filled`: least length of the filled rows after P1's
+/// end and before P2's beginning. mm.
 Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double tolerance,
              double filled);
 

@@ -14,7 +14,7 @@ namespace {
 /// Convergence limit for θ, far below sensor noise and the steps of a fit. rad
 constexpr double k_last_step = 1e-9;
 
-constexpr double k_least_drum = 1e-3;       // mm; keeps a shrunk drum a drum
+constexpr double k_least_drum = 1e-3;       // mm
 constexpr double k_least_stiffness = 1e-3;  // fraction of the declared EA
 
 /// Moves an end inside the drum onto its surface.
@@ -43,14 +43,15 @@ void mount_drum(Joint& joint, const JointError& at) {
   tie_on_drum(joint.attachment2, joint);
 }
 
-/// Applies sheath errors. A sheath declared without bends, or rigid, gets the identified values alone.
+/// Applies sheath errors. The friction of a sheath without bends, and the compliance of a rigid one, are the identified
+/// values alone.
 void mount_sheath(Sheath& sheath, const SheathError& at) {
   if (!sheath.is_there() || at == SheathError{}) return;
   const double friction = std::max(0.0, sheath.mu * sheath.bend + at.friction);
   if (!(sheath.bend > 0)) sheath.bend = 1.0;
   sheath.mu = friction / sheath.bend;
-  const double give = (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + at.give;
-  sheath.stiffness = give > 0 ? 1.0 / give : 0.0;
+  const double compliance = (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + at.give;
+  sheath.stiffness = compliance > 0 ? 1.0 / compliance : 0.0;
 }
 
 }  // namespace
@@ -116,8 +117,8 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
       return paths;
     };
   }
-  // A wave shifts the tangent line; its rotation is negligible, as is the shift of the contact along the line. On the
-  // left the image's arc runs the other way.
+  // A wave shifts the tangent line. Its rotation of the line is negligible, and so is the shift of the contact along
+  // the line. The left tendon is computed on its mirror image, where the arc has the opposite sign.
   if (outline.wave_sin != 0 || outline.wave_cos != 0) {
     model.lower = [without = model.lower, outline](double alpha) {
       std::array<LowerPath, 2> paths = without(alpha);

@@ -4,13 +4,16 @@
 #include <array>
 #include <cmath>
 
-// With T at the take-off, the sliding part ends where the bound T e^{∓μφ} meets the stored tension. The stored profile
-// obeys the law itself, so that nothing beyond can slide. Sliding material moves along the arc by a small fraction of a
-// millimetre, so the profile is stored by place, not by element. This is exact where the tendon slides, because the
-// bound determines the state, and where it does not, because nothing moves.
+// The capstan law bounds the tension: T e^{∓μφ} at the wrap φ behind the take-off, where the tension is T. The sliding
+// part reaches from the take-off to the point at which this bound meets the stored tension. The stored profile obeys
+// the law, so that nothing beyond that point can slide.
 //
-// Pieces do not follow a grid: a slid part is one piece of any length, a laid part one per step. Over a stroke each
-// piece is pushed and popped once.
+// The profile is stored by place, not by element: material that slides moves by a small fraction of a millimetre. This
+// is exact where the tendon slides, because the bound determines the state, and where it does not, because nothing
+// moves.
+//
+// A part that slid is one piece of any length. A part that was laid has one piece per step. Over a stroke each piece is
+// pushed and popped once.
 
 namespace fusee::joint {
 namespace {
@@ -32,7 +35,7 @@ WoundContent linear(double arc, double density_from, double density_to, double s
 /// Nodes and weights of the three-point Gauss quadrature on [−1, 1].
 constexpr std::array<std::array<double, 2>, 3> k_gauss{
     {{-0.774596669241483377, 5.0 / 18.0}, {0.0, 8.0 / 18.0}, {0.774596669241483377, 5.0 / 18.0}}};
-/// Panel width of the quadrature in wrap (rad) and in μφ, for an error of 1e-7 of the change.
+/// Largest width of a quadrature panel, both in wrap φ (rad) and in μφ. The relative error of the integral is 1e-7.
 constexpr double k_panel = 1.0;
 /// Strain that counts as zero in logarithms.
 constexpr double k_no_strain = 1e-17;
@@ -53,10 +56,11 @@ struct SlidContent {
   double length = 0;  ///< as Slide::length
 };
 
-/// Content between `from` and `to` with the strain ε e^{fall (to − turn)}, ε at `to`.
+/// Content between `from` and `to` for the strain ε e^{fall (turn_to − turn)}, where ε = `strain` is that at `to`.
 ///
-/// By parts: ∫ f(q) ds over q = e^{fall φ} is f(1) (s_to − s_from) + fall ∫ (s − s_from) q f'(q) dψ, exact for fall =
-/// 0.
+/// With q = e^{fall (turn_to − ψ)}, integration by parts gives
+///   ∫ f(q) ds = f(1) (s_to − s_from) + fall ∫ (s − s_from) q f'(q) dψ,
+/// of which the last integral is computed by Gauss quadrature. It vanishes for fall = 0.
 SlidContent sliding(const GrooveArc& groove, const GroovePlace& from, const GroovePlace& to, double strain, double fall,
                     double swelling) {
   const double arc = to.arc - from.arc;
@@ -99,7 +103,7 @@ WoundContent operator-(const WoundContent& all, const WoundContent& part) {
   return {all.material - part.material, all.energy - part.energy};
 }
 
-/// The part of `piece` below `place`. Usually little is removed, which is integrated faster than the remainder.
+/// The part of `piece` below `place`. Integrates over the removed or the remaining part, whichever is shorter.
 WoundPiece below(const GrooveArc& groove, WoundPiece piece, const GroovePlace& place, double swelling) {
   if (piece.slid) {
     const double above = strain_of(piece.density_to, swelling);
@@ -119,22 +123,22 @@ WoundPiece below(const GrooveArc& groove, WoundPiece piece, const GroovePlace& p
   return piece;
 }
 
-/// The bound of the sliding part: its logarithm is linear in the turn.
+/// The capstan bound on the strain. Its logarithm is linear in the turn.
 struct Bound {
   double turn = 0;  ///< turn of its upper end
   double log_strain = 0;
   double fall = 0;
-  bool pulls = true;  ///< true: pulls; false: releases
+  bool pulls = true;  ///< true: a higher strain pulls the tendon out; false: a lower one lets it slip back
 
-  /// Excess of the bound over a strain with the logarithm `there`; positive if it moves the tendon.
+  /// Log ratio of the bound at the turn `at` to a stored strain of logarithm `there`; positive if the tendon slides.
   double beyond(double at, double there) const {
     const double by = log_strain + fall * (turn - at) - there;
     return pulls ? by : -by;
   }
 };
 
-/// The place on `piece` at which the bound stops to move the tendon: `piece.to` if nothing moves, `piece.from` if all does. Takes the logarithms of
-/// the strains at its ends.
+/// The place on `piece` beyond which the tendon does not slide: `piece.to` if nothing slides, `piece.from` if all does.
+/// `log_from`, `log_to`: logarithms of the stored strains at its ends.
 GroovePlace cut_of(const WoundPiece& piece, double log_from, double log_to, const Bound& bound,
                    const GrooveArc& groove) {
   const double at_to = bound.beyond(piece.to.turn, log_to);
@@ -174,8 +178,8 @@ GrooveArc::GrooveArc(std::vector<GroovePlace> along, double knot_beyond) {
   knot_ = {knots_.front().turn - knot_beyond / knots_.front().slope, knots_.front().arc - knot_beyond};
 }
 
-// The straight part between drum and knot has the strain of the drum's end. In sliding(), which integrates by parts
-// from the knot's arc, it acts as additional arc at the same turn.
+// The straight part between drum and knot has the strain at the drum's end. sliding() starts at the knot's arc, so that
+// this part acts as additional arc at the same turn.
 GrooveArc GrooveArc::round(double radius, double behind) {
   GrooveArc drum({{0.0, 0.0}, {1.0, radius}}, 0.0);
   drum.knot_.arc -= behind;

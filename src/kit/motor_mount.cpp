@@ -74,7 +74,7 @@ std::vector<Disc> motor_corners(const fusee::MotorType& motor, const Vec2& pulle
 }
 
 void buy_motor(KitPlan& plan, const fusee::MotorType& motor, double plate) {
-  plan.items.push_back({1, motor.name + ": " + motor.description, "drives the pulley; as assumed: " + motor.source});
+  plan.items.push_back({1, motor.name + ": " + motor.description, "drives the pulley; assumed: " + motor.source});
   if (motor.shaft > 0)
     plan.items.push_back(
         {motor.two_holes ? 2 : 4, motor_screw(motor, plate + 4) + " with low head", "motor, from above"});

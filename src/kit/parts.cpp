@@ -20,7 +20,6 @@ SlabLoop round_hole(const Vec2& place, double diameter) { return hole(disc(place
 
 DiscHull hull_of(std::vector<Disc> discs, int corners = 96) { return {std::move(discs), corners}; }
 
-/// A vertical tube.
 SlabBody tube(double radius, double bore, double height) {
   return {{{0, height, {edge(disc({0, 0}, radius)), round_hole({0, 0}, bore)}}}};
 }
@@ -47,12 +46,12 @@ DiscHull link_hull(const KitSizes& sizes, double R) {
   return hull_of(discs, 144);
 }
 
-/// The scale lies behind the axis, at the link's pointer.
+/// The scale is on the far side of the axis, under the link's pointer.
 DiscHull scale_hull(const KitPlan& plan, const Joint& joint) {
   const KitSizes& sizes = plan.sizes;
   std::vector<Disc> discs{{{0, 0}, sizes.axle_tube + 3}};
   for (const Vec2& foot : plan.feet) discs.push_back({foot, 0.5 * sizes.foot->clearance + 3});
-  const double more = std::max(radians(8), 7 / (sizes.pointer + 7));  // half of a number
+  const double more = std::max(radians(8), 7 / (sizes.pointer + 7));  // half the width of a number
   const double from = joint.theta_min - more, to = joint.theta_max + more;
   const int steps = static_cast<int>(std::ceil(degrees(to - from) / 5));
   for (int i = 0; i <= steps; ++i)
@@ -194,7 +193,7 @@ class PartMaker {
     return {{lower, upper}};
   }
 
-  /// Lines every `graduation`, and longer ones with a number where there is space.
+  /// A line every `graduation`, a longer one every 10°, and numbers as dense as space allows.
   std::vector<DiscHull> graduation() const {
     std::vector<DiscHull> lines;
     const double step = sizes_.graduation, tip = sizes_.pointer;
@@ -371,7 +370,7 @@ class PartMaker {
          {{{0, 0}, sizes_.bracket_low, false, false}},
          1,
          true});
-    buy(1, board.name + ": " + board.description, "reads the joint's angle; as assumed: " + board.source);
+    buy(1, board.name + ": " + board.description, "reads the joint's angle; assumed: " + board.source);
     buy(4, screw_words(thread_within(board.hole), sizes_.bracket + 3 + board.thickness + 4) + " with nuts",
         "board, under the bracket");
   }
@@ -398,7 +397,7 @@ SlideLengths slide_lengths(const Thread& thread) {
   return {2 * thread.head_radius + 1.5, 2.5, thread.nut_height + 0.5, 3.0};
 }
 
-// At the printer's limit, rounding makes slicers add supports: PrusaSlicer treats 45° as below 46°.
+// 8° steeper than the printer's limit. At the limit, slicers that round add supports, as PrusaSlicer does at 45°.
 double post_steepness(const Mechanism& mechanism) {
   return std::tan(std::clamp(mechanism.print.overhang + radians(8), radians(53), radians(80)));
 }

@@ -193,8 +193,9 @@ class Conditions {
       std::string hint = change;
       if (const auto place = hint.find("{}"); place != std::string::npos)
         hint.replace(place, 2, trimmed_fixed(std::ceil(10 * (limit - found.value)) / 10, 1) + " mm");
-      condition.message = what + ": the distance is " + rounded(found.value, 3) + " mm, at least " + rounded(limit, 3) +
-                          " mm is required (α = " + rounded(degrees(found.alpha), 3) + "°); " + hint;
+      condition.message = what + ": " + rounded(found.value, 3) + " mm, and at least " + rounded(limit, 3) +
+                          " mm is required (α = " + rounded(degrees(found.alpha), 3) + "°)";
+      if (!hint.empty()) condition.message += "; try " + hint;
     }
     plan_.conditions.push_back(condition);
   }
@@ -226,24 +227,24 @@ void check_axle(Conditions& checks, const Scene& scene, const KitPlan& plan) {
   const Vec2 axis(0, 0);
   const auto fixed = [](double value) { return Minimum{value, 0}; };
   checks.at_least("axle_beside_pulley", fixed(scene.pulley.norm() - sizes.pulley_radius - sizes.axle_tube), k_clear,
-                  "the joint's axle stands in the pulley",
+                  "the joint's axle is too close to the pulley",
                   "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
                       " by {}, or a smaller pulley (pulley.r1_mm, body.groove_depth_mm)");
   for (const int tendon : {0, 1}) {
     checks.at_least("axle_beside_tendon_" + std::to_string(tendon + 1),
                     tendon_past(scene, tendon, axis, sizes.axle_tube), k_clear,
-                    "tendon " + std::to_string(tendon + 1) + " meets the joint's axle",
+                    "tendon " + std::to_string(tendon + 1) + " is too close to the joint's axle",
                     std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") +
                         " larger by {}, or a smaller range (joint.range_deg)");
     checks.at_least(std::string("axle_beside_pin_") + (tendon == 0 ? "B" : "D"),
                     fixed(scene.pins[tendon].norm() - sizes.axle_tube - plan.pins[tendon].collar), k_clear,
-                    std::string("pin ") + (tendon == 0 ? "B" : "D") + " stands in the joint's axle",
+                    std::string("pin ") + (tendon == 0 ? "B" : "D") + " is too close to the joint's axle",
                     std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") + " larger by {}");
   }
   if (sizes.motor) {
     const double beside = beside_motor(*sizes.motor, axis - scene.pulley, sizes.motor_front);
     checks.at_least("axle_beside_motor", fixed(beside - sizes.axle->head_radius), k_clear,
-                    "the screw of the joint's axle stands in the motor (" + sizes.motor->name + ")",
+                    "the screw of the joint's axle is too close to the motor (" + sizes.motor->name + ")",
                     "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
                         " by {}, or a smaller motor (body.shaft, body.horn)");
   }
@@ -256,12 +257,14 @@ void check_pins(Conditions& checks, const Scene& scene, const KitPlan& plan) {
     const std::string name(1, pin == 0 ? 'B' : 'D'), key = pin == 0 ? "guides.EB_mm" : "guides.ED_mm";
     checks.at_least("pin_" + name + "_beside_pulley",
                     {(own.place - scene.pulley).norm() - own.collar - sizes.pulley_radius, 0}, k_clear,
-                    "pin " + name + " stands in the pulley", "pulley.EF_mm larger by {}, or " + key + " larger");
+                    "pin " + name + " is too close to the pulley", "pulley.EF_mm larger by {}, or " + key + " larger");
     checks.at_least("pin_" + name + "_beside_post", post_past(scene, sizes, own.place, own.collar), k_clear,
-                    "the post at C meets pin " + name, key + " larger by {}, or a smaller range (joint.range_deg)");
+                    "the post at C is too close to pin " + name,
+                    key + " larger by {}, or a smaller range (joint.range_deg)");
     checks.at_least("pin_" + name + "_beside_tendon_" + (pin == 0 ? "2" : "1"),
                     tendon_past(scene, 1 - pin, own.place, own.collar), k_clear,
-                    std::string("tendon ") + (pin == 0 ? "2" : "1") + " meets pin " + name, key + " larger by {}");
+                    std::string("tendon ") + (pin == 0 ? "2" : "1") + " is too close to pin " + name,
+                    key + " larger by {}");
     checks.at_least("pin_" + name + "_low_collar", {own.gap_low, 0}, 0.6,
                     "there is no space for a collar below the tendon on pin " + name,
                     "body.flange_thickness_mm larger by {}");
@@ -269,24 +272,25 @@ void check_pins(Conditions& checks, const Scene& scene, const KitPlan& plan) {
       const double radius = own.screw ? own.screw->head_radius : own.radius + k_wall;
       checks.at_least("pin_" + name + "_beside_motor",
                       {beside_motor(*sizes.motor, own.place - scene.pulley, sizes.motor_front) - radius, 0}, k_clear,
-                      "pin " + name + " stands in the motor (" + sizes.motor->name + ")", "pulley.EF_mm larger by {}");
+                      "pin " + name + " is too close to the motor (" + sizes.motor->name + ")",
+                      "pulley.EF_mm larger by {}");
     }
   }
   checks.at_least("pins_apart", {(scene.pins[0] - scene.pins[1]).norm() - plan.pins[0].collar - plan.pins[1].collar, 0},
-                  k_clear, "both pins overlap", "guides.EB_mm and guides.ED_mm larger by {}");
+                  k_clear, "the pins are too close to each other", "guides.EB_mm and guides.ED_mm larger by {}");
 }
 
 void check_link(Conditions& checks, const Scene& scene, const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
   const double R = scene.mechanism.joint.R;
   checks.at_least("post_beside_pulley", post_past(scene, sizes, scene.pulley, sizes.pulley_radius), k_clear,
-                  "the post at C meets the pulley", "pulley.EF_mm or joint.length_mm larger by {}");
-  checks.at_least("post_beside_axle", {R - sizes.post - sizes.axle_tube, 0}, k_clear, "the post at C meets the axle",
-                  "joint.length_mm larger by {}");
+                  "the post at C is too close to the pulley", "pulley.EF_mm or joint.length_mm larger by {}");
+  checks.at_least("post_beside_axle", {R - sizes.post - sizes.axle_tube, 0}, k_clear,
+                  "the post at C is too close to the axle", "joint.length_mm larger by {}");
   checks.at_least("post_beside_magnet", {R - (sizes.post + 1) - sizes.cap, 0}, k_clear,
-                  "the post at C meets the magnet's cap", "joint.length_mm larger by {}");
+                  "the post at C is too close to the magnet's cap", "joint.length_mm larger by {}");
   checks.at_least("post_beside_bearing", {R - sizes.post - 0.5 * sizes.bearing->outer, 0}, k_wall,
-                  "the hole for the post at C meets the bearing", "joint.length_mm larger by {}");
+                  "the hole for the post at C is too close to the bearing", "joint.length_mm larger by {}");
   const double waist_low =
       sizes.z_tendon2 - 0.5 * sizes.tendon_gap - post_steepness(scene.mechanism) * (sizes.post - sizes.waist) - 0.4;
   checks.at_least("tendons_apart_on_post", {waist_low - sizes.post_low, 0}, k_clear,
@@ -296,22 +300,22 @@ void check_link(Conditions& checks, const Scene& scene, const KitPlan& plan) {
   Minimum post;
   for (const transmission::TransmissionPoint& at : scene.stroke)
     post.see(outside_of(scale, R * Vec2(std::sin(at.theta), std::cos(at.theta))) - sizes.post, at.alpha);
-  checks.at_least("post_beside_scale", post, k_clear, "the post at C meets the scale",
+  checks.at_least("post_beside_scale", post, k_clear, "the post at C is too close to the scale",
                   "joint.length_mm larger by {}, or a smaller range (joint.range_deg)");
   const double magnet = sizes.link_low + sizes.link + sizes.cap_height;
   checks.at_least("tensioner_below_board",
                   {magnet + sizes.board->gap - sizes.link_low - sizes.link - tensioner_height(*sizes.small), 0},
-                  k_clear, "the tensioner meets the board", "another board (profiles/catalogue/boards.toml)");
+                  k_clear, "the tensioner is too close to the board", "another board (profiles/catalogue/boards.toml)");
   checks.at_least("scale_over_pins", {sizes.scale_low - std::max(plan.pins[0].top, plan.pins[1].top), 0}, k_clear,
-                  "a pin meets the scale", "");
-  checks.at_least("scale_over_pulley", {sizes.scale_low - sizes.pulley_high, 0}, k_clear, "the pulley meets the scale",
-                  "");
+                  "a pin is too close to the scale", "");
+  checks.at_least("scale_over_pulley", {sizes.scale_low - sizes.pulley_high, 0}, k_clear,
+                  "the pulley is too close to the scale", "");
   checks.at_least("link_over_scale", {sizes.link_low - sizes.scale_low - sizes.scale_plate, 0}, k_clear,
-                  "the link meets the scale", "");
+                  "the link is too close to the scale", "");
   checks.at_least(
       "tendon_1_over_base",
       {sizes.z_tendon1 - 0.5 * scene.mechanism.tendon.diameter - (sizes.motor ? sizes.motor->head : 0.0), 0}, k_clear,
-      "tendon 1 meets the motor's screws", "body.flange_thickness_mm larger by {}");
+      "tendon 1 is too close to the motor's screws", "body.flange_thickness_mm larger by {}");
 }
 
 // Feet ----------------------------------------------------------------------------------------------------------------
@@ -418,10 +422,14 @@ KitPlan with_bearing(const Scene& scene, const profile::SynthesisResult& synthes
   for (const double side : {-1.0, 1.0}) {
     if (const auto place = foot_on(room, side, reach)) plan.feet.push_back(*place);
   }
-  checks.at_least("feet", {static_cast<double>(plan.feet.size()), 0}, 2,
-                  "there is no place for the feet of scale and bracket beside link, tendons and pulley",
-                  "a smaller range (joint.range_deg) or a longer pulley.EF_mm");
-  plan.conditions.back().unit = "1";
+  checks.at_least("feet", {static_cast<double>(plan.feet.size()), 0}, 2, "", "");
+  profile::Condition& feet = plan.conditions.back();
+  feet.unit = "1";
+  if (!feet.ok) {
+    feet.message =
+        "there is no place for the feet of scale and bracket beside link, tendons and pulley; "
+        "try a smaller range (joint.range_deg) or a larger pulley.EF_mm";
+  }
   check_link(checks, scene, plan);
   place_legs(scene, plan);
   plan.status = profile::failed_of(plan.conditions).empty() ? KitStatus::made : KitStatus::impossible;

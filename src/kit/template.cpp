@@ -48,7 +48,7 @@ void check_distances(KitPlan& plan, const std::vector<NamedHole>& holes) {
       apart.ok = apart.value >= apart.limit;
       if (!apart.ok)
         apart.message = "the holes of " + holes[i].name + " and " + holes[k].name + " are " + rounded(apart.value, 3) +
-                        " mm apart, at least " + rounded(apart.limit, 3) + " mm is required";
+                        " mm apart; at least " + rounded(apart.limit, 3) + " mm is required";
       plan.conditions.push_back(apart);
     }
   }
@@ -99,9 +99,8 @@ class TemplateMaker {
     plan_.notes.push_back(
         std::string(plan_.heights ? "for a multi-turn pulley"
                                   : "for a joint with a drum, separate attachments, idlers or sheaths") +
-        " the kit has plates to drill, true to size, with the seats of its bearings and its "
-        "motor's holes" +
-        (plan_.heights && !has_drum() ? "" : ", and the drum") + ": no scale, tensioner or encoder mount");
+        " the kit has full-size drilling templates with bearing seats and the motor's holes" +
+        (plan_.heights && !has_drum() ? "" : ", and the drum") + "; it has no scale, tensioner or encoder mount");
     return plan_;
   }
 

@@ -163,7 +163,7 @@ class ColumnFinder {
     problem(
         "there is no column " + shown_plainly(wanted),
         nearest.empty()
-            ? "the columns are " + list_of(names_) + "; --column " + role + "=NAME says which one it is" + unit
+            ? "the columns are " + list_of(names_) + "; select one with --column " + role + "=NAME" + unit
             : "the nearest is " + shown(nearest) + ": --column " + role + "=" + argument(nearest) + " takes it" + unit);
   }
 

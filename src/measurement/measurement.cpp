@@ -224,7 +224,8 @@ Measurement read_driving(const std::filesystem::path& file, const Mechanism& dec
   const NoteSink add_note = [&](const std::string& words) { measurement.notes.push_back(run.name + ": " + words); };
   LoggedRows rows = read_rows(file, file.string(), options, access);
   if (rows.samples.empty())
-    throw InputError(file.string(), "no row has alpha", "write one row a line: alpha_deg and, if known, time_s,load_N");
+    throw InputError(file.string(), "no row has alpha",
+                     "write one row per line: alpha_deg and, if known, time_s,load_N");
   note_rows_read(rows, run.name, add_note, measurement);
   run.samples = std::move(rows.samples);
   run.mounting = rows.mounting;

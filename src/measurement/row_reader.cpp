@@ -117,7 +117,7 @@ class RowReader {
                                 "the quotation mark that opens a cell here is never closed", "close or remove it"}
                    : Diagnostic{Severity::error, place(line, 1),
                                 "a line of more than " + most + " bytes: this is not a table of measured data",
-                                "write one row a line, ended by LF, CR LF or CR"};
+                                "write one row per line, ended by LF, CR LF or CR"};
     throw InputError(problem);
   }
 
@@ -347,10 +347,10 @@ class RowReader {
       return fail(column_of(cell), message, "is this a second header line? Begin it with #");
     }
     fail(column_of(cell), message,
-         column.quantity == Quantity::time ? "write numbers, or time stamps as 2025-03-01T10:00:00.020 in all rows"
-                                           : "write one number a cell, with one decimal mark in the whole file; leave "
-                                             "the cell empty where nothing was "
-                                             "logged");
+         column.quantity == Quantity::time
+             ? "write numbers, or time stamps as 2025-03-01T10:00:00.020 in all rows"
+             : "write one number per cell, with one decimal mark in the whole file; leave "
+               "the cell empty where nothing was logged");
   }
 
   void keep(Sample sample) {

@@ -81,11 +81,11 @@ struct MotorType {
   std::string source;
   std::vector<std::string> fits;  ///< names of horns and shafts
   double shaft = 0;               ///< diameter; 0: it has a horn
-  double shaft_length = 0;        ///< shaft length above that face
-  double face = 0;                ///< height of the horn's face above it
+  double shaft_length = 0;        ///< length of the shaft above the motor's face
+  double face = 0;                ///< height of the horn's face above the motor's face
   double front = 0, back = 0;     ///< extent of the motor along its long side; front is the nearer end
   double side = 0;                ///< extent to each side
-  double depth = 0;               ///< extent below that face
+  double depth = 0;               ///< extent below the motor's face
   /// Diameter of the round boss on the face; 0: the motor's body passes through the plate.
   double pilot = 0;
   bool two_holes = false;  ///< screws at ±x only; otherwise at ±x, both at the front and at the back

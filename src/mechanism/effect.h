@@ -61,7 +61,7 @@ struct ManualMeasurement {
   double (*read)(const Imperfections& joint, const Mechanism& declared) = nullptr;
 };
 
-/// Descriptions of a parameter below and above zero, where the sign is not obvious: "both pulleys too small".
+/// Descriptions of a parameter below and above zero, where the sign is not obvious: "both pulleys are too small".
 struct SignWords {
   std::string_view below;
   std::string_view above;
@@ -159,8 +159,8 @@ Imperfections merge_findings(const Imperfections& before, const Imperfections& f
 /// The joint `before` plus `change`, parameter by parameter and clamped to the bounds. A searched parameter is taken
 /// from `change` if its effect changes, otherwise from `before`.
 Imperfections changed(const Imperfections& before, const Imperfections& change, JointKind kind);
-/// The part of `found` that no mechanism contains: what the expected joint of the corrected file has or undoes is
-/// removed.
+/// The part of `found` that no mechanism contains: without the deviations that the expected joint of the corrected file
+/// contains or compensates.
 Imperfections beyond_mechanism(const Imperfections& found, JointKind kind);
 
 /// Conversions from parameters to reported values.

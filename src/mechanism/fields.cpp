@@ -258,7 +258,7 @@ void add_load(std::vector<Field>& table) {
   table.push_back(
       number<load, &Load::mass>({"load.mass_kg", "", "0", "mass of the link and what it carries"}, "kg", 0, 10000));
   table.push_back(number<load, &Load::lever>(
-      {"load.lever_mm", "", "0", "from the joint axis along OC to the centre of that mass"}, "mm", -10000, 10000));
+      {"load.lever_mm", "", "0", "from the joint axis along OC to the centre of mass"}, "mm", -10000, 10000));
   table.push_back(number<load, &Load::tilt, degrees_as_read, radians>(
       {"load.tilt_deg", "", "0",
        "the joint angle at which OC points straight up; 0: upright at home; 90: horizontal at home, so that the weight "
@@ -314,7 +314,8 @@ void add_spring(std::vector<Field>& table) {
       "Nmm_per_rad", 0, 10000000));
   table.back().is_set = has_spring;
   table.push_back(number<spring, &Spring::preload>(
-      {"spring.preload_Nmm", "", "0", "its torque at free_deg, positive against +theta"}, "Nmm", -10000000, 10000000));
+      {"spring.preload_Nmm", "", "0", "torque of the spring at free_deg, positive against +theta"}, "Nmm", -10000000,
+      10000000));
   table.back().is_set = has_spring;
   table.push_back(number<spring, &Spring::free, degrees_as_read, radians>(
       {"spring.free_deg", "", "0",
@@ -376,7 +377,7 @@ void add_mechanism(std::vector<Field>& table) {
   table.back().is_set = has_idlers;
   table.push_back(number<guides, &Guides::bearing_friction>(
       {"guides.bearing_friction", "", "0.005",
-       "friction coefficient of that bearing: 0.0015 to 0.005 for balls, 0.1 to 0.2 for plastic on steel",
+       "friction coefficient of an idler's bearing: 0.0015 to 0.005 for balls, 0.1 to 0.2 for plastic on steel",
        "guides.kind=idler"},
       "", 0, 1));
   table.back().is_set = has_idlers;
@@ -540,7 +541,7 @@ void add_horn(std::vector<Field>& table) {
       {"horn.bolt_circle_mm", "", "0", "diameter of the circle through the centres of the screws", k_when}, "mm", 0,
       500));
   table.push_back(whole_number<horn, &Horn::bolt_count>(
-      {"horn.bolt_count", "", "0", "number of screws, evenly spaced on that circle", k_when}, 0, 24));
+      {"horn.bolt_count", "", "0", "number of screws, evenly spaced on the bolt circle", k_when}, 0, 24));
   table.push_back(number<horn, &Horn::bolt_hole>(
       {"horn.bolt_hole_mm", "", "0", "diameter of the screws' clearance holes; material.hole_compensation_mm is added",
        k_when},
@@ -565,14 +566,14 @@ void add_horn(std::vector<Field>& table) {
        "teeth of the servo's output shaft, for a pulley that is pushed onto the shaft instead of a horn", k_when},
       0, 120));
   table.push_back(number<horn, &Horn::spline_diameter>(
-      {"horn.spline_diameter_mm", "", "0", "diameter of that shaft over its teeth", k_when}, "mm", 0, 100));
-  table.push_back(
-      number<horn, &Horn::spline_depth>({"horn.spline_depth_mm", "", "0", "depth of its teeth", k_when}, "mm", 0, 20));
-  table.push_back(number<horn, &Horn::spline_length>(
-      {"horn.spline_length_mm", "", "0",
-       "length of that shaft in the pulley, followed by a shoulder and horn.centre_hole_mm; 0: the teeth go through",
-       k_when},
-      "mm", 0, 100));
+      {"horn.spline_diameter_mm", "", "0", "diameter of the servo's shaft over its teeth", k_when}, "mm", 0, 100));
+  table.push_back(number<horn, &Horn::spline_depth>(
+      {"horn.spline_depth_mm", "", "0", "depth of the teeth of the servo's shaft", k_when}, "mm", 0, 20));
+  table.push_back(number<horn, &Horn::spline_length>({"horn.spline_length_mm", "", "0",
+                                                      "length of the servo's shaft in the pulley, followed by a "
+                                                      "shoulder and horn.centre_hole_mm; 0: the teeth go through",
+                                                      k_when},
+                                                     "mm", 0, 100));
 }
 
 void add_making(std::vector<Field>& table) {
@@ -611,8 +612,8 @@ void add_making(std::vector<Field>& table) {
       number<cut, &Cut::plate>({"cut.plate_mm", "", "3", "thickness of the stacked plates"}, "mm", 0.1, 100));
   table.push_back(number<cut, &Cut::sheet_width>(
       {"cut.sheet_width_mm", "", "300", "width of the sheet that plates are cut from"}, "mm", 10, 10000));
-  table.push_back(
-      number<cut, &Cut::sheet_height>({"cut.sheet_height_mm", "", "200", "height of that sheet"}, "mm", 10, 10000));
+  table.push_back(number<cut, &Cut::sheet_height>(
+      {"cut.sheet_height_mm", "", "200", "height of the sheet that plates are cut from"}, "mm", 10, 10000));
   table.push_back(number<cut, &Cut::dowel>(
       {"cut.dowel_mm", "", "3", "diameter of the dowels that align the plates; 0: none"}, "mm", 0, 50));
   table.push_back(transmission_kind_field());

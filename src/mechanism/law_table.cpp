@@ -34,12 +34,12 @@ struct PairColumns {
 };
 
 constexpr PairColumns k_law_columns = {
-    "alpha_deg", "theta_deg", "first a line alpha_deg,theta_deg, then one pair of angles a line, both increasing",
+    "alpha_deg", "theta_deg", "first a line alpha_deg,theta_deg, then one pair of angles per line, both increasing",
     /// Bounds time and memory, far above any real table.
     100000};
 constexpr PairColumns k_torque_columns = {
     "theta_deg", "motor_torque_Nmm",
-    "first a line theta_deg,motor_torque_Nmm, then an angle and the torque wanted there a line, the angles increasing",
+    "first a line theta_deg,motor_torque_Nmm, then an angle and its wanted torque per line, the angles increasing",
     /// The law is integrated over all rows, anew for each changed joint.
     2000};
 
@@ -166,7 +166,7 @@ bool is_torque_row(PairTableReader& reader, const PairRow* before, const PairRow
     return false;
   }
   if (before != nullptr)
-    reader.check_increasing("theta_deg", before->first, row.first, row.line, "one row an angle, from low to high");
+    reader.check_increasing("theta_deg", before->first, row.first, row.line, "one row per angle, from low to high");
   return true;
 }
 

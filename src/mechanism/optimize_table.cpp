@@ -63,8 +63,9 @@ class OptimizeTableCheck {
     for (const auto& [key, values] : {std::pair{"lower", &table_.lower}, std::pair{"upper", &table_.upper}}) {
       if (values->size() == count) continue;
       fail(item_place_(key, count),
-           "optimize." + std::string(key) + " holds " + std::to_string(values->size()) + " numbers for " +
-               std::to_string(count) + " variables",
+           "optimize." + std::string(key) + " has " + std::to_string(values->size()) +
+               (values->size() == 1 ? " number for " : " numbers for ") + std::to_string(count) +
+               (count == 1 ? " variable" : " variables"),
            "one number for each variable, in their order");
     }
     if (table_.lower.size() != count || table_.upper.size() != count) return;
@@ -127,7 +128,7 @@ class OptimizeTableCheck {
         fail(place, key + " is tied, and a variable as well", "leave it out of the variables");
       }
       if (std::find(earlier.begin(), earlier.end(), key) != earlier.end())
-        fail(place, key + " is tied twice, or used before it is tied", "one tie a key, in the order of use");
+        fail(place, key + " is tied twice, or used before it is tied", "one tie per key, in the order of use");
       earlier.push_back(key);
       for (const LinearTerm& term : tie->right.terms) earlier.push_back(term.key);
     }

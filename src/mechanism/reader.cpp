@@ -172,7 +172,7 @@ void MechanismReader::parse(std::string_view text) {
     if (what.substr(0, 5) == "Error" && colon != std::string_view::npos) what.remove_prefix(colon + 2);
     throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_),
                                 "not TOML: " + as_shown(what, k_max_text_length),
-                                "strings stand in quotes, lists in [ ], one key = value a line"});
+                                "write strings in quotes, lists in [ ], and one key = value per line"});
   }
 }
 

@@ -11,10 +11,13 @@ std::vector<Template> templates() {
 }
 
 std::string first_comment(const Template& known) {
-  std::string_view line = known.text.substr(0, known.text.find('\n'));
-  if (line.empty() || line[0] != '#') return {};
-  line.remove_prefix(std::min(line.find_first_not_of("# "), line.size()));
-  return std::string(line);
+  std::string comment;
+  for (std::string_view text = known.text; text.starts_with("# ") && !comment.ends_with('.');) {
+    const std::string_view line = text.substr(2, text.find('\n') - 2);
+    comment += (comment.empty() ? "" : " ") + std::string(line);
+    text.remove_prefix(std::min(line.size() + 3, text.size()));
+  }
+  return comment;
 }
 
 std::string_view find_template(std::string_view name) {

@@ -213,10 +213,10 @@ Claim linear_claim(const Reproduction& so_far) {
   claim.name = "the_pulley_linearizes";
   claim.paper_says = "the non-circular P2 linearizes the joint";
   const auto table_4_stroke = paper_stroke(table_4_mechanism(so_far.assumptions), 2000);
-  claim.equations_give = "θ(α) leaves the line that fits best by ±" + fixed(nonlinearity(table_4_stroke), 2) +
-                         "°, that of least squares over α by up to " +
+  claim.equations_give = "θ(α) deviates from the best line by ±" + fixed(nonlinearity(table_4_stroke), 2) +
+                         "°, and from the least-squares line over α by up to " +
                          fixed(least_squares_nonlinearity(table_4_stroke), 2) +
-                         "°: a round P1 alone decides θ(α), P2 only keeps tendon 2 taut";
+                         "°: a round P1 alone determines θ(α), and P2 only keeps tendon 2 taut";
   return with_verdict(std::move(claim), so_far.assumptions, [](const PaperAssumptions& assumptions) {
     const auto stroke = paper_stroke(table_4_mechanism(assumptions));
     return !stroke.empty() && nonlinearity(stroke) < k_linear;
@@ -242,9 +242,10 @@ Claim drawing_claim(const Reproduction& so_far) {
       profile::rewind(mechanism, profile::parallel(drawn.p1, -half), profile::parallel(drawn.p2, -half));
   const auto [low, high] = std::minmax_element(wound.points.begin(), wound.points.end(),
                                                [](const auto& a, const auto& b) { return a.slack < b.slack; });
-  claim.equations_give =
-      "a string wound on that drawing misses by " + rounded(low->slack, 2) + " to " + rounded(high->slack, 2) +
-      " mm of tendon 2: r2 is the distance of the tendon's line, the profile is the envelope of those lines";
+  claim.equations_give = "a string wound on that drawing is off by " + rounded(low->slack, 2) + " to " +
+                         rounded(high->slack, 2) +
+                         " mm of tendon 2: r2 is the distance of the tendon's line from the axis, and the profile is "
+                         "the envelope of those lines";
   return claim;
 }
 

@@ -61,9 +61,9 @@ std::string limit_deg(double angle) {
 
 /// The law over `share` of its range, rounded to thousandths of a degree.
 DeclaredMechanism narrowed(DeclaredMechanism mechanism, double share) {
-  const auto to_hand = [share](double angle) { return radians(std::trunc(1000 * share * degrees(angle)) / 1000); };
-  mechanism.joint.theta_min = to_hand(mechanism.joint.theta_min);
-  mechanism.joint.theta_max = to_hand(mechanism.joint.theta_max);
+  const auto truncated = [share](double angle) { return radians(std::trunc(1000 * share * degrees(angle)) / 1000); };
+  mechanism.joint.theta_min = truncated(mechanism.joint.theta_min);
+  mechanism.joint.theta_max = truncated(mechanism.joint.theta_max);
   return mechanism;
 }
 
@@ -152,10 +152,11 @@ bool find_fits(ModelResult& result, const ModelOptions& options, const RunContex
   product.line = model::fit_line(map);
   product.tendons = model::tendon_model(product.mechanism, map, product.without_tendons);
   if (product.tendons && product.tendons->error > options.most_error) {
-    product.without_tendons = "the pulley's polynomial misses " + rounded(degrees(product.tendons->error), 2) + " deg";
+    product.without_tendons =
+        "the pulley's polynomial is off by " + rounded(degrees(product.tendons->error), 2) + " deg";
     product.tendons.reset();
   }
-  if (!product.tendons) product.notes.push_back("no joint_tendons.xml: " + product.without_tendons);
+  if (!product.tendons) product.notes.push_back("joint_tendons.xml is not written: " + product.without_tendons);
   for (std::size_t i = 0; product.tendons && i < 2; ++i) {
     if (const std::string& why = product.tendons->omission[i]; !why.empty())
       product.notes.push_back("joint_tendons.xml omits tendon " + std::to_string(i + 1) + ": " + why);

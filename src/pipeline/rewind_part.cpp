@@ -50,7 +50,7 @@ profile::RewindResult rewind_drawing(const joint::JointAsItIs& joint, const form
   if (!pitch1 || !pitch2) {
     throw InputError(
         "", "the drawing has no closed contours on the layers P1_FLOOR and P2_FLOOR (nor on P1_PITCH and P2_PITCH)",
-        "name the layers of the two groove floors like that; 'fusee build' writes such a profile.dxf");
+        "draw the two groove floors on these layers, as in profile.dxf of 'fusee build'");
   }
   // A drawn centre line is the pitch curve: a tendon without thickness, over pins thicker by its radius.
   joint::JointAsItIs centre_line = joint;

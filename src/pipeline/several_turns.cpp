@@ -39,10 +39,10 @@ std::vector<std::string> notes_of(const Mechanism& mechanism, const formats::Hel
   std::vector<std::string> notes = {
       where + rounded(ends.z1, 4) + " mm (tendon 1) and " + rounded(ends.z2, 4) +
           " mm (tendon 2) above the pulley's lower face, where the fleet angle is smallest",
-      "wound several times, " + rounded(helix.synthesis.sides[0].turns, 3) + " (P1) and " +
-          rounded(helix.synthesis.sides[1].turns, 3) + " turns (P2) over the range and " +
-          rounded(mechanism.body.spare_turns) + " spare at each end, which leave " + rounded(100.0 * left, 2) +
-          " % of a tension to the knot; lead " + rounded(helix.synthesis.sides[0].lead, 3) + " and " +
+      "helical grooves: " + rounded(helix.synthesis.sides[0].turns, 3) + " turns (P1) and " +
+          rounded(helix.synthesis.sides[1].turns, 3) + " turns (P2) over the range, and " +
+          rounded(mechanism.body.spare_turns) + " spare at each end, after which " + rounded(100.0 * left, 2) +
+          " % of a tension reaches the knot; leads of " + rounded(helix.synthesis.sides[0].lead, 3) + " and " +
           rounded(helix.synthesis.sides[1].lead, 3) + " mm",
       "there is no plates.dxf: plates cannot have helical grooves"};
   for (const helix::HelixSide& side : helix.synthesis.sides) {

@@ -7,7 +7,7 @@
 #include "base/normal_numbers.h"
 #include "plan/thresholds.h"
 
-// A data set is needed only as z = Aᵀy. For y = A x + noise, z is G x plus a normal vector of covariance G, G = AᵀA.
+// A data set y = A x + noise enters only through z = Aᵀy = G x + a normal vector of covariance G, with G = AᵀA.
 // The log evidence of the columns Z, each with a normal prior of size 1, is
 //   ½ z_Zᵀ (I + G_ZZ)⁻¹ z_Z − ½ log det (I + G_ZZ).
 // An explanation is one cause plus model error. Its alternatives are the other causes, model error alone, and an
@@ -93,8 +93,8 @@ class CauseSelector {
     return (known_.runs + known_.readings) * x + noise_ * noise;
   }
 
-  /// Indices of the causes that are named together; empty if an unmodelled cause is as likely. `without` is a cause
-  /// that is missing from the catalogue.
+  /// Indices of the causes that are reported together; none if an unmodelled cause is as likely. `without`: a cause
+  /// that is removed from the catalogue, or null.
   std::vector<std::size_t> named(const Eigen::VectorXd& z, const Cause* without) const {
     double unmodelled = -1e300;
     for (const Explanation& explanation : unmodelled_) unmodelled = std::max(unmodelled, explanation.evidence(z));

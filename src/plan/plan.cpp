@@ -25,7 +25,7 @@ struct Option {
   Information added_to(const Information& known) const { return seen ? known.with(*seen) : known.with(read); }
 };
 
-/// Margins at the size that is worth identifying: a row a cause, column 0 against no cause, then against each cause.
+/// Margins at the size worth identifying: one row per cause, column 0 against no cause, then against each cause.
 using Margins = std::vector<std::vector<double>>;
 
 /// Plans for the causes that the set of all candidate measurements detects.

@@ -36,7 +36,7 @@ std::vector<std::string> written_keys(const Mechanism& mechanism) {
 
 /// Alternatives for a key that is not a number, in the order in which they are tried.
 struct Alternatives {
-  const char* condition;  ///< prefix of the conditions that they may mend
+  const char* condition;  ///< prefix of the conditions that they may satisfy
   const char* key;
   std::vector<std::string_view> words;
 };
@@ -46,7 +46,7 @@ const std::vector<Alternatives>& screw_alternatives() {
                                              {"clamp_screw", "print.parts", {"two"}}};
   return all;
 }
-/// Alternatives if every condition holds but the cut part does not print.
+/// Alternatives if every condition holds but the finished part is not printable.
 const std::vector<Alternatives>& printing_alternatives() {
   static const std::vector<Alternatives> all{{"", "print.parts", {"two", "one"}}, {"", "print.supports", {"true"}}};
   return all;
@@ -74,7 +74,7 @@ class BodyAdviser {
       };
       if (std::any_of(failed.begin(), failed.end(), is_about)) add_word(advice.alone, words);
     }
-    // Without curves, no number of the body alone would help.
+    // If the curves themselves are impossible, no number of the body helps.
     profile::FeasibilityOracle judge = judge_;
     judge.is_expensive = !profile::obstacle_to(mechanism_);  // each try plans a body
     std::vector<std::string> keys = judge.is_expensive ? written_keys(mechanism_) : std::vector<std::string>{};

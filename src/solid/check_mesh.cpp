@@ -220,7 +220,7 @@ Check crossing_check(const ExaminedSurface& surface) {
                  facet_at(surface, f) + " crosses facet " + std::to_string(surface.number_of(g)));
 }
 
-// ---- what must hold before anything else can be asked ---------------------------------------------------------------
+// ---- preconditions of the other checks ------------------------------------------------------------------------------
 
 Check facets_check(const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles.size();

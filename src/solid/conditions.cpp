@@ -94,7 +94,7 @@ class Conditions {
     const Wall& wall = made.thickness <= printed.thickness ? made : printed;
     list_.add_least(
         fmt::format("bore_wall_{}", transmission::pulley_name(outline.side)), wall.thickness, layout_.min_wall,
-        fmt::format("the bore leaves {} to {}'s floor at {:.0f}°, at least {} mm is required (body.min_wall_mm)",
+        fmt::format("the bore leaves {} to {}'s floor at {:.0f}°; at least {} mm is required (body.min_wall_mm)",
                     wall_words(wall.thickness), transmission::pulley_name(outline.side), degrees(wall.angle),
                     rounded(layout_.min_wall, 3)));
   }
@@ -116,7 +116,7 @@ class Conditions {
     list_.add_least(
         "horn_holes", web.thickness, k_least_web,
         fmt::format(
-            "horn {}: {} remains between {} (with material.hole_compensation_mm), at least {} mm is required. Try {}",
+            "horn {}: {} remains between {} (with material.hole_compensation_mm); at least {} mm is required. Try {}",
             horn_name(), wall_words(web.thickness), web.between, k_least_web, web.change));
   }
 
@@ -170,7 +170,7 @@ class Conditions {
                                                rounded(degrees(body_.wrap)))
                                  : "";
     list_.add_least(fmt::format("anchor_{}", transmission::pulley_name(room.side)), 2.0 * room.room, 2.0 * room.least,
-                    fmt::format("{}'s tie-off has space for a knot pocket of {} mm, at least {} mm is required "
+                    fmt::format("{}'s tie-off has space for a knot pocket of {} mm; at least {} mm is required "
                                 "(body.knot_pocket_mm) behind walls of {} mm (body.min_wall_mm){}",
                                 transmission::pulley_name(room.side), rounded(2.0 * room.room, 3),
                                 rounded(2.0 * room.least, 3), rounded(layout_.min_wall, 3), past));
@@ -223,7 +223,7 @@ class Conditions {
   void add_pin(const char* condition_name, const char* pin_name, const Vec2& pin, const char* key) {
     const double clear = pin.norm() - mechanism_.guides.radius - reach_towards(pin);
     list_.add_least(condition_name, clear, k_pin_gap,
-                    fmt::format("pin {} ({}, pulley.EF_mm) {} mm {} the flanges, at least {} mm clearance is required",
+                    fmt::format("pin {} ({}, pulley.EF_mm) {} mm {} the flanges; at least {} mm clearance is required",
                                 pin_name, key, (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
                                 clear > 0 ? "of" : "inside", k_pin_gap));
   }
@@ -250,7 +250,7 @@ class Conditions {
     const double clear = drum.norm() - mechanism_.joint.drum_radius - reach_within(drum, mechanism_.joint.drum_radius);
     list_.add_least(
         "drum_clear", clear, k_pin_gap,
-        fmt::format("the drum (joint.drum_radius_mm, guides.OE_mm, pulley.EF_mm) {} mm {} the flanges, at least {} mm "
+        fmt::format("the drum (joint.drum_radius_mm, guides.OE_mm, pulley.EF_mm) {} mm {} the flanges; at least {} mm "
                     "clearance is required",
                     (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
                     clear > 0 ? "of" : "inside", k_pin_gap));

@@ -86,13 +86,14 @@ void check_hub(ConditionList& list, const BodyLayout& layout, double rim_radius)
   list.add_least(
       "hub_wall", wall, layout.min_wall,
       fmt::format(
-          "a hub of {} mm (body.hub_diameter_mm) leaves {} about {}, at least {} mm is required (body.min_wall_mm)",
+          "a hub of {} mm (body.hub_diameter_mm) leaves {} about {}; at least {} mm is required (body.min_wall_mm)",
           rounded(diameter), wall_words(wall), reach > layout.bore.radius ? "the horn's holes" : "the bore",
           rounded(layout.min_wall, 3)));
   const double limit = 2.0 * (rim_radius - k_hub_margin);
-  list.add_most("hub_on_flange", diameter, limit,
-                fmt::format("the upper flange has space for a hub of {} mm, this one has {} mm (body.hub_diameter_mm)",
-                            rounded(limit), rounded(diameter)));
+  list.add_most(
+      "hub_on_flange", diameter, limit,
+      fmt::format("the upper flange has space for a hub of {} mm, but this one has {} mm (body.hub_diameter_mm)",
+                  rounded(limit), rounded(diameter)));
 }
 
 double hub_radius_for_named_screw(const Mechanism& mechanism, const BodyLayout& layout) {
@@ -131,7 +132,7 @@ void check_set_screw(ConditionList& list, const Mechanism& mechanism, const Body
 }  // namespace
 
 std::string wall_words(double wall) {
-  return wall > 0 ? "a wall of " + rounded(wall, 3) + " mm" : "no wall (they overlap by " + rounded(-wall, 3) + " mm)";
+  return wall > 0 ? "a wall of " + rounded(wall, 3) + " mm" : "no wall (overlap of " + rounded(-wall, 3) + " mm)";
 }
 
 void choose_hub(BodyLayout& layout, const Mechanism& mechanism, double rim_radius) {

@@ -261,7 +261,7 @@ TEST(Overload, WarnsBeyondDeclaredStrength) {
   const std::vector<Setting> loaded = {{"load.tip_force_N", "50"}, {"tendon.strength_N", "60"}};
   EXPECT_THAT(
       said(loaded),
-      ElementsAre(AllOf(HasSubstr("exceed its strength of 30 N there (tendon.strength_N, tendon.knot_efficiency)"),
+      ElementsAre(AllOf(HasSubstr("exceeds its strength of 30 N there (tendon.strength_N, tendon.knot_efficiency)"),
                         HasSubstr("[load]"))));
   EXPECT_THAT(said({{"load.tip_force_N", "50"}, {"tendon.strength_N", "200"}}), IsEmpty());
 }

@@ -16,7 +16,7 @@ takes any of them. No code of src/calibration is used.
 stepwise   forward and backward steps over effects, by the BIC of a linear regression.
 lasso      lasso over all columns, its penalty by leaving runs out in turn and the rule of one standard error. An effect is named if a
            coefficient of it is not zero.
-forest     a random forest with one output an effect, on the share of the error that each effect explains, alone and beside all others.
+forest     a random forest with one output per effect, on the share of the error that each effect explains, alone and beside all others.
            Closed set: it knows no unmodelled class. An effect is named above a probability of 0.5.
 gp         Gaussian process of motor angle, direction, load, speed and time, fitted to the error. An effect is named if generalised least
            squares reject its absence beside the process at 1 %, Bonferroni-corrected. Then the process is fitted again.

@@ -25,7 +25,7 @@ std::string corrected_by(CorrectableBy what) {
 /// As a joint with tendons has them; what a joint declared by a ratio has instead stands behind it.
 std::string catalogue_table() {
   std::string text =
-      "| place | effect | how it shows | its numbers | taken out by | how to separate it "
+      "| place | effect | how it shows | its numbers | corrected by | how to separate it "
       "|\n|---|---|---|---|---|---|\n";
   for (const fusee::Effect& effect : effects(JointKind::tendons)) {
     std::string shown = effect.is_tested ? numbers(effect) : "", by = corrected_by(effect.correctable_by);

@@ -20,7 +20,7 @@ inline const DeclaredMechanism& joint() {
   return declared;
 }
 
-/// `strokes` strokes up and down, at a row a second.
+/// `strokes` strokes up and down, at one row per second.
 inline measurement::Run run_of(const std::string& name, double load, std::size_t strokes) {
   measurement::Run run;
   run.name = name;

@@ -215,7 +215,8 @@ TEST(PointToPoint, two_places_name_nothing_alone) {
     EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained) << found.summary;
     ASSERT_FALSE(found.discrepancy.empty()) << ends.name;
     EXPECT_THAT(found.discrepancy.front().factor, StartsWith(ends.seen_with));
-    EXPECT_THAT(tried->why, AnyOf("it adds less than a name needs", StartsWith("with it rows that were not fitted")));
+    EXPECT_THAT(tried->why,
+                AnyOf("it adds less than a report requires", StartsWith("with it rows that were not fitted")));
   }
 }
 
@@ -225,7 +226,7 @@ std::vector<std::string> next_words(const Calibration& calibration) {
   return words;
 }
 
-const char* const k_both_sides = "come to each held point from both sides";
+const char* const k_both_sides = "approach each dwell from both sides";
 
 TEST(PointToPoint, points_from_one_side_are_asked_for_from_both) {
   EXPECT_THAT(next_words(calibrated({log_of(alternating_ends(20), loose(), 5)})), Contains(StartsWith(k_both_sides)));

@@ -282,7 +282,7 @@ TEST(Selection, UnmodelledFrictionIsNoCertainEffect) {
   const Calibration found = calibrate(declared, logged(declared, truth, {{0, 1}, {8, 1}, {0, 8}, {-8, 1}}));
   ASSERT_FALSE(found.effects.empty());
   EXPECT_THAT(found.effects.front().group, Contains("unmodelled")) << why(found);
-  EXPECT_THAT(found.effects.front().unmodelled.words, testing::HasSubstr("a friction that is not in proportion"));
+  EXPECT_THAT(found.effects.front().unmodelled.words, testing::HasSubstr("a friction that is not proportional"));
 
   truth = {};
   truth.joint.friction = 250;

@@ -80,7 +80,8 @@ TEST_F(Concluded, OneOfTwo) {
   leave(1);
   find({{"backlash"}, {"zero_offset", "motor_offset"}});
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
-  EXPECT_THAT(calibration.summary, HasSubstr("backlash, one of {zero_offset, motor_offset}, and cannot tell which"));
+  EXPECT_THAT(calibration.summary,
+              HasSubstr("backlash, one of {zero_offset, motor_offset}, but do not decide between the alternatives"));
 }
 
 TEST_F(Concluded, RepeatsFarBeyondScatterWithinStroke) {
@@ -116,7 +117,7 @@ calibration::FoundEffect ahead_by(double nats) {
   calibration::FoundEffect effect;
   effect.name = "backlash";
   effect.group = {"backlash"};
-  effect.unmodelled = {nats, "a jump at 50 % of the way", "come from both sides"};
+  effect.unmodelled = {nats, "a jump at 50 % of the range", "approach from both sides"};
   return effect;
 }
 
@@ -128,7 +129,7 @@ TEST_F(Concluded, SmallLeadAddsUnmodelled) {
   EXPECT_THAT(next_words(), testing::Contains("come from both sides"));
   EXPECT_THAT(calibration.summary,
               testing::StartsWith("Measure this first: come from both sides. The data are explained by "
-                                  "backlash or an unmodelled cause that does the same"));
+                                  "backlash or an unmodelled cause with the same effect"));
 }
 
 TEST_F(Concluded, LargeLeadNamesEffectAlone) {
@@ -220,7 +221,7 @@ TEST_F(Concluded, ResidualAboveNoiseHasPlace) {
   EXPECT_THAT(calibration.unexplained_where, HasSubstr("falling"));
   EXPECT_THAT(calibration.unexplained_where, HasSubstr("57.3°"));
   EXPECT_THAT(calibration.next.back().words, HasSubstr("quarter turn"));
-  EXPECT_THAT(calibration.summary, HasSubstr("° rms are left and noise makes 0.0573° of it"));
+  EXPECT_THAT(calibration.summary, HasSubstr("° rms remain, of which noise is 0.0573°"));
 }
 
 TEST_F(Concluded, ResidualOfEffectsDiffersFromAnswer) {

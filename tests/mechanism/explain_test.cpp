@@ -122,6 +122,14 @@ TEST(Templates, AreReadableProfiles) {
   EXPECT_EQ(templates().size(), count);
 }
 
+TEST(Templates, DescriptionsAreWholeSentences) {
+  for (const Template& known : templates()) EXPECT_THAT(first_comment(known), ::testing::EndsWith(".")) << known.name;
+  EXPECT_EQ(first_comment({"two lines", "# A joint of\n# two lines. More.\n# No more.\n"}),
+            "A joint of two lines. More.");
+  EXPECT_EQ(first_comment({"one line", "# A joint.\n#\n# More.\n"}), "A joint.");
+  EXPECT_EQ(first_comment({"none", "schema = 1\n"}), "");
+}
+
 TEST(Templates, SuggestNearestName) {
   try {
     find_template("forarm");

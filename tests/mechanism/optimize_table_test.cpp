@@ -43,7 +43,7 @@ TEST(OptimizeTable, ReportsPlaceAndSuggestion) {
   EXPECT_THAT(errors_of("\"guides.ED_mm\"]", "\"joint.length_mm\"]"), HasSubstr("17:33: joint.length_mm occurs twice"));
   EXPECT_THAT(errors_of("[100, 30]", "[100, 200]"),
               HasSubstr("18:15: the bounds of guides.ED_mm are crossed: lower 200 mm is above upper 150 mm"));
-  EXPECT_THAT(errors_of("[100, 30]", "[100]"), HasSubstr("optimize.lower holds 1 numbers for 2 variables"));
+  EXPECT_THAT(errors_of("[100, 30]", "[100]"), HasSubstr("optimize.lower has 1 number for 2 variables"));
   EXPECT_THAT(
       errors_of("[300, 150]", "[300, 1e5]"),
       HasSubstr("19:15: optimize.upper of guides.ED_mm = 100000 mm is out of range / allowed: 0.1 to 10000 mm"));

@@ -8,7 +8,7 @@
                                             the seed
     judge_print.py --self-test              the judge must detect unsupported parts
 
-Exit 0: no supports; 1: supports, one line a file on stdout; 77: not installed, or no designs requested.
+Exit 0: no supports; 1: supports, one line per file on stdout; 77: not installed, or no designs requested.
 
 Supports are on, automatic, below 45° (PrusaSlicer takes that as "below 46°"), layers of 0.2 mm, since its default of 0.3 mm is milder. It does not support
 bridges. Supports are found in its G-code: each connected piece is one block.

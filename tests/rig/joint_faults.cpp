@@ -47,7 +47,7 @@ std::vector<Fault> joint_faults() { return {
    .numbers = [](const H& h, const J& j) -> Numbers { return {{"radius_mm", j.declared.joint.drum_radius + h.drum_radius}}; }},
   {.split = "wide", .name = "drum_runout", .first = 0.1, .most = 1.0,
    .set = [](H& h, double s, const C& c, const J&) { h.drum_runout = s, h.drum_runout_phase = c.angle; },
-   .kin = {"joint_sensor_eccentricity"},  // one period a turn of the same link
+   .kin = {"joint_sensor_eccentricity"},  // one period per turn of the same link
    .numbers = [](const H& h, const J&) -> Numbers {
      return {{"across_mm", h.drum_runout * std::cos(h.drum_runout_phase)}, {"along_mm", h.drum_runout * std::sin(h.drum_runout_phase)}};
    }},

@@ -11,7 +11,7 @@ std::vector<Fault> motor_faults() { return {
    .numbers = [](const H& h, const J&) -> Numbers { return {{"offset_deg", degrees(h.motor_offset)}}; }},
   {.split = "named", .name = "motor_sensor_eccentricity", .first = 0.01, .most = 0.2,
    .set = [](H& h, double s, const C& c, const J&) { h.motor_eccentricity = s, h.motor_eccentricity_phase = c.angle; },
-   .kin = {"pulley_runout"},  // one period a turn of the same shaft
+   .kin = {"pulley_runout"},  // one period per turn of the same shaft
    .numbers = [](const H& h, const J&) { return wave(h.motor_eccentricity, h.motor_eccentricity_phase); }},
   {.split = "named", .name = "motor_sensor_harmonic", .first = 0.01, .most = 0.2,
    .set = [](H& h, double s, const C& c, const J&) { h.motor_harmonic = s, h.motor_harmonic_phase = c.angle, h.motor_harmonic_order = order_of(c); },

@@ -189,9 +189,9 @@ TEST(Conditions, MessagesFitTheSign) {
     EXPECT_FALSE(std::regex_search(message, std::regex("-[0-9.]+ mm"))) << message;
   };
   says(words_of("bore_wall_P2", &Body::bore_diameter, 34), "leaves a wall of ");
-  says(words_of("bore_wall_P2", &Body::bore_diameter, 40), "leaves no wall (they overlap by ");
+  says(words_of("bore_wall_P2", &Body::bore_diameter, 40), "leaves no wall (overlap of ");
   says(words_of("hub_wall", &Body::hub_diameter, 6), "leaves a wall of ");
-  says(words_of("hub_wall", &Body::hub_diameter, 4), "leaves no wall (they overlap by ");
+  says(words_of("hub_wall", &Body::hub_diameter, 4), "leaves no wall (overlap of ");
   says(words_of("channel_floor", &Body::anchor_hole, 3.4), " mm of a flange");
   says(words_of("channel_floor", &Body::anchor_hole, 8), "cut through a flange");
   says(words_of("set_screw_height", &Body::hub_height, 4, "M4"), " mm too low for set screw M4");

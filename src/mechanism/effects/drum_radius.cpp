@@ -40,7 +40,7 @@ Effect drum_radius(JointKind) {
        .merge_rule = MergeRule::add,
        .by_hand = {"measure the drum's diameter with a caliper and enter half of it as prior.drum_radius_mm",
                    k_half_diameter, drum_by_caliper, "prior.drum_radius_mm"},
-       .sign = {"drum smaller than declared", "drum larger than declared"}}};
+       .sign = {"the drum is smaller than declared", "the drum is larger than declared"}}};
   return effect;
 }
 

@@ -63,25 +63,25 @@ Effect guide_position(JointKind) {
                  key::plain("guide1_outward_mm", "mm", -10000, 10000, "added to guides.EB_mm"),
                  {"measure the left pin's distance from the middle and enter it as prior.EB_mm", k_caliper,
                   left_by_caliper, "prior.EB_mm"},
-                 {"left pin too close to the middle", "left pin too far from the middle"}),
+                 {"the left pin is too close to the middle", "the left pin is too far from the middle"}),
       place_part("down1_mm", [](Imperfections& at) -> double& { return at.pins.left.down; },
                  key::plain("guide1_down_mm", "mm", -10000, 10000,
                             "distance of the left pin below guides.OE_mm; the pulley's axis does not move"),
                  {"measure how far the left pin is below the joint's axis (above it: negative) and enter it as prior."
                   "OE1_mm",
                   k_caliper, left_down_by_caliper, "prior.OE1_mm"},
-                 {"left pin too high", "left pin too low"}),
+                 {"the left pin is too high", "the left pin is too low"}),
       place_part("outward2_mm", [](Imperfections& at) -> double& { return at.pins.right.outward; },
                  key::plain("guide2_outward_mm", "mm", -10000, 10000, "added to guides.ED_mm"),
                  {"measure the right pin's distance from the middle and enter it as prior.ED_mm", k_caliper,
                   right_by_caliper, "prior.ED_mm"},
-                 {"right pin too close to the middle", "right pin too far from the middle"}),
+                 {"the right pin is too close to the middle", "the right pin is too far from the middle"}),
       place_part("down2_mm", [](Imperfections& at) -> double& { return at.pins.right.down; },
                  key::plain("guide2_down_mm", "mm", -10000, 10000, "distance of the right pin below guides.OE_mm"),
                  {"measure how far the right pin is below the joint's axis (above it: negative) and enter it as prior."
                   "OE2_mm",
                   k_caliper, right_down_by_caliper, "prior.OE2_mm"},
-                 {"right pin too high", "right pin too low"})};
+                 {"the right pin is too high", "the right pin is too low"})};
   return effect;
 }
 

@@ -35,7 +35,7 @@ Effect guide_radius(JointKind) {
        .merge_rule = MergeRule::add,
        .by_hand = {"measure the guide pins' diameter with a caliper and enter half of it as prior.guide_radius_mm",
                    k_half_diameter, radius_by_caliper, "prior.guide_radius_mm"},
-       .sign = {"pins thinner than declared", "pins thicker than declared"}}};
+       .sign = {"the pins are thinner than declared", "the pins are thicker than declared"}}};
   return effect;
 }
 

@@ -33,7 +33,7 @@ Effect joint_length(JointKind) {
        .merge_rule = MergeRule::add,
        .by_hand = {"measure from the joint's axis to the tendons' attachment and enter it as prior.length_mm",
                    k_caliper, length_by_caliper, "prior.length_mm"},
-       .sign = {"shorter than declared", "longer than declared"}}};
+       .sign = {"the link is shorter than declared", "the link is longer than declared"}}};
   return effect;
 }
 

@@ -31,8 +31,8 @@ Effect motor_offset(JointKind) {
        .shown = shown::in_degrees,
        .key =
            key::in_degrees("motor_offset_deg", -360, 360, "angle of the shaft minus the reading of the motor sensor"),
-       .by_hand = {"turn the motor until the pulley's mark is at home and enter how much too little the "
-                   "motor's sensor reads there as prior.motor_offset_deg",
+       .by_hand = {"turn the motor until the pulley's mark is at home and enter by how much the motor's "
+                   "sensor reads too low there as prior.motor_offset_deg",
                    k_pulley_mark, motor_offset_by_mark, "prior.motor_offset_deg", HandTool::mark}}};
   return effect;
 }

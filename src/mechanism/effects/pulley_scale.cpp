@@ -34,7 +34,7 @@ Effect pulley_scale(JointKind) {
        .merge_rule = MergeRule::compound,
        .by_hand = {"measure two diameters of the print with a caliper and enter measured/nominal as prior.pulley_scale",
                    k_of_a_diameter, by_diameters, "prior.pulley_scale"},
-       .sign = {"both pulleys too small", "both pulleys too large"}}};
+       .sign = {"both pulleys are too small", "both pulleys are too large"}}};
   return effect;
 }
 

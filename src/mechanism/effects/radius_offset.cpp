@@ -36,7 +36,7 @@ Effect radius_offset(JointKind) {
                    "of their "
                    "total excess (negative: too small) as prior.radius_offset_mm",
                    k_two_diameters, offset_by_caliper, "prior.radius_offset_mm"},
-       .sign = {"both pulleys too small", "both pulleys too large"}}};
+       .sign = {"both pulleys are too small", "both pulleys are too large"}}};
   return effect;
 }
 

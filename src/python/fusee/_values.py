@@ -169,7 +169,7 @@ class Check(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Outline(Value):
-    """A closed convex pitch curve about the pulley's axis, counter-clockwise, at home: one row a point. Empty if infeasible.
+    """A closed convex pitch curve about the pulley's axis, counter-clockwise, at home. One row per point; none if infeasible.
 
     Tendons leave it between the points ``active_first`` and ``active_last`` (counter-clockwise); the rest closes the curve.
     """
@@ -190,7 +190,7 @@ class Outline(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Stroke(Value):
-    """θ(α) by the law, moment arms and wraps along the stroke, one row a place. 1 is the left tendon, 2 the right one."""
+    """θ(α) by the law, moment arms and wraps along the stroke, one row per place. 1: left tendon, 2: right one."""
 
     alpha_rad: Numbers  #: of the pulley
     theta_rad: Numbers  #: of the joint
@@ -231,7 +231,7 @@ class Placement(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Winding(Value):
-    """Joint angle from tendons wound on two groove floors, one row a place."""
+    """Joint angle from tendons wound on two groove floors, one row per place."""
 
     alpha_rad: Numbers
     theta_declared_rad: Numbers
@@ -306,7 +306,7 @@ class Built(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PaperForces(Value):
-    """The paper's chain [6]-[11], one row a place of the stroke."""
+    """The paper's chain [6]-[11], one row per place of the stroke."""
 
     tension1_N: Numbers
     tension2_N: Numbers
@@ -319,7 +319,7 @@ class PaperForces(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Forces(Value):
-    """The elastic model with friction, one row a place: tensions between pulley and pin, and between pin and joint."""
+    """The elastic model with friction, one row per place: tensions between pulley and pin, and between pin and joint."""
 
     theta_rad: Numbers
     tension1_N: Numbers

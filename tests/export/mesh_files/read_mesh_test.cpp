@@ -33,7 +33,7 @@ TEST(ReadMesh, OmitsUnusedVertices) {
 TEST(ReadMesh, ErrorListsFormats) {
   EXPECT_EQ(error_of("", "x.stl"), "x.stl: error: the file is empty, expected a mesh");
   EXPECT_EQ(error_of("hello", "letter.txt"),
-            "letter.txt: error: expected a mesh, and neither its first bytes nor its name say of which format\n"
+            "letter.txt: error: expected a mesh, but neither its first bytes nor its name identify the format\n"
             "  hint: fusee reads .stl, .obj, .3mf, .off, .ply, .drc and .dxf");
 }
 
