@@ -249,7 +249,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const measurement::M
   name_held_out(evidence, calibration);
   validate(declared, kept, answer, calibration);
   apply_curve(measurement, answer.reported.curve, options.hold_out, calibration);
-  conclude(evidence, selection, answer.unmodelled, calibration);
+  conclude(evidence, selection, answer, calibration);
   if (!options.earlier) {
     calibration.next = next_measurements(evidence, selection, calibration);
     ask_for_both_sides(learnt_from, calibration.next);

@@ -132,9 +132,9 @@ Fold all_blocks(const Evidence& evidence) {
   return all;
 }
 
-/// True if the curve worsens a fold by more than it improves all: its run, load or speed differs from the others.
-bool harms(const Evidence& evidence, const HeldOutBeside& held, const std::vector<Fold>& folds, const Gain& all) {
-  return std::any_of(folds.begin(), folds.end(),
+/// True if the curve worsens a level of load or speed by more than it improves all.
+bool harms_a_level(const Evidence& evidence, const HeldOutBeside& held, const Gain& all) {
+  return std::any_of(evidence.factor_folds.begin(), evidence.factor_folds.end(),
                      [&](const Fold& fold) { return gain_in(evidence, held, fold).mean < -all.mean; });
 }
 
@@ -144,14 +144,11 @@ double error_of(const Evidence& evidence, const Gain& gain, double curve_rms) {
   return 2.0 * curve_rms * left / std::sqrt(std::max(1.0, gain.rows * evidence.evidence_model->independent_share()));
 }
 
-std::string why_not(const Evidence& evidence, const HeldOutBeside& by_run, const HeldOutBeside& by_factor,
-                    const Gain& gain, double curve_rms) {
+std::string why_not(const Evidence& evidence, const HeldOutBeside& by_factor, const Gain& gain, double curve_rms) {
   if (gain.mean < std::pow(k_thresholds.least_residual * evidence.floor, 2) ||
       gain.mean < k_sure * error_of(evidence, gain, curve_rms))
     return "on held-out data it corrects no more than chance would";
-  if (harms(evidence, by_run, evidence.run_folds, gain))
-    return "it worsens a held-out run by more than it improves all";
-  if (harms(evidence, by_factor, evidence.factor_folds, gain))
+  if (harms_a_level(evidence, by_factor, gain))
     return "it worsens a held-out level of load or speed by more than it improves all";
   return "";
 }
@@ -241,8 +238,7 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const D
   const HeldOutBeside by_run = hold_out_beside(evidence, fit, amplitudes, evidence.run_folds);
   const HeldOutBeside by_factor = hold_out_beside(evidence, fit, amplitudes, evidence.factor_folds);
   const Gain gain = gain_in(evidence, by_run, all_blocks(evidence));
-  curve.why =
-      why_not(evidence, by_run, by_factor, gain, at_rows.norm() / std::sqrt(static_cast<double>(at_rows.size())));
+  curve.why = why_not(evidence, by_factor, gain, at_rows.norm() / std::sqrt(static_cast<double>(at_rows.size())));
   curve.used = curve.why.empty();
   draw(ways, seen, curve);
   curve.held_out_effects = std::sqrt(by_run.effects.mean_square);

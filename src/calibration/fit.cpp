@@ -30,6 +30,11 @@ constexpr double k_least_gain = 0.05;
 constexpr double k_worth_a_step = 1e-4;
 /// Relative reduction of the squares below which a step is the last.
 constexpr double k_least_of_squares = 1e-4;
+/// Levenberg and Marquardt: steps, the damping after a first rejected step, and its factor. Numbers that replace one
+/// another, as a gain and an error of the ratio, have long steps of no use.
+constexpr int k_most_squares_steps = 20;
+constexpr double k_least_damping = 1e-3;
+constexpr double k_more_damping = 10.0;
 /// Prior size of a number without known sizes, in its steps.
 constexpr double k_steps_in_practice = 100.0;
 
@@ -163,6 +168,15 @@ std::vector<Eigen::Index> places_of(const Fit& fit, const fusee::Effect& effect)
   return own;
 }
 
+Fit with_fixed_parameters(const Evidence& evidence, Fit fit) {
+  fit.parameters.clear();
+  fit.x.resize(0);
+  fit.J.resize(fit.residual.size(), 0);
+  fit.readings = NormalEquations::none(0);
+  for (std::size_t b = 0; b < fit.sums.size(); ++b) fit.sums[b] = sums_of(evidence.blocks[b], fit, evidence.floor);
+  return fit;
+}
+
 Tangent tangent_of(const Evidence& evidence, const Fit& fit) {
   const std::vector<Eigen::Index> rows = evidence.rows();
   Tangent tangent;
@@ -293,6 +307,16 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   return likelier(std::move(beside), refine(fit_effects_first(start)));
 }
 
+namespace {
+
+/// Normal equations of a shorter step, by Marquardt's scaling.
+NormalEquations damped(NormalEquations sums, double damping) {
+  sums.JJ.diagonal() *= 1.0 + damping;
+  return sums;
+}
+
+}  // namespace
+
 Fit Fitter::fit_least_squares(const Fit& fit) const {
   const double ridge = wide_prior(evidence().floor);
   const auto sums_at = [&](Fit& place) {
@@ -300,27 +324,23 @@ Fit Fitter::fit_least_squares(const Fit& fit) const {
     return sums_of_all(evidence(), place);
   };
   Fit best = linearize_at(fit.effects, fit.at, fit.loose_row);
-  double share = 1.0;
-  for (int i = 0; i < k_most_steps_down && best.usable; ++i) {
+  double damping = 0;
+  for (int i = 0; i < k_most_squares_steps && best.usable; ++i) {
     hold_at_bounds(best);
     const NormalEquations sums = sums_at(best);
-    const Eigen::VectorXd step = least_squares_step(sums, best.x, ridge);
-    Fit next = evaluate_at(best.effects, step_within_bounds(best, of_free_numbers(best, share * step)), best.loose_row);
+    const Eigen::VectorXd step = least_squares_step(damped(sums, damping), best.x, ridge);
+    Fit next = evaluate_at(best.effects, step_within_bounds(best, of_free_numbers(best, step)), best.loose_row);
     next.J = best.J;
     const double left = is_finite(evidence(), next) ? sums_at(next).rr : sums.rr;
     if (left >= sums.rr) {
-      share *= k_shorter;
+      damping = std::max(k_least_damping, k_more_damping * damping);
       continue;
     }
     best = linearize_at(next.effects, next.at, next.loose_row);
-    share = 1.0;
+    damping /= k_more_damping;
     if (left > (1.0 - k_least_of_squares) * sums.rr) break;
   }
   return with_evidence(std::move(best));
-}
-
-Fit Fitter::fit_beside(const Fit& fit, const Amplitudes& amplitudes) const {
-  return with_evidence(descend(linearize_at(fit.effects, fit.at, fit.loose_row), 0, k_most_steps_down, amplitudes, 1));
 }
 
 Fit Fitter::descend_fully(const EffectSet& effects, const Imperfections& from, LooseRow loose_row) const {

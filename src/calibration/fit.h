@@ -58,9 +58,6 @@ class Fitter {
   /// Least-squares fit of the same set from there, as hold_out() fits: no prior sizes, no discrepancy.
   Fit fit_least_squares(const Fit& fit) const;
 
-  /// Fit of the same set from there, beside a discrepancy of given amplitudes.
-  Fit fit_beside(const Fit& fit, const Amplitudes& amplitudes) const;
-
   /// `base` with one effect more, from the best of its starts, close to the optimum: for the comparison of candidates.
   /// Fitted from the likeliest start beside the discrepancy, and from the likeliest start without discrepancy. If the
   /// discrepancy explains everything, all starts beside it are equally likely (held-out seeds 201021, 201201, 202192).
@@ -119,6 +116,9 @@ class Fitter {
 
   Model model_;
 };
+
+/// `fit` with its parameters as constants: a discrepancy beside it describes the residual alone.
+Fit with_fixed_parameters(const Evidence& evidence, Fit fit);
 
 /// Linearization at the fit, rows in use.
 Tangent tangent_of(const Evidence& evidence, const Fit& fit);

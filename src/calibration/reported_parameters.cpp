@@ -103,21 +103,14 @@ class LazyLeastSquares {
   std::optional<LeastSquaresFits> fitted_;
 };
 
-ReportedParameters report_least_squares(const LeastSquaresFits& squares) {
-  return {{squares.handed_over, {}}, squares.reported, {}};
-}
-
-/// The least-squares set, fitted together with an empirical curve. Other factors than place and direction are left out:
-/// they would take over a part of the curve, which alone would not predict.
-ReportedParameters report_with_curve(const Evidence& evidence, const Fitter& fitter, const LeastSquaresFits& squares) {
-  ReportedParameters reported = report_least_squares(squares);
-  const auto beside = [&](const Fit& fit) { return describe_discrepancy(evidence, fit, is_of_place); };
-  const Fit fit = fitter.fit_beside(squares.handed_over, beside(squares.handed_over).posterior.amplitudes);
-  if (!fit.usable) return reported;
-  const DiscrepancyFit residual = beside(fit);
-  if (!is_unexplained(residual, evidence.floor)) return reported;
-  reported.estimate = {fit, amplitudes_beside(evidence, fit, residual)};
-  reported.curve = empirical_curve(evidence, fit, residual);
+/// Least-squares numbers, and the empirical curve of their residual. Other factors than place and direction are left out
+/// of its estimate: they would take over a part of the curve, which alone would not predict.
+ReportedParameters report_least_squares(const Evidence& evidence, const LeastSquaresFits& squares) {
+  ReportedParameters reported{{squares.handed_over, {}}, squares.reported, {}};
+  if (!squares.handed_over.usable) return reported;
+  const Fit fixed = with_fixed_parameters(evidence, squares.handed_over);
+  const DiscrepancyFit residual = describe_discrepancy(evidence, fixed, is_of_place);
+  if (is_unexplained(residual, evidence.floor)) reported.curve = empirical_curve(evidence, fixed, residual);
   return reported;
 }
 
@@ -144,62 +137,49 @@ std::size_t least_needed(const Selection& selection) {
   return least;
 }
 
-/// The least-squares set, with an empirical curve if both predict better than the effects alone.
-struct LeastSquaresAnswer {
-  ReportedParameters reported;
-  HeldOutErrors errors;
-};
-
-LeastSquaresAnswer least_squares_answer(const Evidence& evidence, const Fitter& fitter,
-                                        const LeastSquaresFits& squares) {
-  LeastSquaresAnswer alone{report_least_squares(squares), held_out_errors(squares.handed_over)};
-  ReportedParameters curved = report_with_curve(evidence, fitter, squares);
-  if (!curved.curve.used) {
-    alone.reported.curve.why = curved.curve.why;
-    return alone;
-  }
-  const HeldOutErrors errors = held_out_errors_of_mode(evidence, curved.estimate, true);
-  if (errors.runs < alone.errors.runs && errors.levels < alone.errors.levels) return {std::move(curved), errors};
-  alone.reported.curve.why = "the effects alone correct more of the runs that they were not fitted to";
-  return alone;
-}
-
 /// `squares`: least-squares fits of the same selection.
-ReportedParameters best_answer(const Evidence& evidence, FitterPool& pool, const Selection& selection,
-                               const DiscrepancyFit& unmodelled, LazyLeastSquares& squares) {
+ReportedParameters best_answer(const Evidence& evidence, const Selection& selection, const DiscrepancyFit& unmodelled,
+                               LazyLeastSquares& squares) {
   ReportedParameters all{{selection.best, amplitudes_beside(evidence, selection.best, unmodelled)}, selection.best, {}};
   if (!is_unexplained(unmodelled, evidence.floor) || is_walking(stroke_scatter(evidence, selection.best))) return all;
   all.curve = empirical_curve(evidence, selection.best, unmodelled);
-  if (selection.best.effects.empty() || !squares.fitted().handed_over.usable) return all;
-  LeastSquaresAnswer other = least_squares_answer(evidence, pool.one(), squares.fitted());
-  const HeldOutErrors by_mode = held_out_errors_of_mode(evidence, all.estimate, all.curve.used);
-  return is_better(other.errors, by_mode) ? std::move(other.reported) : std::move(all);
+  if (selection.best.effects.empty()) return all;
+  const Fit& handed_over = squares.fitted().handed_over;
+  if (!handed_over.usable ||
+      !is_better(held_out_errors(handed_over), held_out_errors_of_mode(evidence, all.estimate, all.curve.used)))
+    return all;
+  return report_least_squares(evidence, squares.fitted());
 }
 
-}  // namespace
+bool is_beyond_model_error(Factor factor) { return factor != Factor::model_error; }
 
-ReportedParameters choose_reported_parameters(const Evidence& evidence, FitterPool& pool, const Selection& selection,
-                                              const DiscrepancyFit& unmodelled) {
-  LazyLeastSquares squares(evidence, pool, selection);
-  return best_answer(evidence, pool, selection, unmodelled, squares);
+/// `answer` with the discrepancy beside its reported estimate. Least squares leave nothing to an error of the model.
+ValidatedAnswer with_residual(const Evidence& evidence, const Selection& selection, ValidatedAnswer answer) {
+  const Fit& fit = answer.reported.estimate.fit;
+  const bool is_mode = fit.at == selection.best.at;
+  answer.residual = is_mode
+                        ? answer.unmodelled
+                        : describe_discrepancy(evidence, with_fixed_parameters(evidence, fit), is_beyond_model_error);
+  return answer;
 }
 
-ValidatedAnswer validate_answer(const Evidence& evidence, FitterPool& pool, const measurement::Measurement& kept,
-                                Selection& selection) {
+/// As validate_answer(), without the residual.
+ValidatedAnswer validated(const Evidence& evidence, FitterPool& pool, const measurement::Measurement& kept,
+                          Selection& selection) {
   ValidatedAnswer answer;
   answer.declared = declared_estimate(pool, selection);
   const HeldOutRows rows(evidence, answer.declared, kept);
   for (;;) {
     answer.unmodelled = describe_discrepancy(evidence, selection.best);
     LazyLeastSquares squares(evidence, pool, selection);
-    answer.reported = best_answer(evidence, pool, selection, answer.unmodelled, squares);
+    answer.reported = best_answer(evidence, selection, answer.unmodelled, squares);
     if (selection.best.effects.empty()) {
       answer.reported = as_declared(answer.declared, std::move(answer.reported));
       return answer;
     }
     if (rows.worse_at(answer.reported.estimate).empty()) return answer;
     // Without discrepancy the effects keep their whole share of the error.
-    ReportedParameters alone = report_least_squares(squares.fitted());
+    ReportedParameters alone = report_least_squares(evidence, squares.fitted());
     const std::string where = alone.estimate.fit.usable ? rows.worse_at(alone.estimate) : "all rows";
     if (where.empty()) {
       answer.reported = std::move(alone);
@@ -212,12 +192,27 @@ ValidatedAnswer validate_answer(const Evidence& evidence, FitterPool& pool, cons
   }
 }
 
+}  // namespace
+
+ReportedParameters choose_reported_parameters(const Evidence& evidence, FitterPool& pool, const Selection& selection,
+                                              const DiscrepancyFit& unmodelled) {
+  LazyLeastSquares squares(evidence, pool, selection);
+  return best_answer(evidence, selection, unmodelled, squares);
+}
+
+ValidatedAnswer validate_answer(const Evidence& evidence, FitterPool& pool, const measurement::Measurement& kept,
+                                Selection& selection) {
+  ValidatedAnswer answer = validated(evidence, pool, kept, selection);
+  return with_residual(evidence, selection, std::move(answer));
+}
+
 ValidatedAnswer changes_beside(const Evidence& evidence, const Selection& selection) {
   ValidatedAnswer answer;
   answer.declared = {selection.none, {}};
   answer.unmodelled = describe_discrepancy(evidence, selection.best);
   answer.reported.estimate = {selection.best, amplitudes_beside(evidence, selection.best, answer.unmodelled)};
   answer.reported.reported = selection.best;
+  answer.residual = answer.unmodelled;
   return answer;
 }
 

@@ -28,7 +28,8 @@ ReportedParameters choose_reported_parameters(const Evidence& evidence, FitterPo
 struct ValidatedAnswer {
   Estimate declared;  ///< declared joint
   ReportedParameters reported;
-  DiscrepancyFit unmodelled;  ///< discrepancy beside selection.best
+  DiscrepancyFit unmodelled;  ///< discrepancy beside selection.best: decides whether the effects explain the data
+  DiscrepancyFit residual;    ///< discrepancy beside the reported estimate: is described
   /// effects that fit the runs and do not predict held-out rows, in the order of their removal
   std::vector<std::string> dropped;
 };

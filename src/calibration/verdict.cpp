@@ -124,8 +124,8 @@ std::string noise_words(const measurement::NoiseFloor& noise, const std::string&
 }
 
 /// Finding in a sentence that the user can act on.
-std::string finding(const Calibration& calibration, const ResidualStructure& structure, const StrokeScatter& scatter,
-                    double floor, const std::string& load_unit) {
+std::string finding(const Calibration& calibration, const StrokeScatter& scatter, double floor,
+                    const std::string& load_unit) {
   const std::string names = effects_words(calibration.effects);
   switch (calibration.verdict) {
     case CalibrationVerdict::not_repeatable:
@@ -137,7 +137,7 @@ std::string finding(const Calibration& calibration, const ResidualStructure& str
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
              (any_beside(calibration.effects) ? "with these alone " : "") +
              in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms remain, of which noise is " +
-             in_degrees(floor) + ": the rest is unexplained, " + structure.where + "." +
+             in_degrees(floor) + ": the rest is unexplained, " + calibration.unexplained_where + "." +
              (calibration.discrepancy.empty() ? "" : " It depends on " + calibration.discrepancy.front().factor + ".") +
              (calibration.dropped.empty() ? ""
                                           : " Not reported, since rows that were not fitted are predicted worse with "
@@ -178,16 +178,16 @@ ResidualStructure describe_residual(const Evidence& evidence, const Fit& fit) {
   return structure;
 }
 
-void conclude(const Evidence& evidence, const Selection& selection, const DiscrepancyFit& unmodelled,
+void conclude(const Evidence& evidence, const Selection& selection, const ValidatedAnswer& answer,
               Calibration& calibration) {
-  const ResidualStructure structure = describe_residual(evidence, selection.best);
+  const ResidualStructure structure = describe_residual(evidence, answer.reported.estimate.fit);
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  const bool unexplained = is_unexplained(unmodelled, evidence.floor);
+  const bool unexplained = is_unexplained(answer.unmodelled, evidence.floor);
   calibration.residual_autocorrelation = structure.autocorrelation;
   if (unexplained) {
-    calibration.unexplained_rms = unmodelled.rms;
+    calibration.unexplained_rms = answer.residual.rms;
     calibration.unexplained_where = structure.where;
-    calibration.discrepancy = unmodelled.parts;
+    calibration.discrepancy = answer.residual.parts;
   }
   const bool walks = is_walking(scatter) || is_scattering(calibration.noise);
   const std::string& load_unit = evidence.measurement.load_unit;
@@ -197,9 +197,8 @@ void conclude(const Evidence& evidence, const Selection& selection, const Discre
 }
 
 void summarize(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
-  const ResidualStructure structure = describe_residual(evidence, selection.best);
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  calibration.summary = finding(calibration, structure, scatter, evidence.floor, evidence.measurement.load_unit) + " " +
+  calibration.summary = finding(calibration, scatter, evidence.floor, evidence.measurement.load_unit) + " " +
                         figures(calibration, evidence.floor);
 }
 

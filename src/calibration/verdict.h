@@ -4,8 +4,7 @@
 
 #include <string>
 
-#include "calibration/discrepancy_fit.h"
-#include "calibration/selection.h"
+#include "calibration/reported_parameters.h"
 #include "fusee/calibration.h"
 
 namespace fusee::calibration {
@@ -17,9 +16,8 @@ struct ResidualStructure {
 };
 ResidualStructure describe_residual(const Evidence& evidence, const Fit& fit);
 
-/// Fills verdict, unexplained_rms and unexplained_where, and adds k_unmodelled to groups. `unmodelled`: the discrepancy
-/// fitted together with selection.best.
-void conclude(const Evidence& evidence, const Selection& selection, const DiscrepancyFit& unmodelled,
+/// Fills verdict, unexplained_rms and unexplained_where, and adds k_unmodelled to groups.
+void conclude(const Evidence& evidence, const Selection& selection, const ValidatedAnswer& answer,
               Calibration& calibration);
 
 /// Fills the summary from verdict, effects and next measurements.

@@ -384,7 +384,7 @@ TEST_F(HandedOver, IntervalsHoldWhatIsHandedOver) {
   selection.groups = {{{&named("tendon_stretch")}, 0}, {{&named("slack")}, 0}};
   selection.without.resize(2);
   for (auto& [parameter, variance] : selection.variance) variance = {1e-12, 1e-12};  // the summit, and nothing else
-  for (const calibration::FoundEffect& found : calibration::found_effects(evidence, selection, made.estimate.fit)) {
+  for (const calibration::FoundEffect& found : calibration::found_effects(evidence, selection, made.reported)) {
     for (const calibration::FittedParameter& number : found.parameters) {
       EXPECT_LE(number.low, number.value);
       EXPECT_GE(number.high, number.value);
@@ -411,8 +411,7 @@ TEST_F(HandedOverBeside, BetterPredictingMemberIsAdded) {
   ASSERT_TRUE(holds_gain(made));
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.25), 2));
   selection.without.resize(2);
-  const std::vector<calibration::FoundEffect> found =
-      calibration::found_effects(evidence, selection, made.estimate.fit);
+  const std::vector<calibration::FoundEffect> found = calibration::found_effects(evidence, selection, made.reported);
   ASSERT_EQ(found.size(), 2u);
   ASSERT_EQ(found[0].beside.size(), 1u);
   EXPECT_TRUE(found[1].beside.empty());

@@ -48,8 +48,10 @@ class Concluded : public testing::Test {
     for (const calibration::FoundEffect& effect : calibration.effects)
       selection.best.effects.push_back(find_effect(effect.name, JointKind::tendons));
     selection.without.resize(calibration.effects.size());
-    calibration::conclude(evidence, selection, calibration::describe_discrepancy(evidence, selection.best),
-                          calibration);
+    calibration::ValidatedAnswer answer;
+    answer.reported.estimate.fit = selection.best;
+    answer.unmodelled = answer.residual = calibration::describe_discrepancy(evidence, selection.best);
+    calibration::conclude(evidence, selection, answer, calibration);
     if (calibration.next.empty()) calibration.next = calibration::next_measurements(evidence, selection, calibration);
     calibration::summarize(evidence, selection, calibration);
     return calibration.verdict;
@@ -126,9 +128,9 @@ TEST_F(Concluded, SmallLeadAddsUnmodelled) {
   calibration.effects = {ahead_by(calibration::k_thresholds.ahead_of_unmodelled - 1)};
   EXPECT_EQ(verdict(), calibration::CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "unmodelled"));
-  EXPECT_THAT(next_words(), testing::Contains("come from both sides"));
+  EXPECT_THAT(next_words(), testing::Contains("approach from both sides"));
   EXPECT_THAT(calibration.summary,
-              testing::StartsWith("Measure this first: come from both sides. The data are explained by "
+              testing::StartsWith("Measure this first: approach from both sides. The data are explained by "
                                   "backlash or an unmodelled cause with the same effect"));
 }
 
