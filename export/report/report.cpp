@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "base/run_async.h"
 #include "base/text.h"
+#include "base/thread_pool.h"
 #include "export/report/calibration_words.h"
 #include "export/report/derived.h"
 #include "export/report/drawing.h"

@@ -136,7 +136,7 @@ struct CertifiedOptions {
   std::vector<Design> first_tries;  ///< designs known to be good
   /// The search ends at a design with a smaller value.
   std::optional<double> sufficient = std::nullopt;
-  unsigned threads = 0;  ///< 0: as many as available; the result does not depend on the number
+  unsigned threads = 0;  ///< at most as many; 0: all of the thread pool. The result does not depend on it
 };
 
 struct DesignBox {
@@ -187,7 +187,7 @@ struct GeneticOptions {
   unsigned population = 48;  ///< a multiple of 4
   unsigned generations = 100;
   unsigned seed = 1;
-  unsigned threads = 0;  ///< 0: as many as available; the result does not depend on the number
+  unsigned threads = 0;  ///< at most as many; 0: all of the thread pool. The result does not depend on it
 };
 
 /// One generation of the single-objective algorithm, as in the paper's Fig. 7.

@@ -73,7 +73,7 @@ struct Change {
 /// Feasibility test of changed mechanisms during the search for advice.
 struct FeasibilityOracle {
   /// Fast test: returns the failed conditions; none if the mechanism is feasible as far as a fast test tells. Called
-  /// hundreds of times, and from two threads if `made` is set.
+  /// hundreds of times, and by two threads at once if `made` is set.
   std::function<std::vector<Condition>(const Mechanism&)> obstacles;
   /// Full build of a change before it is reported, with the very numbers that the user will read. Empty: the fast test
   /// suffices.

@@ -4,12 +4,12 @@
 #include <queue>
 
 #include "base/text.h"
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 #include "fusee/optimize.h"
 #include "optimize/bound.h"
 #include "optimize/random.h"
 #include "optimize/search_progress.h"
-#include "optimize/thread_pool.h"
 
 namespace fusee::optimize {
 namespace {
@@ -55,8 +55,7 @@ class BranchAndBound {
         objective_(objective),
         options_(options),
         context_(context),
-        bounds_(problem, objective),
-        pool_(options.threads) {}
+        bounds_(problem, objective) {}
 
   CertifiedResult run() {
     start();
@@ -135,7 +134,9 @@ class BranchAndBound {
   /// Boxes are bounded in parallel, with the knowledge from before; results are taken in order.
   std::vector<Outcome> outcomes_of(const std::vector<Box>& boxes) {
     std::vector<Outcome> outcomes(boxes.size());
-    pool_.each(boxes.size(), [&](std::size_t i) { outcomes[i] = bounded(boxes[i], i < k_mended); });
+    ThreadPool::shared().each(
+        boxes.size(), [&](std::size_t i, std::size_t) { outcomes[i] = bounded(boxes[i], i < k_mended); },
+        options_.threads);
     boxes_ += static_cast<long>(boxes.size());
     for (const Outcome& outcome : outcomes) evaluations_ += outcome.evaluations;
     return outcomes;
@@ -358,7 +359,6 @@ class BranchAndBound {
   CertifiedOptions options_;
   const RunContext& context_;
   BoundCalculator bounds_;
-  ThreadPool pool_;
   Box root_;
   Design best_;
   double best_value_ = k_none;

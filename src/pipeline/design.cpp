@@ -1,6 +1,6 @@
 #include "pipeline/design.h"
 
-#include "base/run_async.h"
+#include "base/thread_pool.h"
 #include "fusee/export.h"
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"

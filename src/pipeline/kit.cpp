@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "analysis/plausibility.h"
-#include "base/run_async.h"
 #include "base/text.h"
+#include "base/thread_pool.h"
 #include "export/mesh_files/mesh_files.h"
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
@@ -60,7 +60,7 @@ void make_files(KitResult& result, const KitOptions& options, const RunContext& 
   formats::KitProduct& product = result.product;
   context.begin_step("building parts");
   auto drawing = run_async([&] { return formats::kit_dxf(product, options.dxf); });
-  std::vector<std::future<CheckedPart>> parts;
+  std::vector<Task<CheckedPart>> parts;
   for (const kit::KitPart& part : product.plan.parts) parts.push_back(run_async([&] { return made(part, product); }));
   product.checks = kit_fit_checks(product.plan);
   for (auto& part : parts) {

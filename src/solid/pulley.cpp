@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/run_async.h"
 #include "base/text.h"
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 #include "fusee/solid.h"
 #include "solid/body.h"

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/run_async.h"
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 #include "solid/box_tree.h"
 #include "solid/self_intersection.h"

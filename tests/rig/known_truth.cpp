@@ -10,6 +10,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/thread_pool.h"
 #include "fusee/mechanism_file.h"
 #include "rig/command.h"
 #include "rig/judge.h"
@@ -87,7 +88,7 @@ struct Request {
   std::string data_to;
   bool no_calibration = false;
   bool list = false;
-  std::size_t jobs = 2;
+  unsigned jobs = 2;
   double most_missed = 100;  ///< %
   double most_lost = 100;
   double most_blamed = 100;
@@ -242,7 +243,7 @@ std::vector<JudgementSequence> run_jobs(const std::vector<Job>& jobs, const Requ
   std::vector<JudgementSequence> answers(jobs.size());
   std::size_t done = 0;
   std::mutex console;
-  run_parallel(jobs.size(), request.jobs, [&](std::size_t i) {
+  ThreadPool(request.jobs).each(jobs.size(), [&](std::size_t i, std::size_t) {
     std::string words = folder_name(jobs[i]);
     try {
       const CaseOptions options{protocol_of(request), request.any_groove || request.joints > 0,

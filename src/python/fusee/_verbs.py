@@ -219,7 +219,7 @@ def optimize(
 ) -> _values.Optimum:
     """Better numbers within the bounds of the file's [optimize]: by proof ("certified"), by evolution ("genetic"), or a front ("pareto").
 
-    `then`: second objective, among the designs that tie in a proof. The result does not depend on the number of threads (0: one a core).
+    `then`: second objective, among the designs that tie in a proof. The result does not depend on the number of threads (0: one a processor, at most 8).
 
     >>> import fusee
     >>> arm = fusee.read(fusee.new("forearm") + '''
