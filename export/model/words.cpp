@@ -120,8 +120,8 @@ SimulatedBody body_of(const ModelProduct& product) {
   const Load& load = mechanism.load;
   const double R = mechanism.joint.R * 1e-3;
   SimulatedBody body;
-  body.weighs = load.mass > 0;
-  body.mass = body.weighs ? load.mass : k_link_per_mm * mechanism.joint.R;
+  body.weighs = load.mass_kg > 0;
+  body.mass = body.weighs ? load.mass_kg : k_link_per_mm * mechanism.joint.R;
   body.lever = body.weighs ? load.lever * 1e-3 : 0.5 * R;
   body.inertia = body.mass * R * R / 12;
   if (body.weighs) {

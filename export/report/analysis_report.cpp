@@ -170,14 +170,15 @@ std::string analysis_html(const MechanismFile& file, const analysis::AnalysisRes
        .kicker = "Analysis",
        .name = file.mechanism.name,
        .source = "of <code>" + safe_text(std::filesystem::path(file.path).filename().string()) + "</code>",
-       .body = said_section(said) + html_section("numbers", "Key numbers", key_numbers_of(result, file.mechanism)) +
-               html_section("moving", "The joint moves", moving.empty() ? "" : std::string(k_moving_words) + moving) +
-               html_section("forces", "Over the range", plots(result, file.mechanism)) +
-               html_section("budget", "Causes of the angular error", sources_table(result.sources)) +
-               html_section("tolerances", "Tolerances",
-                            "<p class=\"lead\">Each dimension within " + safe_text(with_unit(options.tolerance, "mm")) +
-                                " (95 %): joint angle and slack stay within these.</p>" +
-                                tolerances_table(result.tolerances)),
+       .body =
+           said_section(said) + html_section("numbers", "Key numbers", key_numbers_of(result, file.mechanism)) +
+           html_section("moving", "The joint moves", moving.empty() ? "" : std::string(k_moving_words) + moving) +
+           html_section("forces", "Over the range", plots(result, file.mechanism)) +
+           html_section("budget", "Causes of the angular error", sources_table(result.sources)) +
+           html_section(
+               "tolerances", "Tolerances",
+               "<p class=\"lead\">Each dimension within " + safe_text(with_unit(options.dimension_tolerance, "mm")) +
+                   " (95 %): joint angle and slack stay within these.</p>" + tolerances_table(result.tolerances)),
        .foot =
            "Lengths in mm, angles in degrees, forces in N. Tensions are the full model’s in its third cycle, unless "
            "they are called the paper’s.",

@@ -54,8 +54,8 @@ Json step_json(const plan::Plan& plan, const plan::PlanStep& step, const std::st
   }
   json["words"] = step.words;
   json["minutes"] = nine_digits(step.minutes);
-  json["setup_minutes"] = nine_digits(step.setup);
-  json["by_minute"] = nine_digits(step.by);
+  json["setup_minutes"] = nine_digits(step.setup_minutes);
+  json["by_minute"] = nine_digits(step.end_minute);
   json["sees"] = step.sees;
   json["tells"] = step.tells;
   return json;

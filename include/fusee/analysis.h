@@ -19,9 +19,9 @@ namespace fusee::analysis {
 // joint angle errors.
 
 struct AnalysisOptions {
-  int steps = 60;          ///< steps of the table; home is an additional row
-  double tolerance = 0.1;  ///< tolerance of every dimension in the error budget (95 % within ±), mm
-  int samples = 1000;      ///< samples of the Monte Carlo simulation
+  int steps = 60;                    ///< steps of the table; home is an additional row
+  double dimension_tolerance = 0.1;  ///< of every dimension in the error budget, 95 % within ±, mm
+  int samples = 1000;                ///< samples of the Monte Carlo simulation
   std::uint64_t seed = 1;
 };
 

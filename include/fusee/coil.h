@@ -77,19 +77,20 @@ struct HelicalPulley {
 };
 
 /// Requires both spirals to be at least a turn long, spare turns included, with rows of strictly growing `turn`.
-/// `tolerance`: largest sagitta of a chord, on the pitch curve and on all its parallels up to the groove edge. A brief
+/// `chord_error_mm`: largest sagitta, on the pitch curve and on all its parallels up to the groove edge. A brief
 /// search tries fewer cut variants.
 HelicalPulley make_helical_pulley(const Mechanism& mechanism, const helix::Spiral& p1, const helix::Spiral& p2,
-                                  double tolerance = 0.01, solid::TieOffSearch search = solid::TieOffSearch::thorough);
+                                  double chord_error_mm = 0.01,
+                                  solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
 /// The conditions that fail, as far as they are known before the cuts.
 std::vector<profile::Condition> helical_obstacles(const Mechanism& mechanism, const helix::Spiral& p1,
-                                                  const helix::Spiral& p2, double tolerance = 0.01);
+                                                  const helix::Spiral& p2, double chord_error_mm = 0.01);
 
 /// Checks of a mesh against its pulley: check_mesh, Euler number and volume. Half-planes through the axis measure the
 /// thinnest rib, the shallowest groove and the thinnest wall to the bore.
 std::vector<Check> check_helical_pulley(const solid::TriangleMesh& mesh, const HelicalPulley& pulley,
-                                        const HelicalSection& section, double tolerance = 0.01);
+                                        const HelicalSection& section, double chord_error_mm = 0.01);
 
 // ---- Rewinding ------------------------------------------------------------------------------------------------------
 // Winds two inextensible strings in space on the helical grooves of a mesh and computes the joint angle they give.

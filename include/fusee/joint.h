@@ -24,7 +24,7 @@ struct BenchRow {
   double time = 0;   ///< s; 0 if not logged
   double alpha = 0;  ///< reading of the motor's sensor, rad
   double load = 0;   ///< tip force, positive against +θ, N; for a joint declared by a ratio in the log's own unit
-  double temperature = 0;  ///< °C
+  double temperature_C = 0;
 };
 
 /// Rotation of the encoders on their shafts since home was set, with the zero set again, rad. It shifts the phase of an

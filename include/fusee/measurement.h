@@ -42,12 +42,12 @@ std::string units_for(const std::string& role);
 
 /// One logged row. NaN where a column is absent.
 struct Sample {
-  double time = 0;         ///< s
-  double alpha = 0;        ///< rad, unwrapped
-  double theta = 0;        ///< rad, unwrapped
-  double load = 0;         ///< in `load_unit`: N for load_N (a tip force, positive against +θ)
-  double temperature = 0;  ///< °C
-  double tension1 = 0;     ///< N
+  double time = 0;   ///< s
+  double alpha = 0;  ///< rad, unwrapped
+  double theta = 0;  ///< rad, unwrapped
+  double load = 0;   ///< in `load_unit`: N for load_N (a tip force, positive against +θ)
+  double temperature_C = 0;
+  double tension1 = 0;  ///< N
   double tension2 = 0;
   bool after_break = false;  ///< the log restarts here: the play state before this row is unknown
 };

@@ -108,8 +108,8 @@ struct TendonError {
 
 /// Deviation of both sheaths.
 struct SheathError {
-  double friction = 0;  ///< added to friction coefficient × total bend: ln of a tension ratio
-  double give = 0;      ///< added to the axial compliance of a sheath, mm/N
+  double friction = 0;    ///< added to friction coefficient × total bend: ln of a tension ratio
+  double compliance = 0;  ///< added to the axial compliance of a sheath, mm/N
 
   bool operator==(const SheathError&) const = default;
 };
@@ -127,7 +127,7 @@ struct PinError {
   double radius = 0;            ///< added to the radius of both pins, mm
   double friction = 0;          ///< added to the capstan coefficient; for idlers, to that of their bearings
   double bearing_friction = 0;  ///< added to the coefficient of idlers' bearings
-  double give = 0;              ///< displacement of each pin along the tendon's force on it, mm/N
+  double compliance = 0;        ///< displacement of each pin along the tendon's force on it, mm/N
 
   bool operator==(const PinError&) const = default;
 };
@@ -207,14 +207,14 @@ struct CableFriction {
 /// A ratio and a compliance that change with the angle, for example through a linkage behind the cable. u: rotation of
 /// the joint from home by the declared ratio, rad.
 struct RatioCurve {
-  double square = 0;       ///< coefficient of u² in the rotation, 1/rad
-  double cube = 0;         ///< coefficient of u³, 1/rad²
-  double give_slope = 0;   ///< compliance per u, 1 per unit of load
-  double give_square = 0;  ///< compliance per u², 1/rad per unit of load
+  double square = 0;             ///< coefficient of u² in the rotation, 1/rad
+  double cube = 0;               ///< coefficient of u³, 1/rad²
+  double compliance_slope = 0;   ///< compliance per u, 1 per unit of load
+  double compliance_square = 0;  ///< compliance per u², 1/rad per unit of load
 
   /// Rotation beyond u under `load`, rad.
   double added(double u, double load) const {
-    return u * (u * (square + u * cube) - load * (give_slope + u * give_square));
+    return u * (u * (square + u * cube) - load * (compliance_slope + u * compliance_square));
   }
 
   bool operator==(const RatioCurve&) const = default;
@@ -275,7 +275,7 @@ std::string_view word(CorrectableBy remedy);  ///< "pulley", "table" or ""
 
 // ---- Declaration ----------------------------------------------------------------------------------------------------
 // A joint as declared: plain values, in the paper's symbols. Angles in rad, lengths in mm, forces in N, stresses in
-// MPa.
+// MPa (N/mm²).
 //
 // The joint axis O is the origin. y points to the tendons' attachment C at home: C = R (sin θ, cos θ). The guide pins
 // are B (−EB, −OE) and D (ED, −OE); the pulley's axis G is (0, −OE − EF). Tendon 1 runs C → B → P1 on the left, tendon
@@ -406,7 +406,7 @@ inline double section_stiffness(const Tendon& tendon) { return stiffness_of_sect
 struct Load {
   double tip_force = 0;  ///< F_c across OC, N
   double torque = 0;     ///< about O, N·mm
-  double mass = 0;       ///< of the link, kg
+  double mass_kg = 0;    ///< of the link
   double lever = 0;      ///< from O along OC to the centre of mass
   double tilt = 0;       ///< the joint angle at which OC points straight up, rad
 
@@ -539,11 +539,13 @@ struct RatioTransmission {
   bool operator==(const RatioTransmission&) const = default;
 };
 
-/// Manual measurements of the joint: value and standard uncertainty, in the file's unit; empty if not measured.
+/// Manual measurements of the joint: value and standard uncertainty in mm, MPa and mm/N, or the unit that ends the
+/// name; empty if not measured.
 struct Prior {
   std::vector<double> EB, ED, OE, EF, guide_radius, length, radius_offset, pulley_scale, modulus;
   std::vector<double> drum_radius, attachment1_across, attachment1_along, attachment2_across, attachment2_along;
-  std::vector<double> OE1, OE2, motor_offset, backlash, runout_x, runout_y, guide_give, zero, gain;
+  std::vector<double> OE1, OE2, motor_offset_deg, backlash_deg, runout_x, runout_y, guide_compliance, zero_deg,
+      gain_percent;
 
   bool operator==(const Prior&) const = default;
 };

@@ -176,9 +176,9 @@ struct MotorUnit {
 
 /// The tables of one direction, evenly spaced from the first to the last place.
 struct OneWayTable {
-  float first = 0, last = 0;  ///< motor angle in its unit minus its zero; the first is the smaller one
-  std::vector<float> theta;   ///< deg, as a function of the motor angle
-  std::vector<float> motor;   ///< motor angle minus its zero, as a function of θ
+  float first = 0, last = 0;     ///< motor angle in its MotorUnit minus its zero; the first is the smaller one
+  std::vector<float> theta_deg;  ///< θ, as a function of the motor angle
+  std::vector<float> motor;      ///< motor angle in its MotorUnit minus its zero, as a function of θ
 };
 
 struct TableErrors {
@@ -189,12 +189,12 @@ struct TableErrors {
 
 struct JointTable {
   MotorUnit unit;
-  int pieces = 0;                         ///< number of linear pieces of each table
-  float theta_first = 0, theta_last = 0;  ///< deg
-  std::vector<OneWayTable> ways;          ///< one, or two: from below and from above
-  std::vector<float> slope;               ///< dθ/dα of the mean curve, over the first way's angles
-  std::vector<float> holding;  ///< motor torque that holds the declared load without friction, N·mm; may be empty
-  TableErrors errors;          ///< in 32-bit arithmetic, for the worse direction
+  int pieces = 0;  ///< number of linear pieces of each table
+  float theta_first_deg = 0, theta_last_deg = 0;
+  std::vector<OneWayTable> ways;  ///< one, or two: from below and from above
+  std::vector<float> slope;       ///< dθ/dα of the mean curve, over the first way's angles
+  std::vector<float> holding;     ///< motor torque that holds the declared load without friction, N·mm; may be empty
+  TableErrors errors;             ///< in 32-bit arithmetic, for the worse direction
 };
 
 constexpr int k_most_pieces = 4096;

@@ -108,8 +108,8 @@ struct PlanStep {
   const fusee::EffectParameter* reading = nullptr;
   std::string words;
   double minutes = 0;              ///< including the changes on the bench
-  double setup = 0;                ///< part of `minutes` that the changes take
-  double by = 0;                   ///< minutes from the beginning to the end of this step
+  double setup_minutes = 0;        ///< part of `minutes` that the changes take
+  double end_minute = 0;           ///< from the beginning of the plan to the end of this step
   std::vector<std::string> sees;   ///< causes that this step detects first
   std::vector<std::string> tells;  ///< pairs that this step resolves first: "backlash from capstan_friction, creep"
 };

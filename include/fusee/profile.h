@@ -114,9 +114,9 @@ std::string advice_sentence(const std::vector<Change>& changes);
 struct SynthesisOptions {
   /// Largest sagitta between the polygon and the curve, on the pitch curve and on every parallel curve up to the
   /// flange. mm
-  double tolerance = 0.01;
-  /// Outward offset that will be added to the curves before they are made (draw_for_making). The tolerance holds there
-  /// too. mm
+  double chord_error_mm = 0.01;
+  /// Outward offset that will be added to the curves before they are made (draw_for_making). The chord error holds
+  /// there, too. mm
   double drawn_out = 0;
   /// Search for single changes that make an infeasible mechanism feasible.
   bool advice = true;

@@ -272,9 +272,9 @@ profile::Advice body_advice(const Mechanism& mechanism, const profile::Feasibili
                             Parts refused = Parts::automatic);
 
 /// Checks of a mesh of this pulley (usually one read back from a file): check_mesh, then Euler number, volume,
-/// deviation from the analytic surface within `tolerance`, thinnest wall, groove depth and width.
+/// deviation from the analytic surface within `chord_error_mm`, thinnest wall, groove depth and width.
 std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism,
-                                const profile::SynthesisResult& synthesis, const Pulley& pulley, double tolerance);
+                                const profile::SynthesisResult& synthesis, const Pulley& pulley, double chord_error_mm);
 /// Checks of one part of two: check_mesh, Euler number and volume.
 std::vector<Check> check_printed_part(const TriangleMesh& mesh, const PrintedPart& part);
 

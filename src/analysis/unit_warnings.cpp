@@ -196,7 +196,8 @@ std::string setting_text(const std::string& key, double value) { return key + " 
 std::vector<InputWarning> angle_warnings(const DeclaredMechanism& mechanism) {
   std::vector<InputWarning> slips = range_warnings(mechanism);
   const double tilt = degrees(mechanism.load.tilt), groove = degrees(mechanism.body.groove_angle);
-  if (mechanism.load.mass > 0 && is_round_in_radians(tilt)) slips.push_back(radians_for_degrees("load.tilt_deg", tilt));
+  if (mechanism.load.mass_kg > 0 && is_round_in_radians(tilt))
+    slips.push_back(radians_for_degrees("load.tilt_deg", tilt));
   const bool is_whole = std::abs(groove - std::round(groove)) < 1e-9;
   if (mechanism.body.groove != Groove::flat && groove > 0 && groove < k_narrow_groove && !is_whole)
     slips.push_back(radians_for_degrees("body.groove_angle_deg", groove));

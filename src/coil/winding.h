@@ -77,10 +77,10 @@ struct Fan {
   std::size_t columns() const { return angles.size(); }
 };
 
-/// Chords of any curve parallel to the pitch curves, up to `outward` of them, have a sagitta of at most `tolerance`.
+/// Chords of any curve parallel to the pitch curves, up to `outward` of them, have a sagitta of at most `chord_error_mm`.
 /// `filled`: least length of filled rows that follow P1's end and precede P2's beginning, mm. Rows lie outward of the
 /// curve by a third of a chord's sagitta, so that the polygon is as long as the curve.
-Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double tolerance,
+Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double chord_error_mm,
              double filled);
 
 }  // namespace fusee::coil

@@ -377,8 +377,9 @@ Correction correct(const DeclaredMechanism& declared, const measurement::Measure
   const Imperfections& found = calibration.identified;
   Correction correction;
   correction.identified = composed(declared, found);
-  const bool gives_way = found.tendon.stretch != 0 || found.sheath.give != 0 || found.joint.weight != WeightError{};
-  if (gives_way && !declared.transmission)
+  const bool is_compliant =
+      found.tendon.stretch != 0 || found.sheath.compliance != 0 || found.joint.weight != WeightError{};
+  if (is_compliant && !declared.transmission)
     correction.identified.joint.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
   const transmission::DeclaredLaw law(declared);
   if (!measurement::seen_span(measurement, &measurement::Sample::alpha).any() || !law.exists()) {

@@ -63,7 +63,7 @@ void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const H
   if (!all_hold(result.conditions)) return;
   result.closure = windings.closure;
   result.stroke = transmission::stroke_over_range(law, options.stroke_steps);
-  SpiralDrawing drawing{.tolerance = options.tolerance,
+  SpiralDrawing drawing{.chord_error_mm = options.chord_error_mm,
                         .reach = groove.groove_edge + mechanism.tendon.diameter + std::max(0.0, options.drawn_out)};
   if (accuracy == HelixAccuracy::coarse) drawing.largest_turn = radians(5);
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right})

@@ -35,7 +35,8 @@ LawAccuracy accuracy_of(LawSearch search) {
 /// True when the declared law must be adapted to the load. Friction and pretension alone hardly change the mean of both
 /// directions.
 bool is_deflected(const Imperfections& at) {
-  return at.tendon.stretch != 0 || at.sheath.give != 0 || at.joint.weight != WeightError{} || at.joint.mean_load != 0;
+  return at.tendon.stretch != 0 || at.sheath.compliance != 0 || at.joint.weight != WeightError{} ||
+         at.joint.mean_load != 0;
 }
 /// The declared law as rows that include both ends of the range, and slightly beyond them where the law continues.
 /// Beyond the end of a table all θ have one α, up to rounding; such rows are skipped. Empty where the law does not
@@ -60,7 +61,7 @@ Load with_weight(Load load, const WeightError& error, double R) {
   if (error == WeightError{}) return load;
   const Weight weight = with_error({transmission::weight_moment(load), load.tilt}, error);
   if (load.lever == 0) load.lever = R;
-  load.mass = weight.moment / (transmission::k_gravity * load.lever);
+  load.mass_kg = weight.moment / (transmission::k_gravity * load.lever);
   load.tilt = weight.tilt;
   return load;
 }

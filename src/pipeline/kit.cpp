@@ -99,12 +99,12 @@ kit::KitPlan plan_of(const formats::Product& pulley) {
 }
 
 /// Tests the rounded numbers that are advised. A number that makes the file bad input is infeasible.
-bool has_kit(const MechanismFile& file, double tolerance, const RunContext& context) {
+bool has_kit(const MechanismFile& file, double chord_error_mm, const RunContext& context) {
   try {
     formats::Product pulley;
     pulley.file = file;
     pulley.joint = joint::as_it_is(file.mechanism);
-    return design_any(pulley, tolerance, {}, context, solid::TieOffSearch::brief) && plan_of(pulley).made();
+    return design_any(pulley, chord_error_mm, {}, context, solid::TieOffSearch::brief) && plan_of(pulley).made();
   } catch (const InputError&) {
     return false;
   }

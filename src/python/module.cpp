@@ -133,7 +133,7 @@ py::dict synthesise_joint(const CarriedMechanism& carried, double tolerance, boo
   return to_python(made_unlocked(carried.files, Stop(), [&](const RunContext&) {
     demand_tendons(carried.file, "synthesise for");
     profile::SynthesisOptions options;
-    options.tolerance = tolerance;
+    options.chord_error_mm = tolerance;
     options.advice = advice;
     options.stroke_steps = steps;
     return profile::synthesise(joint::as_it_is(carried.file.mechanism).mechanism, options);
@@ -241,7 +241,7 @@ py::dict analyze_joint(const CarriedMechanism& carried, int steps, double tolera
   return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
     analysis::AnalysisOptions options;
     options.steps = steps;
-    options.tolerance = tolerance;
+    options.dimension_tolerance = tolerance;
     options.samples = samples;
     options.seed = seed;
     return pipeline::analyze(carried.file, options, context);

@@ -171,9 +171,9 @@ TEST(Tolerances, MethodsAgree) {
 TEST(Tolerances, ScaleWithTolerance) {
   AnalysisOptions fine;
   fine.samples = 50;
-  fine.tolerance = 0.01;
+  fine.dimension_tolerance = 0.01;
   AnalysisOptions coarse = fine;
-  coarse.tolerance = 0.1;
+  coarse.dimension_tolerance = 0.1;
   const auto a = tolerance_effects(forearm(), fine);
   const auto b = tolerance_effects(forearm(), coarse);
   for (std::size_t i = 0; i < a.size(); ++i) {

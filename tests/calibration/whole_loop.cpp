@@ -149,7 +149,7 @@ MadeJoint with_corrected_pulley(const MadeJoint& declared, const DeclaredMechani
   const Mechanism& drawn = made_for.mechanism;
   if (declared.climbs()) return with_corrected_spirals(declared, made_for);
   profile::SynthesisOptions options;
-  options.tolerance = 2e-5;
+  options.chord_error_mm = 2e-5;
   options.advice = false;
   profile::SynthesisResult made = profile::synthesise(drawn, options);
   if (!made.made()) throw InputError("corrected.toml", made.brief());

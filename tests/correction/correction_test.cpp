@@ -49,7 +49,7 @@ double miss(const Mechanism& wanted, const Mechanism& truth, const joint::JointA
             double offset = 0, const Vec2& runout = {0, 0}) {
   const Mechanism& drawn = made_for.mechanism;
   profile::SynthesisOptions options;
-  options.tolerance = 0.001;
+  options.chord_error_mm = 0.001;
   profile::SynthesisResult made = profile::synthesise(drawn, options);
   if (!made.made()) return std::numeric_limits<double>::quiet_NaN();
   joint::draw_for_making(made, made_for.outline);

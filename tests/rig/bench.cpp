@@ -169,7 +169,7 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
       std::max({k_furthest, declared.joint.theta_max + k_beyond_range, k_beyond_range - declared.joint.theta_min});
   if (declared.joint.is_plain()) furthest_ = k_furthest;
   torque_declared_ = declared.load.torque;
-  weight_ = 9.80665 * declared.load.mass * declared.load.lever;
+  weight_ = 9.80665 * declared.load.mass_kg * declared.load.lever;
   tilt_ = declared.load.tilt;
   spring_ = declared.spring;
   const double modulus = hidden.modulus > 0 ? hidden.modulus : declared.tendon.modulus;
