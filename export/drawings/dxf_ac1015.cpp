@@ -49,7 +49,7 @@ class Ac1015Writer {
       if (path.circle)
         write_circle(path.layer, *path.circle);
       else if (!path.heights.empty())
-        write_climbing(path);
+        write_path_in_space(path);
       else
         write_polyline(path);
     }
@@ -214,7 +214,7 @@ class Ac1015Writer {
   }
 
   /// A polyline in space, with an entity for each vertex.
-  void write_climbing(const DxfPath& path) {
+  void write_path_in_space(const DxfPath& path) {
     const int polyline = next_;
     begin_entity("POLYLINE", "AcDb3dPolyline", k_model_record, path.layer);
     tags_.integer(66, 1);

@@ -62,7 +62,7 @@ struct AlphaRange {
   double to = 0;
 };
 
-/// Deviation of the joint from the declared law over the range due to one cause. rad.
+/// Deviation of the joint from its target motion over the range due to one cause. rad.
 struct ErrorSource {
   std::string name;     ///< "pin_radius_ignored"
   std::string meaning;  ///< description for a person
@@ -122,7 +122,7 @@ struct AnalysisResult {
 
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options = {}, const RunContext& context = {});
 
-/// Deviations of θ from the declared law by single causes: stretch, friction, and simplifications in drawing a pulley.
+/// Deviations of θ from the target motion by single causes: stretch, friction, and simplifications in drawing a pulley.
 std::vector<ErrorSource> error_sources(const Mechanism& mechanism);
 /// Tolerance effects of every dimension by both methods.
 std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options,

@@ -25,7 +25,7 @@ namespace fusee::calibration {
 
 struct CalibrationOptions {
   std::vector<std::string> hold_out;  ///< names of runs for validation only; empty: whole runs are left out in turn
-  bool look_for_effects = true;       ///< false: the file does not describe this joint (is_input_error_obvious())
+  bool search_effects = true;         ///< false: the file does not describe this joint (is_input_error_obvious())
   bool audit = true;                  ///< count false positives on synthetic data sets
   /// Added to the catalogue, or in the place of an effect of the same name; they must outlive the call.
   std::vector<const fusee::Effect*> more_effects;
@@ -44,7 +44,7 @@ struct FittedParameter {
   double high = 0;
   double low_if_only = 0;  ///< 95 % interval if the found effects are the only ones: never wider
   double high_if_only = 0;
-  /// Its sign in words ("pins too high") if the narrower interval has one sign; empty if nothing has to be said.
+  /// Its sign in words ("pins too high") if the narrower interval has one sign; empty if it needs no words.
   std::string sense = {};
 };
 
@@ -57,7 +57,7 @@ struct Audit {
 /// Member of a group whose cause may be unmodelled.
 inline constexpr const char* k_unmodelled = "unmodelled";
 
-/// UnmodelledAlternative cause that would explain the same data as an effect.
+/// Unmodelled cause that would explain the same data as an effect.
 struct UnmodelledAlternative {
   /// Log odds of the effect against the best unmodelled cause in its place, with unmodelled causes beside both;
   /// infinite: not computed.
@@ -221,7 +221,7 @@ std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declare
 bool is_input_error_obvious(const DeclaredMechanism& declared, const measurement::Measurement& as_read);
 
 /// "guides.OE_mm = -40 in place of 40 would explain the data to 0.03°: is the sign right?"
-std::string input_error_words(const LikelyInputError& slip);
+std::string input_error_words(const LikelyInputError& error);
 
 // ---- Comparison of two states ---------------------------------------------------------------------------------------
 // Comparison of two measured states of one joint, by changes of the effects of the catalogue.

@@ -32,11 +32,11 @@ struct Correction {
   bool has_pulley = false;   ///< an identified effect is corrected by another pulley, and that pulley is feasible
   std::string infeasible;    ///< why it is infeasible; empty if it is feasible or not needed
   joint::RoundChoice round;
-  double tied_at = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
-  // Rms error of the identified joint from the declared law over the measured strokes, rad, by simulation. For a joint
+  double assembly_angle = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
+  // Rms error of the identified joint from its target motion over the measured strokes, rad, by simulation. For a joint
   // declared by a ratio without the identified zero.
   double error_now = 0;
-  double error_with_pulley = 0;  ///< with the corrected pulley, tendons tied at α = 0
+  double error_with_pulley = 0;  ///< with the corrected pulley, assembled at α = 0
   double error_with_table = 0;   ///< with the corrected pulley and the table
   // Reduction of the rms error on held-out rows, rad: the square root of the difference of mean squares. 0: no
   // reduction, and the file is not written.

@@ -44,8 +44,8 @@ struct HelixProduct {
 
 /// The complete data of a finished pulley.
 struct Product {
-  MechanismFile file;        ///< as read
-  joint::JointAsItIs joint;  ///< the identified joint that the pulley was designed for
+  MechanismFile file;            ///< as read
+  joint::IdentifiedJoint joint;  ///< the identified joint that the pulley was designed for
   profile::SynthesisResult synthesis;
   solid::Pulley pulley;
   std::optional<solid::BodyLayout> cut_layout;  ///< layout for cutting, without shrinkage and chamfer, if known
@@ -229,7 +229,7 @@ struct CalibrationProduct {
   measurement::Measurement measurement;
   calibration::Calibration calibration;
   std::vector<calibration::LikelyInputError>
-      slips;  ///< of the file or of the data, that would explain what no effect does
+      input_errors;  ///< of the file or of the data, that would explain what no effect does
   correction::Correction correction;
   correction::Rehearsal rehearsal;  ///< of what was found
 };
@@ -278,12 +278,12 @@ std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
 std::string parameter_words(const calibration::FittedParameter& parameter, const std::string& load_unit);
 /// The group without the effect itself.
 std::vector<std::string> rivals_of(const calibration::FoundEffect& effect);
-/// Says that P1 stays round, and by how much it misses its law.
+/// Reports that P1 stays round, and its error from the law.
 std::string round_words(const correction::Correction& correction);
-/// Why no corrected pulley can be made, of a correction that says so.
+/// Why no corrected pulley can be made; requires a correction with that result.
 std::string infeasible_words(const correction::Correction& correction);
 /// The assembly angle of a corrected pulley, if the correction requires another than 0.
-std::string tied_words(const correction::Correction& correction);
+std::string assembly_angle_words(const correction::Correction& correction);
 /// Effects that were not found by the smallest size that would have shown, rad; what is equal to two digits stands
 /// together. Smallest first.
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const calibration::Calibration& calibration);
@@ -292,13 +292,13 @@ std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const
 std::string curve_words(const CalibrationProduct& product);
 /// All measurements to make next, the most decisive first.
 std::vector<std::string> next_texts(const calibration::Calibration& calibration);
-/// slip_words() of every input error that would explain the data.
-std::vector<std::string> slips_words(const CalibrationProduct& product);
-/// Two of the notes that say the same of many files, and the number of others.
+/// input_error_words() of every input error that would explain the data.
+std::vector<std::string> input_error_texts(const CalibrationProduct& product);
+/// Two of the notes that repeat for many files, and the number of others.
 std::vector<std::string> shortened_notes(const std::vector<std::string>& notes);
 
 // ---- Comparison -----------------------------------------------------------------------------------------------------
-// What `fusee compare` says and leaves behind, as words and bytes.
+// Outputs of `fusee compare`, as words and bytes.
 
 /// All that is known after a comparison.
 struct ComparisonProduct {

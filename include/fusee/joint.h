@@ -241,16 +241,16 @@ std::vector<EquilibriumPoint> follow(const JointModel& model, const std::vector<
 
 // ---- Identified joint -----------------------------------------------------------------------------------------------
 // Application of identified deviations: computes the mounted joint and the pulley to make for it, so that the joint
-// follows the declared law.
+// follows its target motion.
 //
-// Every command that needs the real joint calls as_it_is(). No later stage reads [identified], and the declaration is
-// never overwritten.
+// Every command that needs the real joint calls identified_joint(). No later stage reads [identified], and the
+// declaration is never overwritten.
 
 /// The declared mechanism with the pins, length, friction and tendon of `imperfections`.
 MountedMechanism mounted(const Mechanism& declared, const Imperfections& imperfections);
 
 /// The identified joint, and the pulley to make for it.
-struct JointAsItIs {
+struct IdentifiedJoint {
   /// The mounted mechanism with its identified weight. [pulley], range and shrinkage describe the pulley to make:
   /// deflected by the mean load, the joint follows the declared θ(α), and scale errors of making are compensated.
   Mechanism mechanism;
@@ -261,7 +261,7 @@ struct JointAsItIs {
 /// 0.1° accuracy, for searches over hundreds of mechanisms.
 enum class LawSearch { whole, brief };
 /// Returns the declared mechanism when nothing relevant was identified.
-JointAsItIs as_it_is(const DeclaredMechanism& declared, LawSearch search = LawSearch::whole);
+IdentifiedJoint identified_joint(const DeclaredMechanism& declared, LawSearch search = LawSearch::whole);
 
 /// The joint that a measurement is compared with: identified, with the pulley made for it, and with empty `identified`.
 DeclaredMechanism expected_joint(const DeclaredMechanism& declared);
@@ -280,12 +280,12 @@ Polygon as_made(Polygon drawn, const OutlineError& outline);
 Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside);
 /// The joint with a thicker tendon and thinner pins, in which the tendon lies on a displaced floor as the real one lies
 /// on the made floor.
-Mechanism with_inset(const JointAsItIs& joint);
+Mechanism with_inset(const IdentifiedJoint& joint);
 
 /// Assembly angle: position of the motor at which the tendons are tied, with the unloaded joint at home, so that the
-/// loaded joint follows the declared law. rad. No pulley can correct it: tied at 0, the joint has this offset at every
-/// α, and compensation.csv contains it.
-double tied_at(const DeclaredMechanism& declared);
+/// loaded joint follows its target motion. rad. No pulley can correct it: assembled at 0, the joint has this offset at
+/// every α, and compensation.csv contains it. 0 for a joint declared by a ratio.
+double assembly_angle(const DeclaredMechanism& declared);
 
 /// Choice of a round P1: allowed when the best r1 for the identified joint follows its compensating law closely enough.
 struct RoundChoice {

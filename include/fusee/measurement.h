@@ -66,7 +66,7 @@ struct Segment {
   std::size_t first = 0;   ///< index into the run's samples
   std::size_t last = 0;    ///< included
   std::size_t stroke = 0;  ///< index into the run's strokes: the direction from which α came
-  bool held = false;       ///< a dwell: α is constant
+  bool is_dwell = false;   ///< α is constant
   int pull = 0;            ///< cause of the state in a dwell: 0: α moved here, +1: the load rose, −1: the load fell
 };
 

@@ -598,7 +598,7 @@ struct Mechanism {
 };
 
 /// The complete content of a file: the declared mechanism, the identified deviations, priors and optimization. Only
-/// as_it_is() (fusee/joint.h) reads `identified`.
+/// identified_joint() (fusee/joint.h) reads `identified`.
 struct DeclaredMechanism : Mechanism {
   Optimization optimize;
   Imperfections identified;  ///< result of fusee calibrate; all zero: as declared

@@ -96,7 +96,7 @@ using HelicalCheck = std::function<std::optional<std::string>(const Mechanism& j
 
 struct Problem {
   DeclaredMechanism base;
-  JointConverter as_it_is;  ///< empty: the joint is as declared
+  JointConverter identified_joint;  ///< empty: the joint is as declared
   std::vector<Objective> objectives;
   std::vector<Variable> variables;
   std::vector<MovingKey> moving;  ///< variables in their order, then tied keys
@@ -106,9 +106,9 @@ struct Problem {
   std::optional<ObjectiveCap> cap;
 };
 
-/// Variables, ties and constraints refer to declared numbers; objectives refer to the joint after `as_it_is`. Throws
-/// InputError if there is nothing to optimize, or if a variable has no effect.
-Problem make_problem(const MechanismFile& file, JointConverter as_it_is = {}, HelicalCheck several_turns = {});
+/// Variables, ties and constraints refer to declared numbers; objectives refer to the joint after `identified_joint`.
+/// Throws InputError if there is nothing to optimize, or if a variable has no effect.
+Problem make_problem(const MechanismFile& file, JointConverter identified_joint = {}, HelicalCheck several_turns = {});
 
 /// True if the footprint of its designs is defined: the paper's joint, directly at its pulley.
 bool has_footprint(const Problem& problem);

@@ -328,13 +328,13 @@ PartSize size_of(const Part& part, const std::vector<Check>& checks);
 
 /// Winds tendons on the grooves of a mesh at the mechanism's groove heights, or on the contours P1_FLOOR and P2_FLOOR
 /// of a drawing (P1_PITCH and P2_PITCH without them). Throws InputError if there is no such groove.
-profile::RewindResult rewind_part(const joint::JointAsItIs& joint, const Part& part);
+profile::RewindResult rewind_part(const joint::IdentifiedJoint& joint, const Part& part);
 /// Winds tendons on a mesh with the known `layout`: after a second plan of the tie-offs its grooves may be at other
 /// heights than the mechanism alone gives.
-profile::RewindResult rewind_made(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+profile::RewindResult rewind_made(const joint::IdentifiedJoint& joint, const solid::BodyLayout& layout,
                                   const solid::TriangleMesh& mesh);
 /// Winds tendons on floors that were measured elsewhere, as printed.
-profile::RewindResult rewind_floors(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+profile::RewindResult rewind_floors(const joint::IdentifiedJoint& joint, const solid::BodyLayout& layout,
                                     const Polygon& floor1, const Polygon& floor2);
 
 enum class PartPlace {
@@ -352,7 +352,7 @@ struct RewoundPart {
 };
 /// As rewind_part(), but a mesh that was moved, turned about its axis or turned over is moved back first. Throws
 /// InputError also for a mirrored mesh or one of another size.
-RewoundPart rewind_moved_part(const joint::JointAsItIs& joint, const Part& part);
+RewoundPart rewind_moved_part(const joint::IdentifiedJoint& joint, const Part& part);
 
 /// Checks "theta_error" and "slack" against their limits. The slack of method = "paper" is expected: it is reported as
 /// "theta_error_reported" and "slack_reported", with the limits 180 deg and the joint's length.

@@ -1,5 +1,5 @@
 /// \file
-/// θ(α) of the declared law: tendon paths over pins and sheaths, moment arms, support functions and tensions.
+/// The target motion θ(α): tendon paths over pins and sheaths, moment arms, support functions and tensions.
 #pragma once
 
 #include <array>

@@ -99,7 +99,7 @@ struct Spread {
   std::vector<double> slack;
 };
 
-/// Twice the standard deviation (95 %) about the declared law, over `samples` joints.
+/// Twice the standard deviation (95 %) about the target motion, over `samples` joints.
 Spread spread_of(const std::vector<double>& alphas, const RigidJoint& declared, int samples,
                  const std::function<RigidJoint()>& sample) {
   const std::size_t count = alphas.size();

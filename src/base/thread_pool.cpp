@@ -12,7 +12,7 @@ namespace fusee {
 namespace {
 
 constexpr unsigned k_max_threads = 8;
-/// Bound for threads in the place of waiting ones. Beyond it, work is delayed until somebody awaits it.
+/// Bound for threads in the place of waiting ones. Beyond it, work begins when a thread is free or when it is awaited.
 constexpr std::size_t k_max_started = 64;
 
 std::atomic<ThreadPool*> shared_pool = nullptr;

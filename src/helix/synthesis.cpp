@@ -24,13 +24,13 @@ HelixSide make_side(const Mechanism& mechanism, const Windings& windings, transm
   side.lead = geometry.slope * geometry.circumference;
   // σ of the spiral's first row. P1 is drawn from the end of its mirrored curve.
   const double sigma0 = curve.at(which == transmission::Side::left ? curve.end() : curve.begin()).sigma;
-  const double home = -climb_sign(which) * geometry.slope * sigma0;
+  const double home = -helix_sign(which) * geometry.slope * sigma0;
   side.attachment_z = home - geometry.below;
   for (const transmission::TransmissionPoint& point : stroke) {
     const profile::TakeOff take_off = take_offs.at(transmission::mirror_sign(which) * point.theta);
     const double sigma = curve.sigma(take_off);
     HelixPoint at = helix_point(geometry, which, curve.free_path(take_off), sigma);
-    at.z = home + climb_sign(which) * geometry.slope * sigma;
+    at.z = home + helix_sign(which) * geometry.slope * sigma;
     side.stroke.push_back(at);
     if (std::abs(at.fleet) <= side.fleet) continue;
     side.fleet = std::abs(at.fleet);

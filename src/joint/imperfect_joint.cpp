@@ -49,8 +49,8 @@ void mount_sheath(Sheath& sheath, const SheathError& at) {
   const double friction = std::max(0.0, sheath.mu * sheath.bend + at.friction);
   if (!(sheath.bend > 0)) sheath.bend = 1.0;
   sheath.mu = friction / sheath.bend;
-  const double give = (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + at.compliance;
-  sheath.stiffness = give > 0 ? 1.0 / give : 0.0;
+  const double compliance = (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + at.compliance;
+  sheath.stiffness = compliance > 0 ? 1.0 / compliance : 0.0;
 }
 
 }  // namespace

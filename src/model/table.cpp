@@ -74,18 +74,19 @@ float interpolated(const std::vector<float>& table, float at) {
 }
 
 TableErrors measured(const JointTable& table, const JointCurve& curve) {
-  constexpr int looks = 8;  // per piece: the middle, where a linear piece has its largest error, and others
+  constexpr int samples = 8;  // per piece: the middle, where a linear piece has its largest error, and others
   TableErrors errors;
   for (std::size_t way = 0; way < table.ways.size(); ++way) {
     const AngleMap& map = way_of(curve, way);
     const OneWayTable& one = table.ways[way];
-    for (int i = 0; i <= looks * table.pieces; ++i) {
-      const auto motor = static_cast<float>(entry_place(double(one.first), double(one.last), i, looks * table.pieces));
+    for (int i = 0; i <= samples * table.pieces; ++i) {
+      const auto motor =
+          static_cast<float>(entry_place(double(one.first), double(one.last), i, samples * table.pieces));
       const double alpha = table.unit.alpha(double(motor) + table.unit.zero);
       const float theta = read_at(one.theta_deg, motor, one.first, one.last);
       errors.theta = std::max(errors.theta, std::abs(radians(double(theta)) - map.theta(alpha)));
       const auto asked = static_cast<float>(
-          entry_place(double(table.theta_first_deg), double(table.theta_last_deg), i, looks * table.pieces));
+          entry_place(double(table.theta_first_deg), double(table.theta_last_deg), i, samples * table.pieces));
       const double wanted = std::clamp(radians(double(asked)), map.theta_min, map.theta_max);
       const double sent = table.unit.alpha(
           double(read_at(one.motor, asked, table.theta_first_deg, table.theta_last_deg)) + table.unit.zero);

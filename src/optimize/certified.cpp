@@ -171,7 +171,7 @@ class BranchAndBound {
     if (!bound.possible) return outcome;
     outcome.kept = true;
     outcome.box.bound = std::max(outcome.box.bound, bound.bound);
-    outcome.box.cut = promising_cut(outcome.box, bound);
+    outcome.box.cut = best_cut(outcome.box, bound);
     if (bound.bound > best_value_) return outcome;
     outcome.evaluated.push_back(
         evaluated(bound.lowest.empty() ? middle_of(outcome.box) : kept(bound.lowest, outcome.box)));
@@ -232,7 +232,7 @@ class BranchAndBound {
     polished_ = best_value_;
   }
 
-  int promising_cut(const Box& box, const BoxBound& bound) const {
+  int best_cut(const Box& box, const BoxBound& bound) const {
     int cut = 0;
     double most = -1;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -240,8 +240,8 @@ class BranchAndBound {
       const double relative = range > 0 ? (box.upper[i] - box.lower[i]) / range : 0.0;
       // Without slopes, or if they are uninformative, the widest variable; otherwise that with the largest error of the
       // bound.
-      const double promise = bound.lowest.empty() ? relative : bound.loss[i] + 1e-3 * relative * std::abs(bound.bound);
-      if (relative > 0 && promise > most) most = promise, cut = static_cast<int>(i);
+      const double gain = bound.lowest.empty() ? relative : bound.loss[i] + 1e-3 * relative * std::abs(bound.bound);
+      if (relative > 0 && gain > most) most = gain, cut = static_cast<int>(i);
     }
     return cut;
   }
@@ -288,7 +288,7 @@ class BranchAndBound {
     return size;
   }
 
-  int widest(const Box& box) const { return promising_cut(box, BoxBound()); }
+  int widest(const Box& box) const { return best_cut(box, BoxBound()); }
 
   /// Bisects the largest boxes that may contain a tie, until there are many or all are small.
   void gather_ties(TieSet& ties) {
@@ -405,7 +405,7 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
            "stiffness a compliant one";
   if (objective == Objective::max_error && problem.base.joint.drum_mu > 0)
     return "max_error with joint.drum_friction has no interval form: its optimum cannot be certified";
-  if (problem.as_it_is)
+  if (problem.identified_joint)
     return "[identified] has no interval form: the optimum of the identified joint cannot be certified";
   return "";
 }

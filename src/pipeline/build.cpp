@@ -107,13 +107,13 @@ std::vector<Check> draco_checks(const BuildContext& context, const solid::Triang
 /// Checks that the STEP file is a valid solid, and winds tendons on its floors.
 std::vector<Check> step_checks(const BuildContext& context) {
   const formats::Product& product = context.result.product;
-  formats::StepInspection look =
+  formats::StepInspection inspection =
       formats::inspect_step(context.folder.staged_path(k_step), product, context.options.chord_error_mm);
-  std::vector<Check> checks = std::move(look.checks);
+  std::vector<Check> checks = std::move(inspection.checks);
   if (!all_ok(checks)) return checks;
   const profile::RewindResult wound =
-      product.helix ? rewind_several_turns(product, look.climbing).result
-                    : rewind_floors(product.joint, product.pulley.layout, look.floor1, look.floor2);
+      product.helix ? rewind_several_turns(product, inspection.helical).result
+                    : rewind_floors(product.joint, product.pulley.layout, inspection.floor1, inspection.floor2);
   for (Check& check : as_built_checks(product.joint.mechanism, wound, context.options.limits))
     checks.push_back(std::move(check));
   return checks;
@@ -310,7 +310,7 @@ bool passes_checks_of_several_turns(const formats::Product& product, const Build
 bool passes_checks(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
   formats::Product product;
   product.file = file;
-  product.joint = joint::as_it_is(file.mechanism);
+  product.joint = joint::identified_joint(file.mechanism);
   if (!design_any(product, options.chord_error_mm, options.limits, context, solid::TieOffSearch::brief)) return false;
   if (product.helix) return passes_checks_of_several_turns(product, options);
   const Mechanism& mechanism = product.joint.mechanism;
@@ -452,7 +452,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options, const 
   BuildResult result;
   result.product.file = file;
   auto warned = run_async([&file] { return analysis::plausibility_warnings(file); });
-  result.product.joint = joint::as_it_is(file.mechanism);
+  result.product.joint = joint::identified_joint(file.mechanism);
   OutputFolder target(options.folder, options.force, context);
   if (const auto why = options.step ? formats::step_missing() : std::nullopt)
     throw InputError("", "no pulley.step: this fusee was built without STEP: " + *why, "build without --step");

@@ -63,7 +63,7 @@ MechanismFile with_declared(MechanismFile file, const Mechanism& changed) {
 }
 
 Curves curves_of(const DeclaredMechanism& declared) {
-  Curves curves{joint::as_it_is(declared, joint::LawSearch::brief), {}, {}};
+  Curves curves{joint::identified_joint(declared, joint::LawSearch::brief), {}, {}};
   const Mechanism& mechanism = curves.joint.mechanism;
   if (const auto obstacle = profile::obstacle_to(mechanism)) {
     curves.obstacles = {*obstacle};  // cheap obstacles first, since most trials fail early

@@ -21,7 +21,7 @@ MechanismFile with_declared(MechanismFile file, const Mechanism& changed);
 
 /// A trial mechanism: its identified joint, and its curves or the obstacles to them.
 struct Curves {
-  joint::JointAsItIs joint;
+  joint::IdentifiedJoint joint;
   profile::SynthesisResult synthesis;
   std::vector<profile::Condition> obstacles;
 };

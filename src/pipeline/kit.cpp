@@ -103,7 +103,7 @@ bool has_kit(const MechanismFile& file, double chord_error_mm, const RunContext&
   try {
     formats::Product pulley;
     pulley.file = file;
-    pulley.joint = joint::as_it_is(file.mechanism);
+    pulley.joint = joint::identified_joint(file.mechanism);
     return design_any(pulley, chord_error_mm, {}, context, solid::TieOffSearch::brief) && plan_of(pulley).made();
   } catch (const InputError&) {
     return false;
@@ -166,7 +166,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options, const RunCon
   KitResult result;
   formats::KitProduct& product = result.product;
   product.pulley.file = analysis::with_plausibility_warnings(file);
-  product.pulley.joint = joint::as_it_is(file.mechanism);
+  product.pulley.joint = joint::identified_joint(file.mechanism);
   OutputFolder target(options.folder, options.force, context);
   target.claim(
       {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work, so that a refusal costs no time

@@ -252,7 +252,7 @@ coil::HelicalRewind rewind_several_turns(const formats::Product& product, const 
 coil::HelicalRewind rewind_several_turns(const formats::Product& product, const std::vector<coil::FloorLine>& floors) {
   if (floors.size() != 2)
     throw InputError("", "it has " + std::to_string(floors.size()) + " grooves of several turns instead of 2");
-  const joint::JointAsItIs& joint = product.joint;
+  const joint::IdentifiedJoint& joint = product.joint;
   return coil::rewind_floors(as_made(floors[0], joint.outline), as_made(floors[1], joint.outline),
                              joint::with_inset(joint), product.synthesis.stroke,
                              product.helix->laid(joint.mechanism.guides.collar));
@@ -338,7 +338,7 @@ class MultiTurnCheck {
     trial_.context.throw_if_stopped();
     DeclaredMechanism declared = declared_;
     static_cast<Mechanism&>(declared) = changed;
-    const Mechanism joint = joint::as_it_is(declared, joint::LawSearch::brief).mechanism;
+    const Mechanism joint = joint::identified_joint(declared, joint::LawSearch::brief).mechanism;
     const helix::HelixSynthesis curves = trial_curves(joint, k_helix_trial_chord_error_mm);
     std::vector<profile::Condition> obstacles = obstacles_of(joint, curves, k_helix_trial_chord_error_mm);
     if (obstacles.empty()) record_size(rows_as_made(curves, trial_.chord_error_mm));

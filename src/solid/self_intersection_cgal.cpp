@@ -279,9 +279,10 @@ CrossingSearch find_crossing(const TriangleMesh& welded) {
     });
     return search;
   };
-  auto in_rest = run_async([&] { return search_in([&](const auto& look) { return tree.any_pair_in_the_rest(look); }); },
-                           facets.boxes.size() > k_worth_halving);
-  const CrossingSearch first = search_in([&](const auto& look) { return tree.any_pair_in_first_half(look); });
+  auto in_rest =
+      run_async([&] { return search_in([&](const auto& visit) { return tree.any_pair_in_second_half(visit); }); },
+                facets.boxes.size() > k_worth_halving);
+  const CrossingSearch first = search_in([&](const auto& visit) { return tree.any_pair_in_first_half(visit); });
   is_over = first.facets || first.gave_up;
   const CrossingSearch rest = in_rest.get();
   return first.facets || first.gave_up ? first : rest;

@@ -21,7 +21,7 @@ const ErrorSource& named(const std::vector<ErrorSource>& sources, const std::str
   throw std::out_of_range(name);
 }
 
-TEST(RigidJoint, ReproducesDeclaredLaw) {
+TEST(RigidJoint, ReproducesTargetMotion) {
   for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
     const transmission::Transmission transmission(mechanism);
     for (const double theta : {-0.3, 0.0, 0.4}) {

@@ -18,7 +18,7 @@ RewindResult wound(const Mechanism& mechanism, const SynthesisResult& made) {
 
 // Independent verification: the analytic envelope agrees with a string wound on its polygon, and better with a finer
 // polygon.
-TEST(Rewind, ReproducesDeclaredLaw) {
+TEST(Rewind, ReproducesTargetMotion) {
   for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
     const SynthesisResult fine = synthesise(mechanism, {.chord_error_mm = 1e-6});
     ASSERT_TRUE(fine.made()) << fine.brief();
