@@ -18,6 +18,7 @@ namespace fusee::analysis {
 // Analysis of the transmission and its forces over the range: the paper's formulas, the full model, and the sources of
 // joint angle errors.
 
+/// Size and seed of analyse().
 struct AnalysisOptions {
   int steps = 60;                    ///< steps of the table; home is an additional row
   double dimension_tolerance = 0.1;  ///< of every dimension in the error budget, 95 % within ±, mm
@@ -39,6 +40,7 @@ struct Extreme {
   double alpha = 0;  ///< rad
 };
 
+/// A maximum tension, its position, its tendon and span, and the direction of motion.
 struct TensionExtreme {
   double tension = 0;  ///< N
   double alpha = 0;    ///< rad
@@ -89,6 +91,7 @@ struct Strength {
   std::string source;  ///< "tendon.strength_N", or the tendon of the catalogue
 };
 
+/// Result of analyse(). Rows follow α over the range.
 struct AnalysisResult {
   /// True if the law and both tendon paths exist over the range. Otherwise only `obstacles` and `advice` are set.
   bool exists = false;
@@ -120,6 +123,7 @@ struct AnalysisResult {
   std::vector<Diagnostic> warnings;         ///< set by the caller: plausibility warnings of the file
 };
 
+/// Analyses a joint with tendons over its range. A law that does not exist is a value. Throws Stopped.
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options = {}, const RunContext& context = {});
 
 /// Deviations of θ from the target motion by single causes: stretch, friction, and simplifications in drawing a pulley.
@@ -147,6 +151,7 @@ std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const St
 // ---- Stroke ---------------------------------------------------------------------------------------------------------
 // The full model over a cycle of the declared load, after settling.
 
+/// The settled joint at one α, in both directions of motion.
 struct StrokePoint {
   joint::EquilibriumPoint rising;   ///< α increasing
   joint::EquilibriumPoint falling;  ///< α decreasing

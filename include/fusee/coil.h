@@ -33,6 +33,7 @@ struct HelicalSection {
 
   double width() const { return walls.below_width() + walls.above_width(); }
 };
+/// The cross-section of the mechanism's helical grooves, automatic sizes resolved. mm, rad.
 HelicalSection helical_section(const Mechanism& mechanism);
 /// The least axial distance of two neighbouring turns: the groove's width, a rib, and the height that a printable step
 /// needs when the upper turn's edge projects over the lower one's by `growth`. `growth` is negative when the upper turn
@@ -61,6 +62,7 @@ struct HelicalAnchor {
 
 struct HelicalPlan;  // coil/helical_plan.h
 
+/// A multi-turn pulley as one solid, or the conditions that fail.
 struct HelicalPulley {
   bool made = false;
   solid::BodyLayout layout;  ///< hub, bore, screw and walls; z_p1 and z_p2: heights of the groove ends at the anchors
@@ -73,6 +75,7 @@ struct HelicalPulley {
   std::vector<Check> mesh_checks;           ///< check_mesh() of `mesh`
   std::shared_ptr<const HelicalPlan> plan;  ///< set when `made`
 
+  /// Summary: the result, or the failed conditions.
   std::string brief() const;
 };
 
@@ -115,6 +118,7 @@ struct TendonsLaid {
 TendonsLaid tendons_laid(const HelicalPulley& pulley, const helix::Spiral& p1, const helix::Spiral& p2,
                          double attachment1, double attachment2, bool collar);
 
+/// Joint angles of wound strings, and their fleet angles. rad.
 struct HelicalRewind {
   profile::RewindResult result;  ///< as for one-turn pulleys
   double max_fleet = 0;          ///< largest angle between a span and its groove at the take-off

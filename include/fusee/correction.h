@@ -27,6 +27,7 @@ struct CompensationRow {
   double curve_down = 0;
 };
 
+/// Result of correct(): the corrected pulley and table, each with its validated gain.
 struct Correction {
   Imperfections identified;  ///< the file's and this calibration's imperfections, combined
   bool has_pulley = false;   ///< an identified effect is corrected by another pulley, and that pulley is feasible
@@ -78,11 +79,13 @@ struct RehearsedShare {
   std::vector<std::vector<double>> rising, falling;      ///< by load and place
 };
 
+/// Simulated influence of one effect.
 struct RehearsedEffect {
   std::string name;
   std::vector<RehearsedShare> shares;  ///< one for each of k_rehearsed_shares
 };
 
+/// Result of rehearse().
 struct Rehearsal {
   Mechanism mechanism;                 ///< the expected joint
   profile::SynthesisResult synthesis;  ///< of the mounted pulley

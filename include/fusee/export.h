@@ -59,6 +59,7 @@ struct Product {
 // Writes and reads drawings as DXF, and checks them for faults that stop a workshop's machine. The same input gives
 // the same bytes.
 
+/// AC1015 is AutoCAD 2000, with millimetres; R12 suits old machines.
 enum class DxfVersion { ac1015, r12 };
 
 /// The body's sizes without shrinkage and hole compensation, which apply to prints only.
@@ -92,6 +93,7 @@ struct UndrawnEntity {
   std::string why;
 };
 
+/// A drawing as read from a file.
 struct Drawing {
   std::string version;               ///< "AC1015", "AC1009" …
   bool millimetres = false;          ///< $INSUNITS = 4, or absent in R12
@@ -126,6 +128,7 @@ struct PlanProduct {
 std::string run_file_name(const plan::Plan& plan, std::size_t step);
 /// The rows to drive in the format of `fusee calibrate`, with θ empty and the instructions in comments.
 std::string run_csv(const PlanProduct& product, std::size_t step);
+/// The document of a plan, with a schema number.
 std::string plan_json(const PlanProduct& product);
 /// A page for the bench: A4, boxes to tick, no network.
 std::string plan_html(const PlanProduct& product);
@@ -133,6 +136,7 @@ std::string plan_html(const PlanProduct& product);
 std::string next_html(const PlanProduct& product, const std::vector<std::string>& measured);
 /// The sections with instructions, for another page that has plan.css.
 std::string plan_steps_html(const PlanProduct& product);
+/// Lists inputs and the hashes of all files.
 std::string plan_manifest_json(const PlanProduct& product, const std::vector<OutputFile>& outputs);
 
 // Texts for page and terminal.
@@ -145,6 +149,7 @@ std::vector<std::string> false_positive_words(const plan::Plan& plan);
 std::string gain_words(const plan::PlanStep& step);
 /// The predicted gain of the first minutes, such as "by minute 3: 3 cycles, slow …; tells …".
 std::string minute_words(const plan::PlanStep& step, const std::string& gain);
+/// minute_words() of several steps, in their order.
 std::vector<std::string> minute_words(const std::vector<plan::PlanStep>& steps);
 
 // ---- Test rig -------------------------------------------------------------------------------------------------------
@@ -167,6 +172,7 @@ struct KitCut {
   double between_knots = 0;  ///< from the pulley's knot to its fastening at the joint, taut, at home, mm
   double cut = 0;            ///< including both ends, in whole 5 mm
 };
+/// The lengths of both tendons. mm.
 std::vector<KitCut> kit_cuts(const KitProduct& product);
 
 /// The parts that can be cut from sheets, nested flat: layers CUT_OUTER, CUT_INNER, ENGRAVE.
@@ -175,6 +181,7 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version);
 std::string bom_csv(const KitProduct& product);
 /// The assembly page: pictures of each step, tendons, parts to buy, the coupon, the measuring plan.
 std::string kit_html(const KitProduct& product);
+/// Lists inputs and the hashes of all files.
 std::string kit_manifest_json(const KitProduct& product, const std::vector<OutputFile>& outputs);
 
 // ---- Models ---------------------------------------------------------------------------------------------------------
@@ -210,8 +217,11 @@ std::string mujoco_tendons_xml(const ModelProduct& product);
 std::string joint_urdf(const ModelProduct& product);
 /// For ros2_control: joint theta, and a transmission from the motor to it.
 std::string ros2_control_urdf(const ModelProduct& product);
+/// C header with tables of 32-bit floats and their interpolation.
 std::string joint_table_h(const ModelProduct& product);
+/// The tables of joint_table_h() as JSON.
 std::string joint_table_json(const ModelProduct& product);
+/// Lists inputs and the hashes of all files.
 std::string model_manifest_json(const ModelProduct& product, const std::vector<OutputFile>& outputs);
 
 /// True if a fusee manifest lists a file with these bytes.
@@ -234,6 +244,7 @@ struct CalibrationProduct {
   correction::Rehearsal rehearsal;  ///< of what was found
 };
 
+/// The document of a calibration, with a schema number.
 std::string calibration_json(const CalibrationProduct& product);
 /// The measurements to make next, for the bench: a page and the run files, "next/run_6.csv". None where nothing is asked
 /// for.
@@ -244,6 +255,7 @@ std::string next_file_name(const CalibrationProduct& product, std::size_t i);
 int first_free_run(const std::vector<std::string>& names);
 /// Names of next_files() with so many runs.
 std::vector<std::string> next_file_names(int first_run, int runs);
+/// The page of a calibration, without network.
 std::string calibration_report_html(const CalibrationProduct& product);
 /// Names the files beside it, so that the next run knows them as ours.
 std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs);
@@ -256,6 +268,7 @@ struct Headline {
   std::string cause;    ///< one, or two or three candidates; "" where there is none
   std::string action;   ///< what to do now
 };
+/// The first lines of a calibration.
 Headline headline(const CalibrationProduct& product);
 
 /// A number of a cause. Share and remedy are empty for its further numbers, and for causes that may be in its place.
@@ -269,6 +282,7 @@ struct CauseRow {
   /// Titles of the columns, in the order of the members.
   static constexpr std::array<const char*, 5> k_titles = {"cause", "size", "95 % if alone", "share", "corrected by"};
 };
+/// The table of causes, in the order of Calibration::effects.
 std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
 
 // In words, for the page and for a terminal alike.
@@ -308,7 +322,9 @@ struct ComparisonProduct {
   calibration::Comparison comparison;
 };
 
+/// The document of a comparison, with a schema number.
 std::string comparison_json(const ComparisonProduct& product);
+/// The page of a comparison, without network.
 std::string comparison_report_html(const ComparisonProduct& product);
 /// Names the files beside it, so that the next run knows them as ours.
 std::string comparison_manifest_json(const ComparisonProduct& product, const std::vector<OutputFile>& outputs);
@@ -327,6 +343,7 @@ struct ChangeRow {
   std::string share;      ///< how much of the difference between the states, "" but in an effect's first row
   std::string as_likely;  ///< the other members of its group, "" but in an effect's first row
 };
+/// The table of changes, the largest first.
 std::vector<ChangeRow> change_rows(const ComparisonProduct& product);
 
 // ---- Simulation -----------------------------------------------------------------------------------------------------

@@ -20,6 +20,7 @@ namespace fusee::joint {
 // ---- Inputs on the bench --------------------------------------------------------------------------------------------
 // Inputs to a joint on its bench: logged motor angles, loads and temperatures of each run.
 
+/// One row of logged inputs.
 struct BenchRow {
   double time = 0;   ///< s; 0 if not logged
   double alpha = 0;  ///< reading of the motor's sensor, rad
@@ -36,6 +37,7 @@ struct Mounting {
   bool operator==(const Mounting&) const = default;
 };
 
+/// The rows of one run, and which of them were logged.
 struct BenchRun {
   std::vector<BenchRow> rows;  ///< sorted by time
   bool has_load = false;       ///< false: the declared load acts
@@ -73,6 +75,7 @@ struct LowerPath {
 /// Both pulleys as made for one mechanism, with tendons from pins that may be elsewhere. Cheap to copy; immutable.
 class MadePulleys {
  public:
+  /// Pulleys of the target motion of `made_for`. Its law must exist over the range.
   explicit MadePulleys(const Mechanism& made_for) : declared_(made_for) {}
 
   /// Both pitch curves offset outwards by `by` (print offset, tendon thickness), mm.
@@ -84,6 +87,7 @@ class MadePulleys {
   std::array<LowerPath, 2> paths(const std::array<transmission::PinPlace, 2>& mounted, double alpha) const {
     return paths(std::array{mounted[0].lower(), mounted[1].lower()}, alpha);
   }
+  /// The target motion of the mechanism that they were made for.
   const transmission::Transmission& declared() const { return declared_; }
 
  private:
@@ -169,6 +173,7 @@ struct JointStep {
   TendonChange tendon = {};
 };
 
+/// Motion of a tendon over its guide.
 enum class PinContact {
   stick,      ///< no material crosses the pin; with a sheath: not all of the tendon slides
   slip_up,    ///< material crosses towards the joint: T_up = T_low e^{μφ}
@@ -176,6 +181,7 @@ enum class PinContact {
   slack,      ///< no tension on either side
 };
 
+/// Tensions and lengths of one tendon in equilibrium.
 struct TendonState {
   double upper = 0;    ///< tension between pin and C, N
   double lower = 0;    ///< tension between pulley and pin, N
@@ -186,6 +192,7 @@ struct TendonState {
   PinContact contact = PinContact::stick;
 };
 
+/// Outcome of the equilibrium search.
 enum class EquilibriumStatus {
   held,   ///< in equilibrium
   loose,  ///< both tendons slack: nothing holds the joint, and θ is arbitrary within the play
@@ -193,6 +200,7 @@ enum class EquilibriumStatus {
   no_equilibrium,
 };
 
+/// State of the joint after one step. Energies and works are since home.
 struct EquilibriumPoint {
   EquilibriumStatus status = EquilibriumStatus::held;
   double alpha = 0;  ///< rad

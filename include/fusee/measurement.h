@@ -70,6 +70,7 @@ struct Segment {
   int pull = 0;            ///< cause of the state in a dwell: 0: α moved here, +1: the load rose, −1: the load fell
 };
 
+/// One run: rows, strokes and segments.
 struct Run {
   std::string name;             ///< file name without folder
   std::vector<Sample> samples;  ///< by time
@@ -81,6 +82,7 @@ struct Run {
   joint::Mounting mounting = {};  ///< of the encoders
 };
 
+/// All runs of one joint, with notes on their repair.
 struct Measurement {
   std::vector<Run> runs;
   double alpha_quantum = 0;  ///< sensor step, rad; 0 if it is too fine to be detected
@@ -157,6 +159,7 @@ struct NoiseFloor {
   /// Number of independent rows that have the information of `rows` rows, each the `every`-th of the log.
   double effective_rows(double rows, double every = 1) const;
 };
+/// Estimates the noise from repeats, before any fit. A lower bound without repeats.
 NoiseFloor noise_floor(const Measurement& measurement);
 
 /// Figures of ISO 230-2, rad, from up and down strokes at fixed positions of α.

@@ -51,6 +51,7 @@ struct OutlineError {
   bool operator==(const OutlineError&) const = default;
 };
 
+/// Deviation of both pulleys.
 struct PulleyError {
   OutlineError outline;
   double scale = 0;  ///< relative enlargement of the pitch curves
@@ -86,6 +87,7 @@ struct CableStiffening {
   bool operator==(const CableStiffening&) const = default;
 };
 
+/// Deviation of both tendons.
 struct TendonError {
   double stretch = 0;  ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
   /// Added to the pretension of tendon 1 at home, N; without effect where tendons hang loose.
@@ -114,6 +116,7 @@ struct SheathError {
   bool operator==(const SheathError&) const = default;
 };
 
+/// Displacement of a guide pin.
 struct PinPlaceError {
   double outward = 0;  ///< further from the middle, mm
   double down = 0;     ///< further from the joint, mm; the pulley axis does not move
@@ -121,6 +124,7 @@ struct PinPlaceError {
   bool operator==(const PinPlaceError&) const = default;
 };
 
+/// Deviation of both guide pins.
 struct PinError {
   PinPlaceError left;
   PinPlaceError right;
@@ -179,6 +183,7 @@ struct RubbingError {
   bool operator==(const RubbingError&) const = default;
 };
 
+/// Deviation of the joint: geometry, friction, weight.
 struct JointError {
   double length = 0;    ///< added to OC, mm
   double friction = 0;  ///< dry friction of the bearing, N·mm
@@ -199,6 +204,7 @@ struct CableFriction {
   double share = 0;     ///< fraction of the load
   double unloaded = 0;  ///< additional friction due to the unloaded cable tension, in units of load
 
+  /// Friction at a load, in units of load.
   double at(double load) const { return unloaded + share * std::abs(load); }
 
   bool operator==(const CableFriction&) const = default;
@@ -251,6 +257,7 @@ struct JointSensorError {
   bool operator==(const JointSensorError&) const = default;
 };
 
+/// All deviations of a joint. All zero: as declared.
 struct Imperfections {
   MotorSensorError motor;
   ShaftError shaft;
@@ -292,6 +299,7 @@ struct Attachment {
   bool operator==(const Attachment&) const = default;
 };
 
+/// The joint's axis, range and tendon attachments. mm, rad.
 struct Joint {
   double R = 0;          ///< OC, from the joint axis to the tendons' attachment
   double theta_min = 0;  ///< rad, ≤ 0: home lies within the range
@@ -311,8 +319,10 @@ struct Joint {
   bool is_plain() const { return drum_radius == 0 && !attachment1 && !attachment2; }
 };
 
+/// A pin is fixed and the tendon slides on it; an idler turns on a bearing.
 enum class GuideKind { pin, idler };
 
+/// The two guides between joint and pulley. mm.
 struct Guides {
   double EB = 0;      ///< pin B is at (−EB, −OE)
   double ED = 0;      ///< pin D is at (ED, −OE)
@@ -344,7 +354,9 @@ struct Sheath {
   bool is_there() const { return length > 0; }
 };
 
+/// The origin of θ(α): Transmission lists the formulas.
 enum class Law { compensate, linear, table, torque };
+/// exact: pins and tendons have their thickness; paper: points and lines.
 enum class Method { exact, paper };
 /// automatic: multi-turn helical grooves where one turn does not suffice.
 enum class WindingChoice { automatic, one_turn };
@@ -384,6 +396,7 @@ struct PulleyDrive {
   bool operator==(const PulleyDrive&) const = default;
 };
 
+/// Both tendons. mm, N, MPa.
 struct Tendon {
   double diameter = 0;
   double modulus = 0;          ///< Young's modulus, MPa
@@ -421,6 +434,7 @@ struct Spring {
 
   bool operator==(const Spring&) const = default;
 
+  /// Torque against +θ at `theta` (rad), N·mm.
   double torque(double theta) const { return preload + stiffness * (theta - free); }
 };
 
@@ -433,10 +447,15 @@ struct JointLoad {
   bool operator==(const JointLoad&) const = default;
 };
 
+/// Cross-section of the grooves.
 enum class Groove { u, v, flat };
+/// Rim of the flanges: parallel to the grooves, or a circle.
 enum class Flange { follow, round };
+/// Shape of the bore. horn: screwed onto a servo horn.
 enum class Bore { round, d, hex, square, keyway, horn };
+/// Home mark, clocking mark and labels on the faces.
 enum class Marks { engraved, raised, none };
+/// Place of a tendon's end beyond its knot: a slot of the face, or none.
 enum class Tail { slot, none };
 
 /// The printed body. 0 means "automatic" where the field table says so; fusee/solid.h resolves it.
@@ -487,6 +506,7 @@ struct Horn {
   bool operator==(const Horn&) const = default;
 };
 
+/// Effects of the printed material.
 struct Material {
   std::string name;
   double shrinkage = 0;          ///< relative shrinkage of a print
@@ -496,6 +516,7 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+/// Number of printed parts.
 enum class Parts { automatic, one, two };
 
 /// Print settings.
