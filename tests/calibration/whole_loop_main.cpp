@@ -24,7 +24,7 @@ void print_row(const LoopOutcome& outcome) {
 constexpr const char* k_head =
     "Joint error: rms of θ − θ(α) as declared over two cycles, noise apart, in degrees. *After*: with the pulley of "
     "corrected.toml on the same joint\n"
-    "with the same fault, at its assembly angle; *at 0*: assembled with the motor at 0; *by the table*: assembled at 0,\n"
+    "with the same fault, at its assembly angle; *at 0*: assembled with the motor at 0; *by the table*: so assembled,\n"
     "against compensation.csv; *no fault*: the declared joint, which friction and the polygon leave. In brackets what "
     "the data do not distinguish.\n\n"
     "| hidden effect | verdict | found | before | after | after / before | at 0 | by the table | no fault |\n"
