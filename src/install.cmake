@@ -1,7 +1,7 @@
 # cmake --install: the program with its profiles, and the library for find_package(fusee) and pkg-config.
 include(CMakePackageConfigHelpers)
 set(FUSEE_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/fusee)
-set(FUSEE_ROOMS base mechanism transmission profile helix joint analysis optimize paper measurement plan calibration correction solid coil kit model export pipeline)
+set(FUSEE_LIBRARIES base mechanism transmission profile helix joint analysis optimize paper measurement plan calibration correction solid coil kit model export pipeline)
 
 set(program COMPONENT program)
 install(TARGETS fusee_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} ${program})
@@ -19,10 +19,10 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} ${program} PATTERN "u
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 
 set(development COMPONENT development)
-foreach(room IN LISTS FUSEE_ROOMS)
-  set_target_properties(fusee_${room} PROPERTIES EXPORT_NAME ${room})
-  install(TARGETS fusee_${room} EXPORT fuseeTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${development})
-  string(PREPEND FUSEE_PC_ROOMS "-lfusee_${room} ")  # a module uses those to its left
+foreach(module IN LISTS FUSEE_LIBRARIES)
+  set_target_properties(fusee_${module} PROPERTIES EXPORT_NAME ${module})
+  install(TARGETS fusee_${module} EXPORT fuseeTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${development})
+  string(PREPEND FUSEE_PC_LIBRARIES "-lfusee_${module} ")  # a module uses those to its left
 endforeach()
 # Users of the library link the genetic search, so there is no module to find.
 set_target_properties(fusee_evolution PROPERTIES EXPORT_NAME evolution)

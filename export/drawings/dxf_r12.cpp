@@ -42,14 +42,14 @@ void write_r12_polyline(DxfTagWriter& tags, const DxfPath& path) {
   tags.text(8, path.layer);
   tags.integer(66, 1);
   tags.point3(10, 0, 0, 0);
-  const bool climbs = !path.heights.empty();
-  tags.integer(70, (path.closed ? 1 : 0) + (climbs ? 8 : 0));
+  const bool is_in_space = !path.heights.empty();
+  tags.integer(70, (path.closed ? 1 : 0) + (is_in_space ? 8 : 0));
   for (std::size_t i = 0; i < path.vertices.size(); ++i) {
     const BulgeVertex& vertex = path.vertices[i];
     tags.text(0, "VERTEX");
     tags.text(8, path.layer);
-    tags.point3(10, vertex.place.x(), vertex.place.y(), climbs ? path.heights[i] : 0);
-    if (climbs) tags.integer(70, 32);
+    tags.point3(10, vertex.place.x(), vertex.place.y(), is_in_space ? path.heights[i] : 0);
+    if (is_in_space) tags.integer(70, 32);
     if (vertex.bulge != 0) tags.real(42, vertex.bulge);
   }
   tags.text(0, "SEQEND");

@@ -144,8 +144,8 @@ std::vector<DxfLayer> spiral_layers() {
   return all;
 }
 
-std::vector<Vec3> climbing(const helix::Spiral& spiral, const coil::SpiralPlace& place, std::size_t first,
-                           std::size_t last, double outward) {
+std::vector<Vec3> helical_line(const helix::Spiral& spiral, const coil::SpiralPlace& place, std::size_t first,
+                               std::size_t last, double outward) {
   std::vector<Vec3> points;
   for (std::size_t i = first; i <= last; ++i) {
     const helix::SpiralRow& row = spiral.rows[i];
@@ -160,7 +160,7 @@ void add_spiral(DxfDocument& drawing, const std::string& pulley, const helix::He
   const helix::Spiral& spiral = side.spiral;
   const std::size_t last = spiral.rows.size() - 1;
   const auto curve = [&](const char* layer, std::size_t from, std::size_t to, double outward) {
-    if (from < to) drawing.in_space(pulley + layer, climbing(spiral, place, from, to, outward));
+    if (from < to) drawing.in_space(pulley + layer, helical_line(spiral, place, from, to, outward));
   };
   curve("_SPIRAL", spiral.first_used, spiral.last_used, 0);
   curve("_SPARE", 0, spiral.first_used, 0);

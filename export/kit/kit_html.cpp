@@ -239,10 +239,10 @@ std::string key_section(const KitProduct& product) {
 std::vector<std::string> template_words(const KitProduct& product) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   const bool idlers = mechanism.guides.kind == GuideKind::idler;
-  const bool climbs = product.plan.heights.has_value();
+  const bool is_helical = product.plan.heights.has_value();
   std::vector<std::string> words{
       "Use the plates of base and link as drilling templates, or cut them (kit.dxf): every hole is at its axis.",
-      idlers ? climbs && !mechanism.guides.collar
+      idlers ? is_helical && !mechanism.guides.collar
                    ? "Smooth rollers onto bolts at B and D, over the whole height range of the tendons there."
                    : "Idlers onto bolts at B and D, their grooves at the heights of both tendons."
              : "Rods into B and D, upright: the tendons run on their outer sides.",
@@ -250,8 +250,8 @@ std::vector<std::string> template_words(const KitProduct& product) {
   if (mechanism.joint.drum_radius > 0)
     words.push_back(
         "The drum under the link, both on the axle: glue or screw them to each other, so that the tendons " +
-        std::string("lie on the drum at the heights of ") + (climbs ? "the table." : "P1 and P2."));
-  if (climbs)
+        std::string("lie on the drum at the heights of ") + (is_helical ? "the table." : "P1 and P2."));
+  if (is_helical)
     words.push_back(
         "Tie the tendons to the link at their heights: a wrong height causes a fleet angle, and the tendon climbs the "
         "rib between two turns.");
@@ -285,7 +285,7 @@ std::string heights_section(const KitProduct& product) {
 
 std::string template_sections(const KitProduct& product) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
-  const bool climbs = product.plan.heights.has_value();
+  const bool is_helical = product.plan.heights.has_value();
   const std::vector<TendonLength> lengths = tendon_lengths(product.pulley);
   std::string rows, cuts;
   for (const KitCut& cut : kit_cuts(product)) {
@@ -293,11 +293,11 @@ std::string template_sections(const KitProduct& product) {
         std::find_if(lengths.begin(), lengths.end(), [&](const TendonLength& one) { return one.side == cut.side; });
     cuts += "<tr>" + html_cell(cut.side == transmission::Side::left ? "Tendon 1" : "Tendon 2") +
             html_number_cell(mm(cut.between_knots)) + html_number_cell(mm(cut.cut, 0)) +
-            (climbs ? html_number_cell(readable(own->lap_at_home / k_two_pi, 2)) : std::string()) +
+            (is_helical ? html_number_cell(readable(own->lap_at_home / k_two_pi, 2)) : std::string()) +
             html_cell(winding_words(cut.side)) + "</tr>";
   }
   std::vector<std::string> heads{"", "# taut, at home", "# cut at"};
-  if (climbs) heads.emplace_back("# turns on the pulley at home");
+  if (is_helical) heads.emplace_back("# turns on the pulley at home");
   heads.emplace_back("direction of winding");
   for (const profile::Condition& condition : product.plan.conditions)
     rows += "<tr>" + html_cell(plain_name(condition.name)) + html_number_cell(mm(condition.value, 2)) +
@@ -311,7 +311,7 @@ std::string template_sections(const KitProduct& product) {
                           std::string(mechanism.sheath.is_there() ? "its length in the sheath"
                                                                   : "its length on guide and drum") +
                           ".</p>") +
-         (climbs ? heights_section(product) : std::string()) +
+         (is_helical ? heights_section(product) : std::string()) +
          html_section("fit", "Between holes", html_table({"", "# distance", "# at least"}, rows));
 }
 

@@ -133,8 +133,8 @@ model::JointTable table_in(const std::string& bytes) {
   table.unit.zero = json["motor_unit"]["zero"];
   table.pieces = json["pieces"];
   const std::vector<float> theta = floats_of(json["theta_deg"]);
-  table.theta_first = theta[0];
-  table.theta_last = theta[1];
+  table.theta_first_deg = theta[0];
+  table.theta_last_deg = theta[1];
   for (const Json& way : json["ways"]) {
     const std::vector<float> ends = floats_of(way["motor"]);
     table.ways.push_back({ends[0], ends[1], floats_of(way["theta_deg_of_motor"]), floats_of(way["motor_of_theta"])});
@@ -166,7 +166,7 @@ std::size_t differing_entries(const ModelProduct& product, const std::string& he
     expected.insert(expected.end(), values.begin(), values.end());
   };
   for (const model::OneWayTable& way : table.ways) {
-    add(way.theta);
+    add(way.theta_deg);
     add(way.motor);
   }
   add(table.slope);
@@ -182,7 +182,7 @@ std::size_t standing_still(const model::JointTable& table) {
   std::size_t count = 0;
   const bool falls = table.unit.per_turn < 0;
   for (const model::OneWayTable& way : table.ways) {
-    for (const std::vector<float>* entries : {&way.theta, &way.motor}) {
+    for (const std::vector<float>* entries : {&way.theta_deg, &way.motor}) {
       for (std::size_t i = 1; i < entries->size(); ++i)
         count += falls ? !((*entries)[i] < (*entries)[i - 1]) : !((*entries)[i] > (*entries)[i - 1]);
     }

@@ -52,7 +52,7 @@ class Header {
                        "_JOINT_TABLE_H\n\n#include <stdint.h>\n\n" + limits();
     const std::vector<std::string> names = way_names();
     for (std::size_t way = 0; way < names.size(); ++way) {
-      text += array(p_ + "_theta" + names[way] + "_table", table_.ways[way].theta);
+      text += array(p_ + "_theta" + names[way] + "_table", table_.ways[way].theta_deg);
       text += array(p_ + "_motor" + names[way] + "_table", table_.ways[way].motor);
     }
     text += array(p_ + "_slope_table", table_.slope);
@@ -117,8 +117,8 @@ class Header {
   }
 
   std::string limits() const {
-    return "#define " + P_ + "_THETA_FIRST_DEG (" + c_float(table_.theta_first) + ")\n#define " + P_ +
-           "_THETA_LAST_DEG (" + c_float(table_.theta_last) + ")\n\n";
+    return "#define " + P_ + "_THETA_FIRST_DEG (" + c_float(table_.theta_first_deg) + ")\n#define " + P_ +
+           "_THETA_LAST_DEG (" + c_float(table_.theta_last_deg) + ")\n\n";
   }
 
   std::string lookup() const {
@@ -164,8 +164,9 @@ class Header {
            ") {\n  return " + p_ + "_between(" + theta + "_table, " + motor_place(table) +
            ");\n}\n\n/* The motor angle for a joint angle. */\nstatic inline " + motor_type() + " " + motor +
            (ticks() ? "" : "_deg") + "(float theta_deg) {\n" +
-           motor_value(p_ + "_between(" + p_ + "_motor" + way + "_table, (theta_deg - (" + c_float(table_.theta_first) +
-                       ")) * " + per_step(table_.theta_first, table_.theta_last) + ")") +
+           motor_value(p_ + "_between(" + p_ + "_motor" + way + "_table, (theta_deg - (" +
+                       c_float(table_.theta_first_deg) + ")) * " +
+                       per_step(table_.theta_first_deg, table_.theta_last_deg) + ")") +
            "}\n\n";
   }
 

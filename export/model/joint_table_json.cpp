@@ -65,13 +65,13 @@ std::string joint_table_json(const ModelProduct& product) {
   json["motor_unit"] = {
       {"name", table.unit.ticks ? "count" : "deg"}, {"per_turn", table.unit.per_turn}, {"zero", table.unit.zero}};
   json["pieces"] = table.pieces;
-  json["theta_deg"] = {short_number(table.theta_first), short_number(table.theta_last)};
+  json["theta_deg"] = {short_number(table.theta_first_deg), short_number(table.theta_last_deg)};
   json["ways"] = Json::array();
   for (std::size_t i = 0; i < table.ways.size(); ++i) {
     const model::OneWayTable& way = table.ways[i];
     json["ways"].push_back({{"moving", way_word(table, i)},
                             {"motor", {short_number(way.first), short_number(way.last)}},
-                            {"theta_deg_of_motor", list_of(way.theta)},
+                            {"theta_deg_of_motor", list_of(way.theta_deg)},
                             {"motor_of_theta", list_of(way.motor)}});
   }
   json["slope_of_motor"] = list_of(table.slope);

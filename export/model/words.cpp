@@ -120,8 +120,8 @@ SimulatedBody body_of(const ModelProduct& product) {
   const Load& load = mechanism.load;
   const double R = mechanism.joint.R * 1e-3;
   SimulatedBody body;
-  body.weighs = load.mass > 0;
-  body.mass = body.weighs ? load.mass : k_link_per_mm * mechanism.joint.R;
+  body.weighs = load.mass_kg > 0;
+  body.mass = body.weighs ? load.mass_kg : k_link_per_mm * mechanism.joint.R;
   body.lever = body.weighs ? load.lever * 1e-3 : 0.5 * R;
   body.inertia = body.mass * R * R / 12;
   if (body.weighs) {
@@ -142,9 +142,9 @@ SimulatedBody body_of(const ModelProduct& product) {
   add_spring(body, mechanism.spring);
   double most = 0, steepest = 0, heaviest = 0;
   const model::AngleMap& map = product.curves.physical.middle;
-  constexpr int looks = 20;
-  for (int i = 0; i <= looks; ++i) {
-    const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / looks), g = map.slope(alpha);
+  constexpr int samples = 20;
+  for (int i = 0; i <= samples; ++i) {
+    const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / samples), g = map.slope(alpha);
     steepest = std::max(steepest, g);
     const double torque = std::abs(transmission::load_torque(mechanism, map.theta(alpha))) * 1e-3;
     heaviest = std::max(heaviest, torque);

@@ -174,7 +174,8 @@ std::string analysis_html(const MechanismFile& file, const analysis::AnalysisRes
                html_section("forces", "Over the range", plots(result, file.mechanism)) +
                html_section("budget", "Causes of the angular error", sources_table(result.sources)) +
                html_section("tolerances", "Tolerances",
-                            "<p class=\"lead\">Each dimension within " + safe_text(with_unit(options.tolerance, "mm")) +
+                            "<p class=\"lead\">Each dimension within " +
+                                safe_text(with_unit(options.dimension_tolerance, "mm")) +
                                 " (95 %), and the resulting limits of joint angle and slack.</p>" +
                                 tolerances_table(result.tolerances)),
        .foot =

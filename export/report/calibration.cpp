@@ -136,16 +136,16 @@ Json numbers_json(const std::vector<double>& values) {
   return list;
 }
 
-Json slips_json(const std::vector<calibration::LikelyInputError>& slips) {
+Json input_errors_json(const std::vector<calibration::LikelyInputError>& errors) {
   Json list = Json::array();
-  for (const calibration::LikelyInputError& slip : slips) {
-    list.push_back({{"key", slip.key},
-                    {"declared", numbers_json(slip.declared)},
-                    {"would_be", numbers_json(slip.would_be)},
-                    {"rms_deg", angle_json(slip.rms)},
-                    {"pulley_as_declared", slip.pulley_as_declared},
-                    {"beside", slip.beside},
-                    {"words", calibration::input_error_words(slip)}});
+  for (const calibration::LikelyInputError& error : errors) {
+    list.push_back({{"key", error.key},
+                    {"declared", numbers_json(error.declared)},
+                    {"would_be", numbers_json(error.would_be)},
+                    {"rms_deg", angle_json(error.rms)},
+                    {"pulley_as_declared", error.pulley_as_declared},
+                    {"beside", error.beside},
+                    {"words", calibration::input_error_words(error)}});
   }
   return list;
 }
@@ -164,7 +164,7 @@ Json correctable_json(const correction::Correction& correction) {
   if (!correction.why_no_pulley_file.empty()) json["no_corrected_toml"] = correction.why_no_pulley_file;
   if (!correction.why_no_table.empty()) json["no_compensation_csv"] = correction.why_no_table;
   if (!correction.infeasible.empty()) json["infeasible"] = correction.infeasible;
-  if (correction.tied_at != 0) json["tied_at_deg"] = angle_json(correction.tied_at);
+  if (correction.assembly_angle != 0) json["tied_at_deg"] = angle_json(correction.assembly_angle);
   if (correction.round.r1 > 0) {
     json["p1_round"] = {{"best_r1_mm", nine_digits(correction.round.r1)},
                         {"max_error_deg", angle_json(correction.round.max_error)},
@@ -216,7 +216,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["unknown"] = unknown_json(calibration.discrepancy);
   json["instead"] = Json::array();  // always empty; readers of the schema expect the key
   json["covered"] = covered_json(product);
-  json["slips"] = slips_json(product.slips);
+  json["slips"] = input_errors_json(product.input_errors);
   json["detectable"] = detectable_json(calibration);
   json["next"] = next_json(product);
   json["null_combinations"] = calibration.null_combinations;

@@ -202,7 +202,7 @@ std::string repair_words(const calibration::FoundEffect& effect, const std::stri
 
 std::string action_words(const CalibrationProduct& product) {
   const calibration::Calibration& calibration = product.calibration;
-  if (!product.slips.empty()) return "Check the file first: see below.";
+  if (!product.input_errors.empty()) return "Check the file first: see below.";
   if (calibration.verdict == calibration::CalibrationVerdict::no_effect) return "Nothing to do.";
   const bool is_sure = calibration.verdict == calibration::CalibrationVerdict::explained;
   if (!is_sure && !calibration.next.empty()) return first_clause(calibration.next.front().words);

@@ -23,7 +23,7 @@ plan::PlanStep step_of(const plan::NextMeasurement& next, double minutes_before)
   if (!next.readings.empty()) step.reading = next.readings.front();
   step.words = next.words;
   step.minutes = next.minutes;
-  step.by = minutes_before + next.minutes;
+  step.end_minute = minutes_before + next.minutes;
   if (!next.gain.empty()) step.tells = {next.gain};
   return step;
 }
@@ -35,7 +35,7 @@ PlanProduct next_plan(const CalibrationProduct& product) {
   next.plan.load_unit = product.file.mechanism.transmission ? product.measurement.load_unit : "N";
   for (const plan::NextMeasurement& one : product.calibration.next) {
     next.plan.steps.push_back(step_of(one, next.plan.minutes));
-    next.plan.minutes = next.plan.steps.back().by;
+    next.plan.minutes = next.plan.steps.back().end_minute;
   }
   return next;
 }

@@ -82,10 +82,10 @@ std::string summary_section(const calibration::Calibration& calibration) {
 }
 
 std::string slips_section(const CalibrationProduct& product) {
-  if (product.slips.empty()) return "";
-  return html_section("slips", "A slip of the file or of the log?",
+  if (product.input_errors.empty()) return "";
+  return html_section("slips", "Likely input error",
                       "<p class=\"lead\">No effect explains these data. What follows would: look there first.</p>" +
-                          html_list(slips_words(product)));
+                          html_list(input_error_texts(product)));
 }
 
 std::string key_numbers(const CalibrationProduct& product) {
@@ -155,7 +155,7 @@ std::vector<std::string> correction_items(const CalibrationProduct& product) {
     items.push_back("fusee build corrected.toml makes a pulley that removes " + degree_words(correction.by_pulley) +
                     " rms on rows that were not fitted.");
     if (correction.round.r1 > 0) items.push_back(round_words(correction) + ".");
-    if (correction.tied_at != 0) items.push_back(first_upper(tied_words(correction)) + ".");
+    if (correction.assembly_angle != 0) items.push_back(first_upper(assembly_angle_words(correction)) + ".");
   } else if (!correction.infeasible.empty()) {
     items.push_back(first_upper(infeasible_words(correction)) + ".");
   } else if (correction.why_no_pulley_file.empty()) {

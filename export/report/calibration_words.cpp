@@ -132,9 +132,10 @@ std::string infeasible_words(const correction::Correction& correction) {
   return "the pulley that would correct this cannot be made: " + correction.infeasible;
 }
 
-std::string tied_words(const correction::Correction& correction) {
-  return "tie its tendons with the unloaded joint at home and the motor at " + rounded(degrees(correction.tied_at), 4) +
-         " deg: under its mean load the joint then follows its law; tied at 0 it is off by as much, which "
+std::string assembly_angle_words(const correction::Correction& correction) {
+  return "tie its tendons with the unloaded joint at home and the motor at " +
+         rounded(degrees(correction.assembly_angle), 4) +
+         " deg: under its mean load the joint then follows its law; assembled at 0 it is off by as much, which "
          "compensation.csv has";
 }
 
@@ -213,9 +214,10 @@ std::vector<std::string> next_texts(const calibration::Calibration& calibration)
   return texts;
 }
 
-std::vector<std::string> slips_words(const CalibrationProduct& product) {
+std::vector<std::string> input_error_texts(const CalibrationProduct& product) {
   std::vector<std::string> all;
-  for (const calibration::LikelyInputError& slip : product.slips) all.push_back(calibration::input_error_words(slip));
+  for (const calibration::LikelyInputError& error : product.input_errors)
+    all.push_back(calibration::input_error_words(error));
   return all;
 }
 

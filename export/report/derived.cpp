@@ -25,7 +25,7 @@ bool is_same(const Field& field, const DeclaredMechanism& a, const DeclaredMecha
 
 }  // namespace
 
-DerivedNumbers derived_numbers(const DeclaredMechanism& declared, const joint::JointAsItIs& joint) {
+DerivedNumbers derived_numbers(const DeclaredMechanism& declared, const joint::IdentifiedJoint& joint) {
   DerivedNumbers derived{declared, {}};
   static_cast<Mechanism&>(derived.made) = joint.mechanism;
   if (declared.transmission) return derived;

@@ -16,7 +16,7 @@ struct DerivedNumbers {
 };
 
 /// No fields if no identified number differs.
-DerivedNumbers derived_numbers(const DeclaredMechanism& declared, const joint::JointAsItIs& joint);
+DerivedNumbers derived_numbers(const DeclaredMechanism& declared, const joint::IdentifiedJoint& joint);
 
 /// A field's value in words, such as "-30 to 30 deg" or "table".
 std::string field_words(const Field& field, const DeclaredMechanism& mechanism);

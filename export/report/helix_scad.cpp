@@ -20,7 +20,7 @@ using namespace scad;
 namespace {
 
 // OpenSCAD's exact arithmetic takes about a millisecond per point, so there are fewer rows than in the mesh.
-constexpr double k_climbing_sagitta = 0.02;
+constexpr double k_helical_sagitta = 0.02;
 
 /// The anchor at the lower face (P1) or the upper face (P2).
 const coil::HelicalAnchor& anchor_of(const Product& product, transmission::Side side) {
@@ -39,7 +39,7 @@ coil::Fan coarse_fan(const Product& product) {
     filled = std::max(filled, anchor.bend_radius + 2.0 * anchor.pocket_radius + layout.min_wall);
   return coil::make_fan(coil::SpiralCurve(helix.synthesis.sides[0].spiral, helix.pulley.p1),
                         coil::SpiralCurve(helix.synthesis.sides[1].spiral, helix.pulley.p2), layout.groove_depth - half,
-                        half, k_climbing_sagitta, filled);
+                        half, k_helical_sagitta, filled);
 }
 
 std::string run_out_array(const Product& product) {
@@ -88,7 +88,7 @@ std::string spiral_arrays(const coil::Fan& fan, const coil::Fan& made, double ha
 }
 
 /// The groove's dimensions can only be reduced, because the ribs between its turns must remain.
-std::string climbing_parameters(const Product& product) {
+std::string helical_parameters(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const solid::BodyLayout& layout = product.pulley.layout;
   return fmt::format(
@@ -109,7 +109,7 @@ std::string climbing_parameters(const Product& product) {
          tie_offs_and_printing(product);
 }
 
-std::string climbing_numbers(const Product& product) {
+std::string helical_numbers(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const solid::BodyLayout& layout = product.pulley.layout;
   const double compensation = mechanism.material.hole_compensation;
@@ -127,7 +127,7 @@ std::string climbing_numbers(const Product& product) {
 }  // namespace
 
 std::string helix_scad(const Product& product) {
-  return climbing_parameters(product) + climbing_numbers(product) +
+  return helical_parameters(product) + helical_numbers(product) +
          spiral_arrays(coarse_fan(product), product.helix->pulley.plan->fan,
                        0.5 * product.joint.mechanism.tendon.diameter) +
          run_out_array(product) + program_for("several turns");

@@ -9,7 +9,7 @@ namespace fusee::formats {
 namespace {
 
 constexpr double k_levels = 65535;
-constexpr std::uint32_t k_unseen = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t k_unvisited = std::numeric_limits<std::uint32_t>::max();
 
 void put_varint(std::string& bytes, std::uint32_t value) {
   for (; value >= 128; value >>= 7) bytes += static_cast<char>(128 | (value & 127));
@@ -61,12 +61,12 @@ std::optional<MeshCode> encode_mesh(const solid::TriangleMesh& mesh) {
   if (!(code.step > 0) || !std::isfinite(code.step)) return std::nullopt;
 
   std::string bytes;
-  std::vector<std::uint32_t> met(mesh.vertices.size(), k_unseen);
+  std::vector<std::uint32_t> met(mesh.vertices.size(), k_unvisited);
   std::uint32_t newest = 0;
   std::array<int, 3> before{0, 0, 0};
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t index : triangle) {
-      if (met[index] != k_unseen) {
+      if (met[index] != k_unvisited) {
         put_varint(bytes, newest - met[index]);
         continue;
       }

@@ -54,8 +54,8 @@ Json step_json(const plan::Plan& plan, const plan::PlanStep& step, const std::st
   }
   json["words"] = step.words;
   json["minutes"] = nine_digits(step.minutes);
-  json["setup_minutes"] = nine_digits(step.setup);
-  json["by_minute"] = nine_digits(step.by);
+  json["setup_minutes"] = nine_digits(step.setup_minutes);
+  json["by_minute"] = nine_digits(step.end_minute);
   json["sees"] = step.sees;
   json["tells"] = step.tells;
   return json;
@@ -77,11 +77,11 @@ Json cause_json(const plan::PlannedCause& cause) {
           {"confounded_with", cause.rivals}};
 }
 
-Json blame_json(const plan::FalsePositives& blame) {
-  return {{"worlds", blame.samples},
-          {"falsely_blamed", blame.wrong},
-          {"named_alone", blame.alone},
-          {"named_in_group", blame.group}};
+Json false_positives_json(const plan::FalsePositives& rates) {
+  return {{"worlds", rates.samples},
+          {"falsely_blamed", rates.wrong},
+          {"named_alone", rates.alone},
+          {"named_in_group", rates.group}};
 }
 
 std::string comments(const PlanProduct& product, std::size_t step) {
@@ -145,9 +145,9 @@ std::string plan_json(const PlanProduct& product) {
   json["groups"] = plan.groups;
   json["left_out"] = Json::array();
   for (const auto& [name, why] : plan.left_out) json["left_out"].push_back({{"name", name}, {"why", why}});
-  json["false_blame"] = {{"nothing_wrong", blame_json(plan.nothing)},
-                         {"one_cause", blame_json(plan.one)},
-                         {"cause_not_in_catalogue", blame_json(plan.unmodelled)}};
+  json["false_blame"] = {{"nothing_wrong", false_positives_json(plan.nothing)},
+                         {"one_cause", false_positives_json(plan.one)},
+                         {"cause_not_in_catalogue", false_positives_json(plan.unmodelled)}};
   return json_text(json, 1);
 }
 

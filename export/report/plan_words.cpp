@@ -36,7 +36,7 @@ std::string gain_words(const plan::PlanStep& step) {
 }
 
 std::string minute_words(const plan::PlanStep& step, const std::string& gain) {
-  return "by minute " + rounded(step.by, 3) + ": " + step.words + "; " + gain;
+  return "by minute " + rounded(step.end_minute, 3) + ": " + step.words + "; " + gain;
 }
 
 std::vector<std::string> minute_words(const std::vector<plan::PlanStep>& steps) {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "base/run_async.h"
 #include "base/text.h"
+#include "base/thread_pool.h"
 #include "export/report/calibration_words.h"
 #include "export/report/derived.h"
 #include "export/report/drawing.h"
@@ -338,7 +338,7 @@ std::string mechanism_panels(const Product& product) {
 
 std::string moving_section(const Product& product) {
   if (product.helix)
-    return "<section id=\"moving\"><h2>The tendons in motion</h2>" + std::string(k_climbing_words) +
+    return "<section id=\"moving\"><h2>The tendons in motion</h2>" + std::string(k_helical_words) +
            moving_helix(product) + "</section>";
   const std::string joint = moving_joint(product.joint.mechanism, product.synthesis, product.holding.loaded);
   if (joint.empty()) return "";

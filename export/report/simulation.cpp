@@ -77,7 +77,7 @@ std::vector<SimulationColumn> simulation_columns(const Simulation& simulation) {
   add_mounting(measurement::k_motor_sensor_turned, run.mounting.motor_sensor_turned);
   add_mounting(measurement::k_joint_sensor_turned, run.mounting.joint_sensor_turned);
   if (run.has_temperature)
-    add("temperature_C", [](const measurement::Sample& row, const joint::JointState&) { return row.temperature; });
+    add("temperature_C", [](const measurement::Sample& row, const joint::JointState&) { return row.temperature_C; });
   return columns;
 }
 

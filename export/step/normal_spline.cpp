@@ -131,13 +131,13 @@ class SectorFit {
   /// The spans with an excessive error, the worst first. A sharp bend makes its neighbours oscillate until it is
   /// resolved.
   std::vector<std::size_t> coarse_spans(const JointSpline& spline, const std::vector<Break>& breaks) const {
-    constexpr int k_looks = 24;
+    constexpr int k_samples = 24;
     std::vector<double> errors;
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
       const double begin = breaks[i].psi, width = breaks[i + 1].psi - begin;
       double worst = 0;
-      for (int k = 0; k < k_looks; ++k) {
-        const double psi = begin + width * (k + 0.31) / k_looks;
+      for (int k = 0; k < k_samples; ++k) {
+        const double psi = begin + width * (k + 0.31) / k_samples;
         worst = std::max(worst, wish_.off(spline.at(psi), psi));
       }
       errors.push_back(width > k_shortest_span ? worst : 0.0);
@@ -219,7 +219,7 @@ SupportCurve::SupportCurve(std::vector<double> psi, std::vector<Vec2> points, st
 // The Hermite polynomial of degree 5 over u from 0 to 1 with the radii of both ends. If the curve is then not convex,
 // as beside a bridge over a hollow, degree 3 without the radii.
 void SupportCurve::add(const Sample& from, const Sample& to) {
-  constexpr int k_looks = 8;
+  constexpr int k_samples = 8;
   const double width = to.psi - from.psi;
   const double h0 = from.support(), d0 = width * from.slope(), e0 = 0.5 * width * width * (from.radius - h0);
   const double h1 = to.support(), d1 = width * to.slope(), e1 = 0.5 * width * width * (to.radius - h1);
@@ -227,8 +227,8 @@ void SupportCurve::add(const Sample& from, const Sample& to) {
   psi_.push_back(from.psi);
   support_.push_back(
       {h0, d0, e0, 10 * rise - 4 * steeper + bent, -15 * rise + 7 * steeper - 2 * bent, 6 * rise - 3 * steeper + bent});
-  for (int k = 1; k < k_looks; ++k) {
-    if (look(support_.size() - 1, width, static_cast<double>(k) / k_looks).radius >= 0) continue;
+  for (int k = 1; k < k_samples; ++k) {
+    if (look(support_.size() - 1, width, static_cast<double>(k) / k_samples).radius >= 0) continue;
     support_.back() = {h0, d0, 3 * (h1 - h0) - 2 * d0 - d1, d0 + d1 - 2 * (h1 - h0), 0, 0};
     return;
   }

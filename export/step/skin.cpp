@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "coil/helical_plan.h"
-#include "export/step/climbing_curve.h"
 #include "export/step/grain.h"
+#include "export/step/helical_curve.h"
 #include "export/step/normal_spline.h"
 #include "fusee/base.h"
 #include "solid/heights.h"
@@ -136,8 +136,8 @@ class SkinBuilder {
         layout_(product.pulley.layout),
         corners_(section_corners(plan_.section, mechanism_)),
         groove_edge_(corners_.front().outward),
-        grooves_{{ClimbingGroove(product.helix->synthesis.sides[0].spiral, product.helix->pulley.p1, plan_.fan.p1),
-                  ClimbingGroove(product.helix->synthesis.sides[1].spiral, product.helix->pulley.p2, plan_.fan.p2)}} {}
+        grooves_{{HelicalGroove(product.helix->synthesis.sides[0].spiral, product.helix->pulley.p1, plan_.fan.p1),
+                  HelicalGroove(product.helix->synthesis.sides[1].spiral, product.helix->pulley.p2, plan_.fan.p2)}} {}
 
   StepSkin build() {
     lay_strands();
@@ -198,7 +198,7 @@ class SkinBuilder {
     return turn;
   }
 
-  void add_cuts(Wound& wound, const ClimbingGroove& groove) {
+  void add_cuts(Wound& wound, const HelicalGroove& groove) {
     wound.cuts = {mark(groove.begin())};
     for (std::size_t i = 0; i < wound.cuts.size();) {
       std::sort(wound.cuts.begin(), wound.cuts.end());
@@ -222,13 +222,13 @@ class SkinBuilder {
   }
 
   void lay_strands() {
-    for (const ClimbingGroove& groove : grooves_) {
+    for (const HelicalGroove& groove : grooves_) {
       mark(groove.begin());
       mark(groove.end());
     }
     for (std::size_t g = 0; g < 2; ++g) {
       Wound& wound = wound_[g];
-      const ClimbingGroove& groove = grooves_[g];
+      const HelicalGroove& groove = grooves_[g];
       const double most = k_furthest_end - k_shortest_run;
       wound.held_last = std::min(groove.filled_to(), groove.end() + most);
       wound.held_first = std::max(groove.filled_from(), groove.begin() - most);
@@ -327,7 +327,7 @@ class SkinBuilder {
   }
 
   Vec3 free_groove_edge(std::size_t g, double turn, bool low) const {
-    const ClimbingGroove& groove = grooves_[g];
+    const HelicalGroove& groove = grooves_[g];
     const bool back = turn > 0.5 * (groove.begin() + groove.end());
     const double from = back ? wound_[g].held_last : wound_[g].held_first;
     const double to = back ? wound_[g].groove_edges_last : wound_[g].groove_edges_first;
@@ -753,7 +753,7 @@ class SkinBuilder {
   const solid::BodyLayout& layout_;
   std::vector<SectionCorner> corners_;
   double groove_edge_;
-  std::array<ClimbingGroove, 2> grooves_;
+  std::array<HelicalGroove, 2> grooves_;
   std::array<Wound, 2> wound_;
   std::vector<double> marks_;
   std::vector<RimRing> rings_;

@@ -87,13 +87,13 @@ StepInspection inspect_step(const fs::path& path, const Product& product, double
   const solid::BodyLayout& layout = product.pulley.layout;
   const double d = product.joint.mechanism.tendon.diameter, scale = layout.scale;
   StepQuestion question;
-  StepInspection look;
+  StepInspection inspection;
   if (product.helix) {
     question.places = floor_places(*product.helix, d, scale);
-    question.grounds = [&look, scale](const solid::TriangleMesh& mesh) {
-      look.climbing = coil::helical_floors(mesh, scale);
+    question.grounds = [&inspection, scale](const solid::TriangleMesh& mesh) {
+      inspection.helical = coil::helical_floors(mesh, scale);
       std::vector<Vec3> places;
-      for (const coil::FloorLine& line : look.climbing) {
+      for (const coil::FloorLine& line : inspection.helical) {
         for (const Vec3& place : line) places.push_back(scale * place);
       }
       return places;
@@ -103,28 +103,29 @@ StepInspection inspect_step(const fs::path& path, const Product& product, double
   }
   const StepReading found = maker().read(path.string(), question);
   const double expected = product.pulley.expected_volume + std::pow(scale, 3) * round_holes_leave(product.pulley);
-  look.checks.push_back(exactly("solids", found.solids, 1, "1"));
-  look.checks.push_back(exactly("unpaired_edges", found.unpaired_edges, 0, "1"));
-  look.checks.push_back(exactly("invalid_shapes", found.is_valid ? 0 : 1, 0, "1"));
-  look.checks.push_back(exactly("open_faces", found.open_faces, 0, "1"));
-  look.checks.push_back(at_most("volume_difference", std::abs(found.volume - expected), tolerance * found.area, "mm3"));
+  inspection.checks.push_back(exactly("solids", found.solids, 1, "1"));
+  inspection.checks.push_back(exactly("unpaired_edges", found.unpaired_edges, 0, "1"));
+  inspection.checks.push_back(exactly("invalid_shapes", found.is_valid ? 0 : 1, 0, "1"));
+  inspection.checks.push_back(exactly("open_faces", found.open_faces, 0, "1"));
+  inspection.checks.push_back(
+      at_most("volume_difference", std::abs(found.volume - expected), tolerance * found.area, "mm3"));
   double error = std::numeric_limits<double>::infinity();
   if (product.helix && found.distances.size() == question.places.size()) {
     error = *std::max_element(found.distances.begin(), found.distances.end());
   } else if (found.sections.size() == 2) {
     error = std::max(floor_error(product.synthesis.p1, d, scale, found.sections[0]),
                      floor_error(product.synthesis.p2, d, scale, found.sections[1]));
-    look.floor1 = found.sections[0];
-    look.floor2 = found.sections[1];
+    inspection.floor1 = found.sections[0];
+    inspection.floor2 = found.sections[1];
   }
-  look.checks.push_back(at_most("floor_error", error, k_floor_limit, "mm"));
+  inspection.checks.push_back(at_most("floor_error", error, k_floor_limit, "mm"));
   auto ground = found.grounds.begin();
-  for (coil::FloorLine& line : look.climbing) {
+  for (coil::FloorLine& line : inspection.helical) {
     for (Vec3& place : line) {
       if (ground != found.grounds.end()) place = *ground++ / scale;
     }
   }
-  return look;
+  return inspection;
 }
 
 }  // namespace fusee::formats

@@ -30,7 +30,7 @@ StepFile step_file(const Product& product);
 struct StepInspection {
   std::vector<Check> checks;
   Polygon floor1, floor2;
-  std::vector<coil::FloorLine> climbing;
+  std::vector<coil::FloorLine> helical;
 };
 /// `tolerance`: of the mesh that the volume is compared with, mm.
 StepInspection inspect_step(const std::filesystem::path& path, const Product& product, double tolerance);

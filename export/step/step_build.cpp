@@ -107,7 +107,7 @@ class StepBuilder {
  private:
   // Sector cuts are as far from tie-offs as possible, so that they cross no cut feature.
   void choose_sectors() {
-    constexpr int k_looks = 360;
+    constexpr int k_samples = 360;
     const auto room_at = [&](double psi) {
       double room = k_pi;
       for (const solid::Anchor& anchor : product_.pulley.anchors) {
@@ -117,16 +117,16 @@ class StepBuilder {
       return room;
     };
     double first = 0, second = 0, best = -1;
-    for (int i = 0; i < k_looks; ++i) {
-      const double psi = k_two_pi * (i + 0.37) / k_looks;
+    for (int i = 0; i < k_samples; ++i) {
+      const double psi = k_two_pi * (i + 0.37) / k_samples;
       if (room_at(psi) > best + 1e-9) {
         best = room_at(psi);
         first = psi;
       }
     }
     best = -1;
-    for (int i = 0; i < k_looks; ++i) {
-      const double psi = first + k_narrowest_sector + (k_two_pi - 2 * k_narrowest_sector) * (i + 0.37) / k_looks;
+    for (int i = 0; i < k_samples; ++i) {
+      const double psi = first + k_narrowest_sector + (k_two_pi - 2 * k_narrowest_sector) * (i + 0.37) / k_samples;
       if (room_at(psi) > best + 1e-9) {
         best = room_at(psi);
         second = psi;
@@ -264,7 +264,7 @@ class StepBuilder {
   StepPart part_;
 };
 
-StepPart climbing_part(const Product& product) {
+StepPart helical_part(const Product& product) {
   double reach = 0;
   for (const helix::HelixSide& side : product.helix->synthesis.sides) {
     for (const helix::SpiralRow& row : side.spiral.rows) reach = std::max(reach, std::hypot(row.x, row.y));
@@ -328,7 +328,7 @@ std::vector<StepTool> scaled(std::vector<StepTool> tools, double by) {
 }  // namespace
 
 StepPart step_part(const Product& product) {
-  StepPart part = product.helix ? climbing_part(product) : StepBuilder(product).build();
+  StepPart part = product.helix ? helical_part(product) : StepBuilder(product).build();
   const Mechanism& mechanism = product.joint.mechanism;
   const double by = product.pulley.layout.scale;
   part.cuts = scaled(step_cuts(mechanism, product.pulley), by);

@@ -18,10 +18,11 @@ namespace fusee::analysis {
 // Analysis of the transmission and its forces over the range: the paper's formulas, the full model, and the sources of
 // joint angle errors.
 
+/// Size and seed of analyse().
 struct AnalysisOptions {
-  int steps = 60;          ///< steps of the table; home is an additional row
-  double tolerance = 0.1;  ///< tolerance of every dimension in the error budget (95 % within ±), mm
-  int samples = 1000;      ///< samples of the Monte Carlo simulation
+  int steps = 60;                    ///< steps of the table; home is an additional row
+  double dimension_tolerance = 0.1;  ///< of every dimension in the error budget, 95 % within ±, mm
+  int samples = 1000;                ///< samples of the Monte Carlo simulation
   std::uint64_t seed = 1;
 };
 
@@ -39,6 +40,7 @@ struct Extreme {
   double alpha = 0;  ///< rad
 };
 
+/// A maximum tension, its position, its tendon and span, and the direction of motion.
 struct TensionExtreme {
   double tension = 0;  ///< N
   double alpha = 0;    ///< rad
@@ -62,7 +64,7 @@ struct AlphaRange {
   double to = 0;
 };
 
-/// Deviation of the joint from the declared law over the range due to one cause. rad.
+/// Deviation of the joint from its target motion over the range due to one cause. rad.
 struct ErrorSource {
   std::string name;     ///< "pin_radius_ignored"
   std::string meaning;  ///< description for a person
@@ -89,6 +91,7 @@ struct Strength {
   std::string source;  ///< "tendon.strength_N", or the tendon of the catalogue
 };
 
+/// Result of analyse(). Rows follow α over the range.
 struct AnalysisResult {
   /// True if the law and both tendon paths exist over the range. Otherwise only `obstacles` and `advice` are set.
   bool exists = false;
@@ -120,9 +123,10 @@ struct AnalysisResult {
   std::vector<Diagnostic> warnings;         ///< set by the caller: plausibility warnings of the file
 };
 
+/// Analyses a joint with tendons over its range. A law that does not exist is a value. Throws Stopped.
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options = {}, const RunContext& context = {});
 
-/// Deviations of θ from the declared law by single causes: stretch, friction, and simplifications in drawing a pulley.
+/// Deviations of θ from the target motion by single causes: stretch, friction, and simplifications in drawing a pulley.
 std::vector<ErrorSource> error_sources(const Mechanism& mechanism);
 /// Tolerance effects of every dimension by both methods.
 std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options,
@@ -147,6 +151,7 @@ std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const St
 // ---- Stroke ---------------------------------------------------------------------------------------------------------
 // The full model over a cycle of the declared load, after settling.
 
+/// The settled joint at one α, in both directions of motion.
 struct StrokePoint {
   joint::EquilibriumPoint rising;   ///< α increasing
   joint::EquilibriumPoint falling;  ///< α decreasing

@@ -37,6 +37,7 @@ struct Place {
   int column = 0;
 };
 
+/// Only an error makes input unusable.
 enum class Severity { error, warning, note };
 
 /// One error, warning or note about the input.
@@ -53,6 +54,7 @@ std::string to_text(const Diagnostic& diagnostic);
 /// Unusable input. Exit code 3.
 class InputError : public std::runtime_error {
  public:
+  /// At least one diagnostic.
   explicit InputError(std::vector<Diagnostic> diagnostics);
   explicit InputError(Diagnostic diagnostic);
   /// An error about a whole file (line 0).
@@ -88,6 +90,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 // ---- Checks ---------------------------------------------------------------------------------------------------------
 // A measured value and its limit. A failed check is a value, not an exception.
 
+/// A measured value, its limit, and whether it holds.
 struct Check {
   std::string name;  ///< snake_case, stable: stands in manifest.json
   double value = 0;  ///< the measured value
@@ -104,6 +107,7 @@ Check at_least(std::string name, double value, double limit, std::string unit, s
 /// A check that holds when value == limit exactly (counts, Euler numbers).
 Check exactly(std::string name, double value, double limit, std::string unit, std::string where = {});
 
+/// True if every check holds; also without checks.
 bool all_ok(const std::vector<Check>& checks);
 
 // ---- Units ----------------------------------------------------------------------------------------------------------
@@ -112,7 +116,9 @@ bool all_ok(const std::vector<Check>& checks);
 inline constexpr double k_pi = std::numbers::pi;
 inline constexpr double k_two_pi = 2.0 * std::numbers::pi;
 
+/// The angle of a file in the unit of the code.
 constexpr double radians(double degrees) { return degrees * (k_pi / 180.0); }
+/// The angle of the code in the unit of files.
 constexpr double degrees(double radians) { return radians * (180.0 / k_pi); }
 /// The number of a file whose radians() is `radians`: division undoes that multiplication to the last bit, which
 /// degrees() does for 19 numbers in 20.
@@ -151,6 +157,7 @@ Polygon convex_hull(Polygon points);
 // ---- Access to files ------------------------------------------------------------------------------------------------
 // Through it a run reads its inputs and reports its outputs. Bundles of a run are recorded and replayed with it.
 
+/// Receives the next bytes of a file, in order.
 using TakeBlock = std::function<void(std::string_view block)>;
 
 /// Request for the bytes of one file, in blocks. Throws InputError when the file is missing, a directory, unreadable,
@@ -210,6 +217,7 @@ struct RunContext {
     throw_if_stopped();
     if (progress) progress(step, share);
   }
+  /// Throws Stopped after a request to stop.
   void throw_if_stopped() const {
     if (stop.stop_requested()) throw Stopped();
   }
@@ -270,6 +278,7 @@ class OutputFolder {
   /// Throws OutputError, naming all of them, when some of `names` may not be overwritten (see above) or the folder
   /// cannot be written. Writes nothing.
   void claim(const std::vector<std::string>& names);
+  /// Writes one file into the private folder. Throws OutputError, and Stopped after a request to stop.
   void stage(const OutputFile& file);
   /// Path of a staged file before it is published.
   std::filesystem::path staged_path(const std::string& name) const;

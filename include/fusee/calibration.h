@@ -23,9 +23,10 @@ namespace fusee::calibration {
 // ---- Calibration ----------------------------------------------------------------------------------------------------
 // Identification of joint errors from measurements: named effects with their evidence.
 
+/// Search and validation of calibrate().
 struct CalibrationOptions {
   std::vector<std::string> hold_out;  ///< names of runs for validation only; empty: whole runs are left out in turn
-  bool look_for_effects = true;       ///< false: the file does not describe this joint (is_input_error_obvious())
+  bool search_effects = true;         ///< false: the file does not describe this joint (is_input_error_obvious())
   bool audit = true;                  ///< count false positives on synthetic data sets
   /// Added to the catalogue, or in the place of an effect of the same name; they must outlive the call.
   std::vector<const fusee::Effect*> more_effects;
@@ -37,6 +38,7 @@ struct CalibrationOptions {
   RunContext context = {};
 };
 
+/// Identified number of an effect, with its intervals.
 struct FittedParameter {
   std::string name;  ///< "EA_N": the unit is part of the name
   double value = 0;  ///< in that unit
@@ -134,6 +136,7 @@ struct EmpiricalCurve {
   double at(double place, bool rising) const;
 };
 
+/// Deviation of the model from the measured θ, rad.
 struct ErrorFigures {
   double rms = 0;  ///< rad
   double max = 0;
@@ -146,6 +149,7 @@ struct StateDifference {
   double after = 0;   ///< rms with the changes
 };
 
+/// Effect that was not found, with the smallest size that these data show.
 struct Detectable {
   std::string name;
   double smallest = 0;  ///< detectable error at the joint, rad
@@ -160,6 +164,7 @@ struct LeftOut {
   Imperfections identified;
 };
 
+/// Result of calibrate(): effects, residuals, verdict and further measurements. rad.
 struct Calibration {
   CalibrationVerdict verdict = CalibrationVerdict::not_testable;
   std::string summary;  ///< finding and figures in words
@@ -226,11 +231,12 @@ std::vector<LikelyInputError> find_input_errors(const DeclaredMechanism& declare
 bool is_input_error_obvious(const DeclaredMechanism& declared, const measurement::Measurement& as_read);
 
 /// "guides.OE_mm = -40 in place of 40 would explain the data to 0.03°: is the sign right?"
-std::string input_error_words(const LikelyInputError& slip);
+std::string input_error_words(const LikelyInputError& error);
 
 // ---- Comparison of two states ---------------------------------------------------------------------------------------
 // Comparison of two measured states of one joint, by changes of the effects of the catalogue.
 
+/// Outcome of compare_states().
 enum class ComparisonVerdict { not_testable, not_comparable, no_change, changed };
 /// Key in the JSON: "not_testable".
 std::string_view word(ComparisonVerdict verdict);
@@ -256,6 +262,7 @@ struct StateChange {
   double by_runs = 0;   ///< its size in standard errors, by the scatter from run to run
 };
 
+/// Result of compare_states().
 struct Comparison {
   ComparisonVerdict verdict = ComparisonVerdict::not_testable;
   std::string why;      ///< reason of not_testable and not_comparable: the fault, its place, the remedy
@@ -265,6 +272,7 @@ struct Comparison {
   StateDifference difference;
 };
 
+/// Progress and stop of compare_states().
 struct ComparisonOptions {
   RunContext context = {};
 };
@@ -276,6 +284,8 @@ struct ComparedRuns {
   measurement::Measurement both;  ///< earlier runs, then later runs
 };
 
+/// Calibrates the earlier runs, then searches the changes with which all runs are predicted. Runs that are not two
+/// states of one joint give a verdict. Throws Stopped.
 Comparison compare_states(const DeclaredMechanism& declared, const ComparedRuns& runs,
                           const ComparisonOptions& options = {});
 

@@ -33,6 +33,7 @@ struct HelicalSection {
 
   double width() const { return walls.below_width() + walls.above_width(); }
 };
+/// The cross-section of the mechanism's helical grooves, automatic sizes resolved. mm, rad.
 HelicalSection helical_section(const Mechanism& mechanism);
 /// The least axial distance of two neighbouring turns: the groove's width, a rib, and the height that a printable step
 /// needs when the upper turn's edge projects over the lower one's by `growth`. `growth` is negative when the upper turn
@@ -61,6 +62,7 @@ struct HelicalAnchor {
 
 struct HelicalPlan;  // coil/helical_plan.h
 
+/// A multi-turn pulley as one solid, or the conditions that fail.
 struct HelicalPulley {
   bool made = false;
   solid::BodyLayout layout;  ///< hub, bore, screw and walls; z_p1 and z_p2: heights of the groove ends at the anchors
@@ -73,23 +75,25 @@ struct HelicalPulley {
   std::vector<Check> mesh_checks;           ///< check_mesh() of `mesh`
   std::shared_ptr<const HelicalPlan> plan;  ///< set when `made`
 
+  /// Summary: the result, or the failed conditions.
   std::string brief() const;
 };
 
 /// Requires both spirals to be at least a turn long, spare turns included, with rows of strictly growing `turn`.
-/// `tolerance`: largest sagitta of a chord, on the pitch curve and on all its parallels up to the groove edge. A brief
+/// `chord_error_mm`: largest sagitta, on the pitch curve and on all its parallels up to the groove edge. A brief
 /// search tries fewer cut variants.
 HelicalPulley make_helical_pulley(const Mechanism& mechanism, const helix::Spiral& p1, const helix::Spiral& p2,
-                                  double tolerance = 0.01, solid::TieOffSearch search = solid::TieOffSearch::thorough);
+                                  double chord_error_mm = 0.01,
+                                  solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
 /// The conditions that fail, as far as they are known before the cuts.
 std::vector<profile::Condition> helical_obstacles(const Mechanism& mechanism, const helix::Spiral& p1,
-                                                  const helix::Spiral& p2, double tolerance = 0.01);
+                                                  const helix::Spiral& p2, double chord_error_mm = 0.01);
 
 /// Checks of a mesh against its pulley: check_mesh, Euler number and volume. Half-planes through the axis measure the
 /// thinnest rib, the shallowest groove and the thinnest wall to the bore.
 std::vector<Check> check_helical_pulley(const solid::TriangleMesh& mesh, const HelicalPulley& pulley,
-                                        const HelicalSection& section, double tolerance = 0.01);
+                                        const HelicalSection& section, double chord_error_mm = 0.01);
 
 // ---- Rewinding ------------------------------------------------------------------------------------------------------
 // Winds two inextensible strings in space on the helical grooves of a mesh and computes the joint angle they give.
@@ -114,6 +118,7 @@ struct TendonsLaid {
 TendonsLaid tendons_laid(const HelicalPulley& pulley, const helix::Spiral& p1, const helix::Spiral& p2,
                          double attachment1, double attachment2, bool collar);
 
+/// Joint angles of wound strings, and their fleet angles. rad.
 struct HelicalRewind {
   profile::RewindResult result;  ///< as for one-turn pulleys
   double max_fleet = 0;          ///< largest angle between a span and its groove at the take-off

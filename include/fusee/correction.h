@@ -27,16 +27,17 @@ struct CompensationRow {
   double curve_down = 0;
 };
 
+/// Result of correct(): the corrected pulley and table, each with its validated gain.
 struct Correction {
   Imperfections identified;  ///< the file's and this calibration's imperfections, combined
   bool has_pulley = false;   ///< an identified effect is corrected by another pulley, and that pulley is feasible
   std::string infeasible;    ///< why it is infeasible; empty if it is feasible or not needed
   joint::RoundChoice round;
-  double tied_at = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
-  // Rms error of the identified joint from the declared law over the measured strokes, rad, by simulation. For a joint
+  double assembly_angle = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
+  // Rms error of the identified joint from its target motion over the measured strokes, rad, by simulation. For a joint
   // declared by a ratio without the identified zero.
   double error_now = 0;
-  double error_with_pulley = 0;  ///< with the corrected pulley, tendons tied at α = 0
+  double error_with_pulley = 0;  ///< with the corrected pulley, assembled at α = 0
   double error_with_table = 0;   ///< with the corrected pulley and the table
   // Reduction of the rms error on held-out rows, rad: the square root of the difference of mean squares. 0: no
   // reduction, and the file is not written.
@@ -78,11 +79,13 @@ struct RehearsedShare {
   std::vector<std::vector<double>> rising, falling;      ///< by load and place
 };
 
+/// Simulated influence of one effect.
 struct RehearsedEffect {
   std::string name;
   std::vector<RehearsedShare> shares;  ///< one for each of k_rehearsed_shares
 };
 
+/// Result of rehearse().
 struct Rehearsal {
   Mechanism mechanism;                 ///< the expected joint
   profile::SynthesisResult synthesis;  ///< of the mounted pulley

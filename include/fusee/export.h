@@ -44,8 +44,8 @@ struct HelixProduct {
 
 /// The complete data of a finished pulley.
 struct Product {
-  MechanismFile file;        ///< as read
-  joint::JointAsItIs joint;  ///< the identified joint that the pulley was designed for
+  MechanismFile file;            ///< as read
+  joint::IdentifiedJoint joint;  ///< the identified joint that the pulley was designed for
   profile::SynthesisResult synthesis;
   solid::Pulley pulley;
   std::optional<solid::BodyLayout> cut_layout;  ///< layout for cutting, without shrinkage and chamfer, if known
@@ -59,6 +59,7 @@ struct Product {
 // Writes and reads drawings as DXF, and checks them for faults that stop a workshop's machine. The same input gives
 // the same bytes.
 
+/// AC1015 is AutoCAD 2000, with millimetres; R12 suits old machines.
 enum class DxfVersion { ac1015, r12 };
 
 /// The body's sizes without shrinkage and hole compensation, which apply to prints only.
@@ -92,6 +93,7 @@ struct UndrawnEntity {
   std::string why;
 };
 
+/// A drawing as read from a file.
 struct Drawing {
   std::string version;               ///< "AC1015", "AC1009" …
   bool millimetres = false;          ///< $INSUNITS = 4, or absent in R12
@@ -126,6 +128,7 @@ struct PlanProduct {
 std::string run_file_name(const plan::Plan& plan, std::size_t step);
 /// The rows to drive in the format of `fusee calibrate`, with θ empty and the instructions in comments.
 std::string run_csv(const PlanProduct& product, std::size_t step);
+/// The document of a plan, with a schema number.
 std::string plan_json(const PlanProduct& product);
 /// A page for the bench: A4, boxes to tick, no network.
 std::string plan_html(const PlanProduct& product);
@@ -133,6 +136,7 @@ std::string plan_html(const PlanProduct& product);
 std::string next_html(const PlanProduct& product, const std::vector<std::string>& measured);
 /// The sections with instructions, for another page that has plan.css.
 std::string plan_steps_html(const PlanProduct& product);
+/// Lists inputs and the hashes of all files.
 std::string plan_manifest_json(const PlanProduct& product, const std::vector<OutputFile>& outputs);
 
 // Texts for page and terminal.
@@ -145,6 +149,7 @@ std::vector<std::string> false_positive_words(const plan::Plan& plan);
 std::string gain_words(const plan::PlanStep& step);
 /// The predicted gain of the first minutes, such as "by minute 3: 3 cycles, slow …; distinguishes …".
 std::string minute_words(const plan::PlanStep& step, const std::string& gain);
+/// minute_words() of several steps, in their order.
 std::vector<std::string> minute_words(const std::vector<plan::PlanStep>& steps);
 
 // ---- Test rig -------------------------------------------------------------------------------------------------------
@@ -167,6 +172,7 @@ struct KitCut {
   double between_knots = 0;  ///< from the pulley's knot to its fastening at the joint, taut, at home, mm
   double cut = 0;            ///< including both ends, in whole 5 mm
 };
+/// The lengths of both tendons. mm.
 std::vector<KitCut> kit_cuts(const KitProduct& product);
 
 /// The parts that can be cut from sheets, nested flat: layers CUT_OUTER, CUT_INNER, ENGRAVE.
@@ -175,6 +181,7 @@ std::string kit_dxf(const KitProduct& product, DxfVersion version);
 std::string bom_csv(const KitProduct& product);
 /// The assembly page: pictures of each step, tendons, parts to buy, the coupon, the measuring plan.
 std::string kit_html(const KitProduct& product);
+/// Lists inputs and the hashes of all files.
 std::string kit_manifest_json(const KitProduct& product, const std::vector<OutputFile>& outputs);
 
 // ---- Models ---------------------------------------------------------------------------------------------------------
@@ -210,8 +217,11 @@ std::string mujoco_tendons_xml(const ModelProduct& product);
 std::string joint_urdf(const ModelProduct& product);
 /// For ros2_control: joint theta, and a transmission from the motor to it.
 std::string ros2_control_urdf(const ModelProduct& product);
+/// C header with tables of 32-bit floats and their interpolation.
 std::string joint_table_h(const ModelProduct& product);
+/// The tables of joint_table_h() as JSON.
 std::string joint_table_json(const ModelProduct& product);
+/// Lists inputs and the hashes of all files.
 std::string model_manifest_json(const ModelProduct& product, const std::vector<OutputFile>& outputs);
 
 /// True if a fusee manifest lists a file with these bytes.
@@ -229,11 +239,12 @@ struct CalibrationProduct {
   measurement::Measurement measurement;
   calibration::Calibration calibration;
   /// Likely errors of the file or the data, for data that no effect explains.
-  std::vector<calibration::LikelyInputError> slips;
+  std::vector<calibration::LikelyInputError> input_errors;
   correction::Correction correction;
   correction::Rehearsal rehearsal;  ///< of the identified effects
 };
 
+/// The document of a calibration, with a schema number.
 std::string calibration_json(const CalibrationProduct& product);
 /// The measurements to make next, for the bench: a page and the run files, "next/run_6.csv". Empty if there are none.
 std::vector<OutputFile> next_files(const CalibrationProduct& product);
@@ -244,6 +255,7 @@ std::string next_file_name(const CalibrationProduct& product, std::size_t i);
 int first_free_run(const std::vector<std::string>& names);
 /// Names of next_files() for this number of runs.
 std::vector<std::string> next_file_names(int first_run, int runs);
+/// The page of a calibration, without network.
 std::string calibration_report_html(const CalibrationProduct& product);
 /// Lists the other outputs, so that the next run recognises them as files of fusee.
 std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs);
@@ -256,6 +268,7 @@ struct Headline {
   std::string cause;    ///< one cause, or up to three candidates; "" if there is none
   std::string action;   ///< the next step of the user
 };
+/// The first lines of a calibration.
 Headline headline(const CalibrationProduct& product);
 
 /// A number of a cause. Share and remedy are empty for further numbers of the cause, and for its rivals.
@@ -269,6 +282,7 @@ struct CauseRow {
   /// Titles of the columns, in the order of the members.
   static constexpr std::array<const char*, 5> k_titles = {"cause", "size", "95 % if alone", "share", "corrected by"};
 };
+/// The table of causes, in the order of Calibration::effects.
 std::vector<CauseRow> cause_rows(const CalibrationProduct& product);
 
 // Texts for page and terminal.
@@ -283,7 +297,7 @@ std::string round_words(const correction::Correction& correction);
 /// The reason why no corrected pulley can be made. Requires Correction::infeasible.
 std::string infeasible_words(const correction::Correction& correction);
 /// The assembly angle of a corrected pulley, if the correction requires another than 0.
-std::string tied_words(const correction::Correction& correction);
+std::string assembly_angle_words(const correction::Correction& correction);
 /// Effects that were not identified, grouped by their smallest detectable size (rad, equal to two digits), smallest
 /// first.
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const calibration::Calibration& calibration);
@@ -292,8 +306,8 @@ std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const
 std::string curve_words(const CalibrationProduct& product);
 /// All measurements to make next, the most decisive first.
 std::vector<std::string> next_texts(const calibration::Calibration& calibration);
-/// slip_words() of every input error that would explain the data.
-std::vector<std::string> slips_words(const CalibrationProduct& product);
+/// input_error_words() of every input error that would explain the data.
+std::vector<std::string> input_error_texts(const CalibrationProduct& product);
 /// The notes; of those that are alike but for numbers, only two and the count of the others.
 std::vector<std::string> shortened_notes(const std::vector<std::string>& notes);
 
@@ -308,7 +322,9 @@ struct ComparisonProduct {
   calibration::Comparison comparison;
 };
 
+/// The document of a comparison, with a schema number.
 std::string comparison_json(const ComparisonProduct& product);
+/// The page of a comparison, without network.
 std::string comparison_report_html(const ComparisonProduct& product);
 /// Lists the other outputs, so that the next run recognises them as files of fusee.
 std::string comparison_manifest_json(const ComparisonProduct& product, const std::vector<OutputFile>& outputs);
@@ -327,6 +343,7 @@ struct ChangeRow {
   std::string share;      ///< share of the difference between the states; only in an effect's first row
   std::string as_likely;  ///< the other members of its group; only in an effect's first row
 };
+/// The table of changes, the largest first.
 std::vector<ChangeRow> change_rows(const ComparisonProduct& product);
 
 // ---- Simulation -----------------------------------------------------------------------------------------------------

@@ -55,6 +55,7 @@ struct HelixPoint {
   double free = 0;   ///< length of the free part, from its end on the joint, mm
 };
 
+/// One pulley's spiral, with its sizes and fleet angles.
 struct HelixSide {
   Spiral spiral;
   /// Height of the tendon's end on the joint (with collars: of its guide), in the spiral's frame. It minimises the
@@ -68,6 +69,7 @@ struct HelixSide {
   std::vector<HelixPoint> stroke;  ///< one point for each of HelixSynthesis::stroke
 };
 
+/// Result of synthesise_helix(): both spirals, or the failed conditions.
 struct HelixSynthesis {
   profile::SynthesisStatus status = profile::SynthesisStatus::infeasible;
   std::array<HelixSide, 2> sides;                       ///< P1, P2
@@ -96,6 +98,7 @@ struct HelixGroove {
 constexpr double k_most_turns = 12;
 /// Fleet angles above which a note or a warning is given. rad
 constexpr double k_noted_fleet = radians(1.5);
+/// As k_noted_fleet, for a warning. rad
 constexpr double k_warned_fleet = radians(2.0);
 
 /// The accuracy of the curves: as they will be built, or coarse and some ten times faster. The conditions of coarse

@@ -20,11 +20,12 @@ namespace fusee::joint {
 // ---- Inputs on the bench --------------------------------------------------------------------------------------------
 // Inputs to a joint on its bench: logged motor angles, loads and temperatures of each run.
 
+/// One row of logged inputs.
 struct BenchRow {
   double time = 0;   ///< s; 0 if not logged
   double alpha = 0;  ///< reading of the motor's sensor, rad
   double load = 0;   ///< tip force, positive against +θ, N; for a joint declared by a ratio in the log's own unit
-  double temperature = 0;  ///< °C
+  double temperature_C = 0;
 };
 
 /// Rotation of the encoders on their shafts since home was set, with the zero set again, rad. It shifts the phase of an
@@ -36,6 +37,7 @@ struct Mounting {
   bool operator==(const Mounting&) const = default;
 };
 
+/// The rows of one run, and which of them were logged.
 struct BenchRun {
   std::vector<BenchRow> rows;  ///< sorted by time
   bool has_load = false;       ///< false: the declared load acts
@@ -73,6 +75,7 @@ struct LowerPath {
 /// Both pulleys as made for one mechanism, with tendons from pins that may be elsewhere. Cheap to copy; immutable.
 class MadePulleys {
  public:
+  /// Pulleys of the target motion of `made_for`. Its law must exist over the range.
   explicit MadePulleys(const Mechanism& made_for) : declared_(made_for) {}
 
   /// Both pitch curves offset outwards by `by` (print offset, tendon thickness), mm.
@@ -84,6 +87,7 @@ class MadePulleys {
   std::array<LowerPath, 2> paths(const std::array<transmission::PinPlace, 2>& mounted, double alpha) const {
     return paths(std::array{mounted[0].lower(), mounted[1].lower()}, alpha);
   }
+  /// The target motion of the mechanism that they were made for.
   const transmission::Transmission& declared() const { return declared_; }
 
  private:
@@ -169,6 +173,7 @@ struct JointStep {
   TendonChange tendon = {};
 };
 
+/// Motion of a tendon over its guide.
 enum class PinContact {
   stick,      ///< no material crosses the pin; with a sheath: not all of the tendon slides
   slip_up,    ///< material crosses towards the joint: T_up = T_low e^{μφ}
@@ -176,6 +181,7 @@ enum class PinContact {
   slack,      ///< no tension on either side
 };
 
+/// Tensions and lengths of one tendon in equilibrium.
 struct TendonState {
   double upper = 0;    ///< tension between pin and C, N
   double lower = 0;    ///< tension between pulley and pin, N
@@ -186,6 +192,7 @@ struct TendonState {
   PinContact contact = PinContact::stick;
 };
 
+/// Outcome of the equilibrium search.
 enum class EquilibriumStatus {
   held,   ///< in equilibrium
   loose,  ///< both tendons slack: nothing holds the joint, and θ is arbitrary within the play
@@ -193,6 +200,7 @@ enum class EquilibriumStatus {
   no_equilibrium,
 };
 
+/// State of the joint after one step. Energies and works are since home.
 struct EquilibriumPoint {
   EquilibriumStatus status = EquilibriumStatus::held;
   double alpha = 0;  ///< rad
@@ -241,16 +249,16 @@ std::vector<EquilibriumPoint> follow(const JointModel& model, const std::vector<
 
 // ---- Identified joint -----------------------------------------------------------------------------------------------
 // Application of identified deviations: computes the mounted joint and the pulley to make for it, so that the joint
-// follows the declared law.
+// follows its target motion.
 //
-// Every command that needs the real joint calls as_it_is(). No later stage reads [identified], and the declaration is
-// never overwritten.
+// Every command that needs the real joint calls identified_joint(). No later stage reads [identified], and the
+// declaration is never overwritten.
 
 /// The declared mechanism with the pins, length, friction and tendon of `imperfections`.
 MountedMechanism mounted(const Mechanism& declared, const Imperfections& imperfections);
 
 /// The identified joint, and the pulley to make for it.
-struct JointAsItIs {
+struct IdentifiedJoint {
   /// The mounted mechanism with its identified weight. [pulley], range and shrinkage describe the pulley to make:
   /// deflected by the mean load, the joint follows the declared θ(α), and scale errors of making are compensated.
   Mechanism mechanism;
@@ -261,7 +269,7 @@ struct JointAsItIs {
 /// 0.1° accuracy, for searches over hundreds of mechanisms.
 enum class LawSearch { whole, brief };
 /// Returns the declared mechanism when nothing relevant was identified.
-JointAsItIs as_it_is(const DeclaredMechanism& declared, LawSearch search = LawSearch::whole);
+IdentifiedJoint identified_joint(const DeclaredMechanism& declared, LawSearch search = LawSearch::whole);
 
 /// The joint that a measurement is compared with: identified, with the pulley made for it, and with empty `identified`.
 DeclaredMechanism expected_joint(const DeclaredMechanism& declared);
@@ -280,12 +288,12 @@ Polygon as_made(Polygon drawn, const OutlineError& outline);
 Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside);
 /// The joint with a thicker tendon and thinner pins, in which the tendon lies on a displaced floor as the real one lies
 /// on the made floor.
-Mechanism with_inset(const JointAsItIs& joint);
+Mechanism with_inset(const IdentifiedJoint& joint);
 
 /// Assembly angle: position of the motor at which the tendons are tied, with the unloaded joint at home, so that the
-/// loaded joint follows the declared law. rad. No pulley can correct it: tied at 0, the joint has this offset at every
-/// α, and compensation.csv contains it.
-double tied_at(const DeclaredMechanism& declared);
+/// loaded joint follows its target motion. rad. No pulley can correct it: assembled at 0, the joint has this offset at
+/// every α, and compensation.csv contains it. 0 for a joint declared by a ratio.
+double assembly_angle(const DeclaredMechanism& declared);
 
 /// Choice of a round P1: allowed when the best r1 for the identified joint follows its compensating law closely enough.
 struct RoundChoice {

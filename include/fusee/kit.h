@@ -24,6 +24,7 @@ namespace fusee::kit {
 // ---- Bodies ---------------------------------------------------------------------------------------------------------
 // Bodies of a test rig's parts: stacks of slabs with convex outlines and holes. mm.
 
+/// A disc of the plane.
 struct Disc {
   Vec2 centre{0, 0};
   double radius = 0;
@@ -34,7 +35,9 @@ struct DiscHull {
   std::vector<Disc> discs;
   int corners = 64;  ///< number of corners of its outline
 };
+/// A circle.
 DiscHull disc(const Vec2& centre, double radius);
+/// A slot between two centres, with round ends of the radius `radius`.
 DiscHull slot(const Vec2& from, const Vec2& to, double radius);
 /// A rectangle whose corners have the radius `radius`.
 DiscHull box(const Vec2& low, const Vec2& high, double radius = 0.3);
@@ -145,6 +148,7 @@ struct KitPlace {
   bool on_link = false;  ///< it turns with the link; given for home
 };
 
+/// A printed or cut part of the rig.
 struct KitPart {
   std::string name;              ///< base of its file names, such as "base_plate"
   std::string words;             ///< description
@@ -179,8 +183,10 @@ struct TendonHeights {
   Span drum;                     ///< of both on the joint's drum; `ends` without a drum
 };
 
+/// Outcome: all conditions hold, or not.
 enum class KitStatus { made, impossible };
 
+/// Result of plan_kit(): the rig as plain values, or the conditions that fail.
 struct KitPlan {
   KitStatus status = KitStatus::impossible;
   KitSizes sizes;
@@ -220,12 +226,14 @@ struct CouponReading {
   std::string read;  ///< what to read
   std::string key;   ///< the key of the file that the reading sets, and how
 };
+/// The readings of coupon_body().
 std::vector<CouponReading> coupon_readings(const Mechanism& mechanism);
 /// A flat piece with holes, slots and pegs in graded sizes.
 SlabBody coupon_body(const Mechanism& mechanism);
 
 /// The mesh of a part as it is printed.
 solid::TriangleMesh printed_mesh(const KitPart& part, const Mechanism& mechanism, const solid::BodyLayout& layout);
+/// Volume of printed_mesh() before rounding. mm³
 double printed_volume(const KitPart& part, const Mechanism& mechanism, const solid::BodyLayout& layout);
 /// The nominal mesh of a part in place at a joint angle.
 solid::TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta);

@@ -42,12 +42,12 @@ std::string units_for(const std::string& role);
 
 /// One logged row. NaN where a column is absent.
 struct Sample {
-  double time = 0;         ///< s
-  double alpha = 0;        ///< rad, unwrapped
-  double theta = 0;        ///< rad, unwrapped
-  double load = 0;         ///< in `load_unit`: N for load_N (a tip force, positive against +θ)
-  double temperature = 0;  ///< °C
-  double tension1 = 0;     ///< N
+  double time = 0;   ///< s
+  double alpha = 0;  ///< rad, unwrapped
+  double theta = 0;  ///< rad, unwrapped
+  double load = 0;   ///< in `load_unit`: N for load_N (a tip force, positive against +θ)
+  double temperature_C = 0;
+  double tension1 = 0;  ///< N
   double tension2 = 0;
   bool after_break = false;  ///< the log restarts here: the play state before this row is unknown
 };
@@ -66,10 +66,11 @@ struct Segment {
   std::size_t first = 0;   ///< index into the run's samples
   std::size_t last = 0;    ///< included
   std::size_t stroke = 0;  ///< index into the run's strokes: the direction from which α came
-  bool held = false;       ///< a dwell: α is constant
+  bool is_dwell = false;   ///< α is constant
   int pull = 0;            ///< cause of the state in a dwell: 0: α moved here, +1: the load rose, −1: the load fell
 };
 
+/// One run: rows, strokes and segments.
 struct Run {
   std::string name;             ///< file name without folder
   std::vector<Sample> samples;  ///< by time
@@ -81,6 +82,7 @@ struct Run {
   joint::Mounting mounting = {};  ///< of the encoders
 };
 
+/// All runs of one joint, with notes on their repair.
 struct Measurement {
   std::vector<Run> runs;
   double alpha_quantum = 0;  ///< sensor step, rad; 0 if it is too fine to be detected
@@ -157,6 +159,7 @@ struct NoiseFloor {
   /// Number of independent rows that have the information of `rows` rows, each the `every`-th of the log.
   double effective_rows(double rows, double every = 1) const;
 };
+/// Estimates the noise from repeats, before any fit. A lower bound without repeats.
 NoiseFloor noise_floor(const Measurement& measurement);
 
 /// Figures of ISO 230-2, rad, from up and down strokes at fixed positions of α.

@@ -51,6 +51,7 @@ struct OutlineError {
   bool operator==(const OutlineError&) const = default;
 };
 
+/// Deviation of both pulleys.
 struct PulleyError {
   OutlineError outline;
   double scale = 0;  ///< relative enlargement of the pitch curves
@@ -86,6 +87,7 @@ struct CableStiffening {
   bool operator==(const CableStiffening&) const = default;
 };
 
+/// Deviation of both tendons.
 struct TendonError {
   double stretch = 0;  ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
   /// Added to the pretension of tendon 1 at home, N; without effect where tendons hang loose.
@@ -108,12 +110,13 @@ struct TendonError {
 
 /// Deviation of both sheaths.
 struct SheathError {
-  double friction = 0;  ///< added to friction coefficient × total bend: ln of a tension ratio
-  double give = 0;      ///< added to the axial compliance of a sheath, mm/N
+  double friction = 0;    ///< added to friction coefficient × total bend: ln of a tension ratio
+  double compliance = 0;  ///< added to the axial compliance of a sheath, mm/N
 
   bool operator==(const SheathError&) const = default;
 };
 
+/// Displacement of a guide pin.
 struct PinPlaceError {
   double outward = 0;  ///< further from the middle, mm
   double down = 0;     ///< further from the joint, mm; the pulley axis does not move
@@ -121,13 +124,14 @@ struct PinPlaceError {
   bool operator==(const PinPlaceError&) const = default;
 };
 
+/// Deviation of both guide pins.
 struct PinError {
   PinPlaceError left;
   PinPlaceError right;
   double radius = 0;            ///< added to the radius of both pins, mm
   double friction = 0;          ///< added to the capstan coefficient; for idlers, to that of their bearings
   double bearing_friction = 0;  ///< added to the coefficient of idlers' bearings
-  double give = 0;              ///< displacement of each pin along the tendon's force on it, mm/N
+  double compliance = 0;        ///< displacement of each pin along the tendon's force on it, mm/N
 
   bool operator==(const PinError&) const = default;
 };
@@ -179,6 +183,7 @@ struct RubbingError {
   bool operator==(const RubbingError&) const = default;
 };
 
+/// Deviation of the joint: geometry, friction, weight.
 struct JointError {
   double length = 0;    ///< added to OC, mm
   double friction = 0;  ///< dry friction of the bearing, N·mm
@@ -199,6 +204,7 @@ struct CableFriction {
   double share = 0;     ///< fraction of the load
   double unloaded = 0;  ///< additional friction due to the unloaded cable tension, in units of load
 
+  /// Friction at a load, in units of load.
   double at(double load) const { return unloaded + share * std::abs(load); }
 
   bool operator==(const CableFriction&) const = default;
@@ -207,15 +213,15 @@ struct CableFriction {
 /// A ratio and a compliance that change with the angle, for example through a linkage behind the cable. u: rotation of
 /// the joint from home by the declared ratio, rad.
 struct RatioCurve {
-  double linear = 0;       ///< coefficient of u: relative error of the ratio
-  double square = 0;       ///< coefficient of u² in the rotation, 1/rad
-  double cube = 0;         ///< coefficient of u³, 1/rad²
-  double give_slope = 0;   ///< compliance per u, 1 per unit of load
-  double give_square = 0;  ///< compliance per u², 1/rad per unit of load
+  double linear = 0;             ///< coefficient of u: relative error of the ratio
+  double square = 0;             ///< coefficient of u² in the rotation, 1/rad
+  double cube = 0;               ///< coefficient of u³, 1/rad²
+  double compliance_slope = 0;   ///< compliance per u, 1 per unit of load
+  double compliance_square = 0;  ///< compliance per u², 1/rad per unit of load
 
   /// Rotation beyond u under `load`, rad.
   double added(double u, double load) const {
-    return u * (linear + u * (square + u * cube) - load * (give_slope + u * give_square));
+    return u * (linear + u * (square + u * cube) - load * (compliance_slope + u * compliance_square));
   }
 
   bool operator==(const RatioCurve&) const = default;
@@ -252,6 +258,7 @@ struct JointSensorError {
   bool operator==(const JointSensorError&) const = default;
 };
 
+/// All deviations of a joint. All zero: as declared.
 struct Imperfections {
   MotorSensorError motor;
   ShaftError shaft;
@@ -276,7 +283,7 @@ std::string_view word(CorrectableBy remedy);  ///< "pulley", "table" or ""
 
 // ---- Declaration ----------------------------------------------------------------------------------------------------
 // A joint as declared: plain values, in the paper's symbols. Angles in rad, lengths in mm, forces in N, stresses in
-// MPa.
+// MPa (N/mm²).
 //
 // The joint axis O is the origin. y points to the tendons' attachment C at home: C = R (sin θ, cos θ). The guide pins
 // are B (−EB, −OE) and D (ED, −OE); the pulley's axis G is (0, −OE − EF). Tendon 1 runs C → B → P1 on the left, tendon
@@ -293,6 +300,7 @@ struct Attachment {
   bool operator==(const Attachment&) const = default;
 };
 
+/// The joint's axis, range and tendon attachments. mm, rad.
 struct Joint {
   double R = 0;          ///< OC, from the joint axis to the tendons' attachment
   double theta_min = 0;  ///< rad, ≤ 0: home lies within the range
@@ -312,8 +320,10 @@ struct Joint {
   bool is_plain() const { return drum_radius == 0 && !attachment1 && !attachment2; }
 };
 
+/// A pin is fixed and the tendon slides on it; an idler turns on a bearing.
 enum class GuideKind { pin, idler };
 
+/// The two guides between joint and pulley. mm.
 struct Guides {
   double EB = 0;      ///< pin B is at (−EB, −OE)
   double ED = 0;      ///< pin D is at (ED, −OE)
@@ -345,7 +355,9 @@ struct Sheath {
   bool is_there() const { return length > 0; }
 };
 
+/// The origin of θ(α): Transmission lists the formulas.
 enum class Law { compensate, linear, table, torque };
+/// exact: pins and tendons have their thickness; paper: points and lines.
 enum class Method { exact, paper };
 /// automatic: multi-turn helical grooves where one turn does not suffice.
 enum class WindingChoice { automatic, one_turn };
@@ -385,6 +397,7 @@ struct PulleyDrive {
   bool operator==(const PulleyDrive&) const = default;
 };
 
+/// Both tendons. mm, N, MPa.
 struct Tendon {
   double diameter = 0;
   double modulus = 0;          ///< Young's modulus, MPa
@@ -407,7 +420,7 @@ inline double section_stiffness(const Tendon& tendon) { return stiffness_of_sect
 struct Load {
   double tip_force = 0;  ///< F_c across OC, N
   double torque = 0;     ///< about O, N·mm
-  double mass = 0;       ///< of the link, kg
+  double mass_kg = 0;    ///< of the link
   double lever = 0;      ///< from O along OC to the centre of mass
   double tilt = 0;       ///< the joint angle at which OC points straight up, rad
 
@@ -422,6 +435,7 @@ struct Spring {
 
   bool operator==(const Spring&) const = default;
 
+  /// Torque against +θ at `theta` (rad), N·mm.
   double torque(double theta) const { return preload + stiffness * (theta - free); }
 };
 
@@ -434,10 +448,15 @@ struct JointLoad {
   bool operator==(const JointLoad&) const = default;
 };
 
+/// Cross-section of the grooves.
 enum class Groove { u, v, flat };
+/// Rim of the flanges: parallel to the grooves, or a circle.
 enum class Flange { follow, round };
+/// Shape of the bore. horn: screwed onto a servo horn.
 enum class Bore { round, d, hex, square, keyway, horn };
+/// Home mark, clocking mark and labels on the faces.
 enum class Marks { engraved, raised, none };
+/// Place of a tendon's end beyond its knot: a slot of the face, or none.
 enum class Tail { slot, none };
 
 /// The printed body. 0 means "automatic" where the field table says so; fusee/solid.h resolves it.
@@ -488,6 +507,7 @@ struct Horn {
   bool operator==(const Horn&) const = default;
 };
 
+/// Effects of the printed material.
 struct Material {
   std::string name;
   double shrinkage = 0;          ///< relative shrinkage of a print
@@ -497,6 +517,7 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+/// Number of printed parts.
 enum class Parts { automatic, one, two };
 
 /// Print settings.
@@ -540,11 +561,13 @@ struct RatioTransmission {
   bool operator==(const RatioTransmission&) const = default;
 };
 
-/// Manual measurements of the joint: value and standard uncertainty, in the file's unit; empty if not measured.
+/// Manual measurements of the joint: value and standard uncertainty in mm, MPa and mm/N, or the unit that ends the
+/// name; empty if not measured.
 struct Prior {
   std::vector<double> EB, ED, OE, EF, guide_radius, length, radius_offset, pulley_scale, modulus;
   std::vector<double> drum_radius, attachment1_across, attachment1_along, attachment2_across, attachment2_along;
-  std::vector<double> OE1, OE2, motor_offset, backlash, runout_x, runout_y, guide_give, zero, gain;
+  std::vector<double> OE1, OE2, motor_offset_deg, backlash_deg, runout_x, runout_y, guide_compliance, zero_deg,
+      gain_percent;
 
   bool operator==(const Prior&) const = default;
 };
@@ -597,7 +620,7 @@ struct Mechanism {
 };
 
 /// The complete content of a file: the declared mechanism, the identified deviations, priors and optimization. Only
-/// as_it_is() (fusee/joint.h) reads `identified`.
+/// identified_joint() (fusee/joint.h) reads `identified`.
 struct DeclaredMechanism : Mechanism {
   Optimization optimize;
   Imperfections identified;  ///< result of fusee calibrate; all zero: as declared

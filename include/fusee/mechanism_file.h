@@ -24,6 +24,7 @@ namespace fusee {
 /// range: two numbers, lower ≤ 0 ≤ upper. point: two numbers, across and along.
 enum class FieldKind { number, range, choice, text, boolean, numbers, texts, point };
 
+/// One key: its table, unit, bounds, default, meaning and member.
 struct Field {
   std::string_view table;   ///< "joint"; "" for the keys at the top of the file
   std::string_view key;     ///< "length_mm": includes the unit
@@ -77,6 +78,7 @@ const FormerKey* find_former_key(std::string_view name);
 
 /// The value of a number, or of one end of a range, in the file's unit.
 double number_of(const Mechanism& mechanism, const Field& field, int end = 0);
+/// Sets a number, or one end of a range, in the file's unit. Bounds are not checked.
 void set_number(Mechanism& mechanism, const Field& field, int end, double value);
 
 /// The number with the fewest digits, in the file's unit, that reads back as the stored value. Only for number, range
@@ -88,6 +90,7 @@ struct NumberKey {
   const Field* field = nullptr;
   int end = 0;
 
+  /// The number in the file's unit.
   double get(const DeclaredMechanism& mechanism) const { return field->get(mechanism, end); }
   void set(DeclaredMechanism& mechanism, double value) const { field->set(mechanism, end, value); }
 };
@@ -172,6 +175,7 @@ struct Template {
   std::string_view name;
   std::string_view text;
 };
+/// All templates.
 std::vector<Template> templates();
 /// The description at the template's top: its first lines, up to one that ends a sentence.
 std::string first_comment(const Template& known);

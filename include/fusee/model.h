@@ -43,12 +43,14 @@ struct TwoWayRow {
   double down = 0;
 };
 
+/// Origin of a curve.
 enum class CurveSource {
   law,           ///< the declared θ(α), equal in both directions
   identified,    ///< the joint with its [identified] numbers, simulated in both directions under its declared load
   compensation,  ///< a compensation.csv
 };
 
+/// θ(α) of the joint, of both directions where they differ.
 struct JointCurve {
   CurveSource source = CurveSource::law;
   AngleMap middle;                              ///< mean of both directions; the law itself
@@ -85,7 +87,9 @@ std::vector<TwoWayRow> refined(const std::vector<TwoWayRow>& rows, const transmi
 struct Polynomial {
   std::vector<double> c;
 
+  /// Value at `x`, by Horner's rule.
   double operator()(double x) const;
+  /// Derivative at `x`.
   double slope(double x) const;
 };
 
@@ -96,6 +100,7 @@ struct FitPoint {
   double weight = 1;
 };
 
+/// A polynomial and its largest error.
 struct PolynomialFit {
   Polynomial p;
   double error = 0;  ///< largest weight · |p(x) − y|
@@ -115,6 +120,7 @@ struct EqualityFit {
 
 constexpr int k_equality_degree = 4;  ///< degree of polycoef in MuJoCo's joint and tendon equalities
 
+/// The polynomial of degree k_equality_degree, of α or of θ, with the smaller largest error.
 EqualityFit fit_equality(const AngleMap& map);
 /// The straight line θ = p(α) with the least largest error.
 EqualityFit fit_line(const AngleMap& map);
@@ -170,33 +176,38 @@ struct MotorUnit {
   bool ticks = false;
   double zero = 0;  ///< reading at α = 0
 
+  /// Reading in this unit at a motor angle, rad.
   double of(double alpha) const;
+  /// Motor angle of a reading, rad.
   double alpha(double shown) const;
 };
 
 /// The tables of one direction, evenly spaced from the first to the last place.
 struct OneWayTable {
-  float first = 0, last = 0;  ///< motor angle in its unit minus its zero; the first is the smaller one
-  std::vector<float> theta;   ///< deg, as a function of the motor angle
-  std::vector<float> motor;   ///< motor angle minus its zero, as a function of θ
+  float first = 0, last = 0;     ///< motor angle in its MotorUnit minus its zero; the first is the smaller one
+  std::vector<float> theta_deg;  ///< θ, as a function of the motor angle
+  std::vector<float> motor;      ///< motor angle in its MotorUnit minus its zero, as a function of θ
 };
 
+/// Largest errors of a table with respect to its curve.
 struct TableErrors {
   double theta = 0;     ///< error of θ read from α, rad
   double returned = 0;  ///< error of θ at the motor angle read from θ, rad
   double motor = 0;     ///< error of that motor angle, rad
 };
 
+/// Tables of both directions of conversion, for firmware.
 struct JointTable {
   MotorUnit unit;
-  int pieces = 0;                         ///< number of linear pieces of each table
-  float theta_first = 0, theta_last = 0;  ///< deg
-  std::vector<OneWayTable> ways;          ///< one, or two: from below and from above
-  std::vector<float> slope;               ///< dθ/dα of the mean curve, over the first way's angles
-  std::vector<float> holding;  ///< motor torque that holds the declared load without friction, N·mm; may be empty
-  TableErrors errors;          ///< in 32-bit arithmetic, for the worse direction
+  int pieces = 0;  ///< number of linear pieces of each table
+  float theta_first_deg = 0, theta_last_deg = 0;
+  std::vector<OneWayTable> ways;  ///< one, or two: from below and from above
+  std::vector<float> slope;       ///< dθ/dα of the mean curve, over the first way's angles
+  std::vector<float> holding;     ///< motor torque that holds the declared load without friction, N·mm; may be empty
+  TableErrors errors;             ///< in 32-bit arithmetic, for the worse direction
 };
 
+/// Limit of the size of a table.
 constexpr int k_most_pieces = 4096;
 
 /// The shortest table (a power of two) whose error of θ is at most `most`, rad, in both directions of conversion. Empty

@@ -20,8 +20,10 @@ namespace fusee::optimize {
 // Objectives: functions of a mechanism to minimize or maximize. Forces and errors are per newton of tip force, by the
 // paper's formulas [1]-[11].
 
+/// Functions of a mechanism; objectives() has their units and meanings.
 enum class Objective { max_tension, max_error, footprint, motor_torque, min_bend };
 
+/// Name, unit and meaning of an objective.
 struct ObjectiveInfo {
   Objective objective;
   std::string_view name;  ///< in the mechanism file
@@ -31,7 +33,9 @@ struct ObjectiveInfo {
   bool certifiable = true;  ///< an interval form of its equations exists
 };
 
+/// All objectives, in the order of the enumeration.
 std::span<const ObjectiveInfo> objectives();
+/// The description of one objective.
 const ObjectiveInfo& info(Objective objective);
 Objective find_objective(std::string_view name);  ///< a name valid in the mechanism file
 
@@ -56,6 +60,7 @@ Evaluation evaluate(Objective objective, const Mechanism& mechanism);
 /// Values of the variables, in the file's units and order.
 using Design = std::vector<double>;
 
+/// A number that the search varies, with its bounds in the file's unit.
 struct Variable {
   std::string key;
   std::string symbol;  ///< "R", or the key if there is no symbol
@@ -78,6 +83,7 @@ struct MovingKey {
   std::vector<double> a;
   double constant = 0;
 
+  /// Value of the key in a design, in the file's unit.
   double value(const Design& design) const;
 };
 
@@ -94,9 +100,10 @@ using JointConverter = std::function<Mechanism(const DeclaredMechanism& declared
 /// or null if there is none.
 using HelicalCheck = std::function<std::optional<std::string>(const Mechanism& judged)>;
 
+/// An optimization problem, made by make_problem().
 struct Problem {
   DeclaredMechanism base;
-  JointConverter as_it_is;  ///< empty: the joint is as declared
+  JointConverter identified_joint;  ///< empty: the joint is as declared
   std::vector<Objective> objectives;
   std::vector<Variable> variables;
   std::vector<MovingKey> moving;  ///< variables in their order, then tied keys
@@ -106,9 +113,9 @@ struct Problem {
   std::optional<ObjectiveCap> cap;
 };
 
-/// Variables, ties and constraints refer to declared numbers; objectives refer to the joint after `as_it_is`. Throws
-/// InputError if there is nothing to optimize, or if a variable has no effect.
-Problem make_problem(const MechanismFile& file, JointConverter as_it_is = {}, HelicalCheck several_turns = {});
+/// Variables, ties and constraints refer to declared numbers; objectives refer to the joint after `identified_joint`.
+/// Throws InputError if there is nothing to optimize, or if a variable has no effect.
+Problem make_problem(const MechanismFile& file, JointConverter identified_joint = {}, HelicalCheck several_turns = {});
 
 /// True if the footprint of its designs is defined: the paper's joint, directly at its pulley.
 bool has_footprint(const Problem& problem);
@@ -128,6 +135,7 @@ Evaluation evaluate_design(const Problem& problem, Objective objective, const De
 // Proven global optimum: branch and bound with outward-rounded intervals over the variables and the stroke.
 // Constraints are satisfied to 1e-12 of their largest term, in the bound and in the designs.
 
+/// Accuracy and limits of certified_optimum().
 struct CertifiedOptions {
   double gap = 1e-6;          ///< relative, between the best design's value and the proven bound
   double tie = 1e-3;          ///< relative: designs this close to the best one tie with it
@@ -136,9 +144,10 @@ struct CertifiedOptions {
   std::vector<Design> first_tries;  ///< designs known to be good
   /// The search ends at a design with a smaller value.
   std::optional<double> sufficient = std::nullopt;
-  unsigned threads = 0;  ///< 0: as many as available; the result does not depend on the number
+  unsigned threads = 0;  ///< at most as many; 0: all of the thread pool. The result does not depend on it
 };
 
+/// All designs between two corners.
 struct DesignBox {
   Design lower;
   Design upper;
@@ -154,6 +163,7 @@ struct TieSet {
   bool wide = false;
 };
 
+/// Result of certified_optimum().
 struct CertifiedResult {
   bool found = false;    ///< false: no design satisfies all conditions (proven if `proven`)
   bool proven = false;   ///< the gap was reached
@@ -183,11 +193,12 @@ CertifiedResult certified_optimum(const Problem& problem, Objective objective, c
 // Evolutionary search (pagmo): the paper's genetic algorithm, and NSGA-II for two or three objectives. Seeded: every
 // run gives the same bytes.
 
+/// Size and seed of the evolutionary searches.
 struct GeneticOptions {
   unsigned population = 48;  ///< a multiple of 4
   unsigned generations = 100;
   unsigned seed = 1;
-  unsigned threads = 0;  ///< 0: as many as available; the result does not depend on the number
+  unsigned threads = 0;  ///< at most as many; 0: all of the thread pool. The result does not depend on it
 };
 
 /// One generation of the single-objective algorithm, as in the paper's Fig. 7.
@@ -197,6 +208,7 @@ struct Generation {
   double mean = 0;  ///< mean over the possible designs of this generation
 };
 
+/// Result of genetic_optimum().
 struct GeneticResult {
   bool found = false;
   bool stopped = false;  ///< by RunContext::stop
@@ -212,11 +224,13 @@ struct GeneticResult {
 GeneticResult genetic_optimum(const Problem& problem, Objective objective, const GeneticOptions& options = {},
                               const RunContext& context = {});
 
+/// One design of a Pareto front.
 struct FrontPoint {
   Design design;
   std::vector<double> values;  ///< values of the problem's objectives, in their units
 };
 
+/// Result of pareto_front().
 struct ParetoResult {
   bool stopped = false;           ///< by RunContext::stop
   unsigned generations = 0;       ///< completed generations

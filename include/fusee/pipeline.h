@@ -47,6 +47,7 @@ struct AsBuiltLimits {
   double slack = 0.05;  ///< mm
 };
 
+/// Accuracy, formats and place of build().
 struct BuildOptions {
   double chord_error_mm = 0.01;  ///< largest distance of a facet from its curve (sagitta)
   AsBuiltLimits limits;
@@ -61,8 +62,10 @@ struct BuildOptions {
   bool advice = true;
 };
 
+/// Outcome of build(): all checks hold, no such pulley exists, or a check failed.
 enum class BuildStatus { done, infeasible, check_failed };
 
+/// Result of build().
 struct BuildResult {
   BuildStatus status = BuildStatus::done;
   formats::Product product;
@@ -95,6 +98,7 @@ enum class SearchMethod { certified, genetic, pareto };
 /// The most rigorous method that supports the objectives and variables of [optimize].
 SearchMethod strongest_method(const MechanismFile& file);
 
+/// Method and output of optimize().
 struct OptimizeOptions {
   std::optional<SearchMethod> method;       ///< default: strongest_method()
   std::optional<optimize::Objective> then;  ///< certified: second objective that selects among tied designs
@@ -107,6 +111,7 @@ struct OptimizeOptions {
   bool dry_run = false;  ///< everything except publishing
 };
 
+/// Result of optimize().
 struct OptimizeResult {
   optimize::Problem problem;
   std::variant<optimize::CertifiedResult, optimize::GeneticResult, optimize::ParetoResult> search;
@@ -133,6 +138,7 @@ OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& option
 // ---- Calibration ----------------------------------------------------------------------------------------------------
 // Calibration: measured runs → causes of the error, and the file of a better pulley.
 
+/// Columns, validation runs and place of calibrate().
 struct CalibrateOptions {
   measurement::MeasurementOptions columns;
   std::vector<std::filesystem::path> hold_out;  ///< runs for validation only
@@ -142,6 +148,7 @@ struct CalibrateOptions {
   bool audit = true;     ///< CalibrationOptions::audit
 };
 
+/// Result of calibrate().
 struct CalibrateResult {
   formats::CalibrationProduct product;
   std::vector<OutputFile> outputs;  ///< manifest.json last
@@ -161,6 +168,7 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
 // ---- Comparison -----------------------------------------------------------------------------------------------------
 // Comparison: measured runs of two states of one joint → the changes between them.
 
+/// Columns and place of compare().
 struct CompareOptions {
   measurement::MeasurementOptions columns;
   std::filesystem::path folder;  ///< folder of the output files; empty: no files
@@ -168,6 +176,7 @@ struct CompareOptions {
   bool dry_run = false;  ///< everything except writing
 };
 
+/// Result of compare().
 struct CompareResult {
   formats::ComparisonProduct product;
   std::vector<OutputFile> outputs;  ///< manifest.json last; empty without a folder
@@ -184,6 +193,7 @@ CompareResult compare(const MechanismFile& file, const std::vector<std::filesyst
 // ---- Experiment design ----------------------------------------------------------------------------------------------
 // Experiment design: plan.json, a page for the bench and empty run files.
 
+/// Limits and place of plan().
 struct PlanFilesOptions {
   plan::PlanOptions plan;
   std::filesystem::path folder;  ///< folder of the output files
@@ -191,6 +201,7 @@ struct PlanFilesOptions {
   bool dry_run = false;  ///< everything except writing
 };
 
+/// Result of plan().
 struct PlanResult {
   /// Reason why there is nothing to plan: the law does not exist over the range. Empty if it does.
   std::optional<profile::SynthesisResult> without_law;
@@ -207,6 +218,7 @@ PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options, cons
 // ---- Test rig -------------------------------------------------------------------------------------------------------
 // Test rig: parts to print and to cut, and a page with the assembly.
 
+/// Accuracy and place of kit().
 struct KitOptions {
   double chord_error_mm = 0.01;  ///< largest distance of a facet of the pulley from its curve (sagitta)
   formats::DxfVersion dxf = formats::DxfVersion::ac1015;
@@ -215,8 +227,10 @@ struct KitOptions {
   bool dry_run = false;  ///< everything except publishing
 };
 
+/// Outcome of kit(): done, no feasible pulley, colliding parts, or a failed check.
 enum class KitEnding { done, no_pulley, no_kit, check_failed };
 
+/// Result of kit().
 struct KitResult {
   KitEnding ending = KitEnding::done;
   formats::KitProduct product;
@@ -239,6 +253,7 @@ std::vector<Check> kit_fit_checks(const kit::KitPlan& plan);
 /// Largest accepted --max-error-deg, deg.
 constexpr double k_largest_limit_deg = 45;
 
+/// Accuracy, units and place of model().
 struct ModelOptions {
   /// Largest error of θ in joint.xml, rad. The paper's mechanism leaves 0.064° and a printed pulley is checked to
   /// 0.05°, so a coarser polynomial does not describe the joint.
@@ -256,6 +271,7 @@ struct ModelOptions {
   bool dry_run = false;  ///< everything except publishing
 };
 
+/// Outcome of model().
 enum class ModelEnding {
   done,
   no_law,          ///< θ(α) does not exist or does not grow; see `without_law`
@@ -272,6 +288,7 @@ struct ModelChange {
   std::string value = {};  ///< value of that key, as TOML
 };
 
+/// Result of model().
 struct ModelResult {
   ModelEnding ending = ModelEnding::done;
   formats::ModelProduct product;
@@ -288,6 +305,7 @@ ModelResult model(const MechanismFile& file, const ModelOptions& options, const 
 // ---- Simulation -----------------------------------------------------------------------------------------------------
 // Simulation: logged motor angles, loads and times → joint angle, tendon tensions and motor torque.
 
+/// Columns, pulley and noise of simulate().
 struct SimulateOptions {
   measurement::MeasurementOptions columns;
   /// true: simulates the corrected pulley that build() makes of this file; false: the pulley of the declared mechanism,
@@ -297,6 +315,7 @@ struct SimulateOptions {
   std::uint64_t seed = 1;  ///< of that noise
 };
 
+/// Result of simulate().
 struct SimulateResult {
   /// Reason why there is nothing to simulate: the law does not exist over the range. Empty if it does.
   std::optional<profile::SynthesisResult> without_law;
@@ -318,6 +337,7 @@ Part read_part(const std::filesystem::path& path, FileAccess& files = disk());
 /// check_mesh() or check_drawing().
 std::vector<Check> check_part(const Part& part);
 
+/// Dimensions of a part, as far as they are defined.
 struct PartSize {
   std::optional<Vec3> extent;           ///< along x, y, z, mm; empty for an empty part
   std::optional<double> volume;         ///< of a mesh that passes `checks`, mm³
@@ -328,20 +348,22 @@ PartSize size_of(const Part& part, const std::vector<Check>& checks);
 
 /// Winds tendons on the grooves of a mesh at the mechanism's groove heights, or on the contours P1_FLOOR and P2_FLOOR
 /// of a drawing (P1_PITCH and P2_PITCH without them). Throws InputError if there is no such groove.
-profile::RewindResult rewind_part(const joint::JointAsItIs& joint, const Part& part);
+profile::RewindResult rewind_part(const joint::IdentifiedJoint& joint, const Part& part);
 /// Winds tendons on a mesh with the known `layout`: after a second plan of the tie-offs its grooves may be at other
 /// heights than the mechanism alone gives.
-profile::RewindResult rewind_made(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+profile::RewindResult rewind_made(const joint::IdentifiedJoint& joint, const solid::BodyLayout& layout,
                                   const solid::TriangleMesh& mesh);
 /// Winds tendons on floors that were measured elsewhere, as printed.
-profile::RewindResult rewind_floors(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+profile::RewindResult rewind_floors(const joint::IdentifiedJoint& joint, const solid::BodyLayout& layout,
                                     const Polygon& floor1, const Polygon& floor2);
 
+/// Position of a part in its file.
 enum class PartPlace {
   as_made,         ///< it fits in its present position, or nowhere clearly better
   found,           ///< it was moved, and is wound at the position that was found
   not_recognised,  ///< it fits nowhere: wound in its present position
 };
+/// Result of rewind_moved_part().
 struct RewoundPart {
   profile::RewindResult as_built;
   PartPlace place = PartPlace::as_made;
@@ -352,7 +374,7 @@ struct RewoundPart {
 };
 /// As rewind_part(), but a mesh that was moved, turned about its axis or turned over is moved back first. Throws
 /// InputError also for a mirrored mesh or one of another size.
-RewoundPart rewind_moved_part(const joint::JointAsItIs& joint, const Part& part);
+RewoundPart rewind_moved_part(const joint::IdentifiedJoint& joint, const Part& part);
 
 /// Checks "theta_error" and "slack" against their limits. The slack of method = "paper" is expected: it is reported as
 /// "theta_error_reported" and "slack_reported", with the limits 180 deg and the joint's length.

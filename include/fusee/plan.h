@@ -92,6 +92,7 @@ std::vector<const fusee::EffectParameter*> unread_numbers(const DeclaredMechanis
 // Runs are chosen greedily by gain per minute. The model is linear in the causes, so sizes are right to some tens of
 // per cent.
 
+/// Conditions at the bench.
 struct PlanOptions {
   double noise = radians(0.02);  ///< standard deviation of the joint's sensor, rad
   double minutes = 15;           ///< time at the bench
@@ -108,8 +109,8 @@ struct PlanStep {
   const fusee::EffectParameter* reading = nullptr;
   std::string words;
   double minutes = 0;              ///< including the changes on the bench
-  double setup = 0;                ///< part of `minutes` that the changes take
-  double by = 0;                   ///< minutes from the beginning to the end of this step
+  double setup_minutes = 0;        ///< part of `minutes` that the changes take
+  double end_minute = 0;           ///< from the beginning of the plan to the end of this step
   std::vector<std::string> sees;   ///< causes that this step detects first
   std::vector<std::string> tells;  ///< pairs that this step resolves first: "backlash from capstan_friction, creep"
 };
@@ -135,6 +136,7 @@ struct FalsePositives {
   int group = 0;  ///< the true cause was named in a group
 };
 
+/// Result of plan_runs().
 struct Plan {
   std::vector<PlanStep> steps;                                ///< by gain per minute; empty if no run fits
   std::vector<PlanStep> beyond;                               ///< steps that more minutes would add

@@ -18,6 +18,7 @@ namespace fusee::profile {
 // A sampled, closed, convex pitch curve: the tendon's centre line on the pulley, in the pulley's frame at home with
 // the axis at the origin.
 
+/// One point of a pitch curve.
 struct OutlinePoint {
   double psi = 0;               ///< direction of the outward normal, rad, increasing along the curve
   Vec2 position;                ///< mm
@@ -41,6 +42,7 @@ struct Outline {
   /// The end of the active arc where the tendon stays wound over the whole stroke and continues to its anchor:
   /// active_last for P1 (left), active_first for P2 (right).
   std::size_t anchor_end() const { return side == transmission::Side::left ? active_last : active_first; }
+  /// True for points of the active arc, ends included.
   bool is_active(std::size_t i) const;
 };
 
@@ -73,7 +75,7 @@ struct Change {
 /// Feasibility test of changed mechanisms during the search for advice.
 struct FeasibilityOracle {
   /// Fast test: returns the failed conditions; none if the mechanism is feasible as far as a fast test tells. Called
-  /// hundreds of times, and from two threads if `made` is set.
+  /// hundreds of times, and by two threads at once if `made` is set.
   std::function<std::vector<Condition>(const Mechanism&)> obstacles;
   /// Full build of a change before it is reported, with the very numbers that the user will read. Empty: the fast test
   /// suffices.
@@ -111,12 +113,13 @@ std::string advice_sentence(const std::vector<Change>& changes);
 // ---- Synthesis ------------------------------------------------------------------------------------------------------
 // Synthesis of both pitch curves from a mechanism, or the failed conditions and advice.
 
+/// Accuracy and scope of synthesise().
 struct SynthesisOptions {
   /// Largest sagitta between the polygon and the curve, on the pitch curve and on every parallel curve up to the
   /// flange. mm
-  double tolerance = 0.01;
-  /// Outward offset that will be added to the curves before they are made (draw_for_making). The tolerance holds there
-  /// too. mm
+  double chord_error_mm = 0.01;
+  /// Outward offset that will be added to the curves before they are made (draw_for_making). The chord error holds
+  /// there, too. mm
   double drawn_out = 0;
   /// Search for single changes that make an infeasible mechanism feasible.
   bool advice = true;
@@ -147,8 +150,10 @@ std::optional<Condition> obstacle_to(const Mechanism& mechanism);
 /// As obstacle_to(), but ignores the conditions of one turn.
 std::optional<Condition> obstacle_but_one_turn(const Mechanism& mechanism);
 
+/// Outcome of synthesise().
 enum class SynthesisStatus { made, infeasible };
 
+/// Result of synthesise(): both curves, or the failed conditions and advice.
 struct SynthesisResult {
   SynthesisStatus status = SynthesisStatus::infeasible;
   Outline p1;
@@ -166,6 +171,7 @@ struct SynthesisResult {
   std::string brief() const;
 };
 
+/// Draws both pitch curves. An infeasible mechanism is a value. Requires a joint with tendons.
 SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& options = {});
 
 /// True when the only failed conditions are those of one turn.
@@ -178,6 +184,7 @@ std::optional<std::string> kept_to_one_turn(const Mechanism& mechanism);
 // angle. Polygon geometry only (arc lengths, tangents to discs, root finding); no equation is shared with the
 // synthesis.
 
+/// Joint angle of wound strings at one pulley angle.
 struct RewindPoint {
   double alpha = 0;           ///< rad
   double theta_declared = 0;  ///< by the target motion, rad
@@ -185,6 +192,7 @@ struct RewindPoint {
   double slack = 0;           ///< slack of tendon 2 at that θ: > 0 hangs loose, < 0 would have to stretch, mm
 };
 
+/// Result of rewind(), with its largest deviations.
 struct RewindResult {
   std::vector<RewindPoint> points;
   double max_theta_error = 0;     ///< max |theta − theta_declared|, rad

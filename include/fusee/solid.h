@@ -29,9 +29,11 @@ struct TriangleMesh {
 
 /// By the divergence theorem; positive when the faces look outward. Indices must be in range. mm³.
 double enclosed_volume(const TriangleMesh& mesh);
+/// Corners of a box parallel to the axes.
 struct Bounds {
   Vec3 low, high;
 };
+/// The smallest box that contains all vertices.
 Bounds bounds(const TriangleMesh& mesh);
 /// One index for each distinct position (exact equality), with triangles renumbered. Topology checks require a welded
 /// mesh.
@@ -95,6 +97,7 @@ struct DowelLayout {
   double ceiling = 0;  ///< height of the cone in which they end; 0: flat
 };
 
+/// The bore, with hole compensation.
 struct BoreLayout {
   Bore kind = Bore::round;
   double shaft = 0;                 ///< diameter of the shaft, without hole compensation; unused for a horn
@@ -108,6 +111,7 @@ struct BoreLayout {
   int spline_teeth = 0;              ///< teeth of a servo's shaft in the outline; 0: none
 };
 
+/// The set screw and its nut, in the hub.
 struct SetScrewLayout {
   bool present = false;
   double hole_diameter = 0;  ///< clearance or tapping diameter, compensated
@@ -120,6 +124,7 @@ struct SetScrewLayout {
   double nut_distance = 0;   ///< distance from the axis to the middle of the nut
 };
 
+/// All sizes of the body, as described above.
 struct BodyLayout {
   Parts parts = Parts::one;  ///< number of printed parts; never automatic
   double ceiling_slope = 0;  ///< angle of downward faces above the horizontal, rad; 0: they may be flat
@@ -186,6 +191,7 @@ struct TailSlot {
   double pilot_depth = 0;     ///< depth below the face
   double head_diameter = 0;
 
+  /// Closed outline in the plane of the face.
   Polygon outline() const;
   double head_or_width() const { return head_diameter > width ? head_diameter : width; }
 };
@@ -231,8 +237,10 @@ struct PrintedPart {
   std::vector<Check> mesh_checks = {};  ///< check_mesh() of `mesh`
 };
 
+/// Outcome: all conditions hold, or not.
 enum class PulleyStatus { made, impossible };
 
+/// Result of make_pulley(): the solid, or the conditions that fail.
 struct Pulley {
   PulleyStatus status = PulleyStatus::impossible;
   BodyLayout layout;
@@ -246,6 +254,7 @@ struct Pulley {
   std::vector<Check> mesh_checks;              ///< check_mesh() of `mesh`
 
   bool made() const { return status == PulleyStatus::made; }
+  /// Summary: the result, or the failed conditions.
   std::string brief() const;
 };
 
@@ -255,6 +264,7 @@ TriangleMesh plate_of(const Pulley& pulley);
 /// Effort of the search for printable tie-offs. A thorough search finds everything that a brief one finds.
 enum class TieOffSearch { thorough, brief };
 
+/// Makes the solid on both outlines of `synthesis`, which must be made. What does not fit is a failed condition.
 Pulley make_pulley(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,
                    TieOffSearch search = TieOffSearch::thorough);
 
@@ -272,9 +282,9 @@ profile::Advice body_advice(const Mechanism& mechanism, const profile::Feasibili
                             Parts refused = Parts::automatic);
 
 /// Checks of a mesh of this pulley (usually one read back from a file): check_mesh, then Euler number, volume,
-/// deviation from the analytic surface within `tolerance`, thinnest wall, groove depth and width.
+/// deviation from the analytic surface within `chord_error_mm`, thinnest wall, groove depth and width.
 std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism,
-                                const profile::SynthesisResult& synthesis, const Pulley& pulley, double tolerance);
+                                const profile::SynthesisResult& synthesis, const Pulley& pulley, double chord_error_mm);
 /// Checks of one part of two: check_mesh, Euler number and volume.
 std::vector<Check> check_printed_part(const TriangleMesh& mesh, const PrintedPart& part);
 
@@ -296,6 +306,7 @@ struct KnotHold {
   double at_knot = 0;    ///< tension · e^(−μ · wrap_left), the capstan equation with pulley.friction
 };
 
+/// Load of all knots.
 struct Holding {
   std::vector<KnotHold> knots;                 ///< one for each tied tendon
   std::optional<analysis::Strength> strength;  ///< strength of the tendon, if known
@@ -317,6 +328,7 @@ Holding tendon_holding(const Mechanism& mechanism, const profile::SynthesisResul
 /// misses the part.
 std::optional<Polygon> outline_at(const TriangleMesh& mesh, double z);
 
+/// A groove found by find_grooves().
 struct GrooveInMesh {
   double z = 0;   ///< middle of its floor
   Polygon floor;  ///< in the coordinates of the mesh
@@ -334,6 +346,7 @@ struct GrooveFloors {
 /// without the worst quarter (channels cut outlines).
 double outline_deviation(const GrooveFloors& found, const GrooveFloors& expected);
 
+/// A groove, and the pulley that it was recognised as.
 struct PlacedGroove {
   transmission::Side side = transmission::Side::left;
   double z = 0;   ///< in the mesh
@@ -351,8 +364,10 @@ struct Placement {
   double bore_off_axis = 0;  ///< distance of the bore from the axis of the floors, mm; 0: none, or no bore
 };
 
+/// found: recognised; unknown: another part; mirrored, scaled: the part, but not as drawn.
 enum class PlacementStatus { found, unknown, mirrored, scaled };
 
+/// Result of find_placement().
 struct PlacementResult {
   PlacementStatus status = PlacementStatus::unknown;
   Placement placement;  ///< for a mirrored part: of its mirror image

@@ -1,5 +1,5 @@
 /// \file
-/// θ(α) of the declared law: tendon paths over pins and sheaths, moment arms, support functions and tensions.
+/// The target motion θ(α): tendon paths over pins and sheaths, moment arms, support functions and tensions.
 #pragma once
 
 #include <array>
@@ -23,6 +23,7 @@ namespace fusee::transmission {
 /// left: tendon 1, pin B, pulley P1. right: tendon 2, pin D, pulley P2.
 enum class Side { left, right };
 
+/// Name of a side's pulley.
 constexpr std::string_view pulley_name(Side side) { return side == Side::left ? "P1" : "P2"; }
 
 /// +1 for the right, −1 for the left: factor between the mechanism's θ, α, x and those of the right-hand image.
@@ -56,6 +57,7 @@ struct PinPlace {
   double drum_offset = 0;  ///< distance from O to the drum's centre, which is fixed to the link
   double drum_twist = 0;   ///< angle of that centre at home, clockwise from OC, rad
 
+  /// Centre of the pin, centre of the pulley, and last guide before the pulley, in the image.
   Vec2 pin() const { return {e, -oe}; }
   Vec2 pulley_axis() const { return {0.0, -oe - ef}; }
   LowerGuide lower() const { return sheath_exit ? *sheath_exit : LowerGuide{e, ef, rho}; }
@@ -107,6 +109,7 @@ class ChebyshevSeries {
   /// Interpolates `values` at nodes(low, high, count), in their order. Trailing coefficients below `least` are dropped.
   ChebyshevSeries(double low, double high, const std::vector<double>& values, double least);
 
+  /// Chebyshev nodes of an interval, at which the constructor takes values.
   static std::vector<double> nodes(double low, double high, int count);
   /// Value and derivatives at `x`, which may lie slightly outside the interval.
   Value at(double x) const;
@@ -140,6 +143,7 @@ struct GuideFriction {
   double slope(double wrap) const;
 };
 
+/// The friction of the declared guides.
 GuideFriction guide_friction(const Mechanism& mechanism);
 /// Friction and compliance of a tendon's sheath. All zero without a sheath.
 struct SheathLoad {
@@ -148,6 +152,7 @@ struct SheathLoad {
   double log_ratio = 0;   ///< ln of the bound on the tension ratio: μ × total bend
 };
 
+/// The load of the declared sheaths.
 SheathLoad sheath_load(const Mechanism& mechanism);
 /// A copy of the mechanism without friction at guides and in sheaths.
 Mechanism without_friction(Mechanism mechanism);
@@ -173,6 +178,7 @@ struct TendonPoint {
 
 struct TorqueMatch;  // torque.h
 
+/// The law and both tendons at one point of the stroke. Derivatives are by α.
 struct TransmissionPoint {
   double alpha = 0;  ///< rad
   double theta = 0;  ///< rad
@@ -211,14 +217,19 @@ class Transmission {
   /// members than alpha() and place() require null.
   std::optional<double> dead_centre() const { return dead_centre_; }
 
+  /// Ends of the range, rad.
   double alpha_min() const { return alpha_min_; }
   double alpha_max() const { return alpha_max_; }
   /// α of a joint angle within the range. The same law extrapolates slightly beyond it.
   double alpha(double theta) const;
+  /// Inverse of alpha().
   double theta(double alpha) const;
+  /// The point of the stroke at a pulley angle, or at a joint angle, rad. The law extrapolates slightly beyond the
+  /// range.
   TransmissionPoint at_alpha(double alpha) const;
   TransmissionPoint at_theta(double theta) const;
 
+  /// Geometry of one tendon.
   const PinPlace& place(Side side) const { return side == Side::left ? left_ : right_; }
 
  private:
@@ -249,6 +260,7 @@ class Transmission {
 //
 // One tendon carries the load and the other is slack, without pretension. equilibrium.h has the full model.
 
+/// Forces and elongation by the paper's formulas.
 struct PaperForces {
   double gamma1 = 0;      ///< angle at C between OC and tendon 1, rad
   double gamma2 = 0;      ///< angle at C between OC and tendon 2, rad

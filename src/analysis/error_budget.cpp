@@ -99,7 +99,7 @@ struct Spread {
   std::vector<double> slack;
 };
 
-/// Twice the standard deviation (95 %) about the declared law, over `samples` joints.
+/// Twice the standard deviation (95 %) about the target motion, over `samples` joints.
 Spread spread_of(const std::vector<double>& alphas, const RigidJoint& declared, int samples,
                  const std::function<RigidJoint()>& sample) {
   const std::size_t count = alphas.size();
@@ -170,7 +170,7 @@ std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const
   const joint::MadePulleys made(real);
   const std::vector<double> alphas = places_of(made.declared());
   const RigidJoint joint(made, real);
-  const double sigma = 0.5 * options.tolerance;
+  const double sigma = 0.5 * options.dimension_tolerance;
   NormalNumbers numbers(options.seed);
   const auto next = [&] {
     context.throw_if_stopped();
@@ -180,7 +180,7 @@ std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const
   std::vector<ToleranceEffect> effects;
   const std::vector<Dimension> lengths = dimensions(real);
   for (const Dimension& dimension : lengths) {
-    const Spread derived = by_derivative(alphas, joint, dimension, options.tolerance);
+    const Spread derived = by_derivative(alphas, joint, dimension, options.dimension_tolerance);
     const Spread sampled =
         spread_of(alphas, joint, options.samples, [&] { return altered(made, real, dimension, next()); });
     effects.push_back(effect(std::string(dimension.key), alphas, derived, sampled));

@@ -12,8 +12,8 @@ namespace {
 /// Number of steps for tensions: they change slowly, and strengths are known to 10 % at best.
 constexpr int k_load_steps = 12;
 
-Diagnostic placed(const InputWarning& slip, const MechanismFile& file) {
-  return {Severity::warning, file.place_of(slip.key), slip.message, slip.hint};
+Diagnostic placed(const InputWarning& warning, const MechanismFile& file) {
+  return {Severity::warning, file.place_of(warning.key), warning.message, warning.hint};
 }
 
 using Rule = std::vector<InputWarning> (*)(const DeclaredMechanism&);
@@ -31,7 +31,7 @@ std::vector<Diagnostic> likely_input_errors(const MechanismFile& file) {
 
 std::optional<Diagnostic> overloaded_tendon(const MechanismFile& file) {
   if (file.mechanism.transmission) return std::nullopt;
-  const Mechanism mechanism = joint::as_it_is(file.mechanism).mechanism;
+  const Mechanism mechanism = joint::identified_joint(file.mechanism).mechanism;
   const transmission::Transmission transmission(mechanism);
   const std::optional<Strength> strength = likely_strength(mechanism.tendon);
   if (transmission.dead_centre() || !strength) return std::nullopt;
@@ -48,7 +48,8 @@ std::vector<Diagnostic> tight_bends(const MechanismFile& file) {
   profile::SynthesisOptions options;
   options.advice = false;
   std::vector<Diagnostic> warnings;
-  for (const std::string& words : profile::synthesise(joint::as_it_is(file.mechanism).mechanism, options).warnings)
+  for (const std::string& words :
+       profile::synthesise(joint::identified_joint(file.mechanism).mechanism, options).warnings)
     warnings.push_back({Severity::warning, file.place_of("tendon.bend_ratio"), words, {}});
   return warnings;
 }

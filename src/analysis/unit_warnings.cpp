@@ -118,16 +118,16 @@ std::vector<InputWarning> single_length_warning(const DeclaredMechanism& mechani
 
 /// Reports each odd length separately.
 std::vector<InputWarning> odd_lengths(const DeclaredMechanism& mechanism) {
-  std::vector<InputWarning> slips;
+  std::vector<InputWarning> warnings;
   for (const Proportion& allowed : k_proportions) {
     if (!is_odd(mechanism, allowed)) continue;
-    slips.push_back({allowed.key,
-                     setting_text(allowed.key, declared_number(mechanism, allowed.key)) + " mm " +
-                         beside_the_joint(mechanism, allowed.key),
-                     std::string("are both in mm? The usual range is ") + rounded(allowed.least, 2) + " to " +
-                         rounded(allowed.most, 2) + " times that"});
+    warnings.push_back({allowed.key,
+                        setting_text(allowed.key, declared_number(mechanism, allowed.key)) + " mm " +
+                            beside_the_joint(mechanism, allowed.key),
+                        std::string("are both in mm? The usual range is ") + rounded(allowed.least, 2) + " to " +
+                            rounded(allowed.most, 2) + " times that"});
   }
-  return slips;
+  return warnings;
 }
 
 // ---- all lengths ----------------------------------------------------------------------------------------------------
@@ -194,21 +194,22 @@ double declared_number(const DeclaredMechanism& mechanism, const char* key) {
 std::string setting_text(const std::string& key, double value) { return key + " = " + rounded(value); }
 
 std::vector<InputWarning> angle_warnings(const DeclaredMechanism& mechanism) {
-  std::vector<InputWarning> slips = range_warnings(mechanism);
+  std::vector<InputWarning> warnings = range_warnings(mechanism);
   const double tilt = degrees(mechanism.load.tilt), groove = degrees(mechanism.body.groove_angle);
-  if (mechanism.load.mass > 0 && is_round_in_radians(tilt)) slips.push_back(radians_for_degrees("load.tilt_deg", tilt));
+  if (mechanism.load.mass_kg > 0 && is_round_in_radians(tilt))
+    warnings.push_back(radians_for_degrees("load.tilt_deg", tilt));
   const bool is_whole = std::abs(groove - std::round(groove)) < 1e-9;
   if (mechanism.body.groove != Groove::flat && groove > 0 && groove < k_narrow_groove && !is_whole)
-    slips.push_back(radians_for_degrees("body.groove_angle_deg", groove));
-  return slips;
+    warnings.push_back(radians_for_degrees("body.groove_angle_deg", groove));
+  return warnings;
 }
 
 std::vector<InputWarning> length_warnings(const DeclaredMechanism& mechanism) {
   // With a drum or attachments OC is no reference length, and neither is it for a pulley at the end of a sheath.
   if (mechanism.transmission || !mechanism.joint.is_plain() || mechanism.sheath.is_there()) return {};
   if (!has_odd_proportions(mechanism)) return all_lengths_warning(mechanism);
-  std::vector<InputWarning> slips = single_length_warning(mechanism);
-  return slips.empty() ? odd_lengths(mechanism) : slips;
+  std::vector<InputWarning> warnings = single_length_warning(mechanism);
+  return warnings.empty() ? odd_lengths(mechanism) : warnings;
 }
 
 std::vector<InputWarning> modulus_warnings(const DeclaredMechanism& mechanism) {

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <future>
 #include <thread>
 
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 
 namespace fusee {
@@ -54,15 +54,15 @@ void write_whole(const fs::path& path, std::string_view bytes) {
 
 void flush_all(const std::vector<fs::path>& paths) {
   const auto flush = [](const fs::path& path) {
+    const ThreadPool::Waiting for_disk(ThreadPool::shared());
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     // Some file systems do not support fsync of folders, which is no failure.
     if (!file.ok() || (::fsync(file.number()) != 0 && errno != EINVAL && errno != ENOTSUP))
       fail_output("cannot write", path, errno);
   };
-  std::vector<std::future<void>> flushes;
-  for (const fs::path& path : paths)
-    flushes.push_back(std::async(std::launch::async | std::launch::deferred, flush, path));
-  for (std::future<void>& done : flushes) done.get();
+  std::vector<Task<void>> flushes;
+  for (const fs::path& path : paths) flushes.push_back(run_async([&flush, &path] { flush(path); }));
+  for (Task<void>& flushed : flushes) flushed.get();
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {

@@ -217,7 +217,7 @@ Calibration by_catalogue(const DeclaredMechanism& declared, const measurement::M
   if (evidence.blocks.size() < 2)
     return not_testable(declared, measurement,
                         {"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
-  FitterPool pool(evidence);
+  FitterPool pool(evidence, options.context.stop);
   evidence.sizes =
       expected_sizes(catalogue(declared, measurement, options.more_effects, options.without), evidence, pool);
   Selection selection = select_effects(evidence, pool, options);

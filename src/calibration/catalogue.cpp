@@ -19,7 +19,7 @@ bool all(const measurement::Measurement& measurement, bool measurement::Run::*ha
 }
 
 bool has_load(const Mechanism& declared, const measurement::Measurement& measurement) {
-  if (declared.load.tip_force != 0 || declared.load.torque != 0 || declared.load.mass > 0 ||
+  if (declared.load.tip_force != 0 || declared.load.torque != 0 || declared.load.mass_kg > 0 ||
       declared.spring != Spring{})
     return true;
   return std::any_of(measurement.runs.begin(), measurement.runs.end(), [](const measurement::Run& run) {
@@ -30,7 +30,7 @@ bool has_load(const Mechanism& declared, const measurement::Measurement& measure
 
 bool has_warming(const measurement::Measurement& measurement) {
   return all(measurement, &measurement::Run::has_temperature) &&
-         measurement::seen_span(measurement, &measurement::Sample::temperature).size() > k_least_warming;
+         measurement::seen_span(measurement, &measurement::Sample::temperature_C).size() > k_least_warming;
 }
 
 bool can_be_seen(const Needs& needs, const Mechanism& declared, const measurement::Measurement& measurement) {

@@ -10,7 +10,7 @@
 #include "calibration/thresholds.h"
 #include "measurement/seen_span.h"
 #include "measurement/strokes.h"
-#include "transmission/declared_law.h"
+#include "transmission/target_motion.h"
 
 namespace fusee::calibration {
 namespace {
@@ -62,8 +62,8 @@ RowSelection sample_every_nth(const measurement::Run& run, std::size_t most) {
 
 /// Equally many rows of each dwell, however long it is.
 RowSelection sample_each_dwell(const measurement::Run& run, std::size_t most) {
-  const auto dwells = static_cast<std::size_t>(
-      std::count_if(run.segments.begin(), run.segments.end(), [](const measurement::Segment& s) { return s.held; }));
+  const auto dwells = static_cast<std::size_t>(std::count_if(run.segments.begin(), run.segments.end(),
+                                                             [](const measurement::Segment& s) { return s.is_dwell; }));
   const std::size_t most_pairs = std::max<std::size_t>(1, most * ((run.strokes.size() + 1) / 2) / dwells);
   const std::vector<bool> chosen = select_strokes(run, most_pairs);
   const std::size_t rows = std::max(most / dwells, k_rows_a_dwell);
@@ -362,7 +362,7 @@ Eigen::VectorXd measured_theta(const measurement::Measurement& measurement) {
 /// Properties by which two segments of a run repeat each other.
 struct SegmentKind {
   int direction = 0;
-  bool held = false;
+  bool is_dwell = false;
   int pull = 0;
   double load = 0;
   double from = 0, to = 0;  ///< α at its ends; for joined dwells those of the first
@@ -407,14 +407,14 @@ class BlockMaker {
       if (block.rows.empty()) continue;
       block.load = level_of(run, segment.first, segment.last).mean();
       const SegmentKind kind{run.strokes[segment.stroke].direction,
-                             segment.held,
+                             segment.is_dwell,
                              segment.pull,
                              block.load,
                              run.samples[segment.first].alpha,
                              run.samples[segment.last].alpha};
       if (block.rows.size() >= k_least_rows_a_block) {
         add(kind, std::move(block));
-      } else if (segment.held) {
+      } else if (segment.is_dwell) {
         join(kind, std::move(block));
       }
     }
@@ -435,13 +435,13 @@ class BlockMaker {
   }
 
   bool in_one_place(const SegmentKind& a, const SegmentKind& b) const {
-    const double apart = (a.held ? k_dwell_tolerance : k_one_way) * (alphas_.any() ? alphas_.size() : 0.0);
+    const double apart = (a.is_dwell ? k_dwell_tolerance : k_one_way) * (alphas_.any() ? alphas_.size() : 0.0);
     return std::abs(a.from - b.from) <= apart && std::abs(a.to - b.to) <= apart;
   }
 
   bool are_alike(const SegmentKind& a, const SegmentKind& b, bool anywhere) const {
-    return a.direction == b.direction && a.held == b.held && a.pull == b.pull && (anywhere || in_one_place(a, b)) &&
-           std::abs(a.load - b.load) <= load_tolerance_;
+    return a.direction == b.direction && a.is_dwell == b.is_dwell && a.pull == b.pull &&
+           (anywhere || in_one_place(a, b)) && std::abs(a.load - b.load) <= load_tolerance_;
   }
 
   void add(const SegmentKind& kind, Block block) {
@@ -485,7 +485,7 @@ namespace {
 
 /// Deflection of the declared joint, all rows, rad. For a joint declared by its ratio, which is rigid, the load.
 Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& declared) {
-  const transmission::DeclaredLaw law(*evidence.declared);
+  const transmission::TargetMotion law(*evidence.declared);
   Eigen::VectorXd deflection = declared;
   if (evidence.declared->transmission) {
     Eigen::Index at = 0;

@@ -23,7 +23,7 @@ constexpr int k_passes = 3;
 constexpr int k_few_rounds = 3;
 /// Factor on a step that lowered the density.
 constexpr double k_shorter = 0.3;
-/// Nats: a step that gains less is the last.
+/// Nats: a step that predicted less is the last.
 constexpr double k_least_gain = 0.05;
 /// Nats: a step that predicts less, a seventieth of a standard error, is not simulated. At 2e-3 a group of one joint in
 /// six takes in four members more (random joints of tests/rig).
@@ -261,13 +261,13 @@ Fit Fitter::descend(Fit fit, Eigen::Index from, int steps, const Amplitudes& amp
       return (whole ? known.predicted_log_density : log_density_at(move_tangent(here, x), known.amplitudes)) -
              known.log_density;
     };
-    double promise = predict_evidence();
-    if (promise < k_worth_a_step) {
+    double predicted_gain = predict_evidence();
+    if (predicted_gain < k_worth_a_step) {
       if (estimated) break;
       known = evidence_model.best(here, known.amplitudes, rounds);
       estimated = true;
-      promise = predict_evidence();
-      if (promise < k_worth_a_step) break;
+      predicted_gain = predict_evidence();
+      if (predicted_gain < k_worth_a_step) break;
     }
     const double height = known.log_density - play_penalty(evidence(), fit);
     Fit next = evaluate_at(fit.effects, there, fit.loose_row);
@@ -277,7 +277,7 @@ Fit Fitter::descend(Fit fit, Eigen::Index from, int steps, const Amplitudes& amp
         next.usable ? log_density_at(tangent_of(evidence(), next), known.amplitudes) - play_penalty(evidence(), next)
                     : -std::numeric_limits<double>::infinity();
     // Slopes cost most. A rejected step needs none, and a step that gained as predicted keeps them.
-    const bool is_linear = std::abs(reached - height - promise) < k_least_gain;
+    const bool is_linear = std::abs(reached - height - predicted_gain) < k_least_gain;
     if (reached > height && !is_linear) {
       take_slopes(next, from);
       next.usable = is_finite(evidence(), next);
@@ -405,10 +405,10 @@ double Fitter::predict_evidence(const Fit& start, const Amplitudes& amplitudes) 
 }
 
 Fitter::PredictedStart Fitter::select_start(const std::vector<Fit>& starts, const Amplitudes& amplitudes) const {
-  std::vector<double> promises;
-  for (const Fit& start : starts) promises.push_back(predict_evidence(start, amplitudes));
-  const auto most = std::max_element(promises.begin(), promises.end());
-  return {static_cast<std::size_t>(most - promises.begin()), *most};
+  std::vector<double> predicted;
+  for (const Fit& start : starts) predicted.push_back(predict_evidence(start, amplitudes));
+  const auto most = std::max_element(predicted.begin(), predicted.end());
+  return {static_cast<std::size_t>(most - predicted.begin()), *most};
 }
 
 Fit Fitter::add_effect_without_discrepancy(const Fit& base, const fusee::Effect& effect) const {
@@ -426,15 +426,15 @@ Fit Fitter::add_effect(const Fit& base, const fusee::Effect& effect) const {
   return alone == beside.place ? fit : likelier(std::move(fit), refine(fit_effects_first(starts[alone])));
 }
 
-/// Fit with one effect more from `start`, by the slopes of the base. `promise`: predicted evidence of the start, with
-/// the amplitudes of the base.
-Fit Fitter::fit_by_chords(const Fit& base, const Fit& start, double promise) const {
+/// Fit with one effect more from `start`, by the slopes of the base. `predicted_evidence`: that of the start, with the
+/// amplitudes of the base.
+Fit Fitter::fit_by_chords(const Fit& base, const Fit& start, double predicted_evidence) const {
   const auto ended = [&](Fit from) {
     return with_evidence(descend(std::move(from), base.x.size(), k_chords, base.posterior.amplitudes, k_few_rounds));
   };
   Fit first = ended(descend(start, base.x.size(), k_chords, amplitudes_without_discrepancy(start), 1));
   // The prediction is reached: small steps would not find more.
-  if (first.usable && first.log_evidence >= promise) return prefer_pushed(std::move(first));
+  if (first.usable && first.log_evidence >= predicted_evidence) return prefer_pushed(std::move(first));
   return prefer_pushed(likelier(std::move(first), ended(start)));
 }
 

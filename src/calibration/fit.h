@@ -106,7 +106,7 @@ class Fitter {
     double nats = 0;
   };
   PredictedStart select_start(const std::vector<Fit>& starts, const Amplitudes& amplitudes) const;
-  Fit fit_by_chords(const Fit& base, const Fit& start, double promise) const;
+  Fit fit_by_chords(const Fit& base, const Fit& start, double predicted_evidence) const;
   Fit fit_effects_first(const Fit& start) const;
   Amplitudes amplitudes_without_discrepancy(const Fit& fit) const;
   /// Evidence and held-out errors of a fit at the end of its steps.

@@ -1,8 +1,9 @@
 /// \file
-/// Fits on as many threads as the machine has. The result does not depend on their number.
+/// Fits in parallel. The result does not depend on the number of threads.
 #pragma once
 
 #include <functional>
+#include <stop_token>
 #include <vector>
 
 #include "calibration/fit.h"
@@ -12,10 +13,11 @@ namespace fusee::calibration {
 class FitterPool {
  public:
   /// `evidence` must outlive this.
-  explicit FitterPool(const Evidence& evidence);
+  explicit FitterPool(const Evidence& evidence, std::stop_token stop = {});
 
-  /// Calls `job` for 0 … count − 1, with one simulation for each thread. The first exception is rethrown. `done(n)` is
-  /// called from the calling thread when n jobs have ended; it may throw.
+  /// Calls `job` for 0 … count − 1, with one simulation for each thread. Rethrows the exception of the lowest index.
+  /// Throws Stopped after a request to stop. `done(n)` is called from the calling thread when n jobs have ended;
+  /// it may throw.
   void each(std::size_t count, const std::function<void(const Fitter&, std::size_t)>& job,
             const std::function<void(std::size_t)>& done = {});
   /// Fitter for a single fit between jobs.
@@ -23,6 +25,7 @@ class FitterPool {
 
  private:
   const Evidence& evidence_;
+  std::stop_token stop_;
   std::vector<joint::Forward> forwards_;
 };
 

@@ -7,7 +7,7 @@
 #include "calibration/input_error_hypotheses.h"
 #include "calibration/thresholds.h"
 #include "fusee/calibration.h"
-#include "transmission/declared_law.h"
+#include "transmission/target_motion.h"
 
 namespace fusee::calibration {
 namespace {
@@ -38,8 +38,8 @@ struct Trial {
 Trial test_hypothesis(InputErrorHypothesis hypothesis, const measurement::Measurement& as_read, double floor) {
   Trial trial{std::move(hypothesis)};
   trial.floor = floor * std::abs(trial.hypothesis.theta);
-  if (!transmission::DeclaredLaw(trial.hypothesis.joint).exists() ||
-      !transmission::DeclaredLaw(trial.hypothesis.drawn).exists())
+  if (!transmission::TargetMotion(trial.hypothesis.joint).exists() ||
+      !transmission::TargetMotion(trial.hypothesis.drawn).exists())
     return trial;
   const measurement::Measurement data = corrected_data(as_read, trial.hypothesis);
   if (!data.not_testable.empty()) return trial;

@@ -277,7 +277,7 @@ std::vector<Sides> held_points(const measurement::Measurement& measurement) {
     if (!measurement::is_from_point_to_point(run)) continue;
     for (const measurement::Segment& segment : run.segments) {
       const bool is_first = &segment == &run.segments.front();  // its approach was not logged
-      if (!segment.held || is_first) continue;
+      if (!segment.is_dwell || is_first) continue;
       const double alpha = run.samples[segment.first].alpha;
       auto point = std::find_if(points.begin(), points.end(), [&](const Sides& known) {
         return std::abs(known.alpha - alpha) <= k_dwell_tolerance * seen.size();

@@ -891,7 +891,7 @@ Selection Selector::run() {
   selection_.catalogue = catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects, options_.without);
   selection_.none = pool_.one().fit({}, {});
   selection_.best = selection_.none;
-  if (!selection_.none.usable || !options_.look_for_effects) return std::move(selection_);
+  if (!selection_.none.usable || !options_.search_effects) return std::move(selection_);
   record_tried(selection_.none);
   try_singles();
   search_without_discrepancy();

@@ -13,7 +13,7 @@ namespace fusee::cli {
 /// Tables of geometry, forces and compliance within 80 columns, with all rows or 13 of them.
 std::string stroke_tables(const std::vector<analysis::AnalysisRow>& rows, bool all);
 /// CSV, one line per row; a cell is empty without equilibrium. Columns: alpha_deg, theta_deg, r1_mm, r2_mm, gamma1_deg,
-/// gamma2_deg (angles at C), phi1_deg, phi2_deg (wraps on the pins) of the declared law; paper_… by [6]-[11]; then the
+/// gamma2_deg (angles at C), phi1_deg, phi2_deg (wraps on the pins) of the target motion; paper_… by [6]-[11]; then the
 /// full model while alpha grows (rising_…) and falls (falling_…): status (held, loose, no_equilibrium), theta_deg, T1_N
 /// and T2_N above the pins and T1_below_N, T2_below_N, slack and elongation of each tendon, theta_error_deg (declared −
 /// theta), motor_torque_Nmm (towards +alpha), stiffness_Nmm_per_deg with sliding pins and stiffness_stuck_… with

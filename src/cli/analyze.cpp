@@ -115,7 +115,7 @@ std::string summary(const analysis::AnalysisResult& result, const analysis::Anal
   text += line("hysteresis", "up to " + rounded(degrees(result.hysteresis.value), 3) + " deg between directions, " +
                                  alpha_text(result.hysteresis.alpha));
   text += "\nError budget\n" + sources_table(result.sources);
-  text += "\nTolerances: each dimension within " + shortest(options.tolerance) +
+  text += "\nTolerances: each dimension within " + shortest(options.dimension_tolerance) +
           " mm (95 %), and the resulting limits of theta and slack\n" + tolerances_table(result.tolerances);
   return text;
 }
@@ -223,7 +223,7 @@ void add_findings(const analysis::AnalysisResult& result, const std::string& fil
 analysis::AnalysisOptions options_from(const Arguments& arguments) {
   analysis::AnalysisOptions options;
   options.steps = static_cast<int>(arguments.number("--steps", options.steps, 2, 2000, "(steps)"));
-  options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0, 10.0, "mm");
+  options.dimension_tolerance = arguments.number("--tolerance-mm", options.dimension_tolerance, 0.0, 10.0, "mm");
   options.samples = static_cast<int>(arguments.number("--samples", options.samples, 10, 100000, "(samples)"));
   options.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, 4294967295.0, "(a whole number)"));
   return options;

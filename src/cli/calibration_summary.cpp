@@ -91,7 +91,7 @@ std::vector<std::string> correction_texts(const formats::CalibrationProduct& pro
   if (correction.has_pulley) {
     texts.push_back("the pulley of corrected.toml removes " + deg(correction.by_pulley) + " deg rms");
     if (correction.round.r1 > 0) texts.push_back(formats::round_words(correction));
-    if (correction.tied_at != 0) texts.push_back(formats::tied_words(correction));
+    if (correction.assembly_angle != 0) texts.push_back(formats::assembly_angle_words(correction));
   } else if (!correction.infeasible.empty()) {
     texts.push_back(formats::infeasible_words(correction));
   } else if (correction.why_no_pulley_file.empty()) {
@@ -131,7 +131,7 @@ std::string calibration_summary(const formats::CalibrationProduct& product, bool
   const calibration::Calibration& c = product.calibration;
   std::string text = headline_text(product) + causes_table(product) + "\n" + product.file.mechanism.name + ": " +
                      std::string(calibration::word(c.verdict)) + "\n" + wrapped(c.summary, "  ", "  ");
-  text += items("A slip of the file or of the log?", formats::slips_words(product));
+  text += items("Likely input error", formats::input_error_texts(product));
   if (c.verdict == calibration::CalibrationVerdict::not_testable)
     return text + items("Measure next", formats::next_texts(c));
   text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));

@@ -1,19 +1,18 @@
 #include <malloc.h>
 
 #include <algorithm>
-#include <thread>
 
+#include "base/thread_pool.h"
 #include "cli/console.h"
 #include "cli/run.h"
 
 namespace {
 
 /// Keeps freed memory, large blocks included, for later allocations and for as many threads as run at once. Touching a
-/// new page costs the system more time than filling it. A build starts some fifty threads one after another, each of
-/// which would get new pages.
+/// new page costs the system more time than filling it.
 void keep_what_is_freed() {
   constexpr int k_largest_kept = 32 << 20, k_most_kept = 128 << 20;
-  ::mallopt(M_ARENA_MAX, std::max(2, static_cast<int>(std::thread::hardware_concurrency())));
+  ::mallopt(M_ARENA_MAX, std::max(2, static_cast<int>(fusee::ThreadPool::available_threads())));
   ::mallopt(M_MMAP_THRESHOLD, k_largest_kept);
   ::mallopt(M_TRIM_THRESHOLD, k_most_kept);
 }

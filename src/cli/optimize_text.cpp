@@ -52,7 +52,7 @@ void add_joint(const pipeline::OptimizeResult& result, Reply& reply) {
   const Mechanism joint = optimize::judged(problem, optimize::mechanism_at(problem, result.design));
   reply.fields["pins"] = pins_json(joint);
   reply.text += titled("pins", pins_text(joint));
-  if (!problem.as_it_is) return;
+  if (!problem.identified_joint) return;
   reply.fields["joint"] = "as_it_is";
   reply.text += titled("joint", "identified: [identified] is added to these numbers");
 }

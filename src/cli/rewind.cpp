@@ -124,7 +124,7 @@ Json placements_json(const pipeline::RewoundPart& part) {
 // ---- command -----------------------------------------------------------------------------------
 
 /// Reads and rewinds a part; faults are reported with its file name.
-pipeline::RewoundPart rewind_file(const joint::JointAsItIs& joint, const std::string& file, bool as_is,
+pipeline::RewoundPart rewind_file(const joint::IdentifiedJoint& joint, const std::string& file, bool as_is,
                                   const RunContext& context) {
   context.begin_step("reading the part");
   const pipeline::Part part = pipeline::read_part(file, *context.files);
@@ -156,7 +156,7 @@ Reply run_rewind(const Arguments& arguments, Console& console, const RunContext&
   const pipeline::AsBuiltLimits limits = limits_from(arguments);
   const MechanismFile spec = read_mechanism(arguments.positionals()[0], arguments.settings(), *context.files);
   const std::string& file = arguments.positionals()[1];
-  const joint::JointAsItIs joint = joint::as_it_is(spec.mechanism);
+  const joint::IdentifiedJoint joint = joint::identified_joint(spec.mechanism);
   const pipeline::RewoundPart part = rewind_file(joint, file, arguments.has("--as-is"), context);
   const std::vector<Check> checks = checks_of(joint.mechanism, part, limits);
   Reply reply;

@@ -63,9 +63,9 @@ class PartGauge {
     }
   }
 
-  void add_checks(std::vector<Check>& checks, double tolerance) const {
+  void add_checks(std::vector<Check>& checks, double chord_error_mm) const {
     checks.push_back(rib_.check("rib", section_.rib - k_grain_of_gauge));
-    checks.push_back(depth_.check("groove_depth", section_.depth - tolerance));
+    checks.push_back(depth_.check("groove_depth", section_.depth - chord_error_mm));
     checks.push_back(wall_.check("bore_wall", layout_.min_wall - k_grain_of_gauge));
   }
 
@@ -115,13 +115,13 @@ class PartGauge {
 }  // namespace
 
 std::vector<Check> check_helical_pulley(const solid::TriangleMesh& mesh, const HelicalPulley& pulley,
-                                        const HelicalSection& section, double tolerance) {
+                                        const HelicalSection& section, double chord_error_mm) {
   std::vector<Check> checks = solid::check_mesh(mesh);
   if (!all_ok(checks)) return checks;
   checks.push_back(exactly("euler_number", solid::euler_number(mesh), pulley.expected_euler, "1"));
   const double off = std::abs(solid::enclosed_volume(mesh) - pulley.expected_volume);
   checks.push_back(at_most("volume", off, k_volume_grain * pulley.expected_volume, "mm³"));
-  PartGauge(mesh, pulley, section).add_checks(checks, tolerance);
+  PartGauge(mesh, pulley, section).add_checks(checks, chord_error_mm);
   return checks;
 }
 

@@ -68,11 +68,11 @@ std::string mm(double value) { return rounded(value, 3) + " mm"; }
 
 class Planner {
  public:
-  Planner(const Mechanism& mechanism, const helix::Spiral& p1, const helix::Spiral& p2, double tolerance)
+  Planner(const Mechanism& mechanism, const helix::Spiral& p1, const helix::Spiral& p2, double chord_error_mm)
       : mechanism_(mechanism),
         p1_(p1),
         p2_(p2),
-        tolerance_(tolerance),
+        chord_error_mm_(chord_error_mm),
         d_(mechanism.tendon.diameter),
         section_(helical_section(mechanism)) {}
 
@@ -135,7 +135,7 @@ class Planner {
     double least = std::numeric_limits<double>::infinity();
     for (const helix::SpiralRow& row : spiral.rows)
       least = std::min(least, (Vec2(row.x, row.y) - 0.5 * d_ * unit(row.turn)).norm());
-    return least - tolerance_;
+    return least - chord_error_mm_;
   }
   double least_floor() const { return std::min(floor_radius(p1_), floor_radius(p2_)); }
 
@@ -186,8 +186,8 @@ class Planner {
     const double fall1 = std::abs(p1_.slope) * filled, fall2 = std::abs(p2_.slope) * filled;
     pulley_.p1 = placed(p1_, 0.0);
     pulley_.p2 = placed(p2_, 0.0);
-    fan_ =
-        make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), groove_edge, 0.5 * d_, tolerance_, filled);
+    fan_ = make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), groove_edge, 0.5 * d_, chord_error_mm_,
+                    filled);
     ends_ = {GrooveEnd{transmission::Side::left, fan_.p1.groove_back(), 1.0, -1.0, 0.0},
              GrooveEnd{transmission::Side::right, fan_.p2.groove_front(), -1.0, 1.0, 0.0}};
     for (std::size_t i = 0; i < ends_.size(); ++i)
@@ -465,7 +465,7 @@ class Planner {
 
   const Mechanism& mechanism_;
   const helix::Spiral &p1_, &p2_;
-  double tolerance_, d_;
+  double chord_error_mm_, d_;
   HelicalSection section_;
   HelicalPulley pulley_;
   std::array<RunOutSizes, 2> run_outs_;
@@ -507,13 +507,13 @@ std::string HelicalPulley::brief() const {
 }
 
 std::vector<profile::Condition> helical_obstacles(const Mechanism& mechanism, const helix::Spiral& p1,
-                                                  const helix::Spiral& p2, double tolerance) {
-  return Planner(mechanism, p1, p2, tolerance).plan();
+                                                  const helix::Spiral& p2, double chord_error_mm) {
+  return Planner(mechanism, p1, p2, chord_error_mm).plan();
 }
 
 HelicalPulley make_helical_pulley(const Mechanism& mechanism, const helix::Spiral& p1, const helix::Spiral& p2,
-                                  double tolerance, solid::TieOffSearch search) {
-  return Planner(mechanism, p1, p2, tolerance).make(search);
+                                  double chord_error_mm, solid::TieOffSearch search) {
+  return Planner(mechanism, p1, p2, chord_error_mm).make(search);
 }
 
 }  // namespace fusee::coil

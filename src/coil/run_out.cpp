@@ -30,7 +30,7 @@ constexpr double k_sharpest_bend = 2.0;
 // bend. They would at 2.46, where a rising channel has turned by 78°.
 constexpr double k_bend_of_channel = 2.8;
 // Channels dive at 45°. The ridge of a ceiling that flat would lie in the next section.
-constexpr double k_flattest_gable = radians(57.5);
+constexpr double k_flattest_peak = radians(57.5);
 constexpr int k_bends = 5;
 // Radius of the tip of a pocket's cone, in channel radii.
 constexpr double k_tip = 0.2;
@@ -153,7 +153,7 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const solid::BodyLayout& l
   sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket
                                                        : share * std::max(1.75 * d, 2.0 * sizes.channel_radius);
   sizes.pocket_depth = sizes.pocket_radius;
-  sizes.ceiling_slope = std::max(solid::ridge_slope(layout), k_flattest_gable);
+  sizes.ceiling_slope = std::max(solid::ridge_slope(layout), k_flattest_peak);
   sizes.cone = solid::rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
   sizes.tip = solid::rise_of(layout, (1.0 - k_tip) * std::min(sizes.pocket_radius, sizes.channel_radius));
   // The pocket leaves a wall to the rim.

@@ -158,11 +158,11 @@ double SpiralCurve::largest_rho(double turn) const {
   return rho;
 }
 
-Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double tolerance,
+Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double chord_error_mm,
              double filled) {
   const auto step_at = [&](double angle) {
     const double rho = std::max(p1.largest_rho(angle), p2.largest_rho(angle)) + outward;
-    return std::min(k_widest_column, std::sqrt(8.0 * k_share_of_tolerance * tolerance / rho));
+    return std::min(k_widest_column, std::sqrt(8.0 * k_share_of_tolerance * chord_error_mm / rho));
   };
   Fan fan;
   std::vector<double> marks = marks_of(p1, p2);

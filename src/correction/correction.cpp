@@ -9,7 +9,7 @@
 #include "fusee/transmission.h"
 #include "measurement/seen_span.h"
 #include "mechanism/effect.h"
-#include "transmission/declared_law.h"
+#include "transmission/target_motion.h"
 
 // All errors are simulated with predict(), for the identified joint with its present pulley and with the pulley of
 // corrected.toml. The error is the deviation from the declared θ(α). The error that the corrected pulley leaves goes
@@ -62,7 +62,7 @@ bool has_same_exits(const Sheath& one, const Sheath& other) {
 
 /// True if both mechanisms have the same pulley. Friction moves the joint, not the curves.
 bool has_same_pulley(const DeclaredMechanism& a, const DeclaredMechanism& b) {
-  joint::JointAsItIs one = joint::as_it_is(a), other = joint::as_it_is(b);
+  joint::IdentifiedJoint one = joint::identified_joint(a), other = joint::identified_joint(b);
   one.mechanism = transmission::without_friction(std::move(one.mechanism));
   other.mechanism = transmission::without_friction(std::move(other.mechanism));
   return one.outline == other.outline && one.mechanism.joint == other.mechanism.joint &&
@@ -74,7 +74,7 @@ bool has_same_pulley(const DeclaredMechanism& a, const DeclaredMechanism& b) {
 std::string why_infeasible(const DeclaredMechanism& corrected) {
   profile::SynthesisOptions options;
   options.advice = false;
-  const Mechanism mechanism = joint::as_it_is(corrected).mechanism;
+  const Mechanism mechanism = joint::identified_joint(corrected).mechanism;
   const profile::SynthesisResult made = profile::synthesise(mechanism, options);
   // The build decides whether a pulley of several turns is feasible.
   const bool may_be_multi_turn = profile::need_several_turns(made) && !profile::kept_to_one_turn(mechanism);
@@ -83,8 +83,8 @@ std::string why_infeasible(const DeclaredMechanism& corrected) {
 
 // ---- errors ---------------------------------------------------------------------------------------------------------
 
-/// Deviation of simulated angles from the declared law.
-Angles errors(const measurement::Measurement& measurement, const transmission::DeclaredLaw& law, Angles theta) {
+/// Deviation of simulated angles from the target motion.
+Angles errors(const measurement::Measurement& measurement, const transmission::TargetMotion& law, Angles theta) {
   for (std::size_t r = 0; r < theta.size(); ++r) {
     for (std::size_t i = 0; i < theta[r].size(); ++i) theta[r][i] -= law.theta(measurement.runs[r].samples[i].alpha);
   }
@@ -224,7 +224,7 @@ measurement::SeenSpan common_span(const DirectionalCurves& effects, const calibr
 }
 
 /// Motion of the joint in one direction, by growing θ.
-std::vector<LawRow> motion_rows(const transmission::DeclaredLaw& law, const JointDeviation& deviation, bool rising) {
+std::vector<LawRow> motion_rows(const transmission::TargetMotion& law, const JointDeviation& deviation, bool rising) {
   constexpr int places = 800;
   std::vector<LawRow> rows;
   for (int i = 0; i <= places; ++i) {
@@ -248,12 +248,12 @@ struct MotorPath {
   double of_curve(double theta) const { return alpha_at(all, theta) - alpha_at(effects, theta); }
 };
 
-MotorPath motion_of(const transmission::DeclaredLaw& law, const JointDeviation& deviation, bool rising) {
+MotorPath motion_of(const transmission::TargetMotion& law, const JointDeviation& deviation, bool rising) {
   return {motion_rows(law, deviation, rising),
           motion_rows(law, {deviation.effects, nullptr, deviation.effects.up.seen}, rising)};
 }
 
-std::vector<CompensationRow> compensation_rows(const transmission::DeclaredLaw& law, const JointDeviation& deviation) {
+std::vector<CompensationRow> compensation_rows(const transmission::TargetMotion& law, const JointDeviation& deviation) {
   const MotorPath rising = motion_of(law, deviation, true), falling = motion_of(law, deviation, false);
   if (!rising.any() || !falling.any()) return {};
   const double low = std::max(rising.all.front().theta, falling.all.front().theta),
@@ -280,7 +280,7 @@ struct CorrectedJoint {
   const DeclaredMechanism& declared;
   const DeclaredMechanism& corrected;
   bool has_pulley = false;
-  double tie = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
+  double assembly_angle = 0;  ///< motor angle at which the corrected pulley's tendons are tied, rad
 
   Angles now(const Imperfections& at, const joint::BenchLog& log) const {
     return joint::predict(joint::expected_joint(declared), at, log);
@@ -288,13 +288,13 @@ struct CorrectedJoint {
   Angles then(const Imperfections& at, const joint::BenchLog& log) const {
     if (!has_pulley) return now(at, log);
     Imperfections rest = beyond_mechanism(at, kind_of(declared));
-    rest.motor.offset -= tie;
+    rest.motor.offset -= assembly_angle;
     return joint::predict(joint::expected_joint(corrected), rest, log);
   }
 };
 
 DirectionalCurves table_of(const CorrectedJoint& joint, const measurement::Measurement& measurement,
-                           const transmission::DeclaredLaw& law, const Imperfections& at) {
+                           const transmission::TargetMotion& law, const Imperfections& at) {
   return directional_curves(measurement, errors(measurement, law, joint.then(at, measurement::bench_log(measurement))),
                             lost_motion(at, joint.declared, mean_load(measurement, joint.declared)));
 }
@@ -333,7 +333,7 @@ measurement::Measurement some_runs(measurement::Measurement measurement, const s
 
 /// Evaluates each run with the parameters and table from the other runs. With a single run the table is made from it.
 HeldOutSquares measured(const CorrectedJoint& joint, const measurement::Measurement& measurement,
-                        const transmission::DeclaredLaw& law, const std::vector<calibration::LeftOut>& left_out) {
+                        const transmission::TargetMotion& law, const std::vector<calibration::LeftOut>& left_out) {
   const measurement::Measurement thin = calibration::with_fewer_rows(measurement, k_rows_a_run);
   HeldOutSquares all;
   for (const calibration::LeftOut& left : left_out) {
@@ -377,10 +377,11 @@ Correction correct(const DeclaredMechanism& declared, const measurement::Measure
   const Imperfections& found = calibration.identified;
   Correction correction;
   correction.identified = composed(declared, found);
-  const bool gives_way = found.tendon.stretch != 0 || found.sheath.give != 0 || found.joint.weight != WeightError{};
-  if (gives_way && !declared.transmission)
+  const bool is_compliant =
+      found.tendon.stretch != 0 || found.sheath.compliance != 0 || found.joint.weight != WeightError{};
+  if (is_compliant && !declared.transmission)
     correction.identified.joint.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
-  const transmission::DeclaredLaw law(declared);
+  const transmission::TargetMotion law(declared);
   if (!measurement::seen_span(measurement, &measurement::Sample::alpha).any() || !law.exists()) {
     fill_reasons(calibration, correction);
     return correction;
@@ -391,18 +392,19 @@ Correction correct(const DeclaredMechanism& declared, const measurement::Measure
   correction.has_pulley = !declared.transmission && !has_same_pulley(declared, corrected);
   if (correction.has_pulley) correction.infeasible = why_infeasible(corrected);
   if (!correction.infeasible.empty()) correction.has_pulley = false;
-  const auto held_out_rows = [&](double tie) {
-    return measured({declared, corrected, correction.has_pulley, tie}, measurement, law, calibration.left_out);
+  const auto held_out_rows = [&](double assembly_angle) {
+    return measured({declared, corrected, correction.has_pulley, assembly_angle}, measurement, law,
+                    calibration.left_out);
   };
   if (correction.has_pulley) {
-    correction.by_pulley = held_out_rows(joint::tied_at(corrected)).removed_by_pulley();
+    correction.by_pulley = held_out_rows(joint::assembly_angle(corrected)).removed_by_pulley();
     correction.has_pulley = correction.by_pulley > 0;
     if (!correction.has_pulley) correction.why_no_pulley_file = k_no_better;
   }
   correction.by_table = held_out_rows(0).removed_by_table();
   if (correction.has_pulley && declared.pulley.law == Law::compensate)
     correction.round = joint::round_choice(corrected);
-  if (correction.has_pulley) correction.tied_at = joint::tied_at(corrected);
+  if (correction.has_pulley) correction.assembly_angle = joint::assembly_angle(corrected);
 
   const CorrectedJoint joint{declared, corrected, correction.has_pulley};
   const joint::BenchLog log = measurement::bench_log(measurement);

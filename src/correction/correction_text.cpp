@@ -64,10 +64,10 @@ std::string words_of(const calibration::Calibration& calibration, const Correcti
     words += "# compensation.csv corrects the unmodelled error by an empirical curve of place and direction: " +
              rounded(degrees(correction.by_curve), 2) + " deg rms\n";
   }
-  if (correction.tied_at != 0) {
-    words += "# Tie the tendons with the unloaded joint at home and the motor at " +
-             rounded(degrees(correction.tied_at), 4) +
-             " deg: the joint then follows the law under its mean load.\n# If tied at 0 deg, use compensation.csv "
+  if (correction.assembly_angle != 0) {
+    words += "# Assembly angle: tie the tendons with the unloaded joint at home and the motor at " +
+             rounded(degrees(correction.assembly_angle), 4) +
+             " deg: the joint then follows the law under its mean load.\n# If assembled at 0 deg, use compensation.csv "
              "for the motor angles.\n";
   }
   return words;

@@ -19,7 +19,7 @@ void add_points(std::vector<SpiralSample>& points, const PitchSpiral& curve, dou
   while (psi < end) {
     add(psi);
     const double radius = points.back().point.curve.radius + drawing.reach;
-    psi += std::min(drawing.largest_turn, std::sqrt(8.0 * drawing.tolerance / radius));
+    psi += std::min(drawing.largest_turn, std::sqrt(8.0 * drawing.chord_error_mm / radius));
   }
   // The last two steps are made equal, so that none is close to zero.
   if (points.size() > 1 && points.back().psi > begin) {

@@ -7,7 +7,7 @@
 namespace fusee::helix {
 
 struct SpiralDrawing {
-  double tolerance = 0.01;             ///< sagitta, mm
+  double chord_error_mm = 0.01;        ///< sagitta, mm
   double reach = 0;                    ///< distance of the outermost parallel curve that keeps the tolerance, mm
   double largest_turn = radians(1.5);  ///< largest angle from row to row
 };

@@ -114,7 +114,7 @@ HelixPoint helix_point(const HelixGeometry& geometry, transmission::Side side, c
   HelixPoint point;
   const double up = rise(geometry, side, sigma);
   point.slope = std::atan2(up, path.sloping);
-  point.fleet = point.slope + climb_sign(side) * std::atan(geometry.slope);
+  point.fleet = point.slope + helix_sign(side) * std::atan(geometry.slope);
   point.free = path.whole - path.sloping + std::hypot(path.sloping, up);
   point.wound = sigma * std::sqrt(1.0 + geometry.slope * geometry.slope);
   return point;

@@ -24,13 +24,13 @@ HelixSide make_side(const Mechanism& mechanism, const Windings& windings, transm
   side.lead = geometry.slope * geometry.circumference;
   // σ of the spiral's first row. P1 is drawn from the end of its mirrored curve.
   const double sigma0 = curve.at(which == transmission::Side::left ? curve.end() : curve.begin()).sigma;
-  const double home = -climb_sign(which) * geometry.slope * sigma0;
+  const double home = -helix_sign(which) * geometry.slope * sigma0;
   side.attachment_z = home - geometry.below;
   for (const transmission::TransmissionPoint& point : stroke) {
     const profile::TakeOff take_off = take_offs.at(transmission::mirror_sign(which) * point.theta);
     const double sigma = curve.sigma(take_off);
     HelixPoint at = helix_point(geometry, which, curve.free_path(take_off), sigma);
-    at.z = home + climb_sign(which) * geometry.slope * sigma;
+    at.z = home + helix_sign(which) * geometry.slope * sigma;
     side.stroke.push_back(at);
     if (std::abs(at.fleet) <= side.fleet) continue;
     side.fleet = std::abs(at.fleet);
@@ -63,7 +63,7 @@ void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const H
   if (!all_hold(result.conditions)) return;
   result.closure = windings.closure;
   result.stroke = transmission::stroke_over_range(law, options.stroke_steps);
-  SpiralDrawing drawing{.tolerance = options.tolerance,
+  SpiralDrawing drawing{.chord_error_mm = options.chord_error_mm,
                         .reach = groove.groove_edge + mechanism.tendon.diameter + std::max(0.0, options.drawn_out)};
   if (accuracy == HelixAccuracy::coarse) drawing.largest_turn = radians(5);
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right})

@@ -28,10 +28,10 @@ struct Windings {
 };
 
 /// +1 where the take-off rises as the image's tendon is wound: later turns are further up the spiral on both sides.
-inline double climb_sign(transmission::Side side) { return transmission::mirror_sign(side); }
+inline double helix_sign(transmission::Side side) { return transmission::mirror_sign(side); }
 /// Rise of the sloping part of a tendon's free path.
 inline double rise(const HelixGeometry& geometry, transmission::Side side, double sigma) {
-  return geometry.below + climb_sign(side) * geometry.slope * sigma;
+  return geometry.below + helix_sign(side) * geometry.slope * sigma;
 }
 /// Slope of the free path and angle to the groove, at a place of the curve, rad.
 HelixPoint helix_point(const HelixGeometry& geometry, transmission::Side side, const FreePath& path, double sigma);

@@ -32,12 +32,13 @@ LawAccuracy accuracy_of(LawSearch search) {
   return search == LawSearch::whole ? LawAccuracy{} : LawAccuracy{48, radians(0.01)};
 }
 
-/// True when the declared law must be adapted to the load. Friction and pretension alone hardly change the mean of both
+/// True when the law must be adapted to the load. Friction and pretension alone hardly change the mean of both
 /// directions.
 bool is_deflected(const Imperfections& at) {
-  return at.tendon.stretch != 0 || at.sheath.give != 0 || at.joint.weight != WeightError{} || at.joint.mean_load != 0;
+  return at.tendon.stretch != 0 || at.sheath.compliance != 0 || at.joint.weight != WeightError{} ||
+         at.joint.mean_load != 0;
 }
-/// The declared law as rows that include both ends of the range, and slightly beyond them where the law continues.
+/// The target motion as rows that include both ends of the range, and slightly beyond them where the law continues.
 /// Beyond the end of a table all θ have one α, up to rounding; such rows are skipped. Empty where the law does not
 /// exist.
 std::vector<LawRow> declared_rows(const Mechanism& declared, int count) {
@@ -60,7 +61,7 @@ Load with_weight(Load load, const WeightError& error, double R) {
   if (error == WeightError{}) return load;
   const Weight weight = with_error({transmission::weight_moment(load), load.tilt}, error);
   if (load.lever == 0) load.lever = R;
-  load.mass = weight.moment / (transmission::k_gravity * load.lever);
+  load.mass_kg = weight.moment / (transmission::k_gravity * load.lever);
   load.tilt = weight.tilt;
   return load;
 }
@@ -73,7 +74,7 @@ std::vector<LawRow> from_home(std::vector<LawRow> rows, double home) {
 
 }  // namespace
 
-Mechanism identified_joint(const DeclaredMechanism& declared) {
+Mechanism identified_mechanism(const DeclaredMechanism& declared) {
   Mechanism joint = mounted(declared, declared.identified).mechanism;
   joint.load = with_weight(joint.load, declared.identified.joint.weight, joint.joint.R);
   return joint;
@@ -190,7 +191,7 @@ CompensatingLaw compensating_law(const DeclaredMechanism& declared, LawSearch se
   const CompensatingLaw as_declared{declared_rows(declared, accuracy.rows), 0, declared.joint.theta_min,
                                     declared.joint.theta_max, false};
   if (as_declared.rows.empty() || !is_deflected(declared.identified)) return as_declared;
-  const auto needed = law_under_load(identified_joint(declared), as_declared,
+  const auto needed = law_under_load(identified_mechanism(declared), as_declared,
                                      declared.load.tip_force + declared.identified.joint.mean_load, accuracy.reached);
   return needed && needed->shifted ? *needed : as_declared;
 }
@@ -215,7 +216,7 @@ double worst_miss(const Mechanism& joint, const CompensatingLaw& needed) {
 }  // namespace
 
 RoundChoice round_choice(const DeclaredMechanism& declared, const CompensatingLaw& needed) {
-  Mechanism joint = identified_joint(declared);
+  Mechanism joint = identified_mechanism(declared);
   RoundChoice choice;
   choice.r1 = joint.pulley.r1;
   if (declared.pulley.law != Law::compensate || needed.rows.empty()) return choice;

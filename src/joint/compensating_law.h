@@ -1,5 +1,5 @@
 /// \file
-/// The compensating law: the law of a pulley with which the identified joint follows the declared law.
+/// The compensating law: the law of a pulley with which the identified joint follows the target motion.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 namespace fusee::joint {
 
 /// The joint with identified geometry and statics, and the declared law's keys.
-Mechanism identified_joint(const DeclaredMechanism& declared);
+Mechanism identified_mechanism(const DeclaredMechanism& declared);
 
 /// The law of the pulley in the identified joint.
 struct CompensatingLaw {
@@ -20,13 +20,13 @@ struct CompensatingLaw {
   bool shifted = false;  ///< true if the rows differ from the declared ones
 };
 
-/// Returns the declared law when the joint's compliance does not justify another one.
+/// Returns the target motion when the joint's compliance does not justify another one.
 CompensatingLaw compensating_law(const DeclaredMechanism& declared, LawSearch search = LawSearch::whole);
 
 /// `joint` with a pulley for that law.
 Mechanism with_law(Mechanism joint, const CompensatingLaw& needed);
 
-/// See as_it_is.h.
+/// See fusee/joint.h.
 RoundChoice round_choice(const DeclaredMechanism& declared, const CompensatingLaw& needed);
 
 }  // namespace fusee::joint

@@ -180,11 +180,11 @@ void add_compliance(Spans& spans, const SheathShare& sheath) {
   spans.lower_material += sheath.unseen;
 }
 
-void add_compliance(Spans& spans, const PinCompliance& give) {
-  spans.upper_length += give.upper_unseen + give.upper_length;
-  spans.upper_material += give.upper_unseen;
-  spans.lower_length += give.lower_unseen + give.lower_length;
-  spans.lower_material += give.lower_unseen;
+void add_compliance(Spans& spans, const PinCompliance& pin) {
+  spans.upper_length += pin.upper_unseen + pin.upper_length;
+  spans.upper_material += pin.upper_unseen;
+  spans.lower_length += pin.lower_unseen + pin.lower_length;
+  spans.lower_material += pin.lower_unseen;
 }
 
 /// A span of a tendon whose waves straighten, linearized at the tension `pull`: a spring of compliance

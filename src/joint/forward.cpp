@@ -44,7 +44,7 @@ double tip_force(const BenchRun& run, const BenchRow& row, const Mechanism& decl
 
 double first_temperature(const BenchLog& log) {
   for (const BenchRun& run : log) {
-    if (run.has_temperature && !run.rows.empty()) return run.rows.front().temperature;
+    if (run.has_temperature && !run.rows.empty()) return run.rows.front().temperature_C;
   }
   return 0;
 }
@@ -68,7 +68,7 @@ double play_of(const EquilibriumPoint& point) { return std::max(point.loose_abov
 bool are_driven_alike(const BenchRun& one, const BenchRun& other) {
   const auto alike = [&one](const BenchRow& a, const BenchRow& b) {
     return a.alpha == b.alpha && (!one.has_load || a.load == b.load) &&
-           (!one.has_temperature || a.temperature == b.temperature);
+           (!one.has_temperature || a.temperature_C == b.temperature_C);
   };
   return one.has_load == other.has_load && one.has_temperature == other.has_temperature &&
          one.mounting.motor_sensor_turned == other.mounting.motor_sensor_turned &&
@@ -187,7 +187,7 @@ TendonChange Forward::change(std::size_t index, const BenchRow& row, const Imper
   const BenchRun& run = log_[index];
   TendonChange change;
   if (run.has_temperature) {
-    const double warmer = row.temperature - first_temperature_;
+    const double warmer = row.temperature_C - first_temperature_;
     change.expansion = {at.tendon.thermal1 * warmer, at.tendon.thermal2 * warmer};
   }
   if (row.time + clock_[index] >= at.tendon.slip_time)
@@ -251,7 +251,7 @@ std::vector<double> Forward::geared(std::size_t index, const Imperfections& at, 
     }
     last = &row;
     if (at.ratio_joint.step != 0 && row.time + clock_[index] >= at.tendon.slip_time) angle += at.ratio_joint.step;
-    if (run.has_temperature) angle += at.ratio_joint.warmth * (row.temperature - first_temperature_);
+    if (run.has_temperature) angle += at.ratio_joint.warmth * (row.temperature_C - first_temperature_);
     theta.push_back(angle);
   }
   return theta;

@@ -50,7 +50,7 @@ void mount_sheath(Sheath& sheath, const SheathError& at) {
   const double friction = std::max(0.0, sheath.mu * sheath.bend + at.friction);
   if (!(sheath.bend > 0)) sheath.bend = 1.0;
   sheath.mu = friction / sheath.bend;
-  const double compliance = (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + at.give;
+  const double compliance = (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + at.compliance;
   sheath.stiffness = compliance > 0 ? 1.0 / compliance : 0.0;
 }
 
@@ -148,7 +148,7 @@ void set_imperfect_statics(JointModel& model, const Mechanism& declared, const I
   model.bearing_friction = std::max(0.0, at.joint.friction);
   model.rubbing = {std::max(0.0, at.joint.rubbing.by_area), std::max(0.0, at.joint.rubbing.by_lesser)};
   model.waves = at.tendon.waves;
-  model.pin_compliance = std::max(0.0, at.pins.give);
+  model.pin_compliance = std::max(0.0, at.pins.compliance);
   const Weight weight = with_error({model.weight, model.tilt}, at.joint.weight);
   model.weight = weight.moment;
   model.tilt = weight.tilt;

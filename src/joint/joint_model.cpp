@@ -45,7 +45,7 @@ struct CurveElement {
 };
 
 // The tendon is inextensible: its lengths above the pin, between pin and pulley, and on the pulley have a constant sum
-// along the declared law. This gives the arc in closed form: s = −L_up(θ) − (w − h') + ρψ. The contact is at h n + h'
+// along the target motion. This gives the arc in closed form: s = −L_up(θ) − (w − h') + ρψ. The contact is at h n + h'
 // t, not at the foot of the axis' perpendicular. From ψ' = 1 + p'/w follows h' = p'/(1 + p'/w).
 CurveElement element(const transmission::PinPlace& place, transmission::Side side,
                      const transmission::TransmissionPoint& at, double offset) {

@@ -131,7 +131,7 @@ Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t bes
   return drawn;
 }
 
-Mechanism with_inset(const JointAsItIs& joint) {
+Mechanism with_inset(const IdentifiedJoint& joint) {
   Mechanism mechanism = joint.mechanism;
   mechanism.tendon.diameter += 2 * joint.outline.offset;
   mechanism.guides.radius -= joint.outline.offset;

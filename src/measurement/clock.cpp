@@ -156,7 +156,7 @@ class ClockJoiner {
 Sample mean_of(const std::vector<Sample>& samples, std::size_t first, std::size_t end) {
   Sample mean = samples[first];
   for (double Sample::*value :
-       {&Sample::alpha, &Sample::theta, &Sample::load, &Sample::temperature, &Sample::tension1, &Sample::tension2}) {
+       {&Sample::alpha, &Sample::theta, &Sample::load, &Sample::temperature_C, &Sample::tension1, &Sample::tension2}) {
     double sum = 0;
     for (std::size_t i = first; i < end; ++i) sum += samples[i].*value / static_cast<double>(end - first);
     mean.*value = sum;

@@ -194,7 +194,7 @@ double Sample::*member_of(const std::string& role) {
   if (role == "alpha") return &Sample::alpha;
   if (role == "theta") return &Sample::theta;
   if (role == "load") return &Sample::load;
-  if (role == "temperature") return &Sample::temperature;
+  if (role == "temperature") return &Sample::temperature_C;
   if (role == "tension1") return &Sample::tension1;
   if (role == "tension2") return &Sample::tension2;
   return nullptr;  // cycle: determined from α

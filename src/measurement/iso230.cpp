@@ -60,7 +60,7 @@ using Deviations = std::vector<std::array<std::vector<double>, 2>>;
 void add_dwells(const Run& run, const std::vector<double>& residuals, const Extent& seen, Deviations& deviations) {
   for (const Segment& segment : run.segments) {
     const Stroke& stroke = run.strokes[segment.stroke];
-    if (!segment.held || stroke.partial) continue;
+    if (!segment.is_dwell || stroke.partial) continue;
     const std::vector<double> rows(residuals.begin() + static_cast<std::ptrdiff_t>(segment.first),
                                    residuals.begin() + static_cast<std::ptrdiff_t>(segment.last) + 1);
     const double mean = spread_of(rows).mean;

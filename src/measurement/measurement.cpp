@@ -51,7 +51,7 @@ void repair(Run& run, const NoteSink& add_note) {
   unwrap(run.samples, &Sample::alpha, "alpha", add_note);
   drop_outliers(run, add_note);
   run.has_load = run.has_load && fill_gaps(run.samples, &Sample::load, "load", add_note);
-  run.has_temperature = run.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", add_note);
+  run.has_temperature = run.has_temperature && fill_gaps(run.samples, &Sample::temperature_C, "temperature", add_note);
 }
 
 void describe(Run& run) {
@@ -233,7 +233,7 @@ Measurement read_driving(const std::filesystem::path& file, const Mechanism& dec
   if (run.has_time) order_time(run, add_note);
   unwrap(run.samples, &Sample::alpha, "alpha", add_note);
   run.has_load = rows.has_load && fill_gaps(run.samples, &Sample::load, "load", add_note);
-  run.has_temperature = rows.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", add_note);
+  run.has_temperature = rows.has_temperature && fill_gaps(run.samples, &Sample::temperature_C, "temperature", add_note);
   if (run.has_load) measurement.load_unit = rows.load_unit;
   take_torques_as_forces(declared, measurement);
   return measurement;
@@ -248,7 +248,7 @@ joint::BenchLog bench_log(const Measurement& measurement) {
     into.mounting = run.mounting;
     into.rows.reserve(run.samples.size());
     for (const Sample& sample : run.samples)
-      into.rows.push_back({sample.time, sample.alpha, sample.load, sample.temperature});
+      into.rows.push_back({sample.time, sample.alpha, sample.load, sample.temperature_C});
   }
   return log;
 }

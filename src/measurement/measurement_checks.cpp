@@ -7,7 +7,7 @@
 #include "fusee/measurement.h"
 #include "fusee/transmission.h"
 #include "measurement/strokes.h"
-#include "transmission/declared_law.h"
+#include "transmission/target_motion.h"
 
 namespace fusee::measurement {
 namespace {
@@ -24,7 +24,7 @@ std::vector<Sample> thinned(const Run& run) {
 // ---- whole turns ----------------------------------------------------------------------------------------------------
 
 /// Median of measured minus declared θ, with α shifted by `turn`; rad.
-double offset_from_declared(const std::vector<Sample>& samples, const transmission::DeclaredLaw& law, double turn) {
+double offset_from_declared(const std::vector<Sample>& samples, const transmission::TargetMotion& law, double turn) {
   std::vector<double> values;
   for (const Sample& sample : samples) values.push_back(sample.theta - law.theta_extrapolated(sample.alpha + turn));
   return median_of(std::move(values));
@@ -37,7 +37,7 @@ struct TurnOffset {
 };
 
 /// The smallest number of whole turns that removes the offset of a run.
-TurnOffset best_turns(const std::vector<Sample>& samples, const transmission::DeclaredLaw& law, double expected) {
+TurnOffset best_turns(const std::vector<Sample>& samples, const transmission::TargetMotion& law, double expected) {
   constexpr int most = 3;
   TurnOffset best{0, 0, offset_from_declared(samples, law, 0) - expected};
   const double before = std::abs(best.left);
@@ -61,7 +61,7 @@ TurnOffset best_turns(const std::vector<Sample>& samples, const transmission::De
 }
 
 /// Removes the whole turns by which a single-turn encoder that was wrapped at the log's beginning is off.
-void take_back_turns(const transmission::DeclaredLaw& law, Measurement& measurement) {
+void take_back_turns(const transmission::TargetMotion& law, Measurement& measurement) {
   double expected = 0;
   for (std::size_t i = 0; i < measurement.runs.size(); ++i) {
     Run& run = measurement.runs[i];
@@ -87,7 +87,7 @@ void take_back_turns(const transmission::DeclaredLaw& law, Measurement& measurem
 }
 
 /// Reports an offset too large for a sensor's zero and for any effect.
-std::string wrong_zero(const transmission::DeclaredLaw& law, const Measurement& measurement) {
+std::string wrong_zero(const transmission::TargetMotion& law, const Measurement& measurement) {
   if (!law.has_zero()) return {};
   for (const Run& run : measurement.runs) {
     const double off = offset_from_declared(thinned(run), law, 0);
@@ -113,7 +113,7 @@ struct Slopes {
 /// True if α is constant and the load alone moves the joint: there is no slope.
 bool is_moved_by_load(const Run& run) { return run.strokes.size() == 1 && run.strokes.front().direction == 0; }
 
-Slopes slopes_of(const transmission::DeclaredLaw& law, const Measurement& measurement) {
+Slopes slopes_of(const transmission::TargetMotion& law, const Measurement& measurement) {
   double products = 0, declared_products = 0, squares = 0, theta_squares = 0, count = 0;
   Slopes slopes;
   for (const Run& run : measurement.runs) {
@@ -153,7 +153,7 @@ std::string slope_text(const Slopes& slopes) {
 
 const char* const k_in_degrees = "; end the column's name in _rad, or give --unit alpha=rad or theta=rad";
 
-std::string fault(const transmission::DeclaredLaw& law, const Slopes& slopes) {
+std::string fault(const transmission::TargetMotion& law, const Slopes& slopes) {
   const double ratio = slopes.measured / slopes.declared;
   const double exchanged = 1.0 / (law.slope() * law.slope());
   const double turn = degrees(1.0), range = law.alpha_range();
@@ -185,7 +185,7 @@ std::string fault(const transmission::DeclaredLaw& law, const Slopes& slopes) {
 }
 
 /// A joint declared by a ratio has no range to compare with.
-void suspect_radians(const transmission::DeclaredLaw& law, const Slopes& slopes, Measurement& measurement) {
+void check_for_radians(const transmission::TargetMotion& law, const Slopes& slopes, Measurement& measurement) {
   if (law.has_zero() || slopes.declared == 0 || slopes.alpha_span > radians(k_two_pi)) return;
   measurement.notes.push_back("alpha moves over only " + rounded(degrees(slopes.alpha_span), 3) +
                               " deg in any run: if these are radians, end the columns' names in _rad");
@@ -193,7 +193,7 @@ void suspect_radians(const transmission::DeclaredLaw& law, const Slopes& slopes,
 
 void compare_with_law(const Mechanism& declared, Measurement& measurement) {
   if (!measurement.not_testable.empty() || measurement.runs.empty()) return;
-  const transmission::DeclaredLaw law(declared);
+  const transmission::TargetMotion law(declared);
   if (!law.exists()) {
     measurement.not_testable.push_back(
         "the declared joint has no law over its range (a dead centre, or C meets a pin): there is nothing to compare "
@@ -204,7 +204,7 @@ void compare_with_law(const Mechanism& declared, Measurement& measurement) {
   if (!std::isfinite(law.slope()) || law.slope() == 0) return;
   take_back_turns(law, measurement);
   const Slopes slopes = slopes_of(law, measurement);
-  suspect_radians(law, slopes, measurement);
+  check_for_radians(law, slopes, measurement);
   std::string found = slopes.declared != 0 ? fault(law, slopes) : "";
   if (found.empty()) found = wrong_zero(law, measurement);
   if (!found.empty()) measurement.not_testable.push_back(found);
@@ -220,7 +220,7 @@ double force_of_unit(const std::string& unit, double length) {
 }  // namespace
 
 MeasurementOptions expecting(const Mechanism& declared, MeasurementOptions options) {
-  const transmission::DeclaredLaw law(declared);
+  const transmission::TargetMotion law(declared);
   if (!law.exists() || !std::isfinite(law.slope())) return options;
   options.alpha_span = law.alpha_range();
   options.theta_span = std::abs(law.slope()) * law.alpha_range();

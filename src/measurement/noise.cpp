@@ -247,9 +247,10 @@ struct RepeatTolerance {
   bool operator()(const Pass& a, const Pass& b) const {
     const bool same_run =
         a.run == b.run || (across_runs && a.run->has_load == b.run->has_load && same_speed(*a.run, *b.run));
-    const bool same_kind = a.rows.held == b.rows.held && a.rows.pull == b.rows.pull && a.direction == b.direction;
+    const bool same_kind =
+        a.rows.is_dwell == b.rows.is_dwell && a.rows.pull == b.rows.pull && a.direction == b.direction;
     return same_run && same_kind && std::abs(a.load - b.load) <= load &&
-           (!a.rows.held || std::abs(a.alpha - b.alpha) <= alpha);
+           (!a.rows.is_dwell || std::abs(a.alpha - b.alpha) <= alpha);
   }
 };
 
@@ -272,7 +273,7 @@ std::vector<std::vector<Pass>> repeats(const Measurement& measurement, const Rep
     for (std::size_t i = 0; i < segments.size(); ++i) {
       const Segment& segment = segments[i];
       if (run.strokes[segment.stroke].partial || is_still_settling(run, segment) ||
-          (segment.held && i / 2 % every != 0))
+          (segment.is_dwell && i / 2 % every != 0))
         continue;
       const Pass pass = pass_of(run, segment, slope);
       const auto group = std::find_if(groups.begin(), groups.end(),
@@ -306,7 +307,7 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
       const Sample& sample = run.samples[row];
       const double share =
           static_cast<double>(row - rows.first) / static_cast<double>(std::max<std::size_t>(1, rows.last - rows.first));
-      const InterpolatedAngle interpolated = rows.held
+      const InterpolatedAngle interpolated = rows.is_dwell
                                                  ? interpolate_in_dwell(pass, share, sample.alpha)
                                                  : interpolate(*pass.run, pass.rows, pass.direction, sample.alpha);
       return !run.has_load || std::abs(interpolated.load - sample.load) <= tolerance ? interpolated
@@ -314,7 +315,7 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
     };
     for (std::size_t i = rows.first; i <= rows.last; ++i) {
       const Sample& sample = run.samples[i];
-      if (!rows.held && !is_inner(run, rows, sample.alpha)) continue;
+      if (!rows.is_dwell && !is_inner(run, rows, sample.alpha)) continue;
       const InterpolatedAngle before = look(group[k - 1], i);
       if (!before.inside) continue;
       if (!triples) {
@@ -388,7 +389,7 @@ Scatter scatter_of_dwells(const Measurement& measurement) {
       for (std::size_t k = 0; k < 4; ++k) {
         const Segment& dwell = dwells[i - 3 + k];
         rows[k] = &run.samples[dwell.first];
-        comparable = comparable && dwell.held && dwell.stroke == dwells[i].stroke && dwell.pull == dwells[i].pull &&
+        comparable = comparable && dwell.is_dwell && dwell.stroke == dwells[i].stroke && dwell.pull == dwells[i].pull &&
                      (!run.has_load || std::abs(rows[k]->load - rows[0]->load) <= tolerance);
       }
       if (comparable) add_dwells(rows, differences);

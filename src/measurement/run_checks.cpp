@@ -112,7 +112,7 @@ void note_gaps(const Run& run, const NoteSink& add_note) {
 
 std::string stops_text(const Run& run) {
   const auto stops =
-      std::count_if(run.segments.begin(), run.segments.end(), [](const Segment& segment) { return segment.held; });
+      std::count_if(run.segments.begin(), run.segments.end(), [](const Segment& segment) { return segment.is_dwell; });
   return "from point to point: alpha is held " + std::to_string(stops) +
          " times (a change of the load counts); a straight motion is assumed between dwells";
 }

@@ -299,7 +299,7 @@ std::vector<Segment> segments_of(const Run& run) {
 }
 
 bool is_from_point_to_point(const Run& run) {
-  return std::any_of(run.segments.begin(), run.segments.end(), [](const Segment& segment) { return segment.held; });
+  return std::any_of(run.segments.begin(), run.segments.end(), [](const Segment& segment) { return segment.is_dwell; });
 }
 
 }  // namespace fusee::measurement

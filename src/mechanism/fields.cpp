@@ -256,7 +256,7 @@ void add_load(std::vector<Field>& table) {
   table.push_back(number<load, &Load::torque>(
       {"load.torque_Nmm", "", "0", "torque on the joint, positive against +theta"}, "Nmm", -10000000, 10000000));
   table.push_back(
-      number<load, &Load::mass>({"load.mass_kg", "", "0", "mass of the link and what it carries"}, "kg", 0, 10000));
+      number<load, &Load::mass_kg>({"load.mass_kg", "", "0", "mass of the link and what it carries"}, "kg", 0, 10000));
   table.push_back(number<load, &Load::lever>(
       {"load.lever_mm", "", "0", "from the joint axis along OC to the centre of mass"}, "mm", -10000, 10000));
   table.push_back(number<load, &Load::tilt, degrees_as_read, radians>(
@@ -730,19 +730,19 @@ void add_prior(std::vector<Field>& table) {
                                                  "first number of joint.attachment2_mm, measured by hand");
   reading.operator()<&Prior::attachment2_along>("prior.attachment2_along_mm",
                                                 "second number of joint.attachment2_mm, measured by hand");
-  reading.operator()<&Prior::motor_offset>(
+  reading.operator()<&Prior::motor_offset_deg>(
       "prior.motor_offset_deg", "angle of the shaft minus the reading of the motor sensor, measured by hand");
-  reading.operator()<&Prior::backlash>("prior.backlash_deg",
-                                       "play between motor and pulley, of alpha, measured by hand");
+  reading.operator()<&Prior::backlash_deg>("prior.backlash_deg",
+                                           "play between motor and pulley, of alpha, measured by hand");
   reading.operator()<&Prior::runout_x>("prior.runout_x_mm",
                                        "eccentricity of the pulley at home, to the right, measured by hand");
   reading.operator()<&Prior::runout_y>("prior.runout_y_mm",
                                        "eccentricity of the pulley at home, upwards, measured by hand");
-  reading.operator()<&Prior::guide_give>(
+  reading.operator()<&Prior::guide_compliance>(
       "prior.guide_give_mm_per_N", "displacement of a pin per newton of the tendon's force on it, measured by hand");
-  reading.operator()<&Prior::zero>("prior.zero_deg", "reading of the joint sensor at theta = 0, measured by hand");
-  reading.operator()<&Prior::gain>("prior.gain_percent",
-                                   "excess of the joint sensor's reading over the whole range, measured by hand");
+  reading.operator()<&Prior::zero_deg>("prior.zero_deg", "reading of the joint sensor at theta = 0, measured by hand");
+  reading.operator()<&Prior::gain_percent>(
+      "prior.gain_percent", "excess of the joint sensor's reading over the whole range, measured by hand");
 }
 
 std::vector<Field> make_table() {

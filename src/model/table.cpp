@@ -22,8 +22,9 @@ OneWayTable one_way(const AngleMap& map, const MotorUnit& unit, const JointTable
   result.last = static_cast<float>(std::max(at_min, at_max));
   for (int i = 0; i <= table.pieces; ++i) {
     const double motor = entry_place(double(result.first), double(result.last), i, table.pieces);
-    result.theta.push_back(static_cast<float>(degrees(map.theta(unit.alpha(motor + unit.zero)))));
-    const double theta = radians(entry_place(double(table.theta_first), double(table.theta_last), i, table.pieces));
+    result.theta_deg.push_back(static_cast<float>(degrees(map.theta(unit.alpha(motor + unit.zero)))));
+    const double theta =
+        radians(entry_place(double(table.theta_first_deg), double(table.theta_last_deg), i, table.pieces));
     result.motor.push_back(static_cast<float>(unit.of(map.alpha(theta)) - unit.zero));
   }
   return result;
@@ -33,8 +34,8 @@ JointTable table_of(const JointCurve& curve, const Mechanism& mechanism, const M
   JointTable table;
   table.unit = unit;
   table.pieces = pieces;
-  table.theta_first = static_cast<float>(degrees(curve.middle.theta_min));
-  table.theta_last = static_cast<float>(degrees(curve.middle.theta_max));
+  table.theta_first_deg = static_cast<float>(degrees(curve.middle.theta_min));
+  table.theta_last_deg = static_cast<float>(degrees(curve.middle.theta_max));
   for (std::size_t way = 0; way < (curve.ways ? 2u : 1u); ++way)
     table.ways.push_back(one_way(way_of(curve, way), unit, table));
   const OneWayTable& first = table.ways.front();
@@ -73,21 +74,22 @@ float interpolated(const std::vector<float>& table, float at) {
 }
 
 TableErrors measured(const JointTable& table, const JointCurve& curve) {
-  constexpr int looks = 8;  // per piece: the middle, where a linear piece has its largest error, and others
+  constexpr int samples = 8;  // per piece: the middle, where a linear piece has its largest error, and others
   TableErrors errors;
   for (std::size_t way = 0; way < table.ways.size(); ++way) {
     const AngleMap& map = way_of(curve, way);
     const OneWayTable& one = table.ways[way];
-    for (int i = 0; i <= looks * table.pieces; ++i) {
-      const auto motor = static_cast<float>(entry_place(double(one.first), double(one.last), i, looks * table.pieces));
+    for (int i = 0; i <= samples * table.pieces; ++i) {
+      const auto motor =
+          static_cast<float>(entry_place(double(one.first), double(one.last), i, samples * table.pieces));
       const double alpha = table.unit.alpha(double(motor) + table.unit.zero);
-      const float theta = read_at(one.theta, motor, one.first, one.last);
+      const float theta = read_at(one.theta_deg, motor, one.first, one.last);
       errors.theta = std::max(errors.theta, std::abs(radians(double(theta)) - map.theta(alpha)));
-      const auto asked =
-          static_cast<float>(entry_place(double(table.theta_first), double(table.theta_last), i, looks * table.pieces));
+      const auto asked = static_cast<float>(
+          entry_place(double(table.theta_first_deg), double(table.theta_last_deg), i, samples * table.pieces));
       const double wanted = std::clamp(radians(double(asked)), map.theta_min, map.theta_max);
-      const double sent =
-          table.unit.alpha(double(read_at(one.motor, asked, table.theta_first, table.theta_last)) + table.unit.zero);
+      const double sent = table.unit.alpha(
+          double(read_at(one.motor, asked, table.theta_first_deg, table.theta_last_deg)) + table.unit.zero);
       errors.motor = std::max(errors.motor, std::abs(sent - map.alpha(wanted)));
       errors.returned = std::max(errors.returned, std::abs(map.theta(sent) - wanted));
     }

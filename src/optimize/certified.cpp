@@ -4,12 +4,12 @@
 #include <queue>
 
 #include "base/text.h"
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 #include "fusee/optimize.h"
 #include "optimize/bound.h"
 #include "optimize/random.h"
 #include "optimize/search_progress.h"
-#include "optimize/thread_pool.h"
 
 namespace fusee::optimize {
 namespace {
@@ -55,8 +55,7 @@ class BranchAndBound {
         objective_(objective),
         options_(options),
         context_(context),
-        bounds_(problem, objective),
-        pool_(options.threads) {}
+        bounds_(problem, objective) {}
 
   CertifiedResult run() {
     start();
@@ -135,7 +134,9 @@ class BranchAndBound {
   /// Boxes are bounded in parallel, with the knowledge from before; results are taken in order.
   std::vector<Outcome> outcomes_of(const std::vector<Box>& boxes) {
     std::vector<Outcome> outcomes(boxes.size());
-    pool_.each(boxes.size(), [&](std::size_t i) { outcomes[i] = bounded(boxes[i], i < k_mended); });
+    ThreadPool::shared().each(
+        boxes.size(), [&](std::size_t i, std::size_t) { outcomes[i] = bounded(boxes[i], i < k_mended); },
+        options_.threads);
     boxes_ += static_cast<long>(boxes.size());
     for (const Outcome& outcome : outcomes) evaluations_ += outcome.evaluations;
     return outcomes;
@@ -170,7 +171,7 @@ class BranchAndBound {
     if (!bound.possible) return outcome;
     outcome.kept = true;
     outcome.box.bound = std::max(outcome.box.bound, bound.bound);
-    outcome.box.cut = promising_cut(outcome.box, bound);
+    outcome.box.cut = best_cut(outcome.box, bound);
     if (bound.bound > best_value_) return outcome;
     outcome.evaluated.push_back(
         evaluated(bound.lowest.empty() ? middle_of(outcome.box) : kept(bound.lowest, outcome.box)));
@@ -231,7 +232,7 @@ class BranchAndBound {
     polished_ = best_value_;
   }
 
-  int promising_cut(const Box& box, const BoxBound& bound) const {
+  int best_cut(const Box& box, const BoxBound& bound) const {
     int cut = 0;
     double most = -1;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -239,8 +240,8 @@ class BranchAndBound {
       const double relative = range > 0 ? (box.upper[i] - box.lower[i]) / range : 0.0;
       // Without slopes, or if they are uninformative, the widest variable; otherwise that with the largest error of the
       // bound.
-      const double promise = bound.lowest.empty() ? relative : bound.loss[i] + 1e-3 * relative * std::abs(bound.bound);
-      if (relative > 0 && promise > most) most = promise, cut = static_cast<int>(i);
+      const double gain = bound.lowest.empty() ? relative : bound.loss[i] + 1e-3 * relative * std::abs(bound.bound);
+      if (relative > 0 && gain > most) most = gain, cut = static_cast<int>(i);
     }
     return cut;
   }
@@ -287,7 +288,7 @@ class BranchAndBound {
     return size;
   }
 
-  int widest(const Box& box) const { return promising_cut(box, BoxBound()); }
+  int widest(const Box& box) const { return best_cut(box, BoxBound()); }
 
   /// Bisects the largest boxes that may contain a tie, until there are many or all are small.
   void gather_ties(TieSet& ties) {
@@ -358,7 +359,6 @@ class BranchAndBound {
   CertifiedOptions options_;
   const RunContext& context_;
   BoundCalculator bounds_;
-  ThreadPool pool_;
   Box root_;
   Design best_;
   double best_value_ = k_none;
@@ -405,7 +405,7 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
            "stiffness a compliant one";
   if (objective == Objective::max_error && problem.base.joint.drum_mu > 0)
     return "max_error with joint.drum_friction has no interval form: its optimum cannot be certified";
-  if (problem.as_it_is)
+  if (problem.identified_joint)
     return "[identified] has no interval form: the optimum of the identified joint cannot be certified";
   return "";
 }

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "base/module.h"
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 #include "fusee/optimize.h"
 #include "optimize/evolution.h"
 #include "optimize/random.h"
 #include "optimize/search_progress.h"
-#include "optimize/thread_pool.h"
 
 namespace fusee::optimize {
 namespace {
@@ -64,7 +64,7 @@ struct SearchStopped {};
 struct GenerationEvaluator {
   const Problem& problem;
   std::vector<Objective> objectives;
-  ThreadPool pool;
+  unsigned threads;
   const RunContext& context;
   double done = 0;             ///< share of the generations
   std::optional<double> best;  ///< value of the best design so far; null for a front
@@ -74,7 +74,7 @@ struct GenerationEvaluator {
 
   GenerationEvaluator(const Problem& of, std::vector<Objective> by, const GeneticOptions& options,
                       const RunContext& run)
-      : problem(of), objectives(std::move(by)), pool(options.threads), context(run) {}
+      : problem(of), objectives(std::move(by)), threads(options.threads), context(run) {}
 
   Costs costs_of(const Design& design) const {
     Costs result;
@@ -98,7 +98,8 @@ struct GenerationEvaluator {
     for (std::size_t begin = 0; begin < designs.size(); begin += k_at_once) {
       if (!may_continue(context, done, best)) throw SearchStopped();
       std::vector<Costs> costs(std::min(k_at_once, designs.size() - begin));
-      pool.each(costs.size(), [&](std::size_t i) { costs[i] = costs_of(designs[begin + i]); });
+      ThreadPool::shared().each(
+          costs.size(), [&](std::size_t i, std::size_t) { costs[i] = costs_of(designs[begin + i]); }, threads);
       for (std::size_t i = 0; i < costs.size(); ++i) {
         reasons.add(costs[i].reason);
         known[designs[begin + i]] = std::move(costs[i].costs);

@@ -106,7 +106,7 @@ template <typename S>
 transmission::LowerLine<S> lower_line_of(const DesignNumbers<S>& d, const S& p, bool of_B,
                                          transmission::Domain& domain) {
   if (const auto* sheath = sheath_of(d))
-    return transmission::lower_line(p, S(0.0), sheath->to_mouth, sheath->angle, domain);
+    return transmission::lower_line(p, S(0.0), sheath->to_exit, sheath->angle, domain);
   return transmission::lower_line(p, d.rho, of_B ? d.to_B : d.to_D, of_B ? d.angle_B : d.angle_D, domain);
 }
 inline transmission::LowerLine<transmission::Jet> lower_line_of(const DesignNumbers<transmission::Jet>& d,
@@ -128,7 +128,7 @@ S off_pin(const DesignNumbers<S>& d, const S& lower_normal) {
 /// Distance of a pulley's radius from the limit set by its tendon's pin or sheath exit.
 template <typename S>
 S clear_of_guide(const DesignNumbers<S>& d, const S& radius, bool of_B) {
-  if (const auto* sheath = sheath_of(d)) return sheath->to_mouth - radius;
+  if (const auto* sheath = sheath_of(d)) return sheath->to_exit - radius;
   return (of_B ? d.to_B : d.to_D) - (radius - d.rho);
 }
 

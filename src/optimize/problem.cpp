@@ -156,7 +156,7 @@ DeclaredMechanism mechanism_at(const Problem& problem, const Design& design) {
 }
 
 Mechanism judged(const Problem& problem, const DeclaredMechanism& declared) {
-  return problem.as_it_is ? problem.as_it_is(declared) : static_cast<const Mechanism&>(declared);
+  return problem.identified_joint ? problem.identified_joint(declared) : static_cast<const Mechanism&>(declared);
 }
 
 std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design) {
@@ -232,7 +232,7 @@ bool is_widened(const Problem& problem) {
 
 bool has_footprint(const Problem& problem) { return !is_widened(problem) && !problem.base.sheath.is_there(); }
 
-Problem make_problem(const MechanismFile& file, JointConverter as_it_is, HelicalCheck several_turns) {
+Problem make_problem(const MechanismFile& file, JointConverter identified_joint, HelicalCheck several_turns) {
   const Optimization& table = file.mechanism.optimize;
   if (file.mechanism.transmission)
     throw InputError(file.path, "declares [transmission] in place of a mechanism",
@@ -246,7 +246,7 @@ Problem make_problem(const MechanismFile& file, JointConverter as_it_is, Helical
   Problem problem;
   problem.base = file.mechanism;
   problem.base.optimize = {};  // designs are copied by the thousand
-  problem.as_it_is = std::move(as_it_is);
+  problem.identified_joint = std::move(identified_joint);
   problem.several_turns = std::move(several_turns);
   for (const std::string& name : table.objectives) problem.objectives.push_back(find_objective(name));
   problem.variables = variables_of(table);

@@ -61,7 +61,7 @@ struct SheathNumbers {
   S length, bend, mu;
   S compliance;     ///< mm/N
   S across, above;  ///< exit, relative to the pulley's axis
-  S to_mouth;       ///< c, mm
+  S to_exit;        ///< c, mm
   S angle;          ///< φ, rad
 };
 

@@ -23,7 +23,8 @@ analysis::AnalysisResult analyze(const MechanismFile& file, const analysis::Anal
                      "[transmission] is for 'fusee calibrate'");
   }
   context.begin_step("moving the joint through its range");
-  analysis::AnalysisResult result = analysis::analyse(joint::as_it_is(file.mechanism).mechanism, options, context);
+  analysis::AnalysisResult result =
+      analysis::analyse(joint::identified_joint(file.mechanism).mechanism, options, context);
   result.warnings = analysis::likely_input_errors(file);
   // A tendon that breaks is an error rather than a warning.
   if (const auto overloaded = analysis::overloaded_tendon(file); overloaded && !result.breaks_at)

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <future>
 #include <memory>
 
 #include "analysis/plausibility.h"
-#include "base/run_async.h"
+#include "base/thread_pool.h"
 #include "export/mesh_files/mesh_files.h"
 #include "export/report/report.h"
 #include "export/step/step.h"
@@ -108,13 +107,13 @@ std::vector<Check> draco_checks(const BuildContext& context, const solid::Triang
 /// Checks that the STEP file is a valid solid, and winds tendons on its floors.
 std::vector<Check> step_checks(const BuildContext& context) {
   const formats::Product& product = context.result.product;
-  formats::StepInspection look =
+  formats::StepInspection inspection =
       formats::inspect_step(context.folder.staged_path(k_step), product, context.options.chord_error_mm);
-  std::vector<Check> checks = std::move(look.checks);
+  std::vector<Check> checks = std::move(inspection.checks);
   if (!all_ok(checks)) return checks;
   const profile::RewindResult wound =
-      product.helix ? rewind_several_turns(product, look.climbing).result
-                    : rewind_floors(product.joint, product.pulley.layout, look.floor1, look.floor2);
+      product.helix ? rewind_several_turns(product, inspection.helical).result
+                    : rewind_floors(product.joint, product.pulley.layout, inspection.floor1, inspection.floor2);
   for (Check& check : as_built_checks(product.joint.mechanism, wound, context.options.limits))
     checks.push_back(std::move(check));
   return checks;
@@ -131,27 +130,28 @@ std::vector<Check> checks_of_printed(const BuildContext& context, const solid::P
 /// Checks of the written files; each starts as soon as its file is staged. A check that was already made on equal bytes
 /// or facets is not repeated.
 struct PendingChecks {
-  using Checks = std::future<std::vector<Check>>;
+  using Checks = Task<std::vector<Check>>;
 
-  std::shared_future<solid::TriangleMesh> mesh;  ///< from pulley.stl
+  std::shared_ptr<const Task<solid::TriangleMesh>> mesh;  ///< from pulley.stl
   Checks pulley_checks, obj_checks, threemf_checks, draco_checks, step_checks, profile_checks, plates_checks;
   std::vector<Checks> printed_checks;
-  std::future<profile::RewindResult> as_built;
+  Task<profile::RewindResult> as_built;
 };
 
 void begin_mesh_checks(PendingChecks& pending, const BuildContext& context) {
   const formats::Product& product = context.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
-  pending.mesh = run_async([&context] { return context.mesh_of("pulley.stl"); }).share();
+  auto read = run_async([&context] { return context.mesh_of("pulley.stl"); });
+  pending.mesh = std::make_shared<const Task<solid::TriangleMesh>>(std::move(read));
   pending.pulley_checks = run_async([&context, &product, mesh = pending.mesh] {
-    return solid::check_pulley(mesh.get(), product.joint.mechanism, product.synthesis, product.pulley,
+    return solid::check_pulley(mesh->value(), product.joint.mechanism, product.synthesis, product.pulley,
                                context.options.chord_error_mm);
   });
   pending.as_built = run_async(
-      [&product, mesh = pending.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh.get()); });
+      [&product, mesh = pending.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh->value()); });
   if (product.pulley.parts.empty())
     pending.printed_checks.push_back(
-        run_async([&mechanism, mesh = pending.mesh] { return print_checks(mechanism.print, mesh.get()); }));
+        run_async([&mechanism, mesh = pending.mesh] { return print_checks(mechanism.print, mesh->value()); }));
 }
 
 /// Writes all part files in order, with parallel threads, and starts their checks.
@@ -175,7 +175,7 @@ PendingChecks write_parts(BuildContext& context) {
   begin_mesh_checks(pending, context);
   context.stage("pulley.obj", obj.get());
   pending.obj_checks =
-      run_async([&context, read = pending.mesh] { return same_mesh(read.get(), context.mesh_of("pulley.obj")); });
+      run_async([&context, read = pending.mesh] { return same_mesh(read->value(), context.mesh_of("pulley.obj")); });
   context.stage("pulley.3mf", threemf.get());
   pending.threemf_checks = run_async(
       [&context, &product] { return same_mesh(solid::plate_of(product.pulley), context.mesh_of("pulley.3mf")); });
@@ -187,7 +187,7 @@ PendingChecks write_parts(BuildContext& context) {
   context.stage("pulley.drc", file.bytes);
   pending.draco_checks =
       run_async([&context, read = pending.mesh, made = std::make_shared<const formats::DracoFile>(std::move(file))] {
-        return draco_checks(context, read.get(), *made);
+        return draco_checks(context, read->value(), *made);
       });
   if (context.options.step) stage_step(context, step.get());
   context.stage("pulley.scad", scad.get());
@@ -204,7 +204,7 @@ PendingChecks write_parts(BuildContext& context) {
 
 /// Tables that need no check; made while the last checks run.
 struct Tables {
-  std::future<std::string> profile, p1, p2, transmission;
+  Task<std::string> profile, p1, p2, transmission;
 };
 Tables begin_tables(const formats::Product& product) {
   return {run_async([&product] { return formats::profile_csv(product); }),
@@ -310,7 +310,7 @@ bool passes_checks_of_several_turns(const formats::Product& product, const Build
 bool passes_checks(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
   formats::Product product;
   product.file = file;
-  product.joint = joint::as_it_is(file.mechanism);
+  product.joint = joint::identified_joint(file.mechanism);
   if (!design_any(product, options.chord_error_mm, options.limits, context, solid::TieOffSearch::brief)) return false;
   if (product.helix) return passes_checks_of_several_turns(product, options);
   const Mechanism& mechanism = product.joint.mechanism;
@@ -452,7 +452,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options, const 
   BuildResult result;
   result.product.file = file;
   auto warned = run_async([&file] { return analysis::plausibility_warnings(file); });
-  result.product.joint = joint::as_it_is(file.mechanism);
+  result.product.joint = joint::identified_joint(file.mechanism);
   OutputFolder target(options.folder, options.force, context);
   if (const auto why = options.step ? formats::step_missing() : std::nullopt)
     throw InputError("", "no pulley.step: this fusee was built without STEP: " + *why, "build without --step");

@@ -61,11 +61,11 @@ void conclude(const CalibrationContext& context, const RunFiles& runs) {
   options.hold_out = names_from(product.measurement, runs.fitted);
   options.context = context.run;
   options.audit = context.options.audit;
-  options.look_for_effects = !calibration::is_input_error_obvious(declared, as_read);
+  options.search_effects = !calibration::is_input_error_obvious(declared, as_read);
   product.calibration = calibration::calibrate(expected, product.measurement, options);
   context.run.begin_step("checking for input errors");
-  product.slips = calibration::find_input_errors(declared, as_read, product.calibration);
-  if (!product.slips.empty()) {
+  product.input_errors = calibration::find_input_errors(declared, as_read, product.calibration);
+  if (!product.input_errors.empty()) {
     calibration::reject_curve(product.measurement,
                               "an input error in the file or the log may explain the data: check it first",
                               product.calibration);

@@ -1,6 +1,6 @@
 #include "pipeline/design.h"
 
-#include "base/run_async.h"
+#include "base/thread_pool.h"
 #include "fusee/export.h"
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
@@ -9,8 +9,8 @@ namespace fusee::pipeline {
 namespace {
 
 // Coarsest chord error of trial curves, mm. Trials need no table of the stroke; the advised design is built with the
-// requested tolerance.
-constexpr double k_trial_tolerance = 0.05;
+// requested chord error.
+constexpr double k_trial_chord_error_mm = 0.05;
 constexpr int k_trial_steps = 36;
 
 }  // namespace
@@ -32,11 +32,11 @@ std::vector<profile::Condition> windable(const Mechanism& mechanism, const std::
   return {condition};
 }
 
-bool design(formats::Product& product, double tolerance, const RunContext& context, solid::TieOffSearch search) {
+bool design(formats::Product& product, double chord_error_mm, const RunContext& context, solid::TieOffSearch search) {
   const Mechanism& mechanism = product.joint.mechanism;
   context.begin_step("finding both pitch curves");
   profile::SynthesisOptions synthesis_options;
-  synthesis_options.tolerance = tolerance;
+  synthesis_options.chord_error_mm = chord_error_mm;
   synthesis_options.drawn_out = -product.joint.outline.offset;
   synthesis_options.advice = false;  // advice is searched for together with the body
   product.synthesis = profile::synthesise(mechanism, synthesis_options);
@@ -63,14 +63,14 @@ MechanismFile with_declared(MechanismFile file, const Mechanism& changed) {
 }
 
 Curves curves_of(const DeclaredMechanism& declared) {
-  Curves curves{joint::as_it_is(declared, joint::LawSearch::brief), {}, {}};
+  Curves curves{joint::identified_joint(declared, joint::LawSearch::brief), {}, {}};
   const Mechanism& mechanism = curves.joint.mechanism;
   if (const auto obstacle = profile::obstacle_to(mechanism)) {
     curves.obstacles = {*obstacle};  // cheap obstacles first, since most trials fail early
     return curves;
   }
-  curves.synthesis =
-      profile::synthesise(mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
+  curves.synthesis = profile::synthesise(
+      mechanism, {.chord_error_mm = k_trial_chord_error_mm, .advice = false, .stroke_steps = k_trial_steps});
   curves.obstacles = profile::failed_of(curves.synthesis.conditions);
   if (!curves.obstacles.empty()) return curves;
   joint::draw_for_making(curves.synthesis, curves.joint.outline);

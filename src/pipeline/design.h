@@ -11,9 +11,9 @@
 
 namespace fusee::pipeline {
 
-/// Designs curves within `tolerance`, mm, and the body of product.joint. False if it is infeasible: the reasons are
+/// Designs curves within `chord_error_mm` and the body of product.joint. False if it is infeasible: the reasons are
 /// conditions of product.synthesis, or of product.pulley if the curves exist.
-bool design(formats::Product& product, double tolerance, const RunContext& context,
+bool design(formats::Product& product, double chord_error_mm, const RunContext& context,
             solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
 /// Replaces the declared mechanism by a trial mechanism, and keeps the identified effects.
@@ -21,7 +21,7 @@ MechanismFile with_declared(MechanismFile file, const Mechanism& changed);
 
 /// A trial mechanism: its identified joint, and its curves or the obstacles to them.
 struct Curves {
-  joint::JointAsItIs joint;
+  joint::IdentifiedJoint joint;
   profile::SynthesisResult synthesis;
   std::vector<profile::Condition> obstacles;
 };

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "analysis/plausibility.h"
-#include "base/run_async.h"
 #include "base/text.h"
+#include "base/thread_pool.h"
 #include "export/mesh_files/mesh_files.h"
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
@@ -60,7 +60,7 @@ void make_files(KitResult& result, const KitOptions& options, const RunContext& 
   formats::KitProduct& product = result.product;
   context.begin_step("building parts");
   auto drawing = run_async([&] { return formats::kit_dxf(product, options.dxf); });
-  std::vector<std::future<CheckedPart>> parts;
+  std::vector<Task<CheckedPart>> parts;
   for (const kit::KitPart& part : product.plan.parts) parts.push_back(run_async([&] { return made(part, product); }));
   product.checks = kit_fit_checks(product.plan);
   for (auto& part : parts) {
@@ -99,12 +99,12 @@ kit::KitPlan plan_of(const formats::Product& pulley) {
 }
 
 /// Tests the rounded numbers that are advised. A number that makes the file bad input is infeasible.
-bool has_kit(const MechanismFile& file, double tolerance, const RunContext& context) {
+bool has_kit(const MechanismFile& file, double chord_error_mm, const RunContext& context) {
   try {
     formats::Product pulley;
     pulley.file = file;
-    pulley.joint = joint::as_it_is(file.mechanism);
-    return design_any(pulley, tolerance, {}, context, solid::TieOffSearch::brief) && plan_of(pulley).made();
+    pulley.joint = joint::identified_joint(file.mechanism);
+    return design_any(pulley, chord_error_mm, {}, context, solid::TieOffSearch::brief) && plan_of(pulley).made();
   } catch (const InputError&) {
     return false;
   }
@@ -166,7 +166,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options, const RunCon
   KitResult result;
   formats::KitProduct& product = result.product;
   product.pulley.file = analysis::with_plausibility_warnings(file);
-  product.pulley.joint = joint::as_it_is(file.mechanism);
+  product.pulley.joint = joint::identified_joint(file.mechanism);
   OutputFolder target(options.folder, options.force, context);
   target.claim(
       {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work, so that a refusal costs no time

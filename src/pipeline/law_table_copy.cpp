@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::size_t k_largest_law = 8 << 20;
 
-/// The table from which the declared law is read.
+/// The table from which the target motion is read.
 template <typename AnyMechanism>
 auto& declared_table(AnyMechanism& mechanism) {
   return mechanism.pulley.law == Law::torque ? mechanism.pulley.torque_table : mechanism.pulley.table;

@@ -126,7 +126,7 @@ bool find_curves(ModelResult& result, const ModelOptions& options, FileAccess& f
     result.ending = ModelEnding::no_law;
     return false;
   }
-  product.mechanism = joint::as_it_is(declared).mechanism;
+  product.mechanism = joint::identified_joint(declared).mechanism;
   // For several turns the obstacle would be that one turn does not suffice.
   const auto obstacle = note_on_turns(product.file) ? std::nullopt : profile::obstacle_to(product.mechanism);
   if (obstacle)

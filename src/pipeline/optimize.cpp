@@ -14,13 +14,13 @@ namespace {
 /// True if an identified effect changes an objective. Manufacturing errors of the pulley do not.
 bool joint_differs(DeclaredMechanism declared) {
   declared.identified.pulley.scale = 0;
-  return !(joint::as_it_is(declared).mechanism == static_cast<const Mechanism&>(declared));
+  return !(joint::identified_joint(declared).mechanism == static_cast<const Mechanism&>(declared));
 }
 
 /// Converts a declared design into the joint that is evaluated. Identified effects add to the declared numbers.
 optimize::JointConverter joint_gate(const DeclaredMechanism& declared) {
   if (declared.transmission || !joint_differs(declared)) return {};
-  return [](const DeclaredMechanism& design) { return joint::as_it_is(design).mechanism; };
+  return [](const DeclaredMechanism& design) { return joint::identified_joint(design).mechanism; };
 }
 
 SearchMethod strongest_method(const optimize::Problem& problem) {

@@ -35,12 +35,12 @@ Polygon counter_clockwise(Polygon polygon) {
 }
 
 /// Winds tendons on drawn floors, with the declared pins and tendon.
-profile::RewindResult rewind_drawn(const joint::JointAsItIs& joint, Polygon floor1, Polygon floor2) {
+profile::RewindResult rewind_drawn(const joint::IdentifiedJoint& joint, Polygon floor1, Polygon floor2) {
   return profile::rewind(joint::with_inset(joint), joint::as_made(std::move(floor1), joint.outline),
                          joint::as_made(std::move(floor2), joint.outline));
 }
 
-profile::RewindResult rewind_drawing(const joint::JointAsItIs& joint, const formats::Drawing& drawing) {
+profile::RewindResult rewind_drawing(const joint::IdentifiedJoint& joint, const formats::Drawing& drawing) {
   const formats::DrawingPath* floor1 = largest_path(drawing, "P1_FLOOR");
   const formats::DrawingPath* floor2 = largest_path(drawing, "P2_FLOOR");
   if (floor1 && floor2)
@@ -53,7 +53,7 @@ profile::RewindResult rewind_drawing(const joint::JointAsItIs& joint, const form
         "draw the two groove floors on these layers, as in profile.dxf of 'fusee build'");
   }
   // A drawn centre line is the pitch curve: a tendon without thickness, over pins thicker by its radius.
-  joint::JointAsItIs centre_line = joint;
+  joint::IdentifiedJoint centre_line = joint;
   centre_line.mechanism.guides.radius = joint.mechanism.guide_pitch_radius();
   centre_line.mechanism.joint.drum_radius = joint.mechanism.drum_pitch_radius();
   centre_line.mechanism.tendon.diameter = 0;
@@ -82,11 +82,11 @@ struct ExpectedPart {
   solid::GrooveFloors floors;
 };
 
-profile::SynthesisResult declared_curves(const joint::JointAsItIs& joint) {
+profile::SynthesisResult declared_curves(const joint::IdentifiedJoint& joint) {
   return profile::synthesise(joint.mechanism, {.advice = false});
 }
 
-ExpectedPart expected_part(const joint::JointAsItIs& joint) {
+ExpectedPart expected_part(const joint::IdentifiedJoint& joint) {
   profile::SynthesisResult synthesis = declared_curves(joint);
   if (!synthesis.made()) throw InputError("", "no pulley is feasible for this mechanism: " + synthesis.brief());
   joint::draw_for_making(synthesis, joint.outline);
@@ -97,7 +97,7 @@ ExpectedPart expected_part(const joint::JointAsItIs& joint) {
            shrunk(profile::parallel(synthesis.p2, -half), 1.0 / layout.scale)}};
 }
 
-profile::RewindResult rewind_mesh(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+profile::RewindResult rewind_mesh(const joint::IdentifiedJoint& joint, const solid::BodyLayout& layout,
                                   const solid::TriangleMesh& mesh) {
   return rewind_drawn(joint, floor_in_section(mesh, layout.z_p1, layout.scale),
                       floor_in_section(mesh, layout.z_p2, layout.scale));
@@ -182,7 +182,7 @@ const solid::PlacedGroove* groove_of(const std::vector<solid::Placement>& placem
   return nullptr;
 }
 
-RewoundPart rewind_placed(const joint::JointAsItIs& joint, std::vector<solid::Placement> placements, double scale) {
+RewoundPart rewind_placed(const joint::IdentifiedJoint& joint, std::vector<solid::Placement> placements, double scale) {
   const solid::PlacedGroove* p1 = groove_of(placements, transmission::Side::left);
   const solid::PlacedGroove* p2 = groove_of(placements, transmission::Side::right);
   RewoundPart result{{}, PartPlace::found, {}};
@@ -200,11 +200,11 @@ RewoundPart rewind_placed(const joint::JointAsItIs& joint, std::vector<solid::Pl
 
 // ---- helical parts ----------------------------------------------------------------------------------------------
 
-bool is_helical(const joint::JointAsItIs& joint) {
+bool is_helical(const joint::IdentifiedJoint& joint) {
   return profile::need_several_turns(declared_curves(joint)) && !profile::kept_to_one_turn(joint.mechanism);
 }
 
-profile::RewindResult rewind_helical_part(const joint::JointAsItIs& joint, const Part& part) {
+profile::RewindResult rewind_helical_part(const joint::IdentifiedJoint& joint, const Part& part) {
   const auto* mesh = std::get_if<solid::TriangleMesh>(&part);
   if (mesh == nullptr)
     throw InputError("", "the grooves of this mechanism's pulley are helical: tendons cannot be wound on a drawing",
@@ -221,7 +221,7 @@ profile::RewindResult rewind_helical_part(const joint::JointAsItIs& joint, const
 }
 
 /// Winds on the part in its present position, axis along z: the search for a move needs grooves of constant height.
-RewoundPart rewind_helical_in_place(const joint::JointAsItIs& joint, const Part& part) {
+RewoundPart rewind_helical_in_place(const joint::IdentifiedJoint& joint, const Part& part) {
   constexpr double k_another = radians(0.5);
   RewoundPart result{rewind_helical_part(joint, part), PartPlace::as_made, {}};
   if (!(result.as_built.max_theta_error < k_another)) result.place = PartPlace::not_recognised;
@@ -233,7 +233,7 @@ bool is_finite(const solid::TriangleMesh& mesh) {
 }
 
 /// A part that is recognised nowhere may have no groove at its present position either.
-RewoundPart rewind_unrecognised(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+RewoundPart rewind_unrecognised(const joint::IdentifiedJoint& joint, const solid::BodyLayout& layout,
                                 const solid::TriangleMesh& mesh) {
   try {
     return {rewind_mesh(joint, layout, mesh), PartPlace::not_recognised, {}};
@@ -245,7 +245,7 @@ RewoundPart rewind_unrecognised(const joint::JointAsItIs& joint, const solid::Bo
   }
 }
 
-RewoundPart rewind_moved_mesh(const joint::JointAsItIs& joint, const solid::TriangleMesh& mesh) {
+RewoundPart rewind_moved_mesh(const joint::IdentifiedJoint& joint, const solid::TriangleMesh& mesh) {
   const auto [layout, expected] = expected_part(joint);
   if (!is_finite(mesh)) return rewind_unrecognised(joint, layout, mesh);
   const double as_it_lies = deviation_in_place(mesh, layout, expected);
@@ -266,24 +266,24 @@ RewoundPart rewind_moved_mesh(const joint::JointAsItIs& joint, const solid::Tria
 
 }  // namespace
 
-profile::RewindResult rewind_part(const joint::JointAsItIs& joint, const Part& part) {
+profile::RewindResult rewind_part(const joint::IdentifiedJoint& joint, const Part& part) {
   if (is_helical(joint)) return rewind_helical_part(joint, part);
   if (const auto* mesh = std::get_if<solid::TriangleMesh>(&part))
     return rewind_mesh(joint, expected_part(joint).layout, *mesh);
   return rewind_drawing(joint, std::get<formats::Drawing>(part));
 }
 
-profile::RewindResult rewind_made(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+profile::RewindResult rewind_made(const joint::IdentifiedJoint& joint, const solid::BodyLayout& layout,
                                   const solid::TriangleMesh& mesh) {
   return rewind_mesh(joint, layout, mesh);
 }
 
-profile::RewindResult rewind_floors(const joint::JointAsItIs& joint, const solid::BodyLayout& layout,
+profile::RewindResult rewind_floors(const joint::IdentifiedJoint& joint, const solid::BodyLayout& layout,
                                     const Polygon& floor1, const Polygon& floor2) {
   return rewind_drawn(joint, shrunk(floor1, layout.scale), shrunk(floor2, layout.scale));
 }
 
-RewoundPart rewind_moved_part(const joint::JointAsItIs& joint, const Part& part) {
+RewoundPart rewind_moved_part(const joint::IdentifiedJoint& joint, const Part& part) {
   if (is_helical(joint)) return rewind_helical_in_place(joint, part);
   if (const auto* mesh = std::get_if<solid::TriangleMesh>(&part)) return rewind_moved_mesh(joint, *mesh);
   return {rewind_drawing(joint, std::get<formats::Drawing>(part)), PartPlace::as_made, {}};

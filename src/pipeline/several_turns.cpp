@@ -79,9 +79,9 @@ std::vector<profile::Condition> faults_of(const Mechanism& mechanism, const coil
 }
 
 helix::HelixSynthesis brief_synthesis(const Mechanism& mechanism) {
-  constexpr double k_look_tolerance = 0.05;
+  constexpr double k_brief_chord_error_mm = 0.05;
   profile::SynthesisOptions options;
-  options.tolerance = k_look_tolerance;
+  options.chord_error_mm = k_brief_chord_error_mm;
   options.stroke_steps = 72;
   return helix::synthesise_helix(mechanism, groove_of(mechanism), options);
 }
@@ -180,13 +180,13 @@ MechanismFile with_plausibility_warnings_and_turns(MechanismFile file) {
   return file;
 }
 
-bool design_several_turns(formats::Product& product, double tolerance, const RunContext& context,
+bool design_several_turns(formats::Product& product, double chord_error_mm, const RunContext& context,
                           solid::TieOffSearch search) {
   const Mechanism& mechanism = product.joint.mechanism;
   context.begin_step("winding both tendons several times");
   formats::HelixProduct& helix = product.helix.emplace();
   profile::SynthesisOptions options;
-  options.tolerance = tolerance;
+  options.chord_error_mm = chord_error_mm;
   options.drawn_out = -product.joint.outline.offset;
   helix.synthesis = helix::synthesise_helix(mechanism, groove_of(mechanism), options);
   adopt_synthesis(product, helix);
@@ -194,7 +194,7 @@ bool design_several_turns(formats::Product& product, double tolerance, const Run
   for (helix::HelixSide& side : helix.synthesis.sides) draw_for_making(side.spiral, product.joint.outline);
   context.begin_step("building the body");
   helix.pulley = coil::make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral,
-                                           tolerance, search);
+                                           chord_error_mm, search);
   solid::Pulley& pulley = product.pulley;
   pulley = {};
   pulley.status = helix.pulley.made ? solid::PulleyStatus::made : solid::PulleyStatus::impossible;
@@ -219,13 +219,13 @@ namespace {
 /// A string on a polygon inscribed in its curve is too short by a share of the tolerance per radian of winding. If the
 /// slack over the range exceeds its limit, the curves are drawn again, as finely as the limit requires (campaign of
 /// seed 620001, design 316: 10.5 rad, 0.11 mm of slack).
-bool design_turns_within(formats::Product& product, double tolerance, const AsBuiltLimits& limits,
+bool design_turns_within(formats::Product& product, double chord_error_mm, const AsBuiltLimits& limits,
                          const RunContext& context, solid::TieOffSearch search) {
-  if (!design_several_turns(product, tolerance, context, search)) return false;
+  if (!design_several_turns(product, chord_error_mm, context, search)) return false;
   double furthest = 0;  // rad
   for (const transmission::TransmissionPoint& place : product.synthesis.stroke)
     furthest = std::max(furthest, std::abs(place.alpha));
-  if (furthest * tolerance <= limits.slack) return true;
+  if (furthest * chord_error_mm <= limits.slack) return true;
   const profile::RewindResult wound = rewind_several_turns(product, product.pulley.mesh).result;
   if (all_ok(as_built_checks(product.joint.mechanism, wound, limits))) return true;
   return design_several_turns(product, 0.5 * limits.slack / furthest, context, search);
@@ -233,12 +233,12 @@ bool design_turns_within(formats::Product& product, double tolerance, const AsBu
 
 }  // namespace
 
-bool design_any(formats::Product& product, double tolerance, const AsBuiltLimits& limits, const RunContext& context,
-                solid::TieOffSearch search) {
-  if (design(product, tolerance, context, search)) return true;
+bool design_any(formats::Product& product, double chord_error_mm, const AsBuiltLimits& limits,
+                const RunContext& context, solid::TieOffSearch search) {
+  if (design(product, chord_error_mm, context, search)) return true;
   if (!profile::need_several_turns(product.synthesis)) return false;
   const auto kept = profile::kept_to_one_turn(product.file.mechanism);
-  if (!kept) return design_turns_within(product, tolerance, limits, context, search);
+  if (!kept) return design_turns_within(product, chord_error_mm, limits, context, search);
   for (profile::Condition& condition : product.synthesis.conditions) {
     if (!condition.ok) condition.message += " (" + *kept + ")";
   }
@@ -252,7 +252,7 @@ coil::HelicalRewind rewind_several_turns(const formats::Product& product, const 
 coil::HelicalRewind rewind_several_turns(const formats::Product& product, const std::vector<coil::FloorLine>& floors) {
   if (floors.size() != 2)
     throw InputError("", "it has " + std::to_string(floors.size()) + " grooves of several turns instead of 2");
-  const joint::JointAsItIs& joint = product.joint;
+  const joint::IdentifiedJoint& joint = product.joint;
   return coil::rewind_floors(as_made(floors[0], joint.outline), as_made(floors[1], joint.outline),
                              joint::with_inset(joint), product.synthesis.stroke,
                              product.helix->laid(joint.mechanism.guides.collar));
@@ -273,20 +273,20 @@ std::vector<std::string> keys_of_body(const DeclaredMechanism& mechanism) {
   return keys;
 }
 
-constexpr double k_helix_trial_tolerance = 0.05;
+constexpr double k_helix_trial_chord_error_mm = 0.05;
 
-helix::HelixSynthesis trial_curves(const Mechanism& mechanism, double tolerance) {
+helix::HelixSynthesis trial_curves(const Mechanism& mechanism, double chord_error_mm) {
   profile::SynthesisOptions options;
-  options.tolerance = tolerance;
+  options.chord_error_mm = chord_error_mm;
   options.stroke_steps = 36;
   return helix::synthesise_helix(mechanism, groove_of(mechanism), options, helix::HelixAccuracy::coarse);
 }
 
 /// Obstacles of the curves first, then of the body.
 std::vector<profile::Condition> obstacles_of(const Mechanism& mechanism, const helix::HelixSynthesis& made,
-                                             double tolerance) {
+                                             double chord_error_mm) {
   if (!made.made()) return profile::failed_of(made.conditions);
-  return coil::helical_obstacles(mechanism, made.sides[0].spiral, made.sides[1].spiral, tolerance);
+  return coil::helical_obstacles(mechanism, made.sides[0].spiral, made.sides[1].spiral, chord_error_mm);
 }
 
 /// The first bend of a tendon that is tighter than tendon.bend_ratio allows.
@@ -306,8 +306,8 @@ std::optional<std::string> tight_bend(const Mechanism& mechanism, const helix::H
 }  // namespace
 
 std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism) {
-  const helix::HelixSynthesis curves = trial_curves(mechanism, k_helix_trial_tolerance);
-  const std::vector<profile::Condition> obstacles = obstacles_of(mechanism, curves, k_helix_trial_tolerance);
+  const helix::HelixSynthesis curves = trial_curves(mechanism, k_helix_trial_chord_error_mm);
+  const std::vector<profile::Condition> obstacles = obstacles_of(mechanism, curves, k_helix_trial_chord_error_mm);
   if (!obstacles.empty()) return obstacles.front().message;
   return tight_bend(mechanism, curves);
 }
@@ -318,13 +318,13 @@ namespace {
 // 990202, design 237). Two builds, which run in parallel, are always allowed.
 constexpr double k_rows_for_advice = 9000;
 
-/// Approximate number of rows of such spirals at the final tolerance.
-double rows_as_made(const helix::HelixSynthesis& curves, double tolerance) {
+/// Approximate number of rows of such spirals at the final chord error.
+double rows_as_made(const helix::HelixSynthesis& curves, double chord_error_mm) {
   double rows = 0;
   for (const helix::HelixSide& side : curves.sides) {
     const std::vector<helix::SpiralRow>& drawn = side.spiral.rows;
     for (std::size_t i = 1; i < drawn.size(); ++i)
-      rows += (drawn[i].turn - drawn[i - 1].turn) * std::sqrt(drawn[i].rho / (8.0 * tolerance));
+      rows += (drawn[i].turn - drawn[i - 1].turn) * std::sqrt(drawn[i].rho / (8.0 * chord_error_mm));
   }
   return rows;
 }
@@ -338,10 +338,10 @@ class MultiTurnCheck {
     trial_.context.throw_if_stopped();
     DeclaredMechanism declared = declared_;
     static_cast<Mechanism&>(declared) = changed;
-    const Mechanism joint = joint::as_it_is(declared, joint::LawSearch::brief).mechanism;
-    const helix::HelixSynthesis curves = trial_curves(joint, k_helix_trial_tolerance);
-    std::vector<profile::Condition> obstacles = obstacles_of(joint, curves, k_helix_trial_tolerance);
-    if (obstacles.empty()) record_size(rows_as_made(curves, trial_.tolerance));
+    const Mechanism joint = joint::identified_joint(declared, joint::LawSearch::brief).mechanism;
+    const helix::HelixSynthesis curves = trial_curves(joint, k_helix_trial_chord_error_mm);
+    std::vector<profile::Condition> obstacles = obstacles_of(joint, curves, k_helix_trial_chord_error_mm);
+    if (obstacles.empty()) record_size(rows_as_made(curves, trial_.chord_error_mm));
     return obstacles;
   }
   bool make(const Mechanism& changed) {

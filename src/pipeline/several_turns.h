@@ -25,13 +25,13 @@ std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file);
 MechanismFile with_plausibility_warnings_and_turns(MechanismFile file);
 
 /// Designs spirals and body of product.joint, which one turn could not provide; otherwise as design().
-bool design_several_turns(formats::Product& product, double tolerance, const RunContext& context,
+bool design_several_turns(formats::Product& product, double chord_error_mm, const RunContext& context,
                           solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
 /// Designs one turn if it suffices, else several; false if neither is feasible. If the file excludes several turns, the
 /// conditions state the key.
-bool design_any(formats::Product& product, double tolerance, const AsBuiltLimits& limits, const RunContext& context,
-                solid::TieOffSearch search = solid::TieOffSearch::thorough);
+bool design_any(formats::Product& product, double chord_error_mm, const AsBuiltLimits& limits,
+                const RunContext& context, solid::TieOffSearch search = solid::TieOffSearch::thorough);
 
 /// Heights of the tendons above the pulley's lower face, on guides and drum.
 kit::TendonHeights tendon_heights(const formats::Product& product);
@@ -49,7 +49,7 @@ std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism)
 
 /// Functions with which advice on several turns is tested.
 struct MultiTurnTrial {
-  double tolerance = 0;                        ///< chord error of the pulleys, mm
+  double chord_error_mm = 0;                   ///< chord error of the pulleys, mm
   std::function<bool(const Mechanism&)> made;  ///< the full build with checks
   const RunContext& context;                   ///< a request to stop ends the search
 };

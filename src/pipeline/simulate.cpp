@@ -4,7 +4,7 @@
 #include "mechanism/effect.h"
 #include "pipeline/several_turns.h"
 #include "pipeline/without_law.h"
-#include "transmission/declared_law.h"
+#include "transmission/target_motion.h"
 
 namespace fusee::pipeline {
 namespace {
@@ -23,7 +23,7 @@ SimulatedJoint with_pulley(const DeclaredMechanism& declared, bool corrected) {
 /// Marks rows beyond the pulley's range, where the law's formulas are meaningless.
 void mark_rows_beyond_range(const DeclaredMechanism& mechanism, const measurement::Run& run,
                             std::vector<joint::JointState>& states) {
-  const transmission::DeclaredLaw law(mechanism);
+  const transmission::TargetMotion law(mechanism);
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (!law.reaches(run.samples[i].alpha)) states[i] = {joint::EquilibriumStatus::no_equilibrium};
   }

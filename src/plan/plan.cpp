@@ -56,7 +56,7 @@ class Planner {
     const std::vector<std::size_t> all = choose(1e9, chosen);
     Information known = start_;
     put_steps(chosen, known, 0, plan.steps);
-    plan.minutes = plan.steps.empty() ? 0.0 : plan.steps.back().by;
+    plan.minutes = plan.steps.empty() ? 0.0 : plan.steps.back().end_minute;
     describe(known, plan);
     std::vector<std::size_t> rest(all.begin() + static_cast<std::ptrdiff_t>(chosen.size()), all.end());
     put_steps(rest, known, plan.minutes, plan.beyond);
@@ -73,8 +73,8 @@ class Planner {
     Option option;
     option.step.run = run;
     option.step.words = words(run, bench_.speeds.front(), unit_);
-    option.step.setup = setup_minutes_of(run);
-    option.step.minutes = minutes_of(run) + option.step.setup;
+    option.step.setup_minutes = setup_minutes_of(run);
+    option.step.minutes = minutes_of(run) + option.step.setup_minutes;
     option.seen = seen;
     options_of_bench_.push_back(std::move(option));
   }
@@ -83,7 +83,7 @@ class Planner {
     Option option;
     option.step.reading = &reading;
     option.step.words = reading.by_hand.words;
-    option.step.minutes = option.step.setup = k_bench_minutes.reading;
+    option.step.minutes = option.step.setup_minutes = k_bench_minutes.reading;
     option.read = signatures_.of(reading);
     options_of_bench_.push_back(std::move(option));
   }
@@ -239,7 +239,7 @@ class Planner {
       const Margins after = margins_of(known);
       PlanStep step = options_of_bench_[i].step;
       minutes += step.minutes;
-      step.by = minutes;
+      step.end_minute = minutes;
       list_gain(before, after, step);
       into.push_back(std::move(step));
       before = after;

@@ -7,7 +7,7 @@
 #include "joint/forward.h"
 #include "joint/joint_effects.h"
 #include "plan/thresholds.h"
-#include "transmission/declared_law.h"
+#include "transmission/target_motion.h"
 
 // Effective sample size: one row of a simulated stroke stands for some 15° of the motor, or five rows of a log, because
 // neighbouring rows are correlated.
@@ -123,7 +123,7 @@ std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
       }
     }
   }
-  const transmission::DeclaredLaw law(expected_);
+  const transmission::TargetMotion law(expected_);
   const std::vector<RowPlace> where = places(log.front(), bench_);
   const double load = bench_.largest_load() > 0 ? run.load / bench_.largest_load() : 0.0;
   const double speed = run.speed / bench_.speeds.back();

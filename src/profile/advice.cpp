@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/run_async.h"
 #include "base/text.h"
+#include "base/thread_pool.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/profile.h"
 
@@ -284,16 +284,13 @@ class AdviceSearch {
     pairs.resize(std::min(pairs.size(), static_cast<std::size_t>(std::max(0, k_max_evaluations - evaluations_))));
     return pairs;
   }
-  /// Evaluations are independent. If full builds are required, half of them run on a second thread.
+  /// Evaluations are independent. If full builds are required, two run at a time.
   std::vector<std::vector<Condition>> evaluate(const std::vector<Mechanism>& changed) {
     std::vector<std::vector<Condition>> left(changed.size());
-    const auto every_other = [&](std::size_t first) {
-      for (std::size_t i = first; i < changed.size(); i += 2) left[i] = judge_.obstacles(changed[i]);
-    };
     evaluations_ += static_cast<int>(changed.size());
-    auto others = run_async([&every_other] { every_other(1); }, judge_.made && changed.size() > 1);
-    every_other(0);
-    others.get();
+    ThreadPool::shared().each(
+        changed.size(), [&](std::size_t i, std::size_t) { left[i] = judge_.obstacles(changed[i]); },
+        judge_.made ? 2 : 1);
     return left;
   }
 
@@ -432,15 +429,12 @@ class AdviceSearch {
 
   std::vector<bool> make(const std::vector<Candidate>& candidates) {
     if (!judge_.made) return std::vector<bool>(candidates.size(), true);
-    std::vector<std::future<bool>> trials;
-    for (std::size_t i = 0; i < candidates.size(); ++i, ++builds_) {
-      trials.push_back(run_async([this, changed = changed_mechanism(candidates[i].directions,
-                                                                    candidates[i].to)] { return judge_.made(changed); },
-                                 i + 1 < candidates.size()));
-    }
-    std::vector<bool> made(candidates.size());
-    for (std::size_t i = candidates.size(); i-- > 0;) made[i] = trials[i].get();  // the last one runs in this thread
-    return made;
+    builds_ += static_cast<int>(candidates.size());
+    std::vector<char> made(candidates.size());  // not of bool, whose neighbours share a byte
+    ThreadPool::shared().each(candidates.size(), [&](std::size_t i, std::size_t) {
+      made[i] = judge_.made(changed_mechanism(candidates[i].directions, candidates[i].to)) ? 1 : 0;
+    });
+    return {made.begin(), made.end()};
   }
 
   static Change change(const DesignVariable& variable, double to) {

@@ -31,8 +31,8 @@ constexpr double k_max_chords = 5e4;
 double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi, double longest,
                     const SamplingOptions& options) {
   const double radius = std::max(left.radius(k_pi - psi), right.radius(psi)) + options.reach;
-  const double of_an_arc = std::sqrt(8.0 * options.tolerance / radius),
-               of_a_straight = 8.0 * options.tolerance / longest;
+  const double of_an_arc = std::sqrt(8.0 * options.chord_error_mm / radius),
+               of_a_straight = 8.0 * options.chord_error_mm / longest;
   return std::min(options.largest_turn, std::max(of_an_arc, of_a_straight));
 }
 
@@ -49,9 +49,9 @@ double longest_chord(const PitchCurve& left, const PitchCurve& right, const Samp
 
 /// Loss of tolerance by rounding to a mesh's floats at distance `reach`. Within a quarter of a metre it is below a
 /// reserve.
-double tolerance_lost_to_floats(double reach, double tolerance) {
+double tolerance_lost_to_floats(double reach, double chord_error_mm) {
   constexpr double k_left_for_it = 1e-5;
-  return std::clamp(reach * 0x1p-24 * std::sqrt(2.0) - k_left_for_it, 0.0, 0.5 * tolerance);
+  return std::clamp(reach * 0x1p-24 * std::sqrt(2.0) - k_left_for_it, 0.0, 0.5 * chord_error_mm);
 }
 
 /// Appends directions from `begin` to `end` (exclusive) with the density that the tolerance requires.
@@ -130,7 +130,7 @@ void halve_coarse_chords(std::vector<Pair>& points, const PitchCurve& left, cons
       const double chord = std::max((next.right.position - here.right.position).norm(),
                                     (next.left.position - here.left.position).norm());
       const double turn = next.psi() - here.psi();
-      if (turn > finest && chord * turn / 8.0 > options.tolerance)
+      if (turn > finest && chord * turn / 8.0 > options.chord_error_mm)
         finer.push_back(pair_at(left, right, 0.5 * (here.psi() + next.psi())));
     }
     if (finer.size() == points.size() || static_cast<double>(finer.size()) > k_max_chords) return;
@@ -151,8 +151,9 @@ std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, c
   }
   const std::vector<double> mandatory = merge_near(std::move(wanted));
   const double longest = longest_chord(left, right, requested);
-  const SamplingOptions options{requested.tolerance - tolerance_lost_to_floats(0.25 * longest, requested.tolerance),
-                                requested.reach, requested.largest_turn};
+  const SamplingOptions options{
+      requested.chord_error_mm - tolerance_lost_to_floats(0.25 * longest, requested.chord_error_mm), requested.reach,
+      requested.largest_turn};
   std::vector<double> directions;
   for (std::size_t i = 0; i < mandatory.size(); ++i) {
     const double end = i + 1 < mandatory.size() ? mandatory[i + 1] : mandatory.front() + k_two_pi;

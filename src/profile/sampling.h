@@ -10,8 +10,8 @@
 namespace fusee::profile {
 
 struct SamplingOptions {
-  double tolerance = 0.01;  ///< largest sagitta, mm
-  double reach = 0;         ///< outward offset of the outermost parallel curve that must satisfy the tolerance, mm
+  double chord_error_mm = 0.01;  ///< largest sagitta, mm
+  double reach = 0;              ///< outward offset of the outermost parallel curve that must satisfy the tolerance, mm
   /// Maximum turn of a chord at any tolerance. A string wound on the polygon is then accurate to 5e-5 of its length.
   double largest_turn = radians(2.0);
 };

@@ -49,7 +49,7 @@ void draw(SynthesisResult& result, const Mechanism& mechanism, const Attempt& at
   const auto curve2 = pitch_curve(mechanism, *attempt.sides[1], result.warnings);
   auto outlines =
       sample(*curve1, *curve2,
-             {options.tolerance, std::max(flange_reach(mechanism), options.drawn_out), largest_turn(mechanism)});
+             {options.chord_error_mm, std::max(flange_reach(mechanism), options.drawn_out), largest_turn(mechanism)});
   result.p1 = std::move(outlines[0]);
   result.p2 = std::move(outlines[1]);
 }

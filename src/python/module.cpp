@@ -133,17 +133,18 @@ py::dict synthesise_joint(const CarriedMechanism& carried, double tolerance, boo
   return to_python(made_unlocked(carried.files, Stop(), [&](const RunContext&) {
     demand_tendons(carried.file, "synthesise for");
     profile::SynthesisOptions options;
-    options.tolerance = tolerance;
+    options.chord_error_mm = tolerance;
     options.advice = advice;
     options.stroke_steps = steps;
-    return profile::synthesise(joint::as_it_is(carried.file.mechanism).mechanism, options);
+    return profile::synthesise(joint::identified_joint(carried.file.mechanism).mechanism, options);
   }));
 }
 
 pipeline::AsBuiltLimits limits_of(double max_theta_error, double max_slack) { return {max_theta_error, max_slack}; }
 
 /// Rewinds a part; faults are reported with its file name.
-pipeline::RewoundPart rewound(const joint::JointAsItIs& joint, const std::string& path, bool as_is, FileAccess& files) {
+pipeline::RewoundPart rewound(const joint::IdentifiedJoint& joint, const std::string& path, bool as_is,
+                              FileAccess& files) {
   const pipeline::Part part = pipeline::read_part(path, files);
   try {
     return as_is ? pipeline::RewoundPart{pipeline::rewind_part(joint, part), pipeline::PartPlace::as_made, {}}
@@ -159,7 +160,7 @@ py::dict with_checks(const CarriedMechanism& carried, const std::shared_ptr<cons
                      const pipeline::AsBuiltLimits& limits) {
   py::dict dict = to_python(part);
   std::vector<Check> checks =
-      pipeline::as_built_checks(joint::as_it_is(carried.file.mechanism).mechanism, part->as_built, limits);
+      pipeline::as_built_checks(joint::identified_joint(carried.file.mechanism).mechanism, part->as_built, limits);
   // With only one tendon the slack is unknown.
   if (part->alone) checks.erase(checks.begin() + 1, checks.end());
   dict["checks"] = to_python(checks);
@@ -170,7 +171,7 @@ py::dict rewind_file(const CarriedMechanism& carried, const std::string& path, b
                      double max_slack) {
   const auto part = made_unlocked(carried.files, Stop(), [&](const RunContext& context) {
     demand_tendons(carried.file, "wind");
-    return rewound(joint::as_it_is(carried.file.mechanism), path, as_is, *context.files);
+    return rewound(joint::identified_joint(carried.file.mechanism), path, as_is, *context.files);
   });
   return with_checks(carried, part, limits_of(max_theta_error, max_slack));
 }
@@ -189,8 +190,9 @@ py::dict rewind_floors(const CarriedMechanism& carried, const Floor& floor1, con
   const Polygon p1 = polygon_of(floor1), p2 = polygon_of(floor2);
   const auto part = made_unlocked(carried.files, Stop(), [&](const RunContext&) {
     demand_tendons(carried.file, "wind");
-    return pipeline::RewoundPart{
-        profile::rewind(joint::as_it_is(carried.file.mechanism).mechanism, p1, p2), pipeline::PartPlace::as_made, {}};
+    return pipeline::RewoundPart{profile::rewind(joint::identified_joint(carried.file.mechanism).mechanism, p1, p2),
+                                 pipeline::PartPlace::as_made,
+                                 {}};
   });
   return with_checks(carried, part, limits_of(max_theta_error, max_slack));
 }
@@ -241,7 +243,7 @@ py::dict analyze_joint(const CarriedMechanism& carried, int steps, double tolera
   return to_python(made_unlocked(carried.files, stop, [&](const RunContext& context) {
     analysis::AnalysisOptions options;
     options.steps = steps;
-    options.tolerance = tolerance;
+    options.dimension_tolerance = tolerance;
     options.samples = samples;
     options.seed = seed;
     return pipeline::analyze(carried.file, options, context);

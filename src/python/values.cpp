@@ -371,7 +371,7 @@ py::dict step_of(const plan::PlanStep& step, const std::string& file) {
   py::dict dict;
   dict["words"] = words(step.words);
   dict["minutes"] = step.minutes;
-  dict["by_minutes"] = step.by;
+  dict["by_minutes"] = step.end_minute;
   dict["sees"] = to_python(step.sees);
   dict["tells"] = to_python(step.tells);
   dict["file"] = words(file);

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <future>
 #include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "base/run_async.h"
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 #include "solid/corefinement.h"
 #include "solid/disjoint_sets.h"
@@ -144,16 +143,13 @@ std::vector<ContactGroup> contact_groups(const TriangleMesh& near, const Triangl
 // Cuts all contacts in parallel.
 std::optional<Corefined> corefined_apart(const TriangleMesh& near, const TriangleMesh& tool) {
   const std::vector<ContactGroup> all = contact_groups(near, tool);
-  std::vector<std::future<std::optional<Corefined>>> others;
-  for (std::size_t k = 1; k < all.size(); ++k)
-    others.push_back(run_async([&all, k] { return corefined(all[k].near, all[k].tool); }));
-  std::optional<Corefined> whole = corefined(all.front().near, all.front().tool);
-  for (auto& other : others) {
-    const std::optional<Corefined> part = other.get();
-    if (!whole || !part) {
-      whole.reset();
-      continue;
-    }
+  std::vector<std::optional<Corefined>> parts(all.size());
+  ThreadPool::shared().each(all.size(),
+                            [&](std::size_t k, std::size_t) { parts[k] = corefined(all[k].near, all[k].tool); });
+  std::optional<Corefined> whole = std::move(parts.front());
+  for (std::size_t k = 1; k < parts.size(); ++k) {
+    const std::optional<Corefined>& part = parts[k];
+    if (!whole || !part) return std::nullopt;
     whole->first.insert(whole->first.end(), part->first.begin(), part->first.end());
     whole->second.insert(whole->second.end(), part->second.begin(), part->second.end());
   }
@@ -463,9 +459,8 @@ std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMe
 
 // Starts, on threads, the divisions of all tools that touch no facet touched by an earlier tool. The body is first put
 // into the order that the first cut gives it.
-std::vector<std::future<Division>> foreseen_divisions(const TriangleMesh& body,
-                                                      const std::vector<TriangleMesh>& tools) {
-  std::vector<std::future<Division>> divisions(tools.size());
+std::vector<Task<Division>> foreseen_divisions(const TriangleMesh& body, const std::vector<TriangleMesh>& tools) {
+  std::vector<Task<Division>> divisions(tools.size());
   if (tools.size() < 2) return divisions;
   const TriangleMesh ordered = settled(body);
   std::vector<bool> taken = touched_by(tools.front(), ordered);
@@ -490,7 +485,7 @@ std::optional<BooleanResult> subtract(const TriangleMesh& body, const TriangleMe
 }
 std::optional<CutBody> subtract_each(const TriangleMesh& body, const std::vector<TriangleMesh>& tools) {
   CutBody result{body, {}};
-  std::vector<std::future<Division>> divisions = foreseen_divisions(body, tools);
+  std::vector<Task<Division>> divisions = foreseen_divisions(body, tools);
   for (std::size_t k = 0; k < tools.size(); ++k) {
     const std::optional<Division> foreseen = divisions[k].valid() ? std::optional(divisions[k].get()) : std::nullopt;
     auto outcome = combined(result.mesh, tools[k], Operation::subtract, foreseen ? &*foreseen : nullptr);

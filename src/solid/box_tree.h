@@ -23,22 +23,22 @@ class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box3>& boxes);
 
-  /// Calls `look`, (size_t, size_t) → bool, for each pair of overlapping boxes until it returns true. Returns true if
+  /// Calls `visit`, (size_t, size_t) → bool, for each pair of overlapping boxes until it returns true. Returns true if
   /// it did.
   template <typename Visitor>
-  bool any_pair(const Visitor& look) const {
-    return any_pair_in_first_half(look) || any_pair_in_the_rest(look);
+  bool any_pair(const Visitor& visit) const {
+    return any_pair_in_first_half(visit) || any_pair_in_second_half(visit);
   }
   /// Like any_pair, split in two halves that may run in parallel.
   template <typename Visitor>
-  bool any_pair_in_first_half(const Visitor& look) const {
-    return !nodes_.empty() && within(nodes_.front().right == 0 ? 0 : 1, look);
+  bool any_pair_in_first_half(const Visitor& visit) const {
+    return !nodes_.empty() && within(nodes_.front().right == 0 ? 0 : 1, visit);
   }
   template <typename Visitor>
-  bool any_pair_in_the_rest(const Visitor& look) const {
+  bool any_pair_in_second_half(const Visitor& visit) const {
     if (nodes_.empty() || nodes_.front().right == 0) return false;
     const std::uint32_t right = nodes_.front().right;
-    return within(right, look) || between(1, right, look);
+    return within(right, visit) || between(1, right, visit);
   }
 
  private:
@@ -57,29 +57,29 @@ class BoxTree {
   void add_node(std::vector<SortedBox>& sorted, std::uint32_t first, std::uint32_t last);
 
   template <typename Visitor>
-  bool within(std::uint32_t node, const Visitor& look) const {
+  bool within(std::uint32_t node, const Visitor& visit) const {
     const Node& here = nodes_[node];
     if (here.right != 0)
-      return within(node + 1, look) || within(here.right, look) || between(node + 1, here.right, look);
+      return within(node + 1, visit) || within(here.right, visit) || between(node + 1, here.right, visit);
     for (std::uint32_t i = here.first; i < here.last; ++i) {
       for (std::uint32_t j = i + 1; j < here.last; ++j) {
-        if (overlap(boxes_[items_[i]], boxes_[items_[j]]) && look(items_[i], items_[j])) return true;
+        if (overlap(boxes_[items_[i]], boxes_[items_[j]]) && visit(items_[i], items_[j])) return true;
       }
     }
     return false;
   }
 
   template <typename Visitor>
-  bool between(std::uint32_t a, std::uint32_t b, const Visitor& look) const {
+  bool between(std::uint32_t a, std::uint32_t b, const Visitor& visit) const {
     const Node &p = nodes_[a], &q = nodes_[b];
     if (!overlap(p.box, q.box)) return false;
     if (p.right != 0 && (q.right == 0 || p.last - p.first >= q.last - q.first))
-      return between(a + 1, b, look) || between(p.right, b, look);
-    if (q.right != 0) return between(a, b + 1, look) || between(a, q.right, look);
+      return between(a + 1, b, visit) || between(p.right, b, visit);
+    if (q.right != 0) return between(a, b + 1, visit) || between(a, q.right, visit);
     for (std::uint32_t i = p.first; i < p.last; ++i) {
       if (!overlap(boxes_[items_[i]], q.box)) continue;
       for (std::uint32_t j = q.first; j < q.last; ++j) {
-        if (overlap(boxes_[items_[i]], boxes_[items_[j]]) && look(items_[i], items_[j])) return true;
+        if (overlap(boxes_[items_[i]], boxes_[items_[j]]) && visit(items_[i], items_[j])) return true;
       }
     }
     return false;

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/run_async.h"
 #include "base/text.h"
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 #include "fusee/solid.h"
 #include "solid/disjoint_sets.h"

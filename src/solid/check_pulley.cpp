@@ -37,20 +37,20 @@ class GrooveGauge {
     for (Polygon& loop : loops_at(z())) (signed_area(loop) > 0 ? outlines_ : holes_).push_back(std::move(loop));
   }
 
-  void add_checks(std::vector<Check>& checks, double tolerance, double min_wall) const {
+  void add_checks(std::vector<Check>& checks, double chord_error_mm, double min_wall) const {
     const std::string name = left_ ? "_P1" : "_P2";
     if (outlines_.empty()) {
-      checks.push_back({"floor_deviation" + name, 0, tolerance, "mm", false,
+      checks.push_back({"floor_deviation" + name, 0, chord_error_mm, "mm", false,
                         fmt::format("no closed section at z = {} mm", rounded(z()))});
       return;
     }
     const auto [deviation, where] = floor_deviation();
-    checks.push_back(at_most("floor_deviation" + name, deviation, tolerance + k_float_grain, "mm",
+    checks.push_back(at_most("floor_deviation" + name, deviation, chord_error_mm + k_float_grain, "mm",
                              "P" + std::string(left_ ? "1" : "2") + " at " + place_in_plan(where)));
     checks.push_back(at_least("wall" + name, thinnest_wall(), min_wall - k_float_grain, "mm",
                               fmt::format("in the section at z = {} mm", rounded(z()))));
-    checks.push_back(
-        at_least("groove_depth" + name, depth(), layout_.groove_depth - tolerance, "mm", "between floor and flange"));
+    checks.push_back(at_least("groove_depth" + name, depth(), layout_.groove_depth - chord_error_mm, "mm",
+                              "between floor and flange"));
     checks.push_back(at_least("groove_width" + name, width(), d_ - k_float_grain, "mm",
                               "at the height of the tendon's centre line"));
   }
@@ -231,13 +231,14 @@ std::vector<Check> check_body(const TriangleMesh& mesh, std::vector<Check> check
 }  // namespace
 
 std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism,
-                                const profile::SynthesisResult& synthesis, const Pulley& pulley, double tolerance) {
+                                const profile::SynthesisResult& synthesis, const Pulley& pulley,
+                                double chord_error_mm) {
   demand(pulley.made(), "check of a pulley that was not made");
   std::vector<Check> checks =
       check_body(mesh, checks_of(mesh, pulley.mesh, pulley.mesh_checks), pulley.expected_euler, pulley.expected_volume);
   if (!is_measurable(checks)) return checks;
-  GrooveGauge(mesh, mechanism, synthesis.p1, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);
-  GrooveGauge(mesh, mechanism, synthesis.p2, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);
+  GrooveGauge(mesh, mechanism, synthesis.p1, pulley).add_checks(checks, chord_error_mm, pulley.layout.min_wall);
+  GrooveGauge(mesh, mechanism, synthesis.p2, pulley).add_checks(checks, chord_error_mm, pulley.layout.min_wall);
   return checks;
 }
 

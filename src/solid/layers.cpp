@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/run_async.h"
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 #include "solid/downward_faces.h"
 #include "solid/nearest_segment.h"

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/run_async.h"
 #include "base/text.h"
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 #include "fusee/solid.h"
 #include "solid/body.h"
@@ -507,11 +507,11 @@ RatedPulley pulley_of(const Mechanism& mechanism, const profile::SynthesisResult
   return rated;
 }
 
-std::vector<Rejection> new_rejections(std::vector<Rejection> blamed, const std::vector<Rejection>& known) {
-  std::erase_if(blamed, [&known](const Rejection& rejection) {
+std::vector<Rejection> new_rejections(std::vector<Rejection> rejections, const std::vector<Rejection>& known) {
+  std::erase_if(rejections, [&known](const Rejection& rejection) {
     return std::find(known.begin(), known.end(), rejection) != known.end();
   });
-  return blamed;
+  return rejections;
 }
 
 // The pulley with the condition that it cannot be printed without supports.
@@ -545,10 +545,11 @@ Pulley search_printable_tie_offs(const Mechanism& mechanism, const profile::Synt
     Pulley& pulley = rated.pulley;
     if (pulley.made() && rated.unprintable.empty()) return std::move(pulley);
     if (!pulley.made()) return printable ? std::move(*printable) : std::move(pulley);
-    const std::vector<Rejection> blamed = new_rejections(attribute_supports(rated.unprintable, plan), wishes.rejected);
-    if (blamed.empty() || round == effort.rounds)
+    const std::vector<Rejection> rejections =
+        new_rejections(attribute_supports(rated.unprintable, plan), wishes.rejected);
+    if (rejections.empty() || round == effort.rounds)
       return printable ? std::move(*printable) : refused(std::move(pulley), mechanism, rated.unprintable);
-    wishes.rejected.insert(wishes.rejected.end(), blamed.begin(), blamed.end());
+    wishes.rejected.insert(wishes.rejected.end(), rejections.begin(), rejections.end());
   }
 }
 

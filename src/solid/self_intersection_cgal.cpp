@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/run_async.h"
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 #include "solid/box_tree.h"
 #include "solid/self_intersection.h"
@@ -279,9 +279,10 @@ CrossingSearch find_crossing(const TriangleMesh& welded) {
     });
     return search;
   };
-  auto in_rest = run_async([&] { return search_in([&](const auto& look) { return tree.any_pair_in_the_rest(look); }); },
-                           facets.boxes.size() > k_worth_halving);
-  const CrossingSearch first = search_in([&](const auto& look) { return tree.any_pair_in_first_half(look); });
+  auto in_rest =
+      run_async([&] { return search_in([&](const auto& visit) { return tree.any_pair_in_second_half(visit); }); },
+                facets.boxes.size() > k_worth_halving);
+  const CrossingSearch first = search_in([&](const auto& visit) { return tree.any_pair_in_first_half(visit); });
   is_over = first.facets || first.gave_up;
   const CrossingSearch rest = in_rest.get();
   return first.facets || first.gave_up ? first : rest;

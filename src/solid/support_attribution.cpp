@@ -78,13 +78,14 @@ profile::Condition does_not_print(const std::string& name, const std::vector<Vec
 
 std::vector<Rejection> attribute_supports(const std::vector<Vec3>& places, const BodyPlan& plan) {
   const double reach = k_entry_depths * plan.layout.groove_depth + k_entry_widths * plan.layout.channel_width;
-  std::vector<Rejection> blamed;
+  std::vector<Rejection> rejections;
   for (const Vec3& place : places) {
     const Attribution attribution = attribution_of(place, plan);
     if (!attribution.who || attribution.gap > reach) continue;
-    if (std::find(blamed.begin(), blamed.end(), *attribution.who) == blamed.end()) blamed.push_back(*attribution.who);
+    if (std::find(rejections.begin(), rejections.end(), *attribution.who) == rejections.end())
+      rejections.push_back(*attribution.who);
   }
-  return blamed;
+  return rejections;
 }
 
 }  // namespace fusee::solid

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/run_async.h"
+#include "base/thread_pool.h"
 #include "fusee/base.h"
 #include "solid/face_holes.h"
 

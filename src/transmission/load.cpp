@@ -6,7 +6,7 @@
 
 namespace fusee::transmission {
 
-double weight_moment(const Load& load) { return load.mass * k_gravity * load.lever; }
+double weight_moment(const Load& load) { return load.mass_kg * k_gravity * load.lever; }
 
 double load_torque(const Mechanism& mechanism, double theta) {
   const Load& load = mechanism.load;

@@ -18,7 +18,7 @@ constexpr std::array<std::array<double, 2>, 4> k_gauss_eight{{{0.183434642495649
 /// Number of intervals over the range. Within one, the sine of a weight equals a polynomial of degree 15 to the last
 /// digit.
 constexpr int k_intervals = 64;
-/// Extension beyond the range, as a fraction of it, in which the declared law continues where possible.
+/// Extension beyond the range, as a fraction of it, in which the law continues where possible.
 constexpr double k_extension = 0.1;
 /// Minimum dα/dθ in the extension, as a fraction of its value at the end of the range.
 constexpr double k_least_share = 0.3;

@@ -17,7 +17,7 @@ namespace fusee::transmission {
 ///
 ///   dθ/dα = u = M/τ     d²θ/dα² = u u'     d³θ/dα³ = u (u'² + u u'')      (' by θ)
 ///
-/// Gauss quadrature integrates between the breaks of M's polynomials. Slightly beyond the range the declared law
+/// Gauss quadrature integrates between the breaks of M's polynomials. Slightly beyond the range the law
 /// continues, further out with constant slope.
 struct Transmission::TorqueLaw {
  public:
@@ -43,7 +43,7 @@ struct Transmission::TorqueLaw {
   std::shared_ptr<const TableLaw> wanted_;
   std::vector<double> places_;                  ///< breaks of the quadrature in θ, home included
   std::vector<double> alphas_;                  ///< α at these places
-  double extended_min_ = 0, extended_max_ = 0;  ///< θ range within which the declared law continues
+  double extended_min_ = 0, extended_max_ = 0;  ///< θ range within which the law continues
   TorqueMatch tightest_;
   std::optional<double> fails_at_;
 };

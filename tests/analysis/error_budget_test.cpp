@@ -21,7 +21,7 @@ const ErrorSource& named(const std::vector<ErrorSource>& sources, const std::str
   throw std::out_of_range(name);
 }
 
-TEST(RigidJoint, ReproducesDeclaredLaw) {
+TEST(RigidJoint, ReproducesTargetMotion) {
   for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
     const transmission::Transmission transmission(mechanism);
     for (const double theta : {-0.3, 0.0, 0.4}) {
@@ -171,9 +171,9 @@ TEST(Tolerances, MethodsAgree) {
 TEST(Tolerances, ScaleWithTolerance) {
   AnalysisOptions fine;
   fine.samples = 50;
-  fine.tolerance = 0.01;
+  fine.dimension_tolerance = 0.01;
   AnalysisOptions coarse = fine;
-  coarse.tolerance = 0.1;
+  coarse.dimension_tolerance = 0.1;
   const auto a = tolerance_effects(forearm(), fine);
   const auto b = tolerance_effects(forearm(), coarse);
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -57,9 +57,9 @@ MechanismFile file_of(const Mechanism& mechanism) {
 /// All warnings as printed text.
 std::vector<std::string> said(const MechanismFile& file) {
   std::vector<std::string> texts;
-  for (const Diagnostic& doubt : plausibility_warnings(file)) {
-    EXPECT_EQ(doubt.severity, Severity::warning);
-    texts.push_back(doubt.message + " | " + doubt.hint);
+  for (const Diagnostic& warning : plausibility_warnings(file)) {
+    EXPECT_EQ(warning.severity, Severity::warning);
+    texts.push_back(warning.message + " | " + warning.hint);
   }
   return texts;
 }
@@ -94,9 +94,9 @@ TEST(Plausibility, RarelyWarnsOfRandomJoints) {
   int doubted = 0, cases = 0;
   testing::expect_law(300, [&](const Mechanism& mechanism) {
     ++cases;
-    for (const Diagnostic& doubt : plausibility_warnings(file_of(mechanism))) {
+    for (const Diagnostic& warning : plausibility_warnings(file_of(mechanism))) {
       ++doubted;
-      RC_ASSERT(doubt.message.find("guides.OE_mm") == 0);
+      RC_ASSERT(warning.message.find("guides.OE_mm") == 0);
       RC_ASSERT(mechanism.guides.OE > 0);
     }
     return profile::synthesise(mechanism, {.advice = false}).made();
@@ -281,9 +281,9 @@ TEST(Overload, AgreesWithAnalysis) {
   const AnalysisResult table = analyse(loaded, {.steps = 12, .samples = 10});
   MechanismFile file;
   file.mechanism = loaded;
-  const auto doubt = overloaded_tendon(file);
-  ASSERT_TRUE(doubt);
-  EXPECT_EQ(doubt->message, tendon_breaks({table.largest_tension, table.largest_at_joint}, *table.strength)->message);
+  const auto warning = overloaded_tendon(file);
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(warning->message, tendon_breaks({table.largest_tension, table.largest_at_joint}, *table.strength)->message);
 }
 
 TEST(Bends, WarnOfTightBends) {

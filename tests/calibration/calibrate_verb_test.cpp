@@ -227,15 +227,15 @@ TEST(CalibrateVerb, HeldOutRunIsNotFitted) {
 }
 
 TEST(CalibrateVerb, ASlipIsSaidAndChangesNothingElse) {
-  pipeline::CalibrateOptions options = into(scratch("slip"));
+  pipeline::CalibrateOptions options = into(scratch("input_error"));
   options.dry_run = true;
   const MechanismFile file = read_mechanism(k_rig / "a_declared_right/spec.toml", {{"guides.OE_mm", "14"}});
   const pipeline::CalibrateResult result = pipeline::calibrate(file, runs_in(k_rig / "a_declared_right"), options);
   EXPECT_EQ(result.product.calibration.verdict, CalibrationVerdict::unexplained);
   std::map<std::string, std::string> outputs;
   for (const OutputFile& output : result.outputs) outputs[output.name] = output.bytes;
-  ASSERT_EQ(result.product.slips.size(), 1u);
-  const std::string words = input_error_words(result.product.slips.front());
+  ASSERT_EQ(result.product.input_errors.size(), 1u);
+  const std::string words = input_error_words(result.product.input_errors.front());
   EXPECT_THAT(words, testing::StartsWith("guides.OE_mm = -14 in place of 14 would explain the data to 0.0"));
   EXPECT_THAT(outputs["calibration.json"],
               testing::AllOf(HasSubstr("\"key\": \"guides.OE_mm\""), HasSubstr("\"would_be\": -14"), HasSubstr(words)));
@@ -246,13 +246,13 @@ TEST(CalibrateVerb, ASlipIsSaidAndChangesNothingElse) {
 }
 
 TEST(CalibrateVerb, RightFileListsNoInputError) {
-  pipeline::CalibrateOptions options = into(scratch("no_slip"));
+  pipeline::CalibrateOptions options = into(scratch("no_input_error"));
   options.dry_run = true;
   const pipeline::CalibrateResult result =
       pipeline::calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), runs_in(k_rig / "c_backlash"), options);
   EXPECT_THAT(result.product.file.warnings, testing::IsEmpty());
   EXPECT_THAT(formats::calibration_json(result.product), HasSubstr("\"slips\": []"));
-  EXPECT_THAT(formats::calibration_report_html(result.product), Not(HasSubstr("A slip of the file")));
+  EXPECT_THAT(formats::calibration_report_html(result.product), Not(HasSubstr("Likely input error")));
 }
 
 /// The rig's runs with the tip force given as a torque.
@@ -345,7 +345,7 @@ TEST(LawTable, TorqueGoesBesideToo) {
   EXPECT_EQ(read.pulley.torque_rows, file.mechanism.pulley.torque_rows);
 }
 
-TEST(LawTable, BesideItsFileItStaysAsItIs) {
+TEST(LawTable, StaysUnchangedBesideItsFile) {
   const std::filesystem::path folder = scratch("beside");
   MechanismFile file = tabled(folder);
   file.mechanism.pulley.table = "law.csv";
@@ -373,7 +373,7 @@ TEST(CalibrationPage, ImpossiblePulleyIsReported) {
 TEST(CalibrationPage, SaysWhereToTie) {
   formats::CalibrationProduct product = explained();
   product.correction.has_pulley = true;
-  product.correction.tied_at = radians(-1.5);
+  product.correction.assembly_angle = radians(-1.5);
   EXPECT_THAT(formats::calibration_report_html(product), HasSubstr("the motor at -1.5 deg"));
   EXPECT_THAT(formats::calibration_json(product), HasSubstr("\"tied_at_deg\": -1.5"));
 }

@@ -62,31 +62,31 @@ Bench rig_data(const std::string& name) {
   return {read_mechanism(folder / "spec.toml").mechanism, measurement::read_measurement(runs)};
 }
 
-std::vector<std::string> words(const std::vector<LikelyInputError>& slips) {
+std::vector<std::string> words(const std::vector<LikelyInputError>& errors) {
   std::vector<std::string> all;
-  for (const LikelyInputError& slip : slips) all.push_back(input_error_words(slip));
+  for (const LikelyInputError& error : errors) all.push_back(input_error_words(error));
   return all;
 }
 
-Calibration calibrated(const DeclaredMechanism& file, measurement::Measurement data, bool look_for_effects = true) {
+Calibration calibrated(const DeclaredMechanism& file, measurement::Measurement data, bool search_effects = true) {
   measurement::compare_with_declared(file, data);
   CalibrationOptions options;
-  options.look_for_effects = look_for_effects;
+  options.search_effects = search_effects;
   return calibrate(file, data, options);
 }
 
-/// Rms over all rows with nothing fitted, rad: no rows are left out, as a slip's trial does.
+/// Rms over all rows with nothing fitted, rad: no rows are left out, as in the trial of an input error.
 double left_by(const DeclaredMechanism& file, const measurement::Measurement& data) {
   return calibrated(file, data, false).before.rms;
 }
 
 /// Input errors after calibrate(), which searches no effects if an error is obvious, as the program does.
-std::vector<LikelyInputError> slips_of(const DeclaredMechanism& file, const measurement::Measurement& data) {
+std::vector<LikelyInputError> errors_of(const DeclaredMechanism& file, const measurement::Measurement& data) {
   return find_input_errors(file, data, calibrated(file, data, !is_input_error_obvious(file, data)));
 }
 
 std::vector<std::string> said(const DeclaredMechanism& file, const measurement::Measurement& data) {
-  return words(slips_of(file, data));
+  return words(errors_of(file, data));
 }
 
 /// Input errors of a calibration that explains nothing, without its minute of search.
@@ -98,15 +98,15 @@ std::vector<std::string> said_where_unexplained(const DeclaredMechanism& file, c
   return words(find_input_errors(file, data, found));
 }
 
-// ---- one slip after another -----------------------------------------------------------------------------------------
+// ---- one error after another ----------------------------------------------------------------------------------------
 
-struct OneSlip {
+struct InputErrorCase {
   const char* name;
   void (*file)(DeclaredMechanism&);
   const char* said;
 };
 
-const OneSlip k_file_slips[] = {
+const InputErrorCase k_file_errors[] = {
     {"OE", [](DeclaredMechanism& m) { m.guides.OE *= -1; }, "guides.OE_mm = -"},
     {"exchanged", [](DeclaredMechanism& m) { std::swap(m.guides.EB, m.guides.ED); }, "guides.EB_mm, guides.ED_mm = "},
     {"R", [](DeclaredMechanism& m) { m.joint.R /= 10; }, "joint.length_mm = "},
@@ -121,18 +121,18 @@ const OneSlip k_file_slips[] = {
      "joint.range_deg = "},
 };
 
-TEST(UndoneSlips, name_the_key_and_the_value_that_was_meant) {
+TEST(InputErrors, name_the_key_and_the_value_that_was_meant) {
   const Bench& bench = compensating();
-  for (const OneSlip& slip : k_file_slips) {
+  for (const InputErrorCase& error : k_file_errors) {
     DeclaredMechanism file = bench.right;
-    slip.file(file);
+    error.file(file);
     EXPECT_THAT(said_where_unexplained(file, bench.data),
-                ElementsAre(AllOf(HasSubstr(slip.said), HasSubstr("to 0.02°"))))
-        << slip.name;
+                ElementsAre(AllOf(HasSubstr(error.said), HasSubstr("to 0.02°"))))
+        << error.name;
   }
 }
 
-TEST(UndoneSlips, of_a_joint_with_a_ratio_name_it) {
+TEST(InputErrors, of_a_joint_with_a_ratio_name_it) {
   const Bench& bench = linear();
   ASSERT_EQ(bench.right.pulley.law, Law::linear);
   DeclaredMechanism file = bench.right;
@@ -152,7 +152,7 @@ measurement::Measurement times(measurement::Measurement data, double alpha, doub
   return data;
 }
 
-TEST(UndoneSlips, of_the_log_name_the_angle) {
+TEST(InputErrors, of_the_log_name_the_angle) {
   const Bench& bench = compensating();
   const auto move_tangent = [&](double alpha, double theta) {
     return said_where_unexplained(bench.right, times(bench.data, alpha, theta));
@@ -163,7 +163,7 @@ TEST(UndoneSlips, of_the_log_name_the_angle) {
   EXPECT_THAT(move_tangent(1, radians(1)), ElementsAre(HasSubstr("the logged theta times 57.296")));
 }
 
-TEST(UndoneSlips, know_the_pulley_that_was_made_from_the_wrong_file) {
+TEST(InputErrors, know_the_pulley_that_was_made_from_the_wrong_file) {
   const Bench& bench = linear();
   DeclaredMechanism file = bench.right;
   file.guides.OE *= -1;
@@ -177,25 +177,25 @@ TEST(UndoneSlips, know_the_pulley_that_was_made_from_the_wrong_file) {
 
 // ---- the whole way --------------------------------------------------------------------------------------------------
 
-// By a search for effects, though the slip is plain.
-TEST(UndoneSlips, are_said_where_no_effect_explains) {
+// By a search for effects, though the error is obvious.
+TEST(InputErrors, AreReportedWhereNoEffectExplains) {
   Bench bench = rig_data("a_declared_right");
   bench.right.guides.OE *= -1;
   const Calibration found = calibrated(bench.right, bench.data);
   ASSERT_EQ(found.verdict, CalibrationVerdict::unexplained);
-  const std::vector<LikelyInputError> slips = find_input_errors(bench.right, bench.data, found);
-  ASSERT_EQ(slips.size(), 1u);
-  EXPECT_EQ(slips[0].key, "guides.OE_mm");
-  EXPECT_THAT(slips[0].declared, ElementsAre(14.0));
-  EXPECT_THAT(slips[0].would_be, ElementsAre(-14.0));
+  const std::vector<LikelyInputError> errors = find_input_errors(bench.right, bench.data, found);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].key, "guides.OE_mm");
+  EXPECT_THAT(errors[0].declared, ElementsAre(14.0));
+  EXPECT_THAT(errors[0].would_be, ElementsAre(-14.0));
   const double left = left_by(rig_data("a_declared_right").right, bench.data);
-  EXPECT_NEAR(slips[0].rms, left, 0.1 * left);
-  EXPECT_LT(slips[0].rms, 1.1 * found.noise.rms);
-  EXPECT_EQ(input_error_words(slips[0]), "guides.OE_mm = -14 in place of 14 would explain the data to " +
-                                             rounded(degrees(slips[0].rms), 2) + "°: is the sign right?");
+  EXPECT_NEAR(errors[0].rms, left, 0.1 * left);
+  EXPECT_LT(errors[0].rms, 1.1 * found.noise.rms);
+  EXPECT_EQ(input_error_words(errors[0]), "guides.OE_mm = -14 in place of 14 would explain the data to " +
+                                              rounded(degrees(errors[0].rms), 2) + "°: is the sign right?");
 }
 
-TEST(UndoneSlips, are_seen_before_any_search_where_they_are_plain) {
+TEST(InputErrors, AreFoundBeforeAnySearchIfObvious) {
   // The error alone, with a fault beside it, with an unmodelled cause.
   for (const char* name : {"a_declared_right", "b_stretch", "f_not_in_any_catalogue"}) {
     Bench bench = rig_data(name);
@@ -211,31 +211,31 @@ TEST(UndoneSlips, are_seen_before_any_search_where_they_are_plain) {
   }
 }
 
-TEST(UndoneSlips, are_said_where_the_data_are_refused) {
+TEST(InputErrors, AreReportedForRefusedData) {
   Bench bench = rig_data("a_declared_right");
   bench.right.guides.EB /= 10;
   EXPECT_EQ(calibrated(bench.right, bench.data).verdict, CalibrationVerdict::not_testable);
   EXPECT_THAT(said(bench.right, bench.data), ElementsAre(HasSubstr("guides.EB_mm = 18 in place of 1.8")));
 }
 
-TEST(UndoneSlips, leave_room_for_an_effect_beside_them) {
+TEST(InputErrors, leave_room_for_an_effect_beside_them) {
   Bench bench = rig_data("b_stretch");
   bench.right.guides.OE *= -1;
   EXPECT_THAT(said(bench.right, bench.data), ElementsAre(HasSubstr("with tendon_stretch beside it")));
 }
 
-TEST(UndoneSlips, leave_room_for_a_cause_without_a_name) {
+TEST(InputErrors, LeaveRoomForUnmodelledCause) {
   Bench bench = rig_data("f_not_in_any_catalogue");
   const double left = left_by(bench.right, bench.data);
   bench.right.guides.OE *= -1;
-  const std::vector<LikelyInputError> slips = slips_of(bench.right, bench.data);
-  ASSERT_EQ(slips.size(), 1u);
-  EXPECT_EQ(slips[0].key, "guides.OE_mm");
-  EXPECT_THAT(slips[0].beside, IsEmpty());
-  EXPECT_NEAR(slips[0].rms, left, 0.1 * left);
+  const std::vector<LikelyInputError> errors = errors_of(bench.right, bench.data);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].key, "guides.OE_mm");
+  EXPECT_THAT(errors[0].beside, IsEmpty());
+  EXPECT_NEAR(errors[0].rms, left, 0.1 * left);
 }
 
-TEST(UndoneSlips, stand_before_effects_that_are_larger_than_any) {
+TEST(InputErrors, stand_before_effects_that_are_larger_than_any) {
   const Bench& bench = compensating();
   DeclaredMechanism file = bench.right;
   std::swap(file.guides.EB, file.guides.ED);
@@ -250,7 +250,7 @@ TEST(UndoneSlips, stand_before_effects_that_are_larger_than_any) {
 
 // ---- where they must not be said ------------------------------------------------------------------------------------
 
-TEST(UndoneSlips, are_not_said_of_a_right_file) {
+TEST(InputErrors, AreNotReportedForCorrectFile) {
   for (const char* name : {"a_declared_right", "b_stretch", "c_backlash", "d_guide_radius", "e_one_sweep_only",
                            "f_not_in_any_catalogue"}) {
     const Bench bench = rig_data(name);
@@ -259,7 +259,7 @@ TEST(UndoneSlips, are_not_said_of_a_right_file) {
 }
 
 // All 40 rows of the matrix, seeds 1 and 2: none (46 s a seed). Here those that stay unexplained by most.
-TEST(UndoneSlips, are_not_said_where_a_cause_has_no_name) {
+TEST(InputErrors, AreNotReportedBesideUnmodelledCause) {
   for (const char* fault : {"lump", "motor_cogging"}) {
     const rig::Case made = rig::make_case({fault, {fault}}, 1);
     const measurement::Measurement data = logged(made.logs);
@@ -269,7 +269,7 @@ TEST(UndoneSlips, are_not_said_where_a_cause_has_no_name) {
   }
 }
 
-TEST(UndoneSlips, are_not_sought_in_data_that_decide_nothing) {
+TEST(InputErrors, are_not_sought_in_data_that_decide_nothing) {
   Bench bench = rig_data("a_declared_right");
   bench.right.guides.OE *= -1;
   bench.data.not_testable = {"one direction"};

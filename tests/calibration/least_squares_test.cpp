@@ -372,7 +372,7 @@ class HandedOver : public testing::Test {
   }
 };
 
-TEST_F(HandedOver, LeastSquaresWhereTheyForetellMore) {
+TEST_F(HandedOver, LeastSquaresThatPredictMore) {
   const calibration::ReportedParameters made = handed_over();
   EXPECT_LT(made.estimate.fit.mean_square, 0.7 * selection.best.mean_square);
   EXPECT_LT(made.estimate.fit.by_run.mean_square, std::pow(radians(0.22), 2));
@@ -429,7 +429,7 @@ class NothingBeside : public HandedOverBeside {
   NothingBeside() : HandedOverBeside(0) {}
 };
 
-TEST_F(NothingBeside, AMemberThatForetellsNothingStaysOut) { EXPECT_FALSE(holds_gain(handed_over())); }
+TEST_F(NothingBeside, ExcludesMemberThatPredictsNothing) { EXPECT_FALSE(holds_gain(handed_over())); }
 
 TEST_F(LinearFit, ModeIsReportedWithoutDiscrepancy) {
   calibration::FitterPool pool(evidence);

@@ -152,7 +152,7 @@ const Protocol k_protocols[] = {{"load staircase", load_staircase, 8},
                                 {"few repeats of single rows", few_repeats, 1},
                                 {"no repeats of single rows", no_repeats, 1}};
 
-TEST(PointToPoint, a_joint_as_declared_is_blamed_for_nothing) {
+TEST(PointToPoint, DeclaredJointHasNoFalsePositive) {
   for (const Protocol& protocol : k_protocols) {
     const Calibration found = calibrated({log_of(protocol.stops(protocol.rows), {}, 5)});
     EXPECT_NE(found.verdict, CalibrationVerdict::not_testable) << protocol.name << ": " << found.summary;

@@ -38,7 +38,7 @@ std::vector<std::string> names(const Calibration& calibration) {
   return all;
 }
 
-TEST(RigData, a_joint_that_is_as_declared_gets_no_blame) {
+TEST(RigData, DeclaredJointHasNoFalsePositive) {
   const Calibration found = rig("a_declared_right");
   EXPECT_EQ(found.verdict, CalibrationVerdict::no_effect);
   EXPECT_TRUE(found.effects.empty());

@@ -50,7 +50,7 @@ measurement::Run planned(const std::string& name, const Plan& plan, double alpha
       sample.time = time;
       sample.alpha = sign * alpha_most * (2.0 * i / (rows - 1) - 1.0);
       sample.load = plan.load;
-      sample.temperature = 20 + 10 * (1 - std::exp(-(start + time) / 200));
+      sample.temperature_C = 20 + 10 * (1 - std::exp(-(start + time) / 200));
       run.samples.push_back(sample);
       time += 2 * alpha_most / (rows - 1) / run.speed;
     }

@@ -72,7 +72,7 @@ profile::Outline printed(profile::Outline outline, const DeclaredMechanism& decl
   return outline;
 }
 
-MadeJoint with_corrected_spirals(const MadeJoint& declared, const joint::JointAsItIs& made_for) {
+MadeJoint with_corrected_spirals(const MadeJoint& declared, const joint::IdentifiedJoint& made_for) {
   const Mechanism& drawn = made_for.mechanism;
   MadeJoint joint = declared;
   DeclaredMechanism as_drawn = declared.declared;
@@ -145,11 +145,11 @@ std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load)
 }
 
 MadeJoint with_corrected_pulley(const MadeJoint& declared, const DeclaredMechanism& corrected) {
-  const joint::JointAsItIs made_for = joint::as_it_is(corrected);
+  const joint::IdentifiedJoint made_for = joint::identified_joint(corrected);
   const Mechanism& drawn = made_for.mechanism;
-  if (declared.climbs()) return with_corrected_spirals(declared, made_for);
+  if (declared.is_helical()) return with_corrected_spirals(declared, made_for);
   profile::SynthesisOptions options;
-  options.tolerance = 2e-5;
+  options.chord_error_mm = 2e-5;
   options.advice = false;
   profile::SynthesisResult made = profile::synthesise(drawn, options);
   if (!made.made()) throw InputError("corrected.toml", made.brief());
@@ -174,9 +174,9 @@ measurement::Measurement measured(const MadeJoint& joint, const LoopCase& hidden
   return measurement::read_measurement(runs);
 }
 
-double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_at) {
+double joint_error(const MadeJoint& joint, const LoopCase& hidden, double assembly_angle) {
   Hidden mounted = hidden.hidden;
-  mounted.motor_offset -= tied_at;
+  mounted.motor_offset -= assembly_angle;
   return miss(one_run(joint, mounted, hidden.load), transmission::Transmission(joint.declared));
 }
 
@@ -193,8 +193,8 @@ LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const Loo
   const MadeJoint then = with_corrected_pulley(joint, parse_mechanism(outcome.corrected_toml, "corrected.toml"));
   outcome.before = joint_error(joint, hidden, 0);
   outcome.declared = joint_error(joint, {}, 0);
-  outcome.after = joint_error(then, hidden, correction.tied_at);
-  outcome.after_tied_at_zero = joint_error(then, hidden, 0);
+  outcome.after = joint_error(then, hidden, correction.assembly_angle);
+  outcome.after_assembled_at_zero = joint_error(then, hidden, 0);
   outcome.after_table = rms(one_run(then, hidden.hidden, hidden.load), [&](const Row& row, bool up) {
     return row.theta - tabled(correction.table, row.alpha, up);
   });

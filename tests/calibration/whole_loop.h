@@ -30,8 +30,8 @@ struct LoopOutcome {
   std::string found;  ///< what calibrate named
   std::string verdict;
   double before = 0;
-  double after = 0;  ///< with the corrected pulley, tendons tied as it says (Correction::tied_at)
-  double after_tied_at_zero = 0;
+  double after = 0;  ///< with the corrected pulley, tendons tied at Correction::assembly_angle
+  double after_assembled_at_zero = 0;
   double after_table = 0;  ///< and angles by compensation.csv
   double declared = 0;     ///< with no fault at all: what friction, stretch as declared and the polygon leave
   double predicted = 0;    ///< of `after`, by calibrate
@@ -41,8 +41,8 @@ struct LoopOutcome {
 /// The joint with the pulley that `fusee build` makes of `corrected`, on the bench of `declared`.
 MadeJoint with_corrected_pulley(const MadeJoint& declared, const DeclaredMechanism& corrected);
 
-/// Error of the same joint with another pulley, its motor's zero moved as `tied_at` says. rad rms
-double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_at);
+/// Error of the same joint with another pulley, its motor's zero moved as `assembly_angle` says. rad rms
+double joint_error(const MadeJoint& joint, const LoopCase& hidden, double assembly_angle);
 
 /// The data of a case as a bench would leave them; scratch files go to `folder`.
 measurement::Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::filesystem::path& folder);

@@ -16,7 +16,7 @@ std::string deg(double angle) { return fixed(degrees(angle), 4); }
 void print_row(const LoopOutcome& outcome) {
   std::printf("| %s | %s | %s | %s | %s | %s %% | %s | %s | %s |\n", outcome.name.c_str(), outcome.verdict.c_str(),
               outcome.found.c_str(), deg(outcome.before).c_str(), deg(outcome.after).c_str(),
-              fixed(100.0 * outcome.after / outcome.before, 1).c_str(), deg(outcome.after_tied_at_zero).c_str(),
+              fixed(100.0 * outcome.after / outcome.before, 1).c_str(), deg(outcome.after_assembled_at_zero).c_str(),
               deg(outcome.after_table).c_str(), deg(outcome.declared).c_str());
   std::fflush(stdout);
 }
@@ -24,11 +24,10 @@ void print_row(const LoopOutcome& outcome) {
 constexpr const char* k_head =
     "Joint error: rms of θ − θ(α) as declared over two cycles, noise apart, in degrees. *After*: with the pulley of "
     "corrected.toml on the same joint\n"
-    "with the same fault, tendons tied where corrected.toml says; *tied at 0*: tied with the motor at 0 whatever it "
-    "says; *by the table*: tied at 0,\n"
+    "with the same fault, at its assembly angle; *at 0*: assembled with the motor at 0; *by the table*: so assembled,\n"
     "against compensation.csv; *no fault*: the declared joint, which friction and the polygon leave. In brackets what "
     "the data do not distinguish.\n\n"
-    "| hidden effect | verdict | found | before | after | after / before | tied at 0 | by the table | no fault |\n"
+    "| hidden effect | verdict | found | before | after | after / before | at 0 | by the table | no fault |\n"
     "|---|---|---|--:|--:|--:|--:|--:|--:|\n";
 
 int run(const std::filesystem::path& spec, double load, const std::string& only) {

@@ -86,7 +86,7 @@ TEST_P(Known, FaultIsTakenOutByThePulley) {
   ASSERT_TRUE(correction.has_pulley) << correction.infeasible;
   const double before = joint_error(joint.made, hidden, 0);
   const double floor = joint_error(joint.made, {}, 0);
-  const double after = joint_error(corrected_joint(joint, correction), hidden, correction.tied_at);
+  const double after = joint_error(corrected_joint(joint, correction), hidden, correction.assembly_angle);
   EXPECT_GT(degrees(before), 0.02);
   EXPECT_LT(after, 0.025 * before + 2 * floor);
 }
@@ -188,7 +188,7 @@ TEST(WholeLoop, TableCorrectsUntiedLoad) {
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "tendon_stretch");
   const correction::Correction correction = known_correction(joint, hidden);
-  EXPECT_LT(degrees(correction.tied_at), -0.2);  // the motor pulls ahead of the load
+  EXPECT_LT(degrees(correction.assembly_angle), -0.2);  // the motor pulls ahead of the load
   const double after = joint_error(corrected_joint(joint, correction), hidden, 0);
   EXPECT_NEAR(after, correction.error_with_pulley, 0.2 * after);
   EXPECT_LT(correction.error_with_table, correction.error_with_pulley);

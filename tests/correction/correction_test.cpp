@@ -45,11 +45,11 @@ DeclaredMechanism frictionless() {
 
 /// Deviation from the law of `wanted`, rad, of a joint with the true geometry `truth` and a pulley drawn for
 /// `made_for`. Tendons are wound on its outline, scaled by `scale`, `offset` further out and moved by `runout`.
-double miss(const Mechanism& wanted, const Mechanism& truth, const joint::JointAsItIs& made_for, double scale = 1,
+double miss(const Mechanism& wanted, const Mechanism& truth, const joint::IdentifiedJoint& made_for, double scale = 1,
             double offset = 0, const Vec2& runout = {0, 0}) {
   const Mechanism& drawn = made_for.mechanism;
   profile::SynthesisOptions options;
-  options.tolerance = 0.001;
+  options.chord_error_mm = 0.001;
   profile::SynthesisResult made = profile::synthesise(drawn, options);
   if (!made.made()) return std::numeric_limits<double>::quiet_NaN();
   joint::draw_for_making(made, made_for.outline);
@@ -74,34 +74,34 @@ double miss(const Mechanism& wanted, const Mechanism& truth, const joint::JointA
   return worst;
 }
 
-TEST(AsItIs, IsDeclaredWithoutIdentification) {
-  EXPECT_EQ(joint::as_it_is(declared()).mechanism, static_cast<const Mechanism&>(declared()));
-  EXPECT_EQ(joint::as_it_is(declared()).outline, OutlineError{});
+TEST(IdentifiedJoint, IsDeclaredWithoutIdentification) {
+  EXPECT_EQ(joint::identified_joint(declared()).mechanism, static_cast<const Mechanism&>(declared()));
+  EXPECT_EQ(joint::identified_joint(declared()).outline, OutlineError{});
   DeclaredMechanism backlash = declared();
   backlash.identified.shaft.backlash = 0.1;
   backlash.identified.sensor.lag = 0.1;
-  EXPECT_EQ(joint::as_it_is(backlash).mechanism.pulley, declared().pulley);
+  EXPECT_EQ(joint::identified_joint(backlash).mechanism.pulley, declared().pulley);
 }
 
-TEST(AsItIs, IsExpectedByNextCalibration) {
+TEST(IdentifiedJoint, IsExpectedByNextCalibration) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pins.radius = 1.5;
   mechanism.identified.pulley.outline.runout_x = 0.1;
   const DeclaredMechanism expected = joint::expected_joint(mechanism);
-  EXPECT_EQ(static_cast<const Mechanism&>(expected), joint::as_it_is(mechanism).mechanism);
+  EXPECT_EQ(static_cast<const Mechanism&>(expected), joint::identified_joint(mechanism).mechanism);
   EXPECT_EQ(expected.identified, Imperfections{});
   EXPECT_EQ(joint::expected_joint(expected), expected);
 }
 
 // The brief search is used for hundreds of candidate mechanisms: it is close to the full search, and equal without
 // compliance.
-TEST(AsItIs, BriefSearchIsCloseToFull) {
+TEST(IdentifiedJoint, BriefSearchIsCloseToFull) {
   DeclaredMechanism mechanism = declared();
   mechanism.load.tip_force = 15.0;
   mechanism.identified.tendon.stretch = 12.0;
   mechanism.identified.joint.mean_load = 4.0;
-  const Mechanism whole = joint::as_it_is(mechanism).mechanism,
-                  brief = joint::as_it_is(mechanism, joint::LawSearch::brief).mechanism;
+  const Mechanism whole = joint::identified_joint(mechanism).mechanism,
+                  brief = joint::identified_joint(mechanism, joint::LawSearch::brief).mechanism;
   EXPECT_EQ(brief.pulley.law, whole.pulley.law);
   EXPECT_LT(2 * brief.pulley.rows.size(), whole.pulley.rows.size());
   const transmission::Transmission law(whole), near(brief);
@@ -114,54 +114,54 @@ TEST(AsItIs, BriefSearchIsCloseToFull) {
   EXPECT_LT(degrees(apart), 0.1);
   mechanism.identified = {};
   mechanism.identified.pins.radius = 2.0;
-  EXPECT_EQ(joint::as_it_is(mechanism, joint::LawSearch::brief).mechanism.joint,
-            joint::as_it_is(mechanism).mechanism.joint);
+  EXPECT_EQ(joint::identified_joint(mechanism, joint::LawSearch::brief).mechanism.joint,
+            joint::identified_joint(mechanism).mechanism.joint);
 }
 
-TEST(AsItIs, CorrectsGuideRadius) {
+TEST(IdentifiedJoint, CorrectsGuideRadius) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pins.radius = 2.0;
   DeclaredMechanism truth = declared();
   truth.guides.radius += 2.0;
-  const double before = miss(declared(), truth, joint::as_it_is(declared()));
+  const double before = miss(declared(), truth, joint::identified_joint(declared()));
   EXPECT_GT(degrees(before), 0.2);
-  EXPECT_LT(degrees(miss(declared(), truth, joint::as_it_is(mechanism))), 0.03);
+  EXPECT_LT(degrees(miss(declared(), truth, joint::identified_joint(mechanism))), 0.03);
 }
 
-TEST(AsItIs, CorrectsLength) {
+TEST(IdentifiedJoint, CorrectsLength) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.joint.length = 2.0;
   DeclaredMechanism truth = declared();
   truth.joint.R += 2.0;
-  const double before = miss(declared(), truth, joint::as_it_is(declared()));
-  EXPECT_LT(miss(declared(), truth, joint::as_it_is(mechanism)), 0.1 * before);
+  const double before = miss(declared(), truth, joint::identified_joint(declared()));
+  EXPECT_LT(miss(declared(), truth, joint::identified_joint(mechanism)), 0.1 * before);
 }
 
-TEST(AsItIs, CorrectsPulleyOffset) {
+TEST(IdentifiedJoint, CorrectsPulleyOffset) {
   for (const double offset : {0.2, -0.3}) {
     DeclaredMechanism mechanism = declared();
     mechanism.identified.pulley.outline.offset = offset;
-    const double before = miss(declared(), declared(), joint::as_it_is(declared()), 1, offset);
+    const double before = miss(declared(), declared(), joint::identified_joint(declared()), 1, offset);
     EXPECT_GT(degrees(before), 0.2);
-    EXPECT_LT(miss(declared(), declared(), joint::as_it_is(mechanism), 1, offset), 0.05 * before);
+    EXPECT_LT(miss(declared(), declared(), joint::identified_joint(mechanism), 1, offset), 0.05 * before);
     // Grooves, anchors and holes are those of the actual tendon.
-    EXPECT_EQ(joint::as_it_is(mechanism).mechanism.tendon, declared().tendon);
+    EXPECT_EQ(joint::identified_joint(mechanism).mechanism.tendon, declared().tendon);
   }
 }
 
-TEST(AsItIs, CorrectsPulleyScale) {
+TEST(IdentifiedJoint, CorrectsPulleyScale) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pulley.scale = -0.02;
-  const double before = miss(declared(), declared(), joint::as_it_is(declared()), 0.98);
-  EXPECT_LT(miss(declared(), declared(), joint::as_it_is(mechanism), 0.98), 0.05 * before);
+  const double before = miss(declared(), declared(), joint::identified_joint(declared()), 0.98);
+  EXPECT_LT(miss(declared(), declared(), joint::identified_joint(mechanism), 0.98), 0.05 * before);
 }
 
-TEST(AsItIs, CorrectsRunout) {
+TEST(IdentifiedJoint, CorrectsRunout) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pulley.outline.runout_x = 0.3;
   mechanism.identified.pulley.outline.runout_y = -0.2;
-  const double before = miss(declared(), declared(), joint::as_it_is(declared()), 1, 0, {0.3, -0.2});
-  EXPECT_LT(miss(declared(), declared(), joint::as_it_is(mechanism), 1, 0, {0.3, -0.2}), 0.05 * before);
+  const double before = miss(declared(), declared(), joint::identified_joint(declared()), 1, 0, {0.3, -0.2});
+  EXPECT_LT(miss(declared(), declared(), joint::identified_joint(mechanism), 1, 0, {0.3, -0.2}), 0.05 * before);
 }
 
 TEST(RoundChoice, StaysRoundIfSufficient) {

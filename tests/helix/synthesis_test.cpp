@@ -65,7 +65,7 @@ std::string failures(const HelixSynthesis& made) {
 }
 
 void expect_closed(const Mechanism& m, double limit = 0.0002) {
-  const HelixSynthesis made = synthesise_helix(m, groove(), {.tolerance = 1e-5});
+  const HelixSynthesis made = synthesise_helix(m, groove(), {.chord_error_mm = 1e-5});
   ASSERT_TRUE(made.made()) << failures(made);
   for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
     const Variation variation = variation_of(m, made, side);
@@ -85,9 +85,9 @@ TEST(HelixSynthesis, SlopesOnlyTheLowerSpanWithCollars) {
 /// Control of the tests above: the planar spirals under a string held by collars change its length.
 TEST(HelixSynthesis, PlanarCurvesChangeLengthWithCollars) {
   Mechanism m = wrist();
-  const HelixSynthesis planar = synthesise_helix(m, groove(), {.tolerance = 1e-4});
+  const HelixSynthesis planar = synthesise_helix(m, groove(), {.chord_error_mm = 1e-4});
   m.guides.collar = true;
-  const HelixSynthesis sloped = synthesise_helix(m, groove(), {.tolerance = 1e-4});
+  const HelixSynthesis sloped = synthesise_helix(m, groove(), {.chord_error_mm = 1e-4});
   ASSERT_TRUE(planar.made() && sloped.made());
   HelixSynthesis mixed = planar;
   mixed.sides[1].attachment_z = sloped.sides[1].attachment_z;

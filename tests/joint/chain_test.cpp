@@ -1,4 +1,4 @@
-// The full model compared with an independent program that shares only the declared law. It computes the geometry from
+// The full model compared with an independent program that shares only the target motion. It computes the geometry from
 // coordinates, and models the tendon on the pin as a chain of short springs over many points of friction that slip by
 // relaxation. The wound tendon is a stack of short pieces (backward Euler instead of the trapezoidal rule), and false
 // position solves for the joint. Agreement: 1e-4 without friction, where only the step differs, and 2e-3 with friction,

@@ -24,7 +24,7 @@ struct ExactFrame {
   std::array<double, 2> material{};
   std::array<Vec2, 2> home_push, moved;
 
-  ExactFrame(const Mechanism& mechanism, double give) : made(mechanism), per_newton(give) {
+  ExactFrame(const Mechanism& mechanism, double compliance) : made(mechanism), per_newton(compliance) {
     const JointModel model = joint_model(mechanism);
     pins = model.pins;
     EA = model.EA;
@@ -77,9 +77,9 @@ struct ExactFrame {
   }
 };
 
-double theta_under(const Mechanism& mechanism, double give, double tip_force) {
+double theta_under(const Mechanism& mechanism, double compliance, double tip_force) {
   JointModel model = joint_model(mechanism);
-  model.pin_compliance = give;
+  model.pin_compliance = compliance;
   JointMotion motion(model);
   EquilibriumPoint point;
   for (int i = 1; i <= 20; ++i) point = motion.to({0, tip_force * i / 20, 0});
@@ -99,12 +99,12 @@ TEST(PinCompliance, AgreesWithMovedPins) {
     const double stiff = ExactFrame(mechanism, 0).theta_under(force);
     EXPECT_NEAR(stiff, theta_under(mechanism, 0, force), 1e-3 * std::abs(stiff));
     double before = 0;
-    for (const double give : {2e-3, 1e-3, 5e-4}) {
-      const double exact = ExactFrame(mechanism, give).theta_under(force) - stiff;
-      const double found = theta_under(mechanism, give, force) - theta_under(mechanism, 0, force);
+    for (const double compliance : {2e-3, 1e-3, 5e-4}) {
+      const double exact = ExactFrame(mechanism, compliance).theta_under(force) - stiff;
+      const double found = theta_under(mechanism, compliance, force) - theta_under(mechanism, 0, force);
       const double miss = std::abs(found / exact - 1);
-      EXPECT_LT(miss, 0.02) << give;
-      EXPECT_GT(std::abs(exact), 0.03 * std::abs(stiff)) << give;
+      EXPECT_LT(miss, 0.02) << compliance;
+      EXPECT_GT(std::abs(exact), 0.03 * std::abs(stiff)) << compliance;
       before = miss;
     }
     EXPECT_LT(before, 0.01);
@@ -112,7 +112,7 @@ TEST(PinCompliance, AgreesWithMovedPins) {
 }
 
 TEST(PinCompliance, IsZeroAtHome) {
-  for (const double give : {1e-3, 0.1}) EXPECT_NEAR(theta_under(unsymmetric(), give, 0), 0, 1e-12);
+  for (const double compliance : {1e-3, 0.1}) EXPECT_NEAR(theta_under(unsymmetric(), compliance, 0), 0, 1e-12);
 }
 
 /// Up and down once under a force, after loading.

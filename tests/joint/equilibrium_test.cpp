@@ -143,7 +143,7 @@ TEST(Equilibrium, PretensionDeflectsSoftJoint) {
 
 TEST(Equilibrium, BalancesTorques) {
   Mechanism mechanism = with(unsymmetric(), 8.0, 0.15, 3000.0);
-  mechanism.load.mass = 0.4;
+  mechanism.load.mass_kg = 0.4;
   mechanism.load.lever = 60.0;
   mechanism.load.tilt = radians(90.0);
   const std::vector<JointStep> steps = cycles(mechanism, {6.0});

@@ -141,7 +141,8 @@ TEST(Simulate, RatioJointHasAnglesOnly) {
 TEST(Simulate, RatioCurveIsSeriesOfAngleAndLoad) {
   Imperfections at;
   at.ratio_joint.compliance = 0.004;
-  at.ratio_joint.curve = {.linear = 0.01, .square = 0.03, .cube = -0.02, .give_slope = 0.002, .give_square = -0.001};
+  at.ratio_joint.curve = {
+      .linear = 0.01, .square = 0.03, .cube = -0.02, .compliance_slope = 0.002, .compliance_square = -0.001};
   const BenchLog log = swept(5);
   const Readings shown = predict(geared(2), at, log);
   for (std::size_t i = 0; i < log[0].rows.size(); ++i) {
@@ -155,7 +156,7 @@ TEST(Simulate, RatioCurveIsSeriesOfAngleAndLoad) {
 BenchLog swept_while_warming() {
   BenchLog log = swept(5);
   log[0].has_temperature = true;
-  for (BenchRow& row : log[0].rows) row.temperature = 20 + row.time;
+  for (BenchRow& row : log[0].rows) row.temperature_C = 20 + row.time;
   return log;
 }
 

@@ -30,7 +30,7 @@ struct Model {
 Model model_of(const std::string& profile, const std::vector<Setting>& settings = {}) {
   const MechanismFile file =
       read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (profile + ".toml"), settings);
-  const joint::JointAsItIs joint = joint::as_it_is(file.mechanism);
+  const joint::IdentifiedJoint joint = joint::identified_joint(file.mechanism);
   Model model{joint.mechanism, profile::synthesise(joint.mechanism, {.advice = false}), {}, {}};
   joint::draw_for_making(model.synthesis, joint.outline);
   model.pulley = solid::make_pulley(joint.mechanism, model.synthesis);

@@ -66,7 +66,7 @@ TEST(ProfileLaws, SheathedJointsRewindToLaw) {
 double work_of_load(const Mechanism& mechanism, double theta) {
   const Load& load = mechanism.load;
   const Spring& spring = mechanism.spring;
-  const double weight = load.mass * 9.80665 * load.lever, past = theta - spring.free;
+  const double weight = load.mass_kg * 9.80665 * load.lever, past = theta - spring.free;
   return load.tip_force * mechanism.joint.R * theta + weight * (std::cos(load.tilt - theta) - std::cos(load.tilt)) +
          spring.preload * theta + 0.5 * spring.stiffness * (past * past - spring.free * spring.free);
 }
@@ -145,9 +145,10 @@ double deepest_chord(const profile::Outline& outline, const profile::Outline& fi
 TEST(ProfileLaws, ChordsAreWithinTolerance) {
   expect_law(100, [](const Mechanism& mechanism) {
     constexpr double tolerance = 0.01;
-    const profile::SynthesisResult result = profile::synthesise(mechanism, {.tolerance = tolerance, .advice = false});
+    const profile::SynthesisResult result =
+        profile::synthesise(mechanism, {.chord_error_mm = tolerance, .advice = false});
     if (!result.made()) return false;
-    const profile::SynthesisResult fine = profile::synthesise(mechanism, {.tolerance = 1e-5, .advice = false});
+    const profile::SynthesisResult fine = profile::synthesise(mechanism, {.chord_error_mm = 1e-5, .advice = false});
     RC_ASSERT(deepest_chord(result.p1, fine.p1) <= tolerance);
     RC_ASSERT(deepest_chord(result.p2, fine.p2) <= tolerance);
     return true;

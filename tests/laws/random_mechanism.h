@@ -97,10 +97,10 @@ inline Mechanism random_torque_mechanism() {
   Mechanism mechanism = random_wide_mechanism();
   mechanism.pulley.law = Law::torque;
   const double R = mechanism.joint.R;
-  mechanism.load.mass = *between(0.1, 3.0);
+  mechanism.load.mass_kg = *between(0.1, 3.0);
   mechanism.load.lever = R * *between(0.5, 2.0);
   mechanism.load.tilt = radians(*between(60.0, 180.0));
-  const double size = mechanism.load.mass * 9.80665 * mechanism.load.lever;
+  const double size = mechanism.load.mass_kg * 9.80665 * mechanism.load.lever;
   if (*rc::gen::element(true, false)) mechanism.load.tip_force = size / R * *between(-0.1, 1.0);
   if (*rc::gen::element(true, false))
     mechanism.spring = {size * *between(0.0, 0.5), size * *between(0.0, 0.5), radians(*between(-90.0, 0.0))};

@@ -64,11 +64,11 @@ std::string stands_of(const fusee::measurement::Run& run) {
   for (const Segment& segment : run.segments) {
     const int direction = run.strokes[segment.stroke].direction;
     words += (words.empty() ? "" : " ") +
-             (segment.held ? (direction > 0   ? "+"
-                              : direction < 0 ? "-"
-                                              : "") +
-                                 rounded(std::round(degrees(run.samples[(segment.first + segment.last) / 2].alpha)))
-                           : std::string("·"));
+             (segment.is_dwell ? (direction > 0   ? "+"
+                                  : direction < 0 ? "-"
+                                                  : "") +
+                                     rounded(std::round(degrees(run.samples[(segment.first + segment.last) / 2].alpha)))
+                               : std::string("·"));
   }
   return words;
 }

@@ -136,13 +136,13 @@ std::vector<Problem> wide_problems() {
                                        {"sheath.exit_across_mm", "9"}, {"sheath.exit_above_mm", "40"}};
   std::vector<Setting> sheathed = linear, lever = sheath;
   sheathed.insert(sheathed.end(), sheath.begin(), sheath.end());
-  const std::vector<Setting> mouths = {
+  const std::vector<Setting> exits = {
       {"optimize.objective", "max_error"},
       {"optimize.variables",
        R"(["joint.drum_radius_mm", "guides.OE_mm", "sheath.exit_across_mm", "sheath.exit_above_mm"])"},
       {"optimize.lower", "[6, 10, 6, 25]"},
       {"optimize.upper", "[9, 16, 12, 50]"}};
-  sheathed.insert(sheathed.end(), mouths.begin(), mouths.end());
+  sheathed.insert(sheathed.end(), exits.begin(), exits.end());
   const std::vector<Setting> of_lever = {
       {"pulley.method", "exact"},
       {"pulley.law", "linear"},
@@ -363,9 +363,9 @@ TEST(Certified, ProvesOptimaOfWideJoints) {
     expect_proven(problem, Objective::max_tension);
     // With a round P1, P2 has a corner where tendon 1 leaves its drum, and a proof takes some 100 000 boxes. If the
     // sheath exits are variable too, only the error depends on them.
-    const bool moves_mouths = problem.base.sheath.is_there() && problem.base.joint.drum_radius > 0;
+    const bool moves_exits = problem.base.sheath.is_there() && problem.base.joint.drum_radius > 0;
     if (problem.base.pulley.law == Law::linear)
-      expect_proven(problem, moves_mouths ? Objective::max_error : Objective::motor_torque);
+      expect_proven(problem, moves_exits ? Objective::max_error : Objective::motor_torque);
   }
 }
 

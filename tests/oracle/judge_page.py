@@ -59,7 +59,7 @@ LEVER = """
 """
 # For a pulley of several turns seen from the side, x right and y up, in mm, scaled by the lines at its lower and
 # upper face.
-CLIMB = """
+HELIX = """
   const scene = document.querySelector(".climbing-scene");
   const [[low, high], [, top]] = scene.querySelector(".dimension").getAttribute("d").slice(1).split("M").map(part => part.split("L").map(p => p.split(" ").map(Number)));
   const axis = (low[0] + high[0]) / 2, scale = (low[1] - top[1]) / HEIGHT;
@@ -202,7 +202,7 @@ def faults_of_motion(found, rows, lever):
 
 
 @dataclasses.dataclass
-class Climb:
+class Helix:
     """A pulley of several turns: the grooves of profile.csv, and the tendons."""
     height: float   # mm, of the grooves' part
     spirals: list   # of P1 and P2: turn_deg, x_mm, y_mm, z_mm, in order
@@ -210,7 +210,7 @@ class Climb:
     pin_radius: float  # to the tendon's centre line
 
     def drawn(self):
-        return CLIMB.replace("HEIGHT", repr(self.height))
+        return HELIX.replace("HEIGHT", repr(self.height))
 
     def lead(self, k):
         first, last = self.spirals[k][0], self.spirals[k][-1]
@@ -276,8 +276,8 @@ def faults_of_effects(found):
 
 def faults(page, rows, lever, ways=WAYS):
     alphas = [float(row["alpha_deg"]) for row in rows]
-    climbs = isinstance(lever, Climb)
-    after = AFTER.replace("DRAWN", lever.drawn() if climbs else LEVER)
+    is_helical = isinstance(lever, Helix)
+    after = AFTER.replace("DRAWN", lever.drawn() if is_helical else LEVER)
     if len(page.encode()) > MOST_BYTES:
         yield f"{len(page.encode())} bytes"
     for name, width, options in ways:
@@ -287,7 +287,7 @@ def faults(page, rows, lever, ways=WAYS):
             continue
         if found["part"] and found["webgl"] == (name == "no WebGL"):
             yield f"{name}: WebGL {found['webgl']}"
-        motion = lever.faults(found, rows) if climbs else faults_of_motion(found, rows, lever)
+        motion = lever.faults(found, rows) if is_helical else faults_of_motion(found, rows, lever)
         looks = [*found["noted"], *motion, *faults_of_view(found), *faults_of_effects(found)]
         if found["requests"]:
             looks.append(f"{found['requests']} requests")
@@ -347,14 +347,14 @@ def table(file):
         return list(csv.DictReader(lines))
 
 
-def climb_of(folder, mechanism, page):
+def helix_of(folder, mechanism, page):
     rows = table(folder / "profile.csv")
     spirals = [[[float(row[name]) for name in ("turn_deg", "x_mm", "y_mm", "z_mm")] for row in rows if row["pulley"] == pulley] for pulley in ("P1", "P2")]
     guides, pulley = mechanism["guides"], mechanism["pulley"]
     pins = [(-guides["EB_mm"], pulley["EF_mm"]), (guides["ED_mm"], pulley["EF_mm"])]
     radius = guides["radius_mm"] + (0.5 * mechanism["tendon"]["diameter_mm"] if guides["radius_mm"] > 0 else 0.0)
     height = json.loads(page.split('id="climb">', 1)[1].split("</script>")[0])["top"]
-    return Climb(height, spirals, pins, radius)
+    return Helix(height, spirals, pins, radius)
 
 
 def read(folder):
@@ -363,7 +363,7 @@ def read(folder):
     rows = rows[:: max(1, len(rows) // 24)]
     page = (folder / "report.html").read_text(encoding="utf-8")
     mechanism = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["mechanism"]
-    return page, rows, climb_of(folder, mechanism, page) if 'id="climb">' in page else lever_of(mechanism)
+    return page, rows, helix_of(folder, mechanism, page) if 'id="climb">' in page else lever_of(mechanism)
 
 
 # Changes that break a page, with a word of the expected fault.
@@ -378,7 +378,7 @@ BREAKS = {
     "wide": ("<main>", "<main><div style=\"width:2500px\">x</div>", "px wide"),
 }
 LEVER_ALONE = ("angle", "tendon", "error")
-CLIMB_BREAKS = {
+HELIX_BREAKS = {
     "turned back": ("px(row[1] * c - row[0] * s, row[2])", "px(row[1] * c + row[0] * s, row[2])", "to the right, not"),
     "height": ("const z = between(side.z, place), {", "const z = between(side.z, place) + 2, {", "beside its pin"),
     "slope": ("z + climb * (data.pin", "z - climb * (data.pin", "is drawn rising by"),
@@ -389,7 +389,7 @@ CLIMB_BREAKS = {
 def self_test(folder):
     page, rows, lever = read(folder)
     failed = 0
-    breaks = {name: fault for name, fault in BREAKS.items() if name not in LEVER_ALONE} | CLIMB_BREAKS if isinstance(lever, Climb) else BREAKS
+    breaks = {name: fault for name, fault in BREAKS.items() if name not in LEVER_ALONE} | HELIX_BREAKS if isinstance(lever, Helix) else BREAKS
     for name, (old, new, word) in breaks.items():
         assert old in page, f"{name}: the page has no {old!r}"
         said = list(faults(page.replace(old, new, 1), rows[::6], lever, WAYS[:1]))

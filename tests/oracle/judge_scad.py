@@ -115,9 +115,9 @@ def part_faults(folder, scratch):
         yield from printed_faults(folder, scratch)
     if 'bore_shape = "round"' in scad.read_text():
         yield from changed_bore(scad, scratch, volume)
-    lip = number(scad, "groove_depth")
-    shallow, shallow_box = render(scad, scratch / "shallow.stl", groove_depth=0.8 * lip)
-    if not shallow < volume or not shallow_box[3] < box[3] - 0.15 * lip:
+    depth = number(scad, "groove_depth")
+    shallow, shallow_box = render(scad, scratch / "shallow.stl", groove_depth=0.8 * depth)
+    if not shallow < volume or not shallow_box[3] < box[3] - 0.15 * depth:
         yield "a shallower groove does not make a smaller part"
 
 

@@ -8,7 +8,7 @@
 #include <regex>
 #include <set>
 
-#include "pipeline/cmake_rooms.h"
+#include "pipeline/cmake_modules.h"
 #include "pipeline/source_text.h"
 
 namespace {
@@ -41,7 +41,7 @@ struct Include {
 };
 
 /// "fusee/solid.h" → "solid"; "fusee/mechanism_file.h" and "mechanism/reader.h" → "mechanism"; else "".
-std::string room_of(const std::string& target) {
+std::string module_of(const std::string& target) {
   static const std::regex pattern("^(?:fusee/)?([a-z]+)(?:/|(?:_file)?\\.h$)");
   std::smatch match;
   return std::regex_search(target, match, pattern) && flow().count(match[1]) ? match[1].str() : "";
@@ -51,13 +51,13 @@ std::string room_of(const std::string& target) {
 std::string home_of(const fs::path& file) {
   const std::string path = file.generic_string();
   for (const std::string prefix : {"include/", "src/", ""}) {
-    if (path.rfind(prefix, 0) == 0) return room_of(path.substr(prefix.size()));
+    if (path.rfind(prefix, 0) == 0) return module_of(path.substr(prefix.size()));
   }
   return "";
 }
 
 /// "export/report/svg.h" → "report"; "" for others.
-std::string inner_room_of(const std::string& path) {
+std::string inner_module_of(const std::string& path) {
   static const std::regex pattern("^export/([a-z_]+)/");
   std::smatch match;
   return std::regex_search(path, match, pattern) && k_export_uses.count(match[1]) ? match[1].str() : "";
@@ -89,7 +89,7 @@ const std::vector<Include>& all_includes() {
 }
 
 /// Inner modules of export count separately.
-std::string room_or_inner_room(const fs::path& file) {
+std::string module_or_inner_module(const fs::path& file) {
   const std::string inner = file.parent_path().generic_string();
   return inner.rfind("export/", 0) == 0 ? inner : home_of(file);
 }
@@ -99,20 +99,20 @@ TEST(Modules, HaveAFifthOfLinesAtMost) {
   long all = 0;
   for (const house::Source& source : house::sources_under({"include", "src", "export"})) {
     const long count = house::line_at(source.text, source.text.size()) - 1;
-    lines[room_or_inner_room(source.path)] += count;
+    lines[module_or_inner_module(source.path)] += count;
     all += count;
   }
-  for (const auto& [room, count] : lines)
-    EXPECT_LE(5 * count, all) << room << " has " << count << " of " << all << " lines";
+  for (const auto& [module, count] : lines)
+    EXPECT_LE(5 * count, all) << module << " has " << count << " of " << all << " lines";
 }
 
 TEST(Includes, KeepOrderOfInnerModules) {
   for (const Include& include : all_includes()) {
     if (home_of(include.file) != "export") continue;
-    const std::string home = inner_room_of(include.file.generic_string()), room = inner_room_of(include.target);
-    if (room.empty() || room == home) continue;
+    const std::string home = inner_module_of(include.file.generic_string()), module = inner_module_of(include.target);
+    if (module.empty() || module == home) continue;
     ASSERT_FALSE(home.empty()) << include.file << " is in no inner module";
-    EXPECT_TRUE(k_export_uses.at(home).count(room)) << include.says();
+    EXPECT_TRUE(k_export_uses.at(home).count(module)) << include.says();
   }
 }
 
@@ -120,7 +120,7 @@ TEST(Includes, OwnHeadersAreQuoted) {
   for (const Include& include : all_includes()) {
     if (include.quoted) {
       const bool beside = fs::exists(fs::path(FUSEE_SOURCE_DIR) / include.file.parent_path() / include.target);
-      EXPECT_TRUE(beside || !room_of(include.target).empty()) << include.says();
+      EXPECT_TRUE(beside || !module_of(include.target).empty()) << include.says();
     } else {
       EXPECT_NE(include.target.rfind("fusee/", 0), 0u) << include.says();
     }
@@ -128,9 +128,9 @@ TEST(Includes, OwnHeadersAreQuoted) {
 }
 
 /// Base and mechanism are the vocabulary of all modules; `export` is a keyword. The build makes fusee::embedded.
-std::string namespace_of(const std::string& room) {
-  if (room == "base" || room == "mechanism") return "fusee";
-  return "fusee::" + (room == "export" ? "formats" : room);
+std::string namespace_of(const std::string& module) {
+  if (module == "base" || module == "mechanism") return "fusee";
+  return "fusee::" + (module == "export" ? "formats" : module);
 }
 
 TEST(Modules, HaveTheirOwnNamespace) {
@@ -188,16 +188,16 @@ TEST(Includes, LibrariesStayInTheirPlaces) {
 }
 
 TEST(Modules, AreReadFromPaths) {
-  EXPECT_EQ(room_of("fusee/mechanism_file.h"), "mechanism");
-  EXPECT_EQ(room_of("fusee/pipeline.h"), "pipeline");
-  EXPECT_EQ(room_of("cli/console.h"), "cli");
-  EXPECT_EQ(room_of("zip.h"), "");
+  EXPECT_EQ(module_of("fusee/mechanism_file.h"), "mechanism");
+  EXPECT_EQ(module_of("fusee/pipeline.h"), "pipeline");
+  EXPECT_EQ(module_of("cli/console.h"), "cli");
+  EXPECT_EQ(module_of("zip.h"), "");
   EXPECT_EQ(home_of("export/mesh_files/stl.cpp"), "export");
   EXPECT_EQ(home_of("include/fusee/pipeline.h"), "pipeline");
   EXPECT_EQ(home_of("src/profile/outline_cgal.cpp"), "profile");
-  EXPECT_EQ(inner_room_of("export/mesh_files/stl.cpp"), "mesh_files");
-  EXPECT_EQ(inner_room_of("include/fusee/export.h"), "");
-  EXPECT_EQ(inner_room_of("export/tool.h"), "");
+  EXPECT_EQ(inner_module_of("export/mesh_files/stl.cpp"), "mesh_files");
+  EXPECT_EQ(inner_module_of("include/fusee/export.h"), "");
+  EXPECT_EQ(inner_module_of("export/tool.h"), "");
 }
 
 }  // namespace

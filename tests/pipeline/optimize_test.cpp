@@ -91,8 +91,8 @@ TEST_F(Optimize, UsesIdentifiedJoint) {
     return optimize::evaluate(optimize::Objective::max_tension, mechanism).value;
   };
   const DeclaredMechanism declared = optimize::mechanism_at(result.problem, result.design);
-  EXPECT_DOUBLE_EQ(result.value, value(joint::as_it_is(declared).mechanism));
-  EXPECT_DOUBLE_EQ(result.before.value, value(joint::as_it_is(file.mechanism).mechanism));
+  EXPECT_DOUBLE_EQ(result.value, value(joint::identified_joint(declared).mechanism));
+  EXPECT_DOUBLE_EQ(result.before.value, value(joint::identified_joint(file.mechanism).mechanism));
   EXPECT_GT(result.value, 1.02 * value(declared));
 }
 

@@ -5,7 +5,7 @@
 #include <regex>
 #include <sstream>
 
-#include "pipeline/cmake_rooms.h"
+#include "pipeline/cmake_modules.h"
 #include "pipeline/source_text.h"
 
 namespace fusee::house {
@@ -128,12 +128,12 @@ TEST(Page, NamesOnUserPagesExist) {
 
 TEST(Page, ListsModulesInOrder) {
   static const std::regex row("^\\| `([a-z]+)` \\|");
-  std::vector<std::string> rooms;
+  std::vector<std::string> modules;
   for (const std::string& passage : passages_of(text_of("src/README.md"))) {
     std::smatch match;
-    if (std::regex_search(passage, match, row)) rooms.push_back(match[1]);
+    if (std::regex_search(passage, match, row)) modules.push_back(match[1]);
   }
-  EXPECT_EQ(rooms, rooms_in_flow());
+  EXPECT_EQ(modules, modules_in_flow());
 }
 
 TEST(Page, DetectsUnknownNames) {

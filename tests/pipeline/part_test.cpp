@@ -1,4 +1,4 @@
-// Rewinding an intact part gives the declared law; deliberate faults are detected.
+// Rewinding an intact part gives the target motion; deliberate faults are detected.
 #include <gmock/gmock.h>
 
 #include <algorithm>

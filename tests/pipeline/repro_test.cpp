@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
               pipeline::BuildStatus::infeasible},
         Repro{"pocket_in_plates", "tests/data/repro/pocket_in_plates.toml", {}},
         Repro{
-            "mouth_of_a_variant", "tests/data/repro/mouth_of_a_variant.toml", {{"joint.range_deg", "[-29.8, 29.8]"}}}),
+            "entry_of_a_variant", "tests/data/repro/entry_of_a_variant.toml", {{"joint.range_deg", "[-29.8, 29.8]"}}}),
     [](const auto& repro) { return std::string(repro.param.name); });
 
 }  // namespace

@@ -62,7 +62,7 @@ std::string text_of(const pipeline::BuildResult& built, const std::string& name)
 
 class SeveralTurns : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(SeveralTurns, FollowDeclaredLaw) {
+TEST_P(SeveralTurns, FollowTargetMotion) {
   const pipeline::BuildResult built = made(read_profile(GetParam()));
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   ASSERT_TRUE(built.product.helix);
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurns, ::testing::Values("wrist_turns"
                          [](const auto& which) { return which.param; });
 
 /// Smallest error of θ, deg, when pins, lengths and grooves deviate and the pulley is not corrected.
-double uncorrected(const std::string& profile, const joint::JointAsItIs& joint) {
+double uncorrected(const std::string& profile, const joint::IdentifiedJoint& joint) {
   const formats::Product product = made(read_profile(profile)).product;
   const std::vector<coil::FloorLine> floors = coil::helical_floors(product.pulley.mesh, product.pulley.layout.scale);
   const coil::HelicalRewind wound = coil::rewind_floors(floors.at(0), floors.at(1), joint::with_inset(joint),
@@ -93,7 +93,7 @@ struct Found {
 
 class IdentifiedTurns : public ::testing::TestWithParam<Found> {};
 
-// The corrected pulley follows the declared law on the identified joint, rewound on its mesh.
+// The corrected pulley follows the target motion on the identified joint, rewound on its mesh.
 TEST_P(IdentifiedTurns, AreCorrectedByPulley) {
   const Found& found = GetParam();
   const pipeline::BuildResult built =
@@ -434,19 +434,20 @@ TEST_P(SeveralTurns, RewindOnFiles) {
   ASSERT_EQ(built.status, pipeline::BuildStatus::done) << failures_of(built);
   for (const char* name : {"pulley.stl", "pulley.3mf", "pulley.drc"}) {
     const solid::TriangleMesh mesh = formats::read_mesh(text_of(built, name), name);
-    const pipeline::RewoundPart wound = pipeline::rewind_moved_part(joint::as_it_is(file.mechanism), mesh);
+    const pipeline::RewoundPart wound = pipeline::rewind_moved_part(joint::identified_joint(file.mechanism), mesh);
     EXPECT_EQ(wound.place, pipeline::PartPlace::as_made) << name;
     EXPECT_LT(degrees(wound.as_built.max_theta_error), 0.0005) << name;
     EXPECT_EQ(wound.as_built.points.size(), built.product.as_built.points.size());
     solid::TriangleMesh moved = mesh;
     for (Vec3& vertex : moved.vertices) vertex.x() += 0.2;
-    EXPECT_GT(degrees(pipeline::rewind_part(joint::as_it_is(file.mechanism), moved).max_theta_error), 0.01) << name;
+    EXPECT_GT(degrees(pipeline::rewind_part(joint::identified_joint(file.mechanism), moved).max_theta_error), 0.01)
+        << name;
   }
 }
 
 TEST(SeveralTurnsWords, RejectDrawing) {
   try {
-    pipeline::rewind_part(joint::as_it_is(read_profile("wrist_turns").mechanism), formats::Drawing{});
+    pipeline::rewind_part(joint::identified_joint(read_profile("wrist_turns").mechanism), formats::Drawing{});
     FAIL() << "rewound on a drawing";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("pulley.stl"));

@@ -25,7 +25,7 @@ REPLACED = {
     r"nameless|without a name|ha(?:s|ve) no name": "unmodelled",
     r"what is left|what stays": "residual, remainder",
     r"gives? way": "compliance, is compliant",
-    r"foretold|foretells?": "predicted",
+    r"foretold|foretell(?:s|ing)?": "predicted",
     r"culprits?|blame[ds]?|falsely blamed": "attributed cause, false positive",
     r"how sure|surer": "uncertainty",
     r"may as well be": "equally likely",
@@ -37,9 +37,30 @@ REPLACED = {
     r"test model": "test rig",
     r"nobody|somebody": "name the person or the thing",
     r"mouths?|gables?|keels?|roofs?": "channel entry, overhang support cone",
+    r"tied at 0|tied where": "assembled at 0, assembly angle",
+    r"slips? of (?:a|the) (?:file|log|data)": "likely input error",
+    r"needed law": "compensating law",
+    r"ways? of printing": "print orientation",
+    r"undersides?": "downward face",
+    r"withheld": "held-out",
+    r"rareness": "log prior odds, penalty",
+}
+#: Identifiers and file names that were replaced → what they are now. Keys of JSON documents keep their names: in quotes.
+RENAMED = {
+    r"as_it_is|AsItIs": "identified_joint",
+    r"tied_at(?!_deg)|tied_words": "assembly_angle",
+    r"fusee_room|FUSEE_ROOMS|ROOMS|cmake_rooms|rooms_test": "module",
+    r"doubts_test": "plausibility_warnings",
+    r"UndoneSlips|slips_words": "input errors",
+    r"\w*[Bb]lamed?(?!_)\w*|[a-z_]+_blamed?": "false_positives, attributed cause",
+    r"DeclaredLaw|declared_law|needed_law": "TargetMotion, compensating law",
+    r"Climb\w+|climb(?:s|ing)?_\w+": "helical",
+    r"\w*Foretell\w*": "predicts",
 }
 # Options keep their names: --most-blamed.
 WORDS = {re.compile(rf"(?<!-)\b(?:{expression})\b", re.I): instead for expression, instead in REPLACED.items()}
+NAMES = {re.compile(rf"(?<![\"\w-])(?:{expression})(?![\"\w])"): instead for expression, instead in RENAMED.items()}
+ANY_NAME = re.compile("|".join(rf"(?<![\"\w-])(?:{expression})(?![\"\w])" for expression in RENAMED))
 ANY_WORD = re.compile("|".join(rf"(?<!-)\b(?:{expression})\b" for expression in REPLACED), re.I)
 
 CPP_COMMENT = re.compile(r"\s*//[/!]?(?!<)\s?(.*)")
@@ -56,6 +77,15 @@ def words_in(text):
         return
     for pattern, instead in WORDS.items():
         for match in pattern.finditer(text):
+            yield f"'{match[0]}'", instead
+
+
+def names_in(line):
+    """(rule, instead) of each replaced name in a line of code, or in a path."""
+    if not ANY_NAME.search(line):
+        return
+    for pattern, instead in NAMES.items():
+        for match in pattern.finditer(line):
             yield f"'{match[0]}'", instead
 
 
@@ -83,6 +113,7 @@ def cpp_faults(lines):
             yield from ((number, *fault) for fault in words_in(comment[1]))
         elif ANY_WORD.search(line):
             yield from ((number, *fault) for text in CPP_TEXT.findall(line) for fault in words_in(text))
+        yield from ((number, *fault) for fault in names_in(line))
         title = CPP_TITLE.match(line)
         if title:
             words = re.findall(r"[A-Z][a-z0-9]*|[A-Z]+(?![a-z])", title[2])
@@ -107,6 +138,7 @@ def script_faults(lines):
             yield from ((number, *fault) for fault in first_word_of(docstring[1]))
         if ANY_WORD.search(line):
             yield from ((number, *fault) for fault in words_in(line))
+        yield from ((number, *fault) for fault in names_in(line))
         title = PY_TITLE.match(line)
         if title:
             yield from ((number, *fault) for fault in title_faults("test_" + title[1], title[1].split("_")))
@@ -170,6 +202,7 @@ def faults(root, under=()):
     found = []
     for name in files(root, under):
         lines = (root / name).read_text(errors="replace").splitlines()
+        found += [f"{name}: {rule}; write: {instead}" for rule, instead in names_in(name.replace("/", " ").replace(".", " "))]
         found += [f"{name}:{number}: {rule}; write: {instead}" for number, rule, instead in KINDS[Path(name).suffix](lines)]
     return found
 
@@ -191,6 +224,12 @@ class Words(unittest.TestCase):
         self.assertEqual(self.refused(".cpp", 'throw Error("nobody knows");  // fine\n'), [(1, "'nobody'")])
         self.assertEqual(self.refused(".py", "# Where it is\n"), [(1, "begins with 'Where'")])
         self.assertEqual(self.refused(".py", 'def f():\n    """Whether it is."""\n'), [(2, "begins with 'Whether'")])
+
+    def test_detects_renamed(self):
+        self.assertEqual(self.refused(".cpp", "auto a = joint::as_it_is(b);\n"), [(1, "'as_it_is'")])
+        self.assertEqual(self.refused(".cpp", 'json["joint"] = "as_it_is";  // a key keeps its name\n'), [])
+        self.assertEqual(self.refused(".txt", "fusee_room(base ROOMS a)\n"), [(1, "'fusee_room'"), (1, "'ROOMS'")])
+        self.assertEqual([rule for rule, _ in names_in("tests pipeline doubts_test cpp")], ["'doubts_test'"])
 
     def test_detects_titles(self):
         self.assertEqual(len(self.refused(".cpp", "TEST(Part, WhatIsMade) {\n")), 1)

@@ -80,7 +80,7 @@ TEST(Plan, StaysWithinItsMinutes) {
     ASSERT_THAT(plan.steps, Not(IsEmpty()));
     EXPECT_LE(plan.minutes, minutes);
     double by = 0;
-    for (const PlanStep& step : plan.steps) EXPECT_DOUBLE_EQ(step.by, by += step.minutes);
+    for (const PlanStep& step : plan.steps) EXPECT_DOUBLE_EQ(step.end_minute, by += step.minutes);
   }
 }
 

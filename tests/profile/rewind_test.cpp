@@ -18,9 +18,9 @@ RewindResult wound(const Mechanism& mechanism, const SynthesisResult& made) {
 
 // Independent verification: the analytic envelope agrees with a string wound on its polygon, and better with a finer
 // polygon.
-TEST(Rewind, ReproducesDeclaredLaw) {
+TEST(Rewind, ReproducesTargetMotion) {
   for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
-    const SynthesisResult fine = synthesise(mechanism, {.tolerance = 1e-6});
+    const SynthesisResult fine = synthesise(mechanism, {.chord_error_mm = 1e-6});
     ASSERT_TRUE(fine.made()) << fine.brief();
     const RewindResult result = wound(mechanism, fine);
     EXPECT_LT(degrees(result.max_theta_error), 2e-6);
@@ -29,7 +29,7 @@ TEST(Rewind, ReproducesDeclaredLaw) {
 }
 
 TEST(Rewind, ErrorFollowsChordLength) {
-  const SynthesisResult coarse = synthesise(forearm(), {.tolerance = 0.01});
+  const SynthesisResult coarse = synthesise(forearm(), {.chord_error_mm = 0.01});
   const RewindResult result = wound(forearm(), coarse);
   EXPECT_GT(degrees(result.max_theta_error), 1e-4);
   EXPECT_LT(degrees(result.max_theta_error), 0.01);

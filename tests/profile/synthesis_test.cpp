@@ -36,7 +36,7 @@ TEST(Synthesis, CompensatingP1IsRound) {
 // Envelope property: at every point of the stroke the tendon's line touches the outline and has all of it inside.
 TEST(Synthesis, TendonLinesTouchOutline) {
   for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
-    const SynthesisResult result = synthesise(mechanism, {.tolerance = 1e-4});
+    const SynthesisResult result = synthesise(mechanism, {.chord_error_mm = 1e-4});
     ASSERT_TRUE(result.made()) << result.brief();
     for (const transmission::TransmissionPoint& at : result.stroke) {
       const double reach1 = distance_from(result.p1, body_normal(at, at.t1));
@@ -51,9 +51,9 @@ TEST(Synthesis, TendonLinesTouchOutline) {
 
 TEST(Synthesis, ChordsAreWithinTolerance) {
   const Mechanism mechanism = forearm();
-  const SynthesisResult fine = synthesise(mechanism, {.tolerance = 1e-6});
+  const SynthesisResult fine = synthesise(mechanism, {.chord_error_mm = 1e-6});
   for (const double tolerance : {0.02, 0.002}) {
-    const SynthesisResult result = synthesise(mechanism, {.tolerance = tolerance});
+    const SynthesisResult result = synthesise(mechanism, {.chord_error_mm = tolerance});
     ASSERT_TRUE(result.made());
     for (const OutlinePoint& point : fine.p2.points) {
       EXPECT_LE(point.position.dot(point.normal) - distance_from(result.p2, point.psi), tolerance);
@@ -62,7 +62,7 @@ TEST(Synthesis, ChordsAreWithinTolerance) {
 }
 
 TEST(Synthesis, CurvatureAgreesWithPoints) {
-  const SynthesisResult result = synthesise(unsymmetric(), {.tolerance = 1e-5});
+  const SynthesisResult result = synthesise(unsymmetric(), {.chord_error_mm = 1e-5});
   ASSERT_TRUE(result.made());
   const auto& points = result.p2.points;
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -100,8 +100,8 @@ TEST(Synthesis, MirroredJointHasMirroredPulley) {
   mechanism.guides.EB = 44.0;
   mechanism.guides.ED = 52.0;
   mechanism.joint.theta_max = radians(30);
-  const SynthesisResult result = synthesise(mechanism, {.tolerance = 1e-5});
-  const SynthesisResult image = synthesise(mirrored(mechanism), {.tolerance = 1e-5});
+  const SynthesisResult result = synthesise(mechanism, {.chord_error_mm = 1e-5});
+  const SynthesisResult image = synthesise(mirrored(mechanism), {.chord_error_mm = 1e-5});
   ASSERT_TRUE(result.made()) << result.brief();
   ASSERT_TRUE(image.made()) << image.brief();
   for (const OutlinePoint& point : result.p2.points) {
@@ -113,7 +113,7 @@ TEST(Synthesis, MirroredJointHasMirroredPulley) {
 
 TEST(Synthesis, ScalesWithLengths) {
   const SynthesisResult result = synthesise(unsymmetric());
-  const SynthesisResult half = synthesise(scaled(unsymmetric(), 0.5), {.tolerance = 0.005});
+  const SynthesisResult half = synthesise(scaled(unsymmetric(), 0.5), {.chord_error_mm = 0.005});
   ASSERT_TRUE(half.made());
   ASSERT_EQ(result.p2.points.size(), half.p2.points.size());
   for (std::size_t i = 0; i < result.p2.points.size(); ++i) {
@@ -125,7 +125,7 @@ TEST(Synthesis, ReproducesSlackOfPolarDrawing) {
   Mechanism mechanism = reference();
   mechanism.tendon.diameter = 0.01;
   mechanism.pulley.method = Method::paper;
-  const SynthesisResult result = synthesise(mechanism, {.tolerance = 1e-4});
+  const SynthesisResult result = synthesise(mechanism, {.chord_error_mm = 1e-4});
   ASSERT_TRUE(result.made()) << result.brief();
   EXPECT_TRUE(result.warnings.empty());
   const RewindResult wound = rewind(mechanism, parallel(result.p1, -0.005), parallel(result.p2, -0.005));

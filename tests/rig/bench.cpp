@@ -169,7 +169,7 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
       std::max({k_furthest, declared.joint.theta_max + k_beyond_range, k_beyond_range - declared.joint.theta_min});
   if (declared.joint.is_plain()) furthest_ = k_furthest;
   torque_declared_ = declared.load.torque;
-  weight_ = 9.80665 * declared.load.mass * declared.load.lever;
+  weight_ = 9.80665 * declared.load.mass_kg * declared.load.lever;
   tilt_ = declared.load.tilt;
   spring_ = declared.spring;
   const double modulus = hidden.modulus > 0 ? hidden.modulus : declared.tendon.modulus;
@@ -265,13 +265,13 @@ double Bench::sloping_more(const BenchTendon& tendon, const LowerString& string)
 }
 
 double Bench::rise_of(const BenchTendon& tendon, const LowerString& string) {
-  return tendon.hull.climbs() ? string.height - tendon.held_at : 0.0;
+  return tendon.hull.is_helical() ? string.height - tendon.held_at : 0.0;
 }
 
 /// Torque on the joint per tension, of a tendon that may rise.
 double Bench::level_arm_at_home(BenchTendon& tendon) const {
   const UpperString up = find_upper_string(tendon, tendon.pin, 0.0, tendon.over);
-  if (collar_ || !tendon.hull.climbs()) return up.arm;
+  if (collar_ || !tendon.hull.is_helical()) return up.arm;
   const Circle seen = seen_guide(tendon, tendon.pin);
   const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
   const double level = up.length + low.length + tendon.pin.radius * (direction(up.normal) - direction(low.normal));
@@ -293,7 +293,7 @@ double Bench::ratio(double wrap, double bristle) const {
 
 /// Arc of the knot. A helical groove begins at its knot, behind its spare turns.
 double Bench::knot_of(const BenchTendon& tendon, const Circle& seen, const LowerString& at_home, double unwound) {
-  if (tendon.hull.climbs()) return 0.0;
+  if (tendon.hull.is_helical()) return 0.0;
   // In steps of less than half a turn, within which the search is unambiguous.
   LowerString at_end = at_home;
   const int steps = 1 + static_cast<int>(std::abs(unwound));
@@ -314,7 +314,7 @@ Vec2 Bench::cut_to_length(BenchTendon& tendon, double tension, double slack, dou
   tendon.mark = tendon.sheath.empty() ? 0.5 * (direction(up.normal) + off_pin) : off_pin;
   double above = up.length + tendon.pin.radius * (direction(up.normal) - tendon.mark);
   double below = low.length + tendon.pin.radius * (tendon.mark - off_pin);
-  if (tendon.hull.climbs() && !collar_) {
+  if (tendon.hull.is_helical() && !collar_) {
     const double longer = slant(above + below, rise_of(tendon, low));
     above *= longer;
     below *= longer;

@@ -1,10 +1,9 @@
 /// \file
-/// Options, scratch folder and threads of the programs of this folder.
+/// Options and scratch folder of the programs of this folder.
 #pragma once
 
 #include <unistd.h>
 
-#include <atomic>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
@@ -12,7 +11,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "fusee/base.h"
@@ -78,18 +76,6 @@ class ScratchFolder {
  private:
   std::filesystem::path path_;
 };
-
-/// Calls `run` with 0 … count − 1 on `threads` threads.
-inline void run_parallel(std::size_t count, std::size_t threads, const std::function<void(std::size_t)>& run) {
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) run(i);
-  };
-  std::vector<std::thread> others;
-  for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work);
-  work();
-  for (std::thread& other : others) other.join();
-}
 
 /// A program's exit code: that of `run`, or 1 with the message of its exception on standard error.
 inline int run_program(const char* name, int (*run)(const std::vector<std::string>&), int count, char** words) {

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/text.h"
+#include "base/thread_pool.h"
 #include "rig/command.h"
 #include "rig/judge.h"
 #include "rig/state_pairs.h"
@@ -26,7 +27,7 @@ struct PairRequest {
   std::size_t nulls = 10;
   std::size_t changes = 16;
   std::uint64_t first = 1;
-  std::size_t jobs = 2;
+  unsigned jobs = 2;
   std::string only;
   double most_false = 100;
   double most_missed = 100;
@@ -99,11 +100,11 @@ std::vector<PairJob> list_pairs(const PairRequest& request) {
 }
 
 /// Pairs that cannot be drawn are omitted.
-std::vector<PairJudgement> run_pairs(const std::vector<PairJob>& jobs, std::size_t threads,
+std::vector<PairJudgement> run_pairs(const std::vector<PairJob>& jobs, unsigned threads,
                                      const std::filesystem::path& folder) {
   std::vector<PairJudgement> answers;
   std::mutex guard;
-  run_parallel(jobs.size(), threads, [&](std::size_t i) {
+  ThreadPool(threads).each(jobs.size(), [&](std::size_t i, std::size_t) {
     std::optional<PairJudgement> answer;
     std::string words;
     try {

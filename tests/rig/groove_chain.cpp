@@ -20,14 +20,14 @@ double hold_of(double friction, double turn) { return std::exp(std::min(k_most_h
 
 }  // namespace
 
-Turning::Turning(const Hull& hull) : around_(hull.around), climbs_(hull.climbs()) {
+Turning::Turning(const Hull& hull) : around_(hull.around), is_helical_(hull.is_helical()) {
   const std::size_t count = hull.corners.size();
   // Half of a corner's turn belongs to each of its edges, so that the turning is even along a smooth curve. Before a
   // spiral begins, and past its end, it goes straight on.
   std::vector<double> at_corner(count + 1, 0.0);
   const auto edge = [&](std::ptrdiff_t i) -> Vec2 {
     const auto n = std::ssize(hull.corners);
-    const auto from = static_cast<std::size_t>(climbs_ ? std::clamp<std::ptrdiff_t>(i, 0, n - 2) : (i + n) % n);
+    const auto from = static_cast<std::size_t>(is_helical_ ? std::clamp<std::ptrdiff_t>(i, 0, n - 2) : (i + n) % n);
     return hull.corners[(from + 1) % count] - hull.corners[from];
   };
   const auto turn = [&edge](std::ptrdiff_t corner) {
@@ -51,7 +51,7 @@ Turning::Turning(const Hull& hull) : around_(hull.around), climbs_(hull.climbs()
 }
 
 double Turning::at(double arc) const {
-  const double turns = climbs_ ? 0.0 : std::floor(arc / around_);
+  const double turns = is_helical_ ? 0.0 : std::floor(arc / around_);
   const double place = (arc / around_ - turns) * k_table;
   const auto i = std::min(k_table - 1, static_cast<std::size_t>(place));
   return turns * angle_.back() + angle_[i] + (place - static_cast<double>(i)) * (angle_[i + 1] - angle_[i]);

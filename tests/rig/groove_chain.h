@@ -40,7 +40,7 @@ class Turning {
 
  private:
   double around_ = 1;
-  bool climbs_ = false;
+  bool is_helical_ = false;
   std::vector<double> angle_;  ///< at even steps of arc
 };
 

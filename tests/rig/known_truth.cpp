@@ -10,6 +10,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/thread_pool.h"
 #include "fusee/mechanism_file.h"
 #include "rig/command.h"
 #include "rig/judge.h"
@@ -40,7 +41,7 @@ constexpr const char* k_usage =
   --jobs N          joints at the same time (2)
   --most-missed P   exit code 4 if more than P % of the named faults are missed
   --most-lost P     exit code 4 if more than P % of the named faults beside an unmodelled one are in no group
-  --most-blamed P   exit code 4 if more than P % of the joints, modelled or not, have a false positive
+  --most-false P   exit code 4 if more than P % of the joints, modelled or not, have a false positive
   --most-empty P    exit code 4 if more than P % of the joints, modelled or not, have a group without a true cause,
                     including groups that say "unmodelled"
   --joint FILE      this joint without its [load] instead of a random one: faults of its drum, attachments, idlers
@@ -87,10 +88,10 @@ struct Request {
   std::string data_to;
   bool no_calibration = false;
   bool list = false;
-  std::size_t jobs = 2;
+  unsigned jobs = 2;
   double most_missed = 100;  ///< %
   double most_lost = 100;
-  double most_blamed = 100;
+  double most_false = 100;
   double most_empty = 100;
 };
 
@@ -129,7 +130,7 @@ const std::map<std::string, Reader<Request>> k_options = {
     {"--seeds", number_into(&Request::seeds, 1)}, {"--first", number_into(&Request::first)},
     {"--joints", number_into(&Request::joints)}, {"--jobs", number_into(&Request::jobs, 1)},
     {"--follow", number_into(&Request::follow)}, {"--most-missed", number_into(&Request::most_missed)},
-    {"--most-lost", number_into(&Request::most_lost)}, {"--most-blamed", number_into(&Request::most_blamed)},
+    {"--most-lost", number_into(&Request::most_lost)}, {"--most-false", number_into(&Request::most_false)},
     {"--most-empty", number_into(&Request::most_empty)}, {"--only", texts_into(&Request::only)},
     {"--split", text_into(&Request::split)}, {"--leave-out", text_into(&Request::leave_out)},
     {"--data-to", text_into(&Request::data_to)}, {"--kinds", read_kind}, {"--protocol", read_protocol}, {"--joint", read_joint}};
@@ -242,7 +243,7 @@ std::vector<JudgementSequence> run_jobs(const std::vector<Job>& jobs, const Requ
   std::vector<JudgementSequence> answers(jobs.size());
   std::size_t done = 0;
   std::mutex console;
-  run_parallel(jobs.size(), request.jobs, [&](std::size_t i) {
+  ThreadPool(request.jobs).each(jobs.size(), [&](std::size_t i, std::size_t) {
     std::string words = folder_name(jobs[i]);
     try {
       const CaseOptions options{protocol_of(request), request.any_groove || request.joints > 0,
@@ -313,7 +314,7 @@ bool print_report(const std::vector<Judgement>& all, const Request& request) {
   const double empty = std::max(found.empty_groups.share(), found.empty_groups_outside.share());
   const double lost = found.kept.all > 0 ? 1 - found.kept.share() : 0.0;
   return 100 * found.miss.share() <= request.most_missed && 100 * lost <= request.most_lost &&
-         100 * false_positives <= request.most_blamed && 100 * empty <= request.most_empty;
+         100 * false_positives <= request.most_false && 100 * empty <= request.most_empty;
 }
 
 int run(const std::vector<std::string>& words) {

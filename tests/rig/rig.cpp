@@ -242,7 +242,7 @@ helix::HelixGroove groove_of(const Mechanism& mechanism) {
 
 MadeJoint make_helical_joint(const DeclaredMechanism& declared) {
   profile::SynthesisOptions options;
-  options.tolerance = 2e-4;
+  options.chord_error_mm = 2e-4;
   const helix::HelixSynthesis made = helix::synthesise_helix(declared, groove_of(declared), options);
   if (!made.made()) throw InputError("rig", "no helical grooves for " + declared.name);
   MadeJoint joint{declared, {}, {}, made.stroke.front().alpha, made.stroke.back().alpha};
@@ -277,7 +277,7 @@ double joint_sensor_reading(const Hidden& hidden, double theta) {
 
 MadeJoint make_joint(const DeclaredMechanism& declared) {
   profile::SynthesisOptions options;
-  options.tolerance = 2e-5;
+  options.chord_error_mm = 2e-5;
   options.advice = false;
   const profile::SynthesisResult made = profile::synthesise(declared, options);
   if (profile::need_several_turns(made)) return make_helical_joint(declared);

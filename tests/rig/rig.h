@@ -152,7 +152,7 @@ struct MadeJoint {
   double alpha_max = 0;
   std::array<MadeSpiral, 2> spirals = {};  ///< in place of p1, p2 where one turn is too little
 
-  bool climbs() const { return !spirals[0].rows.empty(); }
+  bool is_helical() const { return !spirals[0].rows.empty(); }
 };
 /// InputError if no pulley exists.
 MadeJoint make_joint(const DeclaredMechanism& declared);

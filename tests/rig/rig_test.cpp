@@ -1,4 +1,4 @@
-// The rig agrees with geometry of circles, virtual work, hand calculation, the declared law, and data of another rig.
+// The rig agrees with geometry of circles, virtual work, hand calculation, the target motion, and data of another rig.
 #include "rig/rig.h"
 
 #include <gmock/gmock.h>
@@ -83,7 +83,7 @@ DeclaredMechanism ideal(DeclaredMechanism mechanism) {
   return mechanism;
 }
 
-TEST(Rig, FollowsDeclaredLaw) {
+TEST(Rig, FollowsTargetMotion) {
   for (const DeclaredMechanism& mechanism : {testing::forearm(), testing::unsymmetric(), testing::linear_wrist()}) {
     const DeclaredMechanism rigid = ideal(mechanism);
     const transmission::Transmission law(rigid);

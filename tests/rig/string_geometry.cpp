@@ -22,7 +22,7 @@ std::size_t wrapped(std::ptrdiff_t corner, std::size_t count) {
 
 /// True for all corners of a closed polygon, and for the corners of a spiral.
 bool has_corner(const Hull& hull, std::ptrdiff_t corner) {
-  return !hull.climbs() || (corner >= 0 && corner < std::ssize(hull.corners));
+  return !hull.is_helical() || (corner >= 0 && corner < std::ssize(hull.corners));
 }
 
 double arc_at(const Hull& hull, std::ptrdiff_t corner) {
@@ -87,7 +87,7 @@ LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t nea
     } else {
       string.arc = arc_at(hull, string.corner);
       string.arm = string.normal.dot(corner);
-      if (hull.climbs()) string.height = hull.height[static_cast<std::size_t>(string.corner)];
+      if (hull.is_helical()) string.height = hull.height[static_cast<std::size_t>(string.corner)];
       return string;
     }
   }
@@ -96,7 +96,7 @@ LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t nea
 }
 
 std::ptrdiff_t first_look(const Hull& hull, const Circle& pin) {
-  if (hull.climbs()) return hull.home;
+  if (hull.is_helical()) return hull.home;
   const Vec2 outwards = -turned_left(pin.centre);
   const auto further = [&](const Vec2& a, const Vec2& b) { return outwards.dot(a) < outwards.dot(b); };
   return std::max_element(hull.corners.begin(), hull.corners.end(), further) - hull.corners.begin();

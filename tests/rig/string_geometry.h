@@ -26,7 +26,7 @@ struct Hull {
   std::vector<double> height;  ///< of a spiral's corners; empty: all at one height
   std::ptrdiff_t home = 0;     ///< of a spiral: a corner near which the string leaves it at home
 
-  bool climbs() const { return !height.empty(); }
+  bool is_helical() const { return !height.empty(); }
 };
 
 /// Around the points; what is not convex is bridged by the string.

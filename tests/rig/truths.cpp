@@ -156,7 +156,7 @@ std::vector<Truth> wide_truths(const MadeJoint& joint) {
     }
   };
   add_possible("wide");
-  if (joint.climbs()) add_possible("named");
+  if (joint.is_helical()) add_possible("named");
   return truths;
 }
 

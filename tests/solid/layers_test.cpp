@@ -219,10 +219,10 @@ TEST(SupportAttribution, AttributesNearestTieOffAndMovesIt) {
   for (const PlannedAnchor& anchor : plan.anchors) {
     const double z = anchor.side == transmission::Side::left ? plan.layout.z_p1 : plan.layout.z_p2;
     const Vec3 place(anchor.start().x(), anchor.start().y(), z);
-    const std::vector<Rejection> blamed = attribute_supports({place, place}, plan);
-    ASSERT_EQ(blamed.size(), 1u);
-    EXPECT_EQ(blamed.front(), (Rejection{anchor.side, anchor.wound_end, anchor.wrap(), false}));
-    for (const PlannedAnchor& other : plan_body(mechanism, shape, {WrapChoice::furthest, blamed}).anchors) {
+    const std::vector<Rejection> rejections = attribute_supports({place, place}, plan);
+    ASSERT_EQ(rejections.size(), 1u);
+    EXPECT_EQ(rejections.front(), (Rejection{anchor.side, anchor.wound_end, anchor.wrap(), false}));
+    for (const PlannedAnchor& other : plan_body(mechanism, shape, {WrapChoice::furthest, rejections}).anchors) {
       if (other.side != anchor.side || other.wound_end != anchor.wound_end) continue;
       EXPECT_TRUE(anchor.wound_end);
       EXPECT_GT(std::abs(other.wrap() - anchor.wrap()), radians(4));

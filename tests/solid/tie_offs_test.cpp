@@ -125,11 +125,11 @@ diameter_mm = 0.2
 )",
                                               "wall.toml");
   profile::SynthesisOptions options;
-  options.tolerance = 0.0025991;
+  options.chord_error_mm = 0.0025991;
   const profile::SynthesisResult shape = profile::synthesise(mechanism, options);
   const Pulley pulley = make_pulley(mechanism, shape);
   ASSERT_TRUE(pulley.made()) << pulley.brief();
-  EXPECT_EQ(failed(check_pulley(pulley.mesh, mechanism, shape, pulley, options.tolerance)), "");
+  EXPECT_EQ(failed(check_pulley(pulley.mesh, mechanism, shape, pulley, options.chord_error_mm)), "");
 }
 
 TEST(TieOffs, FaceSlotIsRoundBelowOpenAbove) {

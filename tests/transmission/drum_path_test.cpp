@@ -147,7 +147,7 @@ class StringThroughSheath {
       : law_(law),
         sign_(mirror_sign(side)),
         upper_(law.place(side)),
-        mouth_(mechanism.sheath.exit_across, mechanism.sheath.exit_above) {
+        exit_(mechanism.sheath.exit_across, mechanism.sheath.exit_above) {
     constexpr int lines = 6000;
     const double beyond = 0.02 * (law.alpha_max() - law.alpha_min());
     const double from = sign_ > 0 ? law.alpha_min() - beyond : law.alpha_max() + beyond;
@@ -159,8 +159,8 @@ class StringThroughSheath {
       const TransmissionPoint at = law.at_alpha(alpha);
       const double p = side == Side::right ? at.t2.p : at.t1.p;
       // Foot of the axis' perpendicular on the line, to the right of the way from the axis to the sheath exit.
-      const double c = mouth_.norm(), ahead = p * p / c, aside = p * std::sqrt(1.0 - p * p / (c * c));
-      const Vec2 towards = mouth_ / c, right(towards.y(), -towards.x());
+      const double c = exit_.norm(), ahead = p * p / c, aside = p * std::sqrt(1.0 - p * p / (c * c));
+      const Vec2 towards = exit_ / c, right(towards.y(), -towards.x());
       const Vec2 normal = turned(Vec2((ahead * towards + aside * right) / p), sign_ * alpha);
       if (i > 0) {
         const double det = cross(normal_before, normal);
@@ -174,12 +174,12 @@ class StringThroughSheath {
   }
 
   double length(double alpha) {
-    const Vec2 mouth = turned(mouth_, sign_ * alpha);
+    const Vec2 exit_point = turned(exit_, sign_ * alpha);
     std::size_t best = 0;
     for (std::size_t i = 1; i < corners_.size(); ++i) {
-      if (right_of(corners_[best], mouth, corners_[i]) > 0) best = i;
+      if (right_of(corners_[best], exit_point, corners_[i]) > 0) best = i;
     }
-    return upper_.length(sign_ * law_.theta(alpha)) + (mouth - corners_[best]).norm() + along_[best];
+    return upper_.length(sign_ * law_.theta(alpha)) + (exit_point - corners_[best]).norm() + along_[best];
   }
 
  private:
@@ -191,7 +191,7 @@ class StringThroughSheath {
   const Transmission& law_;
   double sign_;
   BruteString upper_;
-  Vec2 mouth_;  ///< relative to the pulley's axis
+  Vec2 exit_;  ///< relative to the pulley's axis
   std::vector<Vec2> corners_;
   std::vector<double> along_;
 };

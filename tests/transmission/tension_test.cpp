@@ -69,7 +69,7 @@ TEST(PaperForces, TorqueAndWeightActLikeATipForce) {
   Mechanism torque = testing::forearm();
   torque.load.torque = 1000.0;
   Mechanism weight = testing::forearm();
-  weight.load.mass = 1.0;
+  weight.load.mass_kg = 1.0;
   weight.load.lever = 1000.0 / 9.80665;
   weight.load.tilt = radians(90.0) + 0.2;  // horizontal at θ = 0.2
   const TransmissionPoint at = Transmission(tip).at_theta(0.2);

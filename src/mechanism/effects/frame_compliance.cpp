@@ -7,7 +7,7 @@ namespace {
 constexpr double k_dial = 1e-4;  // resolution of a dial gauge, 0.005 mm, under 50 N; mm/N
 
 std::vector<CaliperReading> compliance_by_dial(const DeclaredMechanism& declared) {
-  return hand_reading_in(declared.prior.guide_give, 1.0);
+  return hand_reading_in(declared.prior.guide_compliance, 1.0);
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ Effect frame_compliance(JointKind) {
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true};
   effect.parameters = {{.name = "mm_per_N",
-                        .number = [](Imperfections& at) -> double& { return at.pins.give; },
+                        .number = [](Imperfections& at) -> double& { return at.pins.compliance; },
                         .least = 0,
                         .most = 1,
                         .step = 2e-4,

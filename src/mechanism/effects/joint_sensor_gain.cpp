@@ -10,7 +10,7 @@ namespace {
 constexpr double k_protractor = 0.002;
 
 std::vector<CaliperReading> gain_by_protractor(const DeclaredMechanism& declared) {
-  return hand_reading_in(declared.prior.gain, 0.01);
+  return hand_reading_in(declared.prior.gain_percent, 0.01);
 }
 
 /// Excess of the reading over the range. It includes the sensor's harmonics.

@@ -7,7 +7,7 @@ namespace {
 constexpr double k_pulley_mark = radians(0.2);  // precision of setting a pulley to a mark, three times
 
 std::vector<CaliperReading> motor_offset_by_mark(const DeclaredMechanism& declared) {
-  return hand_reading_in(declared.prior.motor_offset, radians(1.0));
+  return hand_reading_in(declared.prior.motor_offset_deg, radians(1.0));
 }
 
 }  // namespace

@@ -44,10 +44,12 @@ Effect ratio_curve(JointKind) {
           "ratio_cube_per_rad2", [](Imperfections& at) -> double& { return at.ratio_joint.curve.cube; }, PriorUnit::own,
           "joint declared by a ratio: coefficient of the cubed angle"),
       number_of(
-          "ratio_give_slope_per_load", [](Imperfections& at) -> double& { return at.ratio_joint.curve.give_slope; },
+          "ratio_give_slope_per_load",
+          [](Imperfections& at) -> double& { return at.ratio_joint.curve.compliance_slope; },
           PriorUnit::at_largest_load, "joint declared by a ratio: compliance per angle"),
       number_of(
-          "ratio_give_square_per_load", [](Imperfections& at) -> double& { return at.ratio_joint.curve.give_square; },
+          "ratio_give_square_per_load",
+          [](Imperfections& at) -> double& { return at.ratio_joint.curve.compliance_square; },
           PriorUnit::at_largest_load, "joint declared by a ratio: compliance per squared angle")};
   effect.starts = {{0, 0, 0, 0, 0}};
   return effect;

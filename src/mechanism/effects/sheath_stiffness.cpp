@@ -25,7 +25,7 @@ Effect sheath_stiffness(JointKind) {
   effect.needs = {.tendons = true, .sheath = true};
   effect.parameters = {
       {.name = "mm_per_N",
-       .number = [](Imperfections& at) -> double& { return at.sheath.give; },
+       .number = [](Imperfections& at) -> double& { return at.sheath.compliance; },
        .least = -1,
        .most = 1,
        .step = 2e-4,

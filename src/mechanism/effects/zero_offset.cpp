@@ -7,7 +7,7 @@ namespace {
 constexpr double k_mark = radians(0.1);  // precision of setting a joint to a mark, three times
 
 std::vector<CaliperReading> zero_by_mark(const DeclaredMechanism& declared) {
-  return hand_reading_in(declared.prior.zero, radians(1.0));
+  return hand_reading_in(declared.prior.zero_deg, radians(1.0));
 }
 
 }  // namespace

@@ -219,7 +219,7 @@ def optimize(
 ) -> _values.Optimum:
     """Better numbers within the bounds of the file's [optimize]: by proof ("certified"), by evolution ("genetic"), or a front ("pareto").
 
-    `then`: second objective, among the designs that tie in a proof. The result does not depend on the number of threads (0: one a core).
+    `then`: second objective, among the designs that tie in a proof. The result does not depend on the number of threads (0: one a processor, at most 8).
 
     >>> import fusee
     >>> arm = fusee.read(fusee.new("forearm") + '''
@@ -360,13 +360,13 @@ def calibrate(
     reading = _reading(columns, units, ticks_per_turn, zero_ticks)
     made = heard(lambda stop: _core.calibrate(joint, fitted, kept, {**held, **more}, reading, target, bool(audit), stop))
     document = made.pop("document")
-    said = json.loads(document)
-    made["effects"] = tuple(_effect(effect) for effect in said.get("effects", ()))
-    made["verdict"] = said["verdict"]
-    made["noise_floor_deg"] = _known(said.get("noise_floor_deg"))
-    made["before"], made["after"] = (_figures(said.get(name) or {}) for name in ("before", "after"))
-    made["unexplained_rms_deg"] = _known(said.get("unexplained_rms_deg"))
-    made["next"] = tuple(_next(measurement) for measurement in said.get("next", ()))
+    found = json.loads(document)
+    made["effects"] = tuple(_effect(effect) for effect in found.get("effects", ()))
+    made["verdict"] = found["verdict"]
+    made["noise_floor_deg"] = _known(found.get("noise_floor_deg"))
+    made["before"], made["after"] = (_figures(found.get(name) or {}) for name in ("before", "after"))
+    made["unexplained_rms_deg"] = _known(found.get("unexplained_rms_deg"))
+    made["next"] = tuple(_next(measurement) for measurement in found.get("next", ()))
     file = made["files"].get("corrected.toml")
     corrected = None if file is None else _reread(mechanism, file.decode())
     return _values.Calibration(json=document, corrected=corrected, **_with_values(made))
@@ -376,23 +376,23 @@ def _known(value: Optional[float]) -> float:
     return math.nan if value is None else float(value)
 
 
-def _figures(said: Row) -> _values.ErrorFigures:
-    return _values.ErrorFigures(*(_known(said.get(name)) for name in ("rms_deg", "max_deg", "held_out_rms_deg")))
+def _figures(found: Row) -> _values.ErrorFigures:
+    return _values.ErrorFigures(*(_known(found.get(name)) for name in ("rms_deg", "max_deg", "held_out_rms_deg")))
 
 
 def _interval(ends: abc.Sequence[Optional[float]]) -> Tuple[float, float]:
     return _known(ends[0]), _known(ends[1])
 
 
-def _next(said: Row) -> _values.NextMeasurement:
-    keys = said.get("keys") or ([said["key"]] if "key" in said else [])
-    return _values.NextMeasurement(said["kind"], said["text"], tuple(said["separates"]), _known(said["minutes"]), said.get("file", ""), tuple(keys))
+def _next(found: Row) -> _values.NextMeasurement:
+    keys = found.get("keys") or ([found["key"]] if "key" in found else [])
+    return _values.NextMeasurement(found["kind"], found["text"], tuple(found["separates"]), _known(found["minutes"]), found.get("file", ""), tuple(keys))
 
 
-def _effect(said: Row) -> _values.Effect:
+def _effect(found: Row) -> _values.Effect:
     parameters = {name: _values.Parameter(_known(value["value"]), _interval(value["ci95"]))
-                  for name, value in said["parameters"].items()}  # fmt: skip
-    return _values.Effect(said["name"], tuple(said["group"]), said["place"], _values.Table(parameters), _known(said["rms_drop_deg"]))
+                  for name, value in found["parameters"].items()}  # fmt: skip
+    return _values.Effect(found["name"], tuple(found["group"]), found["place"], _values.Table(parameters), _known(found["rms_drop_deg"]))
 
 
 def compare(
@@ -427,18 +427,18 @@ def compare(
     reading = _reading(columns, units, ticks_per_turn, zero_ticks)
     made = heard(lambda stop: _core.compare(joint, earlier, later, {**held, **more}, reading, target, stop))
     document = made.pop("document")
-    said = json.loads(document)
-    made["verdict"], made["summary"] = said["verdict"], said["summary"]
-    made["changes"] = tuple(_state_change(change) for change in said["changes"])
-    made["difference_rms_deg"], made["unexplained_rms_deg"] = (_known(said["difference"][name]) for name in ("before_rms_deg", "after_rms_deg"))
-    made["noise_floor_deg"] = _known(said["noise_floor_deg"])
+    found = json.loads(document)
+    made["verdict"], made["summary"] = found["verdict"], found["summary"]
+    made["changes"] = tuple(_state_change(change) for change in found["changes"])
+    made["difference_rms_deg"], made["unexplained_rms_deg"] = (_known(found["difference"][name]) for name in ("before_rms_deg", "after_rms_deg"))
+    made["noise_floor_deg"] = _known(found["noise_floor_deg"])
     return _values.Comparison(json=document, **_with_values(made))
 
 
-def _state_change(said: Row) -> _values.StateChange:
+def _state_change(found: Row) -> _values.StateChange:
     parameters = {name: _values.ChangedParameter(_known(of["before"]), _known(of["after"]), _known(of["change"]), _interval(of["ci95"]))
-                  for name, of in said["parameters"].items()}  # fmt: skip
-    return _values.StateChange(said["name"], tuple(said["group"]), said["place"], _values.Table(parameters), _known(said["rms_drop_deg"]))
+                  for name, of in found["parameters"].items()}  # fmt: skip
+    return _values.StateChange(found["name"], tuple(found["group"]), found["place"], _values.Table(parameters), _known(found["rms_drop_deg"]))
 
 
 def plan(

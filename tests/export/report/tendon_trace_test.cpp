@@ -20,7 +20,7 @@ struct Case {
 
 Case made(const Mechanism& mechanism, double tolerance = 0.002) {
   profile::SynthesisOptions options;
-  options.tolerance = tolerance;
+  options.chord_error_mm = tolerance;
   options.advice = false;
   Case result{mechanism, profile::synthesise(mechanism, options)};
   EXPECT_TRUE(result.synthesis.made()) << result.synthesis.brief();

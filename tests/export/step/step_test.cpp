@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 Product designed(const std::string& profile, const std::vector<Setting>& settings = {}) {
   Product product;
   product.file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / (profile + ".toml"), settings);
-  product.joint = joint::as_it_is(product.file.mechanism);
+  product.joint = joint::identified_joint(product.file.mechanism);
   pipeline::design(product, 0.01, {}, solid::TieOffSearch::brief);
   return product;
 }
@@ -89,54 +89,54 @@ TEST_F(Step, NoStepIsNoSolid) {
 }
 
 /// A product of several turns.
-const Product& climbing() {
+const Product& helical() {
   static const Product product = [] {
     Product made;
     made.file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / "wrist_turns.toml",
                                {{"pulley.ratio", "5.5"}, {"body.spare_turns", "0.5"}});
-    made.joint = joint::as_it_is(made.file.mechanism);
+    made.joint = joint::identified_joint(made.file.mechanism);
     pipeline::design_several_turns(made, 0.02, {});
     return made;
   }();
   return product;
 }
 
-class ClimbingStep : public Step {
+class HelicalStep : public Step {
  protected:
   static const StepFile& file() {
-    static const StepFile made = step_file(climbing());
+    static const StepFile made = step_file(helical());
     return made;
   }
-  StepInspection look_at(const std::string& bytes) {
+  StepInspection inspect(const std::string& bytes) {
     write_file(path_, bytes, true);
-    return inspect_step(path_, climbing(), 0.02);
+    return inspect_step(path_, helical(), 0.02);
   }
 };
 
-TEST_F(ClimbingStep, IsSoundSolidAndWinds) {
-  ASSERT_TRUE(climbing().pulley.made());
+TEST_F(HelicalStep, IsSoundSolidAndWinds) {
+  ASSERT_TRUE(helical().pulley.made());
   ASSERT_EQ(file().complaint, "");
-  const StepInspection look = look_at(file().bytes);
-  for (const Check& check : look.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value;
-  const coil::HelicalRewind wound = pipeline::rewind_several_turns(climbing(), look.climbing);
+  const StepInspection inspection = inspect(file().bytes);
+  for (const Check& check : inspection.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value;
+  const coil::HelicalRewind wound = pipeline::rewind_several_turns(helical(), inspection.helical);
   // Measured on the surfaces themselves: the error is far below that of facets.
   EXPECT_LT(degrees(wound.result.max_theta_error), 0.002);
   EXPECT_LT(wound.result.max_slack, 0.001);
 }
 
-TEST_F(ClimbingStep, FloorsOfAnotherTendonAreSeen) {
+TEST_F(HelicalStep, FloorsOfAnotherTendonAreSeen) {
   write_file(path_, file().bytes, true);
-  Product other = climbing();
+  Product other = helical();
   other.joint.mechanism.tendon.diameter += 0.001;
   EXPECT_THAT(inspect_step(path_, other, 0.02).checks,
               Contains(::testing::AllOf(Field(&Check::name, "floor_error"), Field(&Check::ok, false))));
 }
 
-TEST_F(ClimbingStep, AFaceThatIsMissingIsSeen) {
+TEST_F(HelicalStep, AFaceThatIsMissingIsSeen) {
   std::string broken = file().bytes;
   const std::size_t shell = broken.find("CLOSED_SHELL('',(") + 17, end = broken.find(',', shell);
   broken.erase(shell, end - shell + 1);
-  EXPECT_FALSE(all_ok(look_at(broken).checks));
+  EXPECT_FALSE(all_ok(inspect(broken).checks));
 }
 
 /// P1 of the paper's law is round about the axis: its rows are circles. P2's are splines.

@@ -8,9 +8,9 @@
 
 namespace fusee::transmission {
 
-class DeclaredLaw {
+class TargetMotion {
  public:
-  explicit DeclaredLaw(const Mechanism& declared);
+  explicit TargetMotion(const Mechanism& declared);
 
   /// False when the tendons' law does not exist over the range. Then only slope() may be called.
   bool exists() const { return !law_ || !law_->dead_centre(); }

@@ -1,10 +1,10 @@
-#include "transmission/declared_law.h"
+#include "transmission/target_motion.h"
 
 #include <algorithm>
 
 namespace fusee::transmission {
 
-DeclaredLaw::DeclaredLaw(const Mechanism& declared) {
+TargetMotion::TargetMotion(const Mechanism& declared) {
   if (declared.transmission) {
     ratio_ = declared.transmission->ratio;
     slope_ = 1.0 / ratio_;
@@ -14,11 +14,11 @@ DeclaredLaw::DeclaredLaw(const Mechanism& declared) {
   if (exists()) slope_ = (declared.joint.theta_max - declared.joint.theta_min) / alpha_range();
 }
 
-bool DeclaredLaw::reaches(double alpha) const {
+bool TargetMotion::reaches(double alpha) const {
   return !law_ || (alpha > law_->alpha_min() - 0.1 * alpha_range() && alpha < law_->alpha_max() + 0.1 * alpha_range());
 }
 
-double DeclaredLaw::theta_extrapolated(double alpha) const {
+double TargetMotion::theta_extrapolated(double alpha) const {
   if (!law_) return slope_ * alpha;
   const double within = std::clamp(alpha, law_->alpha_min(), law_->alpha_max());
   return law_->theta(within) + slope_ * (alpha - within);

@@ -40,7 +40,7 @@ std::string text_of(const std::vector<OutputFile>& outputs, const std::string& n
 
 BuildResult built(const MechanismFile& file) {
   BuildOptions options;
-  options.folder = std::filesystem::path(::testing::TempDir()) / "fusee_doubts";
+  options.folder = std::filesystem::path(::testing::TempDir()) / "fusee_plausibility_warnings";
   options.dry_run = true;
   return build(file, options);
 }

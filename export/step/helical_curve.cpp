@@ -1,4 +1,4 @@
-#include "export/step/climbing_curve.h"
+#include "export/step/helical_curve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,8 +36,8 @@ double integral_of(const std::array<double, 6>& powers, double u) {
 }  // namespace
 
 // The Hermite polynomial of degree 5 with the values h, h' and h'' = ρ − h of both rows.
-ClimbingCurve::ClimbingCurve(const helix::Spiral& spiral, const coil::SpiralPlace& place)
-    : climb_(place.direction * spiral.slope) {
+HelicalCurve::HelicalCurve(const helix::Spiral& spiral, const coil::SpiralPlace& place)
+    : slope_(place.direction * spiral.slope) {
   for (std::size_t i = 0; i + 1 < spiral.rows.size(); ++i) {
     const helix::SpiralRow &a = spiral.rows[i], &b = spiral.rows[i + 1];
     const double width = b.turn - a.turn;
@@ -54,7 +54,7 @@ ClimbingCurve::ClimbingCurve(const helix::Spiral& spiral, const coil::SpiralPlac
   }
 }
 
-Vec3 ClimbingCurve::at(double turn) const {
+Vec3 HelicalCurve::at(double turn) const {
   const auto above = std::upper_bound(pieces_.begin() + 1, pieces_.end(), turn,
                                       [](double value, const Piece& piece) { return value < piece.turn; });
   const Piece& piece = *(above - 1);
@@ -62,7 +62,7 @@ Vec3 ClimbingCurve::at(double turn) const {
   const double slope = slope_of(piece.support, u) / piece.width;
   const Vec2 point = polynomial(piece.support, u) * unit(turn) + slope * turned_left(unit(turn));
   const double length = slope - piece.support[1] / piece.width + piece.width * integral_of(piece.support, u);
-  return {point.x(), point.y(), piece.height + climb_ * length};
+  return {point.x(), point.y(), piece.height + slope_ * length};
 }
 
 double smooth_step(double share) {
@@ -70,8 +70,7 @@ double smooth_step(double share) {
   return t * t * t * (10.0 - t * (15.0 - 6.0 * t));
 }
 
-ClimbingGroove::ClimbingGroove(const helix::Spiral& spiral, const coil::SpiralPlace& place,
-                               const coil::Winding& winding)
+HelicalGroove::HelicalGroove(const helix::Spiral& spiral, const coil::SpiralPlace& place, const coil::Winding& winding)
     : curve_(spiral, place),
       begin_(winding.groove_front().turn),
       end_(winding.groove_back().turn),
@@ -80,13 +79,13 @@ ClimbingGroove::ClimbingGroove(const helix::Spiral& spiral, const coil::SpiralPl
       bulge_low_(winding.bulge_low),
       bulge_high_(winding.bulge_high) {}
 
-Vec3 ClimbingGroove::at(double turn) const {
+Vec3 HelicalGroove::at(double turn) const {
   if (turn > end_) return curve_.at(turn - k_two_pi) + curve_.at(end_) - curve_.at(end_ - k_two_pi);
   if (turn < begin_) return curve_.at(turn + k_two_pi) + curve_.at(begin_) - curve_.at(begin_ + k_two_pi);
   return curve_.at(turn);
 }
 
-double ClimbingGroove::bulge(double turn, bool low) const {
+double HelicalGroove::bulge(double turn, bool low) const {
   const double most = low ? bulge_low_ : bulge_high_;
   const double past = turn > end_ ? turn - end_ : begin_ - turn;
   const double whole = turn > end_ ? filled_to_ - end_ : begin_ - filled_from_;
@@ -95,7 +94,7 @@ double ClimbingGroove::bulge(double turn, bool low) const {
 }
 
 // As in coil/helical_blank.cpp: the ring leaves the turn in the half with the most clearance and returns to its start.
-Vec2 ClimbingGroove::ring(double direction, bool lowest, double outward) const {
+Vec2 HelicalGroove::ring(double direction, bool lowest, double outward) const {
   const double first = lowest ? filled_to_ : filled_from_, inwards = lowest ? -1.0 : 1.0;
   const double away = inwards * (direction - first);
   const double turned = away - k_two_pi * std::floor(away / k_two_pi);

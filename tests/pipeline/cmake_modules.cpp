@@ -1,4 +1,4 @@
-#include "pipeline/cmake_rooms.h"
+#include "pipeline/cmake_modules.h"
 
 #include <algorithm>
 #include <regex>
@@ -29,43 +29,43 @@ std::string without_comments(std::string_view text) {
   return std::regex_replace(std::string(text), std::regex("#.*"), "");
 }
 
-std::string folder_of(const std::string& room) { return room == "export" ? "export" : "src/" + room; }
+std::string folder_of(const std::string& module) { return module == "export" ? "export" : "src/" + module; }
 
-/// The words after ROOMS up to the next keyword.
-std::set<std::string> rooms_named(const std::string& call) {
-  std::set<std::string> rooms;
+/// The words after MODULES up to the next keyword.
+std::set<std::string> modules_named(const std::string& call) {
+  std::set<std::string> modules;
   bool listed = false;
   for (const std::string& word : words_of(call)) {
-    const bool keyword = std::regex_match(word, std::regex("SOURCES|ROOMS|LIBS"));
-    if (keyword) listed = word == "ROOMS";
-    if (!keyword && listed) rooms.insert(word);
+    const bool keyword = std::regex_match(word, std::regex("SOURCES|MODULES|LIBS"));
+    if (keyword) listed = word == "MODULES";
+    if (!keyword && listed) modules.insert(word);
   }
-  return rooms;
+  return modules;
 }
 
 /// The program is not a library: it links its modules as targets, such as "fusee_pipeline".
-std::set<std::string> rooms_linked(const std::string& call, const std::vector<std::string>& rooms) {
+std::set<std::string> modules_linked(const std::string& call, const std::vector<std::string>& modules) {
   std::set<std::string> linked;
   const std::vector<std::string> words = words_of(call);
-  for (const std::string& room : rooms) {
-    if (std::find(words.begin() + 1, words.end(), "fusee_" + room) != words.end()) linked.insert(room);
+  for (const std::string& module : modules) {
+    if (std::find(words.begin() + 1, words.end(), "fusee_" + module) != words.end()) linked.insert(module);
   }
   return linked;
 }
 
 }  // namespace
 
-std::vector<std::string> rooms_in_flow() {
-  std::vector<std::string> rooms;
+std::vector<std::string> modules_in_flow() {
+  std::vector<std::string> modules;
   for (const std::string& line : found(text_of("CMakeLists.txt"), "#([^\n]*<-[^\n]*)")) {
-    for (const std::string& room : found(line, "([a-z]+)")) rooms.push_back(room);
+    for (const std::string& module : found(line, "([a-z]+)")) modules.push_back(module);
   }
-  return rooms;
+  return modules;
 }
 
 std::map<std::string, int> flow() {
   std::map<std::string, int> places;
-  for (const std::string& room : rooms_in_flow()) places.emplace(room, static_cast<int>(places.size()));
+  for (const std::string& module : modules_in_flow()) places.emplace(module, static_cast<int>(places.size()));
   return places;
 }
 
@@ -84,13 +84,14 @@ std::vector<std::string> list_in(std::string_view text, const std::string& comma
 }
 
 std::map<std::string, std::set<std::string>> links() {
-  const std::vector<std::string> rooms = rooms_in_flow();
+  const std::vector<std::string> modules = modules_in_flow();
   std::map<std::string, std::set<std::string>> links;
-  for (const std::string& room : rooms) {
-    const std::string text = text_of(folder_of(room) + "/CMakeLists.txt");
-    std::set<std::string>& linked = links[room];
-    for (const std::string& call : arguments_of(text, "fusee_room")) linked.merge(rooms_named(call));
-    for (const std::string& call : arguments_of(text, "target_link_libraries")) linked.merge(rooms_linked(call, rooms));
+  for (const std::string& module : modules) {
+    const std::string text = text_of(folder_of(module) + "/CMakeLists.txt");
+    std::set<std::string>& linked = links[module];
+    for (const std::string& call : arguments_of(text, "fusee_module")) linked.merge(modules_named(call));
+    for (const std::string& call : arguments_of(text, "target_link_libraries"))
+      linked.merge(modules_linked(call, modules));
   }
   return links;
 }

@@ -9,7 +9,7 @@
 
 #include "coil/helical_plan.h"
 #include "coil/spirals.h"
-#include "export/step/climbing_curve.h"
+#include "export/step/helical_curve.h"
 #include "export/step/normal_spline.h"
 #include "export/step/skin.h"
 #include "fusee/base.h"
@@ -39,12 +39,12 @@ struct Known {
   }
 };
 
-TEST(ClimbingCurve, FollowsKnownCurve) {
+TEST(HelicalCurve, FollowsKnownCurve) {
   const Known known;
   // Rows further apart than those of any pulley.
   const helix::Spiral spiral = spiral_of(known.shape, known.begin, 5.0, known.slope, 0.1);
   const coil::SpiralPlace place{60.0, -1.0};
-  const ClimbingCurve curve(spiral, place);
+  const HelicalCurve curve(spiral, place);
   for (int i = 0; i < 1000; ++i) {
     const double turn = known.begin + 5.0 * k_two_pi * (i + 0.37) / 1000;
     const Vec3 found = curve.at(turn);

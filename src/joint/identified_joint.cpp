@@ -29,16 +29,16 @@ RoundChoice round_choice(const DeclaredMechanism& declared) {
   return round_choice(declared, compensating_law(declared));
 }
 
-double tied_at(const DeclaredMechanism& declared) {
+double assembly_angle(const DeclaredMechanism& declared) {
   return declared.transmission ? 0.0 : compensating_law(declared).home;
 }
 
-JointAsItIs as_it_is(const DeclaredMechanism& declared, LawSearch search) {
+IdentifiedJoint identified_joint(const DeclaredMechanism& declared, LawSearch search) {
   const Imperfections& at = declared.identified;
-  JointAsItIs joint{declared, at.pulley.outline};
+  IdentifiedJoint joint{declared, at.pulley.outline};
   const bool nothing_to_do = !changes_geometry(at) && !changes_statics(at) && at.pulley.scale == 0;
   if (declared.transmission || nothing_to_do) return joint;
-  joint.mechanism = identified_joint(declared);
+  joint.mechanism = identified_mechanism(declared);
   const CompensatingLaw needed = compensating_law(declared, search);
   if ((changes_geometry(at) || needed.shifted) && !needed.rows.empty()) {
     const RoundChoice choice = round_choice(declared, needed);
@@ -56,7 +56,7 @@ JointAsItIs as_it_is(const DeclaredMechanism& declared, LawSearch search) {
 
 DeclaredMechanism expected_joint(const DeclaredMechanism& declared) {
   DeclaredMechanism expected = declared;
-  static_cast<Mechanism&>(expected) = as_it_is(declared).mechanism;
+  static_cast<Mechanism&>(expected) = identified_joint(declared).mechanism;
   expected.identified = {};
   return expected;
 }

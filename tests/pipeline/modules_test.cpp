@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "pipeline/cmake_rooms.h"
+#include "pipeline/cmake_modules.h"
 #include "pipeline/source_text.h"
 
 namespace fusee::house {
@@ -18,12 +18,12 @@ namespace fs = std::filesystem;
 const fs::path k_root = FUSEE_SOURCE_DIR;
 
 std::vector<std::string> flow_without(const std::vector<std::string>& left_out) {
-  std::vector<std::string> rooms = rooms_in_flow();
-  for (const std::string& room : left_out) {
-    EXPECT_THAT(rooms, Contains(room));
-    std::erase(rooms, room);
+  std::vector<std::string> modules = modules_in_flow();
+  for (const std::string& module : left_out) {
+    EXPECT_THAT(modules, Contains(module));
+    std::erase(modules, module);
   }
-  return rooms;
+  return modules;
 }
 
 std::vector<std::string> folders_in(const fs::path& folder) {
@@ -35,13 +35,13 @@ std::vector<std::string> folders_in(const fs::path& folder) {
 }
 
 TEST(Modules, AreUniqueInOrder) {
-  EXPECT_EQ(flow().size(), rooms_in_flow().size());
-  EXPECT_EQ(rooms_in_flow().front(), "base");
-  EXPECT_EQ(rooms_in_flow().back(), "cli");
+  EXPECT_EQ(flow().size(), modules_in_flow().size());
+  EXPECT_EQ(modules_in_flow().front(), "base");
+  EXPECT_EQ(modules_in_flow().back(), "cli");
 }
 
 TEST(Modules, IncludeEveryFolder) {
-  for (const std::string& folder : folders_in("src")) EXPECT_THAT(rooms_in_flow(), Contains(folder));
+  for (const std::string& folder : folders_in("src")) EXPECT_THAT(modules_in_flow(), Contains(folder));
 }
 
 TEST(Modules, AreBuiltInOrder) {
@@ -50,13 +50,13 @@ TEST(Modules, AreBuiltInOrder) {
 
 /// All but the ends of the order, which are not libraries: the program and the Python module.
 TEST(Modules, AreInstalled) {
-  EXPECT_EQ(list_in(text_of("src/install.cmake"), "set", "FUSEE_ROOMS"), flow_without({"python", "cli"}));
+  EXPECT_EQ(list_in(text_of("src/install.cmake"), "set", "FUSEE_LIBRARIES"), flow_without({"python", "cli"}));
 }
 
 TEST(Modules, LinkFromRightToLeft) {
   const std::map<std::string, int> place = flow();
-  for (const auto& [room, linked] : links()) {
-    for (const std::string& other : linked) EXPECT_LT(place.at(other), place.at(room)) << room << " ← " << other;
+  for (const auto& [module, linked] : links()) {
+    for (const std::string& other : linked) EXPECT_LT(place.at(other), place.at(module)) << module << " ← " << other;
   }
 }
 
@@ -70,9 +70,9 @@ TEST(Modules, HaveTests) {
 }
 
 TEST(Modules, AreReadFromCMake) {
-  const std::string text = "add_subdirectory(a)  # add_subdirectory(b)\nset(ROOMS a b\n  c)\nset(OTHER d)\n";
+  const std::string text = "add_subdirectory(a)  # add_subdirectory(b)\nset(MODULES a b\n  c)\nset(OTHER d)\n";
   EXPECT_THAT(arguments_of(text, "add_subdirectory"), ElementsAre("a"));
-  EXPECT_THAT(list_in(text, "set", "ROOMS"), ElementsAre("a", "b", "c"));
+  EXPECT_THAT(list_in(text, "set", "MODULES"), ElementsAre("a", "b", "c"));
   EXPECT_THAT(list_in(text, "set", "NONE"), IsEmpty());
 }
 

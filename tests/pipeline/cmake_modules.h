@@ -11,7 +11,7 @@
 namespace fusee::house {
 
 /// From left to right, as the comment of the top CMakeLists.txt draws them: "base <- mechanism <- …".
-std::vector<std::string> rooms_in_flow();
+std::vector<std::string> modules_in_flow();
 /// Module → its place in that order.
 std::map<std::string, int> flow();
 

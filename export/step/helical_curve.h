@@ -14,9 +14,9 @@ namespace fusee::formats {
 
 /// Given by its support function h(ψ) over all turns, as in SupportCurve: X = h n + h' t. The height follows from s =
 /// h' + ∫ h dψ.
-class ClimbingCurve {
+class HelicalCurve {
  public:
-  ClimbingCurve(const helix::Spiral& spiral, const coil::SpiralPlace& place);
+  HelicalCurve(const helix::Spiral& spiral, const coil::SpiralPlace& place);
 
   /// (x, y, height). The last piece is extrapolated beyond the rows.
   Vec3 at(double turn) const;
@@ -29,16 +29,16 @@ class ClimbingCurve {
   };
 
   std::vector<Piece> pieces_;
-  double climb_ = 0;  ///< height per planar length
+  double slope_ = 0;  ///< height per planar length
 };
 
 /// From 0 at 0 to 1 at 1, with two zero derivatives at both ends.
 double smooth_step(double share);
 
 /// A groove of the part, including the continuation of its edges beyond its ends, which follow the turn before.
-class ClimbingGroove {
+class HelicalGroove {
  public:
-  ClimbingGroove(const helix::Spiral& spiral, const coil::SpiralPlace& place, const coil::Winding& winding);
+  HelicalGroove(const helix::Spiral& spiral, const coil::SpiralPlace& place, const coil::Winding& winding);
 
   double begin() const { return begin_; }
   double end() const { return end_; }
@@ -53,7 +53,7 @@ class ClimbingGroove {
   Vec2 ring(double direction, bool lowest, double outward) const;
 
  private:
-  ClimbingCurve curve_;
+  HelicalCurve curve_;
   double begin_, end_, filled_from_, filled_to_;
   double bulge_low_, bulge_high_;
 };

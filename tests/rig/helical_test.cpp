@@ -28,7 +28,7 @@ DeclaredMechanism stiff(DeclaredMechanism declared) {
 
 double furthest_off(const DeclaredMechanism& declared) {
   const MadeJoint joint = make_joint(declared);
-  EXPECT_TRUE(joint.climbs());
+  EXPECT_TRUE(joint.is_helical());
   double off = 0;
   for (const double end : {joint.alpha_min, joint.alpha_max}) {
     Bench bench(joint, {});
@@ -41,16 +41,16 @@ double furthest_off(const DeclaredMechanism& declared) {
 }
 
 // Curves of `build` come from unrolled paths; here strings are laid on them in space.
-TEST(Climbing, FollowsDeclaredLaw) { EXPECT_LT(furthest_off(stiff(wrist_turns())), 5e-4); }
+TEST(HelicalJoint, FollowsTargetMotion) { EXPECT_LT(furthest_off(stiff(wrist_turns())), 5e-4); }
 
-TEST(Climbing, FollowsDeclaredLawWithCollars) {
+TEST(HelicalJoint, FollowsTargetMotionWithCollars) {
   DeclaredMechanism declared = stiff(wrist_turns());
   declared.guides.collar = true;
   EXPECT_LT(furthest_off(declared), 5e-4);
 }
 
 // Otherwise the groove would end at the knot of a pulley of one turn.
-TEST(Climbing, TiesTendonsBehindSpareTurns) {
+TEST(HelicalJoint, TiesTendonsBehindSpareTurns) {
   const MadeJoint joint = make_joint(wrist_turns());
   const Bench bench(joint, {});
   for (const std::size_t side : {0u, 1u}) {
