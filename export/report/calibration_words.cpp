@@ -56,8 +56,9 @@ std::string first_upper(std::string words) {
 
 std::string audit_words(const calibration::FoundEffect& effect) {
   if (effect.audit.data_sets == 0) return "";
-  return "In " + std::to_string(effect.audit.data_sets) + " simulated joints without " + open_words(effect.name) +
-         ", these runs would have named it in " + std::to_string(effect.audit.false_positives) + ".";
+  return "False positives: in " + std::to_string(effect.audit.false_positives) + " of " +
+         std::to_string(effect.audit.data_sets) + " simulated joints without " + open_words(effect.name) +
+         ", these runs would have reported it.";
 }
 
 std::string unmodelled_words(const calibration::FoundEffect& effect) {
@@ -66,7 +67,7 @@ std::string unmodelled_words(const calibration::FoundEffect& effect) {
   const std::string in_its_place = (rival.words.empty() ? "a smooth curve" : rival.words) +
                                    " in its place; odds for the named cause " + calibration::odds(rival.log_odds);
   return "Or an unmodelled cause that does the same: " + in_its_place +
-         (rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".");
+         (rival.separating_run.empty() ? "." : ". To distinguish them: " + rival.separating_run + ".");
 }
 
 std::string beside_words(const calibration::FoundEffect& effect, const std::string& load_unit) {

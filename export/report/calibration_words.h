@@ -18,7 +18,7 @@ struct NameAndUnit {
 NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_unit);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
 
-/// "In 200 simulated joints without backlash, these runs would have named it in 1."; "" where none were simulated.
+/// "False positives: in 1 of 200 simulated joints without backlash, these runs would have reported it."; "" where none were simulated.
 std::string audit_words(const calibration::FoundEffect& effect);
 /// "Or an unmodelled cause: a wave of 1.9 times a turn of the motor is 4.6 nats behind."; "" where the group holds
 /// names alone.

@@ -9,6 +9,10 @@
 
 namespace fusee::formats {
 
+/// The page with the title of its column in each table cell (data-label): a narrow window shows rows as blocks. Titles
+/// are HTML without elements.
+std::string with_labelled_cells(const std::string& page);
+
 using PageParts = std::map<std::string, std::string, std::less<>>;
 /// Replaces every {{name}} of the template once. Inserted text (HTML, not escaped) is not scanned again, so that no
 /// text of a user can name a part.

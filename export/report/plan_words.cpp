@@ -20,7 +20,7 @@ std::vector<std::string> false_positive_words(const plan::Plan& plan) {
   return {"in " + joints(plan.nothing.samples) + "as declared, these runs would have reported a false cause in " +
               std::to_string(plan.nothing.wrong),
           "in " + joints(plan.one.samples) +
-              "with one of these causes, of its usual sizes, they would have named it alone in " +
+              "with one of these causes, of its usual sizes, they would have reported it alone in " +
               std::to_string(plan.one.alone) + ", in a group in " + std::to_string(plan.one.group) +
               ", and reported a false cause in " + std::to_string(plan.one.wrong),
           "in " + joints(plan.unmodelled.samples) +
@@ -30,8 +30,8 @@ std::vector<std::string> false_positive_words(const plan::Plan& plan) {
 
 std::string gain_words(const plan::PlanStep& step) {
   std::string text;
-  if (!step.sees.empty()) text = "sees " + list_of(step.sees, ", ");
-  if (!step.tells.empty()) text += std::string(text.empty() ? "" : "; ") + "tells " + list_of(step.tells, "; ");
+  if (!step.sees.empty()) text = "reveals " + list_of(step.sees, ", ");
+  if (!step.tells.empty()) text += std::string(text.empty() ? "" : "; ") + "distinguishes " + list_of(step.tells, "; ");
   return text.empty() ? "reduces the uncertainty of what is distinguished already" : text;
 }
 

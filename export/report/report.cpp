@@ -501,6 +501,18 @@ std::string derived_table(const Product& product) {
          "identified joint follows the declared law.</p>";
 }
 
+/// Links to files beside the page. `names`: separated by ", ".
+std::string file_links(std::string_view names) {
+  std::string html;
+  while (!names.empty()) {
+    const std::size_t end = std::min(names.find(", "), names.size());
+    const std::string name(names.substr(0, end));
+    html += (html.empty() ? "<a href=\"" : ", <a href=\"") + name + "\"><code>" + name + "</code></a>";
+    names.remove_prefix(std::min(end + 2, names.size()));
+  }
+  return html;
+}
+
 std::string files_table(const Product& product) {
   struct File {
     std::string_view name;
@@ -516,11 +528,11 @@ std::string files_table(const Product& product) {
   std::string html = "<h3>Other files</h3><div class=\"scroll\"><table><tbody>";
   const bool has_step = std::any_of(product.checks.begin(), product.checks.end(),
                                     [](const Check& check) { return check.name.rfind("step_", 0) == 0; });
-  if (has_step) html += "<tr><td><code>pulley.step</code></td><td>the part for CAD</td></tr>";
+  if (has_step) html += "<tr><td>" + file_links("pulley.step") + "</td><td>the part for CAD</td></tr>";
   for (const File& file : k_files) {
     // A multi-turn pulley has no plates.
     if (product.helix && file.name == "plates.dxf") continue;
-    html += "<tr><td><code>" + std::string(file.name) + "</code></td><td>" + std::string(file.words) + "</td></tr>";
+    html += "<tr><td>" + file_links(file.name) + "</td><td>" + std::string(file.words) + "</td></tr>";
   }
   return html + "</tbody></table></div>";
 }

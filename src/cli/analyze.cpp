@@ -41,14 +41,14 @@ std::string tension_line(const analysis::AnalysisResult& result, const Mechanism
 }
 
 std::string strength_line(const analysis::AnalysisResult& result, const Mechanism& mechanism) {
-  if (!result.strength) return line("tendon bears", "unknown: set tendon.strength_N");
+  if (!result.strength) return line("tendon strength", "unknown: set tendon.strength_N");
   const std::string source = result.strength->source == "tendon.strength_N"
                                  ? result.strength->source
                                  : result.strength->source + " of the catalogue";
   std::string margin;
   if (result.largest_tension.tension > 0)
     margin = ", " + rounded(result.strength->tension / result.largest_tension.tension, 3) + " times that";
-  return line("tendon bears", rounded(result.strength->tension) + " N (" + source + ")" + margin) +
+  return line("tendon strength", rounded(result.strength->tension) + " N (" + source + ")" + margin) +
          line("", rounded(result.strength->at_knot) + " N at a knot (tendon.knot_efficiency)") +
          line("", (mechanism.joint.is_plain() ? "at C" : "at its end") + std::string(" it carries up to ") +
                       rounded(result.largest_at_joint.value) + " N");
@@ -271,6 +271,7 @@ Reply run_analyze(const Arguments& arguments, Console& console, const RunContext
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
   Reply reply;
   reply.diagnostics = file.warnings;
+  reply.units = file.mechanism.units;
   const analysis::AnalysisResult result = pipeline::analyze(file, options, context);
   reply.diagnostics.insert(reply.diagnostics.end(), result.warnings.begin(), result.warnings.end());
   if (!result.exists) {

@@ -11,10 +11,14 @@ std::vector<Template> templates() {
 }
 
 std::string first_comment(const Template& known) {
-  std::string_view line = known.text.substr(0, known.text.find('\n'));
-  if (line.empty() || line[0] != '#') return {};
-  line.remove_prefix(std::min(line.find_first_not_of("# "), line.size()));
-  return std::string(line);
+  std::string block;
+  for (std::string_view text = known.text; text.starts_with("# ");) {
+    const std::string_view line = text.substr(2, text.find('\n') - 2);
+    block += (block.empty() ? "" : " ") + std::string(line);
+    text.remove_prefix(std::min(text.find('\n') + 1, text.size()));
+  }
+  const std::size_t end = block.find(". ");
+  return end == std::string::npos ? block : block.substr(0, end + 1);
 }
 
 std::string_view find_template(std::string_view name) {

@@ -3,6 +3,7 @@
 
     judge_page.py build/forearm [page.html …]   a folder of `fusee build`, and other pages of the same joint
     judge_page.py build/forearm --self-test     the judge must detect broken pages (also of several turns)
+    judge_page.py --narrow page.html …          any pages at 400 and 320 px: nothing cut, no text below 11 px, no broken word
     judge_page.py --still page.html …           pages without scripts: no requests, no overflow, visible pictures
 
 Exit 0: no faults; 1: faults, one line each on stdout; 77: Chromium is not installed.
@@ -142,6 +143,48 @@ STILL = """
   found.pictures = [...document.querySelectorAll("svg")].map(svg => ({
     width: svg.getBoundingClientRect().width, drawn: svg.querySelectorAll("path,line,circle").length, named: Boolean(svg.querySelector("title") || svg.getAttribute("aria-label"))}));
   parent.document.body.append(Object.assign(parent.document.createElement("pre"), { id: "found", textContent: JSON.stringify(found) }));
+})();
+"""
+
+
+# Any page on a phone: what is cut off, too small to read, or broken.
+NARROW = """
+(() => {
+  const faults = [], say = (what, element) => faults.push(what + ": " + (element.textContent || element.className).trim().replace(/\\s+/g, " ").slice(0, 60));
+  for (const details of document.querySelectorAll("details")) details.open = true;
+  const seen = element => element.checkVisibility() && element.getClientRects().length > 0;
+  if (document.documentElement.scrollWidth > innerWidth) faults.push(document.documentElement.scrollWidth + " px wide in a window of " + innerWidth);
+  for (const element of document.querySelectorAll("main *")) {
+    if (element.closest("svg") || !seen(element)) continue;
+    if (element.scrollWidth > element.clientWidth + 1 && getComputedStyle(element).overflowX !== "visible") say("cut at " + element.clientWidth + " of " + element.scrollWidth + " px, " + element.tagName, element);
+    if (element.getBoundingClientRect().right > innerWidth + 1) say("beyond the right edge, " + element.tagName, element);
+  }
+  for (const svg of document.querySelectorAll("svg")) {
+    if (!seen(svg)) continue;
+    const paper = svg.getBoundingClientRect();
+    for (const text of svg.querySelectorAll("text")) {
+      if (!text.textContent.trim() || !seen(text)) continue;
+      const box = text.getBoundingClientRect(), matrix = text.getScreenCTM(), scale = Math.hypot(matrix.a, matrix.b);
+      const size = parseFloat(getComputedStyle(text).fontSize) * scale;
+      if (size < 10.95) say("text of " + size.toFixed(1) + " px", text);
+      const out = Math.max(paper.left - box.left, box.right - paper.right, paper.top - box.top, box.bottom - paper.bottom);
+      if (out > 2) say("text " + out.toFixed(0) + " px beyond its picture", text);
+    }
+  }
+  // A short word on two lines. Line breaks at blanks, dots, underscores and signs are wanted.
+  const walker = document.createTreeWalker(document.querySelector("main"), NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    if (node.parentElement.closest("svg,script,style") || !seen(node.parentElement)) continue;
+    for (const word of node.data.matchAll(/[\\p{L}\\p{N}]+/gu)) {
+      if (word[0].length > 14) continue;
+      const range = document.createRange();
+      range.setStart(node, word.index);
+      range.setEnd(node, word.index + word[0].length);
+      const tops = new Set([...range.getClientRects()].map(rect => Math.round(rect.top)));
+      if (tops.size > 1) say("the word '" + word[0] + "' is broken", node.parentElement);
+    }
+  }
+  parent.document.body.append(Object.assign(parent.document.createElement("pre"), { id: "found", textContent: JSON.stringify({ faults: [...new Set(faults)], noted }) }));
 })();
 """
 
@@ -326,6 +369,16 @@ def still_faults(page):
                 yield f"{width} px: a picture that shows little: {picture}"
 
 
+def narrow_faults(page):
+    page = page.replace("default-src 'none'; style-src", "default-src 'none'; script-src 'unsafe-inline'; style-src", 1) if "<script" not in page else page
+    for width in (400, 320):
+        found = seen_in(page, [], width, (), NARROW)
+        if found is None:
+            yield f"{width} px: the page was not shown"
+            continue
+        yield from (f"{width} px: {fault}" for fault in [*found["noted"], *found["faults"]])
+
+
 @dataclasses.dataclass
 class Lever:
     """From the joint's axis to the end of tendon 1: distance, mm, and angle from OC at home, deg, to the right."""
@@ -405,6 +458,11 @@ def main():
     if "--still" in sys.argv:
         pages = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
         found = [f"{page}: {fault}" for page in pages for fault in still_faults(pathlib.Path(page).read_text(encoding="utf-8"))]
+        print("\n".join(found))
+        return 1 if found else 0
+    if "--narrow" in sys.argv:
+        pages = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
+        found = [f"{page}: {fault}" for page in pages for fault in narrow_faults(pathlib.Path(page).read_text(encoding="utf-8"))]
         print("\n".join(found))
         return 1 if found else 0
     folder, *pages = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
