@@ -485,7 +485,7 @@ std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, tr
   }
   for (const profile::OutlinePoint& point : outline.points) view.include(point.position);
   view.fit(34, 66, k_profile_width - 68, k_profile_height - 118);
-  figure.body = svg_words("heading", {4, 18}, name + ": r against α in polar coordinates is another curve") +
+  figure.body = svg_words("heading", {4, 18}, name + " against r(α) in polar coordinates") +
                 legend({{"curve whole " + ink(side), "profile"},
                         {"curve main", "polar drawing"},
                         {"third", "difference × " + readable_rounded(factor)}});
@@ -494,9 +494,8 @@ std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, tr
   figure.body +=
       curve("curve whole " + ink(side), view, arc_points(outline, outline.active_first, outline.active_last));
   figure.body += curve("thin main", view, drawn) + curve("third", view, magnified);
-  figure.body +=
-      svg_words("small middle", {0.5 * k_profile_width, k_profile_height - 12},
-                "furthest apart: " + readable(most.r, 3) + " mm, where α = " + readable(degrees(most.alpha), 1) + "°");
+  figure.body += svg_words("small middle", {0.5 * k_profile_width, k_profile_height - 12},
+                           readable(most.r, 3) + " mm apart at α = " + readable(degrees(most.alpha), 1) + "°");
   return figure;
 }
 

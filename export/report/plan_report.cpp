@@ -113,7 +113,8 @@ std::string causes_section(const plan::Plan& plan) {
       "<p class=\"lead\">At the joint, rms over the runs: the effect of each cause at its usual size, the smallest "
       "size that would be detected, the smallest that could be named alone, and its equally likely alternatives.</p>"
       "<div class=\"scroll\"><table><thead><tr><th>cause</th><th class=\"number\">usual</th><th "
-      "class=\"number\">detected from</th><th class=\"number\">named alone from</th><th>not distinguished from</th></tr></thead><tbody>" +
+      "class=\"number\">detected from</th><th class=\"number\">named alone from</th><th>not distinguished "
+      "from</th></tr></thead><tbody>" +
           rows + "</tbody></table></div>");
 }
 

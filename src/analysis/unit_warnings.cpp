@@ -88,11 +88,11 @@ constexpr double k_mm_per_inch = 25.4;
 
 /// The unit of a length that is correct after multiplication by `factor`.
 const char* written_in(double factor) {
-  return factor == 10.0                   ? "in cm"
-         : factor == k_mm_per_inch        ? "in inches"
-         : factor == 1.0 / k_mm_per_inch  ? "in mm"
-         : factor == 1000.0               ? "in m"
-                                          : "ten times too large";
+  return factor == 10.0                  ? "in cm"
+         : factor == k_mm_per_inch       ? "in inches"
+         : factor == 1.0 / k_mm_per_inch ? "in mm"
+         : factor == 1000.0              ? "in m"
+                                         : "ten times too large";
 }
 
 /// Likely factors between a length as read and as meant, in groups from likely to unlikely.
@@ -195,9 +195,8 @@ std::vector<InputWarning> all_lengths_warning(const DeclaredMechanism& mechanism
   if (part == nullptr) return {};
   const double size = declared_number(mechanism, part->key), length = declared_number(mechanism, part->beside);
   std::vector<double> factors{10.0, k_mm_per_inch};
-  std::erase_if(factors, [&](double factor) {
-    return too_large_part(all_lengths_times(mechanism, factor)) != nullptr;
-  });
+  std::erase_if(factors,
+                [&](double factor) { return too_large_part(all_lengths_times(mechanism, factor)) != nullptr; });
   if (factors.empty()) factors = {1000.0};
   const bool in_inches = std::count(factors.begin(), factors.end(), k_mm_per_inch) > 0;
   return {{part->beside,
@@ -205,8 +204,7 @@ std::vector<InputWarning> all_lengths_warning(const DeclaredMechanism& mechanism
                part->key + ")",
            proportionate_text("are the lengths of [joint], [guides] and [pulley]", k_length, mechanism.joint.R, factors,
                               " and so on") +
-               (in_inches ? " (units = \"inch\" for a file in inches)" : "") + "; or is " + part->key +
-               " too large?"}};
+               (in_inches ? " (units = \"inch\" for a file in inches)" : "") + "; or is " + part->key + " too large?"}};
 }
 
 /// No tendon of a catalogue is thicker: in an inch file, a diameter in mm is.

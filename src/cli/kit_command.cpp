@@ -1,5 +1,4 @@
 #include <algorithm>
-
 #include <filesystem>
 
 #include "base/output_list.h"

@@ -108,7 +108,8 @@ std::string lengths_in(LengthUnit unit, const std::string& message) {
   for (const Written& number : numbers) {
     if (!number.is_length) continue;
     // One digit more than in mm, so that the length is no coarser.
-    const int digits = std::max(3, 1 + digits_of(std::string_view(message).substr(number.begin, number.end - number.begin)));
+    const int digits =
+        std::max(3, 1 + digits_of(std::string_view(message).substr(number.begin, number.end - number.begin)));
     text.append(message, from, number.begin - from);
     text += rounded(from_mm(number.value, unit), digits);
     from = number.end;

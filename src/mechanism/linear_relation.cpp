@@ -41,8 +41,9 @@ LinearExpression scaled(const LinearExpression& expression, double factor) {
 void take_to_mm(LinearRelation& relation, LengthUnit units) {
   const auto is_of_length = [](const LinearTerm& term) { return is_length(term.key); };
   const std::vector<LinearTerm>& left = relation.left.terms;
-  const bool of_lengths = std::any_of(left.begin(), left.end(), is_of_length) ||
-                          (left.empty() && std::any_of(relation.right.terms.begin(), relation.right.terms.end(), is_of_length));
+  const bool of_lengths =
+      std::any_of(left.begin(), left.end(), is_of_length) ||
+      (left.empty() && std::any_of(relation.right.terms.begin(), relation.right.terms.end(), is_of_length));
   for (LinearExpression* side : {&relation.left, &relation.right}) {
     if (of_lengths) side->constant = to_mm(side->constant, units);
     for (LinearTerm& term : side->terms) {

@@ -212,9 +212,10 @@ void MechanismReader::fail_unknown(const Place& place, const std::string& table,
   const std::string in_mm = key.substr(0, key.rfind('_')) + "_mm";
   if (key.ends_with("_in") || key.ends_with("_inch") || key.ends_with("_cm")) {
     if (find_field(table + "." + in_mm) != nullptr)
-      return fail(place, "unknown key " + shown,
-                  "write " + in_mm + " = \"3.5 " + (key.ends_with("_cm") ? "cm" : "in") +
-                      "\", or units = \"inch\" at the top of the file and the numbers of all keys ending in _mm in inches");
+      return fail(
+          place, "unknown key " + shown,
+          "write " + in_mm + " = \"3.5 " + (key.ends_with("_cm") ? "cm" : "in") +
+              "\", or units = \"inch\" at the top of the file and the numbers of all keys ending in _mm in inches");
   }
   std::string nearest = nearest_word(key, here);
   // A setting is written with its table, a key of the file without.
@@ -289,7 +290,8 @@ toml::table MechanismReader::setting_value(const Setting& setting, const std::st
     }
   }
   toml::table table;
-  const bool is_word = one_line && !setting.value.empty() && setting.value.find_first_of("\"'[]{}=") == std::string::npos;
+  const bool is_word =
+      one_line && !setting.value.empty() && setting.value.find_first_of("\"'[]{}=") == std::string::npos;
   if (!is_word && !parse_length(setting.value)) {
     fail({file, 0, 0}, in_quotes(setting.value) + " is not a value",
          "a number, [lowest, highest], true, false or a word");
@@ -334,7 +336,8 @@ void MechanismReader::apply(const Setting& setting) {
 
 /// The value as the user wrote it, with its unit.
 std::string as_written(const Field& field, const toml::node& node, LengthUnit units) {
-  return node.is_string() ? in_quotes(**node.as_string()) : with_unit(*node.value<double>(), unit_in_file(field, units));
+  return node.is_string() ? in_quotes(**node.as_string())
+                          : with_unit(*node.value<double>(), unit_in_file(field, units));
 }
 
 /// True for a length where 0 means a default or "none". Drawings round to 1e-6 mm, so that a tiny length would be

@@ -23,8 +23,9 @@ Json fallback_json(const Field& field) { return parse_json(field.fallback); }
 /// A number, or for lengths also a text with its unit. The bounds of lengths depend on `units`: length_bounds().
 Json number_schema(const Field& field, bool length) {
   if (!length) return {{"type", field.whole ? "integer" : "number"}, {"minimum", field.least}, {"maximum", field.most}};
-  constexpr const char* k_text = "^ *[-+]?([0-9.]+|([0-9]+[- ] *)?[0-9]+/[0-9]+)(e[-+]?[0-9]+)? *"
-                                 "(mm|cm|m|um|\xC2\xB5m|in\\.?|inch|inches|\"|\xE2\x80\xB3|thou) *$";
+  constexpr const char* k_text =
+      "^ *[-+]?([0-9.]+|([0-9]+[- ] *)?[0-9]+/[0-9]+)(e[-+]?[0-9]+)? *"
+      "(mm|cm|m|um|\xC2\xB5m|in\\.?|inch|inches|\"|\xE2\x80\xB3|thou) *$";
   Json number = {{"type", "number"}}, text = {{"type", "string"}, {"pattern", k_text}};
   return {{"anyOf", {number, text}}};
 }
@@ -119,7 +120,8 @@ Json either_joint() {
 
 std::string mechanism_schema() {
   Json schema = closed_object(
-      "A tendon-driven joint and the pulley that drives it. Lengths in mm or in `units`, angles in degrees, forces in N.");
+      "A tendon-driven joint and the pulley that drives it. Lengths in mm or in `units`, angles in degrees, forces in "
+      "N.");
   schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   schema["title"] = "fusee mechanism file";
   for (const Field& field : fields()) {

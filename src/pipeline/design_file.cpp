@@ -56,8 +56,8 @@ DesignFile design_file(const MechanismFile& file, const optimize::Problem& probl
   DesignFile result;
   const std::vector<ValueEdit> edits = all_edits(problem, design, settings, result.warnings);
   result.text = edit_values(read_file(file.path, k_largest_file, files), edits);
-  const bool keeps_units = std::none_of(settings.begin(), settings.end(),
-                                        [](const Setting& setting) { return setting.key == "units"; });
+  const bool keeps_units =
+      std::none_of(settings.begin(), settings.end(), [](const Setting& setting) { return setting.key == "units"; });
   if (keeps_units && holds(result.text, edits, file.path, files)) return result;
   // Dotted keys leave no place for a new key of their table, and other units change every length.
   result.warnings.push_back(warning("the layout of " + file.path + " could not be kept: the new file has every key"));

@@ -15,7 +15,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 const std::string k_inch_file =
-    "schema = 1\nunits = \"inch\"\n[joint]\nlength_mm = 3.5\nrange_deg = [-30, 30]\n[guides]\nEB_mm = 1.75\nED_mm = 1.75\n"
+    "schema = 1\nunits = \"inch\"\n[joint]\nlength_mm = 3.5\nrange_deg = [-30, 30]\n[guides]\nEB_mm = 1.75\nED_mm = "
+    "1.75\n"
     "OE_mm = -1.4\nradius_mm = \"2 mm\"\n[pulley]\nEF_mm = 2.8\nr1_mm = 0.56\n[tendon]\ndiameter_mm = \"1 mm\"\n";
 
 std::string error_of(const std::string& text, const std::vector<Setting>& settings = {}) {
@@ -31,10 +32,10 @@ std::string error_of(const std::string& text, const std::vector<Setting>& settin
 
 TEST(Lengths, ReadTextsWithUnits) {
   const std::vector<std::pair<const char*, double>> good{
-      {"45 mm", 45},        {"4.5cm", 45},      {"0.1 m", 100},       {"200 um", 0.2},       {"200 µm", 0.2},
-      {"3.5 in", 88.9},     {"3.5in", 88.9},    {"3 1/2 in", 88.9},   {"3-1/2 inch", 88.9},  {"1/8 in", 3.175},
-      {"1.1 inches", 27.94}, {"2\"", 50.8},      {"2″", 50.8},         {"10 thou", 0.254},    {"-1 1/2 in", -38.1},
-      {"+.5 in", 12.7},     {" 1e-1 in ", 2.54}, {"0 in", 0},          {"1e3 mm", 1000},      {"2 in.", 50.8}};
+      {"45 mm", 45},         {"4.5cm", 45},       {"0.1 m", 100},     {"200 um", 0.2},      {"200 µm", 0.2},
+      {"3.5 in", 88.9},      {"3.5in", 88.9},     {"3 1/2 in", 88.9}, {"3-1/2 inch", 88.9}, {"1/8 in", 3.175},
+      {"1.1 inches", 27.94}, {"2\"", 50.8},       {"2″", 50.8},       {"10 thou", 0.254},   {"-1 1/2 in", -38.1},
+      {"+.5 in", 12.7},      {" 1e-1 in ", 2.54}, {"0 in", 0},        {"1e3 mm", 1000},     {"2 in.", 50.8}};
   for (const auto& [text, mm] : good) EXPECT_EQ(parse_length(text), mm) << text;
   for (const char* bad : {"", "3.5", "in", "3,5 in", "3.5 kg", "1/0 in", "1/2/3 in", "1.5 1/2 in", "3 in 2", "nan mm",
                           "inf in", "--1 in", "1e999 mm", "3 1/ in", "/2 in", "3.5 IN"})
@@ -52,7 +53,8 @@ TEST(Lengths, AreRoundedOnce) {
 // The file's unit survives writing, and each value reads back as exactly the same.
 TEST(Lengths, ReadBackExactly) {
   rc::check([] {
-    const double mm = *rc::gen::element(1.0, -1.0) * std::ldexp(*rc::gen::inRange(1LL, 1LL << 52), *rc::gen::inRange(-70, -35));
+    const double mm =
+        *rc::gen::element(1.0, -1.0) * std::ldexp(*rc::gen::inRange(1LL, 1LL << 52), *rc::gen::inRange(-70, -35));
     const std::string text = length_value_text(mm, LengthUnit::inch);
     const double back = text.front() == '"' ? parse_length(text.substr(1, text.size() - 2)).value()
                                             : to_mm(std::stod(text), LengthUnit::inch);
@@ -65,7 +67,9 @@ TEST(Lengths, ReadBackExactly) {
 }
 
 TEST(Lengths, AreTheKeysInMm) {
-  for (const Field& field : fields()) EXPECT_EQ(field.unit == "mm" || (field.table == "prior" && field.key.ends_with("_mm")), is_length(field.key)) << field.name();
+  for (const Field& field : fields())
+    EXPECT_EQ(field.unit == "mm" || (field.table == "prior" && field.key.ends_with("_mm")), is_length(field.key))
+        << field.name();
 }
 
 TEST(Lengths, OfInchFileAreThoseInMm) {
@@ -80,12 +84,9 @@ TEST(Lengths, OfInchFileAreThoseInMm) {
 }
 
 TEST(Lengths, OfSettingsAreInTheFilesUnit) {
-  const std::vector<Setting> settings{{"pulley.r1_mm", "0.6"},
-                                      {"guides.EB_mm", "1 3/4 in"},
-                                      {"guides.ED_mm", "2\""},
-                                      {"pulley.EF_mm", "\"70 mm\""},
-                                      {"joint.attachment1_mm[0]", "0.5"},
-                                      {"joint.attachment2_mm", "[\"1 cm\", 3]"}};
+  const std::vector<Setting> settings{
+      {"pulley.r1_mm", "0.6"},       {"guides.EB_mm", "1 3/4 in"},       {"guides.ED_mm", "2\""},
+      {"pulley.EF_mm", "\"70 mm\""}, {"joint.attachment1_mm[0]", "0.5"}, {"joint.attachment2_mm", "[\"1 cm\", 3]"}};
   const DeclaredMechanism m = parse_mechanism(k_inch_file, "f.toml", ".", settings);
   EXPECT_EQ(m.pulley.r1, 15.24);
   EXPECT_EQ(m.guides.EB, 44.45);
@@ -98,10 +99,11 @@ TEST(Lengths, OfSettingsAreInTheFilesUnit) {
 }
 
 TEST(Lengths, OfListsAreInTheFilesUnit) {
-  const std::string text = k_inch_file +
-                           "[prior]\nEB_mm = [1.75, \"0.02 mm\"]\nguide_give_mm_per_N = [0.01, 0.001]\n[optimize]\n"
-                           "variables = [\"guides.ED_mm\", \"joint.range_deg[1]\"]\nlower = [1, 20]\nupper = [\"5 cm\", 40]\n"
-                           "constraints = [\"guides.ED_mm <= 0.5 * joint.length_mm + 1\"]\n";
+  const std::string text =
+      k_inch_file +
+      "[prior]\nEB_mm = [1.75, \"0.02 mm\"]\nguide_give_mm_per_N = [0.01, 0.001]\n[optimize]\n"
+      "variables = [\"guides.ED_mm\", \"joint.range_deg[1]\"]\nlower = [1, 20]\nupper = [\"5 cm\", 40]\n"
+      "constraints = [\"guides.ED_mm <= 0.5 * joint.length_mm + 1\"]\n";
   const DeclaredMechanism m = parse_mechanism(text, "f.toml");
   EXPECT_THAT(m.prior.EB, ElementsAre(44.45, 0.02));
   EXPECT_THAT(m.prior.guide_give, ElementsAre(0.01, 0.001));
@@ -133,9 +135,10 @@ TEST(Lengths, ReportErrorsInTheFilesUnit) {
   EXPECT_THAT(error_of(replaced(k_inch_file, "\"inch\"", "\"cm\"")),
               HasSubstr("2:9 units = \"cm\" is not known | allowed: \"mm\" or \"inch\""));
   EXPECT_THAT(error_of(replaced(k_inch_file, "\"inch\"", "\"inches\"")), HasSubstr("did you mean \"inch\"?"));
-  EXPECT_THAT(error_of(k_inch_file + "[horn]\nspline_teeth = 25\nspline_diameter_mm = 0.1\nspline_depth_mm = 0.5\n[body]\n"
-                                     "bore = \"horn\"\n"),
-              HasSubstr("horn.spline_depth_mm = 0.5 in exceeds the width of the teeth, 0.01256 in"));
+  EXPECT_THAT(
+      error_of(k_inch_file + "[horn]\nspline_teeth = 25\nspline_diameter_mm = 0.1\nspline_depth_mm = 0.5\n[body]\n"
+                             "bore = \"horn\"\n"),
+      HasSubstr("horn.spline_depth_mm = 0.5 in exceeds the width of the teeth, 0.01256 in"));
 }
 
 TEST(Lengths, OfEditsStayInTheFilesUnit) {
