@@ -432,6 +432,12 @@ BREAKS = {
     "request": ("(() => {\n  const stage", "new Image().src = '//example.org/x.png';(() => {\n  const stage", "asks for"),
     "wide": ("<main>", "<main><div style=\"width:2500px\">x</div>", "px wide"),
 }
+NARROW_BREAKS = {
+    "small text": ("max(12px,var(--least))", "8px", "text of"),
+    "cut table": ("<main>", "<main><div style=\"overflow-x:auto\"><div style=\"width:900px\">x</div></div>", "cut at"),
+    "wide": ("<main>", "<main><div style=\"width:2500px\">x</div>", "px wide"),
+    "broken word": ("<main>", "<main><p style=\"width:30px;word-break:break-all\">unbroken</p>", "is broken"),
+}
 LEVER_ALONE = ("angle", "tendon", "error")
 CLIMB_BREAKS = {
     "turned back": ("px(row[1] * c - row[0] * s, row[2])", "px(row[1] * c + row[0] * s, row[2])", "to the right, not"),
@@ -448,6 +454,11 @@ def self_test(folder):
     for name, (old, new, word) in breaks.items():
         assert old in page, f"{name}: the page has no {old!r}"
         said = list(faults(page.replace(old, new, 1), rows[::6], lever, WAYS[:1]))
+        if not any(word in fault for fault in said):
+            failed += 1
+            print(f"{name}: not seen; said {said}")
+    for name, (old, new, word) in NARROW_BREAKS.items():
+        said = list(narrow_faults(page.replace(old, new, 1)))
         if not any(word in fault for fault in said):
             failed += 1
             print(f"{name}: not seen; said {said}")
