@@ -3,6 +3,7 @@
 #include "export/report/svg.h"
 #include "export/tool.h"
 #include "fusee/base.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::formats {
 
@@ -108,6 +109,10 @@ std::string html_list(const std::vector<std::string>& items, const std::string& 
   std::string html = "<" + tag + (style.empty() ? ">" : " class=\"" + style + "\">");
   for (const std::string& item : items) html += "<li>" + safe_text(item) + "</li>";
   return html + "</" + tag + ">";
+}
+
+std::string KeyNumbers::html(LengthUnit units) const {
+  return "<dl class=\"numbers\">" + lengths_in(units, html_) + "</dl>";
 }
 
 void KeyNumbers::add(const std::string& term, const std::string& value, const std::string& remark) {

@@ -23,6 +23,7 @@
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "mechanism/catalogue.h"
+#include "mechanism/lengths.h"
 #include "transmission/load.h"
 
 namespace fusee::formats {
@@ -93,6 +94,7 @@ std::string warnings(const Product& product) {
     all.push_back(diagnostic.message + (diagnostic.hint.empty() ? "" : ": " + diagnostic.hint));
   }
   if (all.empty()) return "";
+  for (std::string& one : all) one = lengths_in(product.file.mechanism.units, one);
   return "<section class=\"warnings\">" + html_list(all) + "</section>";
 }
 
@@ -220,7 +222,7 @@ std::string key_numbers(const Product& product) {
         readable_rounded(spring.preload, 4) + "\u00a0N·mm at θ = " + readable_rounded(degrees(spring.free), 4) + "°");
   }
   add_part(numbers, product.pulley);
-  return numbers.html();
+  return numbers.html(product.file.mechanism.units);
 }
 
 // The part in 3-D -----------------------------------------------------------------------------------------------------

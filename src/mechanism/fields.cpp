@@ -189,10 +189,10 @@ Field name_field() {
 constexpr std::array<std::string_view, 2> k_unit_names = {"mm", "inch"};  // in the order of LengthUnit
 
 Field units_field() {
-  Field field = base_field({"units", "", "\"mm\"",
-                            "unit of all numbers under keys that end in _mm; a text such as \"3 1/2 in\" or \"4.5 cm\" "
-                            "has its own unit in any file; areas, forces, torques and stiffnesses are always metric"},
-                           FieldKind::choice);
+  Field field =
+      base_field({"units", "", "\"mm\"",
+                  "unit of the numbers under keys that end in _mm; a text such as \"3 1/2 in\" has its own unit"},
+                 FieldKind::choice);
   field.choices.assign(k_unit_names.begin(), k_unit_names.end());
   field.get_text = [](const DeclaredMechanism& mechanism) {
     return std::string(k_unit_names.at(static_cast<std::size_t>(mechanism.units)));

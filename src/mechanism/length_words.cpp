@@ -38,19 +38,26 @@ std::vector<Written> numbers_in(std::string_view text) {
   return found;
 }
 
-/// True before " mm" or "] mm" that is not the first word of another unit.
-bool is_before_mm(std::string_view rest) {
-  if (rest.starts_with(']')) rest.remove_prefix(1);
-  if (!rest.starts_with(" mm")) return false;
-  rest.remove_prefix(3);
+/// True for what follows "mm" if that is the whole unit: not mm², mm/N, mm per N.
+bool ends_unit(std::string_view rest) {
   constexpr std::array<std::string_view, 4> k_others{"/", "\xC2\xB7", "\xC2\xB2", "\xC2\xB3"};  // · ² ³
   const bool other = std::any_of(k_others.begin(), k_others.end(), [&](auto sign) { return rest.starts_with(sign); });
   return !other && !rest.starts_with(" per ") && (rest.empty() || !is_word_part(rest.front()));
 }
 
+/// "]" and the blank of any width before "mm", which is no first word of another unit; "" if there is none.
+std::string_view gap_before_mm(std::string_view rest) {
+  for (const std::string_view gap : {" ", "] ", "\xC2\xA0"}) {
+    if (rest.starts_with(gap) && rest.substr(gap.size()).starts_with("mm") && ends_unit(rest.substr(gap.size() + 2)))
+      return gap;
+  }
+  return {};
+}
+
 /// True for what stands between two lengths of one list.
 bool is_list_separator(std::string_view between) {
-  constexpr std::array<std::string_view, 7> k_separators{" to ", " \xC3\x97 ", " x ", " by ", " and ", " or ", ", "};
+  constexpr std::array<std::string_view, 8> k_separators{" to ",  " \xC3\x97 ", " x ", " by ",
+                                                         " and ", " or ",       ", ",  " \xE2\x80\xA6 "};  // × …
   return std::find(k_separators.begin(), k_separators.end(), between) != k_separators.end();
 }
 
@@ -81,7 +88,7 @@ void mark_lengths(std::string_view text, std::vector<Written>& numbers) {
     const bool follows = i > 0 && numbers[i - 1].is_length &&
                          (between == " or less (now " || between == " or more (now " || between == " (now " ||
                           (between == ", " && before.substr(0, numbers[i - 1].begin).ends_with("_mm = [")));
-    number.is_length = is_before_mm(rest) || is_value_of_key(before, rest) || follows;
+    number.is_length = !gap_before_mm(rest).empty() || is_value_of_key(before, rest) || follows;
   }
   for (std::size_t i = numbers.size(); i-- > 1;) {
     const std::string_view between = text.substr(numbers[i - 1].end, numbers[i].begin - numbers[i - 1].end);
@@ -113,10 +120,10 @@ std::string lengths_in(LengthUnit unit, const std::string& message) {
     text.append(message, from, number.begin - from);
     text += rounded(from_mm(number.value, unit), digits);
     from = number.end;
-    const bool bracket = message.compare(from, 1, "]") == 0;
-    if (!is_before_mm(std::string_view(message).substr(from))) continue;
-    text += std::string(bracket ? "] " : " ") + std::string(unit_word(unit));
-    from += bracket ? 4 : 3;
+    const std::string_view gap = gap_before_mm(std::string_view(message).substr(from));
+    if (gap.empty()) continue;
+    text += std::string(gap) + std::string(unit_word(unit));
+    from += gap.size() + 2;
   }
   return text.append(message, from);
 }
