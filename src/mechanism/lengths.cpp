@@ -138,7 +138,7 @@ constexpr int k_all_digits = 17;
 
 bool is_length(std::string_view key) {
   if (key.ends_with("[0]") || key.ends_with("[1]")) key.remove_suffix(3);
-  return key.ends_with("_mm");
+  return key.ends_with("_mm") && !key.ends_with("_per_mm");
 }
 
 std::string_view length_key(const Field& list, const DeclaredMechanism& mechanism, std::size_t item) {

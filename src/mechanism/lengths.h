@@ -10,7 +10,8 @@
 
 namespace fusee {
 
-/// True for keys that end in _mm. Their numbers are in the file's unit; compound units (mm_per_N) are always metric.
+/// True for keys that end in _mm. Their numbers are in the file's unit; compound units (mm_per_N, N_per_mm) are always
+/// metric.
 bool is_length(std::string_view key);
 
 /// The key whose unit an item of a list of numbers has: for bounds of [optimize] that of the variable, else the list's.

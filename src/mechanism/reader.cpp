@@ -209,14 +209,13 @@ void MechanismReader::fail_unknown(const Place& place, const std::string& table,
     if (field.table == table) here.emplace_back(field.key);
     everywhere.emplace_back(field.key);
   }
-  const std::string in_mm = key.substr(0, key.rfind('_')) + "_mm";
-  if (key.ends_with("_in") || key.ends_with("_inch") || key.ends_with("_cm")) {
-    if (find_field(table + "." + in_mm) != nullptr)
-      return fail(
-          place, "unknown key " + shown,
-          "write " + in_mm + " = \"3.5 " + (key.ends_with("_cm") ? "cm" : "in") +
-              "\", or units = \"inch\" at the top of the file and the numbers of all keys ending in _mm in inches");
-  }
+  // length_in, length_cm
+  const std::size_t unit = std::min(key.rfind('_'), key.size());
+  const std::string in_mm = key.substr(0, unit) + "_mm", word = key.substr(std::min(unit + 1, key.size()));
+  if ((word == "in" || word == "inch" || word == "cm") && find_field(table + "." + in_mm) != nullptr)
+    return fail(place, "unknown key " + shown,
+                in_mm + " takes a text with its unit, such as \"3.5 " + word +
+                    "\"; units = \"inch\" at the top of the file makes all lengths inches");
   std::string nearest = nearest_word(key, here);
   // A setting is written with its table, a key of the file without.
   const std::string dotted = place.line == 0 && !table.empty() ? table + "." : "";

@@ -131,7 +131,8 @@ TEST(Lengths, ReportErrorsInTheFilesUnit) {
   EXPECT_THAT(error_of(replaced(k_good_file, "length_mm = 100", "length_mm = \"3,5 in\"")),
               testing::AllOf(HasSubstr("4:13 joint.length_mm must be a number in mm, not the string \"3,5 in\""),
                              HasSubstr("\"3 1/2 in\"")));
-  EXPECT_THAT(error_of(replaced(k_good_file, "length_mm", "length_in")), HasSubstr("length_mm = \"3.5 in\""));
+  EXPECT_THAT(error_of(k_good_file + "[body]\nmin_wall_in = 0.05\n"),
+              HasSubstr("unknown key body.min_wall_in | min_wall_mm takes a text with its unit, such as \"3.5 in\""));
   EXPECT_THAT(error_of(replaced(k_inch_file, "\"inch\"", "\"cm\"")),
               HasSubstr("2:9 units = \"cm\" is not known | allowed: \"mm\" or \"inch\""));
   EXPECT_THAT(error_of(replaced(k_inch_file, "\"inch\"", "\"inches\"")), HasSubstr("did you mean \"inch\"?"));

@@ -160,7 +160,7 @@ def _with_units(mechanism: Mechanism, key: str, value: object) -> object:
 
 def _length(key: str, value: object) -> object:
     is_number = isinstance(value, (Real, np.number)) and not isinstance(value, bool)
-    return f"{float(value)!r} mm" if is_number and key.endswith("_mm") else value  # type: ignore[arg-type]
+    return f"{float(value)!r} mm" if is_number and key.endswith("_mm") and not key.endswith("_per_mm") else value  # type: ignore[arg-type]
 
 
 def _end_of_range(mechanism: Mechanism, key: str, value: object, every: abc.Mapping[str, Any]) -> Tuple[bytes, bytes]:
