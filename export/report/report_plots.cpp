@@ -126,7 +126,7 @@ Plot curvature_plot(const Product& product) {
   plot.y.high = highest_shown(active_radii);
   const Tendon& tendon = product.joint.mechanism.tendon;
   if (tendon.bend_ratio > 0)
-    plot.limits = {{0.5 * tendon.diameter * (tendon.bend_ratio + 1), "smallest advised bend radius for this tendon"}};
+    plot.limits = {{0.5 * tendon.diameter * (tendon.bend_ratio + 1), "smallest advised bend radius"}};
   return plot;
 }
 

@@ -122,8 +122,8 @@ std::string beside_the_joint(const DeclaredMechanism& mechanism, const char* key
   return "is " + rounded(proportion(mechanism, key), 2) + " times " + k_length;
 }
 
-/// The one length that, in another unit or units, makes all proportions plausible. That of the joint is tried last, because it
-/// is the reference of the others.
+/// The one length that, in another unit or units, makes all proportions plausible. That of the joint is tried last,
+/// because it is the reference of the others.
 std::vector<InputWarning> single_length_warning(const DeclaredMechanism& mechanism) {
   const auto mending = [&](const char* key, std::vector<double> factors) {
     std::erase_if(factors, [&](double factor) {

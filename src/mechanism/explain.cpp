@@ -140,6 +140,10 @@ Json field_json(const Field& field) {
   }
   if (!field.choices.empty()) json["choices"] = field.choices;
   json["meaning"] = field.meaning;
+  if (field.name() == "body.horn") {  // any text, but usually one of these
+    json["known"] = {k_own_horn};
+    for (const HornType& type : horns()) json["known"].push_back(type.name);
+  }
   return json;
 }
 

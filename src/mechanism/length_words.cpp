@@ -88,7 +88,8 @@ void mark_lengths(std::string_view text, std::vector<Written>& numbers) {
     const bool follows = i > 0 && numbers[i - 1].is_length &&
                          (between == " or less (now " || between == " or more (now " || between == " (now " ||
                           (between == ", " && before.substr(0, numbers[i - 1].begin).ends_with("_mm = [")));
-    number.is_length = !gap_before_mm(rest).empty() || is_value_of_key(before, rest) || follows;
+    const bool is_quoted = before.ends_with('"');  // a text of the file or an example of one
+    number.is_length = !is_quoted && (!gap_before_mm(rest).empty() || is_value_of_key(before, rest) || follows);
   }
   for (std::size_t i = numbers.size(); i-- > 1;) {
     const std::string_view between = text.substr(numbers[i - 1].end, numbers[i].begin - numbers[i - 1].end);

@@ -170,7 +170,7 @@ NARROW = """
       if (size < 10.95) say("text of " + size.toFixed(1) + " px", text);
       const out = Math.max(paper.left - box.left, box.right - paper.right, paper.top - box.top, box.bottom - paper.bottom);
       const clipped = box.right < paper.left || box.left > paper.right || box.bottom < paper.top || box.top > paper.bottom;  // of a detail
-      if (out > 6 && !clipped) say("text " + out.toFixed(0) + " px beyond its picture", text);
+      if (out > 8 && !clipped) say("text " + out.toFixed(0) + " px beyond its picture", text);
     }
   }
   // A short word on two lines. Line breaks at blanks, dots, underscores and signs are wanted.
