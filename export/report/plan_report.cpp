@@ -69,8 +69,8 @@ std::string step_item(const PlanProduct& product, std::size_t i) {
   }
   const bool is_inspection = !step.run && step.reading == nullptr;
   if (!is_inspection) html += "<p class=\"tells\">" + safe_text(open_name(gain_words(step))) + "</p>";
-  return html + "</div><div class=\"when\">" + safe_text(minutes_words(step.minutes)) + " <br/>by " +
-         safe_text(minutes_words(step.by)) + "</div></li>";
+  return html + "</div><div class=\"when\">" + safe_text(minutes_words(step.minutes)) + ", <br/>" +
+         safe_text(minutes_words(step.by)) + " in total</div></li>";
 }
 
 std::string step_items(const PlanProduct& product) {
