@@ -67,7 +67,7 @@ std::string described(const toml::node& node) {
   }
 }
 
-/// What a line that is not TOML may be meant to be: `key = 17,0` or `key = word`.
+/// Advice for a line that is not TOML, such as `key = 17,0` or `key = word`.
 std::string syntax_hint(std::string_view text, std::size_t line) {
   for (; line > 1 && !text.empty(); --line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
   text = text.substr(0, text.find('\n'));
