@@ -231,7 +231,7 @@ std::string key_section(const KitProduct& product) {
   numbers.add("Motor", sizes.motor ? sizes.motor->name : "your own");
   numbers.add("Bearings", "2 × " + sizes.bearing->name);
   numbers.add("Encoder", sizes.board->name);
-  return html_section("numbers", "In short", numbers.html());
+  return html_section("numbers", "In short", numbers.html(mechanism.units));
 }
 
 // ---- plates to drill

@@ -68,6 +68,20 @@ class Paper {
   Vec2 low_{1e9, 1e9}, high_{-1e9, -1e9};
 };
 
+/// The letters of the mechanism at their places: axis O, pins B and D, the pulley's axis G, and C on a lever.
+std::string letters(const Mechanism& mechanism, const Paper& paper) {
+  std::string svg;
+  const auto letter = [&](const char* name, const Vec2& place) {
+    svg += svg_words("halo", paper(Vec2(place.x(), -place.y())) + Vec2(7, -6), name);
+  };
+  letter("O", {0, 0});
+  letter("B", {-mechanism.guides.EB, -mechanism.guides.OE});
+  letter("D", {mechanism.guides.ED, -mechanism.guides.OE});
+  letter("G", pulley_axis(mechanism));
+  if (mechanism.joint.is_plain()) letter("C", {0, mechanism.joint.R});
+  return svg;
+}
+
 Polygon at_place(Polygon outline, const kit::KitPlace& place) {
   for (Vec2& p : outline) p = Vec2(place.turned_over ? -p.x() : p.x(), p.y()) + place.shift;
   return outline;
@@ -238,7 +252,8 @@ Figure kit_plan_view(const KitProduct& product) {
   };
   const Polygon scale = kit::scale_outline(plan, mechanism);
   const Polygon base = kit::outline_of(plan.parts.front().body.slabs.front().loops.front().hull);
-  for (const Polygon& outline : {links[0], links[1], links[2], scale, base}) {
+  const Polygon pulley = kit::outline_of(kit::disc(pulley_axis(mechanism), plan.sizes.pulley_radius));
+  for (const Polygon& outline : {links[0], links[1], links[2], scale, base, pulley}) {
     for (const Vec2& p : shown(outline)) paper.include(p);
   }
   Figure figure{
@@ -247,7 +262,7 @@ Figure kit_plan_view(const KitProduct& product) {
   const auto circle = [&](const std::string& classes, const Vec2& place, double radius) {
     figure.body += svg_path(classes, paper(shown(kit::outline_of(kit::disc(place, radius)))), true);
   };
-  circle("kit-bought-top", pulley_axis(mechanism), plan.sizes.pulley_radius);
+  figure.body += svg_path("kit-bought-top", paper(shown(pulley)), true);
   for (const kit::KitPin& pin : plan.pins) {
     circle("kit-new-top", pin.place, pin.collar);
     circle("kit-bought-top", pin.place, pin.radius);
@@ -261,6 +276,7 @@ Figure kit_plan_view(const KitProduct& product) {
                               paper(shown(trace->free_path)));
   }
   for (const Polygon& link : links) figure.body += svg_path("main", paper(shown(link)), true);
+  figure.body += letters(mechanism, paper);
   return figure;
 }
 
@@ -327,6 +343,9 @@ Figure kit_template_view(const KitProduct& product) {
   for (const auto& [classes, outline] : drawn) {
     for (const Vec2& p : shown(outline)) paper.include(p);
   }
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    for (const Vec2& p : shown(pitch_curve(made, side))) paper.include(p);
+  }
   Figure figure{k_picture_width, k_picture_height, "From above, at home: base, drum and link with their holes", {}, {}};
   for (const auto& [classes, outline] : drawn) figure.body += svg_path(classes, paper(shown(outline)), true);
   const auto circle = [&](const std::string& classes, const Vec2& place, double radius) {
@@ -346,6 +365,7 @@ Figure kit_template_view(const KitProduct& product) {
       figure.body += svg_path(side == transmission::Side::left ? "kit-tendon p1" : "kit-tendon p2 whole",
                               paper(shown(trace->free_path)));
   }
+  figure.body += letters(mechanism, paper);
   return figure;
 }
 

@@ -13,6 +13,7 @@
 #include "export/report/svg.h"
 #include "export/report/tables.h"
 #include "fusee/base.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::formats {
 namespace {
@@ -40,9 +41,10 @@ std::string key_numbers_of(const analysis::AnalysisResult& result, const Mechani
   numbers.add("Motor torque", with_unit(result.largest_torque.value, "N mm"), at_words(result.largest_torque.alpha));
   numbers.add("Hysteresis", with_unit(degrees(result.hysteresis.value), "deg"), at_words(result.hysteresis.alpha));
   numbers.add("Tendon 1 slack", ranges_words(result.slack1));
-  numbers.add("Tendon 2 slack", ranges_words(result.slack2),
-              result.taut_pretension ? "taut with tendon.pretension_N ≥ " + rounded(*result.taut_pretension, 3) : "");
-  return numbers.html();
+  numbers.add("Tendon 2 slack", ranges_words(result.slack2));
+  if (result.taut_pretension)
+    numbers.add("Both taut from", with_unit(*result.taut_pretension, "N"), "tendon.pretension_N");
+  return numbers.html(mechanism.units);
 }
 
 // Plots ---------------------------------------------------------------------------------------------------------------
@@ -131,11 +133,11 @@ std::string tolerances_table(const std::vector<analysis::ToleranceEffect>& effec
   return html_table({"tolerance of", "#θ (°)", "#sampled", "#at α (°)", "#slack of tendon 2 (mm)", "#sampled"}, rows);
 }
 
-std::string said_section(const std::vector<Diagnostic>& said) {
+std::string said_section(const std::vector<Diagnostic>& said, LengthUnit units) {
   if (said.empty()) return "";
   std::vector<std::string> lines;
   for (const Diagnostic& diagnostic : said)
-    lines.push_back(diagnostic.message + (diagnostic.hint.empty() ? "" : " – " + diagnostic.hint));
+    lines.push_back(lengths_in(units, diagnostic.message + (diagnostic.hint.empty() ? "" : " – " + diagnostic.hint)));
   return "<section class=\"warnings\">" + html_list(lines) + "</section>\n";
 }
 
@@ -169,7 +171,8 @@ std::string analysis_html(const MechanismFile& file, const analysis::AnalysisRes
        .kicker = "Analysis",
        .name = file.mechanism.name,
        .source = "of <code>" + safe_text(std::filesystem::path(file.path).filename().string()) + "</code>",
-       .body = said_section(said) + html_section("numbers", "Key numbers", key_numbers_of(result, file.mechanism)) +
+       .body = said_section(said, file.mechanism.units) +
+               html_section("numbers", "Key numbers", key_numbers_of(result, file.mechanism)) +
                html_section("moving", "The joint moves", moving.empty() ? "" : std::string(k_moving_words) + moving) +
                html_section("forces", "Over the range", plots(result, file.mechanism)) +
                html_section("budget", "Causes of the angular error", sources_table(result.sources)) +

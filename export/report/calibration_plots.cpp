@@ -225,16 +225,30 @@ std::string map_scale(double left, double top, double width, double most) {
   return svg + svg_words("soft tiny end", {left + width, top + 22}, "+" + readable_rounded(most, 2) + "°");
 }
 
-Figure map_figure(const CalibrationProduct& product, const Map& map, const std::string& title, double most,
-                  const Extent& alpha) {
-  constexpr double left = 182, top = 30, width = 460;
+/// Labels stand to the left of their rows, or above them in a narrow column.
+struct MapLayout {
+  double width = 460;
+  double left = 182;
+  double above = 0;  ///< height of a label above its rows
+};
+
+Figure laid_out(const CalibrationProduct& product, const Map& map, const std::string& title, double most,
+                const Extent& alpha, const MapLayout& layout) {
+  constexpr double top = 30;
+  const auto [width, left, above] = layout;
   const double cell = (width - left - 16) / k_places;
   std::array<std::string, 2 * k_shades + 1> data;
   Figure figure{width, 0, title, svg_words("heading", {2, 17}, title), {}};
   double y = top;
   for (std::size_t r = 0; r < map.rows.size(); ++r, y += 2 * k_row_height + k_run_gap) {
-    figure.body += svg_words("tiny end", {left - 22, y + k_row_height + 4},
+    y += above;
+    figure.body += svg_words(above > 0 ? "tiny" : "tiny end",
+                             above > 0 ? Vec2(left, y - 4) : Vec2(left - 22, y + k_row_height + 4),
                              map_label(product.measurement.runs[r], product.measurement.load_unit));
+    if (above > 0) {
+      const double right = width - 16, end = y + 2 * k_row_height;
+      figure.body += svg_path("frame", {{left, y}, {right, y}, {right, end}, {left, end}}, true);
+    }
     for (std::size_t d = 0; d < 2; ++d) {
       const double row = y + static_cast<double>(d) * k_row_height;
       figure.body += svg_words("soft tiny end", {left - 6, row + 9}, d == 0 ? "↑" : "↓");
@@ -249,14 +263,22 @@ Figure map_figure(const CalibrationProduct& product, const Map& map, const std::
   }
   for (int shade = -k_shades; shade <= k_shades; ++shade)
     figure.body += shade_path(shade, data[static_cast<std::size_t>(shade + k_shades)]);
-  figure.body +=
-      svg_path("frame", {{left, top}, {width - 16, top}, {width - 16, y - k_run_gap}, {left, y - k_run_gap}}, true);
+  if (above == 0)
+    figure.body +=
+        svg_path("frame", {{left, top}, {width - 16, top}, {width - 16, y - k_run_gap}, {left, y - k_run_gap}}, true);
   const double middle = left + 0.5 * (width - 16 - left);
   figure.body += svg_words("soft tiny", {left, y + 12}, readable(alpha.low, 0) + "°") +
                  svg_words("tiny middle", {middle, y + 12}, "motor angle α");
   figure.body += svg_words("soft tiny end", {width - 16, y + 12}, readable(alpha.high, 0) + "°");
   figure.body += map_scale(left, y + 24, width - 16 - left, most);
   figure.height = y + 52;
+  return figure;
+}
+
+Figure map_figure(const CalibrationProduct& product, const Map& map, const std::string& title, double most,
+                  const Extent& alpha) {
+  Figure figure = laid_out(product, map, title, most, alpha, {});
+  figure.narrow.push_back(laid_out(product, map, title, most, alpha, {280, 22, 17}));
   return figure;
 }
 

@@ -260,7 +260,7 @@ Figure moving_figure(const Mechanism& mechanism, const profile::SynthesisResult&
 // Profile -------------------------------------------------------------------------------------------------------------
 
 constexpr double k_profile_width = 480;
-constexpr double k_profile_height = 490;
+constexpr double k_profile_height = 514;
 
 /// A dimension along a radius: a line from the axis to the point, and its length beside the point.
 std::string radius_dimension(const View& view, const Vec2& point) {
@@ -334,11 +334,12 @@ struct LegendEntry {
 };
 
 std::string legend(const std::vector<LegendEntry>& entries) {
+  // Two in a line: there the larger font of a narrow column has space.
   std::string svg;
-  double x = 4;
-  for (const LegendEntry& entry : entries) {
-    svg += svg_line(entry.classes, {x, 40}, {x + 24, 40}) + svg_words("small", {x + 30, 44}, entry.words);
-    x += 30 + words_width(entry.words, 12) + 10;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const double x = i % 2 == 0 ? 4 : 0.5 * k_profile_width, y = 44 + (i < 2 ? 0 : 24);
+    svg +=
+        svg_line(entries[i].classes, {x, y - 4}, {x + 24, y - 4}) + svg_words("small", {x + 30, y}, entries[i].words);
   }
   return svg;
 }
@@ -422,7 +423,7 @@ std::vector<Figure> moving_figures(const Mechanism& mechanism, const profile::Sy
   const Pose pose{home.alpha, home.theta};
   std::vector<double> thetas;
   for (const transmission::TransmissionPoint& point : synthesis.stroke) thetas.push_back(point.theta);
-  const View whole = mechanism_view(mechanism, synthesis, thetas, {40, 30, k_moving_width - 80, k_moving_height - 80});
+  const View whole = mechanism_view(mechanism, synthesis, thetas, {40, 40, k_moving_width - 80, k_moving_height - 90});
   const View near = pulley_view(mechanism, synthesis, {60, 60, k_moving_width - 120, k_moving_height - 130});
   return {moving_figure(mechanism, synthesis, whole, pose, "The joint with both tendons, to scale"),
           moving_figure(mechanism, synthesis, near, pose, "The pulley with both tendons, larger")};
@@ -440,7 +441,7 @@ Figure profile_figure(const Mechanism& mechanism, const profile::Outline& outlin
   const double low = view.low.x(), high = view.high.x();
   const double reach = std::max(view.high.cwiseAbs().maxCoeff(), view.low.cwiseAbs().maxCoeff());
   view.include({0, 1.12 * reach});
-  view.fit(34, 66, k_profile_width - 68, k_profile_height - 118);
+  view.fit(34, 90, k_profile_width - 68, k_profile_height - 142);
   figure.body = svg_words("heading", {4, 18}, name + ", seen from +z at home") + profile_legend(outline);
   figure.body += curve("flange", view, groove_edge, true) + curve("floor main", view, floor, true);
   figure.body += anchors(view, pulley, outline.side) + bore(view, pulley.layout) + axes(view, reach);
@@ -484,8 +485,8 @@ std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, tr
     for (const Vec2& point : *points) view.include(point);
   }
   for (const profile::OutlinePoint& point : outline.points) view.include(point.position);
-  view.fit(34, 66, k_profile_width - 68, k_profile_height - 118);
-  figure.body = svg_words("heading", {4, 18}, name + ": r against α in polar coordinates is another curve") +
+  view.fit(34, 90, k_profile_width - 68, k_profile_height - 142);
+  figure.body = svg_words("heading", {4, 18}, name + " against r(α) in polar coordinates") +
                 legend({{"curve whole " + ink(side), "profile"},
                         {"curve main", "polar drawing"},
                         {"third", "difference × " + readable_rounded(factor)}});
@@ -494,9 +495,8 @@ std::optional<Figure> polar_figure(const profile::SynthesisResult& synthesis, tr
   figure.body +=
       curve("curve whole " + ink(side), view, arc_points(outline, outline.active_first, outline.active_last));
   figure.body += curve("thin main", view, drawn) + curve("third", view, magnified);
-  figure.body +=
-      svg_words("small middle", {0.5 * k_profile_width, k_profile_height - 12},
-                "furthest apart: " + readable(most.r, 3) + " mm, where α = " + readable(degrees(most.alpha), 1) + "°");
+  figure.body += svg_words("small middle", {0.5 * k_profile_width, k_profile_height - 12},
+                           readable(most.r, 3) + " mm apart at α = " + readable(degrees(most.alpha), 1) + "°");
   return figure;
 }
 

@@ -3,14 +3,60 @@
 #include "export/report/svg.h"
 #include "export/tool.h"
 #include "fusee/base.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::formats {
+
+namespace {
+
+/// The texts of the header cells of a table.
+std::vector<std::string> titles_of(std::string_view table) {
+  std::vector<std::string> titles;
+  for (std::size_t at = table.find("<th"); at != std::string_view::npos; at = table.find("<th", at)) {
+    at += 3;
+    if (table.substr(at, 3) == "ead") continue;
+    const std::size_t begin = table.find('>', at) + 1;
+    titles.emplace_back(table.substr(begin, table.find("</th>", begin) - begin));
+  }
+  return titles;
+}
+
+std::string with_labels(std::string_view table) {
+  const std::vector<std::string> titles = titles_of(table);
+  std::string html;
+  std::size_t from = 0, column = 0;
+  for (std::size_t at = table.find("<t"); at != std::string_view::npos; at = table.find("<t", at + 2)) {
+    if (table.substr(at, 3) == "<tr") column = 0;
+    if (table.substr(at, 3) != "<td") continue;
+    if (column < titles.size() && !titles[column].empty()) {
+      html.append(table.substr(from, at + 3 - from));
+      html += " data-label=\"" + titles[column] + "\"";
+      from = at + 3;
+    }
+    ++column;
+  }
+  return html.append(table.substr(from));
+}
+
+}  // namespace
+
+std::string with_labelled_cells(const std::string& page) {
+  std::string html;
+  std::size_t from = 0;
+  for (std::size_t at = page.find("<table>"); at != std::string::npos; at = page.find("<table>", at)) {
+    const std::size_t end = page.find("</table>", at);
+    html.append(page, from, at - from);
+    html += with_labels(std::string_view(page).substr(at, end - at));
+    from = at = end;
+  }
+  return html.append(page, from);
+}
 
 std::string filled_page(std::string_view page, const PageParts& parts) {
   std::string html;
   for (std::size_t at = 0;;) {
     const std::size_t open = page.find("{{", at);
-    if (open == std::string_view::npos) return html + std::string(page.substr(at));
+    if (open == std::string_view::npos) return with_labelled_cells(html + std::string(page.substr(at)));
     const std::size_t close = page.find("}}", open);
     const std::string_view name = page.substr(open + 2, close - open - 2);
     const auto part = parts.find(name);
@@ -39,7 +85,7 @@ std::string html_page(const Page& page) {
     for (const std::string_view script : page.scripts) html += script;
     html += "//]]></script>\n";
   }
-  return html + "</body>\n</html>\n";
+  return with_labelled_cells(html + "</body>\n</html>\n");
 }
 
 std::string html_section(const std::string& id, const std::string& title, const std::string& body) {
@@ -63,6 +109,10 @@ std::string html_list(const std::vector<std::string>& items, const std::string& 
   std::string html = "<" + tag + (style.empty() ? ">" : " class=\"" + style + "\">");
   for (const std::string& item : items) html += "<li>" + safe_text(item) + "</li>";
   return html + "</" + tag + ">";
+}
+
+std::string KeyNumbers::html(LengthUnit units) const {
+  return "<dl class=\"numbers\">" + lengths_in(units, html_) + "</dl>";
 }
 
 void KeyNumbers::add(const std::string& term, const std::string& value, const std::string& remark) {

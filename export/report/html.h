@@ -7,7 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "fusee/mechanism.h"
+
 namespace fusee::formats {
+
+/// The page with the title of its column in each table cell (data-label): a narrow window shows rows as blocks. Titles
+/// are HTML without elements.
+std::string with_labelled_cells(const std::string& page);
 
 using PageParts = std::map<std::string, std::string, std::less<>>;
 /// Replaces every {{name}} of the template once. Inserted text (HTML, not escaped) is not scanned again, so that no
@@ -43,7 +49,8 @@ std::string html_list(const std::vector<std::string>& items, const std::string& 
 class KeyNumbers {
  public:
   void add(const std::string& term, const std::string& value, const std::string& remark = {});
-  std::string html() const { return "<dl class=\"numbers\">" + html_ + "</dl>"; }
+  /// Lengths are shown in `units`.
+  std::string html(LengthUnit units = LengthUnit::mm) const;
 
  private:
   std::string html_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "base/text.h"
 
@@ -10,6 +11,7 @@ namespace fusee::formats {
 namespace {
 
 constexpr double k_small_font = 12;
+constexpr double k_tick_pitch = 65;  // least usual distance of labels along x
 /// Larger values and NaN are not drawn, because no axis could show them together with others.
 constexpr double k_largest = 1e15;
 
@@ -62,7 +64,7 @@ std::string tick_label(double value, double step) {
   return readable(value, tick_decimals(step));
 }
 
-Frame make_frame(const Plot& plot) {
+Frame make_frame(const Plot& plot, double extra_height) {
   Range x, y;
   for (const PlotSeries& series : plot.series) {
     for (const Vec2& point : series.points) {
@@ -78,7 +80,7 @@ Frame make_frame(const Plot& plot) {
   const Range wanted = forced(y, plot.y);
   frame.y_ticks = nice_ticks(wanted.low, wanted.high, 5, plot.y.unit);
   frame.y = {frame.y_ticks.front(), frame.y_ticks.back()};
-  frame.x_ticks = nice_ticks(frame.x.low, frame.x.high, 7, plot.x.unit);
+  frame.x_ticks = nice_ticks(frame.x.low, frame.x.high, static_cast<int>(plot.width / k_tick_pitch), plot.x.unit);
   // The stroke fills the width, because ticks beyond its ends would only add empty space.
   const double slop = 1e-9 * frame.x.span();
   std::erase_if(frame.x_ticks, [&](double t) { return t < frame.x.low - slop || t > frame.x.high + slop; });
@@ -87,7 +89,7 @@ Frame make_frame(const Plot& plot) {
     label_width = std::max(label_width, words_width(tick_label(tick, step_of(frame.y_ticks)), k_small_font));
   }
   frame.left = 34 + label_width;
-  frame.top = 58;
+  frame.top = 58 + extra_height;
   frame.width = plot.width - frame.left - 14;
   frame.height = plot.height - frame.top - 48;
   return frame;
@@ -139,18 +141,54 @@ std::string series_classes(const PlotSeries& series) {
   return "curve " + std::string(ink_class(series.ink)) + (series.thin ? " thin" : "");
 }
 
-std::string legend(const Plot& plot) {
+/// Title and legend, in as many lines as they need.
+struct Header {
+  std::string svg;
+  double extra_height = 0;  ///< beyond one line each
+};
+
+constexpr double k_line = 18;
+
+std::vector<std::string> wrapped_title(const std::string& title, double width) {
+  constexpr double k_heading_font = 14.5;  // semibold
+  std::vector<std::string> lines{""};
+  std::istringstream words(title);
+  for (std::string word; words >> word;) {
+    std::string& line = lines.back();
+    const std::string longer = line.empty() ? word : line + " " + word;
+    if (!line.empty() && words_width(longer, k_heading_font) > width - 4)
+      lines.push_back(word);
+    else
+      line = longer;
+  }
+  return lines;
+}
+
+Header make_header(const Plot& plot) {
+  Header header;
+  double y = 17;
+  for (const std::string& line : wrapped_title(plot.title, plot.width)) {
+    header.svg += svg_words("heading", {2, y}, line);
+    y += k_line;
+  }
+  header.extra_height = y - 17 - k_line;
+  y = 42 + header.extra_height;
   const auto named =
       std::count_if(plot.series.begin(), plot.series.end(), [](const auto& s) { return !s.name.empty(); });
-  std::string svg;
   double x = 2;
   for (const PlotSeries& series : plot.series) {
     if (series.name.empty() || named < 2) continue;
-    svg += svg_line(series_classes(series), {x, 38}, {x + 26, 38});
-    svg += svg_words("small", {x + 32, 42}, series.name);
-    x += 32 + words_width(series.name, k_small_font) + 18;
+    const double width = 32 + words_width(series.name, k_small_font);
+    if (x > 2 && x + width > plot.width) {
+      x = 2;
+      y += k_line;
+      header.extra_height += k_line;
+    }
+    header.svg += svg_line(series_classes(series), {x, y - 4}, {x + 26, y - 4});
+    header.svg += svg_words("small", {x + 32, y}, series.name);
+    x += width + 18;
   }
-  return svg;
+  return header;
 }
 
 /// Lines end at the frame if the axis has a forced end: SVG clips them by `clip`.
@@ -266,11 +304,28 @@ BestLine best_line(const std::vector<Vec2>& points) {
   return {slope, 0.5 * (range.low + range.high), 0.5 * range.span()};
 }
 
-Figure plot_figure(const Plot& plot) {
-  const Frame frame = make_frame(plot);
+namespace {
+
+Figure laid_out(Plot plot) {
+  const Header header = make_header(plot);
+  plot.height += header.extra_height;
+  const Frame frame = make_frame(plot, header.extra_height);
   Figure figure{plot.width, plot.height, plot.title, {}, readout_attributes(plot, frame)};
-  figure.body = svg_words("heading", {2, 17}, plot.title) + legend(plot) + x_axis(plot, frame) + y_axis(plot, frame) +
-                limits(plot, frame) + curves(plot, frame) + marks(plot, frame);
+  figure.body = header.svg + x_axis(plot, frame) + y_axis(plot, frame) + limits(plot, frame) + curves(plot, frame) +
+                marks(plot, frame);
+  return figure;
+}
+
+}  // namespace
+
+Figure plot_figure(const Plot& plot) {
+  // Width of a phone's column. The font is the same as in the wide layout.
+  constexpr double k_narrow = 280;
+  Figure figure = laid_out(plot);
+  Plot narrow = plot;
+  narrow.width = k_narrow;
+  narrow.height = 0.85 * plot.height;
+  if (plot.width > k_narrow) figure.narrow.push_back(laid_out(std::move(narrow)));
   return figure;
 }
 

@@ -23,6 +23,7 @@
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "mechanism/catalogue.h"
+#include "mechanism/lengths.h"
 #include "transmission/load.h"
 
 namespace fusee::formats {
@@ -93,6 +94,7 @@ std::string warnings(const Product& product) {
     all.push_back(diagnostic.message + (diagnostic.hint.empty() ? "" : ": " + diagnostic.hint));
   }
   if (all.empty()) return "";
+  for (std::string& one : all) one = lengths_in(product.file.mechanism.units, one);
   return "<section class=\"warnings\">" + html_list(all) + "</section>";
 }
 
@@ -220,7 +222,7 @@ std::string key_numbers(const Product& product) {
         readable_rounded(spring.preload, 4) + "\u00a0N·mm at θ = " + readable_rounded(degrees(spring.free), 4) + "°");
   }
   add_part(numbers, product.pulley);
-  return numbers.html();
+  return numbers.html(product.file.mechanism.units);
 }
 
 // The part in 3-D -----------------------------------------------------------------------------------------------------
@@ -501,6 +503,18 @@ std::string derived_table(const Product& product) {
          "identified joint follows the declared law.</p>";
 }
 
+/// Links to files beside the page. `names`: separated by ", ".
+std::string file_links(std::string_view names) {
+  std::string html;
+  while (!names.empty()) {
+    const std::size_t end = std::min(names.find(", "), names.size());
+    const std::string name(names.substr(0, end));
+    html += (html.empty() ? "<a href=\"" : ", <a href=\"") + name + "\"><code>" + name + "</code></a>";
+    names.remove_prefix(std::min(end + 2, names.size()));
+  }
+  return html;
+}
+
 std::string files_table(const Product& product) {
   struct File {
     std::string_view name;
@@ -516,11 +530,11 @@ std::string files_table(const Product& product) {
   std::string html = "<h3>Other files</h3><div class=\"scroll\"><table><tbody>";
   const bool has_step = std::any_of(product.checks.begin(), product.checks.end(),
                                     [](const Check& check) { return check.name.rfind("step_", 0) == 0; });
-  if (has_step) html += "<tr><td><code>pulley.step</code></td><td>the part for CAD</td></tr>";
+  if (has_step) html += "<tr><td>" + file_links("pulley.step") + "</td><td>the part for CAD</td></tr>";
   for (const File& file : k_files) {
     // A multi-turn pulley has no plates.
     if (product.helix && file.name == "plates.dxf") continue;
-    html += "<tr><td><code>" + std::string(file.name) + "</code></td><td>" + std::string(file.words) + "</td></tr>";
+    html += "<tr><td>" + file_links(file.name) + "</td><td>" + std::string(file.words) + "</td></tr>";
   }
   return html + "</tbody></table></div>";
 }

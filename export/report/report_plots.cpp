@@ -49,7 +49,9 @@ Plot theta_plot(const std::vector<Vec2>& theta, const BestLine& line) {
 }
 
 Plot deviation_plot(const std::vector<Vec2>& theta, const BestLine& line) {
-  Plot plot{"Deviation from the best line: ±" + readable_rounded(line.deviation, 3) + "°",
+  constexpr double k_rounding_deg = 1e-9;
+  Plot plot{"Deviation from the best line: " +
+                (line.deviation > k_rounding_deg ? "±" + readable_rounded(line.deviation, 3) + "°" : "none"),
             k_alpha_axis,
             {"θ less the line", "°", {}, {}, 0.01},
             {},
@@ -124,7 +126,7 @@ Plot curvature_plot(const Product& product) {
   plot.y.high = highest_shown(active_radii);
   const Tendon& tendon = product.joint.mechanism.tendon;
   if (tendon.bend_ratio > 0)
-    plot.limits = {{0.5 * tendon.diameter * (tendon.bend_ratio + 1), "smallest advised bend radius for this tendon"}};
+    plot.limits = {{0.5 * tendon.diameter * (tendon.bend_ratio + 1), "smallest advised bend radius"}};
   return plot;
 }
 

@@ -31,9 +31,9 @@ std::string superscript(int number) {
   return text;
 }
 
-std::string svg_element(const Figure& figure, std::string_view namespace_attribute, std::string_view style) {
-  std::string svg = "<svg class=\"figure\"";
-  svg += namespace_attribute;
+std::string svg_element(const Figure& figure, std::string_view attributes, std::string_view style) {
+  std::string svg = "<svg class=\"figure";
+  svg += attributes;
   svg += " viewBox=\"0 0 " + svg_number(figure.width) + " " + svg_number(figure.height) + "\" role=\"img\"" +
          figure.attributes;
   svg += "><title>" + safe_text(figure.title) + "</title>";
@@ -43,12 +43,20 @@ std::string svg_element(const Figure& figure, std::string_view namespace_attribu
 
 }  // namespace
 
-std::string inline_svg(const Figure& figure) { return svg_element(figure, "", ""); }
+// page.css keeps texts readable by the width of the drawing, --w.
+std::string inline_svg(const Figure& figure) {
+  const auto classes = [](const Figure& one, std::string_view name) {
+    return std::string(name) + "\" style=\"--w:" + svg_number(one.width) + "\"";
+  };
+  if (figure.narrow.empty()) return svg_element(figure, classes(figure, ""), "");
+  const Figure& narrow = figure.narrow.front();
+  return svg_element(figure, classes(figure, " wide"), "") + svg_element(narrow, classes(narrow, " narrow"), "");
+}
 
 std::string in_div(const Figure& figure) { return "<div>" + inline_svg(figure) + "</div>\n"; }
 
 std::string standalone_svg(const Figure& figure) {
-  const std::string size = " xmlns=\"http://www.w3.org/2000/svg\" width=\"" + svg_number(figure.width) +
+  const std::string size = "\" xmlns=\"http://www.w3.org/2000/svg\" width=\"" + svg_number(figure.width) +
                            "\" height=\"" + svg_number(figure.height) + "\"";
   const std::string style = "<style>" + std::string(embedded::figure_css) + "</style>";
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + svg_element(figure, size, style);

@@ -17,9 +17,11 @@ struct Figure {
   std::string title;       ///< alternative text
   std::string body;        ///< SVG elements
   std::string attributes;  ///< more attributes of the svg element, such as " data-x=\"1\""
+  /// This figure laid out for a narrow column; none: it is scaled.
+  std::vector<Figure> narrow = {};
 };
 
-/// For use inside an HTML page that includes figure.css.
+/// For use inside an HTML page that includes figure.css and page.css, which shows the layout that fits its column.
 std::string inline_svg(const Figure& figure);
 /// The figure in a div.
 std::string in_div(const Figure& figure);

@@ -164,6 +164,11 @@ std::string plain_name(std::string_view name) {
   if (const std::size_t file = file_index(name); file < std::size(k_prefixes)) {
     return std::string(k_prefixes[file].words) + ": " + plain_name(without_file(name));
   }
+  // Checks of a pulley that is printed as two parts.
+  for (const std::string_view part : {"P1", "P2"}) {
+    const std::string prefix = part == "P1" ? "p1_" : "p2_";
+    if (name.starts_with(prefix)) return std::string(part) + ": " + plain_name(name.substr(prefix.size()));
+  }
   for (const PlainName& known : k_plain_names) {
     if (const char side = matched_side(name, known.name)) return with_side(known.words, side);
   }
@@ -197,7 +202,10 @@ std::string checks_tables(const std::vector<Check>& checks) {
   for (const CheckGroup& group : groups) {
     if (!group.checks.empty()) html += group_table(group);
   }
-  return html + "</div>";
+  html += "</div>";
+  if (!groups.front().checks.empty()) return html;
+  return "<details><summary>" + std::to_string(checks.size()) + " of " + std::to_string(checks.size()) +
+         " passed</summary>" + html + "</details>";
 }
 
 std::string conditions_table(const std::vector<profile::Condition>& conditions, bool over_stroke) {

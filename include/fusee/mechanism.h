@@ -572,6 +572,9 @@ struct Prior {
   bool operator==(const Prior&) const = default;
 };
 
+/// Unit of the lengths in a mechanism file, for reading and writing. Values in memory are always mm.
+enum class LengthUnit { mm, inch };
+
 /// A mechanism as declared, as mounted, or as made. Its special members are defined in mechanism.cpp to save compile
 /// time in two dozen files.
 struct Mechanism {
@@ -583,6 +586,7 @@ struct Mechanism {
   ~Mechanism();
 
   std::string name;
+  LengthUnit units = LengthUnit::mm;
   Joint joint;
   Guides guides;
   Sheath sheath;

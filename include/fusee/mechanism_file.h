@@ -43,14 +43,14 @@ struct Field {
   std::string_view otherwise;
   /// Optional keys that are usually omitted: true when this mechanism has a value to write. Null: always written.
   bool (*is_set)(const DeclaredMechanism&) = nullptr;
-  /// Inclusive bounds in the file's unit for numbers and both ends of ranges.
+  /// Inclusive bounds in the key's unit for numbers and both ends of ranges.
   double least = 0;
   double most = 0;
   bool whole = false;                     ///< an integer
   std::vector<std::string_view> choices;  ///< allowed values of a choice
   std::string_view meaning;               ///< explanation in one line
 
-  /// Value in the file's unit, for number, range and point only. `end`: 0 or 1 for range and point.
+  /// Value in the key's unit (mm for lengths, whatever the file's `units`), for number, range and point only. `end`: 0 or 1 for range and point.
   std::function<double(const DeclaredMechanism&, int end)> get;
   std::function<void(DeclaredMechanism&, int end, double value)> set;
   /// Text of a choice, text or boolean ("true"/"false").
@@ -76,12 +76,12 @@ struct FormerKey {
 /// Finds a former key by its dotted name; null when there is none.
 const FormerKey* find_former_key(std::string_view name);
 
-/// The value of a number, or of one end of a range, in the file's unit.
+/// The value of a number, or of one end of a range, in the key's unit.
 double number_of(const Mechanism& mechanism, const Field& field, int end = 0);
 /// Sets a number, or one end of a range, in the file's unit. Bounds are not checked.
 void set_number(Mechanism& mechanism, const Field& field, int end, double value);
 
-/// The number with the fewest digits, in the file's unit, that reads back as the stored value. Only for number, range
+/// The number with the fewest digits, in the key's unit, that reads back as the stored value. Only for number, range
 /// and point.
 std::string number_text(const Field& field, const DeclaredMechanism& mechanism, int end);
 
@@ -112,7 +112,7 @@ DeclaredMechanism default_mechanism();
 // ---- Edits ----------------------------------------------------------------------------------------------------------
 // Edits of values in a user's file that keep its comments, order and layout.
 
-/// A new number for a key, in the file's unit.
+/// A new number for a key, in the key's unit. In an inch file a length is written in inches.
 struct ValueEdit {
   std::string key;  ///< known to find_number_key()
   double value = 0;

@@ -71,7 +71,7 @@ std::vector<InputWarning> sign_warnings(const DeclaredMechanism& mechanism) {
                                                rounded(declared.most, 3) + " mm"
                                          : "there no such pulley can be made";
   return {{key, setting_text(key, OE) + " mm: positive is below the joint, away from C, and " + what,
-           "did you mean " + rounded(-OE) + "? Above the joint " +
+           "did you mean " + rounded(-OE) + " mm? Above the joint " +
                (declared.made ? "it varies " : "one can, of a radius that varies ") + fold_text(other)}};
 }
 

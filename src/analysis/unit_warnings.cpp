@@ -84,34 +84,61 @@ DeclaredMechanism with_number(DeclaredMechanism mechanism, const char* key, doub
   return mechanism;
 }
 
+constexpr double k_mm_per_inch = 25.4;
+
 /// The unit of a length that is correct after multiplication by `factor`.
 const char* written_in(double factor) {
-  return factor == 10.0 ? "in cm" : factor == 1000.0 ? "in m" : "ten times too large";
+  return factor == 10.0                  ? "in cm"
+         : factor == k_mm_per_inch       ? "in inches"
+         : factor == 1.0 / k_mm_per_inch ? "in mm"
+         : factor == 1000.0              ? "in m"
+                                         : "ten times too large";
 }
 
-InputWarning odd_length(const DeclaredMechanism& mechanism, const char* key, const std::string& how, double factor) {
+/// Likely factors between a length as read and as meant, in groups from likely to unlikely.
+std::vector<std::vector<double>> unit_factors(LengthUnit units) {
+  if (units == LengthUnit::inch) return {{1.0 / k_mm_per_inch}, {10.0}, {0.1}};
+  return {{10.0, k_mm_per_inch}, {0.1}, {1000.0}};
+}
+
+/// "is it in cm or in inches? guides.EB_mm = 50 mm or 127 mm would be in proportion"
+std::string proportionate_text(const std::string& subject, const char* key, double value,
+                               const std::vector<double>& factors, const std::string& then) {
+  std::string units, values;
+  for (const double factor : factors) {
+    units += (units.empty() ? "" : " or ") + std::string(written_in(factor));
+    values += (values.empty() ? setting_text(key, factor * value) : " or " + rounded(factor * value)) + " mm";
+  }
+  return subject + " " + units + "? " + values + then + " would be in proportion";
+}
+
+InputWarning odd_length(const DeclaredMechanism& mechanism, const char* key, const std::string& how,
+                        const std::vector<double>& factors) {
   const double value = declared_number(mechanism, key);
-  return {key, setting_text(key, value) + " mm " + how,
-          std::string("is it ") + written_in(factor) + "? " + setting_text(key, factor * value) +
-              " mm would be in proportion"};
+  return {key, setting_text(key, value) + " mm " + how, proportionate_text("is it", key, value, factors, "")};
 }
 
 std::string beside_the_joint(const DeclaredMechanism& mechanism, const char* key) {
   return "is " + rounded(proportion(mechanism, key), 2) + " times " + k_length;
 }
 
-/// The one length that, in another unit, makes all proportions plausible. That of the joint is tried last, because it
-/// is the reference of the others.
+/// The one length that, in another unit or units, makes all proportions plausible. That of the joint is tried last,
+/// because it is the reference of the others.
 std::vector<InputWarning> single_length_warning(const DeclaredMechanism& mechanism) {
-  const auto mends = [&](const char* key, double factor) {
-    return !has_odd_proportions(with_number(mechanism, key, factor * declared_number(mechanism, key)));
+  const auto mending = [&](const char* key, std::vector<double> factors) {
+    std::erase_if(factors, [&](double factor) {
+      return has_odd_proportions(with_number(mechanism, key, factor * declared_number(mechanism, key)));
+    });
+    return factors;
   };
-  for (const double factor : {10.0, 0.1, 1000.0}) {
+  for (const std::vector<double>& factors : unit_factors(mechanism.units)) {
     for (const Proportion& allowed : k_proportions) {
-      if (is_odd(mechanism, allowed) && mends(allowed.key, factor))
-        return {odd_length(mechanism, allowed.key, beside_the_joint(mechanism, allowed.key), factor)};
+      if (!is_odd(mechanism, allowed)) continue;
+      if (const auto mend = mending(allowed.key, factors); !mend.empty())
+        return {odd_length(mechanism, allowed.key, beside_the_joint(mechanism, allowed.key), mend)};
     }
-    if (mends(k_length, factor)) return {odd_length(mechanism, k_length, "is out of proportion to the others", factor)};
+    if (const auto mend = mending(k_length, factors); !mend.empty())
+      return {odd_length(mechanism, k_length, "is out of proportion to the others", mend)};
   }
   return {};
 }
@@ -167,16 +194,28 @@ std::vector<InputWarning> all_lengths_warning(const DeclaredMechanism& mechanism
   const BoughtPart* part = too_large_part(mechanism);
   if (part == nullptr) return {};
   const double size = declared_number(mechanism, part->key), length = declared_number(mechanism, part->beside);
-  const auto in_proportion = [&](double factor) {
-    return too_large_part(all_lengths_times(mechanism, factor)) == nullptr;
-  };
-  const double factor = in_proportion(10.0) ? 10.0 : 1000.0;
+  std::vector<double> factors{10.0, k_mm_per_inch};
+  std::erase_if(factors,
+                [&](double factor) { return too_large_part(all_lengths_times(mechanism, factor)) != nullptr; });
+  if (factors.empty()) factors = {1000.0};
+  const bool in_inches = std::count(factors.begin(), factors.end(), k_mm_per_inch) > 0;
   return {{part->beside,
            setting_text(part->beside, length) + " mm is small for " + part->words + " of " + rounded(size) + " mm (" +
                part->key + ")",
-           std::string("are the lengths of [joint], [guides] and [pulley] ") + written_in(factor) + "? " +
-               setting_text(k_length, factor * mechanism.joint.R) + " mm and so on would be in proportion; or is " +
-               part->key + " too large?"}};
+           proportionate_text("are the lengths of [joint], [guides] and [pulley]", k_length, mechanism.joint.R, factors,
+                              " and so on") +
+               (in_inches ? " (units = \"inch\" for a file in inches)" : "") + "; or is " + part->key + " too large?"}};
+}
+
+/// No tendon of a catalogue is thicker: in an inch file, a diameter in mm is.
+constexpr double k_thickest_tendon = 8.0;  // mm
+
+std::vector<InputWarning> inch_file_warning(const DeclaredMechanism& mechanism) {
+  const double diameter = mechanism.tendon.diameter;
+  if (mechanism.units != LengthUnit::inch || diameter <= k_thickest_tendon) return {};
+  const char* key = "tendon.diameter_mm";
+  return {{key, setting_text(key, diameter) + " mm is thicker than any tendon",
+           "are the file's lengths in mm? Then leave out units = \"inch\""}};
 }
 
 // ---- modulus --------------------------------------------------------------------------------------------------------
@@ -206,7 +245,9 @@ std::vector<InputWarning> angle_warnings(const DeclaredMechanism& mechanism) {
 
 std::vector<InputWarning> length_warnings(const DeclaredMechanism& mechanism) {
   // With a drum or attachments OC is no reference length, and neither is it for a pulley at the end of a sheath.
-  if (mechanism.transmission || !mechanism.joint.is_plain() || mechanism.sheath.is_there()) return {};
+  if (mechanism.transmission) return {};
+  if (auto inch = inch_file_warning(mechanism); !inch.empty()) return inch;
+  if (!mechanism.joint.is_plain() || mechanism.sheath.is_there()) return {};
   if (!has_odd_proportions(mechanism)) return all_lengths_warning(mechanism);
   std::vector<InputWarning> warnings = single_length_warning(mechanism);
   return warnings.empty() ? odd_lengths(mechanism) : warnings;

@@ -271,6 +271,7 @@ Reply run_analyze(const Arguments& arguments, Console& console, const RunContext
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
   Reply reply;
   reply.diagnostics = file.warnings;
+  reply.units = file.mechanism.units;
   const analysis::AnalysisResult result = pipeline::analyze(file, options, context);
   reply.diagnostics.insert(reply.diagnostics.end(), result.warnings.begin(), result.warnings.end());
   if (!result.exists) {

@@ -203,7 +203,11 @@ std::vector<Setting> Arguments::settings() const {
       throw UsageError("--set takes table.key=value; '" + text + "' is not of that form",
                        "for example: --set pulley.r1_mm=18");
     }
-    settings.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    const auto without_blanks = [](const std::string& part) {
+      const std::size_t first = part.find_first_not_of(" \t");
+      return first == std::string::npos ? "" : part.substr(first, part.find_last_not_of(" \t") - first + 1);
+    };
+    settings.push_back({without_blanks(text.substr(0, equals)), without_blanks(text.substr(equals + 1))});
   }
   return settings;
 }

@@ -190,6 +190,7 @@ Reply run_build(const Arguments& arguments, Console& console, const RunContext& 
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings(), *context.files);
   const pipeline::BuildResult built = pipeline::build(file, options, context);
   Reply reply;
+  reply.units = file.mechanism.units;
   add_warnings(built.product, reply);
   add_pins_note(file, reply);
   if (built.status == pipeline::BuildStatus::infeasible) {

@@ -67,6 +67,7 @@ Reply run_calibrate(const Arguments& arguments, Console& console, const RunConte
   const MechanismFile file = read_mechanism(spec, arguments.settings(), *context.files);
   const pipeline::CalibrateResult result = pipeline::calibrate(file, runs, options, context);
   Reply reply;
+  reply.units = file.mechanism.units;
   add_notes(result, console.verbose(), reply);
   reply.text = calibration_summary(result.product, console.verbose()) +
                files_text(result.outputs, options.folder.string(), result.published);

@@ -52,8 +52,8 @@ Candidates settings(const std::string& typed) {
     const std::string name = field["name"];
     if (!wants_value) {
       found.words.push_back({name + "=", field["meaning"]});
-    } else if (name == key && field.contains("choices")) {
-      for (const Json& choice : field["choices"]) found.words.push_back({key + "=" + choice.get<std::string>(), ""});
+    } else if (const char* list = field.contains("known") ? "known" : "choices"; name == key && field.contains(list)) {
+      for (const Json& choice : field[list]) found.words.push_back({key + "=" + choice.get<std::string>(), ""});
     }
   }
   found.goes_on = !wants_value;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/text.h"
+
 namespace fusee::cli {
 namespace {
 
@@ -13,8 +15,8 @@ std::string option_line(const Option& option) {
   if (const std::size_t comma = flags.find(','); comma != std::string::npos) flags.insert(comma + 1, " ");
   std::string line = (flags.rfind("--", 0) == 0 ? "      " : "  ") + flags;
   if (!option.value.empty()) line += " " + std::string(option.value);
-  if (line.size() + 2 > k_meaning_column) line += "\n" + std::string(k_meaning_column, ' ');
-  line.resize(std::max(line.size(), k_meaning_column), ' ');
+  if (characters(line) + 2 > k_meaning_column) line += "\n" + std::string(k_meaning_column, ' ');
+  if (const std::size_t width = characters(line); width < k_meaning_column) line.append(k_meaning_column - width, ' ');
   for (const char c : option.meaning) line += c == '\n' ? "\n" + std::string(k_meaning_column, ' ') : std::string(1, c);
   return line + "\n";
 }
@@ -75,13 +77,14 @@ std::string command_help(const Command& command) {
   std::string text = "usage: fusee " + std::string(command.name) + (command.positionals.empty() ? "" : " ") +
                      std::string(command.positionals) + " [OPTIONS]\n\n";
   text += std::string(command.description) + "\n";
-  if (!command.options.empty()) text += "\noptions of this command:\n" + option_lines(command.options);
-  text += "\noptions of every command:\n" + option_lines(common_options());
+  if (command.positionals.find("SPEC") != std::string_view::npos)
+    text += "SPEC is a mechanism file; 'fusee new' prints one.\n";
   text += "\nexamples:\n";
   for (const Example& example : command.examples) {
     text += "  " + std::string(example.line) + "\n      " + std::string(example.effect) + "\n";
   }
-  return text;
+  if (!command.options.empty()) text += "\noptions of this command:\n" + option_lines(command.options);
+  return text + "\noptions of every command:\n" + option_lines(common_options());
 }
 
 }  // namespace fusee::cli

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "base/output_list.h"
@@ -66,9 +67,12 @@ std::string kit_summary(const pipeline::KitResult& made, const pipeline::KitOpti
   for (const formats::KitCut& cut : formats::kit_cuts(product))
     text += "  tendon " + std::string(cut.side == transmission::Side::left ? "1" : "2") + "    cut at " +
             fixed(cut.cut, 0) + " mm\n";
-  if (tightest)
-    text += "  clearance   " + fixed(tightest->value, 2) + " mm or more, " + tightest->name +
+  if (tightest) {
+    std::string name = tightest->name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += "  clearance   " + fixed(tightest->value, 2) + " mm or more, " + name +
             " (required: " + fixed(tightest->limit, 2) + ")\n";
+  }
   if (options.dry_run) return text + "  files       none written (--dry-run)\n";
   if (!made.published)
     return text + "  files       none written: " + options.folder.string() + " keeps its earlier run\n";
@@ -81,6 +85,7 @@ Reply run_kit(const Arguments& arguments, Console&, const RunContext& context) {
   const pipeline::KitResult made = pipeline::kit(file, options, context);
   Reply reply;
   reply.diagnostics = made.product.pulley.file.warnings;
+  reply.units = file.mechanism.units;
   if (made.ending == pipeline::KitEnding::no_pulley) {
     explain_no_pulley(file, options, context, reply);
     return reply;

@@ -166,6 +166,7 @@ Reply run_model(const Arguments& arguments, Console&, const RunContext& context)
   const formats::ModelProduct& product = made.product;
   Reply reply;
   reply.diagnostics = product.file.warnings;
+  reply.units = file.mechanism.units;
   if (explain_refusal(made, options, reply)) return reply;
   for (const std::string& words : product.notes)
     reply.diagnostics.push_back(about_file(Severity::note, file.path, words));

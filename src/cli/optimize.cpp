@@ -78,6 +78,7 @@ Reply run_optimize(const Arguments& arguments, Console& console, const RunContex
       pipeline::optimize(file, options, {search_bar(console), context.stop, context.files});
   Reply reply;
   reply.diagnostics = file.warnings;
+  reply.units = file.mechanism.units;
   reply.fields["method"] = k_methods[result.search.index()];
   add_answer(file.path, options, result, reply);
   add_files(options, result, reply);

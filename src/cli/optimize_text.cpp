@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "cli/pins.h"
 #include "cli/table.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::cli {
 namespace {
@@ -40,8 +41,9 @@ std::string design_text(const optimize::Problem& problem, const optimize::Design
       else if (is_near(value, variable.upper, range))
         where = "at its upper bound";
     }
-    rows.push_back({"  " + moving.key, rounded(value, 7), std::string(field.unit),
-                    "was " + rounded(moving.number.get(problem.base), 7), where});
+    const LengthUnit units = is_length(moving.key) ? problem.base.units : LengthUnit::mm;
+    rows.push_back({"  " + moving.key, rounded(from_mm(value, units), 7), std::string(unit_in_file(field, units)),
+                    "was " + rounded(from_mm(moving.number.get(problem.base), units), 7), where});
   }
   return table({{"  key"}, {"value", Align::right}, {"unit"}, {"in the file"}, {""}}, rows);
 }

@@ -147,6 +147,7 @@ Reply run_plan(const Arguments& arguments, Console&, const RunContext& context) 
   const pipeline::PlanResult result = pipeline::plan(file, options, context);
   Reply reply;
   reply.diagnostics = result.product.file.warnings;
+  reply.units = file.mechanism.units;
   if (result.without_law) {
     explain_without_law(file.path, *result.without_law, reply);
     return reply;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::cli {
 namespace {
@@ -24,6 +25,14 @@ Json of_severity(const std::vector<Diagnostic>& diagnostics, bool errors) {
 }
 
 }  // namespace
+
+void take_to_file_units(Reply& reply) {
+  reply.text = lengths_in(reply.units, reply.text);
+  for (Diagnostic& diagnostic : reply.diagnostics) {
+    diagnostic.message = lengths_in(reply.units, diagnostic.message);
+    diagnostic.hint = lengths_in(reply.units, diagnostic.hint);
+  }
+}
 
 std::string document(const Reply& reply, const std::string& command) {
   Json json = {
@@ -88,8 +97,10 @@ std::string setting_of(const profile::Change& change) {
     const auto around_home = [](double end) { return "[" + rounded(-end) + ", " + rounded(end) + "]"; };
     return change.key + " = " + around_home(change.to) + " (now " + around_home(change.from) + ")";
   }
-  return change.key + " = " + rounded(change.to) + (change.to > change.from ? " or more" : " or less") + " (now " +
-         rounded(change.from) + ")";
+  // Enough digits for the number that was tried, in mm or inches.
+  constexpr int k_digits = 10;
+  return change.key + " = " + rounded(change.to, k_digits) + (change.to > change.from ? " or more" : " or less") +
+         " (now " + rounded(change.from, k_digits) + ")";
 }
 
 }  // namespace
@@ -99,7 +110,7 @@ void add_advice(const std::vector<profile::Change>& advice, Reply& reply) {
     reply.diagnostics.push_back(note(Severity::note, "try " + setting_of(change)));
   const auto is_number = [](const profile::Change& change) { return change.to_word.empty(); };
   if (std::none_of(advice.begin(), advice.end(), is_number))
-    reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it feasible"));
+    reply.diagnostics.push_back(note(Severity::note, "no change of a single number was found that makes it feasible"));
 }
 
 void add_advice_together(const std::vector<profile::Change>& advice, Reply& reply) {

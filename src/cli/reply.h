@@ -7,6 +7,7 @@
 
 #include "base/json.h"
 #include "fusee/base.h"
+#include "fusee/mechanism.h"
 #include "fusee/profile.h"
 
 namespace fusee::cli {
@@ -27,7 +28,11 @@ struct Reply {
   std::string text;                     ///< results, for stdout
   std::vector<Diagnostic> diagnostics;  ///< for stderr, and "errors" and "warnings" of the document
   Json fields = Json::object();         ///< JSON fields in addition to schema, ok, exit, errors and warnings
+  LengthUnit units = LengthUnit::mm;    ///< of the mechanism file: take_to_file_units()
 };
+
+/// Text and messages, composed in mm, with lengths in the mechanism file's unit. JSON fields stay in mm, as they say.
+void take_to_file_units(Reply& reply);
 
 /// The JSON document of --json.
 std::string document(const Reply& reply, const std::string& command);

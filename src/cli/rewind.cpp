@@ -161,6 +161,7 @@ Reply run_rewind(const Arguments& arguments, Console& console, const RunContext&
   const std::vector<Check> checks = checks_of(joint.mechanism, part, limits);
   Reply reply;
   reply.diagnostics = spec.warnings;
+  reply.units = spec.mechanism.units;
   add_place_notes(file, part, reply);
   reply.text = std::filesystem::path(file).filename().string() + ": " + result_text(part) + "\n" + place_text(part) +
                "\n" + points_table(part.as_built.points, console.verbose()) + "\n" + checks_table(checks);

@@ -93,7 +93,9 @@ Reply answer(const std::vector<std::string>& given, std::string& command_name, C
   console.set_options({arguments.has("--quiet"), arguments.has("--verbose"), arguments.has("--no-color")});
   if (arguments.has("--help")) return help_reply(command_help(command));
   if (arguments.has("--version")) return version_reply();
-  return command.run(arguments, console, context);
+  Reply reply = command.run(arguments, console, context);
+  take_to_file_units(reply);
+  return reply;
 }
 
 Reply failed(Exit exit, Diagnostic diagnostic) {

@@ -108,6 +108,7 @@ Reply run_simulate(const Arguments& arguments, Console&, const RunContext& conte
   const pipeline::SimulateResult result = pipeline::simulate(file, names[1], options, context);
   Reply reply;
   reply.diagnostics = result.simulation.file.warnings;
+  reply.units = file.mechanism.units;
   if (result.without_law) {
     explain_without_law(file.path, *result.without_law, reply);
     return reply;

@@ -5,6 +5,7 @@
 #include "calibration/words.h"
 #include "fusee/correction.h"
 #include "fusee/mechanism_file.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::correction {
 namespace {
@@ -80,7 +81,8 @@ std::vector<ValueEdit> identified_edits(const DeclaredMechanism& declared, const
   std::vector<ValueEdit> edits;
   for (const Field& field : fields()) {
     if (field.table != "identified") continue;
-    const double value = tidy(field.get(corrected, 0)), usual = field.get(plain, 0);
+    const LengthUnit units = is_length(field.key) ? declared.units : LengthUnit::mm;
+    const double value = to_mm(tidy(from_mm(field.get(corrected, 0), units)), units), usual = field.get(plain, 0);
     if (value != usual || field.get(declared, 0) != usual)
       edits.push_back({field.name(), std::min(std::max(value, field.least), field.most)});
   }

@@ -49,13 +49,15 @@ SlabBody coupon_body(const Mechanism& mechanism) {
 
 std::vector<CouponReading> coupon_readings(const Mechanism& mechanism) {
   const std::string shaft = rounded(tried_shaft(mechanism)), tendon = rounded(tried_tendon(mechanism));
+  // The coupon's steps are metric; in an inch file a length in mm is a text with its unit.
+  const std::string in_mm = mechanism.units == LengthUnit::inch ? ", as a text such as \"0.3 mm\"" : "";
   return {
       {"upper row: holes of " + shaft + " mm and 0.1 mm more each",
        "the number of the first hole that a shaft of " + shaft + " mm enters by hand",
-       "material.hole_compensation_mm = 0.1 × that number"},
+       "material.hole_compensation_mm = 0.1 × that number" + in_mm},
       {"middle row: grooves of " + rounded(tried_tendon(mechanism) + k_step) + " mm and 0.1 mm more each",
        "the number of the first groove that the tendon (" + tendon + " mm) runs through freely",
-       "body.anchor_hole_mm = " + rounded(tried_tendon(mechanism) + k_step) + " + 0.1 × that number"},
+       "body.anchor_hole_mm = " + rounded(tried_tendon(mechanism) + k_step) + " + 0.1 × that number" + in_mm},
       {"lower row: pegs in their holes, 0.1 mm of clearance and 0.1 mm more each",
        "the number of the first peg that turns when pushed",
        "above 3: the printer squeezes too much. Lower its flow first; then material.hole_compensation_mm 0.1 larger"},
@@ -63,7 +65,7 @@ std::vector<CouponReading> coupon_readings(const Mechanism& mechanism) {
        "measured with a caliper: " + rounded(k_length) + " mm is nominal",
        "material.shrinkage_percent = 100 × (1 − measured / " + rounded(k_length) + ")"},
       {"its width at the bed and at its upper face", "both, with a caliper",
-       "material.elephant_foot_mm = half of the additional width at the bed"}};
+       "material.elephant_foot_mm = half of the additional width at the bed" + in_mm}};
 }
 
 }  // namespace fusee::kit

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "fusee/base.h"
 #include "fusee/mechanism_file.h"
+#include "mechanism/written_number.h"
 
 namespace fusee {
 namespace {
@@ -28,8 +29,14 @@ std::size_t offset_of(std::string_view text, const toml::source_position& positi
   return at;
 }
 
-/// A number as TOML that reads back exactly.
-std::string number_text(double value) { return shortest(value); }
+/// A number of a key, in its own unit, as TOML that reads back exactly in a file of `units`.
+std::string number_text(const Field& field, double value, LengthUnit units) {
+  return is_length(field.key) ? length_value_text(value, units) : shortest(value);
+}
+
+LengthUnit units_of(const toml::table& root) {
+  return root["units"].value_or(std::string_view()) == "inch" ? LengthUnit::inch : LengthUnit::mm;
+}
 
 const toml::node* written_node(const toml::table& root, const NumberKey& key) {
   const toml::node* node = root.at_path(key.field->name()).node();
@@ -41,13 +48,15 @@ const toml::node* written_node(const toml::table& root, const NumberKey& key) {
 /// The numbers of the file with their new values. Completes a pair when only one of its numbers is edited.
 DeclaredMechanism edited_numbers(const toml::table& root, const std::vector<ValueEdit>& edits) {
   DeclaredMechanism mechanism = default_mechanism();
+  const LengthUnit units = units_of(root);
   for (const FieldKind kind :
        {FieldKind::number, FieldKind::range, FieldKind::point}) {  // points may depend on numbers
     for (const std::string& name : number_key_names()) {
       const auto key = find_number_key(name);
       if (key->field->kind != kind) continue;
       const toml::node* node = written_node(root, *key);
-      if (const auto value = node == nullptr ? std::nullopt : node->value<double>()) key->set(mechanism, *value);
+      const auto value = node == nullptr ? std::nullopt : written_number(key->field->key, *node, units);
+      if (value) key->set(mechanism, *value);
       for (const ValueEdit& edit : edits) {
         if (edit.key == name) key->set(mechanism, edit.value);
       }
@@ -106,6 +115,7 @@ std::string without_former_keys(std::string text) {
 std::string edit_values(std::string_view as_written, const std::vector<ValueEdit>& edits) {
   const std::string text = without_former_keys(std::string(as_written));
   const toml::table root = toml::parse(text);
+  const LengthUnit units = units_of(root);
   std::vector<Replacement> replacements;
   std::vector<std::string> new_tables, new_pairs;
   // Groups the keys of a new table.
@@ -116,18 +126,19 @@ std::string edit_values(std::string_view as_written, const std::vector<ValueEdit
   for (const ValueEdit& edit : ordered) {
     const auto key = find_number_key(edit.key);
     demand(key.has_value(), "edit of " + edit.key);
+    const Field& field = *key->field;
     if (const toml::node* node = written_node(root, *key)) {
-      replacements.push_back(
-          {offset_of(text, node->source().begin), offset_of(text, node->source().end), number_text(edit.value)});
-    } else if (key->field->kind == FieldKind::number) {
-      replacements.push_back(new_line(text, root, *key->field, number_text(edit.value), new_tables));
+      replacements.push_back({offset_of(text, node->source().begin), offset_of(text, node->source().end),
+                              number_text(field, edit.value, units)});
+    } else if (field.kind == FieldKind::number) {
+      replacements.push_back(new_line(text, root, field, number_text(field, edit.value, units), new_tables));
     } else if (const std::string pair = key->field->name();
                std::find(new_pairs.begin(), new_pairs.end(), pair) == new_pairs.end()) {
       new_pairs.push_back(pair);
       const DeclaredMechanism edited = edited_numbers(root, edits);
-      const std::string both =
-          "[" + number_text(key->field->get(edited, 0)) + ", " + number_text(key->field->get(edited, 1)) + "]";
-      replacements.push_back(new_line(text, root, *key->field, both, new_tables));
+      const std::string both = "[" + number_text(field, field.get(edited, 0), units) + ", " +
+                               number_text(field, field.get(edited, 1), units) + "]";
+      replacements.push_back(new_line(text, root, field, both, new_tables));
     }
   }
   std::stable_sort(replacements.begin(), replacements.end(),

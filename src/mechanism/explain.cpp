@@ -5,6 +5,7 @@
 #include "fusee/mechanism_file.h"
 #include "mechanism/catalogue.h"
 #include "mechanism/field_text.h"
+#include "mechanism/lengths.h"
 
 namespace fusee {
 namespace {
@@ -87,12 +88,16 @@ std::string catalogue_text(const Field& field) {
   return {};
 }
 
+constexpr std::string_view k_length_words =
+    "or a text with its unit: \"45 mm\", \"4.5 cm\", \"3 1/2 in\"; with units = \"inch\" a number is in inches";
+
 std::string field_text(const Field& field) {
   std::string text = field.name();
   if (!field.symbol.empty()) text += "  (" + std::string(field.symbol) + ")";
   text += "\n" + wrapped(field.meaning, "  ", "  ") + wrapped(kind_text(field), "  is       ", "           ");
   if (field.kind != FieldKind::choice && field.kind != FieldKind::boolean)
     text += wrapped(allowed_text(field), "  allowed  ", "           ");
+  if (is_length(field.key)) text += wrapped(k_length_words, "  ", "  ");
   return text + wrapped(default_text(field), "  ", "  ");
 }
 
@@ -124,6 +129,7 @@ Json field_json(const Field& field) {
   constexpr const char* k_kinds[] = {"number", "range", "choice", "text", "boolean", "numbers", "texts", "point"};
   json["kind"] = k_kinds[static_cast<int>(field.kind)];
   json["unit"] = field.unit;
+  json["length"] = is_length(field.key);  // may be in inches, or a text with its unit
   json["required"] = field.required;
   json["only_when"] = field.only_when;
   json["default"] = field.fallback;
@@ -134,6 +140,10 @@ Json field_json(const Field& field) {
   }
   if (!field.choices.empty()) json["choices"] = field.choices;
   json["meaning"] = field.meaning;
+  if (field.name() == "body.horn") {  // any text, but usually one of these
+    json["known"] = {k_own_horn};
+    for (const HornType& type : horns()) json["known"].push_back(type.name);
+  }
   return json;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "mechanism/lengths.h"
 
 namespace fusee {
 namespace {
@@ -53,15 +54,23 @@ std::string choices_text(const std::vector<std::string_view>& choices) {
   return text;
 }
 
-std::string allowed_text(const Field& field) {
+std::string bounds_text(const Field& field, LengthUnit units) {
+  const auto bound = [&](double mm) {
+    return is_length(field.key) && units != LengthUnit::mm ? rounded(from_mm(mm, units)) : shortest(mm);
+  };
+  const std::string unit(unit_in_file(field, units));
+  return bound(field.least) + " to " + bound(field.most) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string allowed_text(const Field& field, LengthUnit units) {
   switch (field.kind) {
     case FieldKind::number:
       if (field.least == field.most) return shortest(field.least);
-      return shortest(field.least) + " to " + with_unit(field.most, field.unit);
+      return bounds_text(field, units);
     case FieldKind::range:
-      return "lowest <= 0 <= highest, both " + shortest(field.least) + " to " + with_unit(field.most, field.unit);
+      return "lowest <= 0 <= highest, both " + bounds_text(field, units);
     case FieldKind::point:
-      return "both " + shortest(field.least) + " to " + with_unit(field.most, field.unit);
+      return "both " + bounds_text(field, units);
     case FieldKind::choice:
       return choices_text(field.choices);
     case FieldKind::text:
@@ -76,8 +85,11 @@ std::string allowed_text(const Field& field) {
   return {};
 }
 
-std::string kind_text(const Field& field) {
-  const std::string in_unit = field.unit.empty() ? "" : " in " + std::string(field.unit);
+std::string kind_text(const Field& field, LengthUnit units) {
+  const std::string unit(unit_in_file(field, units));
+  const std::string in_unit = unit.empty() || field.kind == FieldKind::numbers ? ""
+                              : unit == "in"                                   ? " in inches"
+                                                                               : " in " + unit;
   switch (field.kind) {
     case FieldKind::number:
       return (field.whole ? "a whole number" : "a number") + in_unit;

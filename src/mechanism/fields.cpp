@@ -186,6 +186,24 @@ Field name_field() {
   return field;
 }
 
+constexpr std::array<std::string_view, 2> k_unit_names = {"mm", "inch"};  // in the order of LengthUnit
+
+Field units_field() {
+  Field field =
+      base_field({"units", "", "\"mm\"",
+                  "unit of the numbers under keys that end in _mm; a text such as \"3 1/2 in\" has its own unit"},
+                 FieldKind::choice);
+  field.choices.assign(k_unit_names.begin(), k_unit_names.end());
+  field.get_text = [](const DeclaredMechanism& mechanism) {
+    return std::string(k_unit_names.at(static_cast<std::size_t>(mechanism.units)));
+  };
+  field.set_text = [](DeclaredMechanism& mechanism, std::string_view value) {
+    mechanism.units = value == "inch" ? LengthUnit::inch : LengthUnit::mm;
+  };
+  field.is_set = [](const DeclaredMechanism& mechanism) { return mechanism.units != LengthUnit::mm; };
+  return field;
+}
+
 Field range_field() {
   Field field = base_field(
       {"joint.range_deg", "theta", "", "the joint's lowest and highest angle; home (0) lies within"}, FieldKind::range);
@@ -493,7 +511,7 @@ void add_body(std::vector<Field>& table) {
   table.push_back(text<body, &Body::set_screw>(
       {"body.set_screw", "", "\"auto\"",
        "screw through the hub onto the shaft; auto: M3 where it fits into the hub, else none"},
-      {"auto", "none", "M2", "M2.5", "M3", "M4", "M5", "M6"}));
+      {"auto", "none", "M2", "M2.5", "M3", "M4", "M5", "M6", "#2-56", "#4-40", "#6-32", "#8-32", "#10-24", "1/4-20"}));
   table.push_back(boolean<body, &Body::nut_trap>(
       {"body.nut_trap", "", "true",
        "the set screw goes through a nut that is slid into the hub; false: its thread is cut into the hub"}));
@@ -514,7 +532,7 @@ void add_body(std::vector<Field>& table) {
        "place of a tendon's end beyond its knot; slot: in a straight slot of the face, if it fits"}));
   table.push_back(text<body, &Body::clamp_screw>(
       {"body.clamp_screw", "", "\"none\"", "screw whose head clamps the tail at the end of its slot"},
-      {"none", "M2", "M2.5", "M3"}));
+      {"none", "M2", "M2.5", "M3", "#2-56", "#4-40"}));
   table.push_back(choice<body, &Body::marks>(
       {"body.marks", "", "\"engraved\"", "home mark, clocking mark and labels on the faces"}));
   table.push_back(number<body, &Body::mark_depth>({"body.mark_depth_mm", "", "0.4", "depth or height of the marks"},
@@ -748,6 +766,7 @@ void add_prior(std::vector<Field>& table) {
 std::vector<Field> make_table() {
   std::vector<Field> table;
   table.push_back(schema_field());
+  table.push_back(units_field());
   table.push_back(name_field());
   add_mechanism(table);
   add_body(table);

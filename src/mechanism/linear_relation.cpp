@@ -7,6 +7,7 @@
 #include "fusee/base.h"
 #include "fusee/mechanism_file.h"
 #include "mechanism/field_text.h"
+#include "mechanism/lengths.h"
 
 namespace fusee {
 namespace {
@@ -34,6 +35,22 @@ LinearExpression scaled(const LinearExpression& expression, double factor) {
   LinearExpression product;
   add(product, expression, factor);
   return product;
+}
+
+/// A relation between lengths in the file's unit as the same relation in mm. A tie keeps the factor 1 of its key.
+void take_to_mm(LinearRelation& relation, LengthUnit units) {
+  const auto is_of_length = [](const LinearTerm& term) { return is_length(term.key); };
+  const std::vector<LinearTerm>& left = relation.left.terms;
+  const bool of_lengths =
+      std::any_of(left.begin(), left.end(), is_of_length) ||
+      (left.empty() && std::any_of(relation.right.terms.begin(), relation.right.terms.end(), is_of_length));
+  for (LinearExpression* side : {&relation.left, &relation.right}) {
+    if (of_lengths) side->constant = to_mm(side->constant, units);
+    for (LinearTerm& term : side->terms) {
+      if (of_lengths && !is_of_length(term)) term.factor = to_mm(term.factor, units);
+      if (!of_lengths && is_of_length(term)) term.factor = from_mm(term.factor, units);
+    }
+  }
 }
 
 /// Recursive descent: sum → product {+− product}; product → factor {*/ factor}; factor → number | key | (sum) |
@@ -176,6 +193,16 @@ double LinearExpression::value(const DeclaredMechanism& mechanism) const {
   return total;
 }
 
-ParsedRelation parse_relation(std::string_view text) { return RelationParser(text).parse(); }
+bool depends_on_units(std::string_view text) {
+  const LinearRelation mm = parse_relation(text).relation, inch = parse_relation(text, LengthUnit::inch).relation;
+  return mm.left.terms != inch.left.terms || mm.right.terms != inch.right.terms ||
+         mm.left.constant != inch.left.constant || mm.right.constant != inch.right.constant;
+}
+
+ParsedRelation parse_relation(std::string_view text, LengthUnit units) {
+  ParsedRelation parsed = RelationParser(text).parse();
+  if (units != LengthUnit::mm) take_to_mm(parsed.relation, units);
+  return parsed;
+}
 
 }  // namespace fusee

@@ -15,9 +15,11 @@ namespace fusee {
 struct LinearTerm {
   std::string key;  ///< known to find_number_key()
   double factor = 0;
+
+  bool operator==(const LinearTerm&) const = default;
 };
 
-/// constant + Σ factor · key, in the file's units. Keys are distinct and factors are not 0.
+/// constant + Σ factor · key, in the keys' units: lengths in mm. Keys are distinct and factors are not 0.
 struct LinearExpression {
   std::vector<LinearTerm> terms;
   double constant = 0;
@@ -46,8 +48,11 @@ struct ParsedRelation {
   std::optional<RelationFault> fault;  ///< if set, the relation is invalid
 };
 
-/// Parses numbers, keys, + − * / and parentheses on both sides of one of = <= >=. Terms that are not linear in the keys
-/// are faults.
-ParsedRelation parse_relation(std::string_view text);
+/// Parses numbers, keys, + − * / and parentheses on both sides of one of = <= >=, written for a file of `units`. Terms
+/// that are not linear in the keys are faults.
+ParsedRelation parse_relation(std::string_view text, LengthUnit units = LengthUnit::mm);
+
+/// True if a relation without faults means something else in an inch file: it has a length as a plain number.
+bool depends_on_units(std::string_view text);
 
 }  // namespace fusee

@@ -1,6 +1,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -14,8 +15,10 @@
 #include "mechanism/field_text.h"
 #include "mechanism/horn_faults.h"
 #include "mechanism/law_table.h"
+#include "mechanism/lengths.h"
 #include "mechanism/nesting.h"
 #include "mechanism/optimize_table.h"
+#include "mechanism/written_number.h"
 
 // Reads bytes into a DeclaredMechanism in four steps. Each continues after errors, so that all errors of a file are
 // reported together:
@@ -64,6 +67,21 @@ std::string described(const toml::node& node) {
   }
 }
 
+/// Advice for a line that is not TOML, such as `key = 17,0` or `key = word`.
+std::string syntax_hint(std::string_view text, std::size_t line) {
+  for (; line > 1 && !text.empty(); --line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  text = text.substr(0, text.find('\n'));
+  const std::size_t equals = text.find('=');
+  std::string_view value = equals == std::string_view::npos ? std::string_view() : text.substr(equals + 1);
+  value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size()));
+  const std::size_t digits = value.find_first_not_of("+-0123456789");
+  const bool comma = digits != std::string_view::npos && digits > 0 && value[digits] == ',';
+  if (comma) return "a number has a decimal point: " + as_shown(value.substr(0, digits)) + ".5, not a comma";
+  const bool word = !value.empty() && std::isalpha(static_cast<unsigned char>(value.front())) != 0;
+  if (word) return "a text stands in quotes: " + in_quotes(value.substr(0, value.find_first_of(" \t\r#")));
+  return "strings stand in quotes, lists in [ ], one key = value a line";
+}
+
 class MechanismReader {
  public:
   MechanismReader(const std::string& name, const std::filesystem::path& folder, FileAccess& files)
@@ -85,6 +103,7 @@ class MechanismReader {
   void take_points();
   void take(const Field& field, const Entry& entry);
   void take_number(const Field& field, const Entry& entry, int end, const toml::node& node);
+  void fail_number(const Field& field, const Place& place, const toml::node& node);
   bool take_pair(const Field& field, const Entry& entry);
   void take_range(const Field& field, const Entry& entry);
   void demand_home(const Field& field, const Entry& entry, double lowest, double highest);
@@ -156,7 +175,8 @@ Place MechanismReader::table_place(std::string_view table) const {
 void MechanismReader::parse(std::string_view text) {
   if (text.size() > k_max_file_size) throw InputError(name_, "is larger than 1 MB: this is no mechanism file");
   if (text.find('\0') != std::string_view::npos)
-    throw InputError(name_, "is a binary file", "a mechanism file is TOML, a text; see fusee new");
+    throw InputError(name_, "is a binary file",
+                     "a mechanism file is TOML, a text, and stands before other files; see fusee new");
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
     throw InputError(name_, "is empty", "fusee new prints a file to start from");
   if (const auto place = too_deep_place(text, name_)) {
@@ -172,7 +192,7 @@ void MechanismReader::parse(std::string_view text) {
     if (what.substr(0, 5) == "Error" && colon != std::string_view::npos) what.remove_prefix(colon + 2);
     throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_),
                                 "not TOML: " + as_shown(what, k_max_text_length),
-                                "write strings in quotes, lists in [ ], and one key = value per line"});
+                                syntax_hint(text, static_cast<std::size_t>(error.source().begin.line))});
   }
 }
 
@@ -189,8 +209,17 @@ void MechanismReader::fail_unknown(const Place& place, const std::string& table,
     if (field.table == table) here.emplace_back(field.key);
     everywhere.emplace_back(field.key);
   }
+  // length_in, length_cm
+  const std::size_t unit = std::min(key.rfind('_'), key.size());
+  const std::string in_mm = key.substr(0, unit) + "_mm", word = key.substr(std::min(unit + 1, key.size()));
+  if ((word == "in" || word == "inch" || word == "cm") && find_field(table + "." + in_mm) != nullptr)
+    return fail(place, "unknown key " + shown,
+                in_mm + " takes a text with its unit, such as \"3.5 " + word +
+                    "\"; units = \"inch\" at the top of the file makes all lengths inches");
   std::string nearest = nearest_word(key, here);
-  if (!nearest.empty()) return fail(place, "unknown key " + shown, "did you mean " + nearest + "?");
+  // A setting is written with its table, a key of the file without.
+  const std::string dotted = place.line == 0 && !table.empty() ? table + "." : "";
+  if (!nearest.empty()) return fail(place, "unknown key " + shown, "did you mean " + dotted + nearest + "?");
   nearest = nearest_word(key, everywhere);
   for (const Field& field : fields()) {
     if (field.key == nearest) return fail(place, "unknown key " + shown, "did you mean " + field.name() + "?");
@@ -260,7 +289,9 @@ toml::table MechanismReader::setting_value(const Setting& setting, const std::st
     }
   }
   toml::table table;
-  if (!one_line || setting.value.empty() || setting.value.find_first_of("\"'[]{}=") != std::string::npos) {
+  const bool is_word =
+      one_line && !setting.value.empty() && setting.value.find_first_of("\"'[]{}=") == std::string::npos;
+  if (!is_word && !parse_length(setting.value)) {
     fail({file, 0, 0}, in_quotes(setting.value) + " is not a value",
          "a number, [lowest, highest], true, false or a word");
   } else {
@@ -302,6 +333,12 @@ void MechanismReader::apply(const Setting& setting) {
 
 // ---- 3. entries → fields --------------------------------------------------------------------------------------------
 
+/// The value as the user wrote it, with its unit.
+std::string as_written(const Field& field, const toml::node& node, LengthUnit units) {
+  return node.is_string() ? in_quotes(**node.as_string())
+                          : with_unit(*node.value<double>(), unit_in_file(field, units));
+}
+
 /// True for a length where 0 means a default or "none". Drawings round to 1e-6 mm, so that a tiny length would be
 /// neither 0 nor usable.
 bool is_declared_length(const Field& field) {
@@ -309,34 +346,40 @@ bool is_declared_length(const Field& field) {
 }
 
 void MechanismReader::take_number(const Field& field, const Entry& entry, int end, const toml::node& node) {
-  const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+  const std::optional<double> value = written_number(field.key, node, mechanism_.units);
   const Place place = entry.place.line > 0 ? place_of(node.source(), entry.place.file) : entry.place;
-  if (!value) {
-    return fail(place, field.name() + " must be " + kind_text(field) + ", not " + described(node),
-                "allowed: " + allowed_text(field));
-  }
+  const std::string allowed = "allowed: " + allowed_text(field, mechanism_.units);
+  if (!value) return fail_number(field, place, node);
   const bool whole = !field.whole || std::trunc(*value) == *value;
   if (!std::isfinite(*value) || !whole)
     return fail(place, field.name() + " must be a " + (whole ? "finite" : "whole") + " number, not " + shortest(*value),
-                "allowed: " + allowed_text(field));
-  if (*value < field.least || *value > field.most) {
-    return fail(place, field.name() + " = " + with_unit(*value, field.unit) + " is out of range",
-                "allowed: " + allowed_text(field));
-  }
+                allowed);
+  const std::string shown = field.name() + " = " + as_written(field, node, mechanism_.units);
+  if (*value < field.least || *value > field.most) return fail(place, shown + " is out of range", allowed);
   if (is_declared_length(field) && *value > 0 && *value < k_min_length) {
-    return fail(place, field.name() + " = " + with_unit(*value, field.unit) + " is less than a micrometre",
-                "0, or at least " + with_unit(k_min_length, field.unit));
+    return fail(place, shown + " is less than a micrometre",
+                "0, or at least " + rounded(from_mm(k_min_length, mechanism_.units)) + " " +
+                    std::string(unit_in_file(field, mechanism_.units)));
   }
   field.set(mechanism_, end, *value);
   good_[field.name()] = true;
+}
+
+/// A value that is no number. A text of a length may lack its unit, or have one that is not known.
+void MechanismReader::fail_number(const Field& field, const Place& place, const toml::node& node) {
+  const std::string kind = kind_text(field, mechanism_.units);
+  std::string hint = "allowed: " + allowed_text(field, mechanism_.units);
+  if (is_length(field.key) && node.is_string()) hint += "; a text has its unit: \"3 1/2 in\", \"4.5 cm\" or \"45 mm\"";
+  fail(place, field.name() + " must be " + kind + ", not " + described(node), std::move(hint));
 }
 
 /// Reads both numbers of a range or point; false if one is invalid.
 bool MechanismReader::take_pair(const Field& field, const Entry& entry) {
   const toml::array* ends = entry.node->as_array();
   if (ends == nullptr || ends->size() != 2) {
-    fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node),
-         "allowed: " + allowed_text(field));
+    fail(entry.place,
+         field.name() + " must be " + kind_text(field, mechanism_.units) + ", not " + described(*entry.node),
+         "allowed: " + allowed_text(field, mechanism_.units));
     return false;
   }
   const std::size_t errors = errors_.size();
@@ -357,7 +400,9 @@ void MechanismReader::demand_home(const Field& field, const Entry& entry, double
   if (lowest <= 0 && highest >= 0 && lowest < highest) return;
   good_[field.name()] = false;
   fail(entry.place, field.name() + " = [" + shortest(lowest) + ", " + shortest(highest) + "] deg does not include home",
-       "the lowest angle is at most 0, the highest at least 0, and they differ");
+       lowest > highest && lowest >= 0 && highest <= 0
+           ? "the lowest angle stands first: [" + shortest(highest) + ", " + shortest(lowest) + "]"
+           : "the lowest angle is at most 0, the highest at least 0, and they differ");
 }
 
 /// Texts appear in drawings, pages, program comments and on the terminal, so they must be one printable line.
@@ -406,7 +451,8 @@ void MechanismReader::take_numbers(const Field& field, const Entry& entry) {
   std::vector<double>& values = field.numbers(mechanism_);
   values.clear();
   for (const toml::node& node : *list) {
-    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+    const std::string_view key = length_key(field, mechanism_, values.size());
+    const std::optional<double> value = written_number(key, node, mechanism_.units);
     const Place place = entry.place.line > 0 ? place_of(node.source(), entry.place.file) : entry.place;
     if (!value || !(*value >= field.least && *value <= field.most)) {
       return fail(place, field.name() + " holds numbers, not " + described(node), "allowed: " + allowed_text(field));
@@ -500,7 +546,7 @@ void MechanismReader::report_missing() {
     fail(table_place(field.table),
          "missing key " + field.name() + (conditional ? " (required with " + condition_text(field) + ")" : ""),
          "add " + std::string(field.key) + " = " + example + " " + where + ": " + std::string(field.meaning) + "; " +
-             allowed_text(field));
+             allowed_text(field, mechanism_.units));
   }
 }
 
@@ -562,7 +608,7 @@ void MechanismReader::check_sheath() {
     if (field.table != "sheath" || !field.needed_in_table || has(field.name())) continue;
     fail(table_place("sheath"), "missing key " + field.name() + " (required with [sheath])",
          "add " + std::string(field.key) + " = ... under [sheath]: " + std::string(field.meaning) + "; " +
-             allowed_text(field));
+             allowed_text(field, mechanism_.units));
   }
   if (mechanism_.pulley.method == Method::paper && good_["pulley.method"])
     fail(table_place("sheath"), "[sheath] cannot be combined with pulley.method = \"paper\"",
@@ -717,6 +763,12 @@ void MechanismReader::finish(std::vector<Diagnostic>* warnings) {
     return std::make_tuple(d.place.file != name_, d.place.line == 0, d.place.line, d.place.column);
   };
   const auto by_place = [&key](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); };
+  for (std::vector<Diagnostic>* all : {&errors_, &warnings_}) {
+    for (Diagnostic& diagnostic : *all) {
+      diagnostic.message = lengths_in(mechanism_.units, diagnostic.message);
+      diagnostic.hint = lengths_in(mechanism_.units, diagnostic.hint);
+    }
+  }
   std::stable_sort(errors_.begin(), errors_.end(), by_place);
   std::stable_sort(warnings_.begin(), warnings_.end(), by_place);
   errors_.insert(errors_.end(), table_errors_.begin(), table_errors_.end());

@@ -4,6 +4,7 @@
 #include "fusee/mechanism_file.h"
 #include "mechanism/catalogue.h"
 #include "mechanism/field_text.h"
+#include "mechanism/lengths.h"
 
 namespace fusee {
 namespace {
@@ -19,12 +20,43 @@ Json closed_object(std::string_view description) {
 /// TOML's numbers, strings and booleans are valid JSON.
 Json fallback_json(const Field& field) { return parse_json(field.fallback); }
 
+/// A number, or for lengths also a text with its unit. The bounds of lengths depend on `units`: length_bounds().
+Json number_schema(const Field& field, bool length) {
+  if (!length) return {{"type", field.whole ? "integer" : "number"}, {"minimum", field.least}, {"maximum", field.most}};
+  constexpr const char* k_text =
+      "^ *[-+]?([0-9.]+|([0-9]+[- ] *)?[0-9]+/[0-9]+)(e[-+]?[0-9]+)? *"
+      "(mm|cm|m|um|\xC2\xB5m|in\\.?|inch|inches|\"|\xE2\x80\xB3|thou) *$";
+  Json number = {{"type", "number"}}, text = {{"type", "string"}, {"pattern", k_text}};
+  return {{"anyOf", {number, text}}};
+}
+
+/// The bounds of all lengths that are numbers, in a file of `units`.
+Json length_bounds(LengthUnit units) {
+  Json bounds = Json::object();
+  for (const Field& field : fields()) {
+    if (!is_length(field.key) || field.kind == FieldKind::numbers) continue;
+    Json number = {{"minimum", from_mm(field.least, units)}, {"maximum", from_mm(field.most, units)}};
+    Json& key = bounds["properties"][std::string(field.table)]["properties"][std::string(field.key)];
+    if (field.kind == FieldKind::point)
+      key["items"] = std::move(number);
+    else
+      key = std::move(number);
+  }
+  return bounds;
+}
+
+Json bounds_by_units() {
+  Json in_inches = {{"required", {"units"}}};
+  in_inches["properties"]["units"]["const"] = "inch";
+  return {{"if", in_inches}, {"then", length_bounds(LengthUnit::inch)}, {"else", length_bounds(LengthUnit::mm)}};
+}
+
 Json field_schema(const Field& field) {
   Json json;
   json["title"] = field.symbol.empty() ? field.name() : field.name() + " (" + std::string(field.symbol) + ")";
   json["description"] = std::string(field.meaning) + (field.unit.empty() ? "" : ", " + std::string(field.unit)) + "; " +
                         default_text(field);
-  const Json number = {{"type", field.whole ? "integer" : "number"}, {"minimum", field.least}, {"maximum", field.most}};
+  const Json number = number_schema(field, is_length(field.key));
   switch (field.kind) {
     case FieldKind::number:
       json.update(number);
@@ -45,7 +77,7 @@ Json field_schema(const Field& field) {
       json["type"] = "boolean";
       break;
     case FieldKind::numbers:
-      json.update({{"type", "array"}, {"items", number}});
+      json.update({{"type", "array"}, {"items", field.table == "optimize" ? number_schema(field, true) : number}});
       break;
     case FieldKind::texts: {
       Json one = {{"type", "string"}};
@@ -88,7 +120,8 @@ Json either_joint() {
 
 std::string mechanism_schema() {
   Json schema = closed_object(
-      "A tendon-driven joint and the pulley that drives it. Lengths in mm, angles in degrees, forces in N.");
+      "A tendon-driven joint and the pulley that drives it. Lengths in mm or in `units`, angles in degrees, forces in "
+      "N.");
   schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   schema["title"] = "fusee mechanism file";
   for (const Field& field : fields()) {
@@ -102,6 +135,7 @@ std::string mechanism_schema() {
     if (field.fallback.empty() && !field.only_when.empty()) object["allOf"].push_back(condition_schema(field));
   }
   schema["allOf"].push_back(either_joint());
+  schema["allOf"].push_back(bounds_by_units());
   return json_text(schema, 2);
 }
 

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "fusee/mechanism_file.h"
 #include "mechanism/field_text.h"
+#include "mechanism/lengths.h"
 
 namespace fusee {
 namespace {
@@ -52,21 +53,36 @@ std::string list_text(const List& list, ToText to_text) {
   return "[" + text + "]";
 }
 
+/// A number, or one of a pair, in the file's unit.
+std::string end_text(const Field& field, const DeclaredMechanism& mechanism, int end) {
+  return is_length(field.key) ? length_value_text(field.get(mechanism, end), mechanism.units)
+                              : number_text(field, mechanism, end);
+}
+
+std::string numbers_text(const Field& field, DeclaredMechanism& mechanism) {
+  std::vector<std::string> items;
+  for (const double value : field.numbers(mechanism)) {
+    const bool length = is_length(length_key(field, mechanism, items.size()));
+    items.push_back(length ? length_value_text(value, mechanism.units) : shortest(value));
+  }
+  return list_text(items, [](const std::string& item) { return item; });
+}
+
 std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
   DeclaredMechanism copy = mechanism;  // lists are accessed through a mutable reference
   switch (field.kind) {
     case FieldKind::number:
-      return number_text(field, mechanism, 0);
+      return end_text(field, mechanism, 0);
     case FieldKind::range:
     case FieldKind::point:
-      return "[" + number_text(field, mechanism, 0) + ", " + number_text(field, mechanism, 1) + "]";
+      return "[" + end_text(field, mechanism, 0) + ", " + end_text(field, mechanism, 1) + "]";
     case FieldKind::boolean:
       return field.get_text(mechanism);
     case FieldKind::choice:
     case FieldKind::text:
       return toml_string(field.get_text(mechanism));
     case FieldKind::numbers:
-      return list_text(field.numbers(copy), shortest);
+      return numbers_text(field, copy);
     case FieldKind::texts:
       return list_text(field.texts(copy), toml_string);
   }
@@ -81,11 +97,11 @@ bool is_blank(const Field& field, const DeclaredMechanism& mechanism) {
   return text.empty() || toml_string(text) == field.fallback;
 }
 
-std::string comment(const Field& field) {
+std::string comment(const Field& field, LengthUnit units) {
   std::string text = "# ";
   if (!field.symbol.empty()) text += std::string(field.symbol) + ": ";
   text += std::string(field.meaning) + "\n#   ";
-  if (field.kind != FieldKind::text) text += allowed_text(field) + "; ";
+  if (field.kind != FieldKind::text) text += allowed_text(field, units) + "; ";
   return text + default_text(field) + "\n";
 }
 
@@ -104,7 +120,7 @@ std::string write_mechanism(const DeclaredMechanism& mechanism) {
     if (field.table != table)
       text += "\n# " + std::string(table_meaning(field.table)) + "\n[" + std::string(field.table) + "]\n";
     table = field.table;
-    text += comment(field);
+    text += comment(field, mechanism.units);
     if (is_blank(field, mechanism)) {
       text += "# " + std::string(field.key) + " =\n";
     } else {

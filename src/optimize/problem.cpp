@@ -57,14 +57,14 @@ void add_moving_keys(Problem& problem, const Optimization& table) {
     problem.moving.push_back(std::move(moving));
   }
   for (const std::string& text : table.tied) {
-    const LinearRelation tie = parse_relation(text).relation;
+    const LinearRelation tie = parse_relation(text, problem.base.units).relation;
     add_moving(problem, tie.left.terms.front().key, tie.right);
   }
 }
 
 void add_constraints(Problem& problem, const Optimization& table) {
   for (const std::string& text : table.constraints) {
-    const LinearRelation relation = parse_relation(text).relation;
+    const LinearRelation relation = parse_relation(text, problem.base.units).relation;
     const Affine left = affine(problem, relation.left), right = affine(problem, relation.right);
     add_constraint(problem, left, right, text);
     if (relation.relation == Relation::equal) add_constraint(problem, right, left, text);

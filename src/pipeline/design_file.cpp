@@ -39,7 +39,7 @@ std::vector<ValueEdit> all_edits(const optimize::Problem& problem, const optimiz
     const auto key = find_number_key(setting.key);
     if (key)
       edits.push_back({setting.key, key->get(problem.base)});
-    else
+    else if (setting.key != "units")
       warnings.push_back(warning("the new file omits --set " + setting.key + "=" + setting.value));
   }
   for (const ValueEdit& edit : optimize::edits_of(problem, design)) {
@@ -56,8 +56,10 @@ DesignFile design_file(const MechanismFile& file, const optimize::Problem& probl
   DesignFile result;
   const std::vector<ValueEdit> edits = all_edits(problem, design, settings, result.warnings);
   result.text = edit_values(read_file(file.path, k_largest_file, files), edits);
-  if (holds(result.text, edits, file.path, files)) return result;
-  // Dotted keys leave no place for a new key of their table.
+  const bool keeps_units =
+      std::none_of(settings.begin(), settings.end(), [](const Setting& setting) { return setting.key == "units"; });
+  if (keeps_units && holds(result.text, edits, file.path, files)) return result;
+  // Dotted keys leave no place for a new key of their table, and other units change every length.
   result.warnings.push_back(warning("the layout of " + file.path + " could not be kept: the new file has every key"));
   DeclaredMechanism whole = optimize::mechanism_at(problem, design);
   whole.optimize = file.mechanism.optimize;

@@ -9,6 +9,7 @@
 #include "base/thread_pool.h"
 #include "fusee/mechanism_file.h"
 #include "fusee/profile.h"
+#include "mechanism/lengths.h"
 
 namespace fusee::profile {
 namespace {
@@ -24,6 +25,7 @@ struct DesignVariable {
   /// Change at a step of 100 %: the value's magnitude, or a length of the joint for numbers near zero.
   double scale = 1;
   std::function<void(Mechanism&, double)> set;
+  LengthUnit units = LengthUnit::mm;  ///< of the file, for a length: its new number has few digits in them
 };
 
 // Numbers of the pulley or its body are easier to change than those of the joint.
@@ -42,6 +44,7 @@ std::optional<DesignVariable> number_variable(const Mechanism& mechanism, const 
   variable.scale =
       std::max(std::abs(variable.value), field->unit == "mm" && field->least < 0 ? 0.1 * mechanism.joint.R : 0.0);
   variable.set = [field](Mechanism& changed, double value) { set_number(changed, *field, 0, value); };
+  if (is_length(key)) variable.units = mechanism.units;
   return variable;
 }
 
@@ -56,7 +59,7 @@ std::vector<DesignVariable> attachment_variables(const Mechanism& mechanism) {
       const double value = number_of(mechanism, *field, end);
       const auto set = [field, end](Mechanism& changed, double to) { set_number(changed, *field, end, to); };
       all.push_back({name, name, "mm", value, field->least, field->most,
-                     std::max(std::abs(value), 0.1 * mechanism.joint.R), set});
+                     std::max(std::abs(value), 0.1 * mechanism.joint.R), set, mechanism.units});
     }
   }
   return all;
@@ -78,15 +81,15 @@ std::vector<DesignVariable> range_variables(const Mechanism& mechanism) {
     least = std::max(least, degrees(mechanism.pulley.torque_rows.front().theta));
     most = std::min(most, degrees(mechanism.pulley.torque_rows.back().theta));
   }
-  DesignVariable both{"joint.range_deg", "the range", "deg", high, 0.5, std::min(most, -least), high, {}};
+  DesignVariable both{"joint.range_deg", "the range", "deg", high, 0.5, std::min(most, -least), high, {}, {}};
   both.set = [field](Mechanism& changed, double value) {
     set_number(changed, *field, 0, -value);
     set_number(changed, *field, 1, value);
   };
   if (std::abs(low + high) < 1e-9) return {both};
-  DesignVariable lower{"joint.range_deg[0]", "the range's lower end", "deg", low, least, 0.0, std::abs(low), {}};
+  DesignVariable lower{"joint.range_deg[0]", "the range's lower end", "deg", low, least, 0.0, std::abs(low), {}, {}};
   lower.set = [field](Mechanism& changed, double value) { set_number(changed, *field, 0, value); };
-  DesignVariable upper{"joint.range_deg[1]", "the range's upper end", "deg", high, 0.0, most, std::abs(high), {}};
+  DesignVariable upper{"joint.range_deg[1]", "the range's upper end", "deg", high, 0.0, most, std::abs(high), {}, {}};
   upper.set = [field](Mechanism& changed, double value) { set_number(changed, *field, 1, value); };
   return {lower, upper};
 }
@@ -126,19 +129,21 @@ std::vector<DesignVariable> design_variables(const Mechanism& mechanism, const s
 }
 
 std::string change_text(const DesignVariable& variable, double to) {
-  const std::string amount = rounded(to, 3);
+  const std::string amount = rounded(from_mm(to, variable.units), 3);
   if (variable.symbol == "the range") return "the range ±" + amount + "°";
-  const std::string unit = variable.unit == "deg" ? "°" : variable.unit.empty() ? "" : " " + variable.unit;
+  const std::string word = variable.units == LengthUnit::mm ? variable.unit : std::string(unit_word(variable.units));
+  const std::string unit = word == "deg" ? "°" : word.empty() ? "" : " " + word;
   return variable.symbol + (to > variable.value ? " ≥ " : " ≤ ") + amount + unit;
 }
 
-/// `value` rounded to three digits: to the nearest, and towards `direction`.
-std::array<double, 2> in_three_digits(double value, double direction) {
-  if (value == 0) return {0, 0};
+/// `value` rounded to three digits in the file's unit: to the nearest, and towards `direction`.
+std::array<double, 2> in_three_digits(double value_in_key_unit, double direction, LengthUnit units) {
+  if (value_in_key_unit == 0) return {0, 0};
+  const double value = from_mm(value_in_key_unit, units);
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
   const double scaled = value / unit;
   // Rounded via the text, so that the tested number is the one that the user writes.
-  const auto written = [](double number) { return std::stod(rounded(number, 3)); };
+  const auto written = [units](double number) { return to_mm(std::stod(rounded(number, 3)), units); };
   return {written(std::round(scaled) * unit), written((direction > 0 ? std::ceil(scaled) : std::floor(scaled)) * unit)};
 }
 
@@ -385,7 +390,7 @@ class AdviceSearch {
         std::vector<double> to;
         bool is_new = true;
         for (const SearchDirection& search : candidate.directions) {
-          to.push_back(in_three_digits(search.at(step), search.direction)[digit]);
+          to.push_back(in_three_digits(search.at(step), search.direction, search.variable->units)[digit]);
           is_new = is_new && to.back() != search.variable->value && to.back() >= search.variable->least &&
                    to.back() <= search.variable->most;
         }

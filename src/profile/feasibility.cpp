@@ -270,10 +270,9 @@ Condition dead_centre(const transmission::Transmission& transmission) {
   condition.value = degrees(theta);
   condition.alpha = transmission.alpha(theta);
   if (!std::isfinite(condition.alpha)) condition.alpha = 0;  // C lies within a pin
-  condition.message = "tendon " + number(side) +
-                      " has no moment arm about the joint at θ = " + rounded(degrees(theta), 4) + "°, " +
-                      at_alpha_text(condition.alpha) + " (dead centre, or C runs into pin " + pin_name(side) +
-                      "): the range must end before it";
+  condition.message = "tendon " + number(side) + " passes through the joint axis (dead centre), or C meets pin " +
+                      pin_name(side) + ", at θ = " + rounded(degrees(theta), 4) + "°, " +
+                      at_alpha_text(condition.alpha) + ": the range must end before it";
   return condition;
 }
 
@@ -443,7 +442,7 @@ std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt
     warnings.push_back(
         "P" + number(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) + " mm at " +
         at_alpha_text(tightest->stroke.alpha) + "; this tendon requires " + rounded(least, 3) +
-        " mm or more (tendon.bend_ratio, D/d = " + rounded(mechanism.tendon.bend_ratio, 3) + "): it will wear there");
+        " mm or more (tendon.bend_ratio, D/d = " + rounded(mechanism.tendon.bend_ratio, 3) + "): expect wear there");
   }
   return warnings;
 }

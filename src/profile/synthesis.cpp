@@ -123,7 +123,7 @@ std::string SynthesisResult::brief() const {
     text += (text.empty() ? "" : "; ") + condition.message;
   }
   const std::string change = advice_sentence(advice);
-  return text + ": " + (change.empty() ? "no change of a single number makes it possible" : change);
+  return text + ": " + (change.empty() ? "no change of a single number was found that makes it possible" : change);
 }
 
 }  // namespace fusee::profile

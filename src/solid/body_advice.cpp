@@ -40,11 +40,16 @@ struct Alternatives {
   const char* key;
   std::vector<std::string_view> words;
 };
-const std::vector<Alternatives>& screw_alternatives() {
-  static const std::vector<Alternatives> all{{"set_screw", "body.set_screw", {"M5", "M4", "M3", "M2.5", "M2", "none"}},
-                                             {"clamp_screw", "body.clamp_screw", {"M2.5", "M2", "none"}},
-                                             {"clamp_screw", "print.parts", {"two"}}};
-  return all;
+const std::vector<Alternatives>& screw_alternatives(bool with_inch_screw) {
+  static const std::vector<Alternatives> metric{
+      {"set_screw", "body.set_screw", {"M5", "M4", "M3", "M2.5", "M2", "none"}},
+      {"clamp_screw", "body.clamp_screw", {"M2.5", "M2", "none"}},
+      {"clamp_screw", "print.parts", {"two"}}};
+  static const std::vector<Alternatives> inch{
+      {"set_screw", "body.set_screw", {"#10-24", "#8-32", "#6-32", "#4-40", "#2-56", "none"}},
+      {"clamp_screw", "body.clamp_screw", {"#2-56", "none"}},
+      {"clamp_screw", "print.parts", {"two"}}};
+  return with_inch_screw ? inch : metric;
 }
 /// Alternatives if every condition holds but the finished part is not printable.
 const std::vector<Alternatives>& printing_alternatives() {
@@ -68,7 +73,7 @@ class BodyAdviser {
       for (const Alternatives& words : printing_alternatives()) add_word(advice.alone, words);
       return advice;
     }
-    for (const Alternatives& words : screw_alternatives()) {
+    for (const Alternatives& words : screw_alternatives(has_inch_screw())) {
       const auto is_about = [&words](const profile::Condition& condition) {
         return condition.name.starts_with(words.condition);
       };
@@ -94,6 +99,12 @@ class BodyAdviser {
   bool helps(const Mechanism& changed) const {
     if (!judge_.obstacles(changed).empty()) return false;
     return !judge_.made || ((!judge_.builds_left || judge_.builds_left() > 0) && judge_.made(changed));
+  }
+
+  /// True if a screw of the file is an inch screw: its alternatives are of the same kind.
+  bool has_inch_screw() const {
+    const auto is_inch = [](const std::string& screw) { return screw.find('-') != std::string::npos; };
+    return is_inch(mechanism_.body.set_screw) || is_inch(mechanism_.body.clamp_screw);
   }
 
   // Adds the first alternative that helps, other than the present value.

@@ -138,7 +138,7 @@ std::vector<std::string> helpful_changes(const Mechanism& mechanism, const profi
   double needed = 0;
   for (const KnotHold& knot : holding.knots)
     needed = std::max(needed, knot.at_knot / (k_safe_knot_share * mechanism.tendon.knot_efficiency));
-  helps.push_back(fmt::format("a tendon that bears {} N (tendon.strength_N)", std::ceil(0.1 * needed) * 10.0));
+  helps.push_back(fmt::format("a tendon with a strength of {} N (tendon.strength_N)", std::ceil(0.1 * needed) * 10.0));
   return helps;
 }
 

@@ -10,13 +10,20 @@
 namespace fusee::solid {
 namespace {
 
-// Clearance: ISO 273 medium. Tapping: ISO 2306. Nuts: ISO 4032, width s and thickness m. Heads: ISO 7045, dk.
-constexpr std::array<Screw, 6> k_screws{{{"M2", 2, 2.4, 1.6, 4.0, 1.6, 4.0},
-                                         {"M2.5", 2.5, 2.9, 2.05, 5.0, 2.0, 5.0},
-                                         {"M3", 3, 3.4, 2.5, 5.5, 2.4, 5.6},
-                                         {"M4", 4, 4.5, 3.3, 7.0, 3.2, 8.0},
-                                         {"M5", 5, 5.5, 4.2, 8.0, 4.7, 9.5},
-                                         {"M6", 6, 6.6, 5.0, 10.0, 5.2, 12.0}}};
+// Metric: clearance ISO 273 medium, tapping ISO 2306, nuts ISO 4032 (width s, thickness m), pan heads ISO 7045 (dk).
+// Inch: clearance ASME B18.2.8 normal, tapping 75 % thread, nuts and pan heads ASME B18.6.3, both at their maximum.
+constexpr std::array<Screw, 12> k_screws{{{"M2", 2, 2.4, 1.6, 4.0, 1.6, 4.0},
+                                          {"M2.5", 2.5, 2.9, 2.05, 5.0, 2.0, 5.0},
+                                          {"M3", 3, 3.4, 2.5, 5.5, 2.4, 5.6},
+                                          {"M4", 4, 4.5, 3.3, 7.0, 3.2, 8.0},
+                                          {"M5", 5, 5.5, 4.2, 8.0, 4.7, 9.5},
+                                          {"M6", 6, 6.6, 5.0, 10.0, 5.2, 12.0},
+                                          {"#2-56", 2.18, 2.59, 1.78, 4.76, 1.68, 4.24},
+                                          {"#4-40", 2.84, 3.25, 2.26, 6.35, 2.49, 5.56},
+                                          {"#6-32", 3.51, 3.91, 2.71, 7.94, 2.90, 6.86},
+                                          {"#8-32", 4.17, 4.57, 3.45, 8.73, 3.30, 8.18},
+                                          {"#10-24", 4.83, 5.23, 3.80, 9.53, 3.30, 9.47},
+                                          {"1/4-20", 6.35, 7.14, 5.11, 11.11, 4.90, 12.50}}};
 
 // Thickness of the wall between the nut's slot and the axis, which carries the screw's thrust.
 double nut_wall(double wall) { return std::max(wall, 1.5); }

@@ -19,7 +19,7 @@ struct Screw {
   double head;  ///< diameter of a pan head
 };
 
-/// "M2" … "M6"; null for any other name.
+/// "M2" … "M6", "#2-56" … "1/4-20"; null for any other name.
 const Screw* find_screw(const std::string& name);
 
 /// Hole and nut trap in a hub on `bore`, at half the hub's height or as high as the nut requires. `layout` must have

@@ -232,8 +232,8 @@ std::vector<Setting> all_times(double factor) {
 
 TEST(Lengths, DetectsAllLengthsInCm) {
   EXPECT_THAT(said(all_times(0.1)),
-              ElementsAre(AllOf(HasSubstr("joint.length_mm = 10 mm is small for a tendon of 1 mm"), HasSubstr("in cm?"),
-                                HasSubstr("joint.length_mm = 100"))));
+              ElementsAre(AllOf(HasSubstr("joint.length_mm = 10 mm is small for a tendon of 1 mm"),
+                                HasSubstr("in cm or in inches?"), HasSubstr("joint.length_mm = 100"))));
   std::vector<Setting> thin = all_times(0.1);
   thin.push_back({"tendon.diameter_mm", "0.2"});
   EXPECT_THAT(said(thin), ElementsAre(HasSubstr("a pin of 2 mm (guides.radius_mm)")));
@@ -241,6 +241,19 @@ TEST(Lengths, DetectsAllLengthsInCm) {
   EXPECT_THAT(said(thin), IsEmpty());  // a joint of a centimetre with matching parts
   thin.push_back({"body.bore_diameter_mm", "5"});
   EXPECT_THAT(said(thin), ElementsAre(HasSubstr("a shaft of 5 mm (body.bore_diameter_mm)")));
+}
+
+TEST(Lengths, DetectsInches) {
+  const std::vector<Setting> in_inches = all_times(1 / 25.4);
+  EXPECT_THAT(said(in_inches), ElementsAre(AllOf(HasSubstr("in inches?"), HasSubstr("100 mm and so on"),
+                                                 HasSubstr("units = \"inch\""))));
+  std::vector<Setting> read_as_inches = in_inches;
+  read_as_inches.insert(read_as_inches.end(), {{"units", "inch"},
+                                               {"tendon.diameter_mm", "1 mm"},
+                                               {"guides.radius_mm", "2 mm"},
+                                               {"body.bore_diameter_mm", "5 mm"}});
+  EXPECT_THAT(said(read_as_inches), IsEmpty());
+  EXPECT_THAT(said({{"units", "inch"}}), ElementsAre(HasSubstr("thicker than any tendon")));
 }
 
 TEST(Lengths, AcceptsThickTendon) {

@@ -11,6 +11,22 @@ FILES = {
     "broken.toml": b"schema = 1\n[joint\n",
     "unknown.toml": b"schema = 1\n[joint]\nlenght_mm = 100\n",
     "many.toml": b"schema = 1\n[joint]\nlength_mm = -1\nrange_deg = 3\n[guides]\nEB_mm = \"wide\"\n[pulley]\nlaw = \"lineal\"\n[tendon]\ndiameter_mm = nan\n",
+    "inch.toml": b"""schema = 1
+units = "inch"
+[joint]
+length_mm = 3.5
+range_deg = [-30, 30]
+[guides]
+EB_mm = 1.75
+ED_mm = "1 3/4 in"
+OE_mm = -1.4
+radius_mm = "2 mm"
+[pulley]
+EF_mm = 2.8
+r1_mm = 0.56
+[tendon]
+diameter_mm = "1 mm"
+""",
     "empty.stl": b"",
     "short.stl": b"\0" * 84 + b"\x10",
     "text.stl": b"this is no mesh at all\n",
@@ -43,6 +59,14 @@ CASES = [
     ("replay --help", 0, "usage: fusee replay FILE.*--out DIR", "^$"),
     ("optimize --help", 0, "usage: fusee optimize SPEC.*--then OBJECTIVE", "^$"),
     ("reproduce --help", 0, "usage: fusee reproduce.*--out DIR", "^$"),
+    # Inches: what advice says can be typed into the file.
+    ("build inch.toml --dry-run", 0, "r1 +from 0.5600? to 0.5600? in\n", "^$"),
+    ("build inch.toml --dry-run --set pulley.r1_mm=0.05", 4, "^$", "try pulley.r1_mm = 0\\.[0-9]{3,4} or more \\(now 0.05\\)"),
+    ("build inch.toml --dry-run --set pulley.r1_mm='1/2 in' --set pulley.EF_mm='7 cm'", 0, "r1 +from 0.5000? to 0.5000? in\n", "^$"),
+    ("build arm.toml --dry-run --set pulley.r1_mm='5/8 in'", 0, "r1 +from 15.875 to 15.875 mm", "^$"),
+    ("build arm.toml --dry-run --set pulley.r1_mm=0.63in --set units=centimetre", 3, "^$", "units = \"centimetre\" is not known.*\"mm\" or \"inch\""),
+    ("build inch.toml --dry-run --set 'pulley.r1_mm=0.6 kg'", 3, "^$", "must be a number in inches.*3 1/2 in"),
+    ("new paper_optimum --set units=inch --set joint.length_mm=3.5", 0, "\nunits = \"inch\"\n.*\nlength_mm = 3.5\n", "^$"),
     # Optimisation.
     ("optimize arm.toml", 3, "^$", "has no \\[optimize\\] variables.*for example"),
     (f"optimize {OPTIMIZE}", 0, "no design is below", ""),

@@ -98,9 +98,20 @@ TEST(Schema, ContainsEveryKeyWithBounds) {
     EXPECT_EQ(object["additionalProperties"], false);
     const nlohmann::json& property = object["properties"][std::string(field.key)];
     EXPECT_THAT(property["description"].get<std::string>(), HasSubstr(std::string(field.meaning)));
-    const bool is_number = field.kind == FieldKind::number;
+    const bool is_length = field.unit == "mm";
+    const bool is_number = field.kind == FieldKind::number && !is_length;
     EXPECT_EQ(property.value("minimum", 0.0), is_number ? field.least : 0.0) << field.name();
     EXPECT_EQ(property.value("maximum", 0.0), is_number ? field.most : 0.0) << field.name();
+    if (is_length) {
+      // A number within the bounds of the file's unit, or a text.
+      const auto bound = [&](const char* units, const char* which) {
+        const nlohmann::json& key =
+            schema["allOf"].back()[units]["properties"][std::string(field.table)]["properties"][std::string(field.key)];
+        return (field.kind == FieldKind::point ? key["items"] : key)[which].get<double>();
+      };
+      EXPECT_EQ(bound("else", "minimum"), field.least) << field.name();
+      EXPECT_DOUBLE_EQ(bound("then", "maximum"), field.most / 25.4) << field.name();
+    }
     if (field.kind == FieldKind::choice) {
       EXPECT_EQ(property["enum"].size(), field.choices.size()) << field.name();
     }

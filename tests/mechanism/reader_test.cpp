@@ -64,7 +64,8 @@ TEST(Reader, FillsInDefaults) {
 
 TEST(Reader, ReportsPlaceOfEachKindOfError) {
   EXPECT_EQ(only_error(with("length_mm = 100", "length_mm = \"abc\"")),
-            "4:13 joint.length_mm must be a number in mm, not the string \"abc\" | allowed: 1 to 10000 mm");
+            "4:13 joint.length_mm must be a number in mm, not the string \"abc\" | allowed: 1 to 10000 mm; a "
+            "text has its unit: \"3 1/2 in\", \"4.5 cm\" or \"45 mm\"");
   EXPECT_EQ(only_error(with("length_mm = 100", "length_mm = -5")),
             "4:13 joint.length_mm = -5 mm is out of range | allowed: 1 to 10000 mm");
   EXPECT_EQ(only_error(with("length_mm = 100", "length_mm = nan")),
@@ -311,7 +312,7 @@ TEST(Reader, ErrorsNameSettings) {
   };
   EXPECT_THAT(text_of({"guides.EB_mm", "abc"}),
               HasSubstr("--set guides.EB_mm=abc: error: guides.EB_mm must be a number in mm, not the string \"abc\""));
-  EXPECT_THAT(text_of({"guides.EB_m", "4"}), HasSubstr("unknown key guides.EB_m\n  hint: did you mean EB_mm?"));
+  EXPECT_THAT(text_of({"guides.EB_m", "4"}), HasSubstr("unknown key guides.EB_m\n  hint: did you mean guides.EB_mm?"));
   EXPECT_THAT(text_of({"guide.EB_mm", "4"}), HasSubstr("unknown table \"guide\"\n  hint: did you mean guides?"));
   EXPECT_THAT(text_of({"EB_mm", "4"}), HasSubstr("guides.EB_mm: EB_mm belongs in [guides]"));
   EXPECT_THAT(text_of({"guides.EB_mm", ""}), HasSubstr("\"\" is not a value"));

@@ -3,6 +3,7 @@
 
     judge_page.py build/forearm [page.html …]   a folder of `fusee build`, and other pages of the same joint
     judge_page.py build/forearm --self-test     the judge must detect broken pages (also of several turns)
+    judge_page.py --narrow page.html …          any pages at 400 and 320 px: nothing cut, no text below 11 px, no broken word
     judge_page.py --still page.html …           pages without scripts: no requests, no overflow, visible pictures
 
 Exit 0: no faults; 1: faults, one line each on stdout; 77: Chromium is not installed.
@@ -142,6 +143,50 @@ STILL = """
   found.pictures = [...document.querySelectorAll("svg")].map(svg => ({
     width: svg.getBoundingClientRect().width, drawn: svg.querySelectorAll("path,line,circle").length, named: Boolean(svg.querySelector("title") || svg.getAttribute("aria-label"))}));
   parent.document.body.append(Object.assign(parent.document.createElement("pre"), { id: "found", textContent: JSON.stringify(found) }));
+})();
+"""
+
+
+# Any page on a phone: what is cut off, too small to read, or broken.
+NARROW = """
+(() => {
+  const faults = [], say = (what, element) => faults.push(what + ": " + (element.textContent || element.className).trim().replace(/\\s+/g, " ").slice(0, 60));
+  for (const details of document.querySelectorAll("details")) details.open = true;
+  const seen = element => element.checkVisibility() && element.getClientRects().length > 0;
+  if (document.documentElement.scrollWidth > innerWidth) faults.push(document.documentElement.scrollWidth + " px wide in a window of " + innerWidth);
+  for (const element of document.querySelectorAll("main *")) {
+    if (element.closest("svg") || !seen(element) || element.clientWidth === 1) continue;  // 1 px: for screen readers only
+    if (element.scrollWidth > element.clientWidth + 1 && getComputedStyle(element).overflowX !== "visible") say("cut at " + element.clientWidth + " of " + element.scrollWidth + " px, " + element.tagName, element);
+    const right = element.getBoundingClientRect().right;
+    if (right > innerWidth + 1 && element.parentElement.getBoundingClientRect().right <= innerWidth + 1) say("beyond the right edge, " + element.tagName, element);
+  }
+  for (const svg of document.querySelectorAll("svg")) {
+    if (!seen(svg)) continue;
+    const paper = svg.getBoundingClientRect();
+    for (const text of svg.querySelectorAll("text")) {
+      if (!text.textContent.trim() || !seen(text) || text.ownerSVGElement !== svg) continue;
+      const box = text.getBoundingClientRect(), matrix = text.getScreenCTM(), scale = Math.hypot(matrix.a, matrix.b);
+      const size = parseFloat(getComputedStyle(text).fontSize) * scale;
+      if (size < 10.95) say("text of " + size.toFixed(1) + " px", text);
+      const out = Math.max(paper.left - box.left, box.right - paper.right, paper.top - box.top, box.bottom - paper.bottom);
+      const clipped = box.right < paper.left || box.left > paper.right || box.bottom < paper.top || box.top > paper.bottom;  // of a detail
+      if (out > 8 && !clipped) say("text " + out.toFixed(0) + " px beyond its picture", text);
+    }
+  }
+  // A short word on two lines. Line breaks at blanks, dots, underscores and signs are wanted.
+  const walker = document.createTreeWalker(document.querySelector("main"), NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    if (node.parentElement.closest("svg,script,style") || !seen(node.parentElement)) continue;
+    for (const word of node.data.matchAll(/[\\p{L}\\p{N}]+/gu)) {
+      if (word[0].length > 14) continue;
+      const range = document.createRange();
+      range.setStart(node, word.index);
+      range.setEnd(node, word.index + word[0].length);
+      const tops = new Set([...range.getClientRects()].map(rect => Math.round(rect.top)));
+      if (tops.size > 1) say("the word '" + word[0] + "' is broken", node.parentElement);
+    }
+  }
+  parent.document.body.append(Object.assign(parent.document.createElement("pre"), { id: "found", textContent: JSON.stringify({ faults: [...new Set(faults)], noted }) }));
 })();
 """
 
@@ -326,6 +371,16 @@ def still_faults(page):
                 yield f"{width} px: a picture that shows little: {picture}"
 
 
+def narrow_faults(page):
+    page = page.replace("default-src 'none'; style-src", "default-src 'none'; script-src 'unsafe-inline'; style-src", 1) if "<script" not in page else page
+    for width in (400, 320):
+        found = seen_in(page, [], width, (), NARROW)
+        if found is None:
+            yield f"{width} px: the page was not shown"
+            continue
+        yield from (f"{width} px: {fault}" for fault in [*found["noted"], *found["faults"]])
+
+
 @dataclasses.dataclass
 class Lever:
     """From the joint's axis to the end of tendon 1: distance, mm, and angle from OC at home, deg, to the right."""
@@ -377,6 +432,12 @@ BREAKS = {
     "request": ("(() => {\n  const stage", "new Image().src = '//example.org/x.png';(() => {\n  const stage", "asks for"),
     "wide": ("<main>", "<main><div style=\"width:2500px\">x</div>", "px wide"),
 }
+NARROW_BREAKS = {
+    "small text": ("max(12px,var(--least))", "8px", "text of"),
+    "cut table": ("<main>", "<main><div style=\"overflow-x:auto\"><div style=\"width:900px\">x</div></div>", "cut at"),
+    "wide": ("<main>", "<main><div style=\"width:2500px\">x</div>", "px wide"),
+    "broken word": ("<main>", "<main><p style=\"width:30px;word-break:break-all\">unbroken</p>", "is broken"),
+}
 LEVER_ALONE = ("angle", "tendon", "error")
 HELIX_BREAKS = {
     "turned back": ("px(row[1] * c - row[0] * s, row[2])", "px(row[1] * c + row[0] * s, row[2])", "to the right, not"),
@@ -396,6 +457,11 @@ def self_test(folder):
         if not any(word in fault for fault in said):
             failed += 1
             print(f"{name}: not seen; said {said}")
+    for name, (old, new, word) in NARROW_BREAKS.items():
+        said = list(narrow_faults(page.replace(old, new, 1)))
+        if not any(word in fault for fault in said):
+            failed += 1
+            print(f"{name}: not seen; said {said}")
     return 1 if failed else 0
 
 
@@ -405,6 +471,11 @@ def main():
     if "--still" in sys.argv:
         pages = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
         found = [f"{page}: {fault}" for page in pages for fault in still_faults(pathlib.Path(page).read_text(encoding="utf-8"))]
+        print("\n".join(found))
+        return 1 if found else 0
+    if "--narrow" in sys.argv:
+        pages = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
+        found = [f"{page}: {fault}" for page in pages for fault in narrow_faults(pathlib.Path(page).read_text(encoding="utf-8"))]
         print("\n".join(found))
         return 1 if found else 0
     folder, *pages = [argument for argument in sys.argv[1:] if not argument.startswith("-")]

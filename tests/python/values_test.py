@@ -48,6 +48,35 @@ def written(arm):
     return dict(fusee.build(arm).files)
 
 
+INCHES = """schema = 1
+units = "inch"
+[joint]
+length_mm = 3.5
+range_deg = [-30, 30]
+[guides]
+EB_mm = 1.75
+ED_mm = 1.75
+OE_mm = -1.4
+[pulley]
+EF_mm = 2.8
+r1_mm = 0.56
+[tendon]
+diameter_mm = "1 mm"
+"""
+
+
+class Inches(unittest.TestCase):
+    def test_numbers_are_mm(self):
+        arm = fusee.read(INCHES)
+        self.assertEqual((arm["units"], arm["joint.length_mm"]), ("inch", 88.9))
+        changed = arm.with_({"pulley.r1_mm": 15, "guides.EB_mm": "2 in", "joint.attachment1_mm": (1, np.float64(88))})
+        self.assertEqual((changed["pulley.r1_mm"], changed["guides.EB_mm"], changed["joint.attachment1_mm"]), (15.0, 50.8, (1.0, 88.0)))
+        self.assertEqual(changed.with_({"joint.attachment1_mm[1]": 80})["joint.attachment1_mm"], (1.0, 80.0))
+        bounded = arm.with_({"optimize.variables": ("guides.ED_mm", "joint.range_deg[1]"), "optimize.lower": (40, 20), "optimize.upper": (60, 30)})
+        self.assertEqual(bounded["optimize.lower"], (40.0, 20.0))
+        self.assertEqual(fusee.read(changed.toml), changed)
+
+
 class Values(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

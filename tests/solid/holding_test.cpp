@@ -144,9 +144,9 @@ TEST(Holding, WarnsAboveHalfStrengthWithAdvice) {
   advised.body.wrap = radians(std::stod(warning.substr(at + 16)));
   EXPECT_TRUE(Held(advised).holding.warnings.empty());
   advised = mechanism;
-  const std::size_t bears = warning.find("a tendon that bears ");
+  const std::size_t bears = warning.find("a tendon with a strength of ");
   ASSERT_NE(bears, std::string::npos) << warning;
-  advised.tendon.strength = std::stod(warning.substr(bears + 20));
+  advised.tendon.strength = std::stod(warning.substr(bears + 26));
   EXPECT_TRUE(Held(advised).holding.warnings.empty());
 }
 

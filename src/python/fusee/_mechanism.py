@@ -144,7 +144,23 @@ def _setting(mechanism: Mechanism, key: object, value: object, every: abc.Mappin
         raise input_error("with_", f"a key is a text, not {type(key).__name__}")
     if key.endswith(("[0]", "[1]")) and key[:-3] in mechanism:
         return _end_of_range(mechanism, key, value, every)
-    return text_bytes(key, key), text_bytes(key, _toml(key, value))
+    return text_bytes(key, key), text_bytes(key, _toml(key, _with_units(mechanism, key, value, every)))
+
+
+def _with_units(mechanism: Mechanism, key: str, value: object, every: abc.Mapping[str, Any]) -> object:
+    """Numbers are mm, whatever the file's unit: in a file in inches, lengths get their unit."""
+    if mechanism["units"] == "mm":
+        return value
+    if not isinstance(value, (list, tuple, np.ndarray)):
+        return _length(key, value)
+    # Bounds of [optimize] are in the units of its variables.
+    names: Any = every.get("optimize.variables", mechanism["optimize.variables"]) if key.startswith("optimize.") else [key] * len(value)
+    return [_length(str(name), item) for name, item in zip(names, value)] if len(names) == len(value) else value
+
+
+def _length(key: str, value: object) -> object:
+    is_number = isinstance(value, (Real, np.number)) and not isinstance(value, bool)
+    return f"{float(value)!r} mm" if is_number and key.endswith("_mm") and not key.endswith("_per_mm") else value  # type: ignore[arg-type]
 
 
 def _end_of_range(mechanism: Mechanism, key: str, value: object, every: abc.Mapping[str, Any]) -> Tuple[bytes, bytes]:
@@ -153,7 +169,7 @@ def _end_of_range(mechanism: Mechanism, key: str, value: object, every: abc.Mapp
     if not isinstance(ends, tuple) or len(ends) != 2:
         raise input_error(key, f"{name} is not a range")
     both = [every.get(f"{name}[{end}]", ends[end]) for end in (0, 1)]
-    return text_bytes(name, name), text_bytes(key, _toml(key, both))
+    return text_bytes(name, name), text_bytes(key, _toml(key, _with_units(mechanism, name, both, every)))
 
 
 def _toml(key: str, value: object) -> str:

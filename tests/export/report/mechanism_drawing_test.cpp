@@ -64,9 +64,10 @@ TEST(PolarFigure, ReportsErrorOfPolarDrawing) {
   const auto figure = polar_figure(synthesis, transmission::Side::right);
   ASSERT_TRUE(figure);
   double said = 0;
-  const std::size_t at = figure->body.find("furthest apart: ");
+  const std::size_t at = figure->body.find(" mm apart at ");
   ASSERT_NE(at, std::string::npos);
-  std::string words = figure->body.substr(at + 16);
+  const std::size_t begin = figure->body.rfind('>', at) + 1;
+  std::string words = figure->body.substr(begin, at - begin);
   if (words.rfind("\u2212", 0) == 0) words = "-" + words.substr(std::string("\u2212").size());
   ASSERT_EQ(std::sscanf(words.c_str(), "%lf", &said), 1);
   // The exact profile's radius where the tendon leaves it is larger than the tendon's distance from the axis:
