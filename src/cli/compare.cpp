@@ -67,6 +67,7 @@ Reply reply_of(const pipeline::CompareResult& result, const std::string& folder,
   const formats::ComparisonProduct& product = result.product;
   Reply reply;
   reply.diagnostics = product.file.warnings;
+  for (const std::string& words : product.measurement.sources) reply.diagnostics.push_back(note(Severity::note, words));
   for (const std::string& words :
        verbose ? product.measurement.notes : formats::shortened_notes(product.measurement.notes))
     reply.diagnostics.push_back(note(Severity::note, words));
