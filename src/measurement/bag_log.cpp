@@ -69,7 +69,7 @@ void BagLog::take(std::size_t index, std::int64_t log_time, std::string_view mes
   Point point{0, std::clamp(log_time, -k_latest_time, k_latest_time), 0, messages_++};
   std::vector<std::pair<std::string, double>> values;
   const auto stamp = decode_message(*topic.kind, message, [&](std::string_view part, double value) {
-    values.emplace_back(topic.name + "/" + to_utf8(part), value);
+    if (part.size() <= k_longest_topic) values.emplace_back(topic.name + "/" + to_utf8(part), value);
   });
   if (!stamp) {
     ++topic.malformed;
@@ -101,7 +101,7 @@ void BagLog::add_value(const std::string& name, const Point& point) {
 bool BagLog::is_wanted(const std::string& name) const {
   return name.ends_with("/position") || name.ends_with("/data") ||
          std::any_of(options_.columns.begin(), options_.columns.end(),
-                     [&](const auto& column) { return selects(column.second, name); });
+                     [&](const auto& column) { return selects(lower(to_utf8(column.second)), lower(name)); });
 }
 
 void BagLog::thin_out() {
@@ -150,10 +150,11 @@ LoggedRows BagLog::finish(std::size_t most_samples) {
   std::vector<Track> tracks;
   for (Chosen& each : chosen) {
     Column& column = each.column;
-    Track& track = tracks.emplace_back(Track{column.role, {}, half_turn(column)});
-    track.points.reserve(each.points->size());
+    Track& track = tracks.emplace_back();
+    track.role = column.role;
+    track.half_turn = half_turn(column);
     for (const Point& point : *each.points) {
-      track.points.push_back({clock == Clock::header ? point.stamp : point.log_time, point.value, point.order});
+      track.add({clock == Clock::header ? point.stamp : point.log_time, point.value, point.order});
       column.take_value(point.value);
     }
   }
@@ -193,7 +194,7 @@ std::vector<BagLog::Chosen> BagLog::choose(LoggedRows& rows) const {
     const Series& series = series_.at(column.name);
     if (member_of(role) == nullptr)
       problems.push_back({Severity::error, {}, "a bag has no column of the role " + role, "give it in a CSV file"});
-    else if (series.points.empty() && series.is_kept)
+    else if (series.points.empty())
       problems.push_back({Severity::error, {}, shown(column.name) + " has no numbers", "choose another for " + role});
     else
       chosen.push_back({std::move(column), &series.points});

@@ -82,7 +82,7 @@ class ColumnFinder {
   std::optional<std::size_t> index_of_part(const std::string& wanted) const {
     std::optional<std::size_t> index;
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (!selects(wanted, names_[i])) continue;
+      if (!selects(lower(wanted), lower(names_[i]))) continue;
       if (index) return std::nullopt;
       index = i;
     }

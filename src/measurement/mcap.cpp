@@ -144,7 +144,8 @@ void McapReader::take_schema(std::string_view body) {
   FieldReader fields(body);
   const auto id = fields.number<std::uint16_t>();
   const std::string_view name = fields.text();
-  if (fields.ok() && name.size() <= k_longest_record) schemas_[id] = name;
+  constexpr std::size_t k_longest_name = 1000;
+  if (fields.ok() && name.size() <= k_longest_name) schemas_[id] = name;
 }
 
 void McapReader::take_channel(std::string_view body) {

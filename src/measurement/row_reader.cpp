@@ -262,8 +262,10 @@ class RowReader {
     });
     if (!is_ros || time == nullptr || time->unit == nullptr) return;
     for (const Column& column : columns_) {
-      if (column.role != "time" && member_of(column.role) != nullptr)
-        tracks_.push_back({column.role, {}, half_turn(column)});
+      if (column.role == "time" || member_of(column.role) == nullptr) continue;
+      Track& track = tracks_.emplace_back();
+      track.role = column.role;
+      track.half_turn = half_turn(column);
     }
   }
 
@@ -276,7 +278,7 @@ class RowReader {
     const std::int64_t exact = std::llround(time * 1e9 / static_cast<double>(tick)) * tick;
     for (Track& track : tracks_) {
       const double value = sample.*member_of(track.role);
-      if (!std::isnan(value)) track.points.push_back({exact, value, found_.rows});
+      if (!std::isnan(value)) track.add({exact, value, found_.rows});
     }
   }
 

@@ -190,6 +190,17 @@ class Joiner {
 
 }  // namespace
 
+void Track::add(const TrackPoint& point) {
+  constexpr std::size_t k_most_points = std::size_t{1} << 22;
+  if (count_++ % stride != 0) return;
+  points.push_back(point);
+  if (points.size() < k_most_points) return;
+  for (std::size_t i = 0; 2 * i < points.size(); ++i) points[i] = points[2 * i];
+  points.resize((points.size() + 1) / 2);
+  stride *= 2;
+  count_ = 0;
+}
+
 JoinedRows join(const std::vector<Track>& tracks, bool needs_theta, RowKeeper& into) {
   return Joiner(tracks, needs_theta, into).join();
 }

@@ -22,6 +22,13 @@ struct Track {
   std::string role;                ///< "alpha", "theta", "load" …
   std::vector<TrackPoint> points;  ///< by order
   double half_turn = 0;            ///< of an angle, in its unit; 0: unknown
+  std::size_t stride = 1;          ///< every `stride`-th point is kept
+
+  /// Keeps the point; of more than four million every second one, or every fourth …
+  void add(const TrackPoint& point);
+
+ private:
+  std::size_t count_ = 0;
 };
 
 struct JoinedRows {

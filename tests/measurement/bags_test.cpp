@@ -321,7 +321,10 @@ TEST(Joining, DoesNotMixLogsOfARestartedClock) {
 }
 
 TEST(Joining, HoldsAngleAcrossAWholeTurn) {
-  Track alpha{"alpha", {}, k_pi}, theta{"theta", {}, k_pi};
+  Track alpha, theta;
+  alpha.role = "alpha";
+  theta.role = "theta";
+  alpha.half_turn = theta.half_turn = k_pi;
   for (int i = 0; i < 100; ++i) {
     alpha.points.push_back({i * 10 * k_ms, 0.01 * i, static_cast<std::size_t>(2 * i)});
     theta.points.push_back(
