@@ -105,6 +105,7 @@ class ColumnFinder {
     if (const auto index = index_of(usual)) return index;
     const std::vector<std::string>& words = words_of(role);
     for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (std::find(words.begin(), words.end(), lower(trimmed(names_[i]))) != words.end()) return i;
       const ColumnName name = parse_column_name(names_[i], quantity_of(role));
       if (std::find(words.begin(), words.end(), name.base) == words.end()) continue;
       if (name.unknown_unit.empty() || name.states_unit) return i;

@@ -101,14 +101,14 @@ bool selects(std::string_view wanted, std::string_view name) {
 }
 
 std::vector<std::size_t> ros_angles(const std::vector<std::string>& names) {
+  std::vector<std::size_t> found;
   for (const std::string_view field : {k_position, k_number}) {
-    std::vector<std::size_t> found;
+    if (found.size() >= 2) break;
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (is_ros_name(names[i]) && ends_name(names[i], field)) found.push_back(i);
     }
-    if (!found.empty()) return found;
   }
-  return {};
+  return found;
 }
 
 AnglePair choose_ros_angles(const std::vector<std::string>& names, AnglePair given) {
@@ -124,9 +124,11 @@ AnglePair choose_ros_angles(const std::vector<std::string>& names, AnglePair giv
   if (!found.alpha) found.alpha = only_one(motors);
   if (!found.theta) found.theta = only_one(joints);
   if (found.alpha.has_value() == found.theta.has_value()) return found;
+  const std::size_t one = found.alpha ? *found.alpha : *found.theta;
   std::vector<std::size_t> rest;
-  std::copy_if(angles.begin(), angles.end(), std::back_inserter(rest),
-               [&](std::size_t angle) { return angle != found.alpha && angle != found.theta; });
+  std::copy_if(angles.begin(), angles.end(), std::back_inserter(rest), [&](std::size_t angle) {
+    return angle != one && ends_name(names[angle], k_position) == ends_name(names[one], k_position);
+  });
   (found.alpha ? found.theta : found.alpha) = only_one(rest);
   return found;
 }

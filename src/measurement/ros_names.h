@@ -26,11 +26,11 @@ std::string_view without_field(std::string_view name);
 /// "motor/position", "motor".
 bool selects(std::string_view wanted, std::string_view name);
 
-/// Indices of names that can be angles: all positions; if there are none, all numbers of std_msgs.
+/// Indices of names that can be angles: all positions, and if there are fewer than two, all numbers of std_msgs.
 std::vector<std::size_t> ros_angles(const std::vector<std::string>& names);
 
 /// Motor and joint among the names, by words such as "motor" and "joint" in which they differ. Given ones are kept. Of
-/// two angles one decides the other. Empty where the choice is not obvious.
+/// two angles of one kind, one decides the other. Empty where the choice is not obvious.
 struct AnglePair {
   std::optional<std::size_t> alpha, theta;
 };

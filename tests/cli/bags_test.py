@@ -105,11 +105,11 @@ class Bags(harness.Scratch):
         open_base.close()
         before = {path.name: path.read_bytes() for path in copied.iterdir()}
         self.assertLess(len(before["run.db3"]), 10_000)  # all messages are in the write-ahead log
-        self.expect("simulate joint.toml copied/run.db3 -o simulated.csv", 0)
+        self.expect("simulate arm.toml copied/run.db3 -o simulated.csv", 0)
         self.assertEqual(len((self.folder / "simulated.csv").read_text().splitlines()), 482)
         self.assertEqual({path.name: path.read_bytes() for path in copied.iterdir()}, before)
         copied.chmod(0o555)
-        self.expect("simulate joint.toml copied/run.db3 -o again.csv", 0)
+        self.expect("simulate arm.toml copied/run.db3 -o again.csv", 0)
         copied.chmod(0o755)
 
     def test_unfinished_recordings_are_read_as_far_as_they_go(self):
@@ -119,17 +119,17 @@ class Bags(harness.Scratch):
         bags.db3(self.folder / "run.db3", two_topics())
         whole = (self.folder / "run.db3").read_bytes()
         (self.folder / "run.db3").write_bytes(whole[: len(whole) * 2 // 3])
-        self.expect("simulate joint.toml run.db3 -o simulated.csv", 0, err="the recording is unfinished: its file is cut off")
+        self.expect("simulate arm.toml run.db3 -o simulated.csv", 0, err="the recording is unfinished: its file is cut off")
         self.assertGreater(len((self.folder / "simulated.csv").read_text().splitlines()), 200)
 
     def test_folder_without_metadata_and_with_a_missing_part(self):
         self.put("bag/x_0.mcap")
-        self.expect("simulate joint.toml bag/ -o a.csv", 0, err="bag: alpha is /motor/states/hinge/position in rad")
+        self.expect("simulate arm.toml bag/ -o a.csv", 0, err="bag: alpha is /motor/states/hinge/position in rad")
         (self.folder / "bag/metadata.yaml").write_text(METADATA.format(files="    - bag/x_0.mcap\n    - x_1.mcap\n"))
-        self.expect("simulate joint.toml bag -o b.csv", 0, err="metadata.yaml lists x_1.mcap, which is missing")
+        self.expect("simulate arm.toml bag -o b.csv", 0, err="metadata.yaml lists x_1.mcap, which is missing")
         self.assertEqual((self.folder / "a.csv").read_bytes(), (self.folder / "b.csv").read_bytes())
         (self.folder / "empty").mkdir()
-        self.expect("simulate joint.toml empty -o c.csv", 3, err="is a directory")
+        self.expect("simulate arm.toml empty -o c.csv", 3, err="is a directory")
 
     def test_choice_of_topics(self):
         messages = [
@@ -145,7 +145,7 @@ class Bags(harness.Scratch):
         self.expect("calibrate joint.toml run.mcap", 3, err="not obvious which joint is alpha.*/states/m1/position, /states/m2/position, /states/m3/position")
         chosen = "--column alpha=m1 --column theta=/states/m2/position"
         for column, unit, shown in (("/ft/wrench/force/y", "", "2.5"), ("/weight/data", "--unit load=kg", "2.45"), ("/states/m1/effort", "", "1.5")):
-            done = self.fusee(f"simulate joint.toml run.mcap {chosen} --column load={column} {unit}")
+            done = self.fusee(f"simulate arm.toml run.mcap {chosen} --column load={column} {unit}")
             self.assertEqual(done.returncode, 0, done.stderr)
             header, first = done.stdout.decode().splitlines()[:2]
             self.assertTrue(dict(zip(header.split(","), first.split(",")))["load_N"].startswith(shown), first)

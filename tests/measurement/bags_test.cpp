@@ -401,6 +401,24 @@ TEST(BagColumns, AreChosenWhereTheNamesAreObvious) {
   EXPECT_EQ(theta_first.samples[10].theta, 1.0);
 }
 
+// A weight beside the motor is no joint, a potentiometer is.
+TEST(BagColumns, OfTwoKindsNeedBothWords) {
+  for (const char* const name : {"/weight", "/joint_deg"}) {
+    Mcap mcap;
+    const int motor = mcap.topic("/motor"), other = mcap.topic(name, "std_msgs/msg/Float32");
+    for (std::int64_t t = 0; t < 10; ++t) {
+      mcap.add(motor, t * k_ms, joint_state(0, {"m"}, {0.1 * static_cast<double>(t)}));
+      mcap.add(other, t * k_ms, Cdr().add(static_cast<float>(t)).message());
+    }
+    const std::string error = error_of(mcap.finished());
+    if (name == std::string("/weight")) {
+      EXPECT_THAT(error, HasSubstr("not obvious which joint is theta"));
+    } else {
+      EXPECT_EQ(error, "");
+    }
+  }
+}
+
 TEST(BagColumns, ThatAreNotObviousAreListed) {
   const std::string bytes = one_topic(1, {"a", "b", "c"}).finished();
   EXPECT_THAT(error_of(bytes),
