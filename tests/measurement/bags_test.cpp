@@ -226,10 +226,10 @@ TEST(Bags, WithDamagedChunkOmitIt) {
   EXPECT_THAT(rows.notes, Contains("1 chunks of the recording are damaged: omitted"));
 }
 
-TEST(Bags, SurviveEveryChangedByte) {
+TEST(Bags, SurviveChangedBytes) {
   for (const char* const name : {"good_lz4.mcap", "good_packed_messages.db3"}) {
     const std::string bytes = corpus_file(name);
-    for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    for (std::size_t at = 0; at < bytes.size(); at += 19) {
       std::string changed = bytes;
       changed[at] = static_cast<char>(changed[at] ^ 0x5B);
       try {
