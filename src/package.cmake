@@ -24,7 +24,7 @@ that it writes, and corrects it by what was measured at the joint.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libfusee-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libcgal-dev, libopenmesh-dev, libdraco-dev, libfmt-dev, libtomlplusplus-dev, libzip-dev, libpugixml-dev, libssl-dev, libpagmo-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libcgal-dev, libopenmesh-dev, libdraco-dev, libfmt-dev, libtomlplusplus-dev, libzip-dev, libpugixml-dev, libssl-dev, libsqlite3-dev, libzstd-dev, liblz4-dev, libpagmo-dev, nlohmann-json3-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "pulleys for tendon-driven joints: library
 Headers and static libraries of fusee, for find_package(fusee) of CMake and
 for pkg-config.")

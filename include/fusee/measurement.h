@@ -1,5 +1,5 @@
 /// \file
-/// Measured runs of a joint: CSV logs, read, checked, repaired and cut into strokes.
+/// Measured runs of a joint: logs, read, checked, repaired and cut into strokes.
 #pragma once
 
 #include <array>
@@ -21,10 +21,16 @@ namespace fusee::measurement {
 /// tab or blanks. The header is the first line that names the angles. The unit of a column is taken from the options,
 /// else from its name ("theta_rad", "load [kg]"), else from its values (with a note). Reading throws InputError if none
 /// of them determines it.
+///
+/// Recordings of ROS 2: MCAP files, SQLite files of ros2 bag, or a bag's folder, known by their content. Their numbers
+/// are columns with the names that PlotJuggler gives them, "/joint_states/motor/position", in rad, N and N·m; "time" is
+/// "header_stamp" or "log_time". Motor and joint may be chosen by their names. Numbers with times of their own, in a bag
+/// or in a table of PlotJuggler, are interpolated in time.
 struct MeasurementOptions {
-  std::map<std::string, std::string> columns;  ///< role → column name: {"load", "tau_out_Nm"}
-  bool needs_theta = true;                     ///< false: theta may be missing, as in read_driving()
-  std::map<std::string, std::string> units;    ///< role → unit: {"time", "ms"}
+  /// role → column name: {"load", "tau_out_Nm"}. Of a ROS name the end suffices: "motor"
+  std::map<std::string, std::string> columns;
+  bool needs_theta = true;                   ///< false: theta may be missing, as in read_driving()
+  std::map<std::string, std::string> units;  ///< role → unit: {"time", "ms"}
   /// alpha, theta → counts a turn; negative if counts fall while the angle grows
   std::map<std::string, double> ticks_per_turn;
   std::map<std::string, double> zero_ticks;  ///< alpha, theta → counts at home
@@ -89,6 +95,7 @@ struct Measurement {
   double theta_quantum = 0;
   std::string load_unit;                  ///< of the loads: "N", "Nm", "Nmm"; "" without loads
   std::vector<std::string> notes;         ///< rows dropped or repaired and suspected faults, with file and line
+  std::vector<std::string> sources;       ///< of bags: topics and clock of the rows. No part of results
   std::vector<std::string> not_testable;  ///< reasons why the data cannot be evaluated; empty if they can
 };
 

@@ -39,7 +39,9 @@ std::string files_text(const std::vector<OutputFile>& outputs, const std::string
 
 void add_notes(const pipeline::CalibrateResult& result, bool verbose, Reply& reply) {
   const std::vector<std::string>& notes = result.product.measurement.notes;
+  const std::vector<std::string>& sources = result.product.measurement.sources;
   reply.diagnostics = result.product.file.warnings;
+  for (const std::string& words : sources) reply.diagnostics.push_back(note(Severity::note, words));
   for (const std::string& words : verbose ? notes : formats::shortened_notes(notes))
     reply.diagnostics.push_back(note(Severity::note, words));
   if (result.rewritten)
@@ -86,7 +88,8 @@ Command calibrate_command() {
           "measured data: errors, causes, a better pulley",
           "Compares measured runs of a joint (CSV with alpha_deg,theta_deg and, if logged,\n"
           "time_s,load_N,temperature_C; other units by name, as theta_rad, time_ms,\n"
-          "load [kg], or by --unit) with the mechanism file SPEC. Determines the\n"
+          "load [kg], or by --unit; or MCAP files and bags of ROS 2 with joint states of\n"
+          "motor and joint) with the mechanism file SPEC. Determines the\n"
           "residual, and identifies the effects that also explain held-out data, with\n"
           "equally likely alternatives. Writes corrected.toml (fusee build makes its\n"
           "pulley), compensation.csv (motor angles in both directions),\n"
@@ -100,7 +103,8 @@ Command calibrate_command() {
           {{"fusee calibrate arm.toml run_1.csv run_2.csv", "files in out/arm_calibration; open its report.html"},
            {"fusee calibrate arm.toml run_1.csv --hold-out run_2.csv", "validate with run_2.csv alone"},
            {"fusee calibrate jaw.toml jaw.csv --column load=tau_out_Nm", "the load has another name"},
-           {"fusee calibrate arm.toml log.csv --ticks-per-turn alpha=4096", "alpha_deg has encoder counts"}},
+           {"fusee calibrate arm.toml log.csv --ticks-per-turn alpha=4096", "alpha_deg has encoder counts"},
+           {"fusee calibrate arm.toml run_1.mcap --column alpha=/joint_states/m1", "a recording of ROS 2"}},
           run_calibrate};
 }
 

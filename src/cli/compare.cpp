@@ -68,6 +68,7 @@ Reply reply_of(const pipeline::CompareResult& result, const std::string& folder,
   Reply reply;
   reply.diagnostics = product.file.warnings;
   reply.units = product.file.mechanism.units;
+  for (const std::string& words : product.measurement.sources) reply.diagnostics.push_back(note(Severity::note, words));
   for (const std::string& words :
        verbose ? product.measurement.notes : formats::shortened_notes(product.measurement.notes))
     reply.diagnostics.push_back(note(Severity::note, words));

@@ -54,8 +54,10 @@ double counts(const std::string& option, const RoleValue& given, double most) {
 }  // namespace
 
 std::vector<Option> with_reading_options(std::vector<Option> options) {
-  options.push_back(
-      {"--column", "ROLE=NAME", "the column of a role: alpha, theta, time, load,\ntemperature …; repeatable", true});
+  options.push_back({"--column", "ROLE=NAME",
+                     "the column of a role: alpha, theta, time, load,\ntemperature …; of a bag the topic and joint, "
+                     "as\n/joint_states/motor/position; repeatable",
+                     true});
   options.push_back({"--unit", "ROLE=UNIT",
                      "the unit of a role's column, if its name does not\n"
                      "state it: time=ms, alpha=rad, load=kg",

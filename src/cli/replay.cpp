@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/bundle.h"
+#include "base/folder_access.h"
 #include "base/leftovers.h"
 #include "base/staging.h"
 #include "base/text.h"
@@ -29,7 +30,7 @@ constexpr std::size_t k_most_differences = 8;
 // ---- run ------------------------------------------------------------------------------------------------------------
 
 /// File access that reads from a bundle instead of the disk.
-class Replaying : public FileAccess {
+class Replaying : public FileAccess, public FolderAccess {
  public:
   explicit Replaying(const Bundle& bundle) : bundle_(bundle), here_(working_folder()), names_(here_) {}
 
@@ -43,6 +44,17 @@ class Replaying : public FileAccess {
       throw InputError(name, "is larger than " + std::to_string(request.limit) + " bytes",
                        "check that it is the right file");
     if (!file->bytes.empty()) take(file->bytes);
+  }
+  std::optional<std::vector<std::string>> files_in(const fs::path& path) const override {
+    const fs::path folder = tame(seen_from(here_, path).string());
+    std::vector<std::string> names;
+    for (const BundledFile& file : bundle_.files) {
+      const fs::path packed = file.path;
+      if (packed.parent_path() == folder) names.push_back(packed.filename().string());
+    }
+    if (names.empty()) return std::nullopt;
+    std::sort(names.begin(), names.end());
+    return names;
   }
   void will_write(const fs::path& place) override {
     if (leads_out(seen_from(here_, place)))

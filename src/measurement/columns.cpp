@@ -1,10 +1,12 @@
 #include "measurement/columns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 
 #include "base/text.h"
+#include "measurement/ros_names.h"
 #include "measurement/words.h"
 
 namespace fusee::measurement {
@@ -45,8 +47,9 @@ class ColumnFinder {
     bool all_angles = true;
     for (const auto& [role, usual] : column_roles()) {
       const auto given = options_.columns.find(role);
-      const std::optional<std::size_t> index =
+      std::optional<std::size_t> index =
           given != options_.columns.end() ? index_of(to_utf8(given->second)) : usual_index(role, usual);
+      if (!index && given == options_.columns.end()) index = ros_index(role);
       const bool is_needed = role == "alpha" || (role == "theta" && options_.needs_theta);
       if (index) {
         take(role, *index, given != options_.columns.end());
@@ -72,13 +75,37 @@ class ColumnFinder {
         problem("two columns are called " + shown(wanted), "each column needs a name of its own");
       return static_cast<std::size_t>(found - names_.begin());
     }
-    return std::nullopt;
+    return index_of_part(wanted);
+  }
+
+  /// The one ROS name that a part of it selects: "motor" for "/joint_states/motor/position".
+  std::optional<std::size_t> index_of_part(const std::string& wanted) const {
+    std::optional<std::size_t> index;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (!selects(lower(wanted), lower(names_[i]))) continue;
+      if (index) return std::nullopt;
+      index = i;
+    }
+    return index;
+  }
+
+  /// α or θ among ROS names, where the choice is obvious.
+  std::optional<std::size_t> ros_index(const std::string& role) {
+    if (role != "alpha" && role != "theta") return std::nullopt;
+    AnglePair given;
+    for (const auto& [angle, column] : options_.columns) {
+      if (angle == "alpha") given.alpha = index_of(to_utf8(column));
+      if (angle == "theta") given.theta = index_of(to_utf8(column));
+    }
+    const AnglePair pair = choose_ros_angles(names_, given);
+    return role == "alpha" ? pair.alpha : pair.theta;
   }
 
   std::optional<std::size_t> usual_index(const std::string& role, const std::string& usual) {
     if (const auto index = index_of(usual)) return index;
     const std::vector<std::string>& words = words_of(role);
     for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (std::find(words.begin(), words.end(), lower(trimmed(names_[i]))) != words.end()) return i;
       const ColumnName name = parse_column_name(names_[i], quantity_of(role));
       if (std::find(words.begin(), words.end(), name.base) == words.end()) continue;
       if (name.unknown_unit.empty() || name.states_unit) return i;
@@ -115,7 +142,9 @@ class ColumnFinder {
   }
 
   void take_unit_of_name(Column& column, bool by_option) {
-    const ColumnName name = parse_column_name(column.name, column.quantity);
+    column.unit = ros_unit(column.name, column.quantity);
+    if (column.unit != nullptr) return;
+    const ColumnName name = parse_column_name(without_field(column.name), column.quantity);
     column.unit = name.unit;
     const bool is_mounting = column.quantity == Quantity::angle && member_of(column.role) == nullptr;
     if (is_mounting && (name.unit == nullptr || name.unit->is_counts())) column.unit = usual_unit(Quantity::angle);
@@ -148,6 +177,7 @@ class ColumnFinder {
   }
 
   void missing(const std::string& role, const std::string& wanted) {
+    if (const std::vector<std::size_t> angles = ros_angles(names_); !angles.empty()) return missing_ros(role, angles);
     std::vector<std::string> others;
     std::copy_if(names_.begin(), names_.end(), std::back_inserter(others), [](const std::string& name) {
       return std::none_of(column_roles().begin(), column_roles().end(),
@@ -165,6 +195,21 @@ class ColumnFinder {
         nearest.empty()
             ? "the columns are " + list_of(names_) + "; select one with --column " + role + "=NAME" + unit
             : "the nearest is " + shown(nearest) + ": --column " + role + "=" + argument(nearest) + " takes it" + unit);
+  }
+
+  /// Of a ROS log: topics and joints to choose from.
+  void missing_ros(const std::string& role, const std::vector<std::size_t>& angles) {
+    constexpr std::size_t k_longest_list = 600;
+    const auto given = options_.columns.find(role);
+    std::string list;
+    for (std::size_t i = 0; i < names_.size() && list.size() < k_longest_list; ++i) {
+      const bool fits = quantity_of(role) != Quantity::angle || std::count(angles.begin(), angles.end(), i) > 0;
+      if (fits && is_ros_name(names_[i])) list += (list.empty() ? "" : ", ") + cleaned_line(names_[i]);
+    }
+    problem(given == options_.columns.end() ? "it is not obvious which joint is " + role +
+                                                  (role == "alpha" ? ", the motor's angle" : ", the joint's angle")
+                                            : "no topic or joint, or more than one, is " + shown(given->second),
+            "give one of these as --column " + role + "=NAME: " + list);
   }
 
   static std::string shown_plainly(const std::string& name) {
@@ -187,6 +232,12 @@ Quantity quantity_of(const std::string& role) {
   if (role == "load" || role == "tension1" || role == "tension2") return Quantity::load;
   if (role == "temperature") return Quantity::temperature;
   return role == "cycle" ? Quantity::none : Quantity::angle;
+}
+
+double half_turn(const Column& column) {
+  if (column.quantity != Quantity::angle) return 0;
+  if (column.ticks_per_turn != 0) return std::abs(column.ticks_per_turn) / 2;
+  return column.unit == nullptr || column.unit->is_counts() ? 0 : k_pi / column.unit->factor;
 }
 
 double Sample::*member_of(const std::string& role) {

@@ -2,6 +2,8 @@
 /// Internal: the role of each column of a log, and the unit of its values.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -34,6 +36,12 @@ struct Column {
   bool whole = true;
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
+
+  void take_value(double value) {
+    whole = whole && value == std::floor(value);
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
 };
 
 /// Columns of a header line, by names and options.
@@ -51,6 +59,9 @@ Header find_columns(const std::vector<std::string>& names, const MeasurementOpti
 /// units that stay undetermined.
 std::string settle_units(std::vector<Column>& columns, std::vector<Sample>& samples, const MeasurementOptions& options,
                          const std::string& name);
+
+/// Half a turn in the unit of the column; 0 if that is unknown.
+double half_turn(const Column& column);
 
 /// The member of Sample for a role; nullptr for roles without one.
 double Sample::*member_of(const std::string& role);

@@ -13,8 +13,10 @@
 #include "measurement/strokes.h"
 
 // From bytes to runs in three steps:
-//   1. Rows (row_reader): the file is read in bounded memory; a run too long to keep is thinned as it comes. Bytes to
-//      records (csv_text), header to columns and their units (columns, units), cells to numbers (cells).
+//   1. Rows (log_file): the file is read in bounded memory; a run too long to keep is thinned as it comes. CSV
+//      (row_reader): bytes to records (csv_text), header to columns and their units (columns, units), cells to numbers
+//      (cells). Bags (mcap, sqlite_bag): bytes to messages, messages to numbers (ros_messages), numbers by topic to rows
+//      (bag_log, tracks).
 // 2. Repair (repair): order in time, wrap-around, outliers; each with a note.
 // 3. Strokes (strokes), and the checks whether the runs can be evaluated at all (run_checks).
 
@@ -28,6 +30,7 @@ std::string all_of(std::size_t rows) { return rows == 1 ? "its only row" : "all 
 
 void note_rows_read(const LoggedRows& rows, const std::string& name, const NoteSink& add_note, Measurement& into) {
   for (const std::string& words : rows.notes) add_note(words);
+  for (const std::string& words : rows.sources) into.sources.push_back(name + ": " + words);
   if (rows.stride > 1) {
     add_note("of " + std::to_string(rows.rows) + " rows one in " + std::to_string(rows.stride) +
              " is used: no more than " + std::to_string(k_most_samples) + " rows of all files are kept");
@@ -129,16 +132,42 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
   return run;
 }
 
+/// File name without folder; of a bag, its folder's name.
+std::string run_name(const std::filesystem::path& file) {
+  return (file.has_filename() ? file : file.parent_path()).filename().string();
+}
+
 /// Files of the same name in two folders are named by their paths.
 std::vector<std::string> run_names(const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> names;
   for (const auto& file : files) {
-    const std::string name = file.filename().string();
-    const auto same = std::count_if(files.begin(), files.end(),
-                                    [&](const auto& other) { return other.filename() == file.filename(); });
+    const std::string name = run_name(file);
+    const auto same =
+        std::count_if(files.begin(), files.end(), [&](const auto& other) { return run_name(other) == name; });
     names.push_back(same > 1 ? file.string() : name);
   }
   return names;
+}
+
+/// Sources in the same words are told once, with the names of their runs.
+void merge_sources(std::vector<std::string>& sources) {
+  constexpr std::string_view k_mark = ": ";
+  std::vector<std::pair<std::string, std::vector<std::string>>> runs_by_words;
+  for (const std::string& source : sources) {
+    const std::size_t mark = source.find(k_mark);
+    const std::string run = source.substr(0, mark), words = source.substr(mark + k_mark.size());
+    const auto known = std::find_if(runs_by_words.begin(), runs_by_words.end(),
+                                    [&words](const auto& each) { return each.first == words; });
+    if (known == runs_by_words.end())
+      runs_by_words.push_back({words, {run}});
+    else
+      known->second.push_back(run);
+  }
+  sources.clear();
+  for (const auto& [words, runs] : runs_by_words) {
+    const std::string more = runs.size() > 1 ? " and " + std::to_string(runs.size() - 1) + " more" : "";
+    sources.push_back(runs.front() + more + std::string(k_mark) + words);
+  }
 }
 
 bool same_rows(const std::vector<Sample>& a, const std::vector<Sample>& b) {
@@ -201,6 +230,7 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
     }
   }
   if (!problems.empty()) throw InputError(problems);
+  merge_sources(measurement.sources);
   refuse_copies(files, measurement.runs);
   check_all_runs(measurement);
   return measurement;
@@ -220,7 +250,7 @@ Measurement read_driving(const std::filesystem::path& file, const Mechanism& dec
   check_roles(options);
   Measurement measurement;
   Run& run = measurement.runs.emplace_back();
-  run.name = file.filename().string();
+  run.name = run_name(file);
   const NoteSink add_note = [&](const std::string& words) { measurement.notes.push_back(run.name + ": " + words); };
   LoggedRows rows = read_rows(file, file.string(), options, access);
   if (rows.samples.empty())

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <set>
 
@@ -10,6 +11,9 @@
 #include "measurement/cells.h"
 #include "measurement/columns.h"
 #include "measurement/csv_text.h"
+#include "measurement/ros_names.h"
+#include "measurement/row_keeper.h"
+#include "measurement/tracks.h"
 #include "measurement/words.h"
 
 namespace fusee::measurement {
@@ -61,6 +65,8 @@ char separator_of(std::string_view line) {
   return ',';
 }
 
+}  // namespace
+
 /// A possible header line, for the message if there is no header.
 struct HeaderLine {
   std::string text;
@@ -73,7 +79,7 @@ struct HeaderLine {
 class RowReader {
  public:
   RowReader(const std::string& name, const MeasurementOptions& options, std::size_t most_samples)
-      : name_(name), options_(options), most_samples_(most_samples) {}
+      : name_(name), options_(options), keeper_(most_samples) {}
 
   void take(const Record& record) {
     line_ = record.line;
@@ -102,11 +108,10 @@ class RowReader {
                              std::to_string(second_header_) + ": a new motion begins there" +
                              (dropped_ > 0 ? ", and " + rows_text(dropped_) + " before it were not data" : ""));
     }
-    const std::string units = settle_units(columns_, found_.samples, options_, name_);
-    if (!units.empty()) found_.notes.push_back(units);
-    for (const Column& column : columns_) {
-      if (column.role == "load") found_.load_unit = column.unit->base;
-    }
+    if (!tracks_.empty()) join_tracks();
+    found_.samples = std::move(keeper_.samples);
+    found_.stride = keeper_.stride;
+    settle(columns_, options_, name_, found_);
     return std::move(found_);
   }
 
@@ -188,9 +193,7 @@ class RowReader {
     columns_ = std::move(header.columns);
     found_.notes = std::move(header.notes);
     count_ = names.size();
-    found_.has_time = has("time");
-    found_.has_load = has("load");
-    found_.has_temperature = has("temperature");
+    begin_tracks();
     if (preamble_ > 0)
       found_.notes.push_back("the header is line " + std::to_string(line_) + ": the lines above are omitted");
   }
@@ -229,8 +232,10 @@ class RowReader {
     throw InputError(problems_);
   }
 
-  bool has(const std::string& role) const {
-    return std::any_of(columns_.begin(), columns_.end(), [&](const Column& column) { return column.role == role; });
+  const Column* find(const std::string& role) const {
+    const auto found =
+        std::find_if(columns_.begin(), columns_.end(), [&](const Column& column) { return column.role == role; });
+    return found == columns_.end() ? nullptr : &*found;
   }
 
   bool is_header(const std::vector<std::string_view>& values) const {
@@ -244,7 +249,51 @@ class RowReader {
     dropped_ += problems_.size() - problems_at_last_row_ + (cut_off_.message.empty() ? 0 : 1);
     problems_.resize(problems_at_last_row_);
     cut_off_ = {};
-    after_break_ = true;
+    keeper_.begin_again();
+  }
+
+  // ---- numbers with times of their own
+
+  /// In a table of PlotJuggler each number has a cell only at its own times: they are joined as those of a bag.
+  void begin_tracks() {
+    const Column* const time = find("time");
+    const bool is_ros = std::any_of(columns_.begin(), columns_.end(), [](const Column& column) {
+      return column.quantity == Quantity::angle && is_ros_name(column.name);
+    });
+    if (!is_ros || time == nullptr || time->unit == nullptr) return;
+    for (const Column& column : columns_) {
+      if (column.role == "time" || member_of(column.role) == nullptr) continue;
+      Track& track = tracks_.emplace_back();
+      track.role = column.role;
+      track.half_turn = half_turn(column);
+    }
+  }
+
+  void add_to_tracks(const Sample& sample) {
+    const double time = sample.time * find("time")->unit->factor;
+    constexpr double k_latest = 4e9, k_since_1970 = 9e8;  // s
+    if (!(std::abs(time) < k_latest)) return;
+    // Times since 1970 have microseconds in a double.
+    const std::int64_t tick = time > k_since_1970 ? 1000 : 1;
+    const std::int64_t exact = std::llround(time * 1e9 / static_cast<double>(tick)) * tick;
+    for (Track& track : tracks_) {
+      const double value = sample.*member_of(track.role);
+      if (!std::isnan(value)) track.add({exact, value, found_.rows});
+    }
+  }
+
+  void join_tracks() {
+    const JoinedRows joined = join(tracks_, options_.needs_theta, keeper_);
+    found_.notes.insert(found_.notes.end(), joined.notes.begin(), joined.notes.end());
+    found_.rows = joined.rows;
+    for (Column& column : columns_) {
+      if (column.role == "time")
+        column = {.index = column.index,
+                  .role = "time",
+                  .name = column.name,
+                  .quantity = Quantity::time,
+                  .unit = usual_unit(Quantity::time)};
+    }
   }
 
   // ---- rows
@@ -278,9 +327,7 @@ class RowReader {
     }
     if (std::isnan(value)) return true;
     if (!is_possible(column, cell, value)) return false;
-    column.whole = column.whole && value == std::floor(value);
-    column.least = std::min(column.least, value);
-    column.most = std::max(column.most, value);
+    column.take_value(value);
     if (double Sample::*const to = member_of(column.role)) sample.*to = value;
     double* const mounting = member(found_.mounting, column.role);
     return mounting == nullptr || take_mounting(column, cell, value * column.unit->factor, *mounting);
@@ -353,36 +400,21 @@ class RowReader {
                "the cell empty where nothing was logged");
   }
 
-  void keep(Sample sample) {
+  void keep(const Sample& sample) {
     problems_at_last_row_ = problems_.size();
+    if (!tracks_.empty()) return add_to_tracks(sample);
     if (std::isnan(sample.alpha) || (options_.needs_theta && std::isnan(sample.theta))) {
       found_.without_theta += !std::isnan(sample.alpha);
       if (found_.without_angle++ == 0) found_.first_without_angle = line_;
       return;
     }
-    if (counter_++ % found_.stride != 0) return;
-    sample.after_break = after_break_ && !found_.samples.empty();
-    after_break_ = false;
-    std::vector<Sample>& samples = found_.samples;
-    samples.push_back(sample);
-    if (samples.size() >= most_samples_) thin_out();
-  }
-
-  void thin_out() {
-    std::vector<Sample>& samples = found_.samples;
-    for (std::size_t i = 0; 2 * i < samples.size(); ++i) {
-      const bool break_before = i > 0 && samples[2 * i - 1].after_break;
-      samples[i] = samples[2 * i];
-      samples[i].after_break = samples[i].after_break || break_before;
-    }
-    samples.resize((samples.size() + 1) / 2);
-    found_.stride *= 2;
-    counter_ = 0;
+    keeper_.add(sample);
   }
 
   const std::string& name_;
   const MeasurementOptions& options_;
-  std::size_t most_samples_;
+  RowKeeper keeper_;
+  std::vector<Track> tracks_;  ///< empty: each row is complete
   LoggedRows found_;
   std::vector<Column> columns_;
   std::vector<std::string_view> values_;
@@ -394,18 +426,11 @@ class RowReader {
   std::string comment_;
   HeaderLine likely_, last_;
   char separator_ = ',', stated_separator_ = 0;
-  bool above_row_ = false, after_break_ = false;
+  bool above_row_ = false;
   std::size_t preamble_ = 0, problems_at_last_row_ = 0, headers_ = 0, dropped_ = 0;
-  std::size_t count_ = 0, counter_ = 0;
+  std::size_t count_ = 0;
   long long line_ = 0, second_header_ = 0;
 };
-
-RecordSplitter splitter_for(RowReader& reader) {
-  return {[&reader](const Record& record) { reader.take(record); },
-          [&reader](long long line, bool open_quote) { reader.refuse_long(line, open_quote); }};
-}
-
-}  // namespace
 
 std::string rows_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " row" : " rows"); }
 
@@ -445,23 +470,40 @@ void check_roles(const MeasurementOptions& options) {
   }
 }
 
-LoggedRows read_rows(std::string_view text, const std::string& name, const MeasurementOptions& options,
-                     std::size_t most_samples) {
-  RowReader reader(name, options, most_samples);
-  RecordSplitter records = splitter_for(reader);
-  records.add(text);
-  records.finish();
-  return reader.finish();
+struct CsvReader::Parts {
+  Parts(const std::string& name, const MeasurementOptions& options, std::size_t most_samples)
+      : rows(name, options, most_samples),
+        records([this](const Record& record) { rows.take(record); },
+                [this](long long line, bool open_quote) { rows.refuse_long(line, open_quote); }) {}
+
+  RowReader rows;
+  RecordSplitter records;
+};
+
+CsvReader::CsvReader(const std::string& name, const MeasurementOptions& options, std::size_t most_samples)
+    : parts_(std::make_unique<Parts>(name, options, most_samples)) {}
+CsvReader::~CsvReader() = default;
+
+void CsvReader::add(std::string_view block) { parts_->records.add(block); }
+
+LoggedRows CsvReader::finish() {
+  parts_->records.finish();
+  return parts_->rows.finish();
 }
 
-LoggedRows read_rows(const std::filesystem::path& path, const std::string& name, const MeasurementOptions& options,
-                     FileAccess& access, std::size_t most_samples) {
-  RowReader reader(name, options, most_samples);
-  RecordSplitter records = splitter_for(reader);
-  constexpr std::size_t k_any_size = std::numeric_limits<std::size_t>::max();
-  access.read({path, k_any_size, /*pipes=*/true}, [&records](std::string_view block) { records.add(block); });
-  records.finish();
-  return reader.finish();
+void settle(std::vector<Column>& columns, const MeasurementOptions& options, const std::string& name,
+            LoggedRows& rows) {
+  const auto has = [&](const std::string& role) {
+    return std::any_of(columns.begin(), columns.end(), [&](const Column& column) { return column.role == role; });
+  };
+  rows.has_time = has("time");
+  rows.has_load = has("load");
+  rows.has_temperature = has("temperature");
+  const std::string units = settle_units(columns, rows.samples, options, name);
+  if (!units.empty()) rows.notes.push_back(units);
+  for (const Column& column : columns) {
+    if (column.role == "load") rows.load_unit = column.unit->base;
+  }
 }
 
 }  // namespace fusee::measurement

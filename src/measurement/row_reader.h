@@ -1,14 +1,17 @@
 /// \file
-/// Internal: reads one CSV file into samples, in blocks, since a log may exceed the memory.
+/// Internal: reads one log of any format into samples: CSV, MCAP, or a bag of ROS 2. In blocks, since a log may exceed
+/// the memory.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "fusee/measurement.h"
+#include "measurement/columns.h"
 
 namespace fusee::measurement {
 
@@ -19,6 +22,7 @@ constexpr std::size_t k_most_samples = std::size_t{1} << 20;
 struct LoggedRows {
   std::vector<Sample> samples;  ///< every `stride`-th row that holds both angles
   std::vector<std::string> notes;
+  std::vector<std::string> sources;  ///< of a bag: topics and clock of the rows; no part of results
   std::string load_unit;
   bool has_time = false, has_load = false, has_temperature = false;
   joint::Mounting mounting;
@@ -29,10 +33,30 @@ struct LoggedRows {
   std::size_t stride = 1;
 };
 
-/// Throws InputError (name:line:column) with all faults, up to a readable number.
+/// Rows of a CSV text. Throws InputError (name:line:column) with all faults, up to a readable number. `name` and
+/// `options` are referred to.
+class CsvReader {
+ public:
+  CsvReader(const std::string& name, const MeasurementOptions& options, std::size_t most_samples);
+  ~CsvReader();
+  CsvReader(const CsvReader&) = delete;
+  CsvReader& operator=(const CsvReader&) = delete;
+
+  void add(std::string_view block);
+  LoggedRows finish();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Determines the remaining units of the rows and converts them, as settle_units().
+void settle(std::vector<Column>& columns, const MeasurementOptions& options, const std::string& name, LoggedRows& rows);
+
+/// The content of a file decides how it is read. Throws InputError.
 LoggedRows read_rows(std::string_view text, const std::string& name, const MeasurementOptions& options,
                      std::size_t most_samples = k_most_samples);
-/// Reads a file; `name` appears in messages.
+/// Reads a file, or the folder of a bag; `name` appears in messages.
 LoggedRows read_rows(const std::filesystem::path& path, const std::string& name, const MeasurementOptions& options,
                      FileAccess& access, std::size_t most_samples = k_most_samples);
 

@@ -494,11 +494,17 @@ py::dict to_python(std::shared_ptr<const pipeline::OptimizeResult> result) {
   return dict;
 }
 
+py::tuple notes_of(const measurement::Measurement& measurement) {
+  std::vector<std::string> notes = measurement.sources;
+  notes.insert(notes.end(), measurement.notes.begin(), measurement.notes.end());
+  return to_python(notes);
+}
+
 py::dict to_python(std::shared_ptr<const pipeline::CalibrateResult> result) {
   py::dict dict;
   dict["document"] = words(formats::calibration_json(result->product));
   dict["residuals"] = residuals_of(keep(result), result->product);
-  dict["notes"] = to_python(result->product.measurement.notes);
+  dict["notes"] = notes_of(result->product.measurement);
   dict["warnings"] = to_python(result->product.file.warnings);
   dict["summary"] = words(result->product.calibration.summary);
   dict["files"] = to_python(result->outputs);
@@ -509,7 +515,7 @@ py::dict to_python(std::shared_ptr<const pipeline::CalibrateResult> result) {
 py::dict to_python(std::shared_ptr<const pipeline::CompareResult> result) {
   py::dict dict;
   dict["document"] = words(formats::comparison_json(result->product));
-  dict["notes"] = to_python(result->product.measurement.notes);
+  dict["notes"] = notes_of(result->product.measurement);
   dict["warnings"] = to_python(result->product.file.warnings);
   dict["files"] = to_python(result->outputs);
   dict["published"] = result->published;
@@ -553,7 +559,7 @@ py::dict to_python(std::shared_ptr<const pipeline::SimulateResult> result) {
   dict["advice"] = without_law_advice(result->without_law);
   dict["columns"] = columns;
   dict["status"] = py::tuple(status);
-  dict["notes"] = to_python(simulation.log.notes);
+  dict["notes"] = notes_of(simulation.log);
   dict["warnings"] = to_python(simulation.file.warnings);
   dict["csv"] = words(result->without_law ? "" : formats::simulation_csv(simulation));
   return dict;

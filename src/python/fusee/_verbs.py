@@ -23,7 +23,8 @@ from ._run import PathLike, choice, flag, heard, number, path_bytes, text_bytes,
 
 __all__ = ["Log", "analyze", "build", "calibrate", "check", "kit", "optimize", "plan", "rewind", "simulate", "synthesise"]
 
-#: A log: a CSV file, or its columns by name (``{"alpha_deg": …, "theta_deg": …}``), all of one length.
+#: A log: a CSV file, a recording of ROS 2 (MCAP, SQLite, or a bag's folder), or its columns by name
+#: (``{"alpha_deg": …, "theta_deg": …}``), all of one length.
 Log = Union[PathLike, abc.Mapping[str, ArrayLike]]
 Row = Dict[str, Any]
 Settings = abc.Sequence[Tuple[bytes, bytes]]
@@ -339,9 +340,10 @@ def calibrate(
 ) -> _values.Calibration:
     """Compares measured runs with the mechanism: errors, causes, and a better file.
 
-    A run is a CSV file or its columns (``alpha_deg``, ``theta_deg``, and if logged ``time_s``, ``load_N``, ``temperature_C`` …). `columns`
-    assigns roles to other names: ``{"load": "tau_out_Nm"}``; `units` states units that names omit: ``{"time": "ms"}``; `ticks_per_turn`
-    and `zero_ticks` are for angles in encoder counts: ``{"alpha": 4096}``. Takes seconds to a minute.
+    A run is a CSV file, a recording of ROS 2 (MCAP file or bag), or its columns (``alpha_deg``, ``theta_deg``, and if logged ``time_s``,
+    ``load_N``, ``temperature_C`` …). `columns` assigns roles to other names: ``{"load": "tau_out_Nm"}``; `units` states units that names
+    omit: ``{"time": "ms"}``; `ticks_per_turn` and `zero_ticks` are for angles in encoder counts: ``{"alpha": 4096}``. Takes seconds to a
+    minute.
 
     >>> import fusee, numpy
     >>> arm = fusee.read(fusee.new("forearm"))

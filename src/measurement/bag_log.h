@@ -1,0 +1,85 @@
+/// \file
+/// Internal: messages of a ROS 2 bag, whatever file they come from, to rows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusee/measurement.h"
+#include "measurement/columns.h"
+#include "measurement/ros_messages.h"
+#include "measurement/row_reader.h"
+#include "measurement/tracks.h"
+
+namespace fusee::measurement {
+
+/// Larger messages are images and the like.
+constexpr std::size_t k_largest_message = std::size_t{1} << 20;
+
+/// Takes messages in the order of the file, and keeps the numbers that may be of use: by topic and part of the message,
+/// named as PlotJuggler does. Memory is bounded: of long logs every second value is kept, or every fourth …
+class BagLog {
+ public:
+  static constexpr std::size_t k_not_used = static_cast<std::size_t>(-1);
+
+  BagLog(std::string name, const MeasurementOptions& options) : name_(std::move(name)), options_(options) {}
+
+  /// Index for take(), k_not_used for topics without numbers. A topic in several files is one.
+  std::size_t add_topic(std::string_view name, std::string_view type, std::string_view encoding);
+  /// `log_time`: of the recorder, ns. Malformed messages are counted.
+  void take(std::size_t topic, std::int64_t log_time, std::string_view message);
+  /// A fault of the file that leaves the rest readable.
+  void add_note(std::string words) { notes_.push_back(std::move(words)); }
+  std::size_t messages() const { return messages_; }
+
+  /// Chooses columns and clock, and joins the numbers. Throws InputError if the roles of the topics are not obvious, or
+  /// if nothing can be read.
+  LoggedRows finish(std::size_t most_samples);
+
+ private:
+  struct Topic {
+    std::string name, type, encoding;
+    const MessageType* kind = nullptr;
+    std::size_t malformed = 0;
+  };
+  struct Point {
+    std::int64_t stamp = 0, log_time = 0;
+    double value = 0;
+    std::size_t order = 0;
+  };
+  struct Series {
+    std::vector<Point> points;
+    std::size_t count = 0;   ///< values so far
+    std::size_t stride = 1;  ///< every `stride`-th is kept
+    bool is_kept = false;
+  };
+  enum class Clock { header, recorder };
+  /// A column of the log and its numbers.
+  struct Chosen {
+    Column column;
+    const std::vector<Point>* points;
+  };
+
+  void add_value(const std::string& name, const Point& point);
+  bool is_wanted(const std::string& name) const;
+  void thin_out();
+  [[noreturn]] void refuse(const std::string& message, const std::string& hint) const;
+  [[noreturn]] void refuse_without_numbers() const;
+  std::vector<Chosen> choose(LoggedRows& rows) const;
+  Clock choose_clock(const std::vector<Chosen>& chosen, std::string& why) const;
+  void add_source(const std::vector<Chosen>& chosen, Clock clock, const std::string& why, LoggedRows& rows) const;
+
+  std::string name_;
+  const MeasurementOptions& options_;
+  std::vector<Topic> topics_;
+  std::map<std::string, std::size_t, std::less<>> topic_by_name_;
+  std::map<std::string, Series> series_;
+  std::size_t messages_ = 0, kept_ = 0;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace fusee::measurement

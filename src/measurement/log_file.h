@@ -1,0 +1,52 @@
+/// \file
+/// Internal: formats of logs, told apart by their first bytes, not by their names.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "measurement/bag_log.h"
+#include "measurement/mcap.h"
+#include "measurement/row_reader.h"
+
+namespace fusee::measurement {
+
+enum class LogFormat { csv, mcap, sqlite, zstd, ros1 };
+
+/// The format of a file that begins with these bytes.
+LogFormat format_of(std::string_view start);
+
+/// Takes one file in blocks.
+class LogFile {
+ public:
+  /// Without `bag` a CSV text may come; with it, a part of a bag in several files.
+  LogFile(const std::string& name, const MeasurementOptions& options, std::size_t most_samples, BagLog* bag = nullptr);
+
+  void add(std::string_view block);
+  /// Ends the file. `write_ahead_log` gives the content of the file beside a database, if it needs that.
+  void end(const std::function<std::string()>& write_ahead_log);
+  /// The rows, after end().
+  LoggedRows finish();
+
+ private:
+  void begin(LogFormat format);
+  void take(std::string_view block);
+  void unpack_held();
+
+  const std::string& name_;
+  const MeasurementOptions& options_;
+  std::size_t most_samples_;
+  BagLog* bag_;
+  std::optional<BagLog> own_bag_;
+  std::optional<LogFormat> format_;
+  std::string held_;  ///< the first bytes; then a database or a packed file
+  std::unique_ptr<CsvReader> csv_;
+  std::unique_ptr<McapReader> mcap_;
+  bool is_unpacked_ = false;
+};
+
+}  // namespace fusee::measurement

@@ -1,0 +1,32 @@
+/// \file
+/// Internal: keeps rows in bounded memory.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fusee/measurement.h"
+
+namespace fusee::measurement {
+
+/// Keeps all rows up to a number, of more the even ones, of more every fourth …
+class RowKeeper {
+ public:
+  explicit RowKeeper(std::size_t most) : most_(most) {}
+
+  /// The log restarts before the next row.
+  void begin_again() { after_break_ = true; }
+  void add(Sample sample);
+
+  std::vector<Sample> samples;
+  std::size_t stride = 1;  ///< every `stride`-th row is kept
+
+ private:
+  void thin_out();
+
+  std::size_t most_;
+  std::size_t counter_ = 0;
+  bool after_break_ = false;
+};
+
+}  // namespace fusee::measurement

@@ -1,0 +1,50 @@
+/// \file
+/// Internal: numbers that are logged at times of their own, joined to rows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "measurement/row_keeper.h"
+
+namespace fusee::measurement {
+
+struct TrackPoint {
+  std::int64_t time = 0;  ///< ns
+  double value = 0;
+  std::size_t order = 0;  ///< number of its message or row in the log; equal for numbers of one message
+};
+
+/// One logged number.
+struct Track {
+  std::string role;                ///< "alpha", "theta", "load" …
+  std::vector<TrackPoint> points;  ///< by order
+  double half_turn = 0;            ///< of an angle, in its unit; 0: unknown
+  std::size_t stride = 1;          ///< every `stride`-th point is kept
+
+  /// Keeps the point; of more than four million every second one, or every fourth …
+  void add(const TrackPoint& point);
+
+ private:
+  std::size_t count_ = 0;
+};
+
+struct JoinedRows {
+  std::size_t rows = 0;
+  std::vector<std::string> notes;
+};
+
+/// Joins the tracks to rows at the times of α or θ, whichever has more points; of α if `needs_theta` is false.
+///
+/// A number of the same message, or of the same time, is taken as it is. Others are interpolated linearly between their
+/// neighbours in time. Not interpolated are: times before the first point or after the last; gaps of more than 5 usual
+/// steps of that number; and jumps of more than half a turn, where the nearer point counts. Rows without α or θ are
+/// omitted, with a note. Loads and temperatures that are logged less than every 2 s are held: they are set by hand.
+/// Where a clock goes back, a new log begins, and nothing is interpolated across.
+///
+/// Times that count from 1970 become s since the first row; others stay as they are.
+JoinedRows join(const std::vector<Track>& tracks, bool needs_theta, RowKeeper& into);
+
+}  // namespace fusee::measurement
