@@ -65,7 +65,7 @@ solid::BodyLayout layout_to_cut(Mechanism mechanism, const profile::SynthesisRes
   return solid::resolve_layout(mechanism, synthesis);
 }
 
-// The knots keep their places from the printed pulley. Recomputed automatic sizes (without the chamfer at the bed)
+// Knots and hub are those of the printed pulley. Recomputed automatic sizes (without the chamfer at the bed)
 // could be larger pockets or a larger bore than fit there.
 solid::BodyLayout layout_to_cut(const Product& product) {
   solid::BodyLayout layout =
@@ -74,6 +74,9 @@ solid::BodyLayout layout_to_cut(const Product& product) {
   const solid::BoreLayout& printed = product.pulley.layout.bore;
   if (printed.shaft > 0 && printed.shaft < layout.bore.shaft)
     layout.bore = solid::bore_of_shaft(product.joint.mechanism, printed);
+  layout.hub_radius = product.pulley.layout.hub_radius;
+  layout.set_screw.present = product.pulley.layout.set_screw.present;
+  layout.z_hub = layout.z_top + product.pulley.layout.z_hub - product.pulley.layout.z_top;
   return layout;
 }
 

@@ -6,7 +6,9 @@
 #include "base/text.h"
 #include "export/kit/kit_pictures.h"
 #include "export/kit/kit_style.h"
+#include "export/report/home_words.h"
 #include "export/report/html.h"
+#include "export/report/input_json.h"
 #include "export/report/report_parts.h"
 #include "export/report/tables.h"
 #include "export/report/tendon_lengths.h"
@@ -81,7 +83,7 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   pulley.words = {
       "Tie both tendons to the pulley first (see Tendons), then put it on the motor, P1 down, its lower face " +
           mm(sizes.pulley_low) + " above the plate.",
-      "Turn it so that its home mark points to +y, the direction from O to C, with the motor at 0."};
+      "Turn it to its home with the motor at 0: " + home_words(product.pulley) + ", the side of the joint's axis."};
   steps.push_back(pulley);
 
   KitStep scale;
@@ -135,6 +137,14 @@ std::string pictures(const KitProduct& product) {
                           html + "</div>");
 }
 
+std::string longer_words(const KitProduct& product) {
+  std::string words;
+  for (const KitCut& cut : kit_cuts(product))
+    words += (words.empty() ? "tendon " : ", tendon ") + std::string(cut.side == transmission::Side::left ? "1" : "2") +
+             " is " + mm(cut.longer, 0) + " shorter";
+  return words;
+}
+
 std::string tendon_section(const KitProduct& product) {
   std::string rows;
   for (const KitCut& cut : kit_cuts(product)) {
@@ -154,7 +164,8 @@ std::string tendon_section(const KitProduct& product) {
                           "<p class=\"hint\">Taut: from the knot on the pulley to C, and for tendon 1 on through the "
                           "post to the slide’s screw. "
                           "The cut length adds the turns round screw or post, both knots and a tail of 50 mm at each "
-                          "end, rounded up to 5 mm.</p>" +
+                          "end, rounded up to 5 mm. It is " +
+                          longer_words(product) + ", the length without rig that <code>fusee build</code> prints.</p>" +
                           html_list({"On the pulley: a figure-eight knot in each tendon’s end, pulled into its pocket; "
                                      "the other spare hole of each groove "
                                      "stays empty.",
@@ -321,12 +332,11 @@ std::string kit_html(const KitProduct& product) {
   std::string notes;
   if (!product.plan.notes.empty())
     notes = "<section class=\"warnings\">" + html_list(product.plan.notes) + "</section>";
-  const std::string spec = std::filesystem::path(product.pulley.file.path).filename().string();
   const bool drilled = product.plan.drilled;
   Page page{.title = "test rig",
             .kicker = "Test rig",
             .name = product.pulley.joint.mechanism.name,
-            .source = "for <code>" + safe_text(spec) + "</code>",
+            .source = "for " + source_html(product.pulley.file),
             .body = notes + (drilled ? std::string() : key_section(product)) +
                     coupon_section(product.pulley.joint.mechanism) + parts_section(product) + items_section(product) +
                     (drilled ? template_sections(product)

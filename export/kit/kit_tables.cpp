@@ -5,6 +5,7 @@
 
 #include "base/output_list.h"
 #include "base/text.h"
+#include "export/report/input_json.h"
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base.h"
@@ -79,19 +80,22 @@ Json places_json(const kit::KitPlan& plan) {
 
 std::string kit_file_name(const kit::KitPart& part, const std::string& ending) { return part.name + "." + ending; }
 
-std::vector<KitCut> kit_cuts(const KitProduct& product) {
+std::vector<KitCut> rig_cuts(const Product& pulley, const std::array<kit::KitTendon, 2>& rig) {
   std::vector<KitCut> cuts;
-  const double end = tendon_end(product.pulley.joint.mechanism.tendon);
-  for (const TendonLength& tendon : tendon_lengths(product.pulley)) {
-    const kit::KitTendon& held = product.plan.tendons[tendon.side == transmission::Side::left ? 0 : 1];
+  const double end = tendon_end(pulley.joint.mechanism.tendon);
+  for (const TendonLength& tendon : tendon_lengths(pulley)) {
+    const kit::KitTendon& held = rig[tendon.side == transmission::Side::left ? 0 : 1];
     KitCut cut;
     cut.side = tendon.side;
     cut.between_knots = tendon.between_knots + held.beyond;
     cut.cut = cut_length(cut.between_knots + held.at_joint + 2 * end);
+    cut.longer = cut.cut - tendon.cut;
     cuts.push_back(cut);
   }
   return cuts;
 }
+
+std::vector<KitCut> kit_cuts(const KitProduct& product) { return rig_cuts(product.pulley, product.plan.tendons); }
 
 std::string bom_csv(const KitProduct& product) {
   std::string text = "count,item,use\n";
@@ -106,8 +110,7 @@ std::string bom_csv(const KitProduct& product) {
 std::string kit_manifest_json(const KitProduct& product, const std::vector<OutputFile>& outputs) {
   Json json = {{"schema", 1}, {"tool", std::string(k_tool)}};
   json["status"] = all_ok(product.checks) ? "done" : "check_failed";
-  json["input"] = {{"file", std::filesystem::path(product.pulley.file.path).filename().string()},
-                   {"sha256", product.pulley.file.sha256}};
+  json["input"] = input_json(product.pulley.file);
   json["name"] = product.pulley.joint.mechanism.name;
   json["places"] = places_json(product.plan);
   json["parts"] = parts_json(product);
@@ -117,7 +120,8 @@ std::string kit_manifest_json(const KitProduct& product, const std::vector<Outpu
   for (const KitCut& cut : kit_cuts(product))
     json["tendons_at_home"].push_back({{"tendon", cut.side == transmission::Side::left ? 1 : 2},
                                        {"between_knots_mm", rounded_to_micrometre(cut.between_knots)},
-                                       {"cut_length_mm", rounded_to_micrometre(cut.cut)}});
+                                       {"cut_length_mm", rounded_to_micrometre(cut.cut)},
+                                       {"longer_than_without_rig_mm", rounded_to_micrometre(cut.longer)}});
   json["buy"] = Json::array();
   for (const kit::KitItem& item : product.plan.items)
     json["buy"].push_back({{"count", item.count}, {"item", item.what}, {"use", item.use}});

@@ -2,10 +2,12 @@
 /// Writes and reads meshes: one function for each format, on bytes in memory. The same mesh gives the same bytes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "fusee/base.h"
 #include "fusee/solid.h"
 #include "fusee/transmission.h"
 
@@ -16,7 +18,16 @@ std::string stl_bytes(const solid::TriangleMesh& mesh,
 /// "pulley_p1.stl": name for P1 or P2 where they are printed separately.
 std::string part_file_name(transmission::Side side);
 std::string obj_text(const solid::TriangleMesh& mesh, const std::string& name);
-std::string threemf_bytes(const solid::TriangleMesh& mesh, const std::string& name);  ///< unit, named object, metadata
+/// Unit, named object, metadata. `mechanism`: the mechanism file and, if its law has one, the table, kept as metadata.
+std::string threemf_bytes(const solid::TriangleMesh& mesh, const std::string& name,
+                          const std::vector<OutputFile>& mechanism = {});
+/// The texts that threemf_bytes() kept. The table's name is that in the mechanism file.
+struct KeptMechanism {
+  std::string text;
+  std::optional<std::string> table;
+};
+/// Reads them from an untrusted 3MF. Throws InputError if it keeps none.
+KeptMechanism read_kept_mechanism(std::string_view bytes, const std::string& file_name);
 /// A Draco file, and the mesh that it decodes to.
 struct DracoFile {
   std::string bytes;

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <map>
 #include <memory>
 #include <new>
@@ -37,24 +38,75 @@ constexpr std::string_view k_relationships = R"(<?xml version="1.0" encoding="UT
 </Relationships>
 )";
 
-std::string model_xml(const solid::TriangleMesh& mesh, const std::string& name) {
+// Names of metadata outside the core specification carry a namespace of their own.
+constexpr std::string_view k_namespace = "urn:fusee:mechanism:1";
+constexpr std::array<std::string_view, 2> k_kept{"mechanism", "table"};
+
+/// Text of an XML element. Line ends of Windows would be read back as those of Unix.
+std::string element_text(std::string_view bytes) {
+  std::string text = escape_html(bytes);
+  for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at))
+    text.replace(at, 1, "&#13;");
+  return text;
+}
+
+/// A table may have bytes that XML forbids: all but ASCII text is written as %XX.
+std::string percent_encoded(std::string_view bytes) {
+  std::string text;
+  for (const char c : bytes) {
+    const auto code = static_cast<unsigned char>(c);
+    const bool is_plain = c == '\n' || c == '\t' || (code >= 0x20 && code < 0x7f && c != '%');
+    text += is_plain ? std::string(1, c) : fmt::format("%{:02X}", code);
+  }
+  return text;
+}
+
+std::optional<std::string> percent_decoded(std::string_view text) {
+  std::string bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned code = static_cast<unsigned char>(text[i]);
+    if (text[i] == '%') {
+      if (i + 3 > text.size()) return std::nullopt;
+      const auto [end, error] = std::from_chars(text.data() + i + 1, text.data() + i + 3, code, 16);
+      if (error != std::errc() || end != text.data() + i + 3) return std::nullopt;
+      i += 2;
+    }
+    bytes += static_cast<char>(code);
+  }
+  return bytes;
+}
+
+/// Elements for the texts of a mechanism file and its table.
+std::string kept_xml(const std::vector<OutputFile>& mechanism) {
+  std::string xml;
+  for (std::size_t i = 0; i < mechanism.size(); ++i) {
+    const std::string& bytes = mechanism[i].bytes;
+    xml += fmt::format(" <metadata name=\"fusee:{}\" preserve=\"1\" type=\"xs:string\">{}</metadata>\n", k_kept.at(i),
+                       element_text(i == 0 ? bytes : percent_encoded(bytes)));
+  }
+  return xml;
+}
+
+std::string model_xml(const solid::TriangleMesh& mesh, const std::string& name,
+                      const std::vector<OutputFile>& mechanism) {
   fmt::memory_buffer xml;
   xml.reserve(1024 + 60 * mesh.vertices.size() + 48 * mesh.triangles.size());
   const auto put = [&xml](fmt::string_view format, const auto&... values) {
     fmt::vformat_to(std::back_inserter(xml), format, fmt::make_format_args(values...));
   };
   const std::string title = escape_html(printable(name));
+  const std::string declared = mechanism.empty() ? "" : fmt::format(" xmlns:fusee=\"{}\"", k_namespace);
   put(R"(<?xml version="1.0" encoding="UTF-8"?>
-<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"{2}>
  <metadata name="Title">{0}</metadata>
  <metadata name="Application">{1}</metadata>
  <metadata name="Description">Compound pulley {0}: P1 below P2, z along the axis, x and y as the joint stands at home.</metadata>
- <resources>
+{3} <resources>
   <object id="1" type="model" name="{0}">
    <mesh>
     <vertices>
 )",
-      title, k_tool);
+      title, k_tool, declared, kept_xml(mechanism));
   for (const Vec3& v : mesh.vertices) {
     // Adding zero removes the sign of a negative zero. The shortest text that reads back as the same float has at most
     // 9 digits.
@@ -128,6 +180,7 @@ class ThreemfReader {
  public:
   explicit ThreemfReader(const Source& source);
   solid::TriangleMesh read();
+  KeptMechanism kept_mechanism();
 
  private:
   std::string unpacked(const std::string& path);
@@ -369,10 +422,41 @@ solid::TriangleMesh ThreemfReader::read() {
   return std::move(mesh_);
 }
 
+/// A program that opens the file and saves it again may keep the texts, or not.
+KeptMechanism ThreemfReader::kept_mechanism() {
+  ModelPart& root = part(model_path());
+  const pugi::xml_node model = child(root.xml, "model");
+  std::array<std::optional<std::string>, k_kept.size()> texts;
+  for_children(model, "metadata", [&](const pugi::xml_node& metadata) {
+    const std::string name = metadata.attribute("name").value();
+    const std::size_t colon = name.find(':');
+    if (colon == std::string::npos) return;
+    const std::string_view space = model.attribute(("xmlns:" + name.substr(0, colon)).c_str()).value();
+    const auto known = std::find(k_kept.begin(), k_kept.end(), std::string_view(name).substr(colon + 1));
+    if (space != k_namespace || known == k_kept.end()) return;
+    texts.at(static_cast<std::size_t>(known - k_kept.begin())) = metadata.text().get();
+  });
+  if (!texts[0]) {
+    throw InputError(source_.name, "it keeps no mechanism file",
+                     "choose a 3MF that fusee wrote since 0.2 and no other program has saved again");
+  }
+  std::optional<std::string> table;
+  if (texts[1]) {
+    table = percent_decoded(*texts[1]);
+    if (!table) fail(root, model, "the kept table has a % that two hexadecimal digits do not follow");
+  }
+  return {*std::move(texts[0]), std::move(table)};
+}
+
 }  // namespace
 
-std::string threemf_bytes(const solid::TriangleMesh& mesh, const std::string& name) {
-  const std::string model = model_xml(mesh, name);
+KeptMechanism read_kept_mechanism(std::string_view bytes, const std::string& file_name) {
+  return ThreemfReader({bytes, file_name}).kept_mechanism();
+}
+
+std::string threemf_bytes(const solid::TriangleMesh& mesh, const std::string& name,
+                          const std::vector<OutputFile>& mechanism) {
+  const std::string model = model_xml(mesh, name, mechanism);
   return zip_bytes(
       {{"[Content_Types].xml", k_content_types}, {"_rels/.rels", k_relationships}, {"3D/3dmodel.model", model}});
 }

@@ -6,6 +6,7 @@
 #include "base/output_list.h"
 #include "base/text.h"
 #include "export/model/words.h"
+#include "export/report/input_json.h"
 #include "export/tool.h"
 #include "fusee/base.h"
 
@@ -44,10 +45,6 @@ std::string_view word(model::CurveSource source) {
   return "declared";
 }
 
-Json input_of(const ModelProduct& product) {
-  return {{"file", std::filesystem::path(product.file.path).filename().string()}, {"sha256", product.file.sha256}};
-}
-
 std::string way_word(const model::JointTable& table, std::size_t way) {
   if (table.ways.size() == 1) return "both";
   return way == 0 ? "up" : "down";
@@ -57,8 +54,10 @@ std::string way_word(const model::JointTable& table, std::size_t way) {
 
 std::string joint_table_json(const ModelProduct& product) {
   const model::JointTable& table = product.table;
-  Json json = {
-      {"schema", 1}, {"tool", std::string(k_tool)}, {"input", input_of(product)}, {"name", product.mechanism.name}};
+  Json json = {{"schema", 1},
+               {"tool", std::string(k_tool)},
+               {"input", input_json(product.file)},
+               {"name", product.mechanism.name}};
   json["source"] = word(product.curves.sensed.source);
   json["what"] = Json::array();
   for (const std::string& line : of_curve(product.curves.sensed, product, true)) json["what"].push_back(line);

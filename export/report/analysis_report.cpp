@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "export/report/analysis.h"
 #include "export/report/html.h"
+#include "export/report/input_json.h"
 #include "export/report/moving_joint.h"
 #include "export/report/picture.h"
 #include "export/report/plot.h"
@@ -170,7 +171,7 @@ std::string analysis_html(const MechanismFile& file, const analysis::AnalysisRes
       {.title = "analysis",
        .kicker = "Analysis",
        .name = file.mechanism.name,
-       .source = "of <code>" + safe_text(std::filesystem::path(file.path).filename().string()) + "</code>",
+       .source = "of " + source_html(file),
        .body = said_section(said, file.mechanism.units) +
                html_section("numbers", "Key numbers", key_numbers_of(result, file.mechanism)) +
                html_section("moving", "The joint moves", moving.empty() ? "" : std::string(k_moving_words) + moving) +

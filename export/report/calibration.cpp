@@ -6,6 +6,7 @@
 #include "base/output_list.h"
 #include "calibration/words.h"
 #include "export/report/calibration_words.h"
+#include "export/report/input_json.h"
 #include "export/tool.h"
 #include "fusee/base.h"
 #include "fusee/export.h"
@@ -230,8 +231,7 @@ std::string calibration_json(const CalibrationProduct& product) {
 
 std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs) {
   Json json = {{"schema", 1}, {"tool", std::string(k_tool)}};
-  json["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
-                   {"sha256", product.file.sha256}};
+  json["input"] = input_json(product.file);
   json["runs"] = Json::array();
   for (const measurement::Run& run : product.measurement.runs) json["runs"].push_back(run.name);
   json["verdict"] = calibration::word(product.calibration.verdict);

@@ -10,6 +10,7 @@
 #include "export/report/calibration_plots.h"
 #include "export/report/calibration_words.h"
 #include "export/report/html.h"
+#include "export/report/input_json.h"
 #include "export/report/report_parts.h"
 #include "export/report/svg.h"
 #include "export/report/tables.h"
@@ -316,8 +317,7 @@ std::string comparison_json(const ComparisonProduct& product) {
 
 std::string comparison_manifest_json(const ComparisonProduct& product, const std::vector<OutputFile>& outputs) {
   Json json = {{"schema", 1}, {"tool", std::string(k_tool)}};
-  json["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
-                   {"sha256", product.file.sha256}};
+  json["input"] = input_json(product.file);
   json["runs"] = {{"before", run_names_json(product, false)}, {"after", run_names_json(product, true)}};
   json["verdict"] = calibration::word(product.comparison.verdict);
   json["outputs"] = output_list(outputs);

@@ -1,11 +1,11 @@
 // manifest.json: the input, the measurements of the result, and the SHA-256 of every other file.
 
 #include <cmath>
-#include <filesystem>
 
 #include "base/output_list.h"
 #include "export/mesh_files/mesh_files.h"
 #include "export/report/derived.h"
+#include "export/report/input_json.h"
 #include "export/report/report.h"
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
@@ -18,40 +18,8 @@ namespace {
 /// JSON has no NaN and no infinity.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// Conversions to degrees and per cent add rounding errors. Without the last digits, 30° is 30 as in the file.
-Json as_written(double value) {
-  constexpr int k_digits = 12;
-  double rounded_value = value;
-  if (value != 0 && std::isfinite(value)) {
-    const double scale = std::pow(10.0, k_digits - 1 - std::floor(std::log10(std::abs(value))));
-    rounded_value = std::round(value * scale) / scale;
-  }
-  return number(rounded_value);
-}
-
 /// Rounded to a micrometre.
 Json to_micrometre(double millimetres) { return number(std::round(1000.0 * millimetres) / 1000.0); }
-
-Json field_value(const Field& field, const DeclaredMechanism& mechanism) {
-  switch (field.kind) {
-    case FieldKind::number:
-      return number(field.get(mechanism, 0));
-    case FieldKind::range:
-    case FieldKind::point:
-      return {as_written(field.get(mechanism, 0)), as_written(field.get(mechanism, 1))};
-    case FieldKind::choice:
-    case FieldKind::text:
-      return field.get_text(mechanism);
-    case FieldKind::boolean:
-      return field.get_text(mechanism) == "true";
-    case FieldKind::numbers:
-    case FieldKind::texts: {
-      DeclaredMechanism copy = mechanism;  // list fields are accessed through a mutable reference
-      return field.kind == FieldKind::numbers ? Json(field.numbers(copy)) : Json(field.texts(copy));
-    }
-  }
-  return nullptr;
-}
 
 /// Every number as declared, in the file's units, with defaults and --set, which the input file alone does not contain.
 Json mechanism_json(const DeclaredMechanism& mechanism) {
@@ -131,6 +99,20 @@ Json helical_grooves_json(const Product& product) {
           helical_groove_json(product, transmission::Side::right)};
 }
 
+/// Null if `fusee kit` makes no rig for this joint that holds the tendons in a way of its own.
+Json cut_in_rig(const Product& product, transmission::Side side) {
+  if (!product.rig) return nullptr;
+  for (const KitCut& cut : rig_cuts(product, *product.rig)) {
+    if (cut.side == side) return number(cut.cut);
+  }
+  return nullptr;
+}
+
+Json size_json(const solid::Pulley& pulley) {
+  const solid::OuterSize size = solid::outer_size(pulley);
+  return {{"diameter_mm", to_micrometre(size.diameter)}, {"height_mm", to_micrometre(size.height)}};
+}
+
 Json tendons_json(const Product& product) {
   Json list = Json::array();
   for (const TendonLength& tendon : tendon_lengths(product)) {
@@ -139,6 +121,7 @@ Json tendons_json(const Product& product) {
                     {"pulley", transmission::pulley_name(tendon.side)},
                     {"between_knots_mm", to_micrometre(tendon.between_knots)},
                     {"cut_length_mm", number(tendon.cut)},
+                    {"cut_length_in_test_rig_mm", cut_in_rig(product, tendon.side)},
                     {"joint_knot_mm", {to_micrometre(tendon.joint_knot.x()), to_micrometre(tendon.joint_knot.y())}},
                     {"pulley_knot_mm",
                      {to_micrometre(tendon.pulley_knot.x()), to_micrometre(tendon.pulley_knot.y()),
@@ -192,11 +175,10 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
   manifest["schema"] = 1;
   manifest["tool"] = k_tool;
   manifest["status"] = all_ok(product.checks) ? "done" : "check_failed";
-  // The name without its folder: the same input gives the same bytes in any place.
-  manifest["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
-                       {"sha256", product.file.sha256}};
+  manifest["input"] = input_json(product.file);
   manifest["grooves"] = product.helix ? helical_grooves_json(product) : grooves_json(product.pulley.layout);
   manifest["tendon"] = {{"diameter_mm", number(product.joint.mechanism.tendon.diameter)}};
+  manifest["size"] = size_json(product.pulley);
   manifest["print"] = print_json(product.pulley);
   manifest["as_built"] = as_built_json(product.as_built);
   if (product.helix) manifest["as_built"].update(fleet_json(product.helix->as_built));

@@ -6,6 +6,7 @@
 #include "base/output_list.h"
 #include "base/text.h"
 #include "export/report/csv_cells.h"
+#include "export/report/input_json.h"
 #include "export/tool.h"
 #include "fusee/base.h"
 #include "fusee/export.h"
@@ -153,8 +154,7 @@ std::string plan_json(const PlanProduct& product) {
 
 std::string plan_manifest_json(const PlanProduct& product, const std::vector<OutputFile>& outputs) {
   Json json = {{"schema", 1}, {"tool", std::string(k_tool)}};
-  json["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
-                   {"sha256", product.file.sha256}};
+  json["input"] = input_json(product.file);
   json["outputs"] = output_list(outputs);
   return json_text(json, 1);
 }

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "export/report/html.h"
+#include "export/report/input_json.h"
 #include "export/report/report_parts.h"
 #include "export/report/svg.h"
 #include "export/report/tables.h"
@@ -150,31 +151,29 @@ std::string next_html(const PlanProduct& product, const std::vector<std::string>
   for (std::size_t i = 0; i < product.plan.steps.size(); ++i) {
     if (product.plan.steps[i].run) runs += " " + run_file_name(product.plan, i);
   }
-  return html_page(
-      {.title = "measure next",
-       .kicker = "Measure next",
-       .name = product.file.mechanism.name,
-       .source = "for <code>" + safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code>",
-       .body = html_section("steps", "At the bench",
-                            "<p class=\"lead\">The most decisive first: do it, calibrate again, and go on "
-                            "only if the answer still names more than one cause.</p>" +
-                                step_items(product)) +
-               after_section(product, runs),
-       .foot = "Angles of the motor are those its sensor shows, zero at home.",
-       .styles = {embedded::page_css, embedded::plan_css},
-       .scripts = {}});
+  return html_page({.title = "measure next",
+                    .kicker = "Measure next",
+                    .name = product.file.mechanism.name,
+                    .source = "for " + source_html(product.file),
+                    .body = html_section("steps", "At the bench",
+                                         "<p class=\"lead\">The most decisive first: do it, calibrate again, and go on "
+                                         "only if the answer still names more than one cause.</p>" +
+                                             step_items(product)) +
+                            after_section(product, runs),
+                    .foot = "Angles of the motor are those its sensor shows, zero at home.",
+                    .styles = {embedded::page_css, embedded::plan_css},
+                    .scripts = {}});
 }
 
 std::string plan_html(const PlanProduct& product) {
-  Page page{
-      .title = "measuring plan",
-      .kicker = "Measuring plan",
-      .name = product.file.mechanism.name,
-      .source = "for <code>" + safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code>",
-      .body = key_numbers(product) + steps_section(product) + after_section(product, k_all_runs),
-      .foot = "Angles of the motor are those its sensor shows, zero at home.",
-      .styles = {embedded::page_css, embedded::plan_css},
-      .scripts = {}};
+  Page page{.title = "measuring plan",
+            .kicker = "Measuring plan",
+            .name = product.file.mechanism.name,
+            .source = "for " + source_html(product.file),
+            .body = key_numbers(product) + steps_section(product) + after_section(product, k_all_runs),
+            .foot = "Angles of the motor are those its sensor shows, zero at home.",
+            .styles = {embedded::page_css, embedded::plan_css},
+            .scripts = {}};
   if (!product.plan.beyond.empty())
     page.body += html_section("more", "What more minutes would show", html_list(more_items(product.plan.beyond)));
   page.body += causes_section(product.plan) +

@@ -13,7 +13,9 @@
 #include "export/report/derived.h"
 #include "export/report/drawing.h"
 #include "export/report/helix_report.h"
+#include "export/report/home_words.h"
 #include "export/report/html.h"
+#include "export/report/input_json.h"
 #include "export/report/mesh_code.h"
 #include "export/report/moving_helix.h"
 #include "export/report/moving_joint.h"
@@ -377,6 +379,18 @@ std::string tendon_row(const TendonLength& tendon, const Mechanism& mechanism) {
          "°</td></tr>";
 }
 
+/// Cut lengths for the test rig where they are others.
+std::string rig_words(const Product& product) {
+  if (!product.rig) return "";
+  std::string words;
+  for (const KitCut& cut : rig_cuts(product, *product.rig))
+    words += (words.empty() ? "tendon " : ", tendon ") + std::string(cut.side == transmission::Side::left ? "1" : "2") +
+             " at " + readable(cut.cut, 0) + " mm (" + readable(cut.longer, 0) + " mm more)";
+  return words.empty() ? ""
+                       : " For the test rig of <code>fusee kit</code> cut " + words +
+                             ": they run on to its tensioner and round its post.";
+}
+
 std::string tendon_table(const Product& product) {
   std::string rows;
   for (const TendonLength& tendon : tendon_lengths(product)) rows += tendon_row(tendon, product.joint.mechanism);
@@ -389,7 +403,8 @@ std::string tendon_table(const Product& product) {
          std::string(product.joint.mechanism.joint.is_plain() ? "C" : "its end") +
          " to the knot’s pocket, taut, with the joint and the pulley at "
          "home. The cut length adds both knots and a tail of 50 mm at each end to pull them tight with, rounded up to "
-         "5 mm.</p>";
+         "5 mm." +
+         rig_words(product) + "</p>";
 }
 
 std::string knot_row(const solid::KnotHold& knot, const solid::Holding& holding) {
@@ -430,7 +445,7 @@ std::string knot_table(const Product& product) {
 /// Instructions for mounting the pulley on its shaft or horn.
 std::string mounting(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
-  const std::string home = " with P1 below and the home mark pointing to +y: the way that C lies from O at home.";
+  const std::string home = " with P1 below and " + home_words(product) + ": the way that C lies from O at home.";
   if (mechanism.body.bore != Bore::horn) return "Put the pulley on its shaft" + home;
   const Horn& horn = horn_of(mechanism);
   if (horn.spline_teeth > 0) {
@@ -520,13 +535,15 @@ std::string files_table(const Product& product) {
     std::string_view name;
     std::string_view words;
   };
-  constexpr File k_files[] = {{"pulley.stl, pulley.3mf, pulley.obj, pulley.drc", "the part, to print or to look at"},
-                              {"pulley.scad", "the part as an OpenSCAD program, to change"},
-                              {"profile.dxf", "pitch curves, groove floors and bore"},
-                              {"plates.dxf", "the part as plates to cut"},
-                              {"profile.csv, transmission.csv", "the curves and the stroke as tables"},
-                              {"profile_p1.csv, profile_p2.csv", "points of each pitch curve, for a spline in CAD"},
-                              {"manifest.json", "the checks and the files’ hashes, for programs"}};
+  constexpr File k_files[] = {
+      {"pulley.stl, pulley.3mf, pulley.obj, pulley.drc", "the part, to print or to look at"},
+      {"pulley.scad", "the part as an OpenSCAD program, to change"},
+      {"profile.dxf", "pitch curves, groove floors and bore"},
+      {"plates.dxf", "the part as plates to cut"},
+      {"profile.csv, transmission.csv", "the curves and the stroke as tables"},
+      {"profile_p1.csv, profile_p2.csv", "points of each pitch curve, for a spline in CAD"},
+      {"mechanism.toml", "the mechanism file of this part; <code>fusee new --from pulley.3mf</code> writes it, too"},
+      {"manifest.json", "the checks and the files’ hashes, for programs"}};
   std::string html = "<h3>Other files</h3><div class=\"scroll\"><table><tbody>";
   const bool has_step = std::any_of(product.checks.begin(), product.checks.end(),
                                     [](const Check& check) { return check.name.rfind("step_", 0) == 0; });
@@ -548,9 +565,8 @@ std::string making(const Product& product) {
 }
 
 std::string source_words(const MechanismFile& file) {
-  // Without its folder: the same input gives the same page in any place.
-  const std::string file_name = std::filesystem::path(file.path).filename().string();
-  std::string words = file_name.empty() ? "" : "from <code>" + safe_text(file_name) + "</code>";
+  const std::string source = source_html(file);
+  std::string words = source.empty() ? "" : "from " + source;
   if (!file.sha256.empty()) words += " (SHA-256 " + safe_text(file.sha256.substr(0, 12)) + "…)";
   return words;
 }

@@ -52,6 +52,10 @@ struct Product {
   solid::Holding holding;                       ///< of its tendons
   profile::RewindResult as_built;
   std::vector<Check> checks;
+  /// mechanism.toml, which describes `file.mechanism`, and its law's table if there is one
+  std::vector<OutputFile> mechanism_files = {};
+  /// additional lengths of both tendons in the test rig of kit(); empty if there is no such rig
+  std::optional<std::array<kit::KitTendon, 2>> rig = {};
   std::optional<HelixProduct> helix = {};  ///< several turns; `synthesis` then has no outlines and `pulley` no anchors
 };
 
@@ -171,9 +175,12 @@ struct KitCut {
   transmission::Side side = transmission::Side::left;
   double between_knots = 0;  ///< from the pulley's knot to its fastening at the joint, taut, at home, mm
   double cut = 0;            ///< including both ends, in whole 5 mm
+  double longer = 0;         ///< than the cut without the rig, whose tensioner and post use that much, mm
 };
 /// The lengths of both tendons. mm.
 std::vector<KitCut> kit_cuts(const KitProduct& product);
+/// Cut lengths of a pulley in a rig.
+std::vector<KitCut> rig_cuts(const Product& pulley, const std::array<kit::KitTendon, 2>& rig);
 
 /// The parts that can be cut from sheets, nested flat: layers CUT_OUTER, CUT_INNER, ENGRAVE.
 std::string kit_dxf(const KitProduct& product, DxfVersion version);

@@ -142,6 +142,7 @@ struct MechanismFile {
   std::string sha256;  ///< of the file's bytes, without settings
   std::vector<Diagnostic> warnings;
   KeyPlaces places;
+  std::vector<Setting> settings = {};  ///< with which the file was read
 
   /// The place of a key; the whole file if the key was not written.
   Place place_of(std::string_view key) const;

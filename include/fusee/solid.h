@@ -114,6 +114,7 @@ struct BoreLayout {
 /// The set screw and its nut, in the hub.
 struct SetScrewLayout {
   bool present = false;
+  std::string thread;        ///< "M3"
   double hole_diameter = 0;  ///< clearance or tapping diameter, compensated
   double z = 0;              ///< height of its axis, in the hub
   double angle = 0;          ///< direction of its axis about z, rad
@@ -122,6 +123,12 @@ struct SetScrewLayout {
   double nut_thickness = 0;
   double ceiling_slope = 0;  ///< angle of the hole's ceiling above the horizontal, rad
   double nut_distance = 0;   ///< distance from the axis to the middle of the nut
+};
+
+/// An automatic feature of the body that is omitted or reduced for lack of space.
+struct Omission {
+  std::string feature;   ///< "set_screw", "tail_slot_P2", "home_mark" …
+  std::size_t note = 0;  ///< index of its text in BodyLayout::notes
 };
 
 /// All sizes of the body, as described above.
@@ -145,17 +152,22 @@ struct BodyLayout {
   double hub_radius = 0;  ///< 0: no hub
   BoreLayout bore;
   SetScrewLayout set_screw;
-  double channel_width = 0;        ///< width of the tie-off channels
-  double channel_fillet = 0;       ///< radius at which a channel leaves the floor's tangent, to its centre line
-  double pocket_radius = 0;        ///< radius of the knot pockets
-  double channel_ceiling = 0;      ///< rise of the channels' ceilings towards their outer walls; 0: flat
-  double pocket_ceiling = 0;       ///< rise of the ceilings of P1's pockets where they open on the bed
-  double min_wall = 0;             ///< thickness of the thinnest wall allowed
-  double elephant_foot = 0;        ///< width of the chamfer at the bed
-  DowelLayout dowels;              ///< of a part in two pieces
-  double mark_depth = 0;           ///< depth of engraved marks; raised marks have the height that the file gives
-  double scale = 1;                ///< all x, y, z of the mesh are times this: 1/(1 − shrinkage)
-  std::vector<std::string> notes;  ///< reductions and omissions of "automatic" features, with reasons
+  double channel_width = 0;              ///< width of the tie-off channels
+  double channel_fillet = 0;             ///< radius at which a channel leaves the floor's tangent, to its centre line
+  double pocket_radius = 0;              ///< radius of the knot pockets
+  double channel_ceiling = 0;            ///< rise of the channels' ceilings towards their outer walls; 0: flat
+  double pocket_ceiling = 0;             ///< rise of the ceilings of P1's pockets where they open on the bed
+  double min_wall = 0;                   ///< thickness of the thinnest wall allowed
+  double elephant_foot = 0;              ///< width of the chamfer at the bed
+  DowelLayout dowels;                    ///< of a part in two pieces
+  double mark_depth = 0;                 ///< depth of engraved marks; raised marks have the height that the file gives
+  double scale = 1;                      ///< all x, y, z of the mesh are times this: 1/(1 − shrinkage)
+  std::vector<std::string> notes;        ///< reductions and omissions of "automatic" features, with reasons
+  std::vector<Omission> omissions = {};  ///< those of `notes` about features that another number could bring back
+
+  /// Records an omission with its note.
+  void omit(std::string feature, std::string note);
+  bool lacks(std::string_view feature) const;
 };
 
 /// Height of a chamfer or ceiling of this width that prints without support, mm.
@@ -223,6 +235,7 @@ struct Anchor {
 struct Mark {
   std::vector<Polygon> loops;  ///< loops[0] without the others
   bool on_top = true;          ///< else on the face on the bed
+  bool shows_home = false;     ///< the home mark (top) or the clocking mark (below), in the home direction
 };
 
 /// Radius of the knot pocket, or of the countersink, mm.
@@ -254,9 +267,17 @@ struct Pulley {
   std::vector<Check> mesh_checks;              ///< check_mesh() of `mesh`
 
   bool made() const { return status == PulleyStatus::made; }
+  bool has_home_mark() const;  ///< on the top face
   /// Summary: the result, or the failed conditions.
   std::string brief() const;
 };
+
+/// The finished pulley: of the smallest cylinder about its axis that holds it, mm.
+struct OuterSize {
+  double diameter = 0;
+  double height = 0;
+};
+OuterSize outer_size(const Pulley& pulley);
 
 /// The parts to print: the whole, or P1 and P2 side by side.
 TriangleMesh plate_of(const Pulley& pulley);

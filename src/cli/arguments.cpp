@@ -212,6 +212,33 @@ std::vector<Setting> Arguments::settings() const {
   return settings;
 }
 
+namespace {
+
+/// ".pulley.r1_mm=15" for each setting. Characters that a shell or a file system may not take become "_", and a long name
+/// is cut off; then a hash keeps different settings apart.
+std::string settings_in_name(const std::vector<Setting>& settings) {
+  constexpr std::size_t k_longest = 80;
+  constexpr std::string_view k_safe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+=";
+  std::string all;
+  for (const Setting& setting : settings) all += "." + setting.key + "=" + setting.value;
+  std::string name = all.substr(0, k_longest);
+  for (char& c : name) {
+    if (k_safe.find(c) == std::string_view::npos) c = '_';
+  }
+  return name == all ? name : name + "." + sha256(all).substr(0, 8);
+}
+
+}  // namespace
+
+std::filesystem::path output_folder(const Arguments& arguments, const std::string& ending) {
+  if (const auto folder = arguments.text("--out")) return *folder;
+  const std::filesystem::path spec = arguments.positionals().front();
+  // The stems of "..toml" and "...toml" are no folder names but "." and "..".
+  const std::filesystem::path stem = spec.stem();
+  const std::string name = (stem == "." || stem == ".." ? spec.filename() : stem).string();
+  return std::filesystem::path("out") / (name + ending + settings_in_name(arguments.settings()));
+}
+
 std::optional<std::size_t> find_command(const std::vector<std::string>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == "--") return i + 1 < words.size() ? std::optional(i + 1) : std::nullopt;

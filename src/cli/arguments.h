@@ -2,6 +2,7 @@
 /// Parses the command line with CLI11; errors have fusee's own words (UsageError, exit 2).
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -66,5 +67,9 @@ class Arguments {
 std::optional<std::size_t> find_command(const std::vector<std::string>& words);
 /// True if a switch such as "--json" occurs anywhere, for use before or without parsing.
 bool has_switch(const std::vector<std::string>& words, std::string_view option);
+
+/// The folder of -o, or out/<name of the first argument><ending>. Settings of --set are part of that name: a trial does
+/// not replace the output of the file.
+std::filesystem::path output_folder(const Arguments& arguments, const std::string& ending = {});
 
 }  // namespace fusee::cli

@@ -43,7 +43,7 @@ std::string range_text(const Range& range, int decimals, const std::string& unit
   return "from " + fixed(range.least, decimals) + " to " + fixed(range.most, decimals) + " " + unit;
 }
 
-std::string size_text(std::size_t bytes) {
+std::string bytes_text(std::size_t bytes) {
   return bytes < 10000 ? std::to_string(bytes) + " B" : std::to_string((bytes + 500) / 1000) + " kB";
 }
 
@@ -54,7 +54,7 @@ std::string files_text(const pipeline::BuildResult& built, const pipeline::Build
   for (const OutputFile& file : built.outputs) {
     std::string name = file.name;
     name.resize(18, ' ');
-    const std::string size = size_text(file.bytes.size());
+    const std::string size = bytes_text(file.bytes.size());
     text += std::string(14, ' ') + name + std::string(8 - std::min<std::size_t>(8, size.size()), ' ') + size + "\n";
   }
   return text;
@@ -70,7 +70,24 @@ std::string tendons_text(const formats::Product& product) {
   for (const formats::TendonLength& tendon : formats::tendon_lengths(product))
     text += (text.empty() ? "cut " : ", ") + std::string(tendon.side == transmission::Side::left ? "1" : "2") + " at " +
             fixed(tendon.cut, 0) + " mm";
-  return text.empty() ? text : titled("tendons", text + ", with knots and two 50 mm tails");
+  if (text.empty()) return text;
+  text = titled("tendons", text + ", with knots and two 50 mm tails");
+  if (!product.rig) return text;
+  std::string rig;
+  for (const formats::KitCut& cut : formats::rig_cuts(product, *product.rig))
+    rig += (rig.empty() ? "" : ", ") + std::string(cut.side == transmission::Side::left ? "1" : "2") + " +" +
+           fixed(cut.longer, 0) + " mm";
+  return text + titled("", rig + " for the tensioner and post of fusee kit's rig");
+}
+
+std::string size_text(const solid::Pulley& pulley) {
+  const solid::OuterSize size = solid::outer_size(pulley);
+  const solid::BodyLayout& layout = pulley.layout;
+  std::string text = "⌀ " + fixed(size.diameter, 1) + " mm, " + fixed(size.height, 1) + " mm high";
+  if (layout.hub_radius > 0) text += "; hub ⌀ " + rounded(2.0 * layout.hub_radius, 3) + " mm";
+  if (layout.set_screw.present)
+    text += ", set screw " + layout.set_screw.thread + (layout.set_screw.nut_trap ? " and nut" : " (no nut)");
+  return titled("size", text);
 }
 
 std::string knots_text(const solid::Holding& holding) {
@@ -92,7 +109,7 @@ std::string summary(const pipeline::BuildResult& built, const pipeline::BuildOpt
   text += titled("theta", range_text(ranges.theta, 2, "deg at the joint"));
   text += titled("r1", range_text(ranges.r1, 3, "mm"));
   text += titled("r2", range_text(ranges.r2, 3, "mm"));
-  text += tendons_text(product) + knots_text(product.holding);
+  text += size_text(product.pulley) + tendons_text(product) + knots_text(product.holding);
   text += titled("as built", as_built_text(product.as_built));
   text += checks_line(product.checks);
   text += files_text(built, options);
@@ -112,6 +129,8 @@ Json product_json(const pipeline::BuildResult& built, const pipeline::BuildOptio
   json["theta_deg"] = range_json(ranges.theta);
   json["r1_mm"] = range_json(ranges.r1);
   json["r2_mm"] = range_json(ranges.r2);
+  const solid::OuterSize size = solid::outer_size(product.pulley);
+  json["size_mm"] = {{"diameter", size.diameter}, {"height", size.height}};
   json["as_built"] = to_json(product.as_built);
   json["checks"] = to_json(product.checks);
   json["outputs"] = output_list(built.outputs);
@@ -167,12 +186,6 @@ formats::DxfVersion dxf_version(const Arguments& arguments) {
   throw UsageError("--dxf must be ac1015 or r12; '" + name + "' is not");
 }
 
-/// The stems of "..toml" and "...toml" are not folder names but "." and "..".
-std::filesystem::path default_folder(const std::filesystem::path& spec) {
-  const std::filesystem::path stem = spec.stem();
-  return "out" / (stem == "." || stem == ".." ? spec.filename() : stem);
-}
-
 pipeline::BuildOptions build_options_from(const Arguments& arguments) {
   pipeline::BuildOptions options;
   options.chord_error_mm = arguments.number("--tolerance-mm", options.chord_error_mm, 0.0005, 1.0, "mm");
@@ -181,8 +194,17 @@ pipeline::BuildOptions build_options_from(const Arguments& arguments) {
   options.step = arguments.has("--step");
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
-  options.folder = arguments.text("--out").value_or(default_folder(arguments.positionals().front()).string());
+  options.folder = output_folder(arguments);
   return options;
+}
+
+/// Explains the folder of a trial.
+void add_trial_note(const Arguments& arguments, Reply& reply) {
+  if (arguments.settings().empty() || arguments.has("--out")) return;
+  reply.diagnostics.push_back(note(Severity::note,
+                                   "a trial with --set has a folder of its own: files of " +
+                                       arguments.positionals().front() + " without --set are not replaced",
+                                   "mechanism.toml there has the new values; -o DIR chooses another folder"));
 }
 
 Reply run_build(const Arguments& arguments, Console& console, const RunContext& context) {
@@ -198,6 +220,7 @@ Reply run_build(const Arguments& arguments, Console& console, const RunContext& 
     return reply;
   }
   reply.text = summary(built, options, console.verbose());
+  if (built.published) add_trial_note(arguments, reply);
   if (arguments.has("--json")) reply.fields = product_json(built, options);
   if (built.status == pipeline::BuildStatus::check_failed) add_failed_checks(built, options, reply);
   return reply;
@@ -207,7 +230,8 @@ Reply run_build(const Arguments& arguments, Console& console, const RunContext& 
 
 Command build_command() {
   std::vector<Option> options = {
-      {"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>)"},
+      {"-o,--out", "DIR",
+       "where the files go (default: out/<name of SPEC>; with\n--set out/<name of SPEC>.<KEY=VALUE>)"},
       {"--tolerance-mm", "MM", "largest distance of facets from the curve\n(default 0.01)"},
       {"--dxf", "VERSION", "drawings as ac1015 (default) or r12", false, "ac1015 r12"},
       {"--step", "", "also write pulley.step for CAD (takes some seconds)"},
@@ -220,10 +244,12 @@ Command build_command() {
           "tables and a report. Every file is read back and checked, and tendons are wound\n"
           "on the mesh to determine the joint angle of the part as built. For an infeasible\n"
           "pulley it reports where and why, and which change of which number makes it\n"
-          "feasible.",
+          "feasible. A trial with --set has a folder of its own, so that it never replaces\n"
+          "the part of the file; mechanism.toml there is the file with the new values.",
           options,
           {{"fusee build arm.toml", "everything in out/arm; open out/arm/report.html"},
            {"fusee build arm.toml -o parts --dxf r12", "into parts, with drawings for an old laser cutter"},
+           {"fusee build arm.toml --set pulley.r1_mm=15", "another r1, in out/arm.pulley.r1_mm=15"},
            {"fusee build arm.toml --set pulley.r1_mm=15 --dry-run", "test another r1 without writing files"}},
           run_build};
 }

@@ -50,12 +50,11 @@ void add_notes(const pipeline::CalibrateResult& result, bool verbose, Reply& rep
              "corrected.toml includes the values of --set and has every key; comments of the file are omitted"));
 }
 
-pipeline::CalibrateOptions options_from(const Arguments& arguments, const std::filesystem::path& spec) {
+pipeline::CalibrateOptions options_from(const Arguments& arguments) {
   pipeline::CalibrateOptions options;
   options.columns = columns_from(arguments);
   options.hold_out = paths(arguments.texts("--hold-out"));
-  options.folder =
-      arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_calibration")).string());
+  options.folder = output_folder(arguments, "_calibration");
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
   options.audit = !arguments.has("--no-audit");
@@ -64,7 +63,7 @@ pipeline::CalibrateOptions options_from(const Arguments& arguments, const std::f
 
 Reply run_calibrate(const Arguments& arguments, Console& console, const RunContext& context) {
   const std::filesystem::path spec = arguments.positionals().front();
-  const pipeline::CalibrateOptions options = options_from(arguments, spec);
+  const pipeline::CalibrateOptions options = options_from(arguments);
   const std::vector<std::filesystem::path> runs = runs_from(arguments);
   const MechanismFile file = read_mechanism(spec, arguments.settings(), *context.files);
   const pipeline::CalibrateResult result = pipeline::calibrate(file, runs, options, context);

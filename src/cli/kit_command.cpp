@@ -20,9 +20,7 @@ pipeline::KitOptions kit_options_from(const Arguments& arguments) {
   options.dxf = version == "r12" ? formats::DxfVersion::r12 : formats::DxfVersion::ac1015;
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
-  const std::filesystem::path spec = arguments.positionals().front();
-  options.folder =
-      arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_kit")).string());
+  options.folder = output_folder(arguments, "_kit");
   return options;
 }
 
@@ -66,7 +64,8 @@ std::string kit_summary(const pipeline::KitResult& made, const pipeline::KitOpti
   }
   for (const formats::KitCut& cut : formats::kit_cuts(product))
     text += "  tendon " + std::string(cut.side == transmission::Side::left ? "1" : "2") + "    cut at " +
-            fixed(cut.cut, 0) + " mm\n";
+            fixed(cut.cut, 0) + " mm" +
+            (cut.longer > 0 ? ", " + fixed(cut.longer, 0) + " mm more than without rig (fusee build)" : "") + "\n";
   if (tightest) {
     std::string name = tightest->name;
     std::replace(name.begin(), name.end(), '_', ' ');

@@ -57,9 +57,7 @@ pipeline::ModelOptions model_options_from(const Arguments& arguments) {
   options.prefix = prefix_from(arguments);
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
-  const std::filesystem::path spec = arguments.positionals().front();
-  options.folder =
-      arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_model")).string());
+  options.folder = output_folder(arguments, "_model");
   return options;
 }
 

@@ -1,6 +1,9 @@
+#include <filesystem>
+
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/questions.h"
+#include "export/mesh_files/mesh_files.h"
 #include "fusee/mechanism_file.h"
 #include "mechanism/linear_relation.h"
 
@@ -72,16 +75,89 @@ Reply ask_questions(const Arguments& arguments, Console& console, FileAccess& fi
   return reply;
 }
 
-Reply run_new(const Arguments& arguments, Console& console, const RunContext& context) {
-  if (arguments.has("--ask")) return ask_questions(arguments, console, *context.files);
+constexpr std::size_t k_largest_print = std::size_t{512} << 20;
+
+/// The law's table of a kept mechanism. Nothing else is read, as the file may come from anywhere.
+class KeptTable : public FileAccess {
+ public:
+  KeptTable(std::string file, const std::optional<std::string>& table) : file_(std::move(file)), table_(table) {}
+
+  void read(const ReadRequest& request, const TakeBlock& take) override {
+    const std::string name = request.path.filename().string();
+    if (!table_ || request.path != name)
+      throw InputError(file_, "its mechanism needs '" + request.path.string() + "', which it does not keep");
+    if (table_->size() > request.limit) throw InputError(file_, "its table is too large");
+    name_ = name;
+    if (!table_->empty()) take(*table_);
+  }
+  /// Name of the table, once it was read; empty if the law has none.
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string file_;
+  const std::optional<std::string>& table_;
+  std::string name_;
+};
+
+/// The mechanism file that `fusee build` kept in a 3MF.
+Reply open_print(const Arguments& arguments, FileAccess& files) {
+  if (!arguments.positionals().empty()) throw UsageError("--from takes no template: it reads the file's own mechanism");
+  const std::filesystem::path print = *arguments.text("--from");
+  const formats::KeptMechanism kept =
+      formats::read_kept_mechanism(read_file(print, k_largest_print, files), print.string());
+  Reply reply;
+  KeptTable table(print.string(), kept.table);
+  const auto settings = arguments.settings();
+  const DeclaredMechanism mechanism =
+      parse_mechanism(kept.text, print.string(), "", settings, &reply.diagnostics, nullptr, table);
+  reply.text = settings.empty() ? kept.text : write_mechanism(mechanism);
+  reply.fields["from"] = print.string();
+  reply.fields["text"] = reply.text;
+  if (!table.name().empty()) {
+    reply.fields["table"] = {{"file", table.name()}, {"text", *kept.table}};
+    if (!arguments.has("--out"))
+      reply.diagnostics.push_back(note(Severity::warning, "its law needs the table " + table.name() + " beside it",
+                                       "-o FILE.toml writes both"));
+  }
+  return reply;
+}
+
+/// Writes the file of -o, and the table of its law beside it.
+void write_new_file(const Arguments& arguments, FileAccess& files, Reply& reply) {
+  const std::filesystem::path path = *arguments.text("--out");
+  if (!arguments.has("--dry-run")) {
+    if (reply.fields.contains("table")) {
+      const auto& table = reply.fields["table"];
+      write_file(path.parent_path() / table["file"].get<std::string>(), table["text"].get<std::string>(),
+                 arguments.has("--force"), files);
+    }
+    write_file(path, reply.text, arguments.has("--force"), files);
+  }
+  reply.fields["file"] = path.string();
+  reply.text = arguments.has("--dry-run") ? "no file written (--dry-run)\n" : path.string() + "\n";
+}
+
+Reply template_or_list(const Arguments& arguments, FileAccess& files) {
   if (arguments.positionals().empty()) return list_templates();
   const std::string& name = arguments.positionals().front();
   Reply reply;
   reply.text = find_template(name);
   if (const auto settings = arguments.settings(); !settings.empty())
-    reply.text = with_settings(reply.text, name, settings, reply.diagnostics, *context.files);
+    reply.text = with_settings(reply.text, name, settings, reply.diagnostics, files);
   reply.fields["template"] = name;
   reply.fields["text"] = reply.text;
+  return reply;
+}
+
+Reply run_new(const Arguments& arguments, Console& console, const RunContext& context) {
+  const bool asks = arguments.has("--ask"), opens = arguments.has("--from");
+  if (asks && opens) throw UsageError("--ask and --from exclude each other");
+  Reply reply = asks    ? ask_questions(arguments, console, *context.files)
+                : opens ? open_print(arguments, *context.files)
+                        : template_or_list(arguments, *context.files);
+  if (!arguments.has("--out")) return reply;
+  if (!reply.fields.contains("text")) throw UsageError("-o needs a TEMPLATE, --from or --ask");
+  write_new_file(arguments, *context.files, reply);
   return reply;
 }
 
@@ -93,11 +169,15 @@ Command new_command() {
           "a commented mechanism file, from a template or your answers",
           "Prints a mechanism file with an explanation of every number.\n"
           "Without TEMPLATE it lists the templates. With --ask it asks six questions and\n"
-          "writes a file for which a pulley is feasible.",
-          {{"--ask", "", "ask for the joint's numbers, each with a default"}},
+          "writes a file for which a pulley is feasible. With --from it prints the file\n"
+          "that fusee build kept in a 3MF: building it gives the same meshes.",
+          {{"--ask", "", "ask for the joint's numbers, each with a default"},
+           {"--from", "PRINT.3mf", "the mechanism file of a print that fusee made"},
+           {"-o,--out", "FILE", "write FILE, and the table of its law beside it"}},
           {{"fusee new", "list the templates"},
            {"fusee new paper_optimum > arm.toml", "save one as arm.toml"},
            {"fusee new --ask > arm.toml", "answer six questions; Enter takes the proposal"},
+           {"fusee new --from pulley.3mf -o arm.toml", "the mechanism file of an earlier print"},
            {"fusee new paper_optimum --set pulley.r1_mm=15 > arm.toml", "the same with another r1"}},
           run_new};
 }

@@ -46,7 +46,7 @@ std::vector<double> list_from(const Arguments& arguments, std::string_view optio
   return values;
 }
 
-pipeline::PlanFilesOptions plan_options_from(const Arguments& arguments, const std::filesystem::path& spec) {
+pipeline::PlanFilesOptions plan_options_from(const Arguments& arguments) {
   pipeline::PlanFilesOptions options;
   plan::PlanOptions& plan = options.plan;
   plan.noise = radians(arguments.number("--noise-deg", degrees(plan.noise), 1e-6, 45, "deg"));
@@ -60,8 +60,7 @@ pipeline::PlanFilesOptions plan_options_from(const Arguments& arguments, const s
     plan.range = {radians(range[0]), radians(range[1])};
   }
   plan.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, 4294967295.0, "(a whole number)"));
-  options.folder =
-      arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_plan")).string());
+  options.folder = output_folder(arguments, "_plan");
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
   return options;
@@ -142,7 +141,7 @@ void refuse_short_time(const pipeline::PlanResult& result, const std::string& pa
 
 Reply run_plan(const Arguments& arguments, Console&, const RunContext& context) {
   const std::filesystem::path spec = arguments.positionals().front();
-  const pipeline::PlanFilesOptions options = plan_options_from(arguments, spec);
+  const pipeline::PlanFilesOptions options = plan_options_from(arguments);
   const MechanismFile file = read_mechanism(spec, arguments.settings(), *context.files);
   const pipeline::PlanResult result = pipeline::plan(file, options, context);
   Reply reply;

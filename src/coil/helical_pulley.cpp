@@ -212,7 +212,8 @@ class Planner {
     ends_[1].face = layout.z_top;
     cover_channels();
     choose_bore();
-    solid::choose_hub(layout, mechanism_, std::min(upper_rim(), pocket_inside(1)));
+    solid::set_hub(layout, mechanism_,
+                   solid::hub_choices(layout, mechanism_, std::min(upper_rim(), pocket_inside(1))).front());
     heights_.hub_top = layout.z_hub;
   }
 

@@ -485,7 +485,9 @@ void add_body(std::vector<Field>& table) {
   table.push_back(number<body, &Body::flange_thickness>(
       {"body.flange_thickness_mm", "", "1.2", "thickness of the flanges at the groove's edge"}, "mm", 0.2, 50));
   table.push_back(number<body, &Body::hub_diameter>(
-      {"body.hub_diameter_mm", "", "0", "diameter of the hub; 0: from the bore and the set screw"}, "mm", 0, 1000));
+      {"body.hub_diameter_mm", "", "0",
+       "diameter of the hub; 0: the largest that leaves space for the other features of its face"},
+      "mm", 0, 1000));
   table.push_back(number<body, &Body::hub_height>(
       {"body.hub_height_mm", "", "8",
        "height of the hub above the top flange; 0: no hub; omitted, with a note, where it does not fit"},
@@ -510,7 +512,7 @@ void add_body(std::vector<Field>& table) {
       shaft_names()));
   table.push_back(text<body, &Body::set_screw>(
       {"body.set_screw", "", "\"auto\"",
-       "screw through the hub onto the shaft; auto: M3 where it fits into the hub, else none"},
+       "screw through the hub onto the shaft; auto: M3 to M2 as the hub has space, no wider than the shaft"},
       {"auto", "none", "M2", "M2.5", "M3", "M4", "M5", "M6", "#2-56", "#4-40", "#6-32", "#8-32", "#10-24", "1/4-20"}));
   table.push_back(boolean<body, &Body::nut_trap>(
       {"body.nut_trap", "", "true",

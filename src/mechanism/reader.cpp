@@ -837,6 +837,7 @@ MechanismFile read_mechanism(const std::filesystem::path& path, const std::vecto
   MechanismFile file;
   file.path = path.string();
   file.sha256 = sha256(text);
+  file.settings = settings;
   file.mechanism = parse_mechanism(text, file.path, path.parent_path(), settings, &file.warnings, &file.places, files);
   return file;
 }

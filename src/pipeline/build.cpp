@@ -12,7 +12,10 @@
 #include "fusee/joint.h"
 #include "fusee/pipeline.h"
 #include "pipeline/agreement.h"
+#include "pipeline/axle_room.h"
 #include "pipeline/design.h"
+#include "pipeline/law_table_copy.h"
+#include "pipeline/omissions.h"
 #include "pipeline/several_turns.h"
 #include "pipeline/thin_walls.h"
 #include "solid/print.h"
@@ -71,7 +74,7 @@ formats::DracoFile write_helical_parts(BuildContext& context) {
   context.step("writing meshes and drawings");
   auto draco = run_async([&] { return formats::draco_file(mesh, context.options.chord_error_mm); });
   auto profile = run_async([&] { return formats::profile_dxf(product, context.options.dxf); });
-  auto threemf = run_async([&] { return formats::threemf_bytes(mesh, name); });
+  auto threemf = run_async([&] { return formats::threemf_bytes(mesh, name, product.mechanism_files); });
   auto obj = run_async([&] { return formats::obj_text(mesh, name); });
   auto scad = run_async([&] { return formats::scad_text(product); });
   auto step = run_async([&] { return context.options.step ? formats::step_file(product) : formats::StepFile(); },
@@ -163,7 +166,8 @@ PendingChecks write_parts(BuildContext& context) {
   auto draco = run_async([&] { return formats::draco_file(mesh, context.options.chord_error_mm); });
   auto plates = run_async([&] { return formats::plates_dxf(product, context.options.dxf); });
   auto profile = run_async([&] { return formats::profile_dxf(product, context.options.dxf); });
-  auto threemf = run_async([&] { return formats::threemf_bytes(solid::plate_of(product.pulley), name); });
+  auto threemf =
+      run_async([&] { return formats::threemf_bytes(solid::plate_of(product.pulley), name, product.mechanism_files); });
   auto obj = run_async([&] { return formats::obj_text(mesh, name); });
   auto scad = run_async([&] { return formats::scad_text(product); });
   auto holding =
@@ -294,6 +298,7 @@ void write_texts(BuildContext& context, Tables tables) {
   context.stage("profile_p1.csv", tables.p1.get());
   context.stage("profile_p2.csv", tables.p2.get());
   context.stage("transmission.csv", tables.transmission.get());
+  for (const OutputFile& file : product.mechanism_files) context.stage(file.name, file.bytes);
   context.stage("report.html", report.get());
   auto manifest = run_async([&] { return formats::manifest_json(product, context.result.outputs); });
   context.stage("manifest.json", manifest.get());
@@ -307,10 +312,8 @@ bool passes_checks_of_several_turns(const formats::Product& product, const Build
 }
 
 /// Designs curves, body and plates in memory and runs the checks that a design can fail.
-bool passes_checks(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
-  formats::Product product;
-  product.file = file;
-  product.joint = joint::identified_joint(file.mechanism);
+bool passes_checks(formats::Product& product, const BuildOptions& options, const RunContext& context) {
+  product.joint = joint::identified_joint(product.file.mechanism);
   if (!design_any(product, options.chord_error_mm, options.limits, context, solid::TieOffSearch::brief)) return false;
   if (product.helix) return passes_checks_of_several_turns(product, options);
   const Mechanism& mechanism = product.joint.mechanism;
@@ -334,12 +337,19 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options, const
 }
 
 /// Bad input and parts on which no tendon can be wound are not feasible.
-bool is_made(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
+std::optional<formats::Product> made(const MechanismFile& file, const BuildOptions& options,
+                                     const RunContext& context) {
+  formats::Product product;
+  product.file = file;
   try {
-    return passes_checks(file, options, context);
+    if (passes_checks(product, options, context)) return product;
   } catch (const InputError&) {
-    return false;
   }
+  return std::nullopt;
+}
+
+bool is_made(const MechanismFile& file, const BuildOptions& options, const RunContext& context) {
+  return made(file, options, context).has_value();
 }
 
 /// Quick feasibility check of small variants of a file: curves and body without a mesh. A variant of the body alone
@@ -430,9 +440,58 @@ profile::Advice advice_for(const formats::Product& product, const BuildOptions& 
   return solid::body_advice(file.mechanism, judge, product.pulley.layout.parts);
 }
 
+std::vector<std::string> names_with_table(const Mechanism& mechanism) {
+  std::vector<std::string> names = output_names();
+  if (const auto table = law_table_name(mechanism)) names.push_back(*table);
+  return names;
+}
+
+/// Throws OutputError if mechanism.toml would replace the file that was read by one with other numbers.
+void demand_other_place(const MechanismFile& file, const BuildOptions& options) {
+  std::error_code error;
+  const std::filesystem::path written = options.folder / "mechanism.toml";
+  if (options.dry_run || file.settings.empty() || !std::filesystem::equivalent(written, file.path, error)) return;
+  throw OutputError(written.string() + " is the mechanism file itself, which --set would change",
+                    "choose another folder with -o");
+}
+
+/// Additional lengths of the tendons in a rig that holds them in a way of its own.
+std::optional<std::array<kit::KitTendon, 2>> rig_of(const formats::Product& product) {
+  if (product.helix) return std::nullopt;
+  const kit::KitPlan plan = kit::plan_kit(product.joint.mechanism, product.synthesis, product.pulley.layout);
+  if (!plan.made() || plan.drilled) return std::nullopt;
+  return plan.tendons;
+}
+
+std::vector<std::string> advised_notes(const formats::Product& product, const BuildOptions& options,
+                                       const RunContext& context) {
+  if (!options.advice) return product.pulley.layout.notes;
+  const BuildOmissions build = [&](const Mechanism& changed) -> std::optional<std::vector<std::string>> {
+    const auto trial = made(with_declared(product.file, changed), options, context);
+    if (!trial) return std::nullopt;
+    std::vector<std::string> features;
+    for (const solid::Omission& omission : trial->pulley.layout.omissions) features.push_back(omission.feature);
+    return features;
+  };
+  return notes_with_advice(product, build, context);
+}
+
+std::vector<Diagnostic> parts_in_the_way(const formats::Product& product, const BuildOptions& options,
+                                         const RunContext& context) {
+  return pulley_in_the_way(product, [&](const Mechanism& changed) {
+    return options.advice ? made(with_declared(product.file, changed), options, context) : std::nullopt;
+  });
+}
+
 void write_and_check(BuildContext& context) {
-  Tables tables = write_and_check_parts(context);
   formats::Product& product = context.result.product;
+  product.rig = rig_of(product);
+  const RunContext trials = context.run.without_progress();
+  auto notes = run_async([&] { return advised_notes(product, context.options, trials); });
+  auto in_the_way = run_async([&] { return parts_in_the_way(product, context.options, trials); });
+  Tables tables = write_and_check_parts(context);
+  product.pulley.layout.notes = notes.get();
+  for (Diagnostic& part : in_the_way.get()) product.file.warnings.push_back(std::move(part));
   for (Diagnostic& thin : walls_below_a_line(product)) product.file.warnings.push_back(std::move(thin));
   write_texts(context, std::move(tables));
   context.result.status = all_ok(context.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
@@ -442,9 +501,9 @@ void write_and_check(BuildContext& context) {
 
 const std::vector<std::string>& output_names() {
   static const std::vector<std::string> names = {
-      "pulley.stl",     "pulley_p1.stl",    "pulley_p2.stl", "pulley.obj",   "pulley.3mf",  "pulley.drc",
-      k_step,           "pulley.scad",      "profile.dxf",   "plates.dxf",   "profile.csv", "profile_p1.csv",
-      "profile_p2.csv", "transmission.csv", "report.html",   "manifest.json"};
+      "pulley.stl",     "pulley_p1.stl",    "pulley_p2.stl",  "pulley.obj",  "pulley.3mf",   "pulley.drc",
+      k_step,           "pulley.scad",      "profile.dxf",    "plates.dxf",  "profile.csv",  "profile_p1.csv",
+      "profile_p2.csv", "transmission.csv", "mechanism.toml", "report.html", "manifest.json"};
   return names;
 }
 
@@ -456,7 +515,10 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options, const 
   OutputFolder target(options.folder, options.force, context);
   if (const auto why = options.step ? formats::step_missing() : std::nullopt)
     throw InputError("", "no pulley.step: this fusee was built without STEP: " + *why, "build without --step");
-  target.claim(output_names());  // before the work: a refusal should not cost a wait
+  const std::vector<std::string> names = names_with_table(file.mechanism);
+  demand_other_place(file, options);
+  target.claim(names);  // before the work: a refusal should not cost a wait
+  result.product.mechanism_files = mechanism_files(file, *context.files);
   const bool is_possible = design_any(result.product, options.chord_error_mm, options.limits, context);
   for (Diagnostic& warning : warned.get()) result.product.file.warnings.push_back(std::move(warning));
   if (!is_possible) {
@@ -481,7 +543,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options, const 
   if (!may_publish) return result;
   context.begin_step("publishing");
   // pulley_p1.stl of an earlier run does not belong to a pulley in one piece.
-  target.withdraw(output_names());
+  target.withdraw(names);
   target.publish(result.product.file.warnings);
   result.published = true;
   return result;

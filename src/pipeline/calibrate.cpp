@@ -8,7 +8,6 @@
 namespace fusee::pipeline {
 namespace {
 
-constexpr std::size_t k_largest_spec = 1 << 20;
 constexpr int k_most_next_runs = 9;
 constexpr int k_most_earlier_runs = 99;  // run files of an earlier calibration
 
@@ -78,22 +77,6 @@ void conclude(const CalibrationContext& context, const RunFiles& runs) {
   product.rehearsal = correction::rehearse(expected, product.measurement, product.calibration);
 }
 
-/// The user's text if it describes the mechanism; else a new text with every key.
-std::string own_text(const MechanismFile& file, bool& rewritten, FileAccess& files) {
-  const std::filesystem::path path = file.path;
-  rewritten = true;
-  if (path.empty()) return write_mechanism(file.mechanism);
-  const std::string text = read_file(path, k_largest_spec, files);
-  rewritten = parse_mechanism(text, file.path, path.parent_path(), {}, nullptr, nullptr, files) != file.mechanism;
-  return rewritten ? write_mechanism(file.mechanism) : text;
-}
-
-/// Text that corrected.toml starts from, independent of its folder.
-std::string declared_text(const MechanismFile& file, bool& rewritten, FileAccess& files) {
-  const std::string text = own_text(file, rewritten, files);
-  return law_table_name(file.mechanism) ? with_table_beside(text, file, files) : text;
-}
-
 std::vector<OutputFile> outputs_of(const formats::CalibrationProduct& product, const std::string& declared,
                                    FileAccess& files) {
   std::vector<OutputFile> outputs;
@@ -147,9 +130,10 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
   const RunFiles files = run_files(runs, options.hold_out);
   target.claim(with_next(output_names(file), first_free_run_beside(files),
                          k_most_next_runs));  // before the work, so that a refusal costs no time
-  const std::string declared = declared_text(file, result.rewritten, *run.files);
+  const DeclaredText declared = declared_text(file, *run.files);
+  result.rewritten = declared.rewritten;
   conclude(context, files);
-  result.outputs = outputs_of(result.product, declared, *run.files);
+  result.outputs = outputs_of(result.product, declared.text, *run.files);
   target.withdraw(
       with_next(output_names(file), 1, k_most_earlier_runs));  // a correction or run file that this run does not write
   if (!options.dry_run) publish(context, target);

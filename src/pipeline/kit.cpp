@@ -9,6 +9,7 @@
 #include "fusee/pipeline.h"
 #include "pipeline/agreement.h"
 #include "pipeline/design.h"
+#include "pipeline/law_table_copy.h"
 #include "pipeline/several_turns.h"
 #include "solid/print.h"
 
@@ -36,8 +37,9 @@ CheckedPart made(const kit::KitPart& part, const formats::KitProduct& product) {
   const solid::TriangleMesh mesh = kit::printed_mesh(part, mechanism, layout);
   const std::string name = mechanism.name + ", " + part.name;
   CheckedPart result;
-  result.files = {{formats::kit_file_name(part, "stl"), formats::stl_bytes(mesh, name)},
-                  {formats::kit_file_name(part, "3mf"), formats::threemf_bytes(mesh, name)}};
+  result.files = {
+      {formats::kit_file_name(part, "stl"), formats::stl_bytes(mesh, name)},
+      {formats::kit_file_name(part, "3mf"), formats::threemf_bytes(mesh, name, product.pulley.mechanism_files)}};
   const solid::TriangleMesh written = read_back(result.files[0]);
   result.checks = solid::check_mesh(written);
   // Rounding moves a corner by half of a float's last digit, which changes the volume by that times the area.
@@ -170,6 +172,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options, const RunCon
   OutputFolder target(options.folder, options.force, context);
   target.claim(
       {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work, so that a refusal costs no time
+  product.pulley.mechanism_files = mechanism_files(file, *context.files);
   if (!design_any(product.pulley, options.chord_error_mm, {}, context)) {
     result.ending = KitEnding::no_pulley;
     return result;

@@ -1,9 +1,25 @@
 #include "pipeline/law_table_copy.h"
 
+#include <algorithm>
+
+#include "fusee/pipeline.h"
+
 namespace fusee::pipeline {
 namespace {
 
 constexpr std::size_t k_largest_law = 8 << 20;
+constexpr std::size_t k_largest_spec = 1 << 20;
+
+DeclaredText own_text(const MechanismFile& file, FileAccess& files) {
+  const std::filesystem::path path = file.path;
+  if (!file.sha256.empty()) {
+    std::string text = read_file(path, k_largest_spec, files);
+    if (sha256(text) == file.sha256 &&
+        parse_mechanism(text, file.path, path.parent_path(), {}, nullptr, nullptr, files) == file.mechanism)
+      return {std::move(text), false};
+  }
+  return {write_mechanism(file.mechanism), true};
+}
 
 /// The table from which the target motion is read.
 template <typename AnyMechanism>
@@ -33,11 +49,26 @@ std::optional<std::string> law_table_name(const Mechanism& mechanism) {
     return std::nullopt;
   const std::string& table = declared_table(mechanism);
   if (table.empty()) return std::nullopt;
-  return std::filesystem::path(table).filename().string();
+  const std::string name = std::filesystem::path(table).filename().string();
+  const std::vector<std::string>& taken = output_names();
+  const bool is_taken = name == "compensation.csv" || std::find(taken.begin(), taken.end(), name) != taken.end();
+  return is_taken ? "law_" + name : name;
 }
 
 OutputFile law_table_copy(const MechanismFile& file, FileAccess& files) {
   return {law_table_name(file.mechanism).value(), read_file(table_path(file), k_largest_law, files)};
+}
+
+DeclaredText declared_text(const MechanismFile& file, FileAccess& files) {
+  DeclaredText own = own_text(file, files);
+  if (law_table_name(file.mechanism)) own.text = with_table_beside(own.text, file, files);
+  return own;
+}
+
+std::vector<OutputFile> mechanism_files(const MechanismFile& file, FileAccess& files) {
+  std::vector<OutputFile> all{{"mechanism.toml", declared_text(file, files).text}};
+  if (law_table_name(file.mechanism)) all.push_back(law_table_copy(file, files));
+  return all;
 }
 
 // The table's name may also occur in a comment or another value. The right occurrence is the one with which the reader

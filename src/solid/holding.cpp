@@ -8,20 +8,13 @@
 #include "fusee/analysis.h"
 #include "fusee/base.h"
 #include "fusee/solid.h"
+#include "solid/knot_loads.h"
 #include "solid/plan.h"
 #include "solid/wrap.h"
 #include "transmission/load.h"
 
 namespace fusee::solid {
 namespace {
-
-// Tension at a take-off, and the angle from it to the end of the active arc.
-struct TakeOffLoad {
-  double alpha = 0;
-  double tension = 0;
-  double turn = 0;
-};
-using StrokeLoads = std::array<std::vector<TakeOffLoad>, 2>;  // for P1 and P2
 
 std::size_t index_of(transmission::Side side) { return side == transmission::Side::left ? 0 : 1; }
 
@@ -54,42 +47,6 @@ std::vector<double> alphas_of(const std::vector<transmission::TransmissionPoint>
   return alphas;
 }
 
-// The largest tension at each take-off. `loaded`: the declared load's cycle. The unloaded cycle counts too, because a
-// load that relieves one tendon loads the other.
-StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<transmission::TransmissionPoint>& stroke,
-                         const std::vector<analysis::StrokePoint>& loaded) {
-  StrokeLoads loads;
-  const std::vector<double> alphas = alphas_of(stroke);
-  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
-    const std::vector<double> turns = turns_to_end(stroke, side);
-    for (std::size_t i = 0; i < stroke.size(); ++i) loads[index_of(side)].push_back({alphas[i], 0.0, turns[i]});
-  }
-  Mechanism unloaded = mechanism;
-  transmission::keep_law(unloaded);
-  unloaded.load = {};
-  unloaded.spring = {};
-  const std::vector<analysis::StrokePoint> free = analysis::settled_stroke(unloaded, alphas);
-  for (const std::vector<analysis::StrokePoint>* points : {&loaded, &free}) {
-    for (std::size_t i = 0; i < alphas.size(); ++i) {
-      raise(loads, i, (*points)[i].rising);
-      raise(loads, i, (*points)[i].falling);
-    }
-  }
-  return loads;
-}
-
-// A wrapped tendon sustains any tension between T e^(−μφ) and T e^(μφ) and slides beyond these bounds. The knot's
-// tension increases only when T e^(−μφ) exceeds all previous values, so it ends at the stroke's largest T e^(−μφ).
-KnotHold worst_knot(transmission::Side side, const std::vector<TakeOffLoad>& loads, double mu, double lap) {
-  KnotHold most{side, 0, 0, 0, -1};
-  for (const TakeOffLoad& load : loads) {
-    const double wrap = lap + load.turn;
-    const double at_knot = load.tension * std::exp(-mu * wrap);
-    if (at_knot > most.at_knot) most = {side, load.alpha, wrap, load.tension, at_knot};
-  }
-  return most;
-}
-
 bool all_hold(const Holding& holding) {
   return std::all_of(holding.knots.begin(), holding.knots.end(),
                      [&holding](const KnotHold& knot) { return holding.share(knot).value_or(0) <= k_safe_knot_share; });
@@ -104,7 +61,7 @@ std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const p
   holding.strength = analysis::tendon_strength(mechanism.tendon);
   for (const PlannedAnchor& anchor : plan.anchors) {
     if (!anchor.wound_end) continue;
-    holding.knots.push_back(worst_knot(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, anchor.wrap()));
+    holding.knots.push_back(worst_knot(anchor.side, loads, mechanism.pulley.mu, anchor.wrap()));
   }
   return holding;
 }
@@ -163,6 +120,54 @@ std::string warning_of(const KnotHold& knot, const Holding& holding, const std::
 
 }  // namespace
 
+StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<transmission::TransmissionPoint>& stroke,
+                         const std::vector<analysis::StrokePoint>& loaded) {
+  StrokeLoads loads;
+  const std::vector<double> alphas = alphas_of(stroke);
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    const std::vector<double> turns = turns_to_end(stroke, side);
+    for (std::size_t i = 0; i < stroke.size(); ++i) loads[index_of(side)].push_back({alphas[i], 0.0, turns[i]});
+  }
+  Mechanism unloaded = mechanism;
+  transmission::keep_law(unloaded);
+  unloaded.load = {};
+  unloaded.spring = {};
+  const std::vector<analysis::StrokePoint> free = analysis::settled_stroke(unloaded, alphas);
+  for (const std::vector<analysis::StrokePoint>* points : {&loaded, &free}) {
+    for (std::size_t i = 0; i < alphas.size(); ++i) {
+      raise(loads, i, (*points)[i].rising);
+      raise(loads, i, (*points)[i].falling);
+    }
+  }
+  return loads;
+}
+
+// A wrapped tendon sustains any tension between T e^(−μφ) and T e^(μφ) and slides beyond these bounds. The knot's
+// tension increases only when T e^(−μφ) exceeds all previous values, so it ends at the stroke's largest T e^(−μφ).
+KnotHold worst_knot(transmission::Side side, const StrokeLoads& loads, double mu, double lap) {
+  KnotHold most{side, 0, 0, 0, -1};
+  for (const TakeOffLoad& load : loads[index_of(side)]) {
+    const double wrap = lap + load.turn;
+    const double at_knot = load.tension * std::exp(-mu * wrap);
+    if (at_knot > most.at_knot) most = {side, load.alpha, wrap, load.tension, at_knot};
+  }
+  return most;
+}
+
+KnotLoads::KnotLoads(const Mechanism& mechanism, const profile::SynthesisResult& synthesis) : mu_(mechanism.pulley.mu) {
+  holding_.strength = analysis::tendon_strength(mechanism.tendon);
+  if (!holding_.strength) return;
+  loads_ = stroke_loads(mechanism, synthesis.stroke, analysis::settled_stroke(mechanism, alphas_of(synthesis.stroke)));
+}
+
+int KnotLoads::unsafe(const std::vector<PlannedAnchor>& anchors) const {
+  if (!holding_.strength) return 0;
+  return static_cast<int>(std::count_if(anchors.begin(), anchors.end(), [this](const PlannedAnchor& anchor) {
+    return anchor.wound_end &&
+           holding_.share(worst_knot(anchor.side, loads_, mu_, anchor.wrap())).value_or(0) > k_safe_knot_share;
+  }));
+}
+
 std::optional<double> Holding::share(const KnotHold& knot) const {
   if (!strength || strength->at_knot <= 0) return std::nullopt;
   return knot.at_knot / strength->at_knot;
@@ -177,7 +182,7 @@ Holding tendon_holding(const Mechanism& mechanism, const profile::SynthesisResul
     if (!anchor.wound_end) continue;
     const profile::Outline& outline = anchor.side == transmission::Side::left ? synthesis.p1 : synthesis.p2;
     const double lap = wound_arc(outline, outline.anchor_end(), index_at_place(outline, anchor.exit)).turn;
-    holding.knots.push_back(worst_knot(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, lap));
+    holding.knots.push_back(worst_knot(anchor.side, loads, mechanism.pulley.mu, lap));
   }
   if (all_hold(holding)) return holding;
   const std::vector<std::string> helps = helpful_changes(mechanism, synthesis, loads, holding);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include "base/text.h"
 #include "solid/condition_list.h"
@@ -13,63 +15,80 @@
 namespace fusee::solid {
 namespace {
 
-double plain_hub_radius(const BodyLayout& layout, double wall) { return layout.bore.radius + std::max(wall, 2.0); }
+bool wants_set_screw(const Body& body) { return body.set_screw != "none" && body.bore != Bore::horn; }
 
-class HubChooser {
+// Threads of an automatic set screw, from the preferred one down.
+constexpr std::array k_automatic_screws{"M3", "M2.5", "M2"};
+
+// Wall that carries the torque of a shaft in a hub without a set screw.
+constexpr double k_torque_wall = 2.0;
+
+class HubSizes {
  public:
-  HubChooser(BodyLayout& layout, const Mechanism& mechanism, double rim_radius)
-      : layout_(layout), mechanism_(mechanism), body_(mechanism.body), limit_(rim_radius - k_hub_margin) {}
+  HubSizes(const BodyLayout& layout, const Mechanism& mechanism, double rim_radius)
+      : with_height_(layout), mechanism_(mechanism), body_(mechanism.body), limit_(rim_radius - k_hub_margin) {
+    with_height_.z_hub = layout.z_top + body_.hub_height;
+  }
 
-  void choose() {
-    if (body_.hub_height <= 0) return;
-    layout_.z_hub = layout_.z_top + body_.hub_height;
-    if (wants_screw()) {
-      if (take_screw(body_.nut_trap)) return;
-      if (automatic_screw() && body_.nut_trap && take_screw(false)) {
-        layout_.notes.push_back("no space in the hub for a nut: the set screw's thread is cut into the hub");
-        return;
-      }
-      layout_.notes.push_back("no space in the hub for a set screw: omitted");
+  std::vector<HubChoice> all() const {
+    std::vector<HubChoice> choices;
+    if (body_.hub_height > 0) {
+      if (wants_set_screw(body_)) add_with_screws(choices);
+      add_plain(choices);
     }
-    take_plain();
+    if (choices.empty() || may_be_left_out()) choices.emplace_back();
+    return choices;
   }
 
  private:
-  bool automatic_screw() const { return body_.set_screw == "auto"; }
-  bool wants_screw() const { return body_.set_screw != "none" && body_.bore != Bore::horn; }
+  bool is_automatic_screw() const { return body_.set_screw == "auto"; }
+  bool may_be_left_out() const { return body_.hub_diameter <= 0 && (is_automatic_screw() || !wants_set_screw(body_)); }
 
-  bool take_screw(bool nut_trap) {
-    const Screw* screw = find_screw(automatic_screw() ? "M3" : body_.set_screw);
-    if (screw == nullptr) return false;
-    const double wall = layout_.min_wall;
-    const SetScrewLayout candidate =
-        set_screw_layout(*screw, nut_trap, mechanism_.material.hole_compensation, wall, layout_);
-    const double needed = hub_radius_for(candidate, layout_.bore.radius, wall);
-    const double radius = body_.hub_diameter > 0 ? 0.5 * body_.hub_diameter : needed;
-    const bool fits = needed <= radius && radius <= limit_ && height_to_spare(candidate, layout_, wall) >= 0;
-    // A feature requested by name is kept, and a condition reports why it does not fit.
-    if (!fits && automatic_screw()) return false;
-    if (!fits && body_.hub_diameter <= 0 && radius > limit_) return false;
-    layout_.set_screw = candidate;
-    layout_.hub_radius = radius;
-    return true;
+  // A screw wider than the shaft would bear on its edges. The smallest one is always tried.
+  bool suits_shaft(const Screw& screw) const {
+    return screw.nominal <= with_height_.bore.shaft || screw.name == std::string_view(k_automatic_screws.back());
   }
 
-  void take_plain() {
-    const double radius =
-        body_.hub_diameter > 0 ? 0.5 * body_.hub_diameter : plain_hub_radius(layout_, layout_.min_wall);
-    if (body_.hub_diameter > 0 || (radius <= limit_ && body_.bore != Bore::horn)) {
-      layout_.hub_radius = radius;
+  void add_with_screws(std::vector<HubChoice>& choices) const {
+    if (!is_automatic_screw()) {
+      add_with_screw(*find_screw(body_.set_screw), body_.nut_trap, choices);
       return;
     }
-    layout_.z_hub = layout_.z_top;
-    layout_.notes.push_back(
-        body_.bore == Bore::horn
-            ? "a servo horn requires no hub: omitted"
-            : fmt::format("no space on the upper flange for a hub of {:.1f} mm: omitted", 2.0 * radius));
+    for (const bool nut_trap : {true, false}) {
+      if (nut_trap && !body_.nut_trap) continue;
+      for (const char* name : k_automatic_screws) {
+        if (const Screw& screw = *find_screw(name); suits_shaft(screw)) add_with_screw(screw, nut_trap, choices);
+      }
+    }
+    std::stable_sort(choices.begin(), choices.end(),
+                     [](const HubChoice& a, const HubChoice& b) { return a.radius > b.radius; });
   }
 
-  BodyLayout& layout_;
+  // A screw requested by name is kept in a hub that is too small for it: a condition reports that.
+  void add_with_screw(const Screw& screw, bool nut_trap, std::vector<HubChoice>& choices) const {
+    const double wall = with_height_.min_wall;
+    const SetScrewLayout candidate =
+        set_screw_layout(screw, nut_trap, mechanism_.material.hole_compensation, wall, with_height_);
+    const double needed = hub_radius_for(candidate, with_height_.bore.radius, wall);
+    const double radius = body_.hub_diameter > 0 ? 0.5 * body_.hub_diameter : needed;
+    const bool fits = needed <= radius && radius <= limit_ && height_to_spare(candidate, with_height_, wall) >= 0;
+    const bool is_kept = !is_automatic_screw() && (body_.hub_diameter > 0 || radius <= limit_);
+    // In a hub of requested size a smaller screw saves nothing.
+    const bool is_covered =
+        body_.hub_diameter > 0 && std::any_of(choices.begin(), choices.end(),
+                                              [&](const HubChoice& one) { return one.set_screw.nut_trap == nut_trap; });
+    if ((fits || is_kept) && !is_covered) choices.push_back({radius, candidate});
+  }
+
+  void add_plain(std::vector<HubChoice>& choices) const {
+    if (body_.hub_diameter > 0) {
+      choices.push_back({0.5 * body_.hub_diameter, {}});
+    } else if (const double radius = least_hub_radius(with_height_); radius <= limit_ && body_.bore != Bore::horn) {
+      choices.push_back({radius, {}});
+    }
+  }
+
+  BodyLayout with_height_;
   const Mechanism& mechanism_;
   const Body& body_;
   double limit_;
@@ -108,7 +127,7 @@ double hub_radius_for_named_screw(const Mechanism& mechanism, const BodyLayout& 
 // Only a set screw requested by name can fail.
 void check_set_screw(ConditionList& list, const Mechanism& mechanism, const BodyLayout& layout) {
   const Body& body = mechanism.body;
-  if (body.set_screw == "auto" || body.set_screw == "none" || body.bore == Bore::horn) return;
+  if (body.set_screw == "auto" || !wants_set_screw(body)) return;
   const double diameter = 2.0 * layout.hub_radius, needed = 2.0 * hub_radius_for_named_screw(mechanism, layout);
   if (!layout.set_screw.present) {
     list.add(
@@ -135,8 +154,43 @@ std::string wall_words(double wall) {
   return wall > 0 ? "a wall of " + rounded(wall, 3) + " mm" : "no wall (overlap of " + rounded(-wall, 3) + " mm)";
 }
 
-void choose_hub(BodyLayout& layout, const Mechanism& mechanism, double rim_radius) {
-  HubChooser(layout, mechanism, rim_radius).choose();
+double least_hub_radius(const BodyLayout& layout) {
+  return layout.bore.radius + std::max(layout.min_wall, k_torque_wall);
+}
+
+std::vector<HubChoice> hub_choices(const BodyLayout& layout, const Mechanism& mechanism, double rim_radius) {
+  return HubSizes(layout, mechanism, rim_radius).all();
+}
+
+void set_hub(BodyLayout& layout, const Mechanism& mechanism, const HubChoice& choice) {
+  const Body& body = mechanism.body;
+  layout.hub_radius = choice.radius;
+  layout.set_screw = choice.set_screw;
+  layout.z_hub = layout.z_top + (choice.radius > 0 ? body.hub_height : 0.0);
+  if (body.hub_height <= 0) return;
+  if (choice.radius <= 0) {
+    if (body.bore == Bore::horn) {
+      layout.notes.emplace_back("a servo horn requires no hub: omitted");
+    } else {
+      layout.omit("hub", fmt::format("no space on the upper flange for a hub of {:.1f} mm: omitted",
+                                     2.0 * least_hub_radius(layout)));
+    }
+  }
+  if (!wants_set_screw(body)) return;
+  const SetScrewLayout& screw = choice.set_screw;
+  if (!screw.present) {
+    layout.omit("set_screw",
+                choice.radius > 0 ? "no space for a hub with a set screw: screw omitted" : "no hub: set screw omitted");
+    return;
+  }
+  const bool is_smaller = body.set_screw == "auto" && screw.thread != k_automatic_screws.front();
+  const std::string thread = is_smaller ? ", the set screw is " + screw.thread : "";
+  if (body.nut_trap && !screw.nut_trap) {
+    layout.omit("nut",
+                fmt::format("no space for a hub with a nut: the set screw's thread is cut into the hub{}", thread));
+  } else if (is_smaller) {
+    layout.notes.push_back(fmt::format("no space for a hub with a larger set screw: it is {}", screw.thread));
+  }
 }
 
 std::vector<profile::Condition> hub_conditions(const Mechanism& mechanism, const BodyLayout& layout,

@@ -13,6 +13,16 @@ RoundHole circle_within(const Polygon& facets) {
   return {centre, 2.0 * distance_to_edges(facets, centre)};
 }
 
+void BodyLayout::omit(std::string feature, std::string note) {
+  omissions.push_back({std::move(feature), notes.size()});
+  notes.push_back(std::move(note));
+}
+
+bool BodyLayout::lacks(std::string_view feature) const {
+  return std::any_of(omissions.begin(), omissions.end(),
+                     [feature](const Omission& omission) { return omission.feature == feature; });
+}
+
 double rise_of(const BodyLayout& layout, double width) {
   return width * std::tan(layout.ceiling_slope > 0 ? layout.ceiling_slope : radians(45));
 }

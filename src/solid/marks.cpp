@@ -110,6 +110,7 @@ std::optional<Mark> home_mark(Face& face) {
   face.occupy({{0, tip}, {0, foot}, k_home_half_width});
   Mark mark;
   mark.on_top = face.on_top();
+  mark.shows_home = true;
   if (face.on_top()) {
     mark.loops = {{{-k_home_half_width, foot}, {k_home_half_width, foot}, {0.03, tip}, {-0.03, tip}}};
   } else {
@@ -147,12 +148,14 @@ std::vector<Mark> marks_of(Marks kind, BodyPlan& plan) {
     if (auto home = home_mark(face)) {
       marks.push_back(std::move(*home));
     } else {
-      plan.layout.notes.push_back(on_top ? "no space for the home mark on the top face: omitted"
-                                         : "no space for the clocking mark on the bottom face: omitted");
+      plan.layout.omit(on_top ? "home_mark" : "clocking_mark",
+                       on_top ? "no space for the home mark on the top face: omitted"
+                              : "no space for the clocking mark on the bottom face: omitted");
     }
     auto letters = label_on(face, on_top ? '2' : '1');
     if (letters.empty())
-      plan.layout.notes.push_back(on_top ? "no space for the label P2: omitted" : "no space for the label P1: omitted");
+      plan.layout.omit(on_top ? "label_P2" : "label_P1",
+                       on_top ? "no space for the label P2: omitted" : "no space for the label P1: omitted");
     std::move(letters.begin(), letters.end(), std::back_inserter(marks));
   }
   return marks;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "mechanism/catalogue.h"
@@ -13,6 +14,8 @@
 #include "solid/dowels.h"
 #include "solid/heights.h"
 #include "solid/hub.h"
+#include "solid/knot_loads.h"
+#include "solid/marks.h"
 #include "solid/set_screw.h"
 #include "solid/size.h"
 #include "solid/tails.h"
@@ -55,12 +58,35 @@ class Planner {
         wishes_(wishes),
         tie_offs_(mechanism, synthesis, rims, wishes) {}
 
+  // The largest hub with the fewest costs is taken. Whether a plan exists does not depend on an automatic hub.
   BodyPlan plan() {
+    const BodyLayout body = preferred_layout();
+    const std::vector<HubChoice> hubs = hub_choices(body, mechanism_, inradius(rims_.upper));
+    std::optional<BodyPlan> best;
+    int least = 0;
+    for (const HubChoice& hub : hubs) {
+      BodyPlan plan = plan_with(with_hub(body, hub));
+      const bool is_needless = mechanism_.body.hub_diameter <= 0 && hub.set_screw.present &&
+                               !plan.layout.set_screw.present;  // as large as for the screw that it lacks
+      if (best && is_needless) continue;
+      const int cost = wishes_.conditions_alone ? 0 : cost_of(plan) + (is_needless ? 1 : 0);
+      const bool is_better = !best || (plan.possible() && (!best->possible() || cost < least));
+      if (!is_better) continue;
+      best = std::move(plan);
+      least = cost;
+      if (best->possible() && cost == 0) break;
+      if (wishes_.conditions_alone) break;
+    }
+    return *std::move(best);
+  }
+
+ private:
+  BodyPlan plan_with(const BodyLayout& layout) const {
     BodyPlan plan;
     plan.rims = rims_;
     plan.floor1 = floor_within(synthesis_.p1, d_);
     plan.floor2 = floor_within(synthesis_.p2, d_);
-    plan.layout = preferred_layout();
+    plan.layout = layout;
     const WoundTieOffs wound = tie_offs_.wound(plan.layout);
     tie_offs_.settle_pockets(plan.layout, wound);
     plan.anchors = tie_offs_.all(plan.layout, wound);
@@ -72,10 +98,23 @@ class Planner {
     if (wishes_.conditions_alone && find_screw(mechanism_.body.clamp_screw) == nullptr) return plan;
     const std::vector<profile::Condition> of_tails = place_tails(plan, mechanism_, wishes_.rejected);
     plan.conditions.insert(plan.conditions.end(), of_tails.begin(), of_tails.end());
+    if (!wishes_.conditions_alone) plan.marks = marks_of(mechanism_.body.marks, plan);
     return plan;
   }
 
- private:
+  // Features that the hub leaves no space for, pockets that weaken it, and knots that too little wrap relieves. A thread
+  // in the hub does the work of a nut.
+  int cost_of(const BodyPlan& plan) {
+    const std::vector<Omission>& omissions = plan.layout.omissions;
+    auto cost = std::count_if(omissions.begin(), omissions.end(),
+                              [](const Omission& omission) { return omission.feature != "nut"; });
+    cost += std::count_if(plan.anchors.begin(), plan.anchors.end(), [&plan](const PlannedAnchor& anchor) {
+      return plan.layout.hub_radius > 0 && anchor.cuts_into_hub(plan.layout);
+    });
+    if (!knots_) knots_.emplace(mechanism_, synthesis_);
+    return static_cast<int>(cost) + knots_->unsafe(plan.anchors);
+  }
+
   Polygon floor(const profile::Outline& outline) const { return profile::parallel(outline, -0.5 * d_); }
 
   // In order of preference.
@@ -112,6 +151,7 @@ class Planner {
     return least;
   }
 
+  // P2's channels use the space beside the hub only if they keep their pockets. No hub therefore decides whether they fit.
   bool fits(const BodyLayout& layout) const {
     return bore_fits(layout) && tie_offs_.has_room(layout, tie_offs_.wound(layout));
   }
@@ -130,10 +170,14 @@ class Planner {
     layout.min_wall = wall;
     layout.bore = bore_layout(mechanism_, bore);
     if (mechanism_.body.bore_diameter <= 0 && bore < k_bores.front()) {
-      layout.notes.push_back(fmt::format("no space for a bore of {} mm: reduced to {} mm", k_bores.front(), bore));
+      layout.omit("bore", fmt::format("no space for a bore of {} mm: reduced to {} mm", k_bores.front(), bore));
     }
     ceiling_recess(layout);
-    choose_hub(layout, mechanism_, inradius(rims_.upper));
+    return layout;
+  }
+
+  BodyLayout with_hub(BodyLayout layout, const HubChoice& hub) const {
+    set_hub(layout, mechanism_, hub);
     return layout;
   }
 
@@ -155,7 +199,7 @@ class Planner {
       return;
     }
     screw = {};
-    plan.layout.notes.push_back("a knot pocket occupies the place of the set screw: screw omitted");
+    plan.layout.omit("set_screw", "a knot pocket occupies the place of the set screw: screw omitted");
   }
 
   const Mechanism& mechanism_;
@@ -165,6 +209,7 @@ class Planner {
   const FlangeRims& rims_;
   const TieOffWishes& wishes_;
   TieOffPlanner tie_offs_;
+  std::optional<KnotLoads> knots_;
 };
 
 // A part that is too large is not planned.

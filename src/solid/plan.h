@@ -15,11 +15,13 @@ struct BodyPlan {
   FlangeRims rims;
   Polygon floor1, floor2;  ///< of the grooves, with few points, everywhere inside the true floors
   std::vector<PlannedAnchor> anchors;
+  std::vector<Mark> marks;
   std::vector<profile::Condition> conditions;
 
   bool possible() const;
 };
 
+/// Chooses the largest hub that leaves space for every other feature, or for most of them.
 /// Puts the tie-offs as far round the closing arc as there is space. If another feature then has no place, puts them
 /// near the active arc.
 BodyPlan plan_body(const Mechanism& mechanism, const profile::SynthesisResult& synthesis,

@@ -17,7 +17,6 @@
 #include "solid/euler.h"
 #include "solid/face_holes.h"
 #include "solid/manifold_check.h"
-#include "solid/marks.h"
 #include "solid/place.h"
 #include "solid/plan.h"
 #include "solid/plane_distance.h"
@@ -472,7 +471,7 @@ RatedPulley pulley_of(const Mechanism& mechanism, const profile::SynthesisResult
     pulley.conditions.push_back(*anchors.at(0).cut_into);
     return rated;
   }
-  const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
+  const std::vector<Mark>& marks = plan.marks;
   const PieceMaker maker(mechanism, synthesis, plan, marks, corners);
   // A blank that is no valid solid is a bug, not a rejection.
   auto gate = run_async([&maker] { maker.demand_solids(); });
@@ -482,7 +481,7 @@ RatedPulley pulley_of(const Mechanism& mechanism, const profile::SynthesisResult
   if (cut.pieces.empty() && !marks.empty()) {
     cut = best_cut(maker, false, anchors, first, variants, enough);
     is_marked = cut.pieces.empty();
-    if (!is_marked) plan.layout.notes.push_back("the marks would cut into a tie-off: omitted");
+    if (!is_marked) plan.layout.omit("marks", "the marks would cut into a tie-off: omitted");
   }
   gate.get();
   auto& [pieces, taken] = cut;
@@ -564,6 +563,10 @@ double pocket_radius(const Anchor& anchor, const BodyLayout& layout) {
   return anchor.seat ? anchor.seat->radius : layout.pocket_radius;
 }
 
+bool Pulley::has_home_mark() const {
+  return std::any_of(marks.begin(), marks.end(), [](const Mark& mark) { return mark.shows_home && mark.on_top; });
+}
+
 std::string Pulley::brief() const {
   if (made()) {
     return fmt::format("a body of {} facets, {:.1f} cm³, {} tie-offs", mesh.triangles.size(), expected_volume / 1000.0,
@@ -584,6 +587,14 @@ Pulley make_pulley(const Mechanism& mechanism, const profile::SynthesisResult& s
       search_printable_tie_offs(mechanism, synthesis, k_steep_lean, Corners::round, is_brief ? k_brief : Effort{});
   if (is_brief || !fails_printing(pulley)) return pulley;
   return search_printable_tie_offs(mechanism, synthesis, k_wide_lean, Corners::squared, Effort{});
+}
+
+OuterSize outer_size(const Pulley& pulley) {
+  if (pulley.mesh.vertices.empty()) return {};
+  double reach = 0;
+  for (const Vec3& vertex : pulley.mesh.vertices) reach = std::max(reach, vertex.head<2>().norm());
+  const Bounds box = bounds(pulley.mesh);
+  return {2.0 * reach / pulley.layout.scale, (box.high.z() - box.low.z()) / pulley.layout.scale};
 }
 
 TriangleMesh plate_of(const Pulley& pulley) {

@@ -46,6 +46,7 @@ SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compen
                                 const BodyLayout& layout) {
   SetScrewLayout result;
   result.present = true;
+  result.thread = screw.name;
   result.nut_trap = nut_trap;
   result.hole_diameter = (nut_trap ? screw.clearance : screw.tapping) + compensation;
   result.angle = 0.5 * k_pi;

@@ -193,8 +193,9 @@ std::vector<profile::Condition> place_tails(BodyPlan& plan, const Mechanism& mec
       anchor.tail = placer.place(anchor);
     if (clamps) conditions.push_back(clamp_condition(screw, anchor.side, anchor.tail.has_value()));
     if (!anchor.tail && !clamps) {
-      plan.layout.notes.push_back(fmt::format("no space on {}'s face for a slot for the tendon's tail: omitted",
-                                              transmission::pulley_name(anchor.side)));
+      const std::string_view name = transmission::pulley_name(anchor.side);
+      plan.layout.omit(fmt::format("tail_slot_{}", name),
+                       fmt::format("no space on {}'s face for a slot for the tendon's tail: omitted", name));
     }
   }
   return conditions;

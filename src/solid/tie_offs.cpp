@@ -55,6 +55,10 @@ double pocket_radius_of(const TieOff& way, const BodyLayout& layout) {
   return is_channel(way) ? layout.pocket_radius : room_of(way);
 }
 
+bool cuts_into(const BodyLayout& layout, const TieOff& way) {
+  return pocket_of(way).norm() < layout.hub_radius + pocket_radius_of(way, layout);
+}
+
 std::vector<Bar> bars_of(const TieOff& way, const BodyLayout& layout) {
   std::vector<Bar> bars = of(way, [&layout](const auto& found) { return found.bars(layout.channel_width); });
   bars.push_back({pocket_of(way), pocket_of(way), pocket_radius_of(way, layout)});
@@ -62,10 +66,7 @@ std::vector<Bar> bars_of(const TieOff& way, const BodyLayout& layout) {
 }
 
 int cuts_into_hub(const BodyLayout& layout, const TieOffPair& pair) {
-  const auto cuts = [&layout](const TieOff& way) {
-    return pocket_of(way).norm() < layout.hub_radius + pocket_radius_of(way, layout);
-  };
-  return int{cuts(pair.wound)} + int{pair.spare && cuts(*pair.spare)};
+  return int{cuts_into(layout, pair.wound)} + int{pair.spare && cuts_into(layout, *pair.spare)};
 }
 
 // On a shaft with a flat the set screw cannot be turned away from a pocket.
@@ -82,6 +83,9 @@ Vec2 PlannedAnchor::start() const {
 }
 Vec2 PlannedAnchor::pocket() const { return pocket_of(way); }
 double PlannedAnchor::pocket_radius(const BodyLayout& layout) const { return pocket_radius_of(way, layout); }
+bool PlannedAnchor::cuts_into_hub(const BodyLayout& layout) const {
+  return side == transmission::Side::right && cuts_into(layout, way);
+}
 double PlannedAnchor::wrap() const { return wrap_of(way); }
 std::vector<Bar> PlannedAnchor::bars(const BodyLayout& layout) const { return bars_of(way, layout); }
 
@@ -162,8 +166,8 @@ void TieOffPlanner::settle_pockets(BodyLayout& layout, const WoundTieOffs& wound
     if (is_channel(way)) layout.pocket_radius = std::min(layout.pocket_radius, room_of(way));
   }
   if (mechanism_.body.knot_pocket <= 0 && layout.pocket_radius < wanted) {
-    layout.notes.push_back(fmt::format("no space for knot pockets of {:.2f} mm: reduced to {:.2f} mm", 2.0 * wanted,
-                                       2.0 * layout.pocket_radius));
+    layout.omit("knot_pocket", fmt::format("no space for knot pockets of {:.2f} mm: reduced to {:.2f} mm", 2.0 * wanted,
+                                           2.0 * layout.pocket_radius));
   }
 }
 
@@ -184,16 +188,18 @@ void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout,
                         const TieOffPair& pair) const {
   anchors.push_back({ground.outline().side, true, pair.wound, {}});
   if (!is_channel(pair.wound)) {
-    layout.notes.push_back(
-        fmt::format("no space on {} for a tie-off's channel and pocket: the tendon goes through a slot "
-                    "to the face",
-                    transmission::pulley_name(ground.outline().side)));
+    const std::string_view name = transmission::pulley_name(ground.outline().side);
+    layout.omit(fmt::format("channel_{}", name),
+                fmt::format("no space on {} for a tie-off's channel and pocket: the tendon goes through a slot "
+                            "to the face",
+                            name));
   }
   if (pair.spare) {
     anchors.push_back({ground.outline().side, false, *pair.spare, {}});
   } else {
-    layout.notes.push_back(
-        fmt::format("no space for a spare tie-off on {}: omitted", transmission::pulley_name(ground.outline().side)));
+    const std::string_view name = transmission::pulley_name(ground.outline().side);
+    layout.omit(fmt::format("spare_tie_off_{}", name),
+                fmt::format("no space for a spare tie-off on {}: omitted", name));
   }
 }
 

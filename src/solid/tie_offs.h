@@ -27,6 +27,7 @@ struct PlannedAnchor {
   Vec2 start() const;
   Vec2 pocket() const;
   double pocket_radius(const BodyLayout& layout) const;
+  bool cuts_into_hub(const BodyLayout& layout) const;
   double wrap() const;
   /// Plan views of all that is cut out, except the tail's slot.
   std::vector<Bar> bars(const BodyLayout& layout) const;

@@ -16,7 +16,8 @@ import unittest
 import harness
 
 OUTPUTS = {"pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "pulley.scad", "profile.dxf", "plates.dxf",
-           "profile.csv", "profile_p1.csv", "profile_p2.csv", "transmission.csv", "report.html", "manifest.json"}
+           "profile.csv", "profile_p1.csv", "profile_p2.csv", "transmission.csv", "mechanism.toml", "report.html",
+           "manifest.json"}
 PARTS = {"pulley_p1.stl", "pulley_p2.stl"}  # of a pulley printed in two parts, like that of arm.toml
 
 
@@ -31,6 +32,46 @@ class Build(harness.Scratch):
         self.assertEqual(set(self.build("one", "--set print.parts=one")), OUTPUTS)
         self.build("again")
         self.assertEqual(set(self.build("again", "--set print.parts=one")), OUTPUTS)
+
+    def test_trial_has_its_own_folder(self):
+        self.expect("build arm.toml", 0)
+        before = self.files("out/arm")
+        self.expect("build arm.toml --set pulley.r1_mm=15", 0, "files +in out/arm.pulley.r1_mm=15", "not replaced")
+        self.assertEqual(self.files("out/arm"), before)
+        trial = self.files("out/arm.pulley.r1_mm=15")
+        self.assertNotEqual(trial["pulley.stl"], before["pulley.stl"])
+        manifest = harness.json.loads(trial["manifest.json"])
+        self.assertEqual(manifest["input"]["set"], {"pulley.r1_mm": 15})
+        # Values that differ only in characters no name may have get different folders.
+        for name in ["a/b", "a:b"]:
+            self.expect(f"build arm.toml --set name={name}", 0)
+        self.assertEqual(len([path for path in (self.folder / "out").iterdir() if path.name.startswith("arm.name=a_b")]), 2)
+
+    def test_print_opens_again(self):
+        self.expect("build arm.toml --set pulley.r1_mm=15 -o trial", 0)
+        self.expect("new --from trial/pulley.3mf -o again.toml", 0, "again.toml", "^$")
+        self.expect("build again.toml -o again", 0)
+        trial, again = self.files("trial"), self.files("again")
+        for name in ["pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "mechanism.toml"]:
+            self.assertEqual(trial[name], again[name], name)
+        self.expect("new --from trial/pulley.3mf -o again.toml", 6, "^$", "exists.*--force")
+        self.expect("new --from trial/pulley.3mf --set pulley.r1_mm=16", 0, "r1_mm = 16")
+        self.expect("new --from trial/pulley.stl", 3, "^$", "zip archive")
+        self.expect("new --from trial/pulley.3mf forearm", 2, "^$", "no template")
+        self.expect("new --from trial/pulley.3mf --ask", 2, "^$", "exclude")
+        self.expect("new -o x.toml", 2, "^$", "needs a TEMPLATE")
+
+    def test_print_keeps_table_of_law(self):
+        for name in ["gripper.toml", "gripper_law.csv"]:
+            shutil.copy(harness.SOURCE / "profiles" / name, self.folder)
+        self.expect("build gripper.toml -o one", 0)
+        shutil.copy(self.folder / "one/pulley.3mf", self.folder / "part.3mf")
+        self.expect("new --from part.3mf", 0, "gripper_law.csv", "needs the table gripper_law.csv.*-o")
+        (self.folder / "new").mkdir()
+        self.expect("new --from part.3mf -o new/part.toml", 0)
+        self.expect("build new/part.toml -o two", 0)
+        self.assertEqual(self.files("one")["pulley.stl"], self.files("two")["pulley.stl"])
+        self.assertEqual(self.files("one")["gripper_law.csv"], self.files("two")["gripper_law.csv"])
 
     def test_writes_step_on_request(self):
         done = self.fusee("build arm.toml -o out/cad --step")

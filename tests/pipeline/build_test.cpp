@@ -71,6 +71,139 @@ TEST_F(Build, WritesNamedFiles) {
   }
 }
 
+// ---- input and settings ---------------------------------------------------------------------------------------------
+
+const std::string& bytes_of(const pipeline::BuildResult& built, const std::string& name) {
+  for (const OutputFile& output : built.outputs) {
+    if (output.name == name) return output.bytes;
+  }
+  throw std::out_of_range("no output " + name);
+}
+
+// The file beside the meshes makes the same part: with its settings, and with a law from a table.
+TEST_F(Build, MechanismBesideMeshesMakesSamePart) {
+  for (const auto& [profile, settings] : {std::pair<const char*, std::vector<Setting>>{"forearm", {}},
+                                          {"forearm", {{"pulley.r1_mm", "15"}}},
+                                          {"gripper", {}}}) {
+    SCOPED_TRACE(::testing::Message() << profile << " with " << settings.size() << " settings");
+    const MechanismFile declared = read_mechanism(k_profiles / (std::string(profile) + ".toml"), settings);
+    const pipeline::BuildResult first = pipeline::build(declared, options_);
+    const MechanismFile kept = read_mechanism(options_.folder / "mechanism.toml");
+    EXPECT_TRUE(kept.mechanism == declared.mechanism || !settings.empty() || profile == std::string("gripper"));
+    pipeline::BuildOptions elsewhere = options_;
+    elsewhere.dry_run = true;
+    const pipeline::BuildResult again = pipeline::build(kept, elsewhere);
+    for (const char* name : {"pulley.stl", "pulley.obj", "pulley.drc", "profile.dxf", "transmission.csv"})
+      EXPECT_EQ(bytes_of(first, name), bytes_of(again, name)) << name;
+    // Unchanged text is kept with its comments.
+    if (settings.empty() && profile == std::string("forearm")) {
+      EXPECT_EQ(bytes_of(first, "mechanism.toml"), read_file(k_profiles / "forearm.toml", 1 << 20));
+    }
+  }
+}
+
+TEST_F(Build, SettingsStandInManifestAndReport) {
+  const MechanismFile file =
+      read_mechanism(k_profiles / "forearm.toml", {{"pulley.r1_mm", "14"}, {"pulley.r1_mm", "15"}});
+  const pipeline::BuildResult built = pipeline::build(file, options_);
+  EXPECT_THAT(words_of(bytes_of(built, "manifest.json")), HasSubstr(R"("set":{"pulley.r1_mm":15.0}})"));
+  EXPECT_THAT(bytes_of(built, "report.html"), HasSubstr("forearm.toml</code> with <code>--set pulley.r1_mm=15<"));
+  const pipeline::BuildResult plain = pipeline::build(file_, options_);
+  EXPECT_THAT(words_of(bytes_of(plain, "manifest.json")), HasSubstr(R"("set":{}})"));
+  EXPECT_THAT(bytes_of(plain, "report.html"), Not(HasSubstr("--set ")));
+}
+
+TEST_F(Build, SettingsDoNotReplaceTheirFile) {
+  fs::create_directories(options_.folder);
+  fs::copy_file(k_profiles / "forearm.toml", options_.folder / "mechanism.toml");
+  const MechanismFile file = read_mechanism(options_.folder / "mechanism.toml", {{"pulley.r1_mm", "15"}});
+  options_.force = true;
+  EXPECT_THROW(pipeline::build(file, options_), OutputError);
+  EXPECT_EQ(read_file(options_.folder / "mechanism.toml", 1 << 20), read_file(k_profiles / "forearm.toml", 1 << 20));
+}
+
+// ---- notes and warnings ---------------------------------------------------------------------------------------------
+
+/// "body.hub_diameter_mm" and "12" of "…; try body.hub_diameter_mm = 12 (now automatic, 8.6)".
+std::optional<Setting> advised(const std::string& note) {
+  const std::size_t at = note.find("; try ");
+  if (at == std::string::npos) return std::nullopt;
+  const std::string rest = note.substr(at + 6);
+  const std::size_t equals = rest.find(" = ");
+  return Setting{rest.substr(0, equals), rest.substr(equals + 3, rest.find(" (") - equals - 3)};
+}
+
+TEST_F(Build, AdvisedNumberBringsFeatureBack) {
+  int proven = 0;
+  for (const char* profile : {"finger", "finger_mcp", "paper_optimum"}) {
+    const fs::path path = k_profiles / (std::string(profile) + ".toml");
+    options_.dry_run = true;
+    const pipeline::BuildResult built = pipeline::build(read_mechanism(path), options_);
+    const solid::BodyLayout& layout = built.product.pulley.layout;
+    for (const solid::Omission& omission : layout.omissions) {
+      const std::string& note = layout.notes.at(omission.note);
+      SCOPED_TRACE(std::string(profile) + ": " + note);
+      const auto setting = advised(note);
+      EXPECT_TRUE(setting || note.ends_with("brings it back"));
+      if (!setting) continue;
+      const pipeline::BuildResult changed = pipeline::build(read_mechanism(path, {*setting}), options_);
+      EXPECT_EQ(changed.status, pipeline::BuildStatus::done);
+      EXPECT_FALSE(changed.product.pulley.layout.lacks(omission.feature));
+      ++proven;
+    }
+  }
+  EXPECT_GT(proven, 1);
+}
+
+// A part without home mark is mounted by another feature of its face.
+TEST_F(Build, ReportNamesNoMissingMark) {
+  options_.dry_run = true;
+  for (const char* marks : {"engraved", "none"}) {
+    const auto file = read_mechanism(k_profiles / "forearm.toml", {{"body.marks", marks}});
+    const std::string report = bytes_of(pipeline::build(file, options_), "report.html");
+    const bool is_marked = marks == std::string("engraved");
+    EXPECT_EQ(report.find("the home mark pointing to +y") != std::string::npos, is_marked);
+    EXPECT_EQ(
+        report.find("knot pocket") != std::string::npos && report.find("of +y, seen from above") != std::string::npos,
+        !is_marked);
+  }
+}
+
+TEST_F(Build, WarnsWherePulleyMeetsAxle) {
+  options_.dry_run = true;
+  const auto warnings = [&](const char* ef) {
+    std::vector<std::string> texts;
+    const auto file = read_mechanism(k_profiles / "forearm.toml", {{"pulley.EF_mm", ef}});
+    for (const Diagnostic& warning : pipeline::build(file, options_).product.file.warnings)
+      if (warning.message.find("the joint's axle") != std::string::npos) texts.push_back(warning.hint);
+    return texts;
+  };
+  const std::vector<std::string> met = warnings("40");
+  ASSERT_EQ(met.size(), 1U);
+  ASSERT_THAT(met[0], HasSubstr("try pulley.EF_mm = "));
+  const std::string advised_number = met[0].substr(19, met[0].find(" or more") - 19);
+  EXPECT_THAT(warnings(advised_number.c_str()), IsEmpty());
+  EXPECT_THAT(warnings("80"), IsEmpty());
+}
+
+// Cut lengths of both commands differ by what the rig's tensioner and post use, and both give that number.
+TEST_F(Build, CutLengthsAgreeWithRig) {
+  options_.dry_run = true;
+  const pipeline::BuildResult built = pipeline::build(file_, options_);
+  pipeline::KitOptions rig;
+  rig.folder = scratch_ / "kit";
+  rig.dry_run = true;
+  const pipeline::KitResult kit = pipeline::kit(file_, rig);
+  ASSERT_TRUE(built.product.rig);
+  const auto of_build = formats::rig_cuts(built.product, *built.product.rig), of_kit = formats::kit_cuts(kit.product);
+  ASSERT_EQ(of_build.size(), 2U);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_EQ(of_build[i].cut, of_kit[i].cut);
+    EXPECT_GT(of_build[i].longer, 0);
+    EXPECT_EQ(of_build[i].longer, of_kit[i].longer);
+  }
+}
+
 // ---- as one print or two --------------------------------------------------------------------------------------------
 
 TEST_F(Build, TwoPartsAreInPrintOrientation) {

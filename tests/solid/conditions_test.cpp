@@ -313,7 +313,8 @@ TEST(Conditions, AutomaticSizesShrinkWithNote) {
   const Pulley pulley = make_pulley(mechanism, small);
   ASSERT_TRUE(pulley.made()) << pulley.brief();
   EXPECT_FALSE(pulley.layout.notes.empty());
-  EXPECT_FALSE(pulley.layout.set_screw.present);
+  EXPECT_TRUE(pulley.layout.lacks("bore"));
+  EXPECT_LT(pulley.layout.bore.shaft, 5);
 }
 
 TEST(Conditions, LayoutAgreesWithPulley) {

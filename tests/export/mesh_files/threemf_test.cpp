@@ -92,6 +92,45 @@ TEST(Threemf, RoundTripIsExactInFloats) {
   EXPECT_EQ(read.triangles, mesh.triangles);
 }
 
+const std::string k_kept_text = "name = \"a < b & c\"\r\n# 100 % of µ\n";
+const std::string k_kept_table = std::string("alpha_deg,theta_deg # 5 % \xe4\r\n\0", 31);
+
+TEST(Threemf, KeepsMechanismAndTableToTheByte) {
+  const std::string bytes =
+      threemf_bytes(testing::tetrahedron(), "x", {{"mechanism.toml", k_kept_text}, {"law.csv", k_kept_table}});
+  const KeptMechanism kept = read_kept_mechanism(bytes, "x.3mf");
+  EXPECT_EQ(kept.text, k_kept_text);
+  EXPECT_EQ(kept.table, k_kept_table);
+  EXPECT_EQ(read_mesh(bytes, "x.3mf").triangles.size(), 4U);
+  EXPECT_EQ(read_kept_mechanism(threemf_bytes(testing::tetrahedron(), "x", {{"m", "a"}}), "x").table, std::nullopt);
+}
+
+std::string kept_error(const std::string& bytes) {
+  try {
+    read_kept_mechanism(bytes, "x.3mf");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Names are found by their namespace, whatever prefix another program gave it.
+TEST(Threemf, FindsMechanismUnderAnyPrefixAndNoOther) {
+  const auto with = [](const std::string& attributes, const std::string& metadata) {
+    return package("<model " + attributes + ">" + metadata + "<resources/><build/></model>");
+  };
+  const std::string ours = "xmlns:f='urn:fusee:mechanism:1'";
+  EXPECT_EQ(read_kept_mechanism(with(ours, "<metadata name='f:mechanism'>a = 1</metadata>"), "x").text, "a = 1");
+  EXPECT_THAT(kept_error(with("xmlns:f='urn:other'", "<metadata name='f:mechanism'>a = 1</metadata>")),
+              HasSubstr("keeps no mechanism file"));
+  EXPECT_THAT(kept_error(with("", "<metadata name='mechanism'>a = 1</metadata>")), HasSubstr("keeps no mechanism"));
+  EXPECT_THAT(kept_error(threemf_bytes(testing::tetrahedron(), "x")), HasSubstr("keeps no mechanism file"));
+  EXPECT_THAT(kept_error("solid x"), HasSubstr("zip archive"));
+  EXPECT_THAT(
+      kept_error(with(ours, "<metadata name='f:mechanism'>a</metadata><metadata name='f:table'>5%4</metadata>")),
+      HasSubstr("two hexadecimal digits"));
+}
+
 TEST(Threemf, IsIndependentOfTimeAndPlace) {
   const std::string before = threemf_bytes(testing::tetrahedron(), "x");
   setenv("TZ", "Pacific/Auckland", 1);

@@ -34,7 +34,7 @@ TEST(Manifest, HasAgreedStructure) {
   const Json manifest = Json::parse(manifest_json(made_product(), outputs));
   EXPECT_EQ(manifest["schema"], 1);
   EXPECT_TRUE(manifest["tool"].get<std::string>().starts_with("fusee "));
-  EXPECT_EQ(manifest["input"], Json({{"file", "finger.toml"}, {"sha256", sha256("finger")}}));
+  EXPECT_EQ(manifest["input"], Json({{"file", "finger.toml"}, {"sha256", sha256("finger")}, {"set", Json::object()}}));
   ASSERT_EQ(manifest["grooves"].size(), 2U);
   EXPECT_EQ(manifest["grooves"][0]["pulley"], "P1");
   EXPECT_DOUBLE_EQ(manifest["grooves"][0]["z_mm"], 3.03);

@@ -1,0 +1,124 @@
+#include "pipeline/axle_room.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/text.h"
+#include "export/report/tendon_trace.h"
+#include "fusee/mechanism_file.h"
+
+namespace fusee::pipeline {
+namespace {
+
+// Radius of the thinnest axle or post, M3, and the clearance of a pin.
+constexpr double k_thinnest = 1.5;
+constexpr double k_clearance = 0.5;
+
+/// A part of the joint and its smallest distance from the flanges.
+struct Nearest {
+  std::string part;
+  double distance = 0;  ///< from its axis; negative: inside, mm
+  double theta = 0;     ///< rad
+};
+
+/// Reach of the pulley by direction, in the frame of the mesh at home.
+class ReachAround {
+ public:
+  explicit ReachAround(const solid::Pulley& pulley) {
+    for (const Vec3& vertex : pulley.mesh.vertices) {
+      const Vec2 flat = vertex.head<2>() / pulley.layout.scale;
+      double& reach = reach_.at(sector_of(std::atan2(flat.y(), flat.x())));
+      reach = std::max(reach, flat.norm());
+    }
+  }
+
+  /// Towards a place of the joint, within the angle that the thinnest axle there subtends, with the pulley turned
+  /// clockwise by `alpha`.
+  double towards(const Vec2& place, double alpha) const {
+    const double away = place.norm(), direction = std::atan2(place.y(), place.x()) + alpha;
+    const double half = away > k_thinnest ? std::asin(k_thinnest / away) : k_pi;
+    double reach = 0;
+    for (double turn = -half; turn <= half; turn += k_sector)
+      reach = std::max(reach, reach_.at(sector_of(direction + turn)));
+    return reach;
+  }
+
+ private:
+  // Facets of an outline turn by 2 deg at most, so that none spans a sector without a vertex in a neighbour.
+  static constexpr std::size_t k_sectors = 120;
+  static constexpr double k_sector = k_two_pi / k_sectors;
+
+  static std::size_t sector_of(double angle) {
+    const double turns = angle / k_two_pi;
+    return static_cast<std::size_t>((turns - std::floor(turns)) * k_sectors) % k_sectors;
+  }
+
+  std::array<double, k_sectors> reach_{};
+};
+
+std::vector<Nearest> nearest_parts(const formats::Product& product) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  const Vec2 axis = formats::pulley_axis(mechanism);
+  const ReachAround reach(product.pulley);
+  std::vector<Nearest> parts;
+  const auto measure = [&](const std::string& name, const auto& place_at) {
+    Nearest nearest{name, std::numeric_limits<double>::infinity(), 0};
+    for (const transmission::TransmissionPoint& point : product.synthesis.stroke) {
+      const Vec2 place = place_at(point.theta) - axis;
+      const double distance = place.norm() - reach.towards(place, point.alpha);
+      if (distance < nearest.distance) nearest = {name, distance, point.theta};
+    }
+    parts.push_back(nearest);
+  };
+  measure("the joint's axle", [](double) { return Vec2(Vec2::Zero()); });
+  for (const transmission::Side side : {transmission::Side::left, transmission::Side::right}) {
+    measure(fmt::format("the end of tendon {} on the link", side == transmission::Side::left ? 1 : 2),
+            [&](double theta) { return formats::attachment(mechanism, side, theta); });
+  }
+  return parts;
+}
+
+std::optional<Nearest> tightest_part(const formats::Product& product) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  if (mechanism.sheath.is_there() || mechanism.joint.drum_radius > 0 || product.pulley.mesh.vertices.empty())
+    return std::nullopt;
+  const std::vector<Nearest> parts = nearest_parts(product);
+  const auto tightest = std::min_element(parts.begin(), parts.end(),
+                                         [](const Nearest& a, const Nearest& b) { return a.distance < b.distance; });
+  if (tightest == parts.end() || tightest->distance >= k_thinnest + k_clearance) return std::nullopt;
+  return *tightest;
+}
+
+}  // namespace
+
+std::vector<Diagnostic> pulley_in_the_way(
+    const formats::Product& product, const std::function<std::optional<formats::Product>(const Mechanism&)>& build) {
+  const std::optional<Nearest> part = tightest_part(product);
+  if (!part) return {};
+  Diagnostic warning{Severity::warning, product.file.place_of("pulley.EF_mm"), {}, {}};
+  warning.message = fmt::format(
+      "{} {} mm {} the pulley's flanges at theta = {} deg, at least {} mm is required for the thinnest axle (M3)",
+      part->part, rounded(std::abs(part->distance), 3), part->distance < 0 ? "stands inside" : "is only beside",
+      fixed(degrees(part->theta), 1), rounded(k_thinnest + k_clearance));
+  const Field& field = *find_field("pulley.EF_mm");
+  const double now = number_of(product.file.mechanism, field);
+  double further = k_thinnest + k_clearance - part->distance;
+  for (int trial = 0; trial < 3; ++trial, further *= 1.3) {
+    Mechanism changed = product.file.mechanism;
+    const double to = std::ceil(now + further);
+    set_number(changed, field, 0, to);
+    const auto made = build(changed);
+    if (!made || tightest_part(*made)) continue;
+    warning.hint = fmt::format("try pulley.EF_mm = {} or more (now {})", rounded(to), rounded(now));
+    return {warning};
+  }
+  warning.hint = "move the pulley away (pulley.EF_mm), or make it smaller";
+  return {warning};
+}
+
+}  // namespace fusee::pipeline

@@ -1,0 +1,20 @@
+/// \file
+/// Internal: parts of the joint that stand in the turning pulley.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "fusee/base.h"
+#include "fusee/export.h"
+
+namespace fusee::pipeline {
+
+/// Warnings about a pulley that turns into the joint's axle or into a tendon's end on the link, over the whole range. A
+/// drum has a condition instead, and a sheathed pulley stands elsewhere. `build`: a checked product, or empty; it proves
+/// the advised number.
+std::vector<Diagnostic> pulley_in_the_way(
+    const formats::Product& product, const std::function<std::optional<formats::Product>(const Mechanism&)>& build);
+
+}  // namespace fusee::pipeline

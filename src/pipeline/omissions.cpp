@@ -1,0 +1,203 @@
+#include "pipeline/omissions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "base/text.h"
+#include "pipeline/design.h"
+#include "solid/hub.h"
+#include "solid/plan.h"
+
+namespace fusee::pipeline {
+namespace {
+
+// Steps of a number, as factors. A number that has to triple describes another joint.
+constexpr std::array k_factors{1.05, 1.1, 1.2, 1.35, 1.5, 1.8, 2.2, 3.0};
+// Limits of the search: plans take some milliseconds, builds some tenths of a second.
+constexpr int k_most_plans = 60;
+constexpr int k_most_builds = 6;
+// On larger outlines every build takes seconds.
+constexpr std::size_t k_most_points = 1600;
+
+/// A number to change, its value (of an automatic number, the one that was chosen) and the direction.
+struct Lever {
+  const char* key;
+  double value = 0;
+  bool grows = true;
+};
+
+/// A changed mechanism with its number.
+struct Trial {
+  Lever lever;
+  double to = 0;
+  Mechanism mechanism;
+};
+
+struct Words {
+  std::string_view feature, words;
+};
+constexpr std::array k_words{Words{"set_screw", "the set screw"},
+                             Words{"nut", "the nut"},
+                             Words{"hub", "the hub"},
+                             Words{"knot_pocket", "full knot pockets"},
+                             Words{"bore", "the full bore"},
+                             Words{"marks", "the marks"},
+                             Words{"home_mark", "the home mark"},
+                             Words{"clocking_mark", "the clocking mark"},
+                             Words{"label_P1", "the label P1"},
+                             Words{"label_P2", "the label P2"},
+                             Words{"tail_slot_P1", "P1's tail slot"},
+                             Words{"tail_slot_P2", "P2's tail slot"},
+                             Words{"spare_tie_off_P1", "P1's spare tie-off"},
+                             Words{"spare_tie_off_P2", "P2's spare tie-off"},
+                             Words{"channel_P1", "P1's channel"},
+                             Words{"channel_P2", "P2's channel"}};
+
+std::string words_of(const std::string& feature) {
+  const auto* found =
+      std::find_if(k_words.begin(), k_words.end(), [&feature](const Words& words) { return words.feature == feature; });
+  return found == k_words.end() ? feature : std::string(found->words);
+}
+
+std::vector<std::string> features_of(const solid::BodyLayout& layout) {
+  std::vector<std::string> features;
+  for (const solid::Omission& omission : layout.omissions) features.push_back(omission.feature);
+  return features;
+}
+
+bool has(const std::vector<std::string>& features, const std::string& feature) {
+  return std::find(features.begin(), features.end(), feature) != features.end();
+}
+
+/// Rounded to two digits away from the present value, as a person would write it.
+double in_two_digits(double value, bool up) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0), scaled = value / unit;
+  return std::stod(rounded((up ? std::ceil(scaled - 1e-9) : std::floor(scaled + 1e-9)) * unit, 3));
+}
+
+class OmissionSearch {
+ public:
+  OmissionSearch(const formats::Product& product, const BuildOmissions& build, const RunContext& context)
+      : product_(product), build_(build), context_(context), omitted_(features_of(product.pulley.layout)) {}
+
+  /// The advice about each feature that has one.
+  std::map<std::string, std::string> all() {
+    std::map<std::string, std::string> advice;
+    for (const Lever& lever : levers()) {
+      for (const double factor : k_factors) {
+        std::vector<std::string> open;
+        std::copy_if(omitted_.begin(), omitted_.end(), std::back_inserter(open),
+                     [&](const std::string& feature) { return advice.count(feature) == 0; });
+        if (open.empty() || plans_ == k_most_plans || builds_ == k_most_builds) return advice;
+        const std::optional<Trial> trial = trial_of(lever, factor);
+        if (!trial) break;
+        const auto planned = planned_omissions(*trial);
+        const auto is_back = [](const std::optional<std::vector<std::string>>& omissions) {
+          return [&omissions](const std::string& feature) { return omissions && !has(*omissions, feature); };
+        };
+        if (std::none_of(open.begin(), open.end(), is_back(planned))) continue;
+        context_.throw_if_stopped();
+        ++builds_;
+        const auto built = build_(trial->mechanism);
+        for (const std::string& feature : open) {
+          if (is_back(built)(feature)) advice[feature] = sentence(*trial, *built);
+        }
+      }
+    }
+    return advice;
+  }
+
+ private:
+  /// Those of the body first, as they change nothing else.
+  std::vector<Lever> levers() const {
+    const solid::BodyLayout& layout = product_.pulley.layout;
+    const Mechanism& mechanism = product_.file.mechanism;
+    const Body& body = mechanism.body;
+    std::vector<Lever> all;
+    const bool at_hub = std::any_of(omitted_.begin(), omitted_.end(), [](const std::string& feature) {
+      return !feature.ends_with("_P1") && feature != "clocking_mark" && feature != "bore" && feature != "marks";
+    });
+    if (at_hub && body.bore != Bore::horn && body.hub_height > 0) {
+      const double hub = 2.0 * (layout.hub_radius > 0 ? layout.hub_radius : solid::least_hub_radius(layout));
+      all.push_back({"body.hub_diameter_mm", hub, false});
+      all.push_back({"body.hub_diameter_mm", hub, true});
+      if (has(omitted_, "set_screw") || has(omitted_, "nut"))
+        all.push_back({"body.hub_height_mm", body.hub_height, true});
+    }
+    if (!product_.helix && !has(omitted_, "knot_pocket"))
+      all.push_back({"body.knot_pocket_mm", 2.0 * layout.pocket_radius, false});
+    if (mechanism.pulley.law == Law::compensate) all.push_back({"pulley.r1_mm", mechanism.pulley.r1, true});
+    // p = m dθ/dα: a smaller ratio and a larger torque make both pulleys larger.
+    if (mechanism.pulley.law == Law::linear) all.push_back({"pulley.ratio", mechanism.pulley.ratio, false});
+    if (mechanism.pulley.law == Law::torque && mechanism.pulley.motor_torque > 0)
+      all.push_back({"pulley.motor_torque_Nmm", mechanism.pulley.motor_torque, true});
+    all.push_back({"body.groove_depth_mm", layout.groove_depth, true});
+    all.push_back({"body.flange_thickness_mm", layout.flange_thickness, true});
+    all.push_back({"body.min_wall_mm", layout.min_wall, false});
+    return all;
+  }
+
+  std::optional<Trial> trial_of(const Lever& lever, double factor) const {
+    const Field& field = *find_field(lever.key);
+    if (!(lever.value > 0)) return std::nullopt;
+    Trial trial{lever, in_two_digits(lever.grows ? lever.value * factor : lever.value / factor, lever.grows),
+                product_.file.mechanism};
+    // A wall thinner than a line of the nozzle is no advice.
+    if (trial.to < (field.key == "min_wall_mm" ? product_.file.mechanism.print.nozzle : field.least))
+      return std::nullopt;
+    if (trial.to > field.most || trial.to == lever.value) return std::nullopt;
+    set_number(trial.mechanism, field, 0, trial.to);
+    return trial;
+  }
+
+  /// Empty if there is no such body. Multi-turn pulleys are only built.
+  std::optional<std::vector<std::string>> planned_omissions(const Trial& trial) {
+    ++plans_;
+    if (product_.helix) return std::vector<std::string>{};
+    const Curves curves = curves_of(with_declared(product_.file, trial.mechanism).mechanism);
+    if (!curves.obstacles.empty()) return std::nullopt;
+    const solid::BodyPlan plan = solid::plan_body(curves.joint.mechanism, curves.synthesis);
+    return plan.possible() ? std::optional(features_of(plan.layout)) : std::nullopt;
+  }
+
+  /// "try pulley.r1_mm = 11 (now 9)", and what it costs.
+  std::string sentence(const Trial& trial, const std::vector<std::string>& built) const {
+    const double now = number_of(product_.file.mechanism, *find_field(trial.lever.key));
+    std::string text = fmt::format("try {} = {} (now {})", trial.lever.key, rounded(trial.to, 3),
+                                   now > 0 ? rounded(now) : "automatic, " + rounded(trial.lever.value, 3));
+    std::string lost;
+    for (const std::string& feature : built) {
+      if (!has(omitted_, feature)) lost += (lost.empty() ? "" : ", ") + words_of(feature);
+    }
+    return lost.empty() ? text : text + ", which costs " + lost;
+  }
+
+  const formats::Product& product_;
+  const BuildOmissions& build_;
+  const RunContext& context_;
+  std::vector<std::string> omitted_;
+  int plans_ = 0;
+  int builds_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> notes_with_advice(const formats::Product& product, const BuildOmissions& build,
+                                           const RunContext& context) {
+  const solid::BodyLayout& layout = product.pulley.layout;
+  std::vector<std::string> notes = layout.notes;
+  if (layout.omissions.empty() || product.synthesis.p1.points.size() > k_most_points) return notes;
+  const std::map<std::string, std::string> advice = OmissionSearch(product, build, context).all();
+  for (const solid::Omission& omission : layout.omissions) {
+    const auto found = advice.find(omission.feature);
+    notes.at(omission.note) +=
+        found != advice.end() ? "; " + found->second : "; none of the single numbers that were tried brings it back";
+  }
+  return notes;
+}
+
+}  // namespace fusee::pipeline
